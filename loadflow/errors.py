@@ -1,0 +1,15 @@
+"""Errors that a user can act on; every message names the numbers it is about."""
+
+from __future__ import annotations
+
+
+class LoadflowError(Exception):
+    """Base of all errors that loadflow raises on purpose."""
+
+
+class InputError(LoadflowError, ValueError):
+    """Bad input: a scene, a file or an argument. The command line ends with exit code 2."""
+
+
+class SolverError(LoadflowError, RuntimeError):
+    """A model has no answer for sound input, or did not converge. Exit code 1."""

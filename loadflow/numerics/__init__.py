@@ -1,0 +1,1 @@
+"""Numerics that no room owns: the convergence record, Newton, band solvers, splines."""

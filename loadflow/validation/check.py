@@ -1,0 +1,63 @@
+"""One number of a source beside ours."""
+
+from __future__ import annotations
+
+import importlib
+import pkgutil
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Literal
+
+
+@dataclass(frozen=True)
+class Check:
+    """One printed number beside ours.
+
+    Attributes
+    ----------
+    name : str
+        What is compared, e.g. ``"E_max, V = 12 m/s"``.
+    source : str
+        Where it is printed, e.g. ``"Table 5-13"``.
+    expected, got : float
+        The printed number and ours, in `unit`.
+    tolerance : float
+        Allowed deviation; a share of `expected` if `kind` is ``"relative"``, in `unit` if it is
+        ``"absolute"``. For ``"below"`` the check asks ``got <= expected * (1 + tolerance)``.
+    kind : {"relative", "absolute", "below"}
+        How `tolerance` is meant.
+    unit : str
+        Unit of both numbers, ``"-"`` if none.
+    """
+
+    name: str
+    source: str
+    expected: float
+    got: float
+    tolerance: float
+    kind: Literal["relative", "absolute", "below"] = "relative"
+    unit: str = "-"
+
+    @property
+    def deviation(self) -> float:
+        """Deviation of `got`, in the terms of `kind`."""
+        difference = self.got - self.expected
+        return difference if self.kind == "absolute" else difference / abs(self.expected)
+
+    @property
+    def ok(self) -> bool:
+        """Whether the deviation is within the tolerance (a NaN never is)."""
+        deviation = self.deviation if self.kind == "below" else abs(self.deviation)
+        return bool(deviation <= self.tolerance)
+
+
+def names() -> list[str]:
+    """Names of the validation tables, in alphabetical order."""
+    import loadflow.validation as package
+
+    return sorted(m.name for m in pkgutil.iter_modules(package.__path__) if m.name != "check")
+
+
+def all_checks(name: str) -> Iterator[Check]:
+    """Yield the checks of the table `name`."""
+    yield from importlib.import_module(f"loadflow.validation.{name}").checks()
