@@ -1,0 +1,15 @@
+from .build import Cube as Cube
+from .build import iter_cases as iter_cases
+from .build import make_case as make_case
+from .build import make_cube as make_cube
+from .build import select as select
+from .checks import check_case as check_case
+from .checks import check_cube as check_cube
+from .checks import regular_time as regular_time
+from .files import open_cube as open_cube
+from .files import save_cube as save_cube
+from .resampling import resample as resample
+from .schema import CASE_COORDS as CASE_COORDS
+from .schema import VARIABLES as VARIABLES
+from .schema import Variable as Variable
+from .schema import case_name as case_name

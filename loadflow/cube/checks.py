@@ -1,0 +1,184 @@
+"""Is this a sound load cube? Every complaint names file, case, variable and index."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from loadflow.cube.schema import VARIABLES
+from loadflow.errors import InputError
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from numpy.typing import ArrayLike, NDArray
+
+    from loadflow.cube.build import Cube
+
+JITTER = 0.01  # share of the step by which a stamp may miss the regular grid
+
+
+def check_cube(cube: Cube, source: str = "") -> None:
+    """Raise unless every case of the cube is complete, finite, regular and in SI units.
+
+    Parameters
+    ----------
+    cube : xarray.Dataset or xarray.DataTree
+        The cube, or one case of it (no dimension ``case``). Series are loaded case by case.
+    source : str
+        Name of the file, for the messages.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        Empty cube, missing or wrong units, wrong dimensions, NaN or infinite value, time that
+        does not rise in equal steps.
+    """
+    from loadflow.cube.build import iter_cases
+
+    names = set()
+    for name, case in iter_cases(cube):
+        if name in names:
+            raise InputError(f"{_where(source, name)}: the cube holds this case twice")
+        names.add(name)
+        check_case(case, source=source, name=name)
+    if not names:
+        raise InputError(f"{_where(source)}: the cube is empty, it holds no case")
+
+
+def check_case(case: xr.Dataset, source: str = "", name: str = "") -> None:
+    """Raise unless one case is sound; see `check_cube`.
+
+    Parameters
+    ----------
+    case : xarray.Dataset
+        Variables over ``time``, scalar coordinates `dlc`, `wind_speed`, `seed`, `weight`.
+    source, name : str
+        Names of file and case, for the messages.
+    """
+    where = _where(source, name)
+    missing = [c for c in ("dlc", "wind_speed", "seed") if c not in case.coords]
+    if missing:
+        raise InputError(f"{where}: coordinate {missing[0]!r} is missing")
+    for coord in ("wind_speed", "weight"):
+        if coord in case.coords:
+            value = float(case.coords[coord])
+            if not (np.isfinite(value) and value >= 0):
+                raise InputError(f"{where}: {coord} = {value:g} must be finite and ≥ 0")
+    if not case.data_vars:
+        raise InputError(f"{where}: the case is empty, it holds no variable")
+    if "time" not in case.coords:
+        raise InputError(f"{where}: coordinate 'time' is missing")
+    time = regular_time(case["time"].values, where)[1]
+    if time[0] != 0.0:
+        raise InputError(f"{where}: time starts at {time[0]:g} s instead of 0")
+    for key, array in case.data_vars.items():
+        _check_variable(array, str(key), where)
+
+
+def regular_time(stamps: ArrayLike, where: str = "time") -> tuple[float, NDArray[np.float64]]:
+    """Return step and regular stamps of a time axis, with the noise of its stamps removed.
+
+    Stamps may miss the regular grid by 1 % of the step, or by what their printed digits cost.
+
+    Parameters
+    ----------
+    stamps : array_like, shape (n,)
+        Time stamps, s.
+    where : str
+        Start of the messages.
+
+    Returns
+    -------
+    step : float
+        Time step, s.
+    time : ndarray, shape (n,)
+        Regular stamps from the first one on, s.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        Fewer than two stamps, a stamp that is not finite or does not rise, unequal steps.
+    """
+    t = np.asarray(stamps, dtype=float)
+    if t.ndim != 1 or t.size < 2:
+        raise InputError(f"{where}: a series needs two time steps or more, this one has {t.size}")
+    _fail_at(~np.isfinite(t), t, f"{where}, variable 'time'", "is not finite")
+    rising = np.diff(t) > 0
+    _fail_at(np.r_[False, ~rising], t, f"{where}, variable 'time'", "does not rise")
+    resolution = _resolution(t)
+    step = _simplest((t[-1] - t[0]) / (t.size - 1), max(resolution, 1e-9) / (t.size - 1))
+    regular = t[0] + step * np.arange(t.size)
+    off = np.abs(t - regular) > max(JITTER * step, 0.75 * resolution)
+    if off.any():
+        # the widest or narrowest step is where the series was cut, not where the fit first misses
+        i = int(np.argmax(np.abs(np.diff(t) - np.median(np.diff(t))))) + 1
+        raise InputError(
+            f"{where}, variable 'time', index {i}: steps are not equal, {t[i - 1]:g} s is followed "
+            f"by {t[i]:g} s where the usual step is {np.median(np.diff(t)):g} s"
+        )
+    return step, regular
+
+
+def _resolution(t: NDArray[np.float64]) -> float:
+    """Spacing of the numbers the stamps were rounded to: decimal digits or single precision."""
+    for digits in range(9):
+        if np.allclose(t, np.round(t, digits), rtol=0.0, atol=1e-10):
+            return float(10.0**-digits)
+    single = t.astype(np.float32)
+    if np.array_equal(single, t):
+        return float(np.spacing(np.abs(single).max()))
+    return 0.0
+
+
+def _simplest(value: float, tolerance: float) -> float:
+    """Shortest decimal number within the tolerance, so that equal nominal steps compare equal."""
+    for digits in range(1, 16):
+        short = float(f"{value:.{digits}g}")
+        if abs(short - value) <= tolerance:
+            return short
+    return value
+
+
+def _check_variable(array: xr.DataArray, name: str, where: str) -> None:
+    where = f"{where}, variable {name!r}"
+    units = array.attrs.get("units")
+    if units is None:
+        raise InputError(f"{where}: attribute 'units' is missing")
+    if known := VARIABLES.get(name):
+        if units != known.units:
+            raise InputError(f"{where}: units are {units!r}, must be {known.units!r}")
+        dims = set(known.dims) - {"case"}
+        if set(array.dims) != dims:
+            raise InputError(
+                f"{where}: dimensions are {tuple(array.dims)}, must be {tuple(sorted(dims))}"
+            )
+    if array.size == 0:
+        raise InputError(f"{where}: the variable is empty, shape {array.shape}")
+    if array.dtype.kind == "f":
+        values = array.values
+        bad = ~np.isfinite(values)
+        if bad.any():
+            index = tuple(int(i) for i in np.argwhere(bad)[0])
+            at = ", ".join(f"{d} {_label(array, d, i)}" for d, i in zip(array.dims, index))
+            raise InputError(
+                f"{where}, index ({at}): value {values[index]} is not finite "
+                f"({int(bad.sum())} of {bad.size} values)"
+            )
+
+
+def _label(array: xr.DataArray, dim: object, index: int) -> str:
+    if dim in ("axis", "bearing") and dim in array.coords:
+        return str(array.coords[str(dim)].values[index])
+    return str(index)
+
+
+def _fail_at(bad: NDArray[np.bool_], values: NDArray[np.float64], where: str, what: str) -> None:
+    if bad.any():
+        i = int(np.argmax(bad))
+        raise InputError(f"{where}, index {i}: value {values[i]:g} {what}")
+
+
+def _where(source: str = "", name: str = "") -> str:
+    parts = ([source] if source else []) + ([f"case {name!r}"] if name else [])
+    return ", ".join(parts) or "load cube"
