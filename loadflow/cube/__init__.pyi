@@ -2,6 +2,7 @@ from .build import Cube as Cube
 from .build import iter_cases as iter_cases
 from .build import make_case as make_case
 from .build import make_cube as make_cube
+from .build import make_series as make_series
 from .build import select as select
 from .checks import check_case as check_case
 from .checks import check_cube as check_cube

@@ -14,7 +14,7 @@ from loadflow.cube.schema import AXES, CASE_COORDS, TIME, VARIABLES, case_name
 from loadflow.errors import InputError
 
 Cube = xr.Dataset | xr.DataTree
-"""Cases of one length and step are a Dataset; several such cubes are kept together in a DataTree."""
+"""Cases of one length and step are a Dataset; several such cubes are kept in a DataTree."""
 
 
 def make_case(
@@ -56,6 +56,27 @@ def make_case(
     >>> make_case([0, 1], {"speed": [1.2, 1.2]}, dlc="1.1", wind_speed=12, seed=1).speed.units
     'rad/s'
     """
+    scalars: dict[str, Any] = {"dlc": str(dlc), "wind_speed": float(wind_speed), "seed": int(seed)}
+    scalars |= varied if weight is None else {"weight": float(weight), **varied}
+    coords = {name: ((), value, _attrs(name)) for name, value in scalars.items()}
+    return make_series(time, data).assign_coords(coords)
+
+
+def make_series(time: ArrayLike, data: Mapping[str, ArrayLike]) -> xr.Dataset:
+    """Label plain arrays over time, without saying which case they are; see `make_case`.
+
+    Parameters
+    ----------
+    time : array_like, shape (n,)
+        Time from 0, equidistant, s.
+    data : mapping of str to array_like
+        Variables of `VARIABLES`: (n,), or (3, n) with x, y, z first. Their dtype is kept.
+
+    Returns
+    -------
+    xarray.Dataset
+        Variables over ``time``.
+    """
     arrays = {}
     for name, values in data.items():
         if name not in VARIABLES or "bearing" in VARIABLES[name].dims:
@@ -63,10 +84,7 @@ def make_case(
             raise InputError(f"unknown variable {name!r} of a load case; known are {known}")
         dims = [d for d in VARIABLES[name].dims if d != "case"]
         arrays[name] = (dims, np.asarray(values), VARIABLES[name].attrs)
-    scalars: dict[str, Any] = {"dlc": str(dlc), "wind_speed": float(wind_speed), "seed": int(seed)}
-    scalars |= varied if weight is None else {"weight": float(weight), **varied}
     coords: dict[str, Any] = {"time": ("time", np.asarray(time, dtype=float), TIME.attrs)}
-    coords |= {name: ((), value, _attrs(name)) for name, value in scalars.items()}
     if any("axis" in dims for dims, _, _ in arrays.values()):
         coords["axis"] = list(AXES)
     return xr.Dataset(arrays, coords)

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import xarray as xr
 
 from loadflow.cube.build import Cube, make_cube
 from loadflow.errors import InputError
 
-ENGINE = "h5netcdf"
+ENGINE: Literal["h5netcdf"] = "h5netcdf"
 SUFFIXES = (".h5", ".nc")
 
 

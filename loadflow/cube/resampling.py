@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Hashable
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -19,9 +20,9 @@ def resample(cube: Cube, dt: float, duration: float | None = None) -> Cube:
     """Return all cases at one step, and of one length if asked.
 
     To a shorter step, values are interpolated linearly. To a longer one, each value becomes the
-    mean of the old series over the new step around it (less at the ends), so that what the new step cannot carry
-    does not come back as a slow oscillation; peaks are lowered by that, so that extreme values
-    are better taken before. The azimuth is unwrapped for it.
+    mean of the old series over the new step around it (less at the ends), so that what the new
+    step cannot carry does not come back as a slow oscillation; peaks are lowered by that, so
+    that extreme values are better taken before. The azimuth is unwrapped for it.
 
     Parameters
     ----------
@@ -56,7 +57,7 @@ def _resample_case(case: xr.Dataset, name: str, dt: float, duration: float | Non
         raise InputError(f"case {name!r}: dt = {dt:g} s is longer than the series, {length:g} s")
     new = dt * np.arange(steps + 1)
 
-    def along_time(values: NDArray[np.floating], key: Hashable) -> NDArray[np.floating]:
+    def along_time(values: NDArray[Any], key: Hashable) -> NDArray[Any]:
         series = np.unwrap(values, axis=-1) if key == "azimuth" else values
         out = np.apply_along_axis(lambda y: _mean_or_line(new, dt, old, old_dt, y), -1, series)
         return (np.mod(out, TURN) if key == "azimuth" else out).astype(values.dtype)
@@ -78,7 +79,7 @@ def _mean_or_line(
     dt: float,
     old: NDArray[np.float64],
     old_dt: float,
-    values: NDArray[np.floating],
+    values: NDArray[Any],
 ) -> NDArray[np.float64]:
     if dt <= old_dt:
         return np.interp(new, old, values)

@@ -1,0 +1,141 @@
+"""Load series of any number of files into one cube."""
+
+from __future__ import annotations
+
+import glob
+import os
+from collections.abc import Iterable
+from pathlib import Path
+
+import xarray as xr
+
+from loadflow.cube import CASE_COORDS, case_name, make_cube
+from loadflow.errors import InputError
+from loadflow.readers.names import CaseLabel, label_from_name, read_case_list
+from loadflow.readers.registry import READERS, find_reader
+from loadflow.readers.table import Channels
+
+Files = str | os.PathLike[str] | Iterable[str | os.PathLike[str]]
+
+
+def read_loads(
+    files: Files,
+    turbine: str = "nrel-5mw",
+    cases: str | os.PathLike[str] | None = None,
+    pattern: str | None = None,
+    channels: Channels | None = None,
+    gauge_distance: float | None = None,
+) -> xr.Dataset | xr.DataTree:
+    """Read load series of OpenFAST, HAWC2, Bladed or CSV files into a load cube.
+
+    Parameters
+    ----------
+    files : path, str or iterable of these
+        Files, folders, or shell patterns such as ``"runs/*.outb"``.
+    turbine : str
+        Turbine the series belong to, kept as an attribute.
+    cases : path, optional
+        List of cases, CSV with columns file, dlc, wind_speed, seed, weight; it goes before names.
+    pattern : str, optional
+        How names of files tell the case: a regular expression with groups ``dlc``,
+        ``wind_speed`` and ``seed``, or a template such as ``"run_{dlc}_{wind_speed}_{seed}"``.
+        The default understands ``nrel5mw_dlc11_v04_s1`` and ``nrel5mw_steady_v12``. What remains
+        unknown becomes load case ``unknown``, the mean wind of the series, and a running seed.
+    channels : mapping, optional
+        Component of the cube (``speed``, ``hub_force_x``, …) → channel of the files, where a
+        leading minus turns the sign. Needed for HAWC2, whose files do not tell the frame.
+    gauge_distance : float, optional
+        Distance from the rotor apex to the shaft strain gauge, m; see `read_openfast`.
+
+    Returns
+    -------
+    xarray.Dataset or xarray.DataTree
+        The cube: a Dataset where all series have one length and step, else one for each.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        No file, a file that is not sound, or two files that hold the same case.
+    """
+    paths = find_files(files)
+    listed = read_case_list(cases) if cases is not None else {}
+    if cases is not None and (absent := sorted(set(listed) - {p.name for p in paths})):
+        raise InputError(f"{cases}: lists {absent[0]}, which is not among the {len(paths)} files")
+    taken: dict[str, Path] = {}
+    labelled = []
+    for path in paths:
+        series = find_reader(path).load()(path, channels=channels, gauge_distance=gauge_distance)
+        label = listed.get(path.name) or label_from_name(path, pattern)
+        case = _with_label(series, label, taken, path)
+        labelled.append(case.assign_attrs(turbine=turbine))
+    return make_cube(labelled)
+
+
+def find_files(files: Files) -> list[Path]:
+    """Return the files meant by paths, folders and shell patterns, one for each run.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        Nothing matches, a file is absent, or is given twice.
+    """
+    entries = [files] if isinstance(files, str | os.PathLike) else list(files)
+    found = [path for entry in entries for path in _expand(Path(entry))]
+    if not found:
+        raise InputError("no load file was given")
+    runs: dict[Path, Path] = {}
+    for path in found:
+        several = find_reader(path).several_files
+        key = path.with_suffix("").resolve() if several else path.resolve()
+        if key in runs and not several:
+            raise InputError(f"{path}: the file is given twice")
+        runs.setdefault(key, path)
+    return list(runs.values())
+
+
+def _expand(entry: Path) -> list[Path]:
+    if entry.is_dir():
+        inside = sorted(p for p in entry.iterdir() if any(r.matches(p) for r in READERS))
+        if not inside:
+            raise InputError(f"{entry}: the folder holds no load file")
+        return inside
+    if entry.exists():
+        return [entry]
+    if not glob.has_magic(str(entry)):
+        raise InputError(f"{entry}: no such file")
+    matches = sorted(Path(name) for name in glob.glob(str(entry.expanduser())))
+    if not matches:
+        raise InputError(f"{entry}: no file matches")
+    return matches
+
+
+def _with_label(
+    series: xr.Dataset, label: CaseLabel, taken: dict[str, Path], path: Path
+) -> xr.Dataset:
+    """Complete what the label leaves open, and make sure that no two files hold one case."""
+    dlc = label.dlc or "unknown"
+    wind_speed = label.wind_speed
+    if wind_speed is None:
+        if "wind" not in series:
+            raise InputError(
+                f"{path}: the wind speed is neither in the name nor in a list of cases, and the "
+                "file has no wind"
+            )
+        wind_speed = round(float(series["wind"].mean()), 2)
+    seed = label.seed
+    if seed is None:
+        seed = 1
+        while label.wind_speed is None and case_name(dlc, wind_speed, seed) in taken:
+            seed += 1
+    name = case_name(dlc, wind_speed, seed)
+    if name in taken:
+        raise InputError(
+            f"{path}: case {name!r} is already in {taken[name]}; tell them apart by name or by a "
+            "list of cases"
+        )
+    taken[name] = path
+    scalars = {"dlc": dlc, "wind_speed": wind_speed, "seed": seed}
+    if label.weight is not None:
+        scalars["weight"] = label.weight
+    attrs = {key: {k: v for k, v in CASE_COORDS[key].attrs.items() if v} for key in scalars}
+    return series.assign_coords({k: ((), v, attrs[k]) for k, v in scalars.items()})
