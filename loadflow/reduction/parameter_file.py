@@ -1,0 +1,162 @@
+"""The parameter file: a reduced series as text, for a bearing code and for people."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+
+from loadflow.errors import InputError
+from loadflow.reduction._series import Floats
+from loadflow.reduction.quasistatic import Reduced, count
+
+TITLE = "# loadflow parameter file 1"
+COLUMNS = ("index", "time", "speed", "force_x", "force_y", "weight")
+UNITS = ("-", "s", "rad/s", "N", "N", "-")
+KEYS = ("source", "pick", "seed", "speed_edges", "force_edges", "columns", "units")
+
+
+def write_parameter_file(path: str | Path, reduced: Reduced) -> None:
+    """Write a reduced series as text; `read_parameter_file` gives back the same numbers exactly.
+
+    Parameters
+    ----------
+    path : path-like
+        File to write.
+    reduced : Reduced
+        What `histogram` returned.
+
+    Raises
+    ------
+    InputError
+        The name of the source has a line break in it.
+    """
+    if len(reduced.source.splitlines()) > 1:
+        raise InputError(f"source = {reduced.source!r}; it must fit on one line")
+    Path(path).write_text("\n".join(_lines(reduced)) + "\n", encoding="utf-8")
+
+
+def _lines(reduced: Reduced) -> Iterator[str]:
+    yield TITLE
+    yield f"# source = {reduced.source}"
+    yield f"# pick = {reduced.pick}"
+    yield f"# seed = {reduced.seed}"
+    for name, edges in zip(("speed_edges", "force_edges"), reduced.edges):
+        yield f"# {name} = {' '.join(map(repr, edges.tolist()))}"
+    yield f"# columns = {' '.join(COLUMNS)}"
+    yield f"# units = {' '.join(UNITS)}"
+    columns = (reduced.index, reduced.time, reduced.speed, *reduced.force.T, reduced.weight)
+    for row in zip(*(c.tolist() for c in columns)):
+        yield " ".join(map(repr, row))
+
+
+def read_parameter_file(path: str | Path) -> Reduced:
+    """Read what `write_parameter_file` wrote.
+
+    Parameters
+    ----------
+    path : path-like
+        File to read.
+
+    Returns
+    -------
+    Reduced
+
+    Raises
+    ------
+    InputError
+        No such file, or a line is not what it should be; the message names file and line.
+    """
+    try:
+        lines = Path(path).read_text(encoding="utf-8").splitlines()
+    except (OSError, UnicodeDecodeError) as error:
+        raise InputError(f"{path}: cannot be read as a parameter file: {error}") from error
+    if not lines or lines[0].strip() != TITLE:
+        raise InputError(f"{path}, line 1: is not {TITLE!r}")
+    header = _header(path, lines)
+    rows = _rows(path, lines, first=len(KEYS) + 1)
+    speed_edges = _edges(path, header, "speed_edges")
+    force_edges = _edges(path, header, "force_edges")
+    index, time, speed, fx, fy, weight = rows.T
+    edges = (speed_edges, force_edges)
+    resultant = np.hypot(fx, fy)
+    for values, limits in zip((speed, resultant), edges):
+        outside = np.flatnonzero((values < limits[0]) | (values >= limits[-1]))
+        if outside.size:
+            line = len(KEYS) + 2 + int(outside[0])
+            raise InputError(
+                f"{path}, line {line}: {values[outside[0]]:g} lies outside the class edges "
+                f"[{limits[0]:g}, {limits[-1]:g})"
+            )
+    try:
+        seed = int(header["seed"])
+    except ValueError as error:
+        line = KEYS.index("seed") + 2
+        raise InputError(f"{path}, line {line}: seed = {header['seed']!r} is no integer") from error
+    return Reduced(
+        index=index.astype(np.int64),
+        time=time,
+        speed=speed,
+        force=np.stack([fx, fy], axis=1),
+        weight=weight,
+        edges=edges,
+        # every class that had a pair has one still, and their weights sum to its count
+        counts_full=np.rint(count(speed, resultant, edges, weight)).astype(np.int64),
+        counts_reduced=count(speed, resultant, edges).astype(np.int64),
+        pick=header["pick"],
+        seed=seed,
+        source=header["source"],
+    )
+
+
+def _header(path: str | Path, lines: list[str]) -> dict[str, str]:
+    """Values of the header's keys, which stand in fixed order from line 2 on."""
+    header = {}
+    for number, key in enumerate(KEYS, start=2):
+        line = lines[number - 1] if number <= len(lines) else ""
+        name, _, value = line.removeprefix("# ").partition(" =")
+        if name != key:
+            raise InputError(f'{path}, line {number}: "# {key} = …" is needed, found {line!r}')
+        header[key] = value.removeprefix(" ")
+    for key, expected in (("columns", COLUMNS), ("units", UNITS)):
+        if tuple(header[key].split()) != expected:
+            number = KEYS.index(key) + 2
+            raise InputError(
+                f"{path}, line {number}: {key} are {header[key]!r}; needed: {' '.join(expected)!r}"
+            )
+    return header
+
+
+def _edges(path: str | Path, header: dict[str, str], key: str) -> Floats:
+    """Class edges of one header line."""
+    edges = _numbers(path, KEYS.index(key) + 2, header[key])
+    if edges.size < 2 or np.any(np.diff(edges) <= 0):
+        raise InputError(f"{path}, line {KEYS.index(key) + 2}: {key} must ascend, at least two")
+    return edges
+
+
+def _rows(path: str | Path, lines: list[str], first: int) -> Floats:
+    """Table of numbers below the header."""
+    rows = []
+    for number, line in enumerate(lines[first:], start=first + 1):
+        row = _numbers(path, number, line)
+        if row.size != len(COLUMNS):
+            raise InputError(
+                f"{path}, line {number}: {row.size} numbers; {len(COLUMNS)} are needed"
+            )
+        rows.append(row)
+    if not rows:
+        raise InputError(f"{path}, line {first + 1}: the table is empty")
+    return np.array(rows)
+
+
+def _numbers(path: str | Path, number: int, text: str) -> Floats:
+    """Finite numbers of one line."""
+    try:
+        values = np.array([float(word) for word in text.split()])
+    except ValueError as error:
+        raise InputError(f"{path}, line {number}: {error}") from error
+    if not np.isfinite(values).all():
+        raise InputError(f"{path}, line {number}: a number is not finite")
+    return values
