@@ -55,10 +55,10 @@ def _resample_case(case: xr.Dataset, name: str, dt: float, duration: float | Non
     steps = int(np.floor(length / dt * (1 + 1e-9)))
     if steps < 1:
         raise InputError(f"case {name!r}: dt = {dt:g} s is longer than the series, {length:g} s")
-    new = dt * np.arange(steps + 1)
+    new: NDArray[np.float64] = dt * np.arange(steps + 1, dtype=float)
 
     def along_time(values: NDArray[Any], key: Hashable) -> NDArray[Any]:
-        series = np.unwrap(values, axis=-1) if key == "azimuth" else values
+        series = np.unwrap(values.astype(float), axis=-1) if key == "azimuth" else values
         out = np.apply_along_axis(lambda y: _mean_or_line(new, dt, old, old_dt, y), -1, series)
         return (np.mod(out, TURN) if key == "azimuth" else out).astype(values.dtype)
 

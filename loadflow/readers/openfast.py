@@ -14,7 +14,7 @@ import numpy as np
 import xarray as xr
 
 from loadflow.errors import InputError
-from loadflow.readers.table import Channels, Table, first_found, to_series
+from loadflow.readers.table import Channels, Table, to_series
 
 CHANNELS: dict[str, tuple[str, ...]] = {
     "speed": ("RotSpeed", "LSSTipVxa", "LSSTipVxs", "LSSTipV"),
@@ -67,9 +67,10 @@ def read_openfast(
     """
     path = Path(path)
     table = read_table(path)
-    if not table.has("LSSTipMys") and not table.has("LSSTipMzs") and table.has(GAUGE[0]):
-        table = _moments_at_apex(table, gauge_distance)
-    return to_series(table, {**CHANNELS, **(channels or {})})
+    chosen = {**CHANNELS, **(channels or {})}
+    if not {"hub_moment_y", "hub_moment_z"} & set(channels or {}):
+        table = _with_moments_at_apex(table, gauge_distance)
+    return to_series(table, chosen)
 
 
 def read_table(path: Path) -> Table:
@@ -92,7 +93,7 @@ def read_table(path: Path) -> Table:
     names, units = tuple(info["attribute_names"]), tuple(info["attribute_units"])
     if names[0].casefold() != "time" or units[0].casefold() not in ("s", "sec"):
         raise InputError(f"{path}: first channel is {names[0]!r} in {units[0]!r}, not time in s")
-    return Table(str(path), data[:, 0], names[1:], units[1:], data[:, 1:])
+    return Table(str(path), data[:, 0], names, units, data)
 
 
 def _check_binary(path: Path) -> None:
@@ -165,22 +166,21 @@ def _check_row(row: str, columns: int, where: str) -> None:
             raise InputError(f"{where}: {field!r} is not a number") from None
 
 
-def _moments_at_apex(table: Table, gauge_distance: float | None) -> Table:
-    """Move the bending moments from the strain gauge to the rotor apex.
+def _with_moments_at_apex(table: Table, gauge_distance: float | None) -> Table:
+    """Where only the strain gauge has bending moments, move them to the rotor apex.
 
     Equilibrium of the (massless) shaft between the two: M_y,tip = M_y,gauge − l F_z and
     M_z,tip = M_z,gauge + l F_y.
     """
+    if {"LSSTipMys", "LSSTipMzs"} & set(table.names) or not set(GAUGE) <= set(table.names):
+        return table
     if gauge_distance is None:
         raise InputError(
             f"{table.source}: channels 'LSSTipMys' and 'LSSTipMzs' are missing; from 'LSSGagMys' "
             "and 'LSSGagMzs' they follow if gauge_distance (ShftGagL, m) is given"
         )
-    needed = (*GAUGE, "LSShftFys", "LSShftFzs")
-    if missing := [name for name in needed if first_found(table, name) is None]:
-        raise InputError(f"{table.source}: channel {missing[0]!r} is missing")
-    my, mz = (table.column(name, "N m") for name in GAUGE)
-    fy, fz = (table.column(name, "N") for name in needed[2:])
+    my, mz = (table.series(name, "N m") for name in GAUGE)
+    fy, fz = (table.series(name, "N") for name in ("LSShftFys", "LSShftFzs"))
     moved = np.column_stack([my - gauge_distance * fz, mz + gauge_distance * fy])
     return Table(
         table.source,

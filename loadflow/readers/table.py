@@ -53,7 +53,7 @@ class Table:
     stamps : ndarray, shape (n,)
         Time stamps, s.
     names, units : tuple of str
-        Of each column.
+        Of each column, in the order of the file.
     values : ndarray, shape (n, columns)
         The series.
     """
@@ -64,39 +64,66 @@ class Table:
     units: tuple[str, ...]
     values: NDArray[Any]
 
-    def has(self, name: str) -> bool:
-        """Return whether there is such a channel; a leading minus is ignored."""
-        return name.removeprefix("-") in self.names
+    def find(self, channel: str) -> int | None:
+        """Return the column of a channel, or None.
 
-    def column(self, name: str, si: str) -> NDArray[np.float64]:
+        Parameters
+        ----------
+        channel : str
+            Name, or ``"#7"`` for the seventh column of the file; a leading minus is ignored.
+
+        Raises
+        ------
+        loadflow.errors.InputError
+            Several columns bear the name.
+        """
+        name = channel.removeprefix("-")
+        if name.startswith("#") and name[1:].isdigit():
+            column = int(name[1:]) - 1
+            return column if 0 <= column < len(self.names) else None
+        columns = [i for i, have in enumerate(self.names) if have == name]
+        if len(columns) > 1:
+            numbers = ", ".join(f"#{i + 1}" for i in columns)
+            raise InputError(
+                f"{self.source}: {len(columns)} channels {name!r}; name one: {numbers}"
+            )
+        return columns[0] if columns else None
+
+    def series(self, channel: str, si: str) -> NDArray[np.float64]:
         """Return one channel in SI units.
 
         Parameters
         ----------
-        name : str
-            Channel, which is there; with a leading minus the sign is turned.
+        channel : str
+            As in `find`; with a leading minus the sign is turned.
         si : str
             Unit to return, a key of `UNITS`.
 
         Raises
         ------
         loadflow.errors.InputError
-            The unit cannot be turned into `si`, or a value is not finite.
+            No such channel, its unit cannot be turned into `si`, or a value is not finite.
         """
-        sign = -1.0 if name.startswith("-") else 1.0
-        column = self.names.index(name.removeprefix("-"))
-        series = np.asarray(self.values[:, column], dtype=float)
-        bad = ~np.isfinite(series)
+        column = self.find(channel)
+        if column is None:
+            raise InputError(f"{self.source}: channel {channel!r} is missing; {self.listing()}")
+        values = np.asarray(self.values[:, column], dtype=float)
+        bad = ~np.isfinite(values)
         if bad.any():
             i = int(np.argmax(bad))
             raise InputError(
                 f"{self.source}, channel {self.names[column]!r}, index {i} "
-                f"(time {self.stamps[i]:g} s): value {series[i]} is not finite"
+                f"(time {self.stamps[i]:g} s): value {values[i]} is not finite"
             )
-        return sign * self.factor(column, si) * series
+        sign = -1.0 if channel.startswith("-") else 1.0
+        return sign * self._factor(column, si) * values
 
-    def factor(self, column: int, si: str) -> float:
-        """Return what to multiply a column with to get SI units."""
+    def listing(self) -> str:
+        """Return what channels there are, for messages."""
+        more = f" and {len(self.names) - 60} more" if len(self.names) > 60 else ""
+        return f"the file has {', '.join(self.names[:60])}{more}"
+
+    def _factor(self, column: int, si: str) -> float:
         unit = self.units[column]
         factor = UNITS[si].get(_plain_unit(unit))
         if factor is None:
@@ -138,7 +165,7 @@ def to_series(table: Table, channels: Channels) -> xr.Dataset:
     for name, variable in VARIABLES.items():
         keys = [c for c in COMPONENTS if c == name or c[:-2] == name]
         found = [_find(table, key, channels) for key in keys]
-        series = [table.column(channel, variable.units) for channel in found if channel]
+        series = [table.series(channel, variable.units) for channel in found if channel]
         if series:
             stacked = np.stack(series) if "axis" in variable.dims else series[0]
             data[name] = stacked.astype(np.float32)
@@ -147,27 +174,19 @@ def to_series(table: Table, channels: Channels) -> xr.Dataset:
     return make_series(time - start, data).assign_coords(coords)
 
 
-def first_found(table: Table, names: str | Sequence[str]) -> str | None:
-    """Return the first of the channels that the file has."""
-    names = [names] if isinstance(names, str) else names
-    return next((name for name in names if table.has(name)), None)
-
-
 def _find(table: Table, key: str, channels: Channels) -> str | None:
+    """Return the first channel for a component that the file has."""
     wanted = channels.get(key, ())
-    channel = first_found(table, wanted)
-    if channel is None and key not in OPTIONAL:
-        names = [wanted] if isinstance(wanted, str) else list(wanted)
-        asked = f"channel {' or '.join(map(repr, names))}" if names else "a channel"
-        raise InputError(
-            f"{table.source}: {asked} for {key!r} is missing; the file has {_listing(table)}"
-        )
-    return channel
-
-
-def _listing(table: Table) -> str:
-    shown = ", ".join(table.names[:60])
-    return shown + (f" and {len(table.names) - 60} more" if len(table.names) > 60 else "")
+    names = [wanted] if isinstance(wanted, str) else list(wanted)
+    for name in names:
+        if table.find(name) is not None:
+            return name
+    if key in OPTIONAL:
+        return None
+    if not names:
+        raise InputError(f"{table.source}: no channel is named for {key!r}; {table.listing()}")
+    asked = " or ".join(map(repr, names))
+    raise InputError(f"{table.source}: channel {asked} for {key!r} is missing; {table.listing()}")
 
 
 def _plain_unit(unit: str) -> str:

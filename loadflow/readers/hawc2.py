@@ -1,0 +1,152 @@
+"""HAWC2 output: a list of channels (``.sel``) and their values (``.dat``), text or binary.
+
+The files say which body a load was taken from, but not how its axes lie. So `channels` must name
+the loads, with signs: for the usual shaft body, whose z axis runs upwind along the shaft,
+``{"hub_force_x": "-Fz …", …}``.
+"""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from loadflow.errors import InputError
+from loadflow.readers.table import Channels, Table, to_series
+
+CHANNELS = {"speed": ("Omega", "bea1 angle_speed", "shaft_rot angle speed")}
+
+
+@dataclass(frozen=True)
+class Header:
+    """Content of a ``.sel`` file.
+
+    Attributes
+    ----------
+    scans, duration : int, float
+        Number of time steps, and their length together, s.
+    binary : bool
+        Whether the ``.dat`` file holds 16-bit integers.
+    names, units : tuple of str
+        Of each channel.
+    scales : ndarray, shape (channels,)
+        Factors of binary channels; empty for text.
+    """
+
+    scans: int
+    duration: float
+    binary: bool
+    names: tuple[str, ...]
+    units: tuple[str, ...]
+    scales: NDArray[np.float64]
+
+
+def read_hawc2(
+    path: str | os.PathLike[str],
+    channels: Channels | None = None,
+    gauge_distance: float | None = None,
+) -> xr.Dataset:
+    """Read one HAWC2 run.
+
+    Parameters
+    ----------
+    path : path
+        The ``.sel`` or the ``.dat`` file; the other one lies beside it.
+    channels : mapping
+        Component of the cube → name of the channel, or ``"#7"`` for channel 7 of the list; a
+        leading minus turns the sign.
+    gauge_distance : float, optional
+        Not used here; all readers are called alike.
+
+    Returns
+    -------
+    xarray.Dataset
+        Variables over time from 0, in SI units, single precision; scalar coordinates ``file``
+        and ``file_start``.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        A file is absent, empty, truncated or malformed; a channel is missing or has another unit.
+    """
+    stem = Path(path).with_suffix("")
+    listing, data = stem.with_suffix(".sel"), stem.with_suffix(".dat")
+    for file in (listing, data):
+        if not file.is_file():
+            raise InputError(f"{file}: no such file; a HAWC2 run needs .sel and .dat")
+    header = _read_header(listing)
+    values = _read_binary(data, header) if header.binary else _read_text(data, header)
+    table = Table(str(data), _stamps(values, header), header.names, header.units, values)
+    return to_series(table, {**CHANNELS, **(channels or {})})
+
+
+def _read_header(path: Path) -> Header:
+    lines = path.read_text(errors="replace").splitlines()
+    at = next(
+        (i for i, line in enumerate(lines) if line.split()[:2] == ["Scans", "Channels"]), None
+    )
+    try:
+        if at is None:
+            raise ValueError("no line 'Scans Channels Time Format'")
+        scans, count, duration, form = lines[at + 1].split()[:4]
+        rows = [line for line in lines[at + 2 :] if line[:12].strip().isdigit()][: int(count)]
+        binary = form.upper() == "BINARY"
+        numbers = _scales(lines) if binary else []
+        wanted = int(count) if binary else 0
+        if len(rows) != int(count) or len(numbers) != wanted:
+            raise ValueError(f"{count} channels, but {len(rows)} names, {len(numbers)} scales")
+        if int(scans) < 1 or float(duration) <= 0:
+            raise ValueError(f"{scans} scans in {duration} s")
+    except (ValueError, IndexError) as error:
+        raise InputError(f"{path}: no list of HAWC2 channels, or truncated: {error}") from None
+    names = tuple(row[12:43].strip() for row in rows)
+    units = tuple(row[43:54].strip() for row in rows)
+    return Header(int(scans), float(duration), binary, names, units, np.array(numbers))
+
+
+def _scales(lines: list[str]) -> list[float]:
+    start = next((i for i, line in enumerate(lines) if "scale factors" in line.lower()), len(lines))
+    return [float(line) for line in lines[start + 1 :] if line.strip()]
+
+
+def _read_binary(path: Path, header: Header) -> NDArray[np.float64]:
+    """Read 16-bit integers, one channel after the other."""
+    count = len(header.names)
+    expected = 2 * count * header.scans
+    if (size := path.stat().st_size) != expected:
+        raise InputError(f"{path}: {size} bytes where its list says {expected}; truncated?")
+    packed = np.fromfile(path, dtype="<i2").reshape(count, header.scans)
+    values: NDArray[np.float64] = (packed * header.scales[:, None]).T
+    return values
+
+
+def _read_text(path: Path, header: Header) -> NDArray[np.float64]:
+    try:
+        values: NDArray[np.float64] = np.loadtxt(path, ndmin=2, dtype=float)
+    except ValueError as error:
+        raise InputError(f"{path}: {error}") from None
+    if values.shape != (header.scans, len(header.names)):
+        raise InputError(
+            f"{path}: {values.shape[0]} × {values.shape[1]} values where its list says "
+            f"{header.scans} × {len(header.names)}; truncated?"
+        )
+    return values
+
+
+def _stamps(values: NDArray[np.float64], header: Header) -> NDArray[np.float64]:
+    """Return regular stamps; 16 bits are too few for those in the file."""
+    step = header.duration / header.scans
+    if header.names[0].casefold() != "time":
+        return step * np.arange(1, header.scans + 1)
+    written = values[:, 0]
+    if not header.binary:
+        return written
+    stamps = step * (round(written[0] / step) + np.arange(header.scans))
+    coarse = max(1.5 * header.scales[0], 1.01 * step)
+    if (off := float(np.abs(written - stamps).max())) > coarse:
+        raise InputError(f"channel 'Time' misses steps of {step:g} s by up to {off:g} s")
+    return stamps
