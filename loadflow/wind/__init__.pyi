@@ -1,3 +1,10 @@
 from . import iec as iec
+from .box import Box as Box
+from .coherence import CoherenceFactors as CoherenceFactors
+from .coherence import PointGrid as PointGrid
+from .coherence import PolarGrid as PolarGrid
 from .field import Field as Field
 from .field import polar_angles as polar_angles
+from .seeding import case_seed as case_seed
+from .turbulence import kaimal as kaimal
+from .turbulence import kaimal_box as kaimal_box
