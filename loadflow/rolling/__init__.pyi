@@ -1,0 +1,10 @@
+from .friction import friction_torque_forces as friction_torque_forces
+from .friction import friction_torque_loads as friction_torque_loads
+from .hertz import LineContact as LineContact
+from .hertz import PointContact as PointContact
+from .hertz import hertz_line as hertz_line
+from .hertz import hertz_point as hertz_point
+from .life import rating_life_spectrum as rating_life_spectrum
+from .life import spectrum_load as spectrum_load
+from .slewing import SlewingBearing as SlewingBearing
+from .slewing_result import SlewingResult as SlewingResult

@@ -1,0 +1,74 @@
+"""Tables of contacts that the equilibrium solver takes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Contacts:
+    """All contacts of a bearing between its two rigid rings.
+
+    Attributes
+    ----------
+    table : ndarray, shape (kind, 7)
+        One line for each kind of contact; columns as in `loadflow.rolling._kernels`.
+    azimuth : ndarray, shape (element,)
+        Azimuth of each rolling element from the x axis toward y, rad.
+    law : int
+        0 for point contacts, 1 for line contacts.
+    spatial : bool
+        Whether the distance of the groove centres counts their tangential motion.
+    cap : float
+        Longest step of one iteration, m.
+    lever : float
+        Length that turns rotations into displacements in residuals, m.
+    """
+
+    table: Array
+    azimuth: Array
+    law: int
+    spatial: bool
+    cap: float
+    lever: float
+
+    @property
+    def arguments(self) -> tuple[Array, Array, Array, int, float]:
+        """Arguments common to all kernels."""
+        return (
+            np.cos(self.azimuth),
+            np.sin(self.azimuth),
+            self.table,
+            self.law,
+            float(self.spatial),
+        )
+
+    def unit_compliance(self) -> Array:
+        """Inverse of the Hessian if each contact had unit stiffness: shape of a cold start."""
+        cos, sin = np.cos(self.azimuth), np.sin(self.azimuth)
+        zero = np.zeros_like(cos)
+        matrix = np.zeros((5, 5))
+        for radius, height, normal_r, normal_z, *_ in self.table:
+            radial = np.stack([cos, sin, zero, -height * sin, height * cos])
+            axial = np.stack([zero, zero, zero + 1, radius * sin, -radius * cos])
+            along = (normal_r * radial + normal_z * axial) / np.hypot(normal_r, normal_z)
+            matrix += along @ along.T
+        scale = self.scale
+        scaled = scale[:, None] * matrix * scale
+        scaled += 1e-6 * np.trace(scaled) * np.eye(5)
+        return scale[:, None] * np.linalg.inv(scaled) * scale
+
+    @property
+    def scale(self) -> Array:
+        """Factors that turn the scaled unknowns (all lengths) into (ux, uy, uz, θx, θy)."""
+        return np.array([1.0, 1.0, 1.0, 1 / self.lever, 1 / self.lever])
+
+
+def azimuths(count: int, first: float = 0.0) -> Array:
+    """Azimuths of `count` equally spaced elements, the first at `first` rad."""
+    return first + 2 * np.pi * np.arange(count) / count
