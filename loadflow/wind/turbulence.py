@@ -200,7 +200,8 @@ def _components(
         raise InputError(f"scaling = {scaling!r} must be 'none', 'hub' or 'each'")
     if lateral not in ("coherent", "independent"):
         raise InputError(f"lateral = {lateral!r} must be 'coherent' or 'independent'")
-    samples = _samples(duration, dt)
+    time = sample_times(duration, dt)
+    samples = len(time)
     period = scipy.fft.next_fast_len(samples, real=True)
     frequency = np.arange(period // 2 + 1) / (period * dt)
     decay = coherence_decay(frequency, wind_speed, factors.length_scale)
@@ -217,13 +218,14 @@ def _components(
         spectra = factors.grid.to_points(noise)
         series = scipy.fft.irfft(spectra, period, norm="forward", overwrite_x=True)[..., :samples]
         parts.append(_scaled(series, COMPONENT_SIGMA[k] * sigma, scaling, hub))
-    return parts, np.arange(samples, dtype=float) * dt
+    return parts, time
 
 
-def _samples(duration: float, dt: float) -> int:
+def sample_times(duration: float, dt: float) -> Floats:
+    """Times 0, dt, … up to the first at or after `duration`, s."""
     if not (0 < dt < np.inf and 2 * dt <= duration < np.inf):
         raise InputError(f"duration = {duration} s must span at least two steps dt = {dt} s > 0")
-    return int(np.ceil(round(duration / dt, 6))) + 1
+    return np.arange(int(np.ceil(round(duration / dt, 6))) + 1, dtype=float) * dt
 
 
 def _noise(grid: Grid, frequency: Floats, seed: np.random.SeedSequence) -> NDArray[np.complex64]:

@@ -1,0 +1,97 @@
+"""From a wind condition to the field that the rotor flies through."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from loadflow.wind import gusts
+from loadflow.wind.cases import Condition
+from loadflow.wind.coherence import CoherenceFactors, PolarGrid
+from loadflow.wind.field import Field, polar_angles
+from loadflow.wind.iec import length_scale
+from loadflow.wind.options import Machine, WindOptions
+from loadflow.wind.seeding import case_seed
+from loadflow.wind.turbulence import Method, kaimal, sample_times
+
+
+def rotor_grid(machine: Machine, options: WindOptions) -> PolarGrid:
+    """Polar grid over the rotor: equidistant radii from the hub to the tip."""
+    radius = np.linspace(0.0, machine.rotor_diameter / 2, options.radii)
+    return PolarGrid(radius, polar_angles(options.angles))
+
+
+def coherence_factors(machine: Machine, options: WindOptions) -> CoherenceFactors:
+    """Factors for `inflow`, good for all conditions of a study."""
+    return CoherenceFactors(rotor_grid(machine, options), length_scale(machine.hub_height))
+
+
+def inflow(
+    condition: Condition,
+    machine: Machine,
+    options: WindOptions | None = None,
+    *,
+    seed: int = 0,
+    factors: CoherenceFactors | None = None,
+    components: str = "uvw",
+    method: Method = "fast",
+) -> Field:
+    """Make the wind of a condition: turbulence or a gust, on the polar grid of the options.
+
+    Parameters
+    ----------
+    condition : Condition
+        One of `conditions`.
+    machine, options
+        As for `conditions`.
+    seed : int
+        Seed of the scene; the condition's own seed follows from it (`case_seed`).
+    factors : CoherenceFactors, optional
+        From `coherence_factors`, to save making them anew.
+    components, method
+        As for `kaimal`.
+
+    Notes
+    -----
+    The mean yaw error of the condition is not in the field: it turns the mean wind as well, and the
+    rotor does that.
+    """
+    options = options or WindOptions()
+    grid = rotor_grid(machine, options)
+    if condition.sigma > 0:
+        return kaimal(
+            condition.wind_speed,
+            condition.sigma,
+            radius=grid.radius,
+            angles=grid.angle,
+            hub_height=machine.hub_height,
+            duration=condition.duration,
+            dt=options.step,
+            seed=case_seed(condition.dlc, condition.wind_speed, condition.index, seed),
+            shear_exponent=condition.shear_exponent,
+            components=components,
+            scaling=options.scaling,
+            lateral=options.lateral,
+            method=method,
+            factors=factors,
+        )
+    time = sample_times(condition.duration, options.step)
+    since = time - condition.gust_time
+    change: dict[str, np.ndarray] = {}
+    if condition.wind == "EOG":
+        change["rise"] = gusts.operating_gust(since, condition.gust)
+    elif condition.wind == "EDC":
+        change["direction"] = gusts.direction_change(since, condition.gust)
+    elif condition.wind == "ECD":
+        change["rise"], change["direction"] = gusts.coherent_gust(since, condition.gust)
+    elif condition.wind == "EWS":
+        gradient = gusts.wind_shear(since, condition.gust) / machine.rotor_diameter
+        change["horizontal" if condition.horizontal else "vertical"] = gradient
+    return gusts.gust_field(
+        time,
+        grid.radius,
+        grid.angle,
+        condition.wind_speed,
+        machine.hub_height,
+        condition.shear_exponent,
+        **change,
+    )

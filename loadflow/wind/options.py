@@ -1,0 +1,107 @@
+"""What a scene says about the wind."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Literal
+
+from annotated_types import Ge, Gt, Lt
+
+from loadflow.errors import InputError
+
+
+@dataclass(frozen=True)
+class WindOptions:
+    """Wind class, turbulence and grid.
+
+    Attributes
+    ----------
+    wind_class : str
+        Class of IEC 61400-1; "S" takes `v_ref` and `v_ave`, the tropical classes are of edition 4.
+    category : str
+        Turbulence category; "S" takes `reference_intensity`.
+    v_ref, v_ave : float, optional
+        Reference and annual mean speed of class S, m/s.
+    reference_intensity : float, optional
+        Turbulence intensity at 15 m/s of category S.
+    shear_exponent : float
+        Exponent of the normal wind profile: 0.2 onshore, 0.14 offshore.
+    speed_step : float
+        Distance of the mean speeds of a load case, m/s.
+    seeds : int, optional
+        Realisations per mean speed; by default those of the load case.
+    scaling : {"none", "hub", "each"}
+        Whether the turbulence is rescaled to the standard deviation asked for (`kaimal`).
+    lateral : {"coherent", "independent"}
+        Coherence of the lateral and vertical components (`kaimal`).
+    radii, angles : int
+        Number of radii (with the hub) and of angles of the polar grid.
+    step : float
+        Time step of the wind, s.
+    """
+
+    wind_class: Literal["I", "II", "III", "S", "T", "I-T", "II-T", "III-T"] = "I"
+    category: Literal["A+", "A", "B", "C", "S"] = "B"
+    v_ref: Annotated[float, Gt(0)] | None = None
+    v_ave: Annotated[float, Gt(0)] | None = None
+    reference_intensity: Annotated[float, Gt(0), Lt(1)] | None = None
+    shear_exponent: Annotated[float, Ge(0), Lt(1)] = 0.2
+    speed_step: Annotated[float, Gt(0)] = 2.0
+    seeds: Annotated[int, Ge(1)] | None = None
+    scaling: Literal["none", "hub", "each"] = "none"
+    lateral: Literal["coherent", "independent"] = "coherent"
+    radii: Annotated[int, Ge(2)] = 11
+    angles: Annotated[int, Ge(3)] = 36
+    step: Annotated[float, Gt(0)] = 0.05
+
+    def __post_init__(self) -> None:
+        own_speeds = [speed for speed in (self.v_ref, self.v_ave) if speed is not None]
+        if len(own_speeds) != (2 if self.wind_class == "S" else 0):
+            raise InputError(
+                f"wind_class = {self.wind_class!r} with v_ref = {self.v_ref} and v_ave = "
+                f"{self.v_ave} m/s: class 'S', and only it, takes both"
+            )
+        if (self.reference_intensity is not None) != (self.category == "S"):
+            raise InputError(
+                f"category = {self.category!r} with reference_intensity = "
+                f"{self.reference_intensity}: category 'S', and only it, takes one"
+            )
+        for name in ("speed_step", "step"):
+            if not getattr(self, name) > 0:
+                raise InputError(f"{name} = {getattr(self, name)} must be > 0")
+        if self.radii < 2 or self.angles < 3 or (self.seeds is not None and self.seeds < 1):
+            raise InputError(
+                f"radii = {self.radii}, angles = {self.angles}, seeds = {self.seeds}: "
+                "at least 2 radii, 3 angles and 1 seed"
+            )
+
+
+@dataclass(frozen=True)
+class Machine:
+    """What the wind conditions need to know of a turbine.
+
+    Attributes
+    ----------
+    cut_in, rated, cut_out : float
+        Wind speeds at hub height, m/s.
+    rotor_diameter, hub_height : float
+        Lengths, m.
+    """
+
+    cut_in: float
+    rated: float
+    cut_out: float
+    rotor_diameter: float
+    hub_height: float
+
+    def __post_init__(self) -> None:
+        if not 0 < self.cut_in < self.rated < self.cut_out < float("inf"):
+            raise InputError(
+                f"cut_in = {self.cut_in}, rated = {self.rated}, cut_out = {self.cut_out} m/s "
+                "must rise from above 0"
+            )
+        if not 0 < self.rotor_diameter / 2 < self.hub_height < float("inf"):
+            raise InputError(
+                f"a rotor of {self.rotor_diameter} m at a hub height of {self.hub_height} m "
+                "reaches the ground"
+            )
