@@ -137,3 +137,101 @@ def spectral_difference(
     reference, other = density
     relative = relative_difference(reference, other)
     return SpectralDifference(frequency, reference, other, relative, band)
+
+
+@dataclass(frozen=True)
+class AveragedSpectrum:
+    """Welch's averaged power spectral density with its confidence band.
+
+    Attributes
+    ----------
+    frequency, density, low, high : ndarray, shape (k,)
+        Hz and unit²/Hz; `low` and `high` bound the true density with the stated confidence at
+        each frequency, if the series is Gaussian there.
+    dof : float
+        Equivalent degrees of freedom of the average.
+    """
+
+    frequency: Floats
+    density: Floats
+    low: Floats
+    high: Floats
+    dof: float
+
+
+def segments(x: Floats, length: int) -> Floats:
+    """Power of Hann-tapered, half-overlapping segments of `x` about its mean.
+
+    Parameters
+    ----------
+    x : ndarray, shape (n,)
+        Series.
+    length : int
+        Values per segment.
+
+    Returns
+    -------
+    ndarray, shape (segments, length // 2 + 1)
+        Squared magnitude of the transforms.
+    """
+    from scipy.fft import rfft
+    from scipy.signal.windows import hann
+
+    views = np.lib.stride_tricks.sliding_window_view(x - x.mean(), length)[:: max(length // 2, 1)]
+    transform = rfft(views * hann(length, sym=False), axis=1)
+    return transform.real**2 + transform.imag**2
+
+
+def averaged_spectrum(
+    x: ArrayLike,
+    dt: float | None = None,
+    fs: float | None = None,
+    *,
+    segment: float | None = None,
+    confidence: float = 0.95,
+) -> AveragedSpectrum:
+    """Power spectral density averaged over segments (Welch), with a confidence band.
+
+    Parameters
+    ----------
+    x : array_like, shape (n,)
+        Series.
+    dt, fs : float
+        Time step in s or sampling frequency in Hz; give one of them.
+    segment : float, optional
+        Length of a segment in s (Hann window, half overlap); a fifteenth of the record if None.
+    confidence : float
+        Of the band at each single frequency.
+
+    Returns
+    -------
+    AveragedSpectrum
+
+    Raises
+    ------
+    InputError
+        The series is not finite or the segment shorter than 8 values or longer than the record.
+    """
+    from scipy.special import chdtri
+
+    step = sampling_step(dt, fs)
+    if not 0.0 < confidence < 1.0:
+        raise InputError(f"confidence = {confidence}; allowed: 0 < confidence < 1")
+    (series,) = as_samples([x], least=8)
+    length = max(series.size // 15, 8) if segment is None else round(segment / step)
+    if not 8 <= length <= series.size:
+        raise InputError(
+            f"segment = {length * step:g} s; allowed: {8 * step:g} s to {series.size * step:g} s"
+        )
+    power = segments(series, length)
+    density = power.mean(axis=0) * 2.0 * step / (0.375 * length)  # 3/8: mean square of Hann
+    density[0] *= 0.5
+    if length % 2 == 0:
+        density[-1] *= 0.5
+    # neighbours that overlap by half share (1/6)² of their power scatter
+    count = power.shape[0]
+    dof = 2.0 * count / (1.0 + 2.0 * (count - 1) / count / 36.0)
+    low = density * dof / chdtri(dof, (1.0 - confidence) / 2.0)
+    high = density * dof / chdtri(dof, (1.0 + confidence) / 2.0)
+    frequency = np.arange(density.size) / (length * step)
+    return AveragedSpectrum(frequency, density, low, high, dof)
