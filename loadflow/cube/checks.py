@@ -111,11 +111,13 @@ def regular_time(stamps: ArrayLike, where: str = "time") -> tuple[float, NDArray
     regular = t[0] + step * np.arange(t.size)
     off = np.abs(t - regular) > max(JITTER * step, 0.75 * resolution)
     if off.any():
-        # the widest or narrowest step is where the series was cut, not where the fit first misses
-        i = int(np.argmax(np.abs(np.diff(t) - np.median(np.diff(t))))) + 1
+        # the first of the oddest steps is where the series was cut, not where the fit first misses
+        usual = float(np.median(np.diff(t)))
+        odd = np.abs(np.diff(t) - usual)
+        i = int(np.argmax(odd > 0.5 * odd.max())) + 1
         raise InputError(
             f"{where}, variable 'time', index {i}: steps are not equal, {t[i - 1]:g} s is followed "
-            f"by {t[i]:g} s where the usual step is {np.median(np.diff(t)):g} s"
+            f"by {t[i]:g} s where the usual step is {usual:g} s"
         )
     return step, regular
 

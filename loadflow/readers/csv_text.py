@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import os
 import re
+from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 import xarray as xr
+from numpy.typing import NDArray
 
 from loadflow.errors import InputError
 from loadflow.readers.table import COMPONENTS, Channels, Table, to_series
@@ -56,34 +59,42 @@ def read_table(path: Path) -> Table:
     """Read all columns of a CSV file as they are."""
     if not path.is_file():
         raise InputError(f"{path}: no such file")
+    columns, separator = _columns(path)
     try:
-        frame = pd.read_csv(path, sep=_separator(path), comment="#", encoding="utf-8-sig")
-    except pd.errors.EmptyDataError:
-        raise InputError(f"{path}: the file is empty") from None
-    except (pd.errors.ParserError, UnicodeDecodeError) as error:
+        frame = pd.read_csv(
+            path,
+            sep=separator,
+            comment="#",
+            encoding="utf-8-sig",
+            header=0,
+            names=range(len(columns)),
+            index_col=False,
+        )
+    except pd.errors.ParserError as error:
         raise InputError(f"{path}: cannot be read as CSV: {error}") from None
     if frame.empty:
         raise InputError(f"{path}: the file has a heading but no time step")
-    headings = [_heading(str(column), path) for column in frame.columns]
+    headings = [_heading(column, path) for column in columns]
     names = tuple(name for name, _ in headings)
     units = tuple(unit for _, unit in headings)
     if "time" not in names:
         raise InputError(f"{path}: column 'time' is missing; the file has {', '.join(names)}")
-    values = pd.DataFrame(
-        {i: _numbers(frame.iloc[:, i], names[i], path) for i in range(len(names))}
-    )
-    stamps = Table(str(path), values.index.to_numpy(), names, units, values.to_numpy())
-    return Table(str(path), stamps.series("time", "s"), names, units, stamps.values)
+    series = [_numbers(frame[i], name, path) for i, name in enumerate(names)]
+    table = Table(str(path), np.arange(len(frame)), names, units, np.column_stack(series))
+    return replace(table, stamps=table.series("time", "s"))
 
 
-def _separator(path: Path) -> str:
-    """Return the separator that the heading has most of."""
+def _columns(path: Path) -> tuple[list[str], str]:
+    """Return the fields of the heading, and the separator, which it has most of."""
     try:
         with path.open(encoding="utf-8-sig") as file:
             heading = next((line for line in file if line.strip() and line[0] != "#"), "")
     except UnicodeDecodeError as error:
-        raise InputError(f"{path}: is no text ({error})") from None
-    return max(",;\t", key=heading.count)
+        raise InputError(f"{path}: the file is no text ({error})") from None
+    if not heading:
+        raise InputError(f"{path}: the file is empty")
+    separator = max(",;\t", key=heading.count)
+    return heading.strip().split(separator), separator
 
 
 def _heading(column: str, path: Path) -> tuple[str, str]:
@@ -93,10 +104,10 @@ def _heading(column: str, path: Path) -> tuple[str, str]:
     return match["name"], match["unit"]
 
 
-def _numbers(column: pd.Series, name: str, path: Path) -> pd.Series:
+def _numbers(column: pd.Series, name: str, path: Path) -> NDArray[np.float64]:
     numbers = pd.to_numeric(column, errors="coerce")
     wrong = numbers.isna() & column.notna()
     if wrong.any():
         i = int(wrong.to_numpy().argmax())
         raise InputError(f"{path}, column {name!r}, index {i}: {column.iloc[i]!r} is not a number")
-    return numbers.astype(float)
+    return numbers.to_numpy(dtype=float)

@@ -80,7 +80,7 @@ def read_hawc2(
             raise InputError(f"{file}: no such file; a HAWC2 run needs .sel and .dat")
     header = _read_header(listing)
     values = _read_binary(data, header) if header.binary else _read_text(data, header)
-    table = Table(str(data), _stamps(values, header), header.names, header.units, values)
+    table = Table(str(data), _stamps(data, values, header), header.names, header.units, values)
     return to_series(table, {**CHANNELS, **(channels or {})})
 
 
@@ -137,16 +137,17 @@ def _read_text(path: Path, header: Header) -> NDArray[np.float64]:
     return values
 
 
-def _stamps(values: NDArray[np.float64], header: Header) -> NDArray[np.float64]:
-    """Return regular stamps; 16 bits are too few for those in the file."""
+def _stamps(path: Path, values: NDArray[np.float64], header: Header) -> NDArray[np.float64]:
+    """Return regular stamps; 16 bits are too few for those in a binary file."""
+    if header.names[0].casefold() == "time" and not header.binary:
+        return values[:, 0]
     step = header.duration / header.scans
+    count = np.arange(header.scans, dtype=float)
     if header.names[0].casefold() != "time":
-        return step * np.arange(1, header.scans + 1)
+        return step * (count + 1)
     written = values[:, 0]
-    if not header.binary:
-        return written
-    stamps = step * (round(written[0] / step) + np.arange(header.scans))
-    coarse = max(1.5 * header.scales[0], 1.01 * step)
-    if (off := float(np.abs(written - stamps).max())) > coarse:
-        raise InputError(f"channel 'Time' misses steps of {step:g} s by up to {off:g} s")
+    stamps: NDArray[np.float64] = step * (round(written[0] / step) + count)
+    off = float(np.abs(written - stamps).max())
+    if off > max(1.5 * header.scales[0], 1.01 * step):
+        raise InputError(f"{path}, channel 'Time': off steps of {step:g} s by up to {off:g} s")
     return stamps

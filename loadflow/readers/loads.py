@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import glob
+import hashlib
 import os
 from collections.abc import Iterable
+from dataclasses import asdict
 from pathlib import Path
 
 import xarray as xr
@@ -61,12 +63,12 @@ def read_loads(
     listed = read_case_list(cases) if cases is not None else {}
     if cases is not None and (absent := sorted(set(listed) - {p.name for p in paths})):
         raise InputError(f"{cases}: lists {absent[0]}, which is not among the {len(paths)} files")
-    taken: dict[str, Path] = {}
+    register = _Register()
     labelled = []
     for path in paths:
         series = find_reader(path).load()(path, channels=channels, gauge_distance=gauge_distance)
         label = listed.get(path.name) or label_from_name(path, pattern)
-        case = _with_label(series, label, taken, path)
+        case = _labelled(series, register.complete(label, series, path))
         labelled.append(case.assign_attrs(turbine=turbine))
     return make_cube(labelled)
 
@@ -109,33 +111,52 @@ def _expand(entry: Path) -> list[Path]:
     return matches
 
 
-def _with_label(
-    series: xr.Dataset, label: CaseLabel, taken: dict[str, Path], path: Path
-) -> xr.Dataset:
-    """Complete what the label leaves open, and make sure that no two files hold one case."""
-    dlc = label.dlc or "unknown"
-    wind_speed = label.wind_speed
-    if wind_speed is None:
-        if "wind" not in series:
+class _Register:
+    """Cases met so far: completes labels, and sees that no two files hold the same."""
+
+    def __init__(self) -> None:
+        self._names: dict[str, Path] = {}
+        self._series: dict[bytes, Path] = {}
+
+    def complete(self, label: CaseLabel, series: xr.Dataset, path: Path) -> CaseLabel:
+        """Return the label with load case, wind speed and seed, which no other file has."""
+        dlc = label.dlc or "unknown"
+        wind_speed = label.wind_speed
+        if wind_speed is None:
+            wind_speed = _mean_wind(series, path)
+        seed = label.seed
+        if seed is None:
+            self._refuse_copy(series, path)
+            seed = 1
+            while label.wind_speed is None and case_name(dlc, wind_speed, seed) in self._names:
+                seed += 1
+        name = case_name(dlc, wind_speed, seed)
+        if name in self._names:
             raise InputError(
-                f"{path}: the wind speed is neither in the name nor in a list of cases, and the "
-                "file has no wind"
+                f"{path}: case {name!r} is already in {self._names[name]}; tell them apart by "
+                "name or by a list of cases"
             )
-        wind_speed = round(float(series["wind"].mean()), 2)
-    seed = label.seed
-    if seed is None:
-        seed = 1
-        while label.wind_speed is None and case_name(dlc, wind_speed, seed) in taken:
-            seed += 1
-    name = case_name(dlc, wind_speed, seed)
-    if name in taken:
+        self._names[name] = path
+        return CaseLabel(dlc, wind_speed, seed, label.weight)
+
+    def _refuse_copy(self, series: xr.Dataset, path: Path) -> None:
+        """A file without a seed of its own must not bring the same series as a new seed."""
+        digest = hashlib.sha256(series["hub_force"].values.tobytes()).digest()
+        if digest in self._series:
+            raise InputError(f"{path}: the series are those of {self._series[digest]}")
+        self._series[digest] = path
+
+
+def _mean_wind(series: xr.Dataset, path: Path) -> float:
+    if "wind" not in series:
         raise InputError(
-            f"{path}: case {name!r} is already in {taken[name]}; tell them apart by name or by a "
-            "list of cases"
+            f"{path}: the wind speed is neither in the name nor in a list of cases, and the file "
+            "has no wind"
         )
-    taken[name] = path
-    scalars = {"dlc": dlc, "wind_speed": wind_speed, "seed": seed}
-    if label.weight is not None:
-        scalars["weight"] = label.weight
+    return round(float(series["wind"].mean()), 2)
+
+
+def _labelled(series: xr.Dataset, label: CaseLabel) -> xr.Dataset:
+    scalars = {key: value for key, value in asdict(label).items() if value is not None}
     attrs = {key: {k: v for k, v in CASE_COORDS[key].attrs.items() if v} for key in scalars}
     return series.assign_coords({k: ((), v, attrs[k]) for k, v in scalars.items()})

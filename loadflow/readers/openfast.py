@@ -149,10 +149,11 @@ def _check_text(path: Path) -> None:
     rows = lines[HEADER_LINES:]
     if not rows:
         raise InputError(f"{path}: the file has a header but no time step")
+    widths = {len(row.rstrip()) for row in rows[:-1]}
+    if len(widths) == 1 and len(rows[-1].rstrip()) < min(widths):
+        raise InputError(f"{path}, line {len(lines)}: truncated, the last line is cut")
     for number, row in enumerate(rows, HEADER_LINES + 1):
         _check_row(row, len(names), f"{path}, line {number}")
-    if len(rows) > 1 and len(rows[-1].rstrip()) < 0.9 * len(rows[-2].rstrip()):
-        raise InputError(f"{path}, line {len(lines)}: truncated, the last line is cut")
 
 
 def _check_row(row: str, columns: int, where: str) -> None:

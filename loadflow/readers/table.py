@@ -160,7 +160,7 @@ def to_series(table: Table, channels: Channels) -> xr.Dataset:
             f"channels: {sorted(unknown)[0]!r} is nothing the cube holds; it takes "
             f"{', '.join(COMPONENTS)}"
         )
-    _, time = regular_time(table.stamps, table.source)
+    step, stamps = regular_time(table.stamps, table.source)
     data = {}
     for name, variable in VARIABLES.items():
         keys = [c for c in COMPONENTS if c == name or c[:-2] == name]
@@ -169,9 +169,9 @@ def to_series(table: Table, channels: Channels) -> xr.Dataset:
         if series:
             stacked = np.stack(series) if "axis" in variable.dims else series[0]
             data[name] = stacked.astype(np.float32)
-    start = float(time[0])
+    start = float(stamps[0])
     coords = {"file": table.source, "file_start": ((), start, {"units": "s"})}
-    return make_series(time - start, data).assign_coords(coords)
+    return make_series(step * np.arange(stamps.size), data).assign_coords(coords)
 
 
 def _find(table: Table, key: str, channels: Channels) -> str | None:
