@@ -1,1 +1,17 @@
-"""Room `journal`."""
+"""Hydrodynamic journal bearing: film, cavitation, supply, equilibrium, orbit.
+
+========================  ==========================================================
+`options`                 lubricant, laws of the ruptured film, grooves
+`bearing`                 `JournalBearing`: what the user calls
+`setup`                   from the user's words to the discrete film
+`mesh`                    cells of the half film
+`film`                    balance, linearisation and integrals of the discrete film
+`equilibrium`             Newton for film, and for film and shaft together
+`result`                  what comes back
+`_kernels`                compiled loops
+========================  ==========================================================
+"""
+
+import lazy_loader as _lazy
+
+__getattr__, __dir__, __all__ = _lazy.attach_stub(__name__, __file__)

@@ -1,0 +1,11 @@
+from .bearing import JournalBearing as JournalBearing
+from .options import GasMixture as GasMixture
+from .options import Groove as Groove
+from .options import Guembel as Guembel
+from .options import Lubricant as Lubricant
+from .options import MassConserving as MassConserving
+from .options import Reynolds as Reynolds
+from .options import Sommerfeld as Sommerfeld
+from .options import Supply as Supply
+from .result import Equilibrium as Equilibrium
+from .result import FilmField as FilmField

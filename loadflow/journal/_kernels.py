@@ -1,0 +1,274 @@
+"""Compiled loops of the film: laws, gap coefficients, assembly, integrals.
+
+Everything is written for lengths in units of the shaft radius R, the gap in units of the radial
+clearance and pressures in Pa. The balance of a film cell is then ::
+
+    sum of outflows (wedge · F · H − H³ ∂p) + storage = 0,   wedge = 6 η ω / ψ²
+
+which is (3.51) of the source times 12 η / ψ² …; only half of the width is solved.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+FULL, GUEMBEL, REYNOLDS, MASS_CONSERVING, GAS_MIXTURE = range(5)
+
+# rows of the state of the cells
+P, DP, FILL, DFILL, SLACK, DSLACK, LOAD, DLOAD = range(8)
+# rows of the coefficients of the gap: on faces, then on cells
+G, E, H3, HM, COS, SIN, ARC, HINV = range(8)
+
+
+@njit(cache=True, nogil=True)
+def apply_law(kind, mixing, p_cav, scale, u, state):
+    """Fill `state` (8, nx, nz) from the unknowns `u` (nx, nz).
+
+    The unknown is the pressure in the full film and a measure of its lack in the ruptured film:
+    for the mass-conserving law u = p_cav − scale (1 − F); for the mixture u = p − scale (1 − F),
+    which tends to the same as c → 0, so that Newton needs no continuation and p > −c by itself; for
+    Reynolds the slack of the complementarity.
+    """
+    nx, nz = u.shape
+    for i in range(nx):
+        for k in range(nz):
+            v = u[i, k]
+            p, dp, fill, dfill, slack, dslack = v, 1.0, 1.0, 0.0, 0.0, 0.0
+            if kind == GAS_MIXTURE:
+                root = np.sqrt((v + mixing) ** 2 + 4.0 * mixing * scale)
+                if v > mixing:
+                    p = 0.5 * (v - mixing + root)
+                else:
+                    p = 2.0 * mixing * (v + scale) / (mixing - v + root)
+                # (p + c)(p − u) = c · scale; p + c without cancellation
+                lift = 0.5 * (v + mixing + root)
+                if v + mixing < 0.0:
+                    lift = 2.0 * mixing * scale / (root - v - mixing)
+                fill = p / lift
+                slope = mixing / (lift * lift)
+                dp = 1.0 / (1.0 + scale * slope)
+                dfill = slope * dp
+            elif kind >= REYNOLDS and v < p_cav:
+                p, dp = p_cav, 0.0
+                if kind == REYNOLDS:
+                    slack, dslack = v - p_cav, 1.0
+                else:
+                    fill, dfill = 1.0 + (v - p_cav) / scale, 1.0 / scale
+            state[P, i, k] = p
+            state[DP, i, k] = dp
+            state[FILL, i, k] = fill
+            state[DFILL, i, k] = dfill
+            state[SLACK, i, k] = slack
+            state[DSLACK, i, k] = dslack
+            if kind == GUEMBEL and p < p_cav:
+                state[LOAD, i, k] = p_cav
+                state[DLOAD, i, k] = 0.0
+            else:
+                state[LOAD, i, k] = p
+                state[DLOAD, i, k] = dp
+
+
+@njit(cache=True, nogil=True)
+def gap_coefficients(cos_face, sin_face, w_face, cos_cell, sin_cell, w_cell, stretch, ex, ey, out):
+    """Coefficients of the gap H = 1 − ex cos θ − ey sin θ, `out` (8, nx + 1).
+
+    Between two cell centres the flux is taken constant, so that conductance and effective gap are
+    G = 1/∫H⁻³, E = G ∫H⁻²; this stays right across steps of the gap. Nodes are given in the
+    coordinate a of the Sommerfeld map of strength `stretch` (0: θ = a), densest at θ = 0.
+    """
+    nf, nq = cos_face.shape
+    root = np.sqrt(1.0 - stretch * stretch)
+    for i in range(nf):
+        i3 = 0.0
+        i2 = 0.0
+        for q in range(nq):
+            d = 1.0 / (1.0 + stretch * cos_face[i, q])
+            c = (stretch + cos_face[i, q]) * d
+            s = root * sin_face[i, q] * d
+            w = w_face[i, q] * root * d
+            r = 1.0 / (1.0 - ex * c - ey * s)
+            i2 += w * r * r
+            i3 += w * r * r * r
+        out[G, i] = 1.0 / i3
+        out[E, i] = i2 / i3
+    for i in range(nf - 1):
+        for row in range(H3, HINV + 1):
+            out[row, i] = 0.0
+        for q in range(nq):
+            d = 1.0 / (1.0 + stretch * cos_cell[i, q])
+            c = (stretch + cos_cell[i, q]) * d
+            s = root * sin_cell[i, q] * d
+            w = w_cell[i, q] * root * d
+            h = 1.0 - ex * c - ey * s
+            out[H3, i] += w * h * h * h
+            out[HM, i] += w * h
+            out[COS, i] += w * c
+            out[SIN, i] += w * s
+            out[ARC, i] += w
+            out[HINV, i] += w / h
+
+
+@njit(cache=True, nogil=True)
+def balance(state, coef, dz, gz, closed, wedge, p_edge, p_line, f_line, mass, out):
+    """Add the outflow of each cell to `out` (nx, nz); linear in `coef` and `mass` (nx,)."""
+    _, nx, nz = state.shape
+    p = state[P]
+    fill = state[FILL]
+    for i in range(nx + 1):
+        left = i - 1 if i > 0 else nx - 1
+        right = i if i < nx else 0
+        if closed and i == nx:
+            break
+        g = coef[G, i]
+        e = wedge * coef[E, i]
+        for k in range(nz):
+            p_l, f_l, p_r, f_r = p[left, k], fill[left, k], p[right, k], fill[right, k]
+            if not closed:
+                if i == 0:
+                    p_l, f_l = p_line, f_line
+                elif i == nx:
+                    p_r, f_r = p_line, f_line
+            q = dz[k] * (e * (f_l if wedge > 0 else f_r) - g * (p_r - p_l))
+            if closed or i > 0:
+                out[left, k] += q
+            if closed or i < nx:
+                out[right, k] -= q
+    for i in range(nx):
+        h3 = coef[H3, i]
+        for k in range(nz):
+            out[i, k] += fill[i, k] * mass[i] * dz[k]
+            q = h3 * gz[k] * (p[i, k] - (p[i, k + 1] if k + 1 < nz else p_edge))
+            out[i, k] += q
+            if k + 1 < nz:
+                out[i, k + 1] -= q
+
+
+@njit(cache=True, nogil=True)
+def jacobian(state, coef, dz, gz, closed, wedge, mass, order, fixed, ab):
+    """Band matrix ∂(balance + slack)/∂u in LAPACK's layout, `ab` (n, 3 kl + 1), column by row."""
+    _, nx, nz = state.shape
+    ab[:] = 0.0
+    kl = (ab.shape[1] - 1) // 3
+    mid = 2 * kl
+    dp = state[DP]
+    df = state[DFILL]
+    for i in range(nx + 1):
+        if closed and i == nx:
+            break
+        left = i - 1 if i > 0 else nx - 1
+        right = i if i < nx else 0
+        g = coef[G, i]
+        e = wedge * coef[E, i]
+        e_l = e if wedge > 0 else 0.0
+        e_r = e if wedge <= 0 else 0.0
+        has_l = closed or i > 0
+        has_r = closed or i < nx
+        shift = (order[right] - order[left]) * nz
+        for k in range(nz):
+            if has_l:
+                col = order[left] * nz + k
+                d = dz[k] * (e_l * df[left, k] + g * dp[left, k])
+                ab[col, mid] += d
+                if has_r:
+                    ab[col, mid + shift] -= d
+            if has_r:
+                col = order[right] * nz + k
+                d = dz[k] * (e_r * df[right, k] - g * dp[right, k])
+                ab[col, mid] -= d
+                if has_l:
+                    ab[col, mid - shift] += d
+    for i in range(nx):
+        h3 = coef[H3, i]
+        base = order[i] * nz
+        for k in range(nz):
+            ab[base + k, mid] += df[i, k] * mass[i] * dz[k] + state[DSLACK, i, k]
+            g = h3 * gz[k]
+            ab[base + k, mid] += g * dp[i, k]
+            if k + 1 < nz:
+                ab[base + k, mid + 1] -= g * dp[i, k]
+                ab[base + k + 1, mid] += g * dp[i, k + 1]
+                ab[base + k + 1, mid - 1] -= g * dp[i, k + 1]
+    n = nx * nz
+    for i in range(nx):
+        for k in range(nz):
+            if fixed[i, k]:
+                row = order[i] * nz + k
+                for col in range(max(0, row - kl), min(n, row + kl + 1)):
+                    ab[col, mid + row - col] = 0.0
+                ab[row, mid] = 1.0
+
+
+@njit(cache=True, nogil=True)
+def gather(field, order, column):
+    """Write `field` (nx, nz) into `column` (n,) in solver order."""
+    nx, nz = field.shape
+    for i in range(nx):
+        for k in range(nz):
+            column[order[i] * nz + k] = field[i, k]
+
+
+@njit(cache=True, nogil=True)
+def load_of(state, row, coef, dz, order, column):
+    """∫ (cos θ, sin θ) over the half film of `state[row]`, times `column` if that is not empty."""
+    _, nx, nz = state.shape
+    fx = 0.0
+    fy = 0.0
+    for i in range(nx):
+        total = 0.0
+        for k in range(nz):
+            value = state[row, i, k] * dz[k]
+            if column.size:
+                value *= column[order[i] * nz + k]
+            total += value
+        fx += coef[COS, i] * total
+        fy += coef[SIN, i] * total
+    return fx, fy
+
+
+@njit(cache=True, nogil=True)
+def correct(u, columns, weights, order):
+    """Subtract Σ weights · columns from `u`; returns the largest change."""
+    nx, nz = u.shape
+    largest = 0.0
+    for i in range(nx):
+        for k in range(nz):
+            change = 0.0
+            for j in range(weights.size):
+                change += weights[j] * columns[j, order[i] * nz + k]
+            u[i, k] -= change
+            largest = max(largest, abs(change))
+    return largest
+
+
+@njit(cache=True, nogil=True)
+def integrals(state, coef, dz, gz, closed, p_edge, p_line, pocket):
+    """Integrals over the half film, in the units of this module.
+
+    Returns the largest pressure, the dissipation Σ H³ |∂p|², the shear ∫ 1/H outside pockets, the
+    outflow over the rim (where it leaves), and ∫ F H and ∫ H.
+    """
+    _, nx, nz = state.shape
+    p = state[LOAD]
+    peak = p[0, 0]
+    dissipation, shear, outflow, liquid, volume = 0.0, 0.0, 0.0, 0.0, 0.0
+    for i in range(nx + 1):
+        if closed and i == nx:
+            break
+        for k in range(nz):
+            p_l = p[i - 1 if i > 0 else nx - 1, k] if closed or i > 0 else p_line
+            p_r = p[i, k] if i < nx else p_line
+            dissipation += coef[G, i] * dz[k] * (p_r - p_l) ** 2
+    for i in range(nx):
+        h3 = coef[H3, i]
+        for k in range(nz):
+            peak = max(peak, p[i, k])
+            drop = p[i, k] - (p[i, k + 1] if k + 1 < nz else p_edge)
+            dissipation += h3 * gz[k] * drop * drop
+            if k + 1 == nz:
+                outflow += max(h3 * gz[k] * drop, 0.0)
+            if not pocket[i, k]:
+                shear += coef[HINV, i] * dz[k]
+            liquid += state[FILL, i, k] * coef[HM, i] * dz[k]
+            volume += coef[HM, i] * dz[k]
+    return peak, dissipation, shear, outflow, liquid, volume

@@ -1,0 +1,264 @@
+"""The plain journal bearing as its user sees it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Literal
+
+import numpy as np
+from annotated_types import Gt, Lt
+from numpy.typing import ArrayLike, NDArray
+
+from loadflow.errors import InputError, SolverError
+from loadflow.journal.equilibrium import Solution, no_film, solve_equilibrium, solve_film
+from loadflow.journal.film import Film
+from loadflow.journal.options import Cavitation, Lubricant, Supply, require
+from loadflow.journal.result import Equilibrium, FilmField, field_row, stack, static_row
+from loadflow.journal.setup import FilmOptions, Grading, Inlet, build_film, operating_points
+from loadflow.tribology.film import butenschoen
+
+Array = NDArray[np.float64]
+
+_RATIOS = np.concatenate([np.linspace(0.0, 0.9, 91)[1:], 1.0 - np.geomspace(0.099, 1e-4, 60)])
+
+
+@dataclass(frozen=True)
+class JournalBearing:
+    """Plain cylindrical journal bearing, aligned and rigid.
+
+    Attributes
+    ----------
+    diameter, width : float
+        Bore D and width B, m.
+    relative_clearance : float
+        ψ = clearance/diameter; the radial clearance is c = ψ D/2.
+
+    Examples
+    --------
+    >>> from loadflow.journal import GasMixture, JournalBearing, Lubricant
+    >>> bearing = JournalBearing(diameter=3.0, width=2.25, relative_clearance=0.5e-3)
+    >>> state = bearing.equilibrium(
+    ...     force=(2.0586e6, 0.4428e6), speed=1.2451, lubricant=Lubricant(0.05),
+    ...     cavitation=GasMixture(0.05e6), edge_pressure=0.5e6, grid=(60, 20))
+    >>> round(float(state.eccentricity_ratio), 2)
+    0.61
+    """
+
+    diameter: Annotated[float, Gt(0)]
+    width: Annotated[float, Gt(0)]
+    relative_clearance: Annotated[float, Gt(0), Lt(0.1)]
+
+    def __post_init__(self) -> None:
+        require(self.diameter > 0, "diameter", self.diameter, "m, > 0")
+        require(self.width > 0, "width", self.width, "m, > 0")
+        psi = self.relative_clearance
+        require(0 < psi < 0.1, "relative_clearance", psi, "0 … 0.1")
+
+    @property
+    def radius(self) -> float:
+        """Shaft radius, m."""
+        return 0.5 * self.diameter
+
+    @property
+    def clearance(self) -> float:
+        """Radial clearance c, m."""
+        return self.relative_clearance * self.radius
+
+    def sommerfeld_number(self, force: float, speed: float, viscosity: float) -> float:
+        """So = F ψ²/(B D η |ω|), (1.13) of the source; 0 without load."""
+        if force == 0.0:
+            return 0.0
+        drag = self.width * self.diameter * viscosity * abs(speed)
+        return force * self.relative_clearance**2 / drag if drag else np.inf
+
+    def equilibrium(
+        self,
+        force: ArrayLike,
+        speed: ArrayLike,
+        lubricant: Lubricant,
+        cavitation: Cavitation | None = None,
+        edge_pressure: float = 0.0,
+        supply: Supply | None = None,
+        inlet: Inlet = "auto",
+        grid: tuple[int, int] | None = None,
+        grading: Grading = "auto",
+        rung: Literal["grid"] = "grid",
+        tolerance: float = 1e-10,
+        max_iterations: int = 60,
+        strict: bool = True,
+    ) -> Equilibrium:
+        """Position of the shaft in which the film carries `force` at rest.
+
+        Parameters
+        ----------
+        force : array_like (…, 2)
+            What the shaft applies to the bearing, N; broadcasts with `speed`.
+        speed : array_like (…)
+            Speed of the shaft, rad/s, > 0 from the first axis toward the second.
+        lubricant : Lubricant
+            The liquid.
+        cavitation : GasMixture, Sommerfeld, Guembel, Reynolds or MassConserving
+            Law of the ruptured film; default ``Reynolds()``.
+        edge_pressure : float
+            Pressure at both rims and on an inlet line, Pa, absolute.
+        supply : Supply, optional
+            Grooves of the shell.
+        inlet : {"auto", "widest gap"} or None
+            Inlet line at the widest gap (ISO 7902) or none. "auto": the line for Reynolds and
+            Gümbel without a supply.
+        grid : tuple of int, optional
+            Cells around and across the full width (even; half is solved). Default (60, 20) for the
+            gas mixture, (120, 32) else.
+        grading : {"auto", "uniform", "graded"}
+            Uniform cells, or cells that crowd at the narrowest gap and the rims. "auto": uniform
+            for the gas mixture and with a supply, graded else.
+        rung : {"grid"}
+            Model: finite volumes.
+        tolerance : float
+            On the scaled residual.
+        max_iterations : int
+            Newton steps per load.
+        strict : bool
+            Raise for the first load without an answer; else its results are NaN and `converged`
+            is False.
+
+        Returns
+        -------
+        Equilibrium
+
+        Raises
+        ------
+        InputError
+            Not finite or misshapen input; a law without oil (a mixture at edge pressure 0).
+        SolverError
+            A load at ω = 0 (no film without squeeze), or no convergence, naming the first such load.
+        """
+        require(rung == "grid", "rung", rung, '"grid"')
+        options = FilmOptions(lubricant, cavitation, edge_pressure, supply, inlet, grid, grading)
+        loads, speeds, shape = operating_points(force, speed, "force")
+        film = self._film(options, speeds)
+        rows = []
+        last: Solution | None = None
+        for index, (load, omega) in enumerate(zip(loads, speeds.tolist())):
+            film.set_speed(omega)
+            solution = self._static(film, load, last, tolerance, max_iterations)
+            if solution.converged:
+                last = solution
+            elif strict:
+                raise SolverError(f"load {index}: {self._refusal(film, load, solution)}")
+            rows.append(static_row(self, film, load, lubricant, solution))
+        return Equilibrium(**stack(rows, shape))
+
+    def pressure(
+        self,
+        eccentricity: ArrayLike,
+        speed: ArrayLike,
+        lubricant: Lubricant,
+        velocity: ArrayLike = (0.0, 0.0),
+        cavitation: Cavitation | None = None,
+        edge_pressure: float = 0.0,
+        supply: Supply | None = None,
+        inlet: Inlet = "auto",
+        grid: tuple[int, int] | None = None,
+        grading: Grading = "auto",
+        tolerance: float = 1e-10,
+        max_iterations: int = 100,
+        strict: bool = True,
+    ) -> FilmField:
+        """Film at a given position and velocity of the shaft.
+
+        Parameters
+        ----------
+        eccentricity : array_like (…, 2)
+            Shaft centre relative to the shell, m.
+        speed : array_like (…)
+            rad/s.
+        lubricant : Lubricant
+            The liquid.
+        velocity : array_like (…, 2)
+            Velocity of the shaft centre, m/s. The squeeze is F ∂h/∂t, the fill is quasi-steady.
+        cavitation, edge_pressure, supply, inlet, grid, grading, tolerance, max_iterations, strict
+            As in `equilibrium`.
+
+        Returns
+        -------
+        FilmField
+
+        Raises
+        ------
+        InputError
+            Not finite or misshapen input, |eccentricity| ≥ c.
+        SolverError
+            No convergence.
+        """
+        options = FilmOptions(lubricant, cavitation, edge_pressure, supply, inlet, grid, grading)
+        both = np.broadcast_arrays(
+            np.asarray(eccentricity, dtype=float), np.asarray(velocity, dtype=float)
+        )
+        places, speeds, shape = operating_points(both[0], speed, "eccentricity")
+        velocities, _, _ = operating_points(both[1], speed, "velocity")
+        places, velocities = places / self.clearance, velocities / self.clearance
+        ratio = np.hypot(places[:, 0], places[:, 1])
+        if ratio.max(initial=0.0) >= 1.0:
+            raise InputError(
+                f"eccentricity {ratio.argmax()}: ratio ε = {ratio.max():.6g} is not allowed: < 1 "
+                f"(radial clearance {self.clearance:.6g} m)"
+            )
+        film = self._film(options, speeds)
+        rows = []
+        for index, (place, moving, omega) in enumerate(zip(places, velocities, speeds.tolist())):
+            film.set_speed(omega)
+            solution = solve_film(film, film.start(), place, moving, tolerance, max_iterations)
+            if strict and not solution.converged:
+                raise SolverError(
+                    f"film {index} at ε = {np.hypot(*place):.6g}, ω = {omega:.6g} rad/s: residual "
+                    f"{solution.residual:.3g} after {solution.iterations} steps"
+                )
+            rows.append(field_row(film, solution))
+        half = film.mesh.z * self.radius
+        return FilmField(z=np.concatenate([-half[::-1], half]), **stack(rows, shape))
+
+    # --- inside ----------------------------------------------------------------------------------
+    def _film(self, options: FilmOptions, speeds: Array) -> Film:
+        film = build_film(self.diameter, self.width, self.relative_clearance, options)
+        film.set_scale(float(np.abs(speeds).max(initial=0.0)))
+        return film
+
+    def _static(
+        self, film: Film, load: Array, last: Solution | None, tolerance: float, max_iterations: int
+    ) -> Solution:
+        """Equilibrium from the last one if that is near, else from the closed form."""
+        if film.speed == 0.0 and load.any():
+            return no_film(film)
+        position = self._estimate(load, film)
+        if last is not None:
+            near = 0.2 * (1 - np.hypot(*position))
+            if np.hypot(*(last.position - position)) < near:
+                warm = solve_equilibrium(
+                    film, load, last.u, last.position, tolerance, max_iterations
+                )
+                if warm.converged:
+                    return warm
+        return solve_equilibrium(film, load, film.start(), position, tolerance, max_iterations)
+
+    def _estimate(self, load: Array, film: Film) -> Array:
+        """Position by Butenschön's closed form, in clearances."""
+        wanted = self.sommerfeld_number(float(np.hypot(*load)), film.speed, film.viscosity)
+        if wanted == 0.0:
+            return np.zeros(2)
+        width_ratio = min(max(self.width / self.diameter, 0.125), 1.0)
+        numbers, attitudes = butenschoen(_RATIOS, width_ratio)
+        ratio = float(np.interp(wanted, numbers, _RATIOS)) * min(wanted / numbers[0], 1.0)
+        attitude = float(np.interp(ratio, _RATIOS, attitudes))
+        turn = np.arctan2(load[1], load[0]) + np.sign(film.speed) * attitude
+        return ratio * np.array([np.cos(turn), np.sin(turn)])
+
+    def _refusal(self, film: Film, load: Array, solution: Solution) -> str:
+        head = f"F = ({load[0]:.6g}, {load[1]:.6g}) N at ω = {film.speed:.6g} rad/s"
+        if film.speed == 0.0:
+            return f"{head}: without rotation and squeeze the film carries no load"
+        so = self.sommerfeld_number(float(np.hypot(*load)), film.speed, film.viscosity)
+        return (
+            f"{head} (So = {so:.4g}): no equilibrium found; residual {solution.residual:.3g} after "
+            f"{solution.iterations} steps, at ε = {np.hypot(*solution.position):.6g}"
+        )

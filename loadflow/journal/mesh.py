@@ -1,0 +1,183 @@
+"""Cells of the half film: around in the coordinate of the Sommerfeld map, across to the rim."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from loadflow.journal.options import Groove, Supply, require
+
+Array = NDArray[np.float64]
+
+MAP_STRENGTH = 0.9  # of the Sommerfeld map, times the eccentricity ratio; measured optimum
+RIM_STRENGTH = 0.8  # share of the sine in the axial grading toward the rim
+
+
+@dataclass(frozen=True, eq=False)
+class Mesh:
+    """Half film of an aligned bearing.
+
+    Attributes
+    ----------
+    edges : array (nx + 1,)
+        Cell edges around, in the coordinate a of the Sommerfeld map, rad.
+    z_edges : array (nz + 1,)
+        Cell edges across, from mid-plane 0 to the rim, in shaft radii.
+    closed : bool
+        Whether the film runs round; else both ends lie on an inlet line.
+    polar : bool
+        Whether the mesh turns with the eccentricity (θ = 0 at the narrowest gap); else it is fixed
+        to the shell.
+    strength : float
+        Strength of the Sommerfeld map over the eccentricity ratio (polar meshes only).
+    nodes : int
+        Gauss points of the integrals over cells.
+    """
+
+    edges: Array
+    z_edges: Array
+    closed: bool
+    polar: bool
+    strength: float
+    nodes: int
+
+    @cached_property
+    def angle(self) -> Array:
+        """Cell centres around, in the coordinate of the map."""
+        return 0.5 * (self.edges[1:] + self.edges[:-1])
+
+    @cached_property
+    def z(self) -> Array:
+        """Cell centres across, in shaft radii."""
+        return 0.5 * (self.z_edges[1:] + self.z_edges[:-1])
+
+    @cached_property
+    def dz(self) -> Array:
+        """Cell widths across."""
+        return np.diff(self.z_edges)
+
+    @cached_property
+    def gz(self) -> Array:
+        """Inverse distance to the next cell centre outward; the last one to the rim."""
+        return 1.0 / np.append(np.diff(self.z), self.z_edges[-1] - self.z[-1])
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Cells around and across the half width."""
+        return self.angle.size, self.z.size
+
+    @cached_property
+    def order(self) -> NDArray[np.int64]:
+        """Place of each column of cells in the band; a closed film is folded (0, N−1, 1, N−2, …)."""
+        turn = np.arange(self.angle.size)
+        if not self.closed:
+            return turn
+        return np.where(2 * turn < turn.size, 2 * turn, 2 * (turn.size - turn) - 1)
+
+    @property
+    def bandwidth(self) -> int:
+        """Half bandwidth of the Jacobian."""
+        return (2 if self.closed else 1) * self.z.size
+
+    @cached_property
+    def trigonometry(self) -> tuple[Array, ...]:
+        """Cosine, sine and weight at the Gauss points between centres, then inside cells."""
+        a = self.angle
+        ends = (a[-1] - 2 * np.pi, a[0] + 2 * np.pi) if self.closed else self.edges[[0, -1]]
+        between = np.concatenate([[ends[0]], a, [ends[1]]])
+        return (*_gauss(between, self.nodes), *_gauss(self.edges, self.nodes))
+
+
+def _gauss(edges: Array, nodes: int) -> tuple[Array, Array, Array]:
+    """Cosine, sine and weight of Gauss points between `edges`, each (intervals, nodes)."""
+    x, w = np.polynomial.legendre.leggauss(nodes)
+    half = 0.5 * np.diff(edges)[:, None]
+    a = 0.5 * (edges[1:] + edges[:-1])[:, None] + half * x
+    return np.cos(a), np.sin(a), np.ascontiguousarray(half * w)
+
+
+@lru_cache(maxsize=32)
+def build_mesh(
+    width_ratio: float, grid: tuple[int, int], graded: bool, inlet: bool, supply: Supply | None
+) -> Mesh:
+    """Mesh of a bearing of width over diameter `width_ratio`.
+
+    Parameters
+    ----------
+    width_ratio : float
+        B/D.
+    grid : tuple of int
+        Cells around and across the full width (even).
+    graded : bool
+        Graded around the narrowest gap and toward the rims, else uniform.
+    inlet : bool
+        Inlet line at the widest gap.
+    supply : Supply or None
+        Grooves of the shell; the mesh is then fixed to the shell, with edges on those of the grooves.
+    """
+    nx, nz = grid
+    require(nx >= 8, "grid[0]", nx, "at least 8 cells around")
+    require(nz >= 2 and nz % 2 == 0, "grid[1]", nz, "an even number of cells across the width")
+    share = np.linspace(0.0, 1.0, nz // 2 + 1)
+    if graded:
+        share = (1 - RIM_STRENGTH) * share + RIM_STRENGTH * np.sin(0.5 * np.pi * share)
+    polar = supply is None and (graded or inlet)
+    if supply is None:
+        start = -np.pi if polar else 0.0
+        edges = start + np.linspace(0.0, 2 * np.pi, nx + 1)
+    else:
+        edges = _edges_on_grooves(nx, supply.grooves)
+    return Mesh(
+        edges=edges,
+        z_edges=width_ratio * share,
+        closed=not inlet,
+        polar=polar,
+        strength=MAP_STRENGTH if graded and polar else 0.0,
+        nodes=3 if graded else 1,
+    )
+
+
+def _edges_on_grooves(nx: int, grooves: tuple[Groove, ...]) -> Array:
+    """Cell edges around, with a cell in the middle of the first line or edges on wide grooves."""
+    wide = [g for g in grooves if g.arc > 0]
+    if not wide:
+        start = (grooves[0].angle if grooves else 0.0) - np.pi / nx
+        return start + np.linspace(0.0, 2 * np.pi, nx + 1)
+    start = wide[0].angle - 0.5 * wide[0].arc
+    marks = sorted(
+        (g.angle + side * g.arc - start) % (2 * np.pi) for g in wide for side in (-0.5, 0.5)
+    )
+    breaks = np.unique(np.round([0.0, *marks, 2 * np.pi], 12))
+    cells = np.maximum(np.rint(np.diff(breaks) / (2 * np.pi) * nx).astype(int), 1)
+    parts = [
+        np.linspace(a, b, n, endpoint=False) for a, b, n in zip(breaks[:-1], breaks[1:], cells)
+    ]
+    return start + np.append(np.concatenate(parts), 2 * np.pi)
+
+
+class GrooveCells(NamedTuple):
+    """Cells of the grooves, (nx, nz) each: held at a pressure, deep pocket, that pressure."""
+
+    fixed: NDArray[np.bool_]
+    pocket: NDArray[np.bool_]
+    pressure: Array
+
+
+def groove_cells(mesh: Mesh, supply: Supply | None) -> GrooveCells:
+    """Cells of the grooves of `supply`; a line has no pocket."""
+    cells = GrooveCells(
+        np.zeros(mesh.shape, dtype=bool), np.zeros(mesh.shape, dtype=bool), np.zeros(mesh.shape)
+    )
+    for groove in supply.grooves if supply else ():
+        away = np.abs((mesh.angle - groove.angle + np.pi) % (2 * np.pi) - np.pi)
+        around = away < 0.5 * groove.arc if groove.arc > 0 else away < away.min() + 1e-9
+        across = mesh.z < groove.length * mesh.z_edges[-1]
+        inside = around[:, None] & across[None, :]
+        cells.fixed[inside] = True
+        cells.pocket[inside] = groove.arc > 0
+        cells.pressure[inside] = groove.pressure
+    return cells

@@ -1,0 +1,144 @@
+"""What a user states about a film: lubricant, cavitation law, supply. Options only, no solver."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Literal
+
+from annotated_types import Ge, Gt, Le
+
+from loadflow.errors import InputError
+
+
+def require(condition: bool, name: str, value: object, allowed: str) -> None:
+    """Raise an `InputError` that names field, value and allowed range unless `condition` holds."""
+    if not condition:
+        raise InputError(f"{name} = {value!r} is not allowed: {allowed}")
+
+
+@dataclass(frozen=True)
+class Lubricant:
+    """Isoviscous liquid.
+
+    Attributes
+    ----------
+    viscosity : float
+        Dynamic viscosity, Pa s.
+    density : float
+        Density, kg/m³; only used for the Reynolds number.
+    """
+
+    viscosity: Annotated[float, Gt(0)]
+    density: Annotated[float, Gt(0)] = 870.0
+
+    def __post_init__(self) -> None:
+        require(self.viscosity > 0, "viscosity", self.viscosity, "Pa s, > 0")
+        require(self.density > 0, "density", self.density, "kg/m³, > 0")
+
+
+@dataclass(frozen=True)
+class GasMixture:
+    """Gas–liquid mixture of Wegmann, (3.41–3.51) of the source [Jonuschies 2015].
+
+    The gap is filled to ``F = p / (p + c)``, p absolute (the source misprints (3.48)).
+
+    Attributes
+    ----------
+    mixing_constant : float
+        c, Pa. Towards 0 the law tends to `MassConserving`.
+    """
+
+    mixing_constant: Annotated[float, Gt(0)]
+
+    def __post_init__(self) -> None:
+        require(self.mixing_constant > 0, "mixing_constant", self.mixing_constant, "Pa, > 0")
+
+
+@dataclass(frozen=True)
+class Sommerfeld:
+    """Full film: pressures below zero are allowed, (3.38) of the source."""
+
+
+@dataclass(frozen=True)
+class Guembel:
+    """Full film whose pressure below the cavitation pressure carries nothing, (3.39).
+
+    Attributes
+    ----------
+    cavitation_pressure : float
+        Pa, absolute.
+    """
+
+    cavitation_pressure: float = 0.0
+
+
+@dataclass(frozen=True)
+class Reynolds:
+    """Swift–Stieber film: p and ∂p/∂n continuous at the rupture, (3.40); not mass conserving.
+
+    Attributes
+    ----------
+    cavitation_pressure : float
+        Pa, absolute.
+    """
+
+    cavitation_pressure: float = 0.0
+
+
+@dataclass(frozen=True)
+class MassConserving:
+    """Jakobsson–Floberg–Olsson film: either full (F = 1) or at cavitation pressure (F < 1).
+
+    Attributes
+    ----------
+    cavitation_pressure : float
+        Pa, absolute.
+    """
+
+    cavitation_pressure: float = 0.0
+
+
+Cavitation = GasMixture | Sommerfeld | Guembel | Reynolds | MassConserving
+Inlet = Literal["widest gap"] | None
+
+
+@dataclass(frozen=True)
+class Groove:
+    """Axial groove, centred across the width, held at one pressure.
+
+    Attributes
+    ----------
+    angle : float
+        Angle of its middle from the first axis toward the second, rad.
+    arc : float
+        Angle it spans, rad; 0 is a line (one column of cells).
+    length : float
+        Axial length as a share of the bearing width, 0…1.
+    pressure : float
+        Supply pressure, Pa, absolute.
+    """
+
+    angle: float
+    arc: Annotated[float, Ge(0)] = 0.0
+    length: Annotated[float, Gt(0), Le(1)] = 1.0
+    pressure: float = 0.0
+
+    def __post_init__(self) -> None:
+        require(0 <= self.arc < 6.28, "arc", self.arc, "rad, 0 … 6.28")
+        require(0 < self.length <= 1, "length", self.length, "share of the width, 0 … 1")
+
+
+@dataclass(frozen=True)
+class Supply:
+    """Lubricant supply through grooves of the shell.
+
+    Attributes
+    ----------
+    grooves : tuple of Groove
+        Grooves; they must not overlap.
+    """
+
+    grooves: tuple[Groove, ...] = ()
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "grooves", tuple(self.grooves))

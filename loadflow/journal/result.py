@@ -1,0 +1,192 @@
+"""What the journal bearing answers."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from loadflow.journal.bearing import JournalBearing
+    from loadflow.journal.equilibrium import Solution
+    from loadflow.journal.film import Film
+    from loadflow.journal.options import Lubricant
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Equilibrium:
+    """Static equilibrium of shaft and film.
+
+    Shapes are those of the input, `force` without its last axis broadcast with `speed`; plain
+    scalars for one load.
+
+    Attributes
+    ----------
+    force : array (…, 2)
+        What the shaft applies to the bearing, N.
+    speed : array (…)
+        Speed of the shaft, rad/s, > 0 from the first axis toward the second.
+    eccentricity : array (…, 2)
+        Shaft centre relative to the shell, m.
+    eccentricity_ratio : array (…)
+        ε = |e|/c.
+    attitude_angle : array (…)
+        From load to eccentricity, > 0 with rotation, rad; π/2 without load.
+    minimum_film : array (…)
+        c (1 − ε), m.
+    maximum_pressure : array (…)
+        Largest pressure of the film, Pa, absolute.
+    sommerfeld_number : array (…)
+        So = p_m ψ²/(η |ω|), (1.13) of the source [Jonuschies 2015].
+    friction_power : array (…)
+        (3.34) of the source: pure liquid over the whole film, W.
+    side_flow : array (…)
+        Oil that leaves through the rims, (3.31–3.33), m³/s.
+    supply_flow : array (…)
+        Oil that the grooves give to the film, net, m³/s; 0 without a supply.
+    total_fill : array (…)
+        ∫F h dA/∫h dA, (3.43).
+    reynolds_number : array (…)
+        Re = ρ ω R c/η.
+    laminar : array of bool (…)
+        Whether Re is below Re_cr = 41.3 √(D/s), (3.14).
+    stiffness, damping : array (…, 2, 2)
+        −∂F_film/∂e (N/m) and −∂F_film/∂ė (N s/m), [i, j].
+    converged : array of bool (…)
+        Whether `residual` fell below the tolerance.
+    iterations : array of int (…)
+        Newton steps.
+    residual : array (…)
+        Largest imbalance of a cell and of the load, over their scales.
+    """
+
+    force: Array
+    speed: Array
+    eccentricity: Array
+    eccentricity_ratio: Array
+    attitude_angle: Array
+    minimum_film: Array
+    maximum_pressure: Array
+    sommerfeld_number: Array
+    friction_power: Array
+    side_flow: Array
+    supply_flow: Array
+    total_fill: Array
+    reynolds_number: Array
+    laminar: NDArray[np.bool_]
+    stiffness: Array
+    damping: Array
+    converged: NDArray[np.bool_]
+    iterations: NDArray[np.int64]
+    residual: Array
+
+
+@dataclass(frozen=True)
+class FilmField:
+    """Film at a given position and velocity of the shaft.
+
+    Attributes
+    ----------
+    film_force : array (…, 2)
+        Force of the film on the shaft, N.
+    force : array (…, 2)
+        What the shaft applies to the bearing, ``−film_force``, N.
+    pressure : array (…, nx, nz)
+        Pressure of the cells, full width, Pa, absolute.
+    fill : array (…, nx, nz)
+        Share of liquid F.
+    angle : array (…, nx)
+        Angle of the cell centres from the first axis toward the second, rad.
+    z : array (nz,)
+        Axial position of the cell centres from mid-plane, m.
+    eccentricity_ratio, minimum_film, maximum_pressure, friction_power, side_flow, supply_flow, \
+total_fill, stiffness, damping, converged, iterations, residual
+        As in `Equilibrium`.
+    """
+
+    film_force: Array
+    force: Array
+    pressure: Array
+    fill: Array
+    angle: Array
+    z: Array
+    eccentricity_ratio: Array
+    minimum_film: Array
+    maximum_pressure: Array
+    friction_power: Array
+    side_flow: Array
+    supply_flow: Array
+    total_fill: Array
+    stiffness: Array
+    damping: Array
+    converged: NDArray[np.bool_]
+    iterations: NDArray[np.int64]
+    residual: Array
+
+
+def stack(rows: list[dict[str, Any]], shape: tuple[int, ...]) -> dict[str, Any]:
+    """Turn a list of rows into arrays of leading `shape`; one row of shape () into scalars."""
+    columns = {}
+    for name in rows[0]:
+        values = np.array([row[name] for row in rows])
+        columns[name] = values.reshape(shape + values.shape[1:])[()]
+    return columns
+
+
+def static_row(
+    bearing: JournalBearing, film: Film, load: Array, lubricant: Lubricant, solution: Solution
+) -> dict[str, Any]:
+    """One row of `Equilibrium`."""
+    speed = film.speed
+    surface = abs(speed) * bearing.radius
+    reynolds = lubricant.density * surface * bearing.clearance / lubricant.viscosity
+    size = float(np.hypot(*load))
+    return {
+        "force": load,
+        "speed": speed,
+        "eccentricity": solution.position * bearing.clearance,
+        "attitude_angle": _attitude(load, solution.position, speed),
+        "sommerfeld_number": bearing.sommerfeld_number(size, speed, lubricant.viscosity),
+        "reynolds_number": reynolds,
+        "laminar": reynolds < 41.3 * bearing.relative_clearance**-0.5,
+        **_common_row(film, solution),
+    }
+
+
+def field_row(film: Film, solution: Solution) -> dict[str, Any]:
+    """One row of `FilmField`, but for z; the half film is mirrored."""
+    pressure, fill, angle, load = film.field(solution.u, solution.position)
+    return {
+        "film_force": -load,
+        "force": load,
+        "pressure": np.concatenate([pressure[:, ::-1], pressure], axis=1),
+        "fill": np.concatenate([fill[:, ::-1], fill], axis=1),
+        "angle": angle,
+        **_common_row(film, solution),
+    }
+
+
+def _common_row(film: Film, solution: Solution) -> dict[str, Any]:
+    clearance = film.relative_clearance * film.radius
+    row: dict[str, Any] = film.summary(solution.u, solution.position)
+    row["eccentricity_ratio"] = float(np.hypot(*solution.position))
+    row["stiffness"] = solution.linear.stiffness / clearance
+    row["damping"] = solution.linear.damping / clearance
+    if not solution.converged:
+        row = {name: np.full_like(value, np.nan) for name, value in row.items()}
+    row["converged"] = solution.converged
+    row["iterations"] = solution.iterations
+    row["residual"] = solution.residual
+    return row
+
+
+def _attitude(load: Array, position: Array, speed: float) -> float:
+    """Angle from load to eccentricity, > 0 with rotation; the limit π/2 where either vanishes."""
+    if not load.any() or not position.any():
+        return 0.5 * np.pi
+    cross = load[0] * position[1] - load[1] * position[0]
+    return float(np.arctan2(np.copysign(1.0, speed) * cross, load @ position))

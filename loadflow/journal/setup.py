@@ -1,0 +1,134 @@
+"""From what the user states to the discrete film."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from loadflow.errors import InputError
+from loadflow.journal.film import Film
+from loadflow.journal.mesh import build_mesh, groove_cells
+from loadflow.journal.options import (
+    Cavitation,
+    GasMixture,
+    Guembel,
+    Lubricant,
+    MassConserving,
+    Reynolds,
+    Supply,
+    require,
+)
+
+Array = NDArray[np.float64]
+Grading = Literal["auto", "uniform", "graded"]
+Inlet = Literal["auto", "widest gap"] | None
+
+SOURCE_GRID = (60, 20)  # the grid of the source, enough for its smooth law
+SHARP_GRID = (120, 32)  # graded, for laws with a sharp rupture
+
+
+@dataclass(frozen=True)
+class FilmOptions:
+    """Lubricant, law, supply and mesh of a film, as documented at `JournalBearing.equilibrium`."""
+
+    lubricant: Lubricant
+    cavitation: Cavitation | None = None
+    edge_pressure: float = 0.0
+    supply: Supply | None = None
+    inlet: Inlet = "auto"
+    grid: tuple[int, int] | None = None
+    grading: Grading = "auto"
+
+    @property
+    def law(self) -> Cavitation:
+        """The law of the ruptured film."""
+        return Reynolds() if self.cavitation is None else self.cavitation
+
+
+def build_film(diameter: float, width: float, clearance: float, options: FilmOptions) -> Film:
+    """Discrete film of a bearing (m, m, relative clearance)."""
+    law, supply = options.law, options.supply
+    _check_oil(law, options.edge_pressure, supply)
+    smooth = isinstance(law, GasMixture)
+    inlet = options.inlet == "widest gap"
+    if options.inlet == "auto":
+        inlet = isinstance(law, Reynolds | Guembel) and supply is None
+    require(not (inlet and supply), "inlet", options.inlet, "None where a supply is given")
+    graded = options.grading == "graded"
+    if options.grading == "auto":
+        graded = not smooth and supply is None
+    around, across = options.grid or (SOURCE_GRID if smooth else SHARP_GRID)
+    mesh = build_mesh(width / diameter, (int(around), int(across)), graded, inlet, supply)
+    return Film(
+        mesh,
+        law,
+        options.lubricant.viscosity,
+        clearance,
+        0.5 * diameter,
+        options.edge_pressure,
+        groove_cells(mesh, supply),
+    )
+
+
+def _check_oil(law: Cavitation, edge_pressure: float, supply: Supply | None) -> None:
+    """Refuse pressures at which a mass-conserving film would run dry, or rupture at its rim."""
+    pressures = (
+        [edge_pressure, *(g.pressure for g in supply.grooves)] if supply else [edge_pressure]
+    )
+    require(np.isfinite(edge_pressure), "edge_pressure", edge_pressure, "Pa, absolute, finite")
+    if isinstance(law, GasMixture):
+        require(min(pressures) >= 0, "edge_pressure", min(pressures), "Pa, absolute, ≥ 0")
+        require(
+            max(pressures) > 0,
+            "edge_pressure",
+            edge_pressure,
+            "Pa, > 0 somewhere, or no oil enters",
+        )
+        return
+    floor = getattr(law, "cavitation_pressure", -np.inf)
+    require(
+        min(pressures) >= floor,
+        "edge_pressure",
+        min(pressures),
+        f"≥ cavitation pressure {floor} Pa",
+    )
+    if isinstance(law, MassConserving):
+        require(max(pressures) > floor, "edge_pressure", edge_pressure,
+                f"above the cavitation pressure {floor} Pa somewhere, or no oil enters")  # fmt: skip
+
+
+def operating_points(
+    vectors: ArrayLike, speed: ArrayLike, name: str
+) -> tuple[Array, Array, tuple[int, ...]]:
+    """Broadcast vectors (…, 2) with speeds (…); finite values only.
+
+    Returns
+    -------
+    vectors : array (n, 2)
+    speed : array (n,)
+    shape : tuple of int
+    """
+    vectors = np.asarray(vectors, dtype=float)
+    speed = np.asarray(speed, dtype=float)
+    if vectors.ndim == 0 or vectors.shape[-1] != 2:
+        raise InputError(f"{name} has shape {vectors.shape}: the last axis must have 2 components")
+    for label, values in ((name, vectors), ("speed", speed)):
+        bad = np.argwhere(~np.isfinite(values))
+        if bad.size:
+            raise InputError(f"{label}{bad[0].tolist()} = {values[tuple(bad[0])]}: must be finite")
+    try:
+        shape = np.broadcast_shapes(vectors.shape[:-1], speed.shape)
+    except ValueError as error:
+        raise InputError(
+            f"{name} {vectors.shape} and speed {speed.shape} do not broadcast"
+        ) from error
+    if 0 in shape:
+        raise InputError(f"{name} is empty: shape {vectors.shape}")
+    return (
+        np.broadcast_to(vectors, (*shape, 2)).reshape(-1, 2),
+        np.broadcast_to(speed, shape).ravel(),
+        shape,
+    )
