@@ -67,7 +67,7 @@ class TwoPoint:
 
 @dataclass(frozen=True)
 class ThreePoint:
-    """One main bearing N, which locates, and the two torque arms of the gearbox as second support G.
+    """One main bearing N, which locates, and the torque arms of the gearbox as second support G.
 
     Attributes
     ----------
