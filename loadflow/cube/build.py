@@ -110,6 +110,8 @@ def make_cube(cases: Sequence[xr.Dataset]) -> Cube:
     loadflow.errors.InputError
         No case, a case that is not sound, two cases of one name, or different variables.
     """
+    if not cases:
+        raise InputError("a load cube needs one case or more, none was given")
     groups: dict[tuple[int, float], list[xr.Dataset]] = {}
     names: set[str] = set()
     for named in _weighted([_named(case) for case in cases]):
@@ -121,8 +123,6 @@ def make_cube(cases: Sequence[xr.Dataset]) -> Cube:
         check_case(named, source=source, name=name)
         step, time = regular_time(named["time"].values)
         groups.setdefault((time.size, step), []).append(named)
-    if not groups:
-        raise InputError("a load cube needs one case or more, none was given")
     cubes = {
         f"t{(n - 1) * step:.10g}_dt{step:.10g}": _stack(group)
         for (n, step), group in groups.items()

@@ -71,6 +71,8 @@ def open_cube(path: str | os.PathLike[str], chunks: Any = None) -> Cube:
         No such file or folder, nothing in it, or a file that is truncated or no HDF5.
     """
     path = Path(path)
+    if chunks is not None:
+        _need_dask()
     if path.is_dir():
         files = sorted(p for p in path.iterdir() if p.suffix in SUFFIXES)
         if not files:
@@ -86,6 +88,13 @@ def open_cube(path: str | os.PathLike[str], chunks: Any = None) -> Cube:
     if not path.is_file():
         raise InputError(f"{path}: no such load cube, neither file nor folder")
     return _open(path, chunks)
+
+
+def _need_dask() -> None:
+    try:
+        import dask  # noqa: F401
+    except ImportError:
+        raise InputError("chunks= needs dask: pip install 'loadflow[dask]'") from None
 
 
 def _open(path: Path, chunks: Any) -> Cube:
