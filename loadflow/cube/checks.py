@@ -15,7 +15,8 @@ if TYPE_CHECKING:
 
     from loadflow.cube.build import Cube
 
-JITTER = 0.01  # share of the step by which a stamp may miss the regular grid
+JITTER = 0.01  # share of the step within which all stamps must lie about the regular grid
+NOISE = 1e-9  # s, of arithmetic
 
 
 def check_cube(cube: Cube, source: str = "") -> None:
@@ -79,7 +80,7 @@ def check_case(case: xr.Dataset, source: str = "", name: str = "") -> None:
 def regular_time(stamps: ArrayLike, where: str = "time") -> tuple[float, NDArray[np.float64]]:
     """Return step and regular stamps of a time axis, with the noise of its stamps removed.
 
-    Stamps may miss the regular grid by 1 % of the step, or by what their printed digits cost.
+    Stamps may spread about the regular grid by 1 % of the step, or by what their digits cost.
 
     Parameters
     ----------
@@ -106,12 +107,9 @@ def regular_time(stamps: ArrayLike, where: str = "time") -> tuple[float, NDArray
     _fail_at(~np.isfinite(t), t, f"{where}, variable 'time'", "is not finite")
     rising = np.diff(t) > 0
     _fail_at(np.r_[False, ~rising], t, f"{where}, variable 'time'", "does not rise")
-    resolution = _resolution(t)
-    step = _simplest((t[-1] - t[0]) / (t.size - 1), max(resolution, 1e-9) / (t.size - 1))
-    regular = t[0] + step * np.arange(t.size)
-    off = np.abs(t - regular) > max(JITTER * step, 0.75 * resolution)
-    if off.any():
-        # the first of the oddest steps is where the series was cut, not where the fit first misses
+    step = _regular_step(t)
+    if step is None:
+        # the first of the oddest steps is where the series was cut, not where a fit first misses
         usual = float(np.median(np.diff(t)))
         odd = np.abs(np.diff(t) - usual)
         i = int(np.argmax(odd > 0.5 * odd.max())) + 1
@@ -119,7 +117,25 @@ def regular_time(stamps: ArrayLike, where: str = "time") -> tuple[float, NDArray
             f"{where}, variable 'time', index {i}: steps are not equal, {t[i - 1]:g} s is followed "
             f"by {t[i]:g} s where the usual step is {usual:g} s"
         )
-    return step, regular
+    return step, t[0] + step * np.arange(t.size)
+
+
+def _regular_step(t: NDArray[np.float64]) -> float | None:
+    """Shortest decimal number that is the step of all stamps, so that equal nominal steps agree.
+
+    A step that the digits of the stamps can express was not rounded, and gets no allowance.
+    """
+    digit = _resolution(t)
+    count = np.arange(t.size)
+    mean = (t[-1] - t[0]) / (t.size - 1)
+    for digits in range(1, 16):
+        step = float(f"{mean:.{digits}g}")
+        rounded = digit > 0 and abs(step / digit - round(step / digit)) > 1e-6
+        lost = 1.001 * digit if rounded else 0.0
+        drift = abs(step - mean) * (t.size - 1)
+        if drift <= lost + NOISE and np.ptp(t - step * count) <= max(lost, JITTER * step):
+            return step
+    return None
 
 
 def _resolution(t: NDArray[np.float64]) -> float:
@@ -131,15 +147,6 @@ def _resolution(t: NDArray[np.float64]) -> float:
     if np.array_equal(single, t):
         return float(np.spacing(np.abs(single).max()))
     return 0.0
-
-
-def _simplest(value: float, tolerance: float) -> float:
-    """Shortest decimal number within the tolerance, so that equal nominal steps compare equal."""
-    for digits in range(1, 16):
-        short = float(f"{value:.{digits}g}")
-        if abs(short - value) <= tolerance:
-            return short
-    return value
 
 
 def _check_variable(array: xr.DataArray, name: str, where: str) -> None:

@@ -127,11 +127,16 @@ def test_stamps_rounded_in_print_give_back_the_regular_grid(dt, n, start, digits
     np.testing.assert_allclose(time, stamps, atol=2 * quantum, rtol=0)
 
 
-@given(st.integers(3, 500), st.data(), st.sampled_from([0.2, 0.5, 1.0, -0.3]))
-def test_a_stamp_out_of_place_is_found(n, data, shift):
-    stamps = 0.025 * np.arange(n)
+@given(
+    st.integers(10, 500),  # 0, 0.03, 0.05 alone might be rounded stamps of 0.025
+    st.data(),
+    st.sampled_from([0.2, 0.5, -0.3]),
+    st.sampled_from([0.01, 0.025, 0.5, 2.0]),
+)
+def test_a_stamp_out_of_place_is_found(n, data, shift, dt):
+    stamps = dt * np.arange(n)
     i = data.draw(st.integers(1, n - 2))
-    stamps[i] += shift * 0.025
+    stamps[i] += shift * dt
     with pytest.raises(InputError, match=f"index {i}|index {i + 1}"):
         regular_time(stamps)
 
