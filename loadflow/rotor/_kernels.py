@@ -1,0 +1,348 @@
+"""Compiled time loop of the rotor: wind at each section, blade loads, modes, speed and control.
+
+Axes of one blade: x along the shaft (downwind), r outward, t in the sense of rotation; (x, r, t) is
+right-handed. Shaft frame: e_r = −sin ψ y + cos ψ z, e_t = −cos ψ y − sin ψ z.
+"""
+
+import numpy as np
+from numba import njit
+
+from .aero._kernels import section_force, solve
+
+GRAVITY = 9.80665
+
+# columns of the output
+SPEED, PITCH, AZIMUTH, FX, FY, FZ, MX, MY, MZ, WIND_X, WIND_Y, WIND_Z, TIP, TORQUE = range(14)
+COLUMNS = 14
+
+# slots of the scalar state
+S_AZIMUTH, S_SPEED, S_RATE, S_FILTERED, S_INTEGRAL, S_PITCH, S_TORQUE, S_AXIAL, S_Y, S_Z = range(10)
+SLOTS = 10
+
+
+@njit(cache=True, nogil=True)
+def turbulence(inflow, component, time, y, z):
+    """One component of the box at a point of the rotor plane: linear in time, radius and angle."""
+    count = component.shape[0]
+    position = (time / inflow.box_step) % count
+    k = min(int(position), count - 1)
+    late = position - k
+    k_next = k + 1 if k + 1 < count else 0
+
+    radius = np.sqrt(y * y + z * z)
+    i = min(np.searchsorted(inflow.box_radius, radius, side="right") - 1, inflow.box_radius.size - 2)
+    width = inflow.box_radius[i + 1] - inflow.box_radius[i]
+    outer = min((radius - inflow.box_radius[i]) / width, 1.0)
+
+    angles = component.shape[2]
+    around = (np.arctan2(-y, z) * (angles / (2 * np.pi))) % angles
+    j = min(int(around), angles - 1)
+    turn = around - j
+    j_next = j + 1 if j + 1 < angles else 0
+
+    value = 0.0
+    for plane, share in ((k, 1 - late), (k_next, late)):
+        inner_value = component[plane, i, j] * (1 - turn) + component[plane, i, j_next] * turn
+        outer_value = component[plane, i + 1, j] * (1 - turn) + component[plane, i + 1, j_next] * turn
+        value += share * (inner_value * (1 - outer) + outer_value * outer)
+    return value
+
+
+@njit(cache=True, nogil=True)
+def wind_at(m, inflow, step, time, x, y, z):
+    """Wind (X, Y, Z) in the ground frame, tower dam included, at a point relative to the hub."""
+    mean = inflow.speed[step]
+    height = max(m.hub_height + z, 1.0)
+    speed = mean * (height / m.hub_height) ** inflow.shear
+    speed += inflow.vertical[step] * z + inflow.horizontal[step] * y
+    direction = inflow.direction[step]
+    wind_x, wind_y, wind_z = speed * np.cos(direction), speed * np.sin(direction), 0.0
+    if inflow.u.shape[0] > 0:
+        shifted = time - x / max(mean, 1.0)
+        wind_x += turbulence(inflow, inflow.u, shifted, y, z)
+        if inflow.v.shape[0] > 0:
+            wind_y += turbulence(inflow, inflow.v, shifted, y, z)
+        if inflow.w.shape[0] > 0:
+            wind_z += turbulence(inflow, inflow.w, shifted, y, z)
+    if m.tower_base_radius > 0 and height < m.tower_height:
+        share = height / m.tower_height
+        radius = m.tower_base_radius + (m.tower_top_radius - m.tower_base_radius) * share
+        along = x - m.tower_distance * np.cos(m.tilt)
+        square = along * along + y * y
+        if square > radius * radius:
+            dam = radius * radius / (square * square)
+            dam_x, dam_y = dam * (along * along - y * y), dam * 2 * along * y
+            wind_x, wind_y = (
+                wind_x * (1 - dam_x) - wind_y * dam_y,
+                wind_y * (1 + dam_x) - wind_x * dam_y,
+            )
+    return wind_x, wind_y, wind_z
+
+
+@njit(cache=True, nogil=True)
+def tabulated_induction(m, i, pitch, normal, tangential):
+    """Induction factors from the table over inflow angle and pitch; solved outside of it."""
+    speed = np.sqrt(normal * normal + tangential * tangential)
+    angle = np.arctan2(normal, tangential)
+    p = (angle - m.table_angle[0]) / m.table_angle[1]
+    q = (pitch - m.table_pitch[0]) / m.table_pitch[1]
+    _, rows, columns, _ = m.table.shape
+    if not (0 <= p < rows - 1 and 0 <= q < columns - 1) or speed < 1e-3:
+        _, a, swirl = solve(m, i, pitch, normal, tangential, 0.0)
+        return a, swirl
+    row, column = int(p), int(q)
+    p -= row
+    q -= column
+    t = m.table[i]
+    normal_part = (t[row, column, 0] * (1 - q) + t[row, column + 1, 0] * q) * (1 - p) + (
+        t[row + 1, column, 0] * (1 - q) + t[row + 1, column + 1, 0] * q
+    ) * p
+    tangential_part = (t[row, column, 1] * (1 - q) + t[row, column + 1, 1] * q) * (1 - p) + (
+        t[row + 1, column, 1] * (1 - q) + t[row + 1, column + 1, 1] * q
+    ) * p
+    a = normal_part * speed / normal if abs(normal) > 1e-3 else 0.0
+    swirl = tangential_part * speed / tangential if abs(tangential) > 1e-3 else 0.0
+    return a, swirl
+
+
+@njit(cache=True, nogil=True)
+def skewed(m, a, r_y, r_z, state):
+    """Induction factor redistributed over the disc under oblique inflow (Pitt and Peters)."""
+    across = np.sqrt(state[S_Y] ** 2 + state[S_Z] ** 2)
+    if m.skew_factor == 0 or across < 1e-6 or state[S_AXIAL] < 0.1 or a <= 0:
+        return a
+    skew = (0.6 * a + 1) * np.arctan2(across, state[S_AXIAL])
+    downstream = (r_y * state[S_Y] + r_z * state[S_Z]) / (across * m.tip_radius)
+    return a * (1 + m.skew_factor * np.tan(0.5 * min(skew, 1.5)) * downstream)
+
+
+@njit(cache=True, nogil=True)
+def control_torque(c, speed, pitch):
+    """Generator torque of the speed, N m (regions 1 to 3; 3 is held above 1° of pitch)."""
+    if speed >= c.rated_speed or pitch >= np.radians(1.0):
+        torque = c.rated_power / max(speed, 1.0)
+    elif speed <= c.region_15_start:
+        torque = 0.0
+    elif speed < c.region_2_start:
+        top = c.region_2_gain * c.region_2_start**2
+        share = (speed - c.region_15_start) / (c.region_2_start - c.region_15_start)
+        torque = top * share
+    else:
+        slope = c.rated_power / c.rated_speed / (c.rated_speed - c.synchronous_speed)
+        # region 2 follows the parabola until the line of region 2 1/2 crosses it
+        torque = max(c.region_2_gain * speed**2, slope * (speed - c.synchronous_speed))
+    return min(torque, c.maximum_torque)
+
+
+@njit(cache=True, nogil=True)
+def control(m, c, state, dt):
+    """One step of the control: filtered speed, generator torque, collective pitch."""
+    share = 1 - np.exp(-dt * c.filter_rate)
+    state[S_FILTERED] += share * (m.gear_ratio * state[S_SPEED] - state[S_FILTERED])
+    speed, pitch = state[S_FILTERED], state[S_PITCH]
+
+    change = control_torque(c, speed, pitch) - state[S_TORQUE]
+    state[S_TORQUE] += min(max(change, -c.torque_rate * dt), c.torque_rate * dt)
+
+    gain = 1 / (1 + pitch / c.gain_halving_pitch)
+    error = speed - c.reference_speed
+    span = gain * c.integral_gain
+    integral = state[S_INTEGRAL] + error * dt
+    state[S_INTEGRAL] = min(max(integral, c.minimum_pitch / span), c.maximum_pitch / span)
+    wanted = gain * c.proportional_gain * error + span * state[S_INTEGRAL]
+    change = min(max(wanted, c.minimum_pitch), c.maximum_pitch) - pitch
+    state[S_PITCH] += min(max(change, -c.pitch_rate * dt), c.pitch_rate * dt)
+
+
+@njit(cache=True, nogil=True)
+def blade_aerodynamics(m, inflow, step, time, azimuth, pitch, speed, motion, state, guess, force):
+    """Aerodynamic force (normal, tangential) on each section of one blade, N.
+
+    `motion` (n, 4): deflection normal, tangential and their rates; `guess` (n,): inflow angles of
+    the step before, replaced. Returns the means of the axial and the in-plane wind (x, y, z).
+    """
+    sine, cosine = np.sin(azimuth), np.cos(azimuth)
+    cone_s, cone_c = np.sin(m.cone), np.cos(m.cone)
+    tilt_s, tilt_c = np.sin(m.tilt), np.cos(m.tilt)
+    count = m.radius.size
+    mean_x = mean_y = mean_z = 0.0
+    for i in range(count):
+        along, out, turn = position(m, i, motion, cone_s, cone_c)
+        y, z = -sine * out - cosine * turn, cosine * out - sine * turn
+        ground_x, ground_z = along * tilt_c + z * tilt_s, z * tilt_c - along * tilt_s
+        wind_x, wind_y, wind_z = wind_at(m, inflow, step, time, ground_x, y, ground_z)
+        shaft_x = wind_x * tilt_c - wind_z * tilt_s
+        shaft_z = wind_x * tilt_s + wind_z * tilt_c
+        radial = -sine * wind_y + cosine * shaft_z
+        normal = shaft_x * cone_c + radial * cone_s - motion[i, 2]
+        tangential = speed * out + motion[i, 3] + cosine * wind_y + sine * shaft_z
+        if m.table.shape[0] > 0:
+            a, swirl = tabulated_induction(m, i, pitch, normal, tangential)
+        else:
+            angle, a, swirl = solve(m, i, pitch, normal, tangential, guess[i])
+            guess[i] = angle
+        a = skewed(m, a, y, z, state)
+        f_normal, f_tangential = section_force(m, i, pitch, normal, tangential, a, swirl)
+        force[i, 0] = f_normal * m.width[i]
+        force[i, 1] = f_tangential * m.width[i]
+        mean_x += shaft_x / count
+        mean_y += wind_y / count
+        mean_z += shaft_z / count
+    return mean_x, mean_y, mean_z
+
+
+@njit(cache=True, nogil=True)
+def position(m, i, motion, cone_s, cone_c):
+    """Section i in the axes (x, r, t) of its blade."""
+    along = -m.radius[i] * cone_s + motion[i, 0] * cone_c
+    out = m.radius[i] * cone_c + motion[i, 0] * cone_s
+    return along, out, motion[i, 1]
+
+
+@njit(cache=True, nogil=True)
+def deflection(m, pitch, q, v, motion):
+    """Deflection and its rate at each section; the modes turn with the pitch."""
+    c, s = np.cos(pitch), np.sin(pitch)
+    motion[:] = 0.0
+    for i in range(m.radius.size):
+        for k in range(q.size):
+            normal = m.shape[i, k, 0] * c - m.shape[i, k, 1] * s
+            tangential = m.shape[i, k, 0] * s + m.shape[i, k, 1] * c
+            motion[i, 0] += normal * q[k]
+            motion[i, 1] += tangential * q[k]
+            motion[i, 2] += normal * v[k]
+            motion[i, 3] += tangential * v[k]
+
+
+@njit(cache=True, nogil=True)
+def blade_motion(m, b, dt, speed, rate, azimuth, pitch, force, motion, q, v, acc):
+    """Newmark step of the modes of one blade (constant mean acceleration), in place.
+
+    `force` (n, 2) holds the aerodynamic force, found at the predicted motion.
+    """
+    modes = q.size
+    cone_s, cone_c = np.sin(m.cone), np.cos(m.cone)
+    c, s = np.cos(pitch), np.sin(pitch)
+    gravity_x, gravity_z = GRAVITY * np.sin(m.tilt), -GRAVITY * np.cos(m.tilt)
+    gravity_r, gravity_t = np.cos(azimuth) * gravity_z, -np.sin(azimuth) * gravity_z
+    gravity_n = gravity_x * cone_c + gravity_r * cone_s
+    load = np.zeros(modes)
+    for i in range(m.radius.size):
+        _, out, turn = position(m, i, motion, cone_s, cone_c)
+        inertia_r = -(speed**2) * out - 2 * speed * motion[i, 3] - rate * turn
+        inertia_t = 2 * speed * motion[i, 2] * cone_s + rate * out - speed**2 * turn
+        mass = m.mass[i] * m.mass_factor[b]
+        normal = force[i, 0] + mass * (gravity_n - inertia_r * cone_s)
+        tangential = force[i, 1] + mass * (gravity_t - inertia_t)
+        for k in range(modes):
+            load[k] += (m.shape[i, k, 0] * c - m.shape[i, k, 1] * s) * normal
+            load[k] += (m.shape[i, k, 0] * s + m.shape[i, k, 1] * c) * tangential
+    outward = gravity_r * cone_c - gravity_x * cone_s
+    stiffness = (
+        m.modal_stiffness
+        + m.mass_factor[b] * (speed**2 * m.centrifugal + outward * m.axial_gravity)
+    )
+    q_free = q + dt * v + 0.25 * dt * dt * acc
+    v_free = v + 0.5 * dt * acc
+    system = (
+        m.mass_factor[b] * m.modal_mass + 0.5 * dt * m.modal_damping + 0.25 * dt * dt * stiffness
+    )
+    for k in range(modes):
+        for j in range(modes):
+            load[k] -= m.modal_damping[k, j] * v_free[j] + stiffness[k, j] * q_free[j]
+    acc[:] = np.linalg.solve(system, load)
+    q[:] = q_free + 0.25 * dt * dt * acc
+    v[:] = v_free + 0.5 * dt * acc
+
+
+@njit(cache=True, nogil=True)
+def blade_root(m, b, speed, rate, azimuth, pitch, force, motion, acc, total):
+    """Add what one blade applies to the hub at the apex: aerodynamics, weight and inertia.
+
+    `total` (7,): force and moment in the shaft frame, then the moment of inertia about the shaft.
+    """
+    cone_s, cone_c = np.sin(m.cone), np.cos(m.cone)
+    c, s = np.cos(pitch), np.sin(pitch)
+    sine, cosine = np.sin(azimuth), np.cos(azimuth)
+    gravity_x, gravity_z = GRAVITY * np.sin(m.tilt), -GRAVITY * np.cos(m.tilt)
+    for i in range(m.radius.size):
+        along, out, turn = position(m, i, motion, cone_s, cone_c)
+        bend_n = bend_t = 0.0
+        for k in range(acc.size):
+            bend_n += (m.shape[i, k, 0] * c - m.shape[i, k, 1] * s) * acc[k]
+            bend_t += (m.shape[i, k, 0] * s + m.shape[i, k, 1] * c) * acc[k]
+        mass = m.mass[i] * m.mass_factor[b]
+        a_x = bend_n * cone_c
+        a_r = bend_n * cone_s - speed**2 * out - 2 * speed * motion[i, 3] - rate * turn
+        a_t = bend_t + 2 * speed * motion[i, 2] * cone_s + rate * out - speed**2 * turn
+        f_x = force[i, 0] * cone_c + mass * (gravity_x - a_x)
+        f_r = force[i, 0] * cone_s + mass * (cosine * gravity_z - a_r)
+        f_t = force[i, 1] + mass * (-sine * gravity_z - a_t)
+        m_r, m_t = turn * f_x - along * f_t, along * f_r - out * f_x
+        total[0] += f_x
+        total[1] += -sine * f_r - cosine * f_t
+        total[2] += cosine * f_r - sine * f_t
+        total[3] += out * f_t - turn * f_r
+        total[4] += -sine * m_r - cosine * m_t
+        total[5] += cosine * m_r - sine * m_t
+        total[6] += mass * (out * out + turn * turn)
+
+
+@njit(cache=True, nogil=True)
+def march(m, c, inflow, dt, steps, start, controlled, state, q, v, acc, guess, out):
+    """March the rotor; `state` (SLOTS,), `q`, `v`, `acc` (blades, k), `guess` (blades, n) go on.
+
+    Not `controlled`: speed and pitch stay. `out` (steps, COLUMNS) is filled.
+    """
+    sections = m.radius.size
+    motion = np.zeros((sections, 4))
+    force = np.zeros((m.blades, sections, 2))
+    total = np.zeros(7)
+    old_rate = state[S_RATE]
+    for step in range(steps):
+        time = start + step * dt
+        speed, rate, common = state[S_SPEED], state[S_RATE], state[S_PITCH]
+        total[:] = 0.0
+        mean = np.zeros(3)
+        for b in range(m.blades):
+            azimuth = state[S_AZIMUTH] + 2 * np.pi * b / m.blades
+            pitch = common + m.pitch_offset[b]
+            ahead = q[b] + dt * v[b] + 0.5 * dt * dt * acc[b]
+            deflection(m, pitch, ahead, v[b] + dt * acc[b], motion)
+            wind = blade_aerodynamics(
+                m, inflow, step, time, azimuth, pitch, speed, motion, state, guess[b], force[b]
+            )
+            for axis in range(3):
+                mean[axis] += wind[axis] / m.blades
+            if q.shape[1] > 0:
+                blade_motion(
+                    m, b, dt, speed, rate, azimuth, pitch, force[b], motion, q[b], v[b], acc[b]
+                )
+                deflection(m, pitch, q[b], v[b], motion)
+            if b == 0:
+                out[step, TIP] = motion[sections - 1, 0]
+            blade_root(m, b, speed, rate, azimuth, pitch, force[b], motion, acc[b], total)
+        state[S_AXIAL], state[S_Y], state[S_Z] = mean[0], mean[1], mean[2]
+
+        inertia = total[6] + m.hub_inertia
+        torque = total[3] + total[6] * rate  # without the inertia of the changing speed
+        if controlled:
+            rate = (torque - m.gear_ratio * state[S_TORQUE]) / (inertia + m.generator_inertia)
+        out[step, SPEED] = speed
+        out[step, PITCH] = common
+        out[step, AZIMUTH] = state[S_AZIMUTH] % (2 * np.pi)
+        out[step, FX] = total[0] + m.hub_mass * GRAVITY * np.sin(m.tilt)
+        out[step, FY] = total[1]
+        out[step, FZ] = total[2] - m.hub_mass * GRAVITY * np.cos(m.tilt)
+        out[step, MX] = torque - inertia * rate
+        out[step, MY] = total[4]
+        out[step, MZ] = total[5]
+        hub = wind_at(m, inflow, step, time, 0.0, 0.0, 0.0)
+        out[step, WIND_X], out[step, WIND_Y], out[step, WIND_Z] = hub[0], hub[1], hub[2]
+        out[step, TORQUE] = state[S_TORQUE]
+
+        if controlled:
+            control(m, c, state, dt)
+            state[S_SPEED] = speed + dt * (1.5 * rate - 0.5 * old_rate)
+            state[S_RATE] = old_rate = rate
+        state[S_AZIMUTH] += 0.5 * dt * (speed + state[S_SPEED])

@@ -1,0 +1,1 @@
+"""Blade-element momentum: the flow at one section."""

@@ -1,0 +1,143 @@
+"""Compiled blade-element momentum at one section.
+
+Ning, "A simple solution method for the blade element momentum equations with guaranteed
+convergence", Wind Energy 17 (2014): one residual in the inflow angle, bracketed. Prandtl's tip and
+hub loss, Buhl's correction at high induction.
+"""
+
+import numpy as np
+from numba import njit
+
+_SMALL = 1e-6
+_HALF_PI = 0.5 * np.pi
+_BRACKET = 0.02  # rad, around the inflow angle of the step before
+_TOLERANCE = 1e-7  # rad
+_MOMENTUM_LIMIT = 2.0 / 3.0
+
+
+@njit(cache=True, nogil=True)
+def polar(table, angle):
+    """Linear interpolation in a table over −π … π in equal steps."""
+    count = table.size - 1
+    wrapped = (angle + np.pi) % (2 * np.pi)
+    position = wrapped * (count / (2 * np.pi))
+    i = min(int(position), count - 1)
+    share = position - i
+    return table[i] * (1 - share) + table[i + 1] * share
+
+
+@njit(cache=True, nogil=True)
+def loss(m, i, sine):
+    """Prandtl's tip and hub loss at section i for |sin φ|."""
+    radius = m.radius[i]
+    half = 0.5 * m.blades / max(sine, 1e-9)
+    tip = np.arccos(min(1.0, np.exp(-half * (m.tip_radius - radius) / radius)))
+    factor = tip * 2 / np.pi
+    if m.hub_radius > 0:
+        root = np.exp(-half * (radius - m.hub_radius) / m.hub_radius)
+        factor *= np.arccos(min(1.0, root)) * 2 / np.pi
+    return max(factor, 1e-4)
+
+
+@njit(cache=True, nogil=True)
+def induction(m, i, angle, pitch, normal, tangential):
+    """Induction factors that the forces at inflow angle φ ask for, and the residual of φ."""
+    sine, cosine = np.sin(angle), np.cos(angle)
+    attack = angle - m.twist[i] - pitch
+    lift = polar(m.lift[i], attack)
+    drag = polar(m.drag[i], attack) if m.drag_in_induction else 0.0
+    force_normal = lift * cosine + drag * sine
+    force_tangential = lift * sine - drag * cosine
+    solidity = m.blades * m.chord[i] / (2 * np.pi * m.radius[i])
+    prandtl = loss(m, i, abs(sine))
+    k = solidity * force_normal / (4 * prandtl * sine * sine)
+    k_swirl = solidity * force_tangential / (4 * prandtl * sine * cosine)
+    if normal * tangential < 0:
+        k_swirl = -k_swirl
+    if angle > 0:
+        if k <= _MOMENTUM_LIMIT:
+            a = k / (1 + k) if k > -0.9 else -9.0
+        else:
+            g1 = 2 * prandtl * k - (10.0 / 9.0 - prandtl)
+            g2 = max(2 * prandtl * k - prandtl * (4.0 / 3.0 - prandtl), 0.0)
+            g3 = 2 * prandtl * k - (25.0 / 9.0 - 2 * prandtl)
+            a = 1 - 0.5 / np.sqrt(g2) if abs(g3) < _SMALL else (g1 - np.sqrt(g2)) / g3
+        swirl = k_swirl / (1 - k_swirl) if abs(1 - k_swirl) > _SMALL else 0.0
+        if normal < 0:
+            swirl = 0.0
+        residual = sine / (1 - a) - normal / tangential * cosine * (1 - k_swirl)
+    else:
+        a = k / (k - 1) if k > 1 else 0.0
+        swirl = k_swirl / (1 - k_swirl) if abs(1 - k_swirl) > _SMALL else 0.0
+        residual = sine * (1 - k) - normal / tangential * cosine * (1 - k_swirl)
+    return residual, a, swirl
+
+
+@njit(cache=True, nogil=True)
+def _root(m, i, low, high, f_low, f_high, pitch, normal, tangential):
+    """False position with Anderson and Björck's weights; ends in bisection if it must."""
+    for step in range(60):
+        middle = high - f_high * (high - low) / (f_high - f_low)
+        if step > 25 or not low < middle < high:
+            middle = 0.5 * (low + high)
+        f_middle = induction(m, i, middle, pitch, normal, tangential)[0]
+        if f_middle == 0.0 or high - low < _TOLERANCE:
+            return middle
+        if f_middle * f_low < 0:
+            weight = 1 - f_middle / f_high
+            high, f_high = middle, f_middle
+            f_low *= weight if weight > 0 else 0.5
+        else:
+            weight = 1 - f_middle / f_low
+            low, f_low = middle, f_middle
+            f_high *= weight if weight > 0 else 0.5
+        if abs(f_middle) < 1e-9:
+            return middle
+    return 0.5 * (low + high)
+
+
+@njit(cache=True, nogil=True)
+def solve(m, i, pitch, normal, tangential, guess):
+    """Inflow angle, axial and tangential induction factor of section i.
+
+    `normal`, `tangential`: undisturbed speed of the air across and along the rotor plane, as the
+    moving section meets it, m/s. `guess`: inflow angle near by, or 0.
+    """
+    if abs(normal) < 1e-3 or abs(tangential) < 1e-3:
+        return np.arctan2(normal, tangential), 0.0, 0.0
+    if guess > _BRACKET + _SMALL and guess < _HALF_PI - _BRACKET - _SMALL:
+        low, high = guess - _BRACKET, guess + _BRACKET
+        f_low = induction(m, i, low, pitch, normal, tangential)[0]
+        f_high = induction(m, i, high, pitch, normal, tangential)[0]
+        if f_low * f_high < 0:
+            angle = _root(m, i, low, high, f_low, f_high, pitch, normal, tangential)
+            _, a, swirl = induction(m, i, angle, pitch, normal, tangential)
+            return angle, a, swirl
+    for bracket in range(3):
+        if bracket == 0:
+            low, high = _SMALL, _HALF_PI - _SMALL
+        elif bracket == 1:
+            low, high = -0.25 * np.pi, -_SMALL
+        else:
+            low, high = _HALF_PI + _SMALL, np.pi - _SMALL
+        f_low = induction(m, i, low, pitch, normal, tangential)[0]
+        f_high = induction(m, i, high, pitch, normal, tangential)[0]
+        if f_low * f_high < 0:
+            angle = _root(m, i, low, high, f_low, f_high, pitch, normal, tangential)
+            _, a, swirl = induction(m, i, angle, pitch, normal, tangential)
+            return angle, a, swirl
+    return np.arctan2(normal, tangential), 0.0, 0.0
+
+
+@njit(cache=True, nogil=True)
+def section_force(m, i, pitch, normal, tangential, a, swirl):
+    """Force per length (normal, tangential), N/m, for given induction factors."""
+    w_normal = normal * (1 - a)
+    w_tangential = tangential * (1 + swirl)
+    angle = np.arctan2(w_normal, w_tangential)
+    attack = angle - m.twist[i] - pitch
+    lift = polar(m.lift[i], attack)
+    drag = polar(m.drag[i], attack)
+    pressure = 0.5 * m.air_density * m.chord[i] * (w_normal**2 + w_tangential**2)
+    sine, cosine = np.sin(angle), np.cos(angle)
+    return pressure * (lift * cosine + drag * sine), pressure * (lift * sine - drag * cosine)

@@ -1,0 +1,265 @@
+"""A turbine as the compiled loops see it: plain numbers and arrays, made once per rung."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from loadflow.turbines import Blade, Mode, Turbine
+
+from .options import RotorOptions
+
+Array = NDArray[np.float64]
+
+GRAVITY = 9.80665
+"""Standard gravity, m/s²."""
+_POLAR_STEP = np.radians(0.5)
+_FINE = 2001
+
+
+class Machine(NamedTuple):
+    """Rotor, blades and drivetrain; SI, radians. Sections are the aerodynamic ones.
+
+    ``n`` sections per blade, ``k`` modes; the mode shapes hold at zero pitch, (normal, tangential).
+    """
+
+    blades: int
+    tip_radius: float
+    hub_radius: float
+    hub_height: float
+    tilt: float
+    cone: float
+    hub_mass: float
+    hub_inertia: float
+    generator_inertia: float  # referred to the rotor
+    gear_ratio: float
+    radius: Array  # (n,)
+    width: Array  # (n,)
+    chord: Array  # (n,)
+    twist: Array  # (n,)
+    lift: Array  # (n, p), over −π … π in equal steps
+    drag: Array  # (n, p)
+    mass: Array  # (n,), kg
+    shape: Array  # (n, k, 2)
+    modal_mass: Array  # (k, k)
+    modal_stiffness: Array  # (k, k)
+    modal_damping: Array  # (k, k)
+    centrifugal: Array  # (k, k), stiffness per Ω²
+    axial_gravity: Array  # (k, k), stiffness per outward component of gravity
+    mass_factor: Array  # (blades,)
+    pitch_offset: Array  # (blades,)
+    tower_distance: float  # rotor apex to tower axis, along the shaft
+    tower_base_radius: float  # 0: no tower dam
+    tower_top_radius: float
+    tower_height: float
+    air_density: float
+    skew_factor: float
+    drag_in_induction: bool
+    table: Array  # (n, p, q, 2) induced over undisturbed speed; empty: solved at every step
+    table_angle: tuple[float, float]  # first inflow angle and step, rad
+    table_pitch: tuple[float, float]  # first pitch and step, rad
+
+
+class Controller(NamedTuple):
+    """Constants of the control, generator side, SI."""
+
+    region_2_gain: float
+    region_15_start: float
+    region_2_start: float
+    rated_speed: float
+    synchronous_speed: float
+    rated_power: float
+    maximum_torque: float
+    torque_rate: float
+    filter_rate: float
+    proportional_gain: float
+    integral_gain: float
+    gain_halving_pitch: float
+    reference_speed: float
+    pitch_rate: float
+    minimum_pitch: float
+    maximum_pitch: float
+
+
+def controller(turbine: Turbine) -> Controller:
+    """Constants of the turbine's control."""
+    c = turbine.control
+    return Controller(
+        c.region_2_gain,
+        c.region_15_start,
+        c.region_2_start,
+        c.rated_speed,
+        c.rated_speed / (1 + c.slip),
+        c.rated_mechanical_power,
+        c.maximum_torque,
+        c.maximum_torque_rate,
+        2 * np.pi * c.speed_filter,
+        c.proportional_gain,
+        c.integral_gain,
+        c.gain_halving_pitch,
+        c.reference_speed,
+        c.pitch_rate,
+        c.minimum_pitch,
+        c.maximum_pitch,
+    )
+
+
+def machine(turbine: Turbine, options: RotorOptions) -> Machine:
+    """Discretise a turbine.
+
+    Parameters
+    ----------
+    turbine : Turbine
+    options : RotorOptions
+        Which effects are switched on; modes that are not wanted are left out.
+    """
+    rotor, blade = turbine.rotor, turbine.blade
+    edges = _section_edges(blade.radius, rotor.hub_radius, rotor.radius)
+    length = rotor.radius - rotor.hub_radius
+    span = np.linspace(0, length, _FINE)
+    density = np.interp(span, blade.span, blade.mass_density)
+    density *= blade.mass / np.trapezoid(density, span)
+    modes = tuple(mode for mode in blade.modes if mode.name in options.modes)
+    structure = _Structure(blade, modes, span, density)
+    angle = np.arange(-np.pi, np.pi + _POLAR_STEP / 2, _POLAR_STEP)
+    foils = [turbine.airfoils[name] for name in blade.airfoil]
+    imbalance = np.zeros(rotor.blades)
+    imbalance[0] = 1.0
+    tower = turbine.tower
+    dam = 0.5 if options.tower_dam else 0.0
+    return Machine(
+        blades=rotor.blades,
+        tip_radius=rotor.radius,
+        hub_radius=rotor.hub_radius,
+        hub_height=rotor.hub_height,
+        tilt=rotor.tilt,
+        cone=rotor.cone,
+        hub_mass=rotor.hub_mass,
+        hub_inertia=rotor.hub_inertia,
+        generator_inertia=turbine.drivetrain.generator_inertia
+        * turbine.drivetrain.gear_ratio**2,
+        gear_ratio=turbine.drivetrain.gear_ratio,
+        radius=blade.radius,
+        width=np.diff(edges),
+        chord=blade.chord,
+        twist=blade.twist,
+        lift=np.array([np.interp(angle, f.angle, f.lift) for f in foils]),
+        drag=np.array([np.interp(angle, f.angle, f.drag) for f in foils]),
+        mass=_lumps(span, density, edges - rotor.hub_radius),
+        shape=structure.at(blade.radius - rotor.hub_radius),
+        modal_mass=structure.mass(),
+        modal_stiffness=structure.stiffness(),
+        modal_damping=structure.damping(),
+        centrifugal=structure.tension(_from_tip(density * (span + rotor.hub_radius), span)),
+        axial_gravity=structure.tension(_from_tip(density, span)),
+        mass_factor=1 + options.mass_imbalance * imbalance,
+        pitch_offset=options.pitch_imbalance * imbalance,
+        tower_distance=rotor.overhang,
+        tower_base_radius=dam * tower.base_diameter,
+        tower_top_radius=dam * tower.top_diameter,
+        tower_height=tower.height,
+        air_density=options.air_density,
+        skew_factor=options.skew_factor,
+        drag_in_induction=options.drag_in_induction,
+        table=np.zeros((0, 0, 0, 2)),
+        table_angle=(0.0, 1.0),
+        table_pitch=(0.0, 1.0),
+    )
+
+
+class _Structure:
+    """Modal integrals of one blade over its span."""
+
+    def __init__(
+        self, blade: Blade, modes: tuple[Mode, ...], span: Array, density: Array
+    ) -> None:
+        self.blade, self.modes, self.span, self.density = blade, modes, span, density
+        twist = np.interp(span, blade.span, blade.structural_twist)
+        x = span / span[-1]
+        self.curvature = np.zeros((len(modes), span.size))
+        self.shape = np.zeros((len(modes), 2, span.size))
+        self.slope = np.zeros_like(self.shape)
+        for k, mode in enumerate(modes):
+            powers = np.arange(2, 2 + len(mode.coefficients))
+            terms = np.array(mode.coefficients) * powers * (powers - 1)
+            self.curvature[k] = x[:, None] ** (powers - 2) @ terms / span[-1] ** 2
+            flap = mode.name.startswith("flap")
+            normal, tangential = (
+                (np.cos(twist), np.sin(twist)) if flap else (-np.sin(twist), np.cos(twist))
+            )
+            for axis, direction in enumerate((normal, tangential)):
+                self.slope[k, axis] = _from_root(self.curvature[k] * direction, span)
+                self.shape[k, axis] = _from_root(self.slope[k, axis], span)
+
+    def at(self, stations: Array) -> Array:
+        """Mode shapes at stations, (n, k, 2)."""
+        out = np.zeros((stations.size, len(self.modes), 2))
+        for k in range(len(self.modes)):
+            for axis in range(2):
+                out[:, k, axis] = np.interp(stations, self.span, self.shape[k, axis])
+        return out
+
+    def mass(self) -> Array:
+        return self._integral(self.density, self.shape)
+
+    def tension(self, force: Array) -> Array:
+        """Stiffness by an axial force (n,) per unit of what causes it."""
+        return self._integral(force, self.slope)
+
+    def stiffness(self) -> Array:
+        """Bending stiffness; flap and edge bend about different principal axes."""
+        out = np.zeros((len(self.modes), len(self.modes)))
+        for kind, table in (
+            ("flap", self.blade.flap_stiffness),
+            ("edge", self.blade.edge_stiffness),
+        ):
+            bends = np.array([mode.name.startswith(kind) for mode in self.modes])
+            curvature = self.curvature * bends[:, None]
+            rigidity = np.interp(self.span, self.blade.span, table)
+            out += np.trapezoid(rigidity * curvature[:, None] * curvature[None], self.span)
+        return out
+
+    def damping(self) -> Array:
+        """Proportional to stiffness, the stated share of critical for each mode by itself."""
+        stiffness, mass = self.stiffness(), self.mass()
+        frequency = np.sqrt(np.diag(stiffness) / np.diag(mass))
+        return 2 * self.blade.damping * stiffness / frequency[None, :]
+
+    def _integral(self, weight: Array, function: Array) -> Array:
+        product = np.einsum("kas,las->kls", function, function)
+        return np.trapezoid(weight * product, self.span)
+
+
+def _section_edges(radius: Array, root: float, tip: float) -> Array:
+    """Edges of sections whose middles are `radius`, from root to tip."""
+    edges = np.concatenate([[root], 0.5 * (radius[1:] + radius[:-1]), [tip]])
+    # middles given: each edge mirrors the one before it at the middle, if that stays in order
+    mirrored = [root]
+    for middle in radius:
+        mirrored.append(2 * middle - mirrored[-1])
+    exact = np.array(mirrored)
+    closes = bool(np.all(np.diff(exact) > 0)) and abs(exact[-1] - tip) < 0.01 * tip
+    if not closes:
+        return edges
+    exact[-1] = tip
+    return exact
+
+
+def _lumps(span: Array, density: Array, edges: Array) -> Array:
+    """Mass between the edges."""
+    cumulative = _from_root(density, span)
+    return np.diff(np.interp(edges, span, cumulative))
+
+
+def _from_root(values: Array, span: Array) -> Array:
+    """Integral from the root."""
+    step = 0.5 * (values[1:] + values[:-1]) * np.diff(span)
+    return np.concatenate([[0.0], np.cumsum(step)])
+
+
+def _from_tip(values: Array, span: Array) -> Array:
+    """Integral from each station to the tip."""
+    total = _from_root(values, span)
+    return total[-1] - total

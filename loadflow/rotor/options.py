@@ -1,0 +1,59 @@
+"""What the rotor model includes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Literal
+
+from annotated_types import Ge, Gt, Le
+
+from loadflow.errors import InputError
+
+Rung = Literal["tables", "bem", "flap"]
+RUNGS: tuple[Rung, ...] = ("tables", "bem", "flap")
+"""From cheap to dear: see `loadflow.rotor.simulate`."""
+
+
+@dataclass(frozen=True)
+class RotorOptions:
+    """Switches of the rotor model.
+
+    Attributes
+    ----------
+    modes : tuple of str
+        Blade modes of the turbine file that may move; empty: rigid blades. The rung sets it.
+    tabulated : bool
+        Induction from a table instead of solving it at every section and step. The rung sets it.
+    air_density : float
+        kg/m³.
+    skew_factor : float
+        Factor of Pitt and Peters' redistribution of the induction under oblique inflow; 15π/32
+        (OpenFAST's), 15π/64 (steady theory), 0 off.
+    drag_in_induction : bool
+        Whether drag counts in the momentum balance.
+    tower_dam : bool
+        Whether the blades pass through the potential flow around the tower.
+    mass_imbalance : float
+        Excess mass of blade 1, share of its mass.
+    pitch_imbalance : float
+        Pitch offset of blade 1, rad.
+    """
+
+    modes: tuple[str, ...] = ("flap1", "flap2", "edge1")
+    tabulated: bool = False
+    air_density: Annotated[float, Gt(0)] = 1.225
+    skew_factor: Annotated[float, Ge(0), Le(2)] = 1.4726215563702154
+    drag_in_induction: bool = False
+    tower_dam: bool = True
+    mass_imbalance: Annotated[float, Ge(-0.2), Le(0.2)] = 0.0
+    pitch_imbalance: Annotated[float, Ge(-0.2), Le(0.2)] = 0.0
+
+    def __post_init__(self) -> None:
+        if not self.air_density > 0:
+            raise InputError(f"air_density = {self.air_density} is not allowed; > 0 kg/m³")
+        if not 0 <= self.skew_factor <= 2:
+            raise InputError(f"skew_factor = {self.skew_factor} is not allowed; 0 … 2")
+        for name in ("mass_imbalance", "pitch_imbalance"):
+            value = getattr(self, name)
+            if not -0.2 <= value <= 0.2:
+                raise InputError(f"{name} = {value} is not allowed; -0.2 … 0.2")

@@ -1,0 +1,10 @@
+from .files import load_turbine as load_turbine
+from .files import turbine_names as turbine_names
+from .schema import Airfoil as Airfoil
+from .schema import Blade as Blade
+from .schema import Control as Control
+from .schema import Drivetrain as Drivetrain
+from .schema import Mode as Mode
+from .schema import RotorGeometry as RotorGeometry
+from .schema import Tower as Tower
+from .schema import Turbine as Turbine

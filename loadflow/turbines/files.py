@@ -1,0 +1,194 @@
+"""Reading a turbine from its TOML file."""
+
+from __future__ import annotations
+
+import tomllib
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from loadflow.errors import InputError
+
+from .schema import Airfoil, Blade, Control, Drivetrain, Mode, RotorGeometry, Tower, Turbine
+
+_PARTS = {
+    "rotor": RotorGeometry,
+    "tower": Tower,
+    "drivetrain": Drivetrain,
+    "control": Control,
+}
+_SCALARS = ("name", "source", "rated_power", "rated_wind_speed", "cut_in", "cut_out")
+
+
+def turbine_names() -> list[str]:
+    """Names of the turbines that come with the package.
+
+    Examples
+    --------
+    >>> "nrel-5mw" in turbine_names()
+    True
+    """
+    folder = resources.files(__package__)
+    return sorted(f.name[:-5] for f in folder.iterdir() if f.name.endswith(".toml"))
+
+
+def load_turbine(turbine: str | Path | Turbine) -> Turbine:
+    """Read a turbine.
+
+    Parameters
+    ----------
+    turbine : str, Path or Turbine
+        Name of a turbine of the package (see `turbine_names`), path of a TOML file of the same
+        shape, or a turbine already read, which is handed back.
+
+    Returns
+    -------
+    Turbine
+
+    Raises
+    ------
+    InputError
+        Unknown name, unreadable file, missing or unknown key, value outside its range.
+
+    Examples
+    --------
+    >>> round(load_turbine("nrel-5mw").rotor_mass)
+    109390
+    """
+    if isinstance(turbine, Turbine):
+        return turbine
+    path = Path(turbine)
+    if path.suffix != ".toml":
+        if str(turbine) not in turbine_names():
+            raise InputError(
+                f"unknown turbine {str(turbine)!r}; known are {', '.join(turbine_names())}, "
+                "or give the path of a .toml file"
+            )
+        path = Path(str(resources.files(__package__))) / f"{turbine}.toml"
+    if not path.is_file():
+        raise InputError(f"turbine file {path} does not exist")
+    try:
+        document = tomllib.loads(path.read_text(encoding="utf-8"))
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise InputError(f"{path}: not a TOML file: {error}") from error
+    try:
+        return _turbine(document, path.parent)
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from error
+
+
+def _turbine(document: dict[str, Any], folder: Path) -> Turbine:
+    _check_keys(document, {*_SCALARS, *_PARTS, "blade", "airfoils"}, "file")
+    parts = {name: _part(part, document[name], name) for name, part in _PARTS.items()}
+    airfoils = {
+        name: _airfoil(name, entry, folder)
+        for name, entry in _table(document["airfoils"], "airfoils").items()
+    }
+    scalars = {
+        key: str(document[key]) if key in ("name", "source") else _number(document[key], key)
+        for key in _SCALARS
+    }
+    return Turbine(**scalars, **parts, blade=_blade(document["blade"]), airfoils=airfoils)
+
+
+def _part(part: type, entry: Any, name: str) -> Any:
+    """One table of numbers; a key that ends in ``_deg`` is turned into radians."""
+    values: dict[str, Any] = {}
+    for key, value in _table(entry, name).items():
+        number = _number(value, f"{name}.{key}")
+        if key.endswith("_deg"):
+            values[key[:-4]] = np.radians(number).item()
+        else:
+            values[key] = int(number) if key == "blades" else number
+    _check_keys(values, set(part.__dataclass_fields__), name)
+    return part(**values)
+
+
+def _blade(entry: Any) -> Blade:
+    blade = _table(entry, "blade")
+    _check_keys(blade, {"mass", "damping", "sections", "structure", "modes"}, "blade")
+    sections = _rows(blade["sections"], 4, "blade.sections")
+    structure = np.array(
+        [
+            [_number(value, "blade.structure") for value in row]
+            for row in _rows(blade["structure"], 5, "blade.structure")
+        ]
+    )
+    numbers = np.array([[_number(v, "blade.sections") for v in row[:3]] for row in sections])
+    modes = _table(blade["modes"], "blade.modes")
+    return Blade(
+        radius=numbers[:, 0],
+        twist=np.radians(numbers[:, 1]),
+        chord=numbers[:, 2],
+        airfoil=tuple(str(row[3]) for row in sections),
+        mass=_number(blade["mass"], "blade.mass"),
+        damping=_number(blade["damping"], "blade.damping"),
+        span=structure[:, 0],
+        structural_twist=np.radians(structure[:, 1]),
+        mass_density=structure[:, 2],
+        flap_stiffness=structure[:, 3],
+        edge_stiffness=structure[:, 4],
+        modes=tuple(
+            Mode(name, tuple(_number(c, f"blade.modes.{name}") for c in coefficients))
+            for name, coefficients in modes.items()
+        ),
+    )
+
+
+def _airfoil(name: str, entry: Any, folder: Path) -> Airfoil:
+    """Polars of a file, or a constant drag without lift."""
+    where = f"airfoils.{name}"
+    table = _table(entry, where)
+    if set(table) == {"drag"}:
+        drag = _number(table["drag"], where)
+        return Airfoil(name, np.array([-np.pi, np.pi]), np.zeros(2), np.full(2, drag))
+    _check_keys(table, {"polars", "column"}, where)
+    angle, lift, drag_of = _polars(folder, str(table["polars"]), str(table["column"]), where)
+    return Airfoil(name, np.radians(angle), lift, drag_of)
+
+
+def _polars(folder: Path, file: str, column: str, where: str) -> list[np.ndarray]:
+    shipped = Path(str(resources.files("loadflow.data"))) / "polars" / file
+    path = folder / file if (folder / file).is_file() else shipped
+    if not path.is_file():
+        raise InputError(f"{where}: polars {file!r} lie neither beside the turbine nor in loadflow")
+    head, *lines = path.read_text(encoding="utf-8").split()
+    names = head.split(",")
+    wanted = ["angle_of_attack_deg", f"{column}_cl", f"{column}_cd"]
+    missing = [name for name in wanted if name not in names]
+    if missing:
+        raise InputError(f"{where}: {path} has no column {missing[0]!r}; it has {', '.join(names)}")
+    try:
+        values = np.array([line.split(",") for line in lines], dtype=float)
+    except ValueError as error:
+        raise InputError(f"{where}: {path}: {error}") from error
+    return [values[:, names.index(name)] for name in wanted]
+
+
+def _check_keys(found: dict[str, Any], expected: set[str], where: str) -> None:
+    missing, unknown = expected - set(found), set(found) - expected
+    if missing:
+        raise InputError(f"{where}: missing key {', '.join(sorted(missing))}")
+    if unknown:
+        raise InputError(f"{where}: unknown key {', '.join(sorted(unknown))}")
+
+
+def _table(value: Any, where: str) -> dict[str, Any]:
+    if not isinstance(value, dict):
+        raise InputError(f"{where}: expected a table, found {value!r}")
+    return value
+
+
+def _rows(value: Any, width: int, where: str) -> list[list[Any]]:
+    good = isinstance(value, list) and len(value) > 1
+    if not good or not all(isinstance(row, list) and len(row) == width for row in value):
+        raise InputError(f"{where}: expected at least two rows of {width} values")
+    return value
+
+
+def _number(value: Any, where: str) -> float:
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not np.isfinite(value):
+        raise InputError(f"{where}: expected a finite number, found {value!r}")
+    return float(value)

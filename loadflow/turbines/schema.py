@@ -1,0 +1,336 @@
+"""What a turbine is. Frozen, checked once when it is made; SI units and radians."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Annotated
+
+import numpy as np
+from annotated_types import Ge, Gt, Le
+from numpy.typing import NDArray
+
+from loadflow.errors import InputError
+
+Array = NDArray[np.float64]
+Positive = Annotated[float, Gt(0)]
+NotNegative = Annotated[float, Ge(0)]
+
+
+def _require(ok: bool, owner: str, name: str, value: object, allowed: str) -> None:
+    if not ok:
+        raise InputError(f"{owner}: {name} = {value!r} is not allowed; it must be {allowed}")
+
+
+def _require_positive(part: object, *names: str) -> None:
+    for name in names:
+        value = getattr(part, name)
+        _require(
+            bool(np.isfinite(value) and value > 0),
+            type(part).__name__,
+            name,
+            value,
+            "positive and finite",
+        )
+
+
+@dataclass(frozen=True)
+class Airfoil:
+    """Lift and drag over the angle of attack.
+
+    Attributes
+    ----------
+    name : str
+    angle : ndarray, shape (n,)
+        Angle of attack, rad, increasing, from −π to π.
+    lift, drag : ndarray, shape (n,)
+        Coefficients, referred to the chord.
+    """
+
+    name: str
+    angle: Array
+    lift: Array
+    drag: Array
+
+    def __post_init__(self) -> None:
+        owner = f"airfoil {self.name!r}"
+        increasing = self.angle.size > 1 and bool(np.all(np.diff(self.angle) > 0))
+        _require(increasing, owner, "angle", self.angle.tolist(), "strictly increasing")
+        span = (float(self.angle[0]), float(self.angle[-1]))
+        covers = abs(span[0] + np.pi) < 1e-6 and abs(span[1] - np.pi) < 1e-6
+        _require(covers, owner, "angle range", span, "−π … π (−180° … 180°)")
+        for name in ("lift", "drag"):
+            values = getattr(self, name)
+            fits = values.shape == self.angle.shape and bool(np.all(np.isfinite(values)))
+            _require(fits, owner, name, values.tolist(), "finite, one value for each angle")
+
+
+@dataclass(frozen=True)
+class Mode:
+    """Bending mode of a blade.
+
+    Attributes
+    ----------
+    name : str
+        ``"flap1"``, ``"edge1"``, …; the first four letters tell the stiffness that it bends.
+    coefficients : tuple of float
+        Coefficients of x², x³, … with x = distance from the root over blade length; they add up
+        to 1, so that the modal coordinate is the deflection of the tip.
+    """
+
+    name: str
+    coefficients: tuple[float, ...]
+
+    def __post_init__(self) -> None:
+        _require(self.name[:4] in ("flap", "edge"), "mode", "name", self.name, "flap… or edge…")
+        total = sum(self.coefficients)
+        _require(abs(total - 1) < 1e-3, f"mode {self.name}", "sum of coefficients", total, "1")
+
+
+@dataclass(frozen=True)
+class Blade:
+    """Aerodynamic sections and structure of one blade.
+
+    Attributes
+    ----------
+    radius, twist, chord : ndarray, shape (n,)
+        Middle of each section from the rotor axis along the blade, m; twist, rad; chord, m.
+    airfoil : tuple of str, length n
+    mass : float
+        Whole blade, kg.
+    damping : float
+        Structural damping of each mode, share of critical.
+    span, structural_twist, mass_density, flap_stiffness, edge_stiffness : ndarray, shape (m,)
+        Distance from the root, m; rad; kg/m; N m². The mass density is scaled to `mass`.
+    modes : tuple of Mode
+    """
+
+    radius: Array
+    twist: Array
+    chord: Array
+    airfoil: tuple[str, ...]
+    mass: Positive
+    damping: NotNegative
+    span: Array
+    structural_twist: Array
+    mass_density: Array
+    flap_stiffness: Array
+    edge_stiffness: Array
+    modes: tuple[Mode, ...] = ()
+
+    def __post_init__(self) -> None:
+        _require_positive(self, "mass")
+        _require(0 <= self.damping < 1, "Blade", "damping", self.damping, "in [0, 1)")
+        for name in ("radius", "span"):
+            values = getattr(self, name)
+            _require(
+                values.size > 1 and bool(np.all(np.diff(values) > 0)),
+                "Blade",
+                name,
+                values.tolist(),
+                "strictly increasing",
+            )
+        for name in ("chord", "mass_density", "flap_stiffness", "edge_stiffness"):
+            values = getattr(self, name)
+            _require(bool(np.all(values > 0)), "Blade", name, values.tolist(), "positive")
+
+
+@dataclass(frozen=True)
+class RotorGeometry:
+    """Geometry and hub of the rotor.
+
+    Attributes
+    ----------
+    radius, hub_radius, hub_height, overhang : float
+        m; `overhang` from the tower axis to the rotor apex along the shaft.
+    blades : int
+    tilt, cone : float
+        rad; tilt lifts the upwind end of the shaft, cone leans the blades upwind.
+    hub_mass, hub_inertia : float
+        kg; kg m² about the shaft.
+    """
+
+    radius: Positive
+    hub_radius: NotNegative
+    blades: Annotated[int, Ge(1), Le(6)]
+    hub_height: Positive
+    overhang: Positive
+    tilt: float
+    cone: float
+    hub_mass: NotNegative
+    hub_inertia: NotNegative
+
+    def __post_init__(self) -> None:
+        _require_positive(self, "radius", "hub_height", "overhang")
+        _require(1 <= self.blades <= 6, "RotorGeometry", "blades", self.blades, "1 … 6")
+        inside = 0 <= self.hub_radius < self.radius
+        _require(inside, "RotorGeometry", "hub_radius", self.hub_radius, f"in [0, {self.radius})")
+        clear = self.hub_height > self.radius
+        _require(clear, "RotorGeometry", "hub_height", self.hub_height, f"above {self.radius} m")
+        for name in ("tilt", "cone"):
+            value = getattr(self, name)
+            _require(abs(value) < 0.35, "RotorGeometry", name, value, "within ±0.35 rad (20°)")
+
+
+@dataclass(frozen=True)
+class Tower:
+    """The tower as the passing blades feel it: a tapered cylinder.
+
+    Attributes
+    ----------
+    base_diameter, top_diameter, height : float
+        m.
+    """
+
+    base_diameter: Positive
+    top_diameter: Positive
+    height: Positive
+
+    def __post_init__(self) -> None:
+        _require_positive(self, "base_diameter", "top_diameter", "height")
+
+
+@dataclass(frozen=True)
+class Drivetrain:
+    """Rigid drivetrain.
+
+    Attributes
+    ----------
+    gear_ratio : float
+        Generator speed over rotor speed (1 for direct drive).
+    generator_inertia : float
+        kg m² about the generator shaft.
+    """
+
+    gear_ratio: Positive
+    generator_inertia: NotNegative
+
+    def __post_init__(self) -> None:
+        _require_positive(self, "gear_ratio")
+
+
+@dataclass(frozen=True)
+class Control:
+    """Variable-speed, collective-pitch control of the NREL 5 MW kind (generator side).
+
+    Attributes
+    ----------
+    region_2_gain : float
+        Torque over speed² at optimal tip-speed ratio, N m/(rad/s)².
+    region_15_start, region_2_start, rated_speed : float
+        Speeds at which regions 1½, 2 and 3 begin, rad/s.
+    slip : float
+        Of the generator in region 2½, share of its synchronous speed.
+    rated_mechanical_power : float
+        W.
+    maximum_torque, maximum_torque_rate : float
+        N m; N m/s.
+    speed_filter : float
+        Corner of the low-pass on the measured speed, Hz.
+    proportional_gain, integral_gain : float
+        Of the pitch controller at zero pitch, s and −.
+    gain_halving_pitch : float
+        Pitch at which the gains are halved, rad.
+    reference_speed : float
+        rad/s.
+    pitch_rate, minimum_pitch, maximum_pitch : float
+        rad/s; rad.
+    """
+
+    region_2_gain: Positive
+    region_15_start: Positive
+    region_2_start: Positive
+    rated_speed: Positive
+    slip: Positive
+    rated_mechanical_power: Positive
+    maximum_torque: Positive
+    maximum_torque_rate: Positive
+    speed_filter: Positive
+    proportional_gain: NotNegative
+    integral_gain: Positive
+    gain_halving_pitch: Positive
+    reference_speed: Positive
+    pitch_rate: Positive
+    minimum_pitch: float
+    maximum_pitch: float
+
+    def __post_init__(self) -> None:
+        speeds = (self.region_15_start, self.region_2_start, self.rated_speed)
+        ordered = 0 < speeds[0] < speeds[1] < speeds[2] <= self.reference_speed
+        _require(
+            ordered,
+            "Control",
+            "speeds",
+            (*speeds, self.reference_speed),
+            "increasing: region_15_start < region_2_start < rated_speed <= reference_speed",
+        )
+        _require_positive(
+            self,
+            "region_2_gain",
+            "slip",
+            "rated_mechanical_power",
+            "maximum_torque",
+            "maximum_torque_rate",
+            "speed_filter",
+            "integral_gain",
+            "gain_halving_pitch",
+            "pitch_rate",
+        )
+        _require(
+            self.minimum_pitch < self.maximum_pitch,
+            "Control",
+            "minimum_pitch",
+            self.minimum_pitch,
+            f"below maximum_pitch = {self.maximum_pitch}",
+        )
+
+
+@dataclass(frozen=True)
+class Turbine:
+    """A wind turbine as far as its main bearing feels it.
+
+    Attributes
+    ----------
+    name, source : str
+    rated_power : float
+        Electrical, W.
+    rated_wind_speed, cut_in, cut_out : float
+        m/s.
+    rotor, tower, drivetrain, control, blade : the parts
+    airfoils : dict of Airfoil by name
+    """
+
+    name: str
+    source: str
+    rated_power: Positive
+    rated_wind_speed: Positive
+    cut_in: Positive
+    cut_out: Positive
+    rotor: RotorGeometry
+    tower: Tower
+    drivetrain: Drivetrain
+    control: Control
+    blade: Blade
+    airfoils: dict[str, Airfoil] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        _require_positive(self, "rated_power")
+        speeds = (self.cut_in, self.rated_wind_speed, self.cut_out)
+        ordered = 0 < speeds[0] < speeds[1] < speeds[2]
+        _require(ordered, self.name, "cut_in, rated, cut_out", speeds, "positive and increasing")
+        for name in self.blade.airfoil:
+            known = ", ".join(sorted(self.airfoils))
+            _require(name in self.airfoils, "Blade", "airfoil", name, f"one of {known}")
+        tip, root = self.rotor.radius, self.rotor.hub_radius
+        inside = bool(self.blade.radius[0] > root and self.blade.radius[-1] < tip)
+        _require(
+            inside,
+            "Blade",
+            "radius",
+            (float(self.blade.radius[0]), float(self.blade.radius[-1])),
+            f"inside hub radius {root} m and rotor radius {tip} m",
+        )
+
+    @property
+    def rotor_mass(self) -> float:
+        """Hub and blades, kg."""
+        return self.rotor.hub_mass + self.rotor.blades * self.blade.mass
