@@ -3,11 +3,14 @@
 ===============  ==============================================================================
 module           responsibility
 ===============  ==============================================================================
-slewing          four-point slewing bearing: geometry and entry point; slewing_result: verdicts
+slewing          four-point slewing bearing; `slewing_result`: life and friction from its forces
+ball             deep groove and angular contact ball bearing
+roller           cylindrical and tapered roller bearing; `roller_result`: pressure, safety, life
+raceway, result  what all ball bearings share
 contact          table of contacts that the solver takes
 equilibrium      rigid rings in five degrees of freedom, for arrays of load cases
 _kernels         the compiled loops
-life             capacity, equivalent load, spectra, oscillation, raceway capacities
+capacity, life   dynamic capacities; equivalent load, spectra, oscillation
 safety           hardness factor, static safety
 friction         friction torque after both formulas of the source
 ===============  ==============================================================================

@@ -1,3 +1,5 @@
+from .ball import BallBearing as BallBearing
+from .ball import BallBearingResult as BallBearingResult
 from .friction import friction_torque_forces as friction_torque_forces
 from .friction import friction_torque_loads as friction_torque_loads
 from .hertz import LineContact as LineContact
@@ -6,5 +8,7 @@ from .hertz import hertz_line as hertz_line
 from .hertz import hertz_point as hertz_point
 from .life import rating_life_spectrum as rating_life_spectrum
 from .life import spectrum_load as spectrum_load
+from .roller import RollerBearing as RollerBearing
+from .roller_result import RollerResult as RollerResult
 from .slewing import SlewingBearing as SlewingBearing
 from .slewing_result import SlewingResult as SlewingResult

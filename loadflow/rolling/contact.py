@@ -9,6 +9,8 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
+POINT, LINE = 0, 1  # laws of contact, as in the kernels
+
 
 @dataclass(frozen=True)
 class Contacts:
@@ -67,6 +69,18 @@ class Contacts:
     def scale(self) -> Array:
         """Factors that turn the scaled unknowns (all lengths) into (ux, uy, uz, θx, θy)."""
         return np.array([1.0, 1.0, 1.0, 1 / self.lever, 1 / self.lever])
+
+
+def row_sides(rows: int, arrangement: str) -> list[float]:
+    """Which way each row carries: +1 for +Fz on the inner ring, -1 for -Fz, from the lowest row.
+
+    A single row carries +Fz. Back-to-back, the row at -z carries +Fz, so that the lines of contact
+    meet the axis far apart.
+    """
+    if rows == 1 or arrangement == "tandem":
+        return [1.0] * rows
+    first = 1.0 if arrangement == "back-to-back" else -1.0
+    return [first if k < rows / 2 else -first for k in range(rows)]
 
 
 def azimuths(count: int, first: float = 0.0) -> Array:

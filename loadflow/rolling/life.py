@@ -1,7 +1,7 @@
-"""Rating life: capacity, equivalent load, load spectra, oscillation.
+"""Rating life: equivalent load, load spectra, oscillation.
 
-ISO 281 with the thrust ball table, the slewing-bearing rules of the NREL guideline DG03 as printed
-in [Ritzer 2018] ch. 2.5 and 4.4, and the reference life of ISO/TS 16281 per raceway.
+The slewing-bearing rules of the NREL guideline DG03 as printed in [Ritzer 2018] ch. 2.5 and 4.4,
+and the reference life of ISO/TS 16281 per raceway; capacities are in `loadflow.rolling.capacity`.
 Lives are in millions of revolutions, as in the standards, unless named otherwise.
 """
 
@@ -18,88 +18,6 @@ Array = NDArray[np.float64]
 
 POINT_EXPONENT = 3.0
 LINE_EXPONENT = 10.0 / 3.0
-
-# Tab. 4.8: f_cm over γ for contact angles of 45°, 60°, 75° (ISO 281, thrust ball bearings).
-_GAMMA = np.r_[0.01:0.105:0.01, 0.12:0.305:0.02]
-_F_CM = {
-    45: "42.1 51.7 58.2 63.3 67.3 70.7 73.5 75.9 78.0 79.7 82.3 84.1 85.1 85.5 85.4 84.9 84.0 82.8 "
-    "81.3 79.6",
-    60: "39.2 48.1 54.2 58.9 62.6 65.8 68.4 70.7 72.6 74.2 76.6 78.3 79.2 79.6 79.5",
-    75: "37.3 45.9 51.7 56.1 59.7 62.7 65.2 67.3 69.2 70.7",
-}
-_COLUMNS = {np.radians(a): np.array(text.split(), float) for a, text in _F_CM.items()}
-
-
-def capacity_factor(gamma: float, contact_angle: float) -> float:
-    """Factor f_cm of Tab. 4.8, linear in γ and in the contact angle.
-
-    Parameters
-    ----------
-    gamma : float
-        D_w cos α₀/D_pw, (4.10).
-    contact_angle : float
-        Nominal contact angle, rad, 45° … 75°.
-
-    Raises
-    ------
-    InputError
-        If γ or the angle is outside the table.
-    """
-    angles = np.array(list(_COLUMNS))
-    if not angles[0] - 1e-6 <= contact_angle <= angles[-1] + 1e-6:
-        raise InputError(
-            f"contact_angle: f_cm is tabulated for 45° … 75°, got {np.degrees(contact_angle):.4g}°"
-        )
-    upper = int(np.clip(np.searchsorted(angles, contact_angle), 1, 2))
-    pair = [_COLUMNS[angles[upper - 1]], _COLUMNS[angles[upper]]]
-    last = _GAMMA[(len(pair[1]) if contact_angle > angles[upper - 1] + 1e-6 else len(pair[0])) - 1]
-    if not _GAMMA[0] <= gamma <= last:
-        raise InputError(f"gamma: f_cm is tabulated for {_GAMMA[0]} … {last:.2f}, got {gamma:.5g}")
-    values = [np.interp(gamma, _GAMMA[: len(c)], c) for c in pair]
-    return float(np.interp(contact_angle, angles[upper - 1 : upper + 1], values))
-
-
-def slewing_capacity(
-    *,
-    balls: int,
-    rows: int,
-    ball_diameter: float,
-    pitch_diameter: float,
-    contact_angle: float,
-    groove_radius: float,
-    factor: float | None = None,
-) -> float:
-    """Basic dynamic axial capacity C_a of a ball slewing bearing, N, (4.8)–(4.10).
-
-    Parameters
-    ----------
-    balls, rows : int
-        Balls per row and number of rows.
-    ball_diameter, pitch_diameter, groove_radius : float
-        m.
-    contact_angle : float
-        Nominal contact angle, rad.
-    factor : float, optional
-        f_cm; from `capacity_factor` if not given.
-
-    Raises
-    ------
-    InputError
-        If the osculation (r - R_w)/R_w exceeds 0.08, where the source leaves the correction open, or the geometry is outside the table.
-    """
-    osculation = 2 * groove_radius / ball_diameter - 1
-    if osculation > 0.08:
-        raise InputError(
-            f"groove_radius: capacity holds for (r - R_w)/R_w ≤ 0.08, got {osculation:.3g}; "
-            "state dynamic_capacity instead"
-        )
-    if factor is None:
-        gamma = ball_diameter * np.cos(contact_angle) / pitch_diameter
-        factor = capacity_factor(gamma, contact_angle)
-    d = ball_diameter * 1e3
-    size = d**1.8 if d <= 25.4 else 3.647 * d**1.4
-    angle = (rows * np.cos(contact_angle)) ** 0.7 * np.tan(contact_angle)
-    return float(1.3 * factor * angle * balls ** (2 / 3) * size)
 
 
 def equivalent_axial_load(force_cubes: ArrayLike, balls: int, contact_angle: float) -> Array:
@@ -187,62 +105,29 @@ def rating_life_spectrum(
     return rating_life(capacity, spectrum_load(load, revolutions, exponent, axis), exponent)
 
 
-def raceway_capacity_thrust(
-    capacity: float, balls: int, contact_angle: float, gamma: float, osculation: float = 1.0
-) -> tuple[float, float]:
-    """Dynamic capacities (Q_ci, Q_ce) of the raceways of one thrust ball row, N, ISO/TS 16281.
+def ball_reference_life(
+    cubes: ArrayLike, powers: ArrayLike, balls: int, capacity: tuple[float, float]
+) -> Array:
+    """Reference life L10r of ISO/TS 16281 over the raceways of all kinds, millions of revolutions.
 
     Parameters
     ----------
-    capacity : float
-        Basic dynamic axial capacity of the row, N.
+    cubes, powers : array_like, shape (..., kind)
+        Sums of F³ and of F^(10/3) over the balls of each row and diagonal.
     balls : int
-        Balls in the row.
-    contact_angle : float
-        Nominal contact angle, rad, below 90°.
-    gamma : float
-        D_w cos α/D_pw.
-    osculation : float
-        r_i (2 r_e - D)/(r_e (2 r_i - D)) of the groove radii; 1 for equal grooves.
+        Balls per row.
+    capacity : tuple of float
+        Dynamic capacities of the rotating (inner) and the stationary (outer) raceway, N.
+
+    Returns
+    -------
+    ndarray, shape (...)
+        Infinite without load.
     """
-    ratio = _raceway_ratio(gamma, osculation)
-    each = capacity / (balls * np.sin(contact_angle))
-    return (
-        float(each * (1 + ratio ** (10 / 3)) ** 0.3),
-        float(each * (1 + ratio ** (-10 / 3)) ** 0.3),
-    )
-
-
-def raceway_capacity_radial(
-    capacity: float,
-    balls: int,
-    rows: int,
-    contact_angle: float,
-    gamma: float,
-    osculation: float = 1.0,
-) -> tuple[float, float]:
-    """Dynamic capacities (Q_ci, Q_ce) of the raceways of a radial ball bearing, N, ISO/TS 16281.
-
-    Parameters
-    ----------
-    capacity : float
-        Basic dynamic radial capacity, N.
-    balls, rows : int
-        Balls per row, rows.
-    contact_angle, gamma, osculation : float
-        As in `raceway_capacity_thrust`.
-    """
-    ratio = _raceway_ratio(gamma, osculation)
-    each = capacity / (balls * np.cos(contact_angle) ** 0.7 * rows**0.7)
-    return (
-        float(each / 0.407 * (1 + ratio ** (10 / 3)) ** 0.3),
-        float(each / 0.389 * (1 + ratio ** (-10 / 3)) ** 0.3),
-    )
-
-
-def _raceway_ratio(gamma: float, osculation: float) -> float:
-    """Capacity of the inner over the outer raceway of a ball bearing."""
-    return float(1.044 * ((1 - gamma) / (1 + gamma)) ** 1.72 * osculation**0.41)
+    rotating = np.cbrt(np.asarray(cubes, float) / balls) / capacity[0]
+    stationary = (np.asarray(powers, float) / balls) ** 0.3 / capacity[1]
+    damage = (rotating ** (10 / 3) + stationary ** (10 / 3)).sum(axis=-1)
+    return np.divide(1.0, damage, out=np.full(np.shape(damage), np.inf), where=damage > 0) ** 0.9
 
 
 def life_hours(life: ArrayLike, speed: ArrayLike) -> Array:

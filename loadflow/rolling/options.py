@@ -63,3 +63,10 @@ def _words(bound: Any) -> str:
     signs = {at.Gt: (">", "gt"), at.Ge: ("≥", "ge"), at.Lt: ("<", "lt"), at.Le: ("≤", "le")}
     sign, attribute = signs[type(bound)]
     return f"{sign} {getattr(bound, attribute):g}"
+
+
+def check_choice(instance: Any, name: str, allowed: tuple[str, ...]) -> None:
+    """Raise an InputError unless field `name` is one of `allowed`."""
+    value = getattr(instance, name)
+    if value not in allowed:
+        raise InputError(f"{name}: must be one of {', '.join(allowed)}, got {value!r}")

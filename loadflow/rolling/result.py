@@ -1,4 +1,4 @@
-"""From the displacement of the inner ring to forces, safety, life and friction."""
+"""From the displacement of the inner ring to contact forces and static safety."""
 
 from __future__ import annotations
 
@@ -6,14 +6,21 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
+from loadflow.errors import InputError
+from loadflow.rolling import safety
 from loadflow.rolling.contact import Array, Contacts
 from loadflow.rolling.equilibrium import RingEquilibrium
+from loadflow.rolling.raceway import BallRaceways
 
 
 @dataclass(frozen=True)
 class ContactResult(RingEquilibrium):
     """Equilibrium with what follows from each contact; quantities are formed when asked for.
+
+    `maximum_force`, `force_sum` and what follows from them need no array of all contact forces,
+    so that a series of any length fits in memory.
 
     Attributes
     ----------
@@ -23,26 +30,94 @@ class ContactResult(RingEquilibrium):
 
     contacts: Contacts
 
+    @property
+    def cases(self) -> tuple[int, ...]:
+        """Shape of the load cases."""
+        return self.displacement.shape[:-1]
+
     @cached_property
     def _state(self) -> tuple[Array, Array]:
         """Force and signed angle of each contact, (..., kind, element)."""
         from loadflow.rolling import _kernels
 
-        q = self.displacement.reshape(-1, 5)
-        shape = self.displacement.shape[:-1]
-        force, angle = _kernels.contact_state(np.ascontiguousarray(q), *self.contacts.arguments)
-        return force.reshape(*shape, *force.shape[1:]), angle.reshape(*shape, *angle.shape[1:])
+        q = np.ascontiguousarray(self.displacement.reshape(-1, 5))
+        force, angle = _kernels.contact_state(q, *self.contacts.arguments)
+        shape = (*self.cases, *force.shape[1:])
+        return force.reshape(shape), angle.reshape(shape)
 
     def _sums(self, *exponents: float) -> tuple[Array, Array]:
-        """Largest force (..., kind) and sums of powers of the forces (..., kind, exponent).
-
-        Formed in the compiled loop, without an array of all contact forces.
-        """
+        """Largest force (..., kind) and sums of powers of the forces (..., kind, exponent)."""
         from loadflow.rolling import _kernels
 
-        q = self.displacement.reshape(-1, 5)
-        shape = self.displacement.shape[:-1]
-        largest, sums = _kernels.force_sums(
-            np.ascontiguousarray(q), *self.contacts.arguments, np.array(exponents, float)
+        q = np.ascontiguousarray(self.displacement.reshape(-1, 5))
+        largest, sums = _kernels.force_sums(q, *self.contacts.arguments, np.array(exponents, float))
+        return (
+            largest.reshape(*self.cases, largest.shape[-1]),
+            sums.reshape(*self.cases, *sums.shape[1:]),
         )
-        return largest.reshape(*shape, -1), sums.reshape(*shape, *sums.shape[1:])
+
+
+@dataclass(frozen=True)
+class BallResult(ContactResult):
+    """Equilibrium of a ball bearing: pressures and static safety of its contacts.
+
+    Attributes
+    ----------
+    bearing : BallRaceways
+        The bearing.
+    """
+
+    bearing: BallRaceways
+
+    @cached_property
+    def _statistics(self) -> tuple[Array, Array]:
+        """Largest force of each kind, and sums of F, F³ and F^(10/3)."""
+        return self._sums(1.0, 3.0, 10 / 3)
+
+    @property
+    def maximum_force(self) -> Array:
+        """Largest contact force, N."""
+        return np.asarray(self._statistics[0].max(axis=-1))
+
+    @property
+    def force_sum(self) -> Array:
+        """Sum ΣF_k of all contact forces, N."""
+        return np.asarray(self._statistics[1][..., 0].sum(axis=-1))
+
+    @property
+    def raceway_pressure(self) -> tuple[Array, Array]:
+        """Largest Hertzian pressure at the inner and at the outer raceway, Pa, (2.1)."""
+        force = self.maximum_force
+        return (
+            self.bearing.raceway_contact("inner", force).pressure,
+            self.bearing.raceway_contact("outer", force).pressure,
+        )
+
+    @property
+    def maximum_pressure(self) -> Array:
+        """Largest Hertzian pressure of both raceways, Pa."""
+        return np.asarray(np.maximum(*self.raceway_pressure))
+
+    @property
+    def pressure_safety(self) -> Array:
+        """Allowable over largest pressure, (4.2) put right; infinite without load."""
+        bearing = self.bearing
+        allowed = bearing.allowable_pressure * safety.hardness_factor(bearing.hardness)
+        return safety.ratio(allowed, self.maximum_pressure)
+
+    @property
+    def static_safety(self) -> Array:
+        """Allowable over largest ball force, (4.1) put right: the cube of `pressure_safety`."""
+        return np.asarray(self.pressure_safety**3)
+
+    def _truncated(self, force: Array, angle: Array, axes: tuple[int, ...]) -> NDArray[np.bool_]:
+        """Whether a contact ellipse reaches over the shoulder of its raceway."""
+        bearing = self.bearing
+        if bearing.shoulder_angle is None:
+            raise InputError("shoulder_angle: needed to tell whether a contact is cut off")
+        reach = np.maximum(
+            bearing.raceway_contact("inner", force).semi_axes[0] / bearing.groove("inner"),
+            bearing.raceway_contact("outer", force).semi_axes[0] / bearing.groove("outer"),
+        )
+        edge = angle + np.arcsin(np.minimum(reach, 1.0))
+        return np.asarray(((edge > bearing.shoulder_angle) & (force > 0)).any(axis=axes))

@@ -21,6 +21,6 @@ def hardness_factor(vickers: float) -> float:
 
 
 def ratio(allowed: ArrayLike, actual: ArrayLike) -> Array:
-    """Allowed over actual, infinite where nothing acts; (4.1), (4.2), which are printed inverted."""
+    """Allowed over actual, infinite where nothing acts; (4.1), (4.2) are printed inverted."""
     top, bottom = np.broadcast_arrays(np.asarray(allowed, float), np.asarray(actual, float))
     return np.divide(top, bottom, out=np.full(bottom.shape, np.inf), where=bottom > 0)
