@@ -9,7 +9,7 @@ import numpy as np
 
 from loadflow.errors import InputError
 from loadflow.reduction._series import Floats
-from loadflow.reduction.quasistatic import Reduced, count
+from loadflow.reduction.quasistatic import Reduced, bin_sums
 
 TITLE = "# loadflow parameter file 1"
 COLUMNS = ("index", "time", "speed", "force_x", "force_y", "weight")
@@ -102,8 +102,8 @@ def read_parameter_file(path: str | Path) -> Reduced:
         weight=weight,
         edges=edges,
         # every class that had a pair has one still, and their weights sum to its count
-        counts_full=np.rint(count(speed, resultant, edges, weight)).astype(np.int64),
-        counts_reduced=count(speed, resultant, edges).astype(np.int64),
+        counts_full=np.rint(bin_sums(speed, resultant, edges, weight)).astype(np.int64),
+        counts_reduced=bin_sums(speed, resultant, edges).astype(np.int64),
         pick=header["pick"],
         seed=seed,
         source=header["source"],

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -179,7 +179,7 @@ def histogram(
     n, f, t = check_series(speed, force, time)
     q = _wanted(size, n.size)
     resultant = np.hypot(f[:, 0], f[:, 1])
-    edges = _edges(n, resultant, classes)
+    edges = bivariate_edges(n, resultant, classes)
     cell, shape = _cells(n, resultant, edges)
     counts = np.bincount(cell, minlength=shape[0] * shape[1])
     kept = _shares(counts, q, rounding)
@@ -218,7 +218,7 @@ def _wanted(size: int | float, n: int) -> int:
     return math.ceil(round(size * n, 6))
 
 
-def _edges(speed: Floats, resultant: Floats, classes: Grid | None) -> Edges:
+def bivariate_edges(speed: Floats, resultant: Floats, classes: Grid | None) -> Edges:
     """Class edges of speed and force."""
     if classes is None:
         classes = number_of_classes(speed.size)
@@ -237,9 +237,9 @@ def _cells(speed: Floats, resultant: Floats, edges: Edges) -> tuple[Ints, tuple[
     return row * shape[1] + column, shape
 
 
-def count(
+def bin_sums(
     speed: Floats, resultant: Floats, edges: Edges, weight: Floats | None = None
-) -> NDArray[np.generic]:
+) -> NDArray[Any]:
     """Bivariate histogram of pairs that lie within the edges, optionally weighted."""
     cell, shape = _cells(speed, resultant, edges)
     return np.bincount(cell, weight, minlength=shape[0] * shape[1]).reshape(shape)
