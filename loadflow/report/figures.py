@@ -1,0 +1,174 @@
+"""One function for each figure of the report: Dataset in, matplotlib Figure out."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+from matplotlib.figure import Figure
+
+from loadflow.report.style import envelope, figure, readable
+
+
+def load_series(loads: xr.Dataset, bearings: xr.Dataset) -> Figure:
+    """Draw speed and pitch, hub moments and the radial force of each bearing over time.
+
+    Parameters
+    ----------
+    loads : xarray.Dataset
+        Case of a load cube: `speed`, `pitch`, `hub_moment` over time.
+    bearings : xarray.Dataset
+        `force` (bearing, axis, time) of the same case.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    drawing, axes = figure(3, sharex=True)
+    time = loads["time"].values
+    for name in ("speed", "pitch"):
+        values, unit = readable(loads[name])
+        envelope(axes[0], time, values, f"{loads[name].attrs['long_name']}, {unit}")
+    for name, axis in (("tilt", "y"), ("yaw", "z")):
+        values, unit = readable(loads["hub_moment"].sel(axis=axis))
+        envelope(axes[1], time, values, f"{name} moment")
+        axes[1].set_ylabel(f"hub moment, {unit}")
+    for bearing in bearings["bearing"].values:
+        for axis in ("y", "z"):
+            values, unit = readable(bearings["force"].sel(bearing=bearing, axis=axis))
+            envelope(axes[2], time, values, f"{bearing}, {axis}")
+        axes[2].set_ylabel(f"bearing force, {unit}")
+    axes[2].set_xlabel("time, s")
+    for axis in axes:
+        axis.legend(ncols=6, loc="upper right")
+    return drawing
+
+
+def seed_boxes(samples: dict[str, dict[str, np.ndarray]], units: dict[str, str]) -> Figure:
+    """Draw the spread of each seed beside the others, one panel for each component.
+
+    Parameters
+    ----------
+    samples : dict
+        For each component, the samples (n,) of each seed, in display units.
+    units : dict
+        Display unit of each component.
+    """
+    drawing, axes = figure(1, len(samples), height=2.4, squeeze=False)
+    for axis, (component, seeds) in zip(axes[0], samples.items()):
+        axis.boxplot(
+            list(seeds.values()),
+            tick_labels=list(seeds),
+            whis=(1, 99),
+            showfliers=False,
+            medianprops={"color": "#d1612b"},
+        )
+        axis.set_title(component)
+        axis.set_ylabel(units[component])
+        axis.set_xlabel("seed (whiskers: 1 % and 99 %)")
+    return drawing
+
+
+def seed_verdicts(seeds: xr.Dataset, method: str) -> Figure:
+    """Draw p values of location and spread and the spectral difference over wind speed."""
+    part = seeds.sel(variant=method)
+    drawing, axes = figure(1, 3, height=2.4)
+    for axis, test in zip(axes, ("location", "spread", "spectrum")):
+        for component in part["component"].values:
+            p = part["pvalue"].sel(test=test, component=component)
+            axis.plot(part["wind_speed"], np.maximum(p, 1e-12), "o-", ms=3, label=str(component))
+        axis.axhline(seeds.attrs["alpha"], color="black", lw=0.8, ls="--")
+        axis.set(yscale="log", ylim=(1e-12, 2), title=test, xlabel="wind speed, m/s")
+    axes[0].set_ylabel("p value (below the line: not equal)")
+    axes[0].legend()
+    return drawing
+
+
+def histograms(reduced: xr.Dataset) -> Figure:
+    """Draw the bivariate histogram of speed and load before and after the reduction."""
+    drawing, axes = figure(1, 2, height=2.8, sharey=True)
+    speed, speed_unit = readable(reduced["speed_edges"])
+    load, load_unit = readable(reduced["load_edges"])
+    for axis, name in zip(axes, ("counts_full", "counts_reduced")):
+        counts = reduced[name].values.astype(float)
+        mesh = axis.pcolormesh(speed, load, np.where(counts > 0, counts, np.nan).T, cmap="viridis")
+        axis.set_title(f"{reduced[name].attrs['long_name']}: {counts.sum():.0f} samples")
+        axis.set_xlabel(f"speed, {speed_unit}")
+        drawing.colorbar(mesh, ax=axis, label="samples in the class")
+    axes[0].set_ylabel(f"{reduced['load_edges'].attrs['long_name']}, {load_unit}")
+    return drawing
+
+
+def film(samples: xr.Dataset) -> Figure:
+    """Draw eccentricity ratio, smallest film and largest pressure over time."""
+    drawing, axes = figure(3, sharex=True, height=1.8)
+    panels = (("eccentricity_ratio", None), ("minimum_film", "µm"), ("maximum_pressure", None))
+    for axis, (name, unit) in zip(axes, panels):
+        values, shown = readable(samples[name], unit)
+        axis.plot(samples["time"], values, lw=0.7)
+        axis.set_ylabel(f"{samples[name].attrs['long_name']},\n{shown}")
+    axes[2].set_xlabel("time, s (reduced series)")
+    return drawing
+
+
+def orbit(samples: xr.Dataset) -> Figure:
+    """Draw where the shaft centre is in the clearance circle."""
+    drawing, axis = figure(height=4.2)
+    relative = samples["eccentricity"] / samples.attrs["radial_clearance"]
+    circle = np.linspace(0, 2 * np.pi, 181)
+    axis.plot(np.cos(circle), np.sin(circle), color="black", lw=1.0, label="contact")
+    points = axis.scatter(
+        relative.isel(component=1),
+        -relative.isel(component=0),
+        s=3,
+        c=readable(samples["minimum_film"], "µm")[0],
+        cmap="plasma_r",
+    )
+    drawing.colorbar(points, ax=axis, label="smallest film, µm")
+    axis.set(aspect="equal", xlabel="lateral / clearance", ylabel="vertical / clearance")
+    axis.set_title("shaft centre, seen downwind (left is right of the page)")
+    axis.invert_xaxis()
+    return drawing
+
+
+def ball_ring(worst: xr.Dataset) -> Figure:
+    """Draw the contact force of every ball around the ring, at the most loaded sample."""
+    drawing, axes = figure(
+        1, worst.sizes["row"], height=4.0, squeeze=False, subplot_kw={"projection": "polar"}
+    )
+    forces, unit = readable(worst["ball_forces"])
+    angle = worst["ball_angle"].values
+    closed = np.append(angle, angle[:1] + 2 * np.pi)
+    for row, axis in enumerate(axes[0]):
+        for diagonal in range(worst.sizes["diagonal"]):
+            ring = forces[row, diagonal]
+            axis.plot(closed, np.append(ring, ring[:1]), lw=1.2, label=f"diagonal {diagonal + 1}")
+        axis.set_title(f"row {row + 1}, contact force, {unit}")
+        axis.legend(loc="lower left")
+    return drawing
+
+
+def over_wind_speed(journal: xr.Dataset | None, rolling: xr.Dataset | None) -> Figure | None:
+    """Draw what matters of each load case over wind speed: every seed a point."""
+    panels = [
+        (data, name)
+        for data, names in (
+            (journal, ("largest_eccentricity_ratio", "smallest_film", "largest_pressure")),
+            (rolling, ("largest_ball_force", "smallest_static_safety")),
+        )
+        if data is not None
+        for name in names
+    ]
+    if not panels:
+        return None
+    drawing, axes = figure(1, len(panels), height=2.4, squeeze=False)
+    for axis, (data, name) in zip(axes[0], panels):
+        values, unit = readable(data[name], "µm" if name == "smallest_film" else None)
+        lines = values if values.ndim == 2 else values[None]
+        labels = data["bearing"].values if "bearing" in data[name].dims else [None]
+        for line, label in zip(lines, labels):
+            axis.plot(data["wind_speed"], line, "o", ms=3, alpha=0.7, label=label)
+        axis.set_title(f"{data[name].attrs['long_name']}, {unit}", fontsize="small")
+        axis.set_xlabel("wind speed, m/s")
+        if labels[0] is not None:
+            axis.legend()
+    return drawing

@@ -1,0 +1,80 @@
+"""The report as one HTML file that needs no other file and no network."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from jinja2 import Environment, PackageLoader, select_autoescape
+from matplotlib.figure import Figure
+
+from loadflow.report.style import to_png
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table: a title, column heads and rows of text; `bad` holds the numbers of rows to mark."""
+
+    title: str
+    heads: list[str]
+    rows: list[list[str]]
+    bad: frozenset[int] = frozenset()
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A figure with its caption; `fold` hides it until it is clicked."""
+
+    figure: Figure
+    caption: str
+    fold: bool = False
+
+    @property
+    def source(self) -> str:
+        """The figure as a ``data:`` address."""
+        return to_png(self.figure)
+
+
+@dataclass(frozen=True)
+class Section:
+    """A part of the page, shown in order: text, tables, pictures."""
+
+    title: str
+    text: str = ""
+    tables: list[Table] = field(default_factory=list)
+    pictures: list[Picture] = field(default_factory=list)
+
+    @property
+    def anchor(self) -> str:
+        """Name for links within the page."""
+        return self.title.lower().replace(" ", "-")
+
+
+def write_page(path: Path, title: str, facts: dict[str, str], sections: list[Section]) -> Path:
+    """Write the page, whole or not at all.
+
+    Parameters
+    ----------
+    path : Path
+        HTML file to write.
+    title : str
+        Heading of the page.
+    facts : dict
+        Short facts shown under the heading.
+    sections : list of Section
+        The content.
+
+    Returns
+    -------
+    Path
+        The file.
+    """
+    environment = Environment(
+        loader=PackageLoader("loadflow.report"), autoescape=select_autoescape(["html"])
+    )
+    page = environment.get_template("page.html").render(title=title, facts=facts, sections=sections)
+    temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
+    temporary.write_text(page, encoding="utf-8")
+    os.replace(temporary, path)
+    return path

@@ -1,0 +1,81 @@
+"""One look for all figures, and axis labels from the attributes of the data."""
+
+from __future__ import annotations
+
+import base64
+import io
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+import xarray as xr
+from cycler import cycler
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+STYLE: Any = {
+    "figure.constrained_layout.use": True,
+    "axes.grid": True,
+    "grid.alpha": 0.3,
+    "grid.linewidth": 0.5,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.titlesize": "medium",
+    "axes.titlelocation": "left",
+    "font.size": 9.0,
+    "legend.frameon": False,
+    "legend.fontsize": "small",
+    "axes.prop_cycle": cycler(
+        color=["#1f5a94", "#d1612b", "#3d8b5f", "#8a4f9e", "#b08d1e", "#4b9fb5", "#666666"]
+    ),
+}
+
+# what an engineer reads, for each SI unit that the data hold
+READABLE = {
+    "N": (1e-3, "kN"),
+    "N m": (1e-6, "MN m"),
+    "Pa": (1e-6, "MPa"),
+    "W": (1e-3, "kW"),
+    "rad/s": (30 / np.pi, "1/min"),
+    "rad": (180 / np.pi, "°"),
+    "m3/s": (6e4, "l/min"),
+    "1": (1.0, "-"),
+    "": (1.0, "-"),
+}
+
+
+def readable(data: xr.DataArray, units: str | None = None) -> tuple[np.ndarray, str]:
+    """Return values in the unit that is usual in drawings, and that unit."""
+    factor, unit = READABLE.get(data.attrs.get("units", ""), (1.0, data.attrs.get("units", "-")))
+    if units == "µm":
+        factor, unit = 1e6, "µm"
+    return np.asarray(data.values, dtype=float) * factor, unit
+
+
+def figure(rows: int = 1, columns: int = 1, height: float = 2.1, **keys: Any) -> tuple[Figure, Any]:
+    """Return a figure of page width in the common style, and its axes."""
+    with mpl.rc_context(STYLE):
+        drawing = Figure(figsize=(9.0, height * rows + 0.4))
+        axes = drawing.subplots(rows, columns, **keys)
+    return drawing, axes
+
+
+def envelope(axis: Axes, x: np.ndarray, y: np.ndarray, label: str, bins: int = 1500) -> None:
+    """Draw a long series: every sample if short, else its extremes in each of `bins` intervals.
+
+    A picture has fewer pixels than a series has samples; the extremes are what must stay visible.
+    """
+    if y.size <= 2 * bins:
+        axis.plot(x, y, lw=0.8, label=label)
+        return
+    edges = np.linspace(0, y.size, bins, endpoint=False).astype(int)
+    low, high = np.minimum.reduceat(y, edges), np.maximum.reduceat(y, edges)
+    axis.plot(np.repeat(x[edges], 2), np.column_stack([low, high]).ravel(), lw=0.7, label=label)
+
+
+def to_png(drawing: Figure) -> str:
+    """Return a figure as a ``data:`` address, so that the page needs no other file."""
+    buffer = io.BytesIO()
+    with mpl.rc_context(STYLE):
+        drawing.savefig(buffer, format="png", dpi=110)
+    return "data:image/png;base64," + base64.b64encode(buffer.getvalue()).decode()

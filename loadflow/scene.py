@@ -1,0 +1,267 @@
+"""A scene: one TOML file that says what is wanted, from which loads, for which bearings.
+
+`read_scene` is the only gate: what comes out is frozen and valid. The scene composes the options
+that each room owns; it knows no physics.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import tomllib
+from pathlib import Path
+from typing import Annotated, Any, Literal, Self, get_args
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+
+from loadflow.errors import InputError
+from loadflow.journal import GasMixture, JournalBearing, Lubricant
+from loadflow.rolling import SlewingBearing
+from loadflow.shaft.options import MomentBearing, TwoPoint
+
+Result = Literal[
+    "loads.statistics",
+    "seeds.equality",
+    "reduction.histogram",
+    "journal.film",
+    "rolling.loads",
+    "rolling.life",
+]
+
+Positive = Annotated[float, Field(gt=0)]
+
+
+class _Section(BaseModel):
+    """Part of a scene: frozen, and an unknown key is an error."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+
+
+class Turbine(_Section):
+    """The turbine: a name that `loadflow.turbines` knows, or a path to a file of the same form."""
+
+    name: str = "nrel-5mw"
+
+
+class Loads(_Section):
+    """Where the load series come from.
+
+    ``source = "simulate"`` makes them from IEC wind; ``source = "files"`` reads them: OpenFAST
+    output, or a load cube (``.h5``).
+    """
+
+    source: Literal["simulate", "files"] = "simulate"
+    files: list[str] = []
+    case_list: str | None = None
+    pattern: str | None = None
+    dlc: str = "1.1"
+    wind_speeds: Annotated[list[Positive], Field(min_length=1)] = [4.0, 8.0, 12.0, 16.0, 20.0, 24.0]
+    seeds: Annotated[int, Field(ge=1, le=1000)] = 6
+    first_seed: Annotated[int, Field(ge=0)] = 1
+    duration: Positive = 600.0
+    step: Annotated[float, Field(gt=0, le=0.5)] = 0.025
+    wind_class: Literal["I", "II", "III"] = "I"
+    category: Literal["A+", "A", "B", "C"] = "B"
+    rung: Literal["tables", "bem"] = "bem"
+
+    @model_validator(mode="after")
+    def _files_for_files(self) -> Self:
+        if self.source == "simulate" and self.files:
+            raise ValueError('files are given, but source = "simulate"; set source = "files"')
+        return self
+
+
+class Shaft(_Section):
+    """Suspensions to compute; a table that is left out costs nothing.
+
+    ``two_point`` gives the bearings N (floating) and N2 (locating), ``moment`` the bearing M.
+    """
+
+    two_point: TwoPoint | None = None
+    moment: MomentBearing | None = None
+
+    @property
+    def bearings(self) -> tuple[str, ...]:
+        """Names of the bearings that these suspensions have."""
+        return (("N", "N2") if self.two_point else ()) + (("M",) if self.moment else ())
+
+
+class Seeds(_Section):
+    """Tests of seed equality: level of significance, method, half width of the spectral band."""
+
+    alpha: Annotated[float, Field(gt=0, lt=1)] = 0.05
+    methods: list[Literal["as-printed", "calibrated"]] = ["as-printed", "calibrated"]
+    band: Annotated[float, Field(gt=0, lt=1)] = 0.025
+
+
+class Reduction(_Section):
+    """Quasi-static histogram reduction: share of the samples kept, and how they are picked."""
+
+    size: Annotated[float, Field(gt=0, le=1)] = 0.1
+    pick: Literal["random", "extremes"] = "extremes"
+    seed: Annotated[int, Field(ge=0)] = 0
+
+
+class Journal(_Section):
+    """Journal bearings: which ones of the shaft, and one set of data for all of them."""
+
+    bearings: Annotated[list[str], Field(min_length=1)] = ["N", "N2"]
+    geometry: JournalBearing = JournalBearing(diameter=3.0, width=2.25, relative_clearance=0.5e-3)
+    lubricant: Lubricant = Lubricant(viscosity=0.050)
+    cavitation: GasMixture = GasMixture(0.05e6)
+    edge_pressure: Annotated[float, Field(ge=0)] = 0.5e6
+    grid: tuple[Annotated[int, Field(ge=12, le=720)], Annotated[int, Field(ge=4, le=240)]] = (
+        60,
+        20,
+    )
+    rung: Literal["grid"] = "grid"
+
+
+class Rolling(_Section):
+    """Rolling bearing: which one of the shaft, its geometry, material and limits."""
+
+    bearing: str = "M"
+    geometry: SlewingBearing = SlewingBearing(
+        balls=129,
+        rows=2,
+        ball_diameter=0.040,
+        pitch_diameter=1.9,
+        groove_radius=0.0205,
+        contact_angle=0.7853981633974483,
+        hardness=600.0,
+    )
+    rings: Literal["rigid"] = "rigid"
+
+
+class Scene(_Section):
+    """What is wanted, and from what; see the modules of the sections for units.
+
+    Attributes
+    ----------
+    name : str
+        Name of the run and of its folder.
+    results : list of str
+        What is wanted; the plan runs only the stages that these need.
+    """
+
+    name: Annotated[str, Field(pattern=r"^[A-Za-z0-9_.-]+$")]
+    results: Annotated[list[Result], Field(min_length=1)] = list(get_args(Result))
+    turbine: Turbine = Turbine()
+    loads: Loads = Loads()
+    shaft: Shaft = Shaft(two_point=TwoPoint(), moment=MomentBearing())
+    seeds: Seeds = Seeds()
+    reduction: Reduction = Reduction()
+    journal: Journal = Journal()
+    rolling: Rolling = Rolling()
+
+    @model_validator(mode="after")
+    def _bearings_exist(self) -> Self:
+        wanted = {
+            "journal.bearings": self.journal.bearings if self.wants("journal") else [],
+            "rolling.bearing": [self.rolling.bearing] if self.wants("rolling") else [],
+        }
+        for key, bearings in wanted.items():
+            for bearing in bearings:
+                if bearing not in self.shaft.bearings:
+                    have = ", ".join(self.shaft.bearings) or "none"
+                    raise ValueError(f"{key} = {bearing!r}: the shaft has the bearings {have}")
+        return self
+
+    def wants(self, room: str) -> bool:
+        """Whether a result of `room` is wanted."""
+        return any(result.split(".")[0] == room for result in self.results)
+
+    def to_toml(self) -> str:
+        """Return the scene with all defaults, as TOML."""
+        import tomli_w
+
+        return tomli_w.dumps(self.model_dump(mode="json", exclude_none=True))
+
+    def digest(self, *sections: str) -> str:
+        """SHA-256 of the resolved scene, or of some of its sections."""
+        include = set(sections) if sections else None
+        return hashlib.sha256(self.model_dump_json(include=include).encode()).hexdigest()
+
+
+def read_scene(path: str | Path) -> Scene:
+    """Read and check a scene file.
+
+    Parameters
+    ----------
+    path : str or Path
+        TOML file. Load files in it are meant relative to the file.
+
+    Returns
+    -------
+    Scene
+        Frozen and valid.
+
+    Raises
+    ------
+    InputError
+        The file is missing, is not TOML, or holds a bad key or value; the message names file, key,
+        value and what is allowed.
+    """
+    path = Path(path)
+    try:
+        with path.open("rb") as stream:
+            data = tomllib.load(stream)
+    except OSError as error:
+        raise InputError(f"{path}: cannot read the scene: {error.strerror}") from error
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise InputError(f"{path}: not a TOML file: {error}") from error
+    return make_scene(_anchor_files(data, path.parent), str(path))
+
+
+def make_scene(data: dict[str, Any], source: str = "scene") -> Scene:
+    """Build a scene from a dictionary; `source` names it in messages.
+
+    Raises
+    ------
+    InputError
+        As `read_scene`.
+    """
+    data.setdefault("name", Path(source).stem)
+    try:
+        return Scene.model_validate(data)
+    except ValidationError as error:
+        raise InputError(_message(error, source)) from error
+
+
+def with_loads(scene: Scene, files: list[str]) -> Scene:
+    """Return the scene with its load series read from `files` (names or glob patterns)."""
+    loads = Loads(source="files", files=files, wind_class=scene.loads.wind_class)
+    return scene.model_copy(update={"loads": loads})
+
+
+def _anchor_files(data: dict[str, Any], folder: Path) -> dict[str, Any]:
+    """Make relative load files relative to the scene file, not to where the user stands."""
+    loads = data.get("loads")
+    if isinstance(loads, dict) and isinstance(loads.get("files"), list):
+        files = [str(folder / file) if isinstance(file, str) else file for file in loads["files"]]
+        return data | {"loads": loads | {"files": files}}
+    return data
+
+
+def _message(error: ValidationError, source: str) -> str:
+    """One line per bad key: file, key, value, what is allowed."""
+    lines = []
+    for item in error.errors():
+        key = ".".join(str(part) for part in item["loc"]) or "scene"
+        reason = item["msg"].removeprefix("Value error, ").replace("Input should be", "must be")
+        if item["type"] in ("extra_forbidden", "unexpected_keyword_argument"):
+            lines.append(f"{source}: {key}: unknown key{_neighbours(item['loc'])}")
+        elif item["type"] == "missing":
+            lines.append(f"{source}: {key}: this key is missing")
+        elif item["type"] == "value_error":
+            lines.append(f"{source}: {key}: {reason}")
+        else:
+            lines.append(f"{source}: {key} = {item['input']!r}: {reason}")
+    return "\n".join(lines)
+
+
+def _neighbours(location: tuple[int | str, ...]) -> str:
+    """Name the keys that are known where an unknown one stands."""
+    data: Any = Scene(name="defaults").model_dump()
+    for part in location[:-1]:
+        data = data.get(part) if isinstance(data, dict) else None
+    return f"; known here: {', '.join(sorted(data))}" if isinstance(data, dict) else ""

@@ -1,0 +1,159 @@
+"""Which load cases a scene has; a case is known before its series is."""
+
+from __future__ import annotations
+
+import glob
+import hashlib
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+
+from loadflow.cube import case_name, check_cube, iter_cases, open_cube
+from loadflow.errors import InputError
+from loadflow.readers import read_loads
+from loadflow.readers.loads import find_files
+from loadflow.scene import Loads, Scene
+
+CUBES = (".h5", ".nc")
+
+
+@dataclass(frozen=True)
+class Case:
+    """One load case: what it is, and where its series comes from.
+
+    Attributes
+    ----------
+    dlc : str
+        Design load case.
+    wind_speed : float
+        Mean wind speed at hub height, m/s.
+    seed : int
+        Index of the turbulence seed.
+    weight : float
+        Share of the lifetime.
+    file : str
+        File the series is read from; empty if it is simulated.
+    entry : str
+        Name of the case inside a load cube; empty otherwise.
+    fingerprint : str
+        Hash of the file's content; empty if simulated (the scene says it all).
+    steps : int
+        Length of the series.
+    """
+
+    dlc: str
+    wind_speed: float
+    seed: int
+    weight: float = 1.0
+    file: str = ""
+    entry: str = ""
+    fingerprint: str = ""
+    steps: int = 0
+
+    @property
+    def name(self) -> str:
+        """Name of the case and of its files."""
+        return case_name(self.dlc, self.wind_speed, self.seed)
+
+
+def list_cases(scene: Scene) -> list[Case]:
+    """Return the load cases of a scene, weighted by their share of the lifetime.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        No file, a missing file, or two series that cannot be told apart.
+    """
+    loads = scene.loads
+    if loads.source == "simulate":
+        seeds = range(loads.first_seed, loads.first_seed + loads.seeds)
+        steps = round(loads.duration / loads.step)
+        cases = [
+            Case(loads.dlc, speed, seed, steps=steps)
+            for speed in loads.wind_speeds
+            for seed in seeds
+        ]
+        return _weighted(_distinct(cases), loads.wind_class)
+    if not loads.files:
+        raise InputError('loads.files: source = "files" needs load files; none is given')
+    files = [path for pattern in loads.files for path in _matching(pattern)]
+    cases = [case for path in files for case in _cases_of(path, loads)]
+    return _weighted(_distinct(cases), loads.wind_class)
+
+
+def _matching(pattern: str) -> list[Path]:
+    """Return the files that a name or pattern stands for: cubes, or what a reader knows."""
+    if Path(pattern).suffix not in CUBES:
+        return find_files(pattern)
+    paths = [Path(name) for name in sorted(glob.glob(pattern))]
+    if not paths:
+        raise InputError(f"{pattern}: no such load cube")
+    return paths
+
+
+def _cases_of(path: Path, loads: Loads) -> Iterator[Case]:
+    """Yield the cases of one file: a load cube, or the output of a simulator."""
+    if path.suffix in CUBES:
+        cube = open_cube(path)
+        check_cube(cube, source=str(path))
+    else:
+        cube = read_loads(path, cases=loads.case_list, pattern=loads.pattern)
+    fingerprint = _hash(path)
+    for name, series in iter_cases(cube):
+        yield Case(
+            str(series["dlc"].item()),
+            float(series["wind_speed"].item()),
+            int(series["seed"].item()),
+            file=str(path),
+            entry=name,
+            fingerprint=fingerprint,
+            steps=series.sizes["time"],
+        )
+
+
+def _distinct(cases: Iterable[Case]) -> list[Case]:
+    """Number the cases of which nothing is known; two known ones of the same name are an error."""
+    taken: dict[str, Case] = {}
+    for case in cases:
+        while case.name in taken:
+            if case.dlc != "unknown":
+                first = taken[case.name].file or "the scene"
+                raise InputError(f"{case.file or 'the scene'}: {case.name} is already in {first}")
+            case = replace(case, seed=case.seed + 1)
+        taken[case.name] = case
+    return list(taken.values())
+
+
+def _hash(path: Path) -> str:
+    with path.open("rb") as stream:
+        return hashlib.file_digest(stream, "sha256").hexdigest()
+
+
+def _weighted(cases: list[Case], wind_class: str) -> list[Case]:
+    """Share the lifetime over the wind speeds of each DLC (Rayleigh, (2.2)), and their seeds."""
+    share = {
+        dlc: _speed_shares({case.wind_speed for case in cases if case.dlc == dlc}, wind_class)
+        for dlc in {case.dlc for case in cases}
+    }
+    count = Counter((case.dlc, case.wind_speed) for case in cases)
+    return [
+        replace(c, weight=share[c.dlc][c.wind_speed] / count[c.dlc, c.wind_speed]) for c in cases
+    ]
+
+
+def _speed_shares(wind_speeds: set[float], wind_class: str) -> dict[float, float]:
+    """Return the share of each wind speed: its bin reaches half way to its neighbours."""
+    from loadflow.wind import iec
+
+    speeds = sorted(wind_speeds)
+    if len(speeds) == 1:
+        return {speeds[0]: 1.0}
+    middles = [(low + high) / 2 for low, high in pairwise(speeds)]
+    first, last = 2 * speeds[0] - middles[0], 2 * speeds[-1] - middles[-1]
+    edges = [max(0.0, first), *middles, last]
+    below = iec.weibull_cdf(edges, iec.class_speeds(wind_class).v_ave)
+    return dict(zip(speeds, (np.diff(below) / (below[-1] - below[0])).tolist()))

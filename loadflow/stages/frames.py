@@ -1,0 +1,26 @@
+"""The change of frame from the load cube to each bearing room.
+
+The cube's frame does not rotate: x along the shaft, downwind; z up; y to the left looking
+downwind. The rotor turns y toward z.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+
+def to_film(vector: Floats) -> Floats:
+    """Turn (..., x, y, z) of the cube into the plane of the film: (first, second) = (−z, +y).
+
+    The first axis points down, the way the weight acts; the rotor turns it toward the second.
+    This is the frame of the source [Jonuschies 2015].
+    """
+    return np.stack([-vector[..., 2], vector[..., 1]], axis=-1)
+
+
+def to_rolling(vector: Floats) -> Floats:
+    """Turn (..., x, y, z) of the cube into (y, z, x): the bearing axis comes last."""
+    return vector[..., [1, 2, 0]]

@@ -1,0 +1,123 @@
+"""Reduced loads of one case → film of each journal bearing, at static equilibrium."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from loadflow.errors import SolverError
+from loadflow.scene import Scene
+from loadflow.stages.cases import Case
+from loadflow.stages.frames import to_film
+from loadflow.stages.summary import over_cases
+
+# what is kept of every sample: units and meaning
+KEPT = {
+    "eccentricity_ratio": ("1", "eccentricity ratio"),
+    "attitude_angle": ("rad", "attitude angle"),
+    "minimum_film": ("m", "smallest film thickness"),
+    "maximum_pressure": ("Pa", "largest film pressure, absolute"),
+    "sommerfeld_number": ("1", "Sommerfeld number"),
+    "friction_power": ("W", "friction power"),
+    "side_flow": ("m3/s", "side flow"),
+    "converged": ("1", "whether the equilibrium was found"),
+    "residual": ("1", "scaled residual of film and load"),
+    "iterations": ("1", "iterations"),
+}
+
+
+def film(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
+    """Solve the film for every sample of the reduced series; one group per bearing.
+
+    Raises
+    ------
+    loadflow.errors.SolverError
+        A sample has no equilibrium, such as a load at standstill.
+    """
+    return xr.DataTree.from_dict(
+        {
+            bearing: _bearing(scene, case, bearing, inputs["reduction"][bearing].to_dataset())
+            for bearing in scene.journal.bearings
+        }
+    )
+
+
+def _bearing(scene: Scene, case: Case, bearing: str, reduced: xr.Dataset) -> xr.Dataset:
+    options = scene.journal
+    try:
+        answer = options.geometry.equilibrium(
+            force=to_film(reduced["force"].values),
+            speed=reduced["speed"].values,
+            lubricant=options.lubricant,
+            cavitation=options.cavitation,
+            edge_pressure=options.edge_pressure,
+            grid=options.grid,
+            rung=options.rung,
+        )
+    except SolverError as error:
+        raise SolverError(f"bearing {bearing}: {error}") from error
+    samples: dict[str, Any] = {
+        name: ("sample", np.asarray(getattr(answer, name)), {"units": units, "long_name": meaning})
+        for name, (units, meaning) in KEPT.items()
+    }
+    samples["eccentricity"] = (
+        ("sample", "component"),
+        answer.eccentricity,
+        {"units": "m", "long_name": "shaft centre: down, then left"},
+    )
+    return (
+        reduced[["time", "speed", "weight"]]
+        .assign(samples)
+        .assign_attrs(
+            radial_clearance=options.geometry.clearance,
+            laminar=int(np.all(answer.laminar)),
+            largest_reynolds_number=float(np.max(answer.reynolds_number)),
+        )
+    )
+
+
+def summary(parts: Mapping[Case, xr.DataTree]) -> xr.Dataset:
+    """Reduce each case to extremes and weighted means; dimensions ``bearing`` and ``case``."""
+    return over_cases({case: _summary_of(tree) for case, tree in parts.items()})
+
+
+def _summary_of(tree: xr.DataTree) -> xr.Dataset:
+    parts = [_extremes(node.to_dataset()) for node in tree.children.values()]
+    return xr.concat(parts, "bearing", combine_attrs="override").assign_coords(
+        bearing=list(tree.children)
+    )
+
+
+def _extremes(samples: xr.Dataset) -> xr.Dataset:
+    weight = samples["weight"]
+
+    def mean(name: str) -> xr.DataArray:
+        return samples[name].weighted(weight).mean()
+
+    found = {
+        "largest_eccentricity_ratio": (samples["eccentricity_ratio"].max(), "largest ε"),
+        "mean_eccentricity_ratio": (mean("eccentricity_ratio"), "mean ε"),
+        "smallest_film": (samples["minimum_film"].min(), "smallest film"),
+        "largest_pressure": (samples["maximum_pressure"].max(), "largest pressure"),
+        "largest_sommerfeld_number": (samples["sommerfeld_number"].max(), "largest So"),
+        "mean_sommerfeld_number": (mean("sommerfeld_number"), "mean So"),
+        "mean_friction_power": (mean("friction_power"), "mean friction power"),
+        "mean_side_flow": (mean("side_flow"), "mean side flow"),
+        "largest_residual": (samples["residual"].max(), "largest residual"),
+        "not_converged": ((~samples["converged"].astype(bool)).sum(), "samples not converged"),
+    }
+    units = {
+        "smallest_film": "m",
+        "largest_pressure": "Pa",
+        "mean_friction_power": "W",
+        "mean_side_flow": "m3/s",
+    }
+    return xr.Dataset(
+        {
+            name: value.assign_attrs(units=units.get(name, "1"), long_name=meaning)
+            for name, (value, meaning) in found.items()
+        }
+    )

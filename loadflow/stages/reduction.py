@@ -1,0 +1,72 @@
+"""Bearing loads of one case → fewer samples of the same load character, for each bearing."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from loadflow.reduction import Reduced, histogram
+from loadflow.scene import Scene
+from loadflow.stages.cases import Case
+from loadflow.stages.frames import to_film
+
+
+def reduced_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
+    """Reduce the series by the histogram of speed and load (4.28–4.36); one group per bearing.
+
+    A bearing that takes moments is classed by its tilting moment, which governs its rolling
+    elements; the others by their radial force.
+    """
+    loads, shaft = inputs["loads"].load(), inputs["shaft"].load()
+    speed = loads["speed"].values.astype(float)
+    time = loads["time"].values
+    groups = {}
+    for bearing in shaft["bearing"].values:
+        force = _vectors(shaft["force"].sel(bearing=bearing))
+        moment = _vectors(shaft["moment"].sel(bearing=bearing))
+        by_moment = bool(np.any(moment[:, 1:]))
+        reduced = histogram(
+            speed,
+            to_film(moment if by_moment else force),
+            time,
+            size=scene.reduction.size,
+            pick=scene.reduction.pick,
+            seed=scene.reduction.seed,
+            source=f"{case.name}, bearing {bearing}",
+        )
+        groups[str(bearing)] = _dataset(reduced, force, moment, by_moment)
+    return xr.DataTree.from_dict(groups)
+
+
+def _vectors(data: xr.DataArray) -> np.ndarray:
+    return data.transpose("time", "axis").values.astype(float)
+
+
+def _dataset(
+    reduced: Reduced, force: np.ndarray, moment: np.ndarray, by_moment: bool
+) -> xr.Dataset:
+    of, units = ("tilting moment", "N m") if by_moment else ("radial force", "N")
+    samples, classes = ("sample",), ("speed_class", "load_class")
+    index = reduced.index
+
+    def labelled(dims: tuple[str, ...], values: np.ndarray, units: str, long_name: str) -> Any:
+        return dims, values, {"units": units, "long_name": long_name}
+
+    return xr.Dataset(
+        {
+            "index": labelled(samples, index, "1", "place in the full series"),
+            "time": labelled(samples, reduced.time, "s", "time"),
+            "speed": labelled(samples, reduced.speed, "rad/s", "rotor speed"),
+            "weight": labelled(samples, reduced.weight, "1", "samples of the full series"),
+            "force": labelled((*samples, "axis"), force[index], "N", "force on the bearing"),
+            "moment": labelled((*samples, "axis"), moment[index], "N m", "moment on the bearing"),
+            "counts_full": labelled(classes, reduced.counts_full, "1", "before"),
+            "counts_reduced": labelled(classes, reduced.counts_reduced, "1", "after"),
+            "speed_edges": labelled(("speed_edge",), reduced.edges[0], "rad/s", "rotor speed"),
+            "load_edges": labelled(("load_edge",), reduced.edges[1], units, of),
+        },
+        {"axis": ["x", "y", "z"]},
+        {"pick": reduced.pick, "seed": reduced.seed, "source": reduced.source},
+    )

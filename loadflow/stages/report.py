@@ -1,0 +1,272 @@
+"""A finished run → its report page; reads only what the run left on disk."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from loadflow.cube import open_cube
+from loadflow.errors import InputError
+from loadflow.report import Picture, Section, Table, figures, write_page
+from loadflow.report.style import readable
+from loadflow.scene import Scene, read_scene
+
+
+def write_report(folder: Path) -> Path:
+    """Write ``report.html`` into the folder of a run.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        The folder holds no finished run.
+    """
+    if not (folder / "result.h5").exists():
+        raise InputError(f"{folder}: no finished run here (result.h5 is missing)")
+    scene = read_scene(folder / "scene.toml")
+    manifest = json.loads((folder / "manifest.json").read_text(encoding="utf-8"))
+    results = open_cube(folder / "result.h5")
+    tables = {name: node.to_dataset() for name, node in results.children.items()}
+    sections = [*_sections(folder, scene, manifest, tables)]
+    return write_page(
+        folder / "report.html", f"loadflow: {scene.name}", _facts(scene, manifest), sections
+    )
+
+
+def _facts(scene: Scene, manifest: dict[str, Any]) -> dict[str, str]:
+    loads = scene.loads
+    source = (
+        f"simulated, DLC {loads.dlc}, category {loads.category}, {scene.turbine.name}"
+        if loads.source == "simulate"
+        else f"{len(manifest['inputs'])} files"
+    )
+    return {
+        "Loads": source,
+        "Load cases": str(len(manifest["cases"])),
+        "Results": ", ".join(scene.results),
+        "Took": f"{manifest.get('wall_seconds', 0):.0f} s with {manifest.get('workers')} processes",
+        "Software": ", ".join(f"{k} {v}" for k, v in manifest["versions"].items()),
+    }
+
+
+def _sections(
+    folder: Path, scene: Scene, manifest: dict[str, Any], tables: dict[str, xr.Dataset]
+) -> Iterator[Section]:
+    yield _overview(tables, manifest)
+    shown = _shown_cases(tables, manifest)
+    yield Section("Loads", tables=[*_load_table(tables)], pictures=[*_load_pictures(folder, shown)])
+    if "seeds" in tables:
+        yield _seed_section(folder, tables["seeds"], manifest)
+    if (folder / "reduction").is_dir() and "reduction" in manifest["stages"]:
+        yield Section(
+            "Reduction",
+            "Bivariate histogram of speed and load before and after the quasi-static reduction.",
+            pictures=[*_per_bearing(folder, "reduction", shown, figures.histograms)],
+        )
+    if "journal" in tables:
+        pictures = [
+            *_per_bearing(folder, "journal", shown, figures.film),
+            *_per_bearing(folder, "journal", shown[:1], figures.orbit),
+        ]
+        yield Section("Journal bearing", tables=[_case_table(tables["journal"])], pictures=pictures)
+    if "rolling" in tables:
+        yield Section(
+            "Rolling bearing",
+            "Rigid rings: flexible rings raise the largest ball force.",
+            tables=[_case_table(tables["rolling"])],
+            pictures=[
+                Picture(figures.ball_ring(_open(folder, "rolling", name)), _caption(name), k > 0)
+                for k, name in enumerate(shown)
+            ],
+        )
+    yield _provenance(manifest)
+
+
+def _overview(tables: dict[str, xr.Dataset], manifest: dict[str, Any]) -> Section:
+    failures = manifest.get("failures", {})
+    drawing = figures.over_wind_speed(tables.get("journal"), tables.get("rolling"))
+    pictures = [Picture(drawing, "Every load case over wind speed.")] if drawing else []
+    notes = [Table("Without an answer", ["part", "why"], [[k, v] for k, v in failures.items()])]
+    return Section("Overview", tables=notes if failures else [], pictures=pictures)
+
+
+def _shown_cases(tables: dict[str, xr.Dataset], manifest: dict[str, Any]) -> list[str]:
+    """Return the worst case first, then one case of each other wind speed."""
+    order = list(manifest["cases"])
+    if "journal" in tables:
+        worst = tables["journal"]["largest_eccentricity_ratio"].max("bearing")
+    elif "rolling" in tables:
+        worst = tables["rolling"]["largest_ball_force"]
+    else:
+        worst = None
+    first = str(worst.idxmax("case").item()) if worst is not None else order[0]
+    by_speed = {name.rsplit("_s", 1)[0]: name for name in reversed(order)}
+    return [first, *(n for k, n in by_speed.items() if k != first.rsplit("_s", 1)[0])][:16]
+
+
+def _open(folder: Path, stage: str, case: str) -> Any:
+    return open_cube(folder / stage / f"{case}.h5")
+
+
+def _caption(case: str, more: str = "") -> str:
+    return f"{case}{', ' + more if more else ''}"
+
+
+def _load_table(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
+    """Mean, spread and extremes of the radial loads over the cases of a wind speed."""
+    if "statistics" not in tables:
+        return
+    data = tables["statistics"]
+    rows = []
+    for name, title in (("speed", "speed"), ("hub_force", "hub force"), ("force", "force")):
+        if name not in data:
+            continue
+        for label, part in _parts(data[name], title):
+            values, unit = readable(part.assign_attrs(data[name].attrs))
+            table = dict(zip(part["statistic"].values, np.moveaxis(values, _axis(part), 0)))
+            rows.append(
+                [
+                    f"{label}, {unit}",
+                    *(f"{table[s].mean():.4g}" for s in ("mean", "std", "del")),
+                    f"{table['min'].min():.4g}",
+                    f"{table['max'].max():.4g}",
+                ]
+            )
+    heads = ["over all cases", "mean", "mean std", "mean DEL (m = 4)", "smallest", "largest"]
+    yield Table("Loads", heads, rows)
+
+
+def _axis(part: xr.DataArray) -> int:
+    return part.dims.index("statistic")
+
+
+def _parts(data: xr.DataArray, title: str) -> Iterator[tuple[str, xr.DataArray]]:
+    dims = [dim for dim in ("bearing", "axis") if dim in data.dims]
+    if not dims:
+        yield title, data
+        return
+    for labels, part in data.stack(part=dims).groupby("part"):
+        names = labels if isinstance(labels, tuple) else (labels,)
+        yield f"{title} {' '.join(map(str, names))}", part.squeeze("part", drop=True)
+
+
+def _load_pictures(folder: Path, shown: list[str]) -> Iterator[Picture]:
+    for k, name in enumerate(shown):
+        drawing = figures.load_series(
+            _open(folder, "loads", name).load(), _open(folder, "shaft", name).load()
+        )
+        yield Picture(drawing, _caption(name, "worst case" if k == 0 else ""), fold=k > 0)
+
+
+def _per_bearing(folder: Path, stage: str, shown: list[str], draw: Any) -> Iterator[Picture]:
+    for k, name in enumerate(shown):
+        for bearing, node in _open(folder, stage, name).children.items():
+            yield Picture(
+                draw(node.to_dataset().load()), _caption(name, f"bearing {bearing}"), k > 0
+            )
+
+
+def _seed_section(folder: Path, seeds: xr.Dataset, manifest: dict[str, Any]) -> Section:
+    tables: list[Table] = []
+    pictures: list[Picture] = []
+    for method in seeds["variant"].values:
+        part = seeds.sel(variant=method)
+        rows = [
+            [
+                str(group["dlc"].item()),
+                f"{group['wind_speed'].item():g}",
+                f"{group['seeds'].item()}",
+                str(group["component"].item()),
+                *(_p(group["pvalue"].sel(test=test).item()) for test in group["test"].values),
+                str(group["verdict"].item()),
+            ]
+            for _, group in _cells(part)
+        ]
+        heads = ["DLC", "wind, m/s", "seeds", "component"]
+        heads += [f"p {test}" for test in part["test"].values] + ["verdict"]
+        tables.append(Table(f"Equality of seeds, {method}", heads, rows))
+        pictures.append(Picture(figures.seed_verdicts(seeds, method), f"Tests, {method}."))
+    pictures += _seed_boxes(folder, manifest)
+    text = (
+        "Series of one wind speed may be merged only if location, spread and spectrum agree. The "
+        "printed tests take every sample as independent, which samples of a record are not: they "
+        "reject nearly always. The calibrated ones hold their level."
+    )
+    return Section("Seeds", text, tables, pictures)
+
+
+def _cells(part: xr.Dataset) -> Iterator[tuple[Any, xr.Dataset]]:
+    for g in range(part.sizes["group"]):
+        for c in range(part.sizes["component"]):
+            yield (g, c), part.isel(group=g, component=c)
+
+
+def _p(value: float) -> str:
+    return "-" if np.isnan(value) else f"{value:.2g}"
+
+
+def _seed_boxes(folder: Path, manifest: dict[str, Any]) -> list[Picture]:
+    """Draw the spread of the seeds of every wind speed that has more than one."""
+    groups: dict[str, list[str]] = {}
+    for name in manifest["cases"]:
+        groups.setdefault(name.rsplit("_s", 1)[0], []).append(name)
+    pictures: list[Picture] = []
+    for group, names in groups.items():
+        if len(names) < 2:
+            continue
+        samples: dict[str, dict[str, np.ndarray]] = {}
+        units: dict[str, str] = {}
+        for name in names:
+            seed = name.rsplit("_s", 1)[1]
+            force = _open(folder, "shaft", name)["force"]
+            for bearing in force["bearing"].values[:2]:
+                for axis in ("y", "z"):
+                    label = f"{bearing} F{axis}"
+                    values, units[label] = readable(force.sel(bearing=bearing, axis=axis))
+                    samples.setdefault(label, {})[seed] = values
+        pictures.append(Picture(figures.seed_boxes(samples, units), f"{group}", bool(pictures)))
+    return pictures
+
+
+def _case_table(data: xr.Dataset) -> Table:
+    """One row for each case (and bearing), one column for each number."""
+    names = [str(n) for n in data.data_vars if set(data[n].dims) <= {"case", "bearing"}]
+    shown = {n: readable(data[n], "µm" if "film" in n else None) for n in names}
+    heads = ["case"] + [f"{data[n].attrs['long_name']}, {unit}" for n, (_, unit) in shown.items()]
+    bearings = data["bearing"].values if "bearing" in data.dims else [""]
+    rows: list[list[str]] = []
+    bad: set[int] = set()
+    for k, case in enumerate(data["case"].values):
+        for b, bearing in enumerate(bearings):
+            if "not_converged" in data:
+                count = np.atleast_2d(data["not_converged"].values)[b, k]
+                bad |= {len(rows)} if count > 0 else set()
+            rows.append(
+                [
+                    f"{case} {bearing}",
+                    *(f"{np.atleast_2d(values)[b, k]:.4g}" for values, _ in shown.values()),
+                ]
+            )
+    return Table("", heads, rows, frozenset(bad))
+
+
+def _provenance(manifest: dict[str, Any]) -> Section:
+    rows = [
+        [
+            stage,
+            rung["rung"],
+            rung["error"],
+            f"{manifest.get('seconds', {}).get(stage, 0.0):.1f}",
+        ]
+        for stage, rung in manifest["rungs"].items()
+    ]
+    heads = ["stage", "model", "error against the top model", "seconds, all processes"]
+    inputs = [[Path(file).name, digest[:16]] for file, digest in manifest["inputs"].items()]
+    tables = [Table("Models", heads, rows)]
+    if inputs:
+        tables.append(Table("Input files", ["file", "SHA-256, beginning"], inputs))
+    return Section("Provenance", tables=tables)

@@ -1,0 +1,101 @@
+"""All load cases → which seeds of a wind speed may be taken as equal."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from itertools import groupby
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from loadflow.scene import Scene
+from loadflow.seeds import equality
+from loadflow.seeds.equality import Method
+from loadflow.stages.cases import Case
+
+TESTS = ("location", "spread", "spectrum")
+
+
+def equality_of_seeds(
+    scene: Scene, cases: list[Case], inputs: Mapping[str, dict[str, Any]]
+) -> xr.Dataset:
+    """Test the seeds of every wind speed, for rotor speed and each load component of each bearing.
+
+    The components are those of the radial force, or of the tilting moment where one is taken.
+
+    Returns
+    -------
+    xarray.Dataset
+        `statistic`, `pvalue`, `equal` (variant, group, component, test) and `verdict` in words;
+        a group is one wind speed of one load case.
+    """
+    groups = [list(group) for _, group in groupby(sorted(cases, key=_group), key=_group)]
+    per_method = [
+        xr.concat([_one_group(scene, method, group, inputs) for group in groups], "group")
+        for method in scene.seeds.methods
+    ]
+    return (
+        xr.concat(per_method, "variant")
+        .assign_coords(variant=list(scene.seeds.methods))
+        .assign_attrs(alpha=scene.seeds.alpha, band=scene.seeds.band)
+    )
+
+
+def _group(case: Case) -> tuple[str, float]:
+    return case.dlc, case.wind_speed
+
+
+def _one_group(
+    scene: Scene, method: Method, group: list[Case], inputs: Mapping[str, dict[str, Any]]
+) -> xr.Dataset:
+    """Test the seeds of one wind speed, every component by itself."""
+    options = scene.seeds
+    found = {
+        name: equality(series, step, alpha=options.alpha, method=method, band=options.band)
+        for name, (series, step) in components(group, inputs).items()
+    }
+    dims = ("group", "component", "test")
+
+    def table(attribute: str) -> list[list[list[float]]]:
+        rows = [[getattr(e, test) for test in TESTS] for e in found.values()]
+        return [[[float(getattr(stage, attribute)) for stage in row] for row in rows]]
+
+    return xr.Dataset(
+        {
+            "statistic": (dims, table("statistic"), {"units": "1", "long_name": "test statistic"}),
+            "pvalue": (dims, table("pvalue"), {"units": "1", "long_name": "p value"}),
+            "equal": (dims, table("equal"), {"units": "1", "long_name": "not rejected"}),
+            "verdict": (dims[:2], [[e.text for e in found.values()]]),
+        },
+        {
+            "component": list(found),
+            "test": list(TESTS),
+            "dlc": ("group", [group[0].dlc]),
+            "wind_speed": ("group", [group[0].wind_speed], {"units": "m/s"}),
+            "seeds": ("group", [len(group)]),
+        },
+    )
+
+
+def components(
+    group: list[Case], inputs: Mapping[str, dict[str, Any]]
+) -> dict[str, tuple[list[np.ndarray], float]]:
+    """Return for each component the series of all seeds, and their step."""
+    found: dict[str, tuple[list[np.ndarray], float]] = {}
+    for case in group:
+        for name, values, step in _series(inputs[case.name]):
+            found.setdefault(name, ([], step))[0].append(values)
+    return found
+
+
+def _series(parts: dict[str, Any]) -> Iterator[tuple[str, np.ndarray, float]]:
+    loads, shaft = parts["loads"], parts["shaft"]
+    step = float(loads["time"][1] - loads["time"][0])
+    yield "speed", loads["speed"].values.astype(float), step
+    for bearing in shaft["bearing"].values:
+        moment = shaft["moment"].sel(bearing=bearing)
+        name, load = ("M", moment) if np.any(moment.sel(axis=["y", "z"])) else ("F", shaft["force"])
+        for axis in ("y", "z"):
+            component = load.sel(axis=axis) if name == "M" else load.sel(bearing=bearing, axis=axis)
+            yield f"{bearing} {name}{axis}", component.values.astype(float), step

@@ -1,0 +1,91 @@
+"""A scene is valid or is refused with file, key, value and what is allowed."""
+
+import pytest
+
+from loadflow.errors import InputError
+from loadflow.scene import Scene, make_scene, read_scene
+
+
+def refused(text, tmp_path):
+    path = tmp_path / "bad.toml"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(InputError) as info:
+        read_scene(path)
+    assert "bad.toml" in str(info.value)
+    return str(info.value)
+
+
+def test_an_unknown_key_is_named_with_the_known_ones(tmp_path):
+    message = refused("[loads]\nwindspeeds = [4]\n", tmp_path)
+    assert "loads.windspeeds: unknown key" in message
+    assert "wind_speeds" in message
+
+
+def test_an_unknown_key_of_a_room_is_named_too(tmp_path):
+    message = refused(
+        "[journal.geometry]\ndiameter=3\nwidth=2\nrelative_clearance=1e-3\nx=1\n", tmp_path
+    )
+    assert "journal.geometry.x: unknown key" in message
+    assert "relative_clearance" in message
+
+
+def test_a_negative_viscosity_is_named_with_its_range(tmp_path):
+    message = refused("[journal.lubricant]\nviscosity = -0.05\n", tmp_path)
+    assert "journal.lubricant.viscosity = -0.05" in message
+    assert "greater than 0" in message
+
+
+def test_a_value_of_the_wrong_kind_is_named(tmp_path):
+    message = refused('[loads]\nduration = "ten minutes"\n', tmp_path)
+    assert "loads.duration = 'ten minutes'" in message
+
+
+def test_an_unknown_result_lists_the_known_ones(tmp_path):
+    message = refused('results = ["journal.magic"]\n', tmp_path)
+    assert "journal.magic" in message
+    assert "journal.film" in message
+
+
+def test_a_bearing_that_the_shaft_does_not_have_is_named(tmp_path):
+    message = refused("[shaft.two_point]\n[journal]\nbearings = ['N3']\n", tmp_path)
+    assert "N3" in message
+    assert "N, N2" in message
+
+
+def test_a_bearing_that_no_result_needs_may_be_absent():
+    scene = make_scene({"results": ["journal.film"], "shaft": {"two_point": {}}})
+    assert scene.shaft.bearings == ("N", "N2")
+
+
+def test_a_file_that_is_no_toml_is_said_to_be_none(tmp_path):
+    assert "not a TOML file" in refused("[loads\n", tmp_path)
+
+
+def test_a_missing_file_is_named(tmp_path):
+    with pytest.raises(InputError, match=r"absent\.toml"):
+        read_scene(tmp_path / "absent.toml")
+
+
+def test_the_resolved_scene_reads_back_as_itself(tmp_path):
+    scene = make_scene({"name": "a", "loads": {"wind_speeds": [5, 7.5]}})
+    path = tmp_path / "scene.toml"
+    path.write_text(scene.to_toml(), encoding="utf-8")
+    assert read_scene(path) == scene
+    assert read_scene(path).digest() == scene.digest()
+
+
+def test_files_are_meant_relative_to_the_scene(tmp_path):
+    path = tmp_path / "s.toml"
+    path.write_text('[loads]\nsource = "files"\nfiles = ["a.outb"]\n', encoding="utf-8")
+    assert read_scene(path).loads.files == [str(tmp_path / "a.outb")]
+
+
+@pytest.mark.parametrize("name", ["dlc_1_1", "openfast", "quick_look"])
+def test_every_pipeline_is_a_valid_scene(name, request):
+    path = request.config.rootpath / "pipelines" / f"{name}.toml"
+    assert isinstance(read_scene(path), Scene)
+
+
+def test_a_scene_cannot_be_changed():
+    with pytest.raises(ValueError, match="frozen"):
+        make_scene({}).name = "other"
