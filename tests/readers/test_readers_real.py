@@ -12,15 +12,15 @@ pytestmark = pytest.mark.openfast
 
 
 @pytest.fixture(scope="module")
-def tree(openfast_folder):
-    return read_loads(f"{openfast_folder}/*.outb")
+def tree(openfast_data):
+    return read_loads(f"{openfast_data}/*.outb")
 
 
-def test_every_length_gets_a_cube_of_its_own_and_nothing_is_refused(tree, openfast_folder):
+def test_every_length_gets_a_cube_of_its_own_and_nothing_is_refused(tree, openfast_data):
     assert isinstance(tree, xr.DataTree)
     sizes = {name: child.sizes["case"] for name, child in tree.children.items()}
     assert sizes == {"t600_dt0.025": 6, "t240_dt0.025": 1, "t120_dt0.025": 4}
-    assert sum(sizes.values()) == len(list(openfast_folder.glob("*.outb")))
+    assert sum(sizes.values()) == len(list(openfast_data.glob("*.outb")))
     check_cube(tree)
 
 
@@ -55,8 +55,8 @@ def test_speed_is_the_slope_of_the_azimuth(tree):
     assert_allclose(slope.mean(), case.speed.mean(), rtol=1e-3)
 
 
-def test_moments_at_the_apex_follow_from_those_at_the_gauge(openfast_folder):
-    path = openfast_folder / "nrel5mw_dlc11_v12_s1.outb"
+def test_moments_at_the_apex_follow_from_those_at_the_gauge(openfast_data):
+    path = openfast_data / "nrel5mw_dlc11_v12_s1.outb"
     tip = read_openfast(path).hub_moment
     gauge = {"hub_moment_y": "LSSGagMys", "hub_moment_z": "LSSGagMzs"}
     moved = read_openfast(path, channels=gauge)
