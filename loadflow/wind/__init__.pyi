@@ -1,6 +1,8 @@
 from . import gusts as gusts
 from . import iec as iec
 from .box import Box as Box
+from .bts import read_bts as read_bts
+from .bts import write_bts as write_bts
 from .cases import LOAD_CASES as LOAD_CASES
 from .cases import Condition as Condition
 from .cases import LoadCase as LoadCase

@@ -1,0 +1,78 @@
+"""Wind files: an independent reader sees what was written, and bad files are named."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from loadflow.errors import InputError
+from loadflow.wind import Box, kaimal_box, read_bts, write_bts
+
+
+@pytest.fixture(scope="module")
+def box() -> Box:
+    y = np.linspace(-30.0, 30.0, 4)
+    z = np.linspace(50.0, 130.0, 5)
+    return kaimal_box(
+        12.0, 2.0, y=y, z=z, hub_height=90.0, duration=30.0, dt=0.1, seed=1, shear_exponent=0.15
+    )
+
+
+def test_openfast_io_reads_the_total_wind(box, tmp_path):
+    reader = pytest.importorskip("openfast_io.turbsim_file")
+    write_bts(tmp_path / "wind.bts", box)
+    other = reader.TurbSimFile(str(tmp_path / "wind.bts"))
+    np.testing.assert_allclose(other["y"], box.y, atol=1e-5)
+    np.testing.assert_allclose(other["z"], box.z, atol=1e-4)
+    np.testing.assert_allclose(other["t"], box.time, atol=1e-4)
+    assert other["uRef"] == pytest.approx(12.0)
+    total = box.u + 12.0 * (box.z / 90.0) ** 0.15
+    for k, wind in enumerate((total, box.v, box.w)):
+        step = np.ptp(wind) / 65534
+        np.testing.assert_allclose(other["u"][k], wind, atol=0.51 * step + 1e-5)
+
+
+def test_round_trip(box, tmp_path):
+    write_bts(tmp_path / "wind.bts", box)
+    back = read_bts(tmp_path / "wind.bts")
+    assert (back.wind_speed, back.hub_height) == pytest.approx((12.0, 90.0))
+    np.testing.assert_allclose(back.time, box.time, atol=1e-5)
+    np.testing.assert_allclose(back.v, box.v, atol=2e-4)
+    total = [b.u + b.wind_speed * (b.z / 90.0) ** b.shear_exponent for b in (box, back)]
+    np.testing.assert_allclose(*total, atol=3e-4)
+    # of a wind without turbulence the exponent comes back
+    calm = replace(box, u=np.zeros_like(box.u), v=None, w=None)
+    write_bts(tmp_path / "calm.bts", calm)
+    calm = read_bts(tmp_path / "calm.bts")
+    assert calm.shear_exponent == pytest.approx(0.15, abs=1e-4)
+    np.testing.assert_allclose(calm.u, 0, atol=2e-4)
+
+
+def test_bad_files_are_named(box, tmp_path):
+    path = tmp_path / "wind.bts"
+    write_bts(path, box)
+    whole = path.read_bytes()
+    for content, message in (
+        (b"", "0 bytes"),
+        (whole[:-1], "the header asks for"),
+        (b"\x01\x02" + whole[2:], "not a .bts file"),
+    ):
+        path.write_bytes(content)
+        with pytest.raises(InputError, match=message) as error:
+            read_bts(path)
+        assert str(path) in str(error.value)
+
+
+def test_grids_that_the_format_cannot_hold(box, tmp_path):
+    path = tmp_path / "wind.bts"
+    for change, message in (
+        ({"y": np.array([-30.0, -10.0, 11.0, 30.0])}, "equidistant y"),
+        ({"y": box.y + 5}, "symmetric"),
+        ({"hub_height": 200.0}, "contain the hub"),
+    ):
+        with pytest.raises(InputError, match=message):
+            write_bts(path, replace(box, **change))
+    with pytest.raises(InputError, match="v has shape"):
+        replace(box, v=box.v[:-1])
+    with pytest.raises(InputError, match="z must rise"):
+        replace(box, z=box.z[::-1])
