@@ -37,7 +37,8 @@ def read_loads(
     turbine : str
         Turbine the series belong to, kept as an attribute.
     cases : path, optional
-        List of cases, CSV with columns file, dlc, wind_speed, seed, weight; it goes before names.
+        List of cases, CSV with columns file, dlc, wind_speed, seed, weight; it must name every
+        file. What it leaves open is left open, whatever the names say.
     pattern : str, optional
         How names of files tell the case: a regular expression with groups ``dlc``,
         ``wind_speed`` and ``seed``, or a template such as ``"run_{dlc}_{wind_speed}_{seed}"``.
@@ -57,17 +58,15 @@ def read_loads(
     Raises
     ------
     loadflow.errors.InputError
-        No file, a file that is not sound, or two files that hold the same case.
+        No file, a file that is not sound or not in the list, or two files that hold one case.
     """
     paths = find_files(files)
     listed = read_case_list(cases) if cases is not None else {}
-    if cases is not None and (absent := sorted(set(listed) - {p.name for p in paths})):
-        raise InputError(f"{cases}: lists {absent[0]}, which is not among the {len(paths)} files")
     register = _Register()
     labelled = []
     for path in paths:
         series = find_reader(path).load()(path, channels=channels, gauge_distance=gauge_distance)
-        label = listed.get(path.name) or label_from_name(path, pattern)
+        label = label_from_name(path, pattern) if cases is None else _listed(path, listed, cases)
         case = _labelled(series, register.complete(label, series, path))
         labelled.append(case.assign_attrs(turbine=turbine))
     return make_cube(labelled)
@@ -109,6 +108,17 @@ def _expand(entry: Path) -> list[Path]:
     if not matches:
         raise InputError(f"{entry}: no file matches")
     return matches
+
+
+def _listed(path: Path, listed: dict[str, CaseLabel], cases: str | os.PathLike[str]) -> CaseLabel:
+    """Return what the list says of a file; of a run with several files it may name any."""
+    if path.name in listed:
+        return listed[path.name]
+    if find_reader(path).several_files:
+        for name, label in listed.items():
+            if Path(name).stem == path.stem:
+                return label
+    raise InputError(f"{path}: the list of cases {cases} does not name this file")
 
 
 class _Register:

@@ -75,6 +75,15 @@ def test_a_run_of_two_files_is_one_case(tmp_path):
     assert cube.case.values.tolist() == ["dlc1.2_v10_s1", "dlc1.2_v10_s2"]
 
 
+def test_list_of_cases_may_name_either_file_of_a_run(tmp_path):
+    write(tmp_path / "run", binary=True)
+    for suffix in ("sel", "dat"):
+        table = tmp_path / "cases.txt"
+        table.write_text(f"file,dlc,wind_speed,seed\nrun.{suffix},1.2,10,3\n")
+        cube = read_loads(tmp_path / "run.sel", cases=table, channels=CHANNELS)
+        assert cube.case.values.tolist() == ["dlc1.2_v10_s3"]
+
+
 def test_loads_must_be_named(tmp_path):
     write(tmp_path / "run", binary=True)
     with pytest.raises(

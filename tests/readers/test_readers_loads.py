@@ -159,7 +159,7 @@ def test_one_bad_file_among_good_ones_is_named(tmp_path):
         read_loads(tmp_path)
 
 
-def test_list_of_cases_goes_before_names(tmp_path):
+def test_list_of_cases_stands_above_names(tmp_path):
     put(tmp_path, "a_dlc11_v04_s1.outb", "b.outb")
     table = tmp_path / "cases.txt"
     table.write_text(
@@ -189,17 +189,24 @@ def test_bad_list_of_cases_is_refused(tmp_path, text, message):
         read_case_list(table)
 
 
-def test_listed_file_that_was_not_given_is_named(tmp_path):
+def test_file_that_the_list_does_not_name_is_refused(tmp_path):
     put(tmp_path, "a_dlc11_v04_s1.outb")
     table = tmp_path / "cases.txt"
-    table.write_text("file,seed\nabsent.outb,1\n")
-    with pytest.raises(InputError, match=r"lists absent\.outb"):
+    table.write_text("file,seed\nmisspelt.outb,1\n")
+    with pytest.raises(InputError, match=r"a_dlc11_v04_s1\.outb: the list of cases .* not name"):
         read_loads(f"{tmp_path}/*.outb", cases=table)
 
 
-def test_weights_of_some_cases_only_are_refused(tmp_path):
-    put(tmp_path, "a_dlc11_v04_s1.outb", "a_dlc11_v06_s1.outb")
+def test_a_list_may_name_more_files_than_are_read(tmp_path):
+    put(tmp_path, "a.outb")
     table = tmp_path / "cases.txt"
-    table.write_text("file,weight\na_dlc11_v04_s1.outb,0.5\n")
-    with pytest.raises(InputError, match=r"dlc1\.1_v6_s1' has no weight"):
+    table.write_text("file,dlc,wind_speed\na.outb,1.3,20\nb.outb,1.3,22\n")
+    assert read_loads(tmp_path / "a.outb", cases=table).case.values.tolist() == ["dlc1.3_v20_s1"]
+
+
+def test_weights_of_some_cases_only_are_refused(tmp_path):
+    put(tmp_path, "a.outb", "b.outb")
+    table = tmp_path / "cases.txt"
+    table.write_text("file,wind_speed,weight\na.outb,4,0.5\nb.outb,6,\n")
+    with pytest.raises(InputError, match=r"unknown_v6_s1' has no weight"):
         read_loads(f"{tmp_path}/*.outb", cases=table)
