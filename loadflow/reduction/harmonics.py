@@ -256,7 +256,7 @@ def _amplitudes(
     """Weighted least squares amplitudes of sines and cosines, and what is left of `x`."""
     columns = np.vstack([np.ones(x.size), sine, cosine])
     weighted = columns * weights
-    solution: Floats = np.linalg.lstsq(weighted @ columns.T, weighted @ x, rcond=1e-14)[0]
+    solution = np.linalg.lstsq(weighted @ columns.T, weighted @ x, rcond=1e-14)[0].astype(float)
     k = sine.shape[0]
     return solution[1 : k + 1], solution[k + 1 :], x - solution @ columns
 

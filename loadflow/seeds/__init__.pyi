@@ -5,6 +5,8 @@ from .grouping import Grouping as Grouping
 from .grouping import group_seeds as group_seeds
 from .longrun import effective_size as effective_size
 from .longrun import holm as holm
+from .probability import ProbabilityPaper as ProbabilityPaper
+from .probability import probability_paper as probability_paper
 from .rank_tests import RankTest as RankTest
 from .rank_tests import kruskal_wallis as kruskal_wallis
 from .rank_tests import meyer_bahlburg as meyer_bahlburg
