@@ -7,6 +7,7 @@ slewing          four-point slewing bearing; `slewing_result`: life and friction
 ball             deep groove and angular contact ball bearing
 roller           cylindrical and tapered roller bearing; `roller_result`: pressure, safety, life
 raceway, result  what all ball bearings share
+patches          points where raceways ride on the rings
 contact          table of contacts that the solver takes
 equilibrium      rigid rings in five degrees of freedom, for arrays of load cases
 _kernels         the compiled loops

@@ -8,6 +8,7 @@ from .hertz import hertz_line as hertz_line
 from .hertz import hertz_point as hertz_point
 from .life import rating_life_spectrum as rating_life_spectrum
 from .life import spectrum_load as spectrum_load
+from .patches import raceway_points as raceway_points
 from .roller import RollerBearing as RollerBearing
 from .roller_result import RollerResult as RollerResult
 from .slewing import SlewingBearing as SlewingBearing

@@ -41,6 +41,8 @@ class PointContact:
         Major and minor semi-axis of the contact ellipse, m.
     ellipticity : ndarray
         Major over minor semi-axis, at least 1.
+    coefficient : ndarray
+        Hertz's coefficient ψ/ξ of the approach (δ* of Harris).
     """
 
     stiffness: Array
@@ -48,6 +50,7 @@ class PointContact:
     pressure: Array
     semi_axes: tuple[Array, Array]
     ellipticity: Array
+    coefficient: Array
 
 
 @dataclass(frozen=True)
@@ -218,12 +221,39 @@ def hertz_point(
     size = np.cbrt(1.5 * load / (total * e_star))
     a, b = k * minor * size, minor * size
     return PointContact(
-        stiffness=e_star / 1.5 * np.sqrt(8 / total) / psi_xi**1.5,
+        stiffness=stiffness_factor(psi_xi, total, e_star),
         approach=psi_xi * size**2 * total / 2,
         pressure=size * total * e_star / (np.pi * k * minor**2),
         semi_axes=(a, b),
         ellipticity=k,
+        coefficient=psi_xi,
     )
+
+
+def stiffness_factor(coefficient: ArrayLike, curvature_sum: ArrayLike, e_star: ArrayLike) -> Array:
+    """Stiffness factor K of F = K δ^1.5 from Hertz's coefficient ψ/ξ, N/m^1.5, (3.5).
+
+    Parameters
+    ----------
+    coefficient : array_like
+        ψ/ξ.
+    curvature_sum : array_like
+        Sum Σk of the four curvatures, 1/m.
+    e_star : array_like
+        Contact modulus, Pa (`effective_modulus`).
+    """
+    total, psi_xi = np.asarray(curvature_sum, float), np.asarray(coefficient, float)
+    return np.asarray(e_star, float) / 1.5 * np.sqrt(8 / total) / psi_xi**1.5
+
+
+def curvature_sum(
+    r11: ArrayLike, r12: ArrayLike, r21: ArrayLike, r22: ArrayLike
+) -> tuple[Array, Array]:
+    """Sum Σk of the four curvatures (1/m) and cos τ of their difference, (2.2), (2.3)."""
+    plane1 = np.asarray(r11, float) + np.asarray(r21, float)
+    plane2 = np.asarray(r12, float) + np.asarray(r22, float)
+    total = plane1 + plane2
+    return total, np.abs(plane1 - plane2) / total
 
 
 def hertz_line(
