@@ -24,10 +24,10 @@ SLOTS = 10
 def turbulence(inflow, component, time, y, z):
     """One component of the box at a point of the rotor plane: linear in time, radius and angle."""
     count = component.shape[0]
-    position = (time / inflow.box_step) % count
-    k = min(int(position), count - 1)
+    position = min(max(time / inflow.box_step, 0.0), count - 1.0)
+    k = min(int(position), count - 2)
     late = position - k
-    k_next = k + 1 if k + 1 < count else 0
+    k_next = k + 1
 
     radius = np.sqrt(y * y + z * z)
     i = min(np.searchsorted(inflow.box_radius, radius, side="right") - 1, inflow.box_radius.size - 2)
@@ -155,7 +155,9 @@ def control(m, c, state, dt):
 
 
 @njit(cache=True, nogil=True)
-def blade_aerodynamics(m, inflow, step, time, azimuth, pitch, speed, motion, state, guess, force):
+def blade_aerodynamics(
+    m, inflow, step, time, azimuth, pitch, speed, motion, state, guess, wake, dt, force
+):
     """Aerodynamic force (normal, tangential) on each section of one blade, N.
 
     `motion` (n, 4): deflection normal, tangential and their rates; `guess` (n,): inflow angles of
@@ -167,7 +169,7 @@ def blade_aerodynamics(m, inflow, step, time, azimuth, pitch, speed, motion, sta
     count = m.radius.size
     mean_x = mean_y = mean_z = 0.0
     for i in range(count):
-        along, out, turn = position(m, i, motion, cone_s, cone_c)
+        along, out, turn = place(m, i, motion, cone_s, cone_c)
         y, z = -sine * out - cosine * turn, cosine * out - sine * turn
         ground_x, ground_z = along * tilt_c + z * tilt_s, z * tilt_c - along * tilt_s
         wind_x, wind_y, wind_z = wind_at(m, inflow, step, time, ground_x, y, ground_z)
@@ -182,7 +184,9 @@ def blade_aerodynamics(m, inflow, step, time, azimuth, pitch, speed, motion, sta
             angle, a, swirl = solve(m, i, pitch, normal, tangential, guess[i])
             guess[i] = angle
         a = skewed(m, a, y, z, state)
-        f_normal, f_tangential = section_force(m, i, pitch, normal, tangential, a, swirl)
+        f_normal, f_tangential = section_force(
+            m, i, pitch, normal, tangential, a, swirl, dt, wake[i]
+        )
         force[i, 0] = f_normal * m.width[i]
         force[i, 1] = f_tangential * m.width[i]
         mean_x += shaft_x / count
@@ -192,7 +196,7 @@ def blade_aerodynamics(m, inflow, step, time, azimuth, pitch, speed, motion, sta
 
 
 @njit(cache=True, nogil=True)
-def position(m, i, motion, cone_s, cone_c):
+def place(m, i, motion, cone_s, cone_c):
     """Section i in the axes (x, r, t) of its blade."""
     along = -m.radius[i] * cone_s + motion[i, 0] * cone_c
     out = m.radius[i] * cone_c + motion[i, 0] * cone_s
@@ -215,10 +219,11 @@ def deflection(m, pitch, q, v, motion):
 
 
 @njit(cache=True, nogil=True)
-def blade_motion(m, b, dt, speed, rate, azimuth, pitch, force, motion, q, v, acc):
+def blade_motion(m, b, dt, speed, azimuth, pitch, force, motion, q, v, acc):
     """Newmark step of the modes of one blade (constant mean acceleration), in place.
 
-    `force` (n, 2) holds the aerodynamic force, found at the predicted motion.
+    `force` (n, 2) holds the aerodynamic force, found at the predicted motion. The change of rotor
+    speed is left out: it matters to the torque only, and would have to be solved with it.
     """
     modes = q.size
     cone_s, cone_c = np.sin(m.cone), np.cos(m.cone)
@@ -228,9 +233,9 @@ def blade_motion(m, b, dt, speed, rate, azimuth, pitch, force, motion, q, v, acc
     gravity_n = gravity_x * cone_c + gravity_r * cone_s
     load = np.zeros(modes)
     for i in range(m.radius.size):
-        _, out, turn = position(m, i, motion, cone_s, cone_c)
-        inertia_r = -(speed**2) * out - 2 * speed * motion[i, 3] - rate * turn
-        inertia_t = 2 * speed * motion[i, 2] * cone_s + rate * out - speed**2 * turn
+        _, out, turn = place(m, i, motion, cone_s, cone_c)
+        inertia_r = -(speed**2) * out - 2 * speed * motion[i, 3]
+        inertia_t = 2 * speed * motion[i, 2] * cone_s - speed**2 * turn
         mass = m.mass[i] * m.mass_factor[b]
         normal = force[i, 0] + mass * (gravity_n - inertia_r * cone_s)
         tangential = force[i, 1] + mass * (gravity_t - inertia_t)
@@ -266,7 +271,7 @@ def blade_root(m, b, speed, rate, azimuth, pitch, force, motion, acc, total):
     sine, cosine = np.sin(azimuth), np.cos(azimuth)
     gravity_x, gravity_z = GRAVITY * np.sin(m.tilt), -GRAVITY * np.cos(m.tilt)
     for i in range(m.radius.size):
-        along, out, turn = position(m, i, motion, cone_s, cone_c)
+        along, out, turn = place(m, i, motion, cone_s, cone_c)
         bend_n = bend_t = 0.0
         for k in range(acc.size):
             bend_n += (m.shape[i, k, 0] * c - m.shape[i, k, 1] * s) * acc[k]
@@ -289,8 +294,8 @@ def blade_root(m, b, speed, rate, azimuth, pitch, force, motion, acc, total):
 
 
 @njit(cache=True, nogil=True)
-def march(m, c, inflow, dt, steps, start, controlled, state, q, v, acc, guess, out):
-    """March the rotor; `state` (SLOTS,), `q`, `v`, `acc` (blades, k), `guess` (blades, n) go on.
+def march(m, c, inflow, dt, steps, start, controlled, state, q, v, acc, guess, wake, out):
+    """March the rotor; `state` (SLOTS,), `q`, `v`, `acc` (blades, k), `guess`, `wake` go on.
 
     Not `controlled`: speed and pitch stay. `out` (steps, COLUMNS) is filled.
     """
@@ -299,6 +304,7 @@ def march(m, c, inflow, dt, steps, start, controlled, state, q, v, acc, guess, o
     force = np.zeros((m.blades, sections, 2))
     total = np.zeros(7)
     old_rate = state[S_RATE]
+    fresh = 1 if np.all(wake == 0.0) else 0
     for step in range(steps):
         time = start + step * dt
         speed, rate, common = state[S_SPEED], state[S_RATE], state[S_PITCH]
@@ -310,13 +316,25 @@ def march(m, c, inflow, dt, steps, start, controlled, state, q, v, acc, guess, o
             ahead = q[b] + dt * v[b] + 0.5 * dt * dt * acc[b]
             deflection(m, pitch, ahead, v[b] + dt * acc[b], motion)
             wind = blade_aerodynamics(
-                m, inflow, step, time, azimuth, pitch, speed, motion, state, guess[b], force[b]
+                m,
+                inflow,
+                step,
+                time,
+                azimuth,
+                pitch,
+                speed,
+                motion,
+                state,
+                guess[b],
+                wake[b],
+                dt if fresh == 0 or step > 0 else 0.0,
+                force[b],
             )
             for axis in range(3):
                 mean[axis] += wind[axis] / m.blades
             if q.shape[1] > 0:
                 blade_motion(
-                    m, b, dt, speed, rate, azimuth, pitch, force[b], motion, q[b], v[b], acc[b]
+                    m, b, dt, speed, azimuth, pitch, force[b], motion, q[b], v[b], acc[b]
                 )
                 deflection(m, pitch, q[b], v[b], motion)
             if b == 0:
@@ -346,3 +364,15 @@ def march(m, c, inflow, dt, steps, start, controlled, state, q, v, acc, guess, o
             state[S_SPEED] = speed + dt * (1.5 * rate - 0.5 * old_rate)
             state[S_RATE] = old_rate = rate
         state[S_AZIMUTH] += 0.5 * dt * (speed + state[S_SPEED])
+
+
+@njit(cache=True, nogil=True)
+def fill_table(m, angles, pitches, table):
+    """Induced over undisturbed speed, normal and tangential, for `tabulated_induction`."""
+    for i in range(m.radius.size):
+        for p in range(angles.size):
+            normal, tangential = np.sin(angles[p]), np.cos(angles[p])
+            for q in range(pitches.size):
+                _, a, swirl = solve(m, i, pitches[q], 10 * normal, 10 * tangential, 0.0)
+                table[i, p, q, 0] = a * normal
+                table[i, p, q, 1] = swirl * tangential

@@ -57,6 +57,7 @@ class Machine(NamedTuple):
     air_density: float
     skew_factor: float
     drag_in_induction: bool
+    shed_wake: bool
     table: Array  # (n, p, q, 2) induced over undisturbed speed; empty: solved at every step
     table_angle: tuple[float, float]  # first inflow angle and step, rad
     table_pitch: tuple[float, float]  # first pitch and step, rad
@@ -142,7 +143,7 @@ def machine(turbine: Turbine, options: RotorOptions) -> Machine:
         * turbine.drivetrain.gear_ratio**2,
         gear_ratio=turbine.drivetrain.gear_ratio,
         radius=blade.radius,
-        width=np.diff(edges),
+        width=_widths(blade.radius, rotor.hub_radius, rotor.radius),
         chord=blade.chord,
         twist=blade.twist,
         lift=np.array([np.interp(angle, f.angle, f.lift) for f in foils]),
@@ -163,6 +164,7 @@ def machine(turbine: Turbine, options: RotorOptions) -> Machine:
         air_density=options.air_density,
         skew_factor=options.skew_factor,
         drag_in_induction=options.drag_in_induction,
+        shed_wake=options.shed_wake,
         table=np.zeros((0, 0, 0, 2)),
         table_angle=(0.0, 1.0),
         table_pitch=(0.0, 1.0),
@@ -245,6 +247,12 @@ def _section_edges(radius: Array, root: float, tip: float) -> Array:
         return edges
     exact[-1] = tip
     return exact
+
+
+def _widths(radius: Array, root: float, tip: float) -> Array:
+    """Length that each section stands for: linear load between sections, none at the tip."""
+    stations = np.concatenate([[root], radius, [tip]])
+    return 0.5 * (stations[2:] - stations[:-2])
 
 
 def _lumps(span: Array, density: Array, edges: Array) -> Array:

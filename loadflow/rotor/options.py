@@ -31,6 +31,8 @@ class RotorOptions:
         (OpenFAST's), 15π/64 (steady theory), 0 off.
     drag_in_induction : bool
         Whether drag counts in the momentum balance.
+    shed_wake : bool
+        Whether the lift lags behind the angle of attack (shed wake, attached flow).
     tower_dam : bool
         Whether the blades pass through the potential flow around the tower.
     mass_imbalance : float
@@ -44,6 +46,7 @@ class RotorOptions:
     air_density: Annotated[float, Gt(0)] = 1.225
     skew_factor: Annotated[float, Ge(0), Le(2)] = 1.4726215563702154
     drag_in_induction: bool = False
+    shed_wake: bool = True
     tower_dam: bool = True
     mass_imbalance: Annotated[float, Ge(-0.2), Le(0.2)] = 0.0
     pitch_imbalance: Annotated[float, Ge(-0.2), Le(0.2)] = 0.0

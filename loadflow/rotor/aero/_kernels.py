@@ -13,6 +13,7 @@ _HALF_PI = 0.5 * np.pi
 _BRACKET = 0.02  # rad, around the inflow angle of the step before
 _TOLERANCE = 1e-7  # rad
 _MOMENTUM_LIMIT = 2.0 / 3.0
+_JONES = ((0.165, 0.0455), (0.335, 0.3))
 
 
 @njit(cache=True, nogil=True)
@@ -130,14 +131,27 @@ def solve(m, i, pitch, normal, tangential, guess):
 
 
 @njit(cache=True, nogil=True)
-def section_force(m, i, pitch, normal, tangential, a, swirl):
-    """Force per length (normal, tangential), N/m, for given induction factors."""
+def section_force(m, i, pitch, normal, tangential, a, swirl, dt, wake):
+    """Force per length (normal, tangential), N/m, for given induction factors.
+
+    `wake` (2,) holds the states of the shed wake (Jones' approximation of Wagner's function); they
+    are moved on by `dt` and delay the lift behind the angle of attack. dt = 0 sets them to steady.
+    """
     w_normal = normal * (1 - a)
     w_tangential = tangential * (1 + swirl)
     angle = np.arctan2(w_normal, w_tangential)
     attack = angle - m.twist[i] - pitch
-    lift = polar(m.lift[i], attack)
-    drag = polar(m.drag[i], attack)
-    pressure = 0.5 * m.air_density * m.chord[i] * (w_normal**2 + w_tangential**2)
+    speed = np.sqrt(w_normal**2 + w_tangential**2)
+    delayed = attack
+    if m.shed_wake:
+        rate = 2 * speed / m.chord[i]
+        for k, (share, decay) in enumerate(_JONES):
+            steady = share * attack
+            keep = np.exp(-decay * rate * dt) if dt > 0 else 0.0
+            wake[k] = steady + (wake[k] - steady) * keep
+            delayed += wake[k] - steady
+    lift = polar(m.lift[i], delayed)
+    drag = polar(m.drag[i], delayed)
+    pressure = 0.5 * m.air_density * m.chord[i] * speed**2
     sine, cosine = np.sin(angle), np.cos(angle)
     return pressure * (lift * cosine + drag * sine), pressure * (lift * sine - drag * cosine)

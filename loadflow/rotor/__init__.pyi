@@ -1,0 +1,5 @@
+from .options import RUNGS as RUNGS
+from .options import RotorOptions as RotorOptions
+from .options import Rung as Rung
+from .simulation import simulate as simulate
+from .steady import steady_state as steady_state
