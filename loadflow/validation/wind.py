@@ -48,3 +48,20 @@ def checks() -> Iterator[Check]:
     # the high-frequency limit of Annex B, S1 f^(5/3) = 0.05 σ1² (Λ1/V)^(−2/3)
     limit = 4 / 6 ** (5 / 3) * iec.COMPONENT_LENGTH[0] ** (-2 / 3)
     yield Check("Kaimal inertial-range constant", "IEC 61400-1, Annex B", 0.05, limit, 0.003)
+    yield from turbulence_checks()
+
+
+def turbulence_checks() -> Iterator[Check]:
+    """Yield what a series of finite length holds, and the coherence between two points."""
+    from loadflow.wind.spectra import coherence, kaimal_spectrum
+
+    source = "Kaimal, class A, V = 15 m/s, z_hub = 90 m"
+    for duration, share in ((600.0, 0.960), (3600.0, 0.990)):
+        lines = np.arange(1, int(10 * duration)) / duration
+        held = np.sqrt(kaimal_spectrum(lines, 15.0, 1.0, 42.0).sum() / duration)
+        yield Check(f"σ1 held by {duration:.0f} s", source, share, float(held), 1e-3, "absolute")
+    band = np.linspace(0.01, 0.03, 201)
+    for distance, expected in ((7.0, 0.891), (35.0, 0.565)):
+        got = coherence(band, distance, 15.0, 42.0).mean()
+        name = f"coherence at {distance:.0f} m, 0.01 … 0.03 Hz"
+        yield Check(name, source, expected, float(got), 3e-3, "absolute")

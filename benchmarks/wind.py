@@ -1,0 +1,170 @@
+"""Speed and error of the turbulence generator: python benchmarks/wind.py [--peers]
+
+All figures of one run come from one process on one core, so their ratios hold on any machine.
+``--peers`` also times PyConTurb and hipersim where they are installed (neither is a dependency).
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+import time
+from collections.abc import Callable, Iterator
+from typing import Any
+
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
+import numpy as np
+
+from loadflow.wind import CoherenceFactors, PointGrid, PolarGrid, kaimal, kaimal_box, polar_angles
+from loadflow.wind.coherence import ExactFactors
+from loadflow.wind.spectra import coherence, kaimal_spectrum
+
+V, SIGMA, HUB, LENGTH = 15.0, 2.696, 90.0, 42.0
+Row = tuple[str, str]
+
+
+def timed(work: Callable[[], Any], repeat: int = 3) -> tuple[float, Any]:
+    best, result = np.inf, None
+    for _ in range(repeat):
+        start = time.perf_counter()
+        result = work()
+        best = min(best, time.perf_counter() - start)
+    return best, result
+
+
+def polar(angles: int, radii: int = 11, dt: float = 0.025) -> Iterator[Row]:
+    radius = np.linspace(0.0, 63.0, radii)
+    grid = PolarGrid(radius, polar_angles(angles))
+    arguments: dict[str, Any] = {
+        "radius": radius, "angles": grid.angle, "hub_height": HUB, "duration": 600.0, "dt": dt,
+        "seed": 1,
+    }  # fmt: skip
+    once, factors = timed(lambda: CoherenceFactors(grid, LENGTH))
+    fast_s, fast = timed(lambda: kaimal(V, SIGMA, factors=factors, **arguments))
+    exact_s, exact = timed(lambda: kaimal(V, SIGMA, method="exact", **arguments), repeat=1)
+    name = f"polar {radii} × {angles} × {len(fast.time)}, u v w"
+    yield f"{name}: factors, once", f"{once:.3f} s"
+    yield f"{name}: fast, per seed", f"{fast_s:.2f} s"
+    yield f"{name}: exact, per seed", f"{exact_s:.2f} s ({exact_s / fast_s:.1f} × fast)"
+    error = (fast.u - exact.u).astype(float)
+    yield (
+        f"{name}: rms error of fast",
+        f"{error.std() / SIGMA:.1e} σ1 (max {abs(error).max():.1e} m/s)",
+    )
+
+
+def box_arguments(size: int = 20, dt: float = 0.05) -> tuple[PointGrid, dict[str, Any]]:
+    lines = np.linspace(-66.5, 66.5, size)
+    y, z = (p.ravel() for p in np.meshgrid(lines, lines + HUB, indexing="ij"))
+    arguments: dict[str, Any] = {
+        "y": lines, "z": lines + HUB, "hub_height": HUB, "duration": 600.0 - dt, "dt": dt,
+        "seed": 1,
+    }  # fmt: skip
+    return PointGrid(y, z), arguments
+
+
+def box(exact_too: bool) -> Iterator[Row]:
+    grid, arguments = box_arguments()
+    once, factors = timed(lambda: CoherenceFactors(grid, LENGTH), repeat=1)
+    yield "box 20 × 20 × 12000: factors, once", f"{once:.2f} s, {factors.table.nbytes / 1e6:.0f} MB"
+    for components in ("u", "uvw"):
+        seconds, made = timed(
+            lambda c=components: kaimal_box(V, SIGMA, factors=factors, components=c, **arguments)
+        )
+        yield f"box 20 × 20 × 12000: fast {components}, per further seed", f"{seconds:.2f} s"
+    if exact_too:
+        seconds, exact = timed(
+            lambda: kaimal_box(V, SIGMA, method="exact", components="u", **arguments), repeat=1
+        )
+        rms = (made.u - exact.u).std(dtype=float) / SIGMA
+        yield "box 20 × 20 × 12000: exact u", f"{seconds:.1f} s (fast differs by {rms:.1e} σ1 rms)"
+
+
+def knots() -> Iterator[Row]:
+    """Worst error of the coherence between any two points, over the number of knots."""
+    grid = PolarGrid(np.linspace(0.0, 63.0, 11), polar_angles(36))
+    decay = np.geomspace(0.0043, 3.0, 300)
+    exact = ExactFactors(grid, LENGTH).grid.factors(decay)
+    for count in (24, 48, 96, 192):
+        factors = CoherenceFactors(grid, LENGTH, count)
+        place = np.interp(np.log(decay), np.log(factors.decay), np.arange(count))
+        low = np.minimum(place.astype(int), count - 2)
+        share = (place - low)[:, None, None, None]
+        lower = factors.table[low] * (1 - share) + factors.table[low + 1] * share
+        error = lower @ lower.swapaxes(-1, -2) - exact @ exact.swapaxes(-1, -2)
+        worst = abs(np.fft.ifft(error, axis=1)).max()
+        yield f"{count} knots: largest error of the coherence", f"{worst:.1e}"
+
+
+def angles_needed() -> Iterator[Row]:
+    """What linear interpolation between the angles loses at three quarters of the radius."""
+    frequency = np.geomspace(1e-3, 20.0, 4000)
+    density = kaimal_spectrum(frequency, 12.0, 1.0, LENGTH)
+    for count in (16, 24, 36, 48, 72):
+        gap = 2 * 0.75 * 63.0 * np.sin(np.pi / count)
+        kept = (2 + coherence(frequency, gap, 12.0, LENGTH)) / 3
+        total = np.trapezoid(density * kept, frequency) / np.trapezoid(density, frequency)
+        third = np.sinc(3 / count) ** 2
+        yield (
+            f"{count} angles: variance kept between grid points, amplitude of azimuthal order 3",
+            f"{total:.3f}, {third:.3f}",
+        )
+
+
+def peers() -> Iterator[Row]:
+    """Other generators on the same box, beside ours in the same run."""
+    grid, arguments = box_arguments()
+    factors = CoherenceFactors(grid, LENGTH)
+    ours = {
+        c: timed(lambda c=c: kaimal_box(V, SIGMA, factors=factors, components=c, **arguments))[0]
+        for c in ("u", "uvw")
+    }
+    try:
+        from hipersim import MannTurbulenceField
+    except ImportError:
+        yield "hipersim", "not installed"
+    else:
+        seconds, _ = timed(
+            lambda: MannTurbulenceField.generate(
+                alphaepsilon=1, L=33.6, Gamma=3.9, Nxyz=(12000, 20, 20), dxyz=(0.75, 7, 7), seed=2
+            ),
+            repeat=1,
+        )
+        yield "hipersim (Mann) u v w", f"{seconds:.1f} s = {seconds / ours['uvw']:.0f} × ours"
+    try:
+        from pyconturb import gen_spat_grid, gen_turb
+    except ImportError:
+        yield "PyConTurb", "not installed"
+    else:
+        lines = np.linspace(-66.5, 66.5, 20)
+        points = gen_spat_grid(lines, lines + HUB, comps=[0])
+        # its cost is one factorisation per frequency: 1/20 of the length has 1/20 of them
+        seconds, _ = timed(
+            lambda: gen_turb(points, T=30, nt=600, u_ref=V, turb_class="A", z_ref=HUB, seed=1),
+            repeat=1,
+        )
+        full = 20 * seconds
+        yield (
+            "PyConTurb u (1/20 of the frequencies, × 20)",
+            f"{full:.0f} s = {full / ours['u']:.0f} × ours",
+        )
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--peers", action="store_true", help="also time PyConTurb and hipersim")
+    parser.add_argument("--exact-box", action="store_true", help="also the exact box (15 s)")
+    options = parser.parse_args()
+    tables = [polar(16), polar(36), box(options.exact_box), knots(), angles_needed()]
+    if options.peers:
+        tables.append(peers())
+    for table in tables:
+        for name, value in table:
+            print(f"{name:<84}{value}")
+            sys.stdout.flush()
+
+
+if __name__ == "__main__":
+    main()
