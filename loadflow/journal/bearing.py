@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 from typing import Annotated, Literal
 
 import numpy as np
@@ -10,7 +11,13 @@ from annotated_types import Gt, Lt
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError, SolverError
-from loadflow.journal.equilibrium import Solution, no_film, solve_equilibrium, solve_film
+from loadflow.journal.equilibrium import (
+    Solution,
+    no_film,
+    solve_equilibrium,
+    solve_film,
+    solve_patiently,
+)
 from loadflow.journal.film import Film
 from loadflow.journal.options import Cavitation, Lubricant, Supply, require
 from loadflow.journal.result import Equilibrium, FilmField, field_row, stack, static_row
@@ -20,6 +27,7 @@ from loadflow.tribology.film import butenschoen
 Array = NDArray[np.float64]
 
 _RATIOS = np.concatenate([np.linspace(0.0, 0.9, 91)[1:], 1.0 - np.geomspace(0.099, 1e-4, 60)])
+_NEAR = 0.3  # share of the narrowest gap that the estimate may move for a warm start
 
 
 @dataclass(frozen=True)
@@ -108,7 +116,7 @@ class JournalBearing:
             Gümbel without a supply.
         grid : tuple of int, optional
             Cells around and across the full width (even; half is solved). Default (60, 20) for the
-            gas mixture, (120, 32) else.
+            gas mixture, (120, 40) else.
         grading : {"auto", "uniform", "graded"}
             Uniform cells, or cells that crowd at the narrowest gap and the rims. "auto": uniform
             for the gas mixture and with a supply, graded else.
@@ -131,7 +139,7 @@ class JournalBearing:
         InputError
             Not finite or misshapen input; a law without oil (a mixture at edge pressure 0).
         SolverError
-            A load at ω = 0 (no film without squeeze), or no convergence, naming the first such load.
+            A load at ω = 0 (no film without squeeze), or no convergence; names the first such load.
         """
         require(rung == "grid", "rung", rung, '"grid"')
         options = FilmOptions(lubricant, cavitation, edge_pressure, supply, inlet, grid, grading)
@@ -204,7 +212,8 @@ class JournalBearing:
                 f"eccentricity {ratio.argmax()}: ratio ε = {ratio.max():.6g} is not allowed: < 1 "
                 f"(radial clearance {self.clearance:.6g} m)"
             )
-        film = self._film(options, speeds)
+        rates = np.abs(speeds) + np.hypot(velocities[:, 0], velocities[:, 1])
+        film = self._film(options, rates)
         rows = []
         for index, (place, moving, omega) in enumerate(zip(places, velocities, speeds.tolist())):
             film.set_speed(omega)
@@ -219,27 +228,34 @@ class JournalBearing:
         return FilmField(z=np.concatenate([-half[::-1], half]), **stack(rows, shape))
 
     # --- inside ----------------------------------------------------------------------------------
-    def _film(self, options: FilmOptions, speeds: Array) -> Film:
+    def _film(self, options: FilmOptions, rates: Array) -> Film:
         film = build_film(self.diameter, self.width, self.relative_clearance, options)
-        film.set_scale(float(np.abs(speeds).max(initial=0.0)))
+        film.set_scale(float(np.abs(rates).max()))
         return film
 
     def _static(
         self, film: Film, load: Array, last: Solution | None, tolerance: float, max_iterations: int
     ) -> Solution:
-        """Equilibrium from the last one if that is near, else from the closed form."""
+        """Equilibrium from the closed form, robustly."""
         if film.speed == 0.0 and load.any():
             return no_film(film)
         position = self._estimate(load, film)
-        if last is not None:
-            near = 0.2 * (1 - np.hypot(*position))
-            if np.hypot(*(last.position - position)) < near:
-                warm = solve_equilibrium(
-                    film, load, last.u, last.position, tolerance, max_iterations
-                )
-                if warm.converged:
-                    return warm
-        return solve_equilibrium(film, load, film.start(), position, tolerance, max_iterations)
+        for u, start in self._starts(film, position, last):
+            solution = solve_equilibrium(film, load, u, start, tolerance, max_iterations)
+            if solution.converged:
+                return replace(solution, estimate=position)
+        solution = solve_patiently(film, load, position, tolerance, max_iterations)
+        return replace(solution, estimate=position)
+
+    def _starts(
+        self, film: Film, position: Array, last: Solution | None
+    ) -> Iterator[tuple[Array, Array]]:
+        """Where Newton may start: from the last solution if the closed form has moved little."""
+        if last is not None and last.estimate is not None:
+            moved = position - last.estimate
+            if np.hypot(*moved) < _NEAR * (1 - np.hypot(*last.position)):
+                yield last.u, last.position
+        yield film.start(), position
 
     def _estimate(self, load: Array, film: Film) -> Array:
         """Position by Butenschön's closed form, in clearances."""
@@ -249,7 +265,7 @@ class JournalBearing:
         width_ratio = min(max(self.width / self.diameter, 0.125), 1.0)
         numbers, attitudes = butenschoen(_RATIOS, width_ratio)
         ratio = float(np.interp(wanted, numbers, _RATIOS)) * min(wanted / numbers[0], 1.0)
-        attitude = float(np.interp(ratio, _RATIOS, attitudes))
+        attitude = float(np.interp(ratio, _RATIOS, attitudes)) if film.ruptures else 0.5 * np.pi
         turn = np.arctan2(load[1], load[0]) + np.sign(film.speed) * attitude
         return ratio * np.array([np.cos(turn), np.sin(turn)])
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,11 +13,17 @@ from loadflow.journal.film import Film, Linear
 Array = NDArray[np.float64]
 
 _QUADRATIC = 1e-7  # a step this small leaves an error near its square: the last factors are exact
+_CALM = (
+    0.5  # change of the film, over the scale of pressure, up to which the shaft goes all the way
+)
 
 
 @dataclass(frozen=True)
 class Solution:
-    """A solved film: unknowns, position (clearances), last linearisation, convergence."""
+    """A solved film: unknowns, position (clearances), last linearisation, convergence.
+
+    `estimate` is the position by the closed form, which tells whether the next load is near.
+    """
 
     u: Array
     position: Array
@@ -24,6 +31,7 @@ class Solution:
     converged: bool
     iterations: int
     residual: float
+    estimate: Array | None = None
 
 
 def solve_film(
@@ -56,7 +64,9 @@ def solve_equilibrium(
     u = u.copy()
     for iteration in range(1, max_iterations + 1):
         linear = film.linearise(u, position, rest)
-        target = limited(position, _solve2(linear.stiffness, force - linear.load))
+        haste = film.size(linear.columns[0]) / _CALM
+        step = _solve2(linear.stiffness, force - linear.load) / max(haste, 1.0)
+        target = limited(position, step)
         weights = np.concatenate([[1.0], film.coordinates(target) - film.coordinates(position)])
         change = film.correct(u, linear.columns, weights)
         gap = 1.0 - np.hypot(*position)
@@ -70,12 +80,51 @@ def solve_equilibrium(
     return Solution(u, position, linear, False, max_iterations, residual)
 
 
+def solve_patiently(
+    film: Film, force: Array, position: Array, tolerance: float, max_iterations: int
+) -> Solution:
+    """As `solve_equilibrium`, for the few loads at which that fails: film solved at every position.
+
+    The step of the shaft is halved until the missing force shrinks.
+    """
+    rest = np.zeros(2)
+    state = solve_film(film, film.start(), position, rest, tolerance, max_iterations)
+    spent = state.iterations
+    missing = force - state.linear.load
+    while state.converged and spent < 10 * max_iterations:
+        step = _solve2(state.linear.stiffness, missing)
+        for _ in range(20):
+            target = limited(state.position, step)
+            trial = solve_film(film, state.u, target, rest, tolerance, max_iterations)
+            spent += trial.iterations
+            left = force - trial.linear.load
+            if trial.converged and np.hypot(*left) < np.hypot(*missing):
+                break
+            step = 0.5 * step
+        state, missing = trial, left
+        if np.hypot(*missing) < 1e-3 * np.hypot(*force):
+            end = solve_equilibrium(film, force, state.u, state.position, tolerance, max_iterations)
+            return replace(end, iterations=spent + end.iterations)
+    return replace(state, converged=False, iterations=spent)
+
+
 def limited(position: Array, step: Array) -> Array:
-    """Position after `step`, halved until the narrowest gap keeps a third of its height."""
-    limit = 1.0 - 0.3 * (1.0 - np.hypot(*position))
-    while not np.hypot(*(position + step)) < limit:
-        step = 0.5 * step
-    return position + step
+    """Position after `step`, of which the narrowest gap keeps at least a third of its height.
+
+    An eccentric shaft goes along the gap, not along the chord.
+    """
+    x, y = position.tolist()
+    dx, dy = step.tolist()
+    ratio = math.hypot(x, y)
+    limit = 1.0 - 0.3 * (1.0 - ratio)
+    if ratio < 0.5:
+        length = math.hypot(x + dx, y + dy)
+        share = min(1.0, limit / length) if length > 0 else 1.0
+        return np.array([share * (x + dx), share * (y + dy)])
+    radial = (x * dx + y * dy) / ratio
+    turn = math.atan2(y, x) + max(-0.5, min(0.5, (x * dy - y * dx) / ratio**2))
+    length = max(0.3, min(limit, ratio + radial))
+    return np.array([length * math.cos(turn), length * math.sin(turn)])
 
 
 def _solve2(matrix: Array, rhs: Array) -> Array:

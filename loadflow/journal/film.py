@@ -83,6 +83,7 @@ class Film:
     ) -> None:
         self.mesh = mesh
         self.kind = _KIND[type(law)]
+        self.ruptures = self.kind != kernel.FULL
         self.mixing = law.mixing_constant if isinstance(law, GasMixture) else 0.0
         self.p_cav = getattr(law, "cavitation_pressure", 0.0)
         self.p_edge = edge_pressure
@@ -98,17 +99,17 @@ class Film:
         n = nx * nz
         self.ab = np.empty((n, 3 * mesh.bandwidth + 1))
         self.state = np.empty((8, nx, nz))
-        self.coef = np.empty((8, nx + 1))
-        self.shifted = (np.empty((8, nx + 1)), np.empty((8, nx + 1)))
+        self.coef = np.zeros((8, nx + 1))
+        self.shifted = (np.zeros((8, nx + 1)), np.zeros((8, nx + 1)))
 
     def set_speed(self, speed: float) -> None:
         """Set the speed of the shaft, rad/s."""
         self.speed = speed
         self.wedge = 0.5 * self.slope * speed
 
-    def set_scale(self, speed: float) -> None:
-        """Set the scale of the pressure, Pa, from the largest speed; it scales the unknowns too."""
-        self.scale = max(0.5 * self.slope * abs(speed), self.p_edge, 1.0)
+    def set_scale(self, rate: float) -> None:
+        """Set the scale of pressure and unknowns, Pa, from the largest speed or squeeze, 1/s."""
+        self.scale = max(0.5 * self.slope * rate, self.p_edge, 1.0)
 
     # --- state -----------------------------------------------------------------------------------
     def unknown_of(self, pressure: Array) -> Array:
@@ -257,6 +258,11 @@ class Film:
         """Coordinates of the position that the mesh feels: both, or ε if the mesh turns along."""
         return np.array([np.hypot(*position)]) if self.mesh.polar else position
 
+    def size(self, column: Array) -> float:
+        """Largest entry of a change of the unknowns over the pressure of the film."""
+        peak = float(self.state[kernel.LOAD].max())
+        return float(np.abs(column).max()) / max(self.scale, peak)
+
     def correct(self, u: Array, columns: Array, weights: Array) -> float:
         """Apply a Newton step to `u`; returns its largest change over the scale of pressure."""
         return kernel.correct(u, columns, weights, self.mesh.order) / self.scale
@@ -282,7 +288,8 @@ class Film:
         self.place(u, position)
         mesh = self.mesh
         peak, dissipation, shear, outflow, liquid, volume = kernel.integrals(
-            self.state, self.coef, mesh.dz, mesh.gz, mesh.closed, self.p_edge, self.p_edge, self.pocket
+            self.state, self.coef, mesh.dz, mesh.gz, mesh.closed,
+            self.p_edge, self.p_edge, self.pocket,
         )  # fmt: skip
         clearance = self.relative_clearance * self.radius
         flow = 2.0 * clearance**3 / (12.0 * self.viscosity)

@@ -27,7 +27,7 @@ Grading = Literal["auto", "uniform", "graded"]
 Inlet = Literal["auto", "widest gap"] | None
 
 SOURCE_GRID = (60, 20)  # the grid of the source, enough for its smooth law
-SHARP_GRID = (120, 32)  # graded, for laws with a sharp rupture
+SHARP_GRID = (120, 40)  # graded, for laws with a sharp rupture
 
 
 @dataclass(frozen=True)
@@ -75,29 +75,17 @@ def build_film(diameter: float, width: float, clearance: float, options: FilmOpt
 
 def _check_oil(law: Cavitation, edge_pressure: float, supply: Supply | None) -> None:
     """Refuse pressures at which a mass-conserving film would run dry, or rupture at its rim."""
-    pressures = (
-        [edge_pressure, *(g.pressure for g in supply.grooves)] if supply else [edge_pressure]
-    )
-    require(np.isfinite(edge_pressure), "edge_pressure", edge_pressure, "Pa, absolute, finite")
-    if isinstance(law, GasMixture):
-        require(min(pressures) >= 0, "edge_pressure", min(pressures), "Pa, absolute, ≥ 0")
-        require(
-            max(pressures) > 0,
-            "edge_pressure",
-            edge_pressure,
-            "Pa, > 0 somewhere, or no oil enters",
-        )
-        return
-    floor = getattr(law, "cavitation_pressure", -np.inf)
-    require(
-        min(pressures) >= floor,
-        "edge_pressure",
-        min(pressures),
-        f"≥ cavitation pressure {floor} Pa",
-    )
-    if isinstance(law, MassConserving):
-        require(max(pressures) > floor, "edge_pressure", edge_pressure,
-                f"above the cavitation pressure {floor} Pa somewhere, or no oil enters")  # fmt: skip
+    name = "edge_pressure"
+    require(np.isfinite(edge_pressure), name, edge_pressure, "Pa, absolute, finite")
+    pressures = [edge_pressure]
+    if supply:
+        pressures += [groove.pressure for groove in supply.grooves]
+    floor = 0.0 if isinstance(law, GasMixture) else getattr(law, "cavitation_pressure", -np.inf)
+    allowed = f"Pa, absolute, not below the cavitation pressure {floor:g} Pa"
+    require(min(pressures) >= floor, name, min(pressures), allowed)
+    if isinstance(law, GasMixture | MassConserving):
+        allowed = f"above {floor:g} Pa at a rim or in a groove, or no oil enters"
+        require(max(pressures) > floor, name, edge_pressure, allowed)
 
 
 def operating_points(

@@ -105,9 +105,10 @@ def squeeze_time(
     start: float, end: float, force: float, width: float, radius: float,
     relative_clearance: float, viscosity: float,
 ) -> float:  # fmt: skip
-    """Time (s) in which `force` (N) squeezes a wide film from ε `start` to `end`, (1.5) of the source.
+    """Time (s) in which `force` (N) squeezes a wide film from ε `start` to `end`.
 
-    Exact for the Gümbel film. The values printed in Table 1-1 of [Jonuschies 2015] are twice as long.
+    (1.5) of the source [Jonuschies 2015], exact for the Gümbel film; the values printed in its
+    Table 1-1 are twice as long.
     """
 
     def travel(e: float) -> float:

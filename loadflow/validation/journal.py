@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -12,7 +13,7 @@ from loadflow.validation.check import Check
 
 @dataclass(frozen=True)
 class BaseLoad:
-    """A row of Table 5-13: wind speed (m/s), speed (1/min), forces (kN), printed E_max and So_max."""
+    """A row of Table 5-13: wind (m/s), speed (1/min), forces (kN), printed E_max and So_max."""
 
     wind: int
     speed: float
@@ -76,6 +77,139 @@ def base_load_checks() -> Iterator[Check]:
         yield Check(f"So_max, {name}", "Table 5-13", row.so_max, so_max, 0.02)
 
 
+def closed_form_checks() -> Iterator[Check]:
+    """Short and long bearings; what is left is the loss at the rims (about 0.7 D/B)."""
+    from loadflow.journal import Guembel, Reynolds, Sommerfeld
+    from loadflow.tribology import film as closed
+
+    for ratio in (0.3, 0.6, 0.9):
+        so, beta = rotation(0.02, ratio, Guembel(), inlet=None)
+        expected, attitude = closed.short_bearing(ratio, 0.02)
+        yield Check(f"So, B/D = 0.02, ε = {ratio}", "Ocvirk", float(expected), so, 0.005)
+        angle = float(np.degrees(attitude))
+        yield Check(f"β, B/D = 0.02, ε = {ratio}", "Ocvirk", angle, beta, 0.05, "absolute", "°")
+        so, _ = rotation(200.0, ratio, Sommerfeld())
+        number = float(closed.long_bearing(ratio))
+        yield Check(f"So, B/D = 200, ε = {ratio}", "Sommerfeld", number, so, 0.005)
+        so, beta = rotation(200.0, ratio, Reynolds())
+        number, turn, _ = closed.long_bearing_ruptured(ratio)
+        name = "long bearing with rupture"
+        yield Check(f"So, B/D = 200, ε = {ratio}", name, number, so, 0.005)
+        angle = float(np.degrees(turn))
+        yield Check(f"β, B/D = 200, ε = {ratio}", name, angle, beta, 0.05, "absolute", "°")
+
+
+def rotation(width_ratio: float, ratio: float, law: Any, **film: Any) -> tuple[float, float]:
+    """So and attitude angle (degrees) of a bearing that turns at eccentricity `ratio`."""
+    from loadflow.journal import JournalBearing, Lubricant
+
+    bearing = JournalBearing(diameter=1.0, width=width_ratio, relative_clearance=1e-3)
+    place = (ratio * bearing.clearance, 0.0)
+    force = bearing.pressure(place, 1.0, Lubricant(0.05), cavitation=law, **film).force
+    so = bearing.sommerfeld_number(float(np.hypot(*force)), 1.0, 0.05)
+    return so, float(np.degrees(np.arctan2(-force[1], force[0])))
+
+
+def reference_table(name: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """B/D, ε and values (ε, B/D) of a table in ``loadflow/data/reference``."""
+    from importlib.resources import files
+
+    text = (files("loadflow") / "data" / "reference" / name).read_text().splitlines()
+    widths = np.array([float(head.split("=")[1]) for head in text[0].split(",")[1:]])
+    values = np.array([line.split(",") for line in text[1:]], dtype=float)
+    return widths, values[:, 0], values[:, 1:]
+
+
+def converged_table_checks() -> Iterator[Check]:
+    """A sample of the converged Swift–Stieber tables on the default grid."""
+    from loadflow.journal import Reynolds
+
+    widths, ratios, numbers = reference_table("ref_So_rot.csv")
+    _, _, attitudes = reference_table("ref_beta_deg.csv")
+    for j in (0, 1, 4, 7):
+        for i in (0, 4, 7, 12):
+            so, beta = rotation(widths[j], ratios[i], Reynolds())
+            name = f"B/D = {widths[j]:.4g}, ε = {ratios[i]}"
+            yield Check(f"So, {name}", "converged table", numbers[i, j], so, 0.002)
+            angle = attitudes[i, j]
+            yield Check(f"β, {name}", "converged table", angle, beta, 0.05, "absolute", "°")
+
+
+SIDE_FLOW = {
+    1.0: (0.7861, 1.2404, 1.4663),
+    0.5: (0.4695, 0.7531, 0.8985),
+    0.25: (0.2461, 0.3940, 0.4687),
+}
+
+
+def side_flow_checks() -> Iterator[Check]:
+    """Converged side flow Q/(R³ψω) of the Swift–Stieber film."""
+    from loadflow.journal import JournalBearing, Lubricant
+
+    for width, flows in SIDE_FLOW.items():
+        bearing = JournalBearing(diameter=1.0, width=width, relative_clearance=1e-3)
+        for ratio, flow in zip((0.5, 0.8, 0.95), flows):
+            film = bearing.pressure((ratio * bearing.clearance, 0.0), 1.0, Lubricant(0.05))
+            got = float(film.side_flow) / (0.5**3 * 1e-3)
+            yield Check(f"Q*, B/D = {width}, ε = {ratio}", "converged side flow", flow, got, 0.002)
+
+
+def squeeze_checks() -> Iterator[Check]:
+    """A sample of the converged squeeze table (no inlet line: the shaft does not turn)."""
+    from loadflow.journal import JournalBearing, Lubricant
+
+    widths, ratios, numbers = reference_table("ref_So_squeeze.csv")
+    for j in (0, 4, 7):
+        bearing = JournalBearing(diameter=1.0, width=widths[j], relative_clearance=1e-3)
+        for i in (0, 10, 19, 28):
+            place = (abs(ratios[i]) * bearing.clearance, 0.0)
+            moving = (float(np.sign(ratios[i])) * bearing.clearance, 0.0)
+            film = bearing.pressure(place, 0.0, Lubricant(0.05), velocity=moving, inlet=None)
+            got = bearing.sommerfeld_number(float(np.hypot(*film.force)), 1.0, 0.05)
+            name = f"So_V, B/D = {widths[j]:.4g}, ε = {ratios[i]}"
+            yield Check(name, "converged squeeze table", numbers[i, j], got, 0.003)
+
+
+# Lund & Thomsen 1978, two grooves of 20°: L/D, S, ε, φ°, c K/W (xx, xy, yy), c ω C/W (xx)
+LUND_THOMSEN = (
+    (0.5, 1.656, 0.244, 65.85, 1.69, 5.06, 1.95, 9.93),
+    (0.5, 0.379, 0.570, 45.43, 3.33, 3.64, 1.68, 6.76),
+    (0.5, 0.244, 0.655, 40.25, 4.21, 3.74, 1.64, 6.87),
+    (1.0, 0.991, 0.150, 70.58, 1.56, 7.29, 1.52, 14.66),
+    (1.0, 0.635, 0.224, 63.54, 1.62, 5.33, 1.56, 10.80),
+    (1.0, 0.235, 0.460, 49.27, 2.19, 3.57, 1.55, 7.36),
+)
+
+
+def coefficient_checks() -> Iterator[Check]:
+    """Stiffness and damping of Lund & Thomsen 1978 (their last digit is worth about 1 %)."""
+    from loadflow.journal import Groove, JournalBearing, Lubricant, Supply
+
+    supply = Supply(tuple(Groove(angle, arc=np.radians(20)) for angle in (np.pi / 2, -np.pi / 2)))
+    for width, number, ratio, attitude, k_xx, k_xy, k_yy, c_xx in LUND_THOMSEN:
+        bearing = JournalBearing(diameter=1.0, width=width, relative_clearance=1e-3)
+        load = 0.05 * width / (2 * np.pi * number) * 1e6
+        state = bearing.equilibrium(
+            (load, 0.0), 1.0, Lubricant(0.05), supply=supply, grid=(180, 40)
+        )
+        stiffness = state.stiffness * bearing.clearance / load
+        damping = state.damping * bearing.clearance / load
+        name, source = f"L/D = {width}, S = {number}", "Lund & Thomsen"
+        got = float(state.eccentricity_ratio)
+        yield Check(f"ε, {name}", source, ratio, got, 0.0015, "absolute")
+        got = float(np.degrees(state.attitude_angle))
+        yield Check(f"φ, {name}", source, attitude, got, 0.15, "absolute", "°")
+        yield Check(f"K_xx, {name}", source, k_xx, float(stiffness[0, 0]), 0.015)
+        yield Check(f"K_xy, {name}", source, k_xy, float(stiffness[0, 1]), 0.015)
+        yield Check(f"K_yy, {name}", source, k_yy, float(stiffness[1, 1]), 0.015)
+        yield Check(f"C_xx, {name}", source, c_xx, float(damping[0, 0]), 0.015)
+
+
 def checks() -> Iterator[Check]:
     """All printed numbers of the journal bearing."""
     yield from base_load_checks()
+    yield from closed_form_checks()
+    yield from converged_table_checks()
+    yield from side_flow_checks()
+    yield from squeeze_checks()
+    yield from coefficient_checks()
