@@ -66,6 +66,7 @@ def run(
     workers: int = 1,
     scheduler: str | None = None,
     overwrite: bool = False,
+    report: bool = True,
     progress: Report | None = None,
 ) -> Run:
     """Carry out what a scene wants.
@@ -85,6 +86,8 @@ def run(
         `out`.
     overwrite : bool
         Whether parts of other settings may be replaced.
+    report : bool
+        Whether to write the report page.
     progress : callable, optional
         Called with (stage, done, total).
 
@@ -137,9 +140,10 @@ def run(
     _write_manifest(
         folder, manifest, timing, failures, workers=workers, wall=time.perf_counter() - started
     )
-    say("report", 0, 1)
-    write_report(folder)
-    say("report", 1, 1)
+    if report:
+        say("report", 0, 1)
+        write_report(folder)
+        say("report", 1, 1)
     return Run(folder, tree, failures)
 
 

@@ -45,14 +45,16 @@ class Turbine(_Section):
 class Loads(_Section):
     """Where the load series come from.
 
-    ``source = "simulate"`` makes them from IEC wind; ``source = "files"`` reads them: OpenFAST
-    output, or a load cube (``.h5``).
+    ``source = "simulate"`` makes them from IEC wind; ``source = "files"`` reads them: the output of
+    a simulator, or a load cube (``.h5``). ``weights = "given"`` keeps the shares of the lifetime
+    that a cube or a case list states; otherwise they follow from the wind speed (2.2).
     """
 
     source: Literal["simulate", "files"] = "simulate"
     files: list[str] = []
     case_list: str | None = None
     pattern: str | None = None
+    weights: Literal["rayleigh", "given"] = "rayleigh"
     dlc: str = "1.1"
     wind_speeds: Annotated[list[Positive], Field(min_length=1)] = [4.0, 8.0, 12.0, 16.0, 20.0, 24.0]
     seeds: Annotated[int, Field(ge=1, le=1000)] = 6

@@ -82,7 +82,8 @@ def list_cases(scene: Scene) -> list[Case]:
         raise InputError('loads.files: source = "files" needs load files; none is given')
     files = [path for pattern in loads.files for path in _matching(pattern)]
     cases = [case for path in files for case in _cases_of(path, loads)]
-    return _weighted(_distinct(cases), loads.wind_class)
+    distinct = _distinct(cases)
+    return distinct if loads.weights == "given" else _weighted(distinct, loads.wind_class)
 
 
 def _matching(pattern: str) -> list[Path]:
@@ -108,6 +109,7 @@ def _cases_of(path: Path, loads: Loads) -> Iterator[Case]:
             str(series["dlc"].item()),
             float(series["wind_speed"].item()),
             int(series["seed"].item()),
+            float(series["weight"].item()),
             file=str(path),
             entry=name,
             fingerprint=fingerprint,

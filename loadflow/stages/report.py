@@ -30,7 +30,8 @@ def write_report(folder: Path) -> Path:
     scene = read_scene(folder / "scene.toml")
     manifest = json.loads((folder / "manifest.json").read_text(encoding="utf-8"))
     results = open_cube(folder / "result.h5")
-    tables = {name: node.to_dataset() for name, node in results.children.items()}
+    groups = results.children if isinstance(results, xr.DataTree) else {}
+    tables = {name: node.to_dataset() for name, node in groups.items()}
     sections = [*_sections(folder, scene, manifest, tables)]
     return write_page(
         folder / "report.html", f"loadflow: {scene.name}", _facts(scene, manifest), sections
@@ -80,7 +81,7 @@ def _sections(
             tables=[_case_table(tables["rolling"])],
             pictures=[
                 Picture(figures.ball_ring(_open(folder, "rolling", name)), _caption(name), k > 0)
-                for k, name in enumerate(shown)
+                for k, name in enumerate(_there(folder, "rolling", shown))
             ],
         )
     yield _provenance(manifest)
@@ -110,6 +111,11 @@ def _shown_cases(tables: dict[str, xr.Dataset], manifest: dict[str, Any]) -> lis
 
 def _open(folder: Path, stage: str, case: str) -> Any:
     return open_cube(folder / stage / f"{case}.h5")
+
+
+def _there(folder: Path, stage: str, cases: list[str]) -> list[str]:
+    """Return the cases that the stage has answered."""
+    return [case for case in cases if (folder / stage / f"{case}.h5").exists()]
 
 
 def _caption(case: str, more: str = "") -> str:
@@ -155,7 +161,7 @@ def _parts(data: xr.DataArray, title: str) -> Iterator[tuple[str, xr.DataArray]]
 
 
 def _load_pictures(folder: Path, shown: list[str]) -> Iterator[Picture]:
-    for k, name in enumerate(shown):
+    for k, name in enumerate(_there(folder, "shaft", shown)):
         drawing = figures.load_series(
             _open(folder, "loads", name).load(), _open(folder, "shaft", name).load()
         )
@@ -163,7 +169,7 @@ def _load_pictures(folder: Path, shown: list[str]) -> Iterator[Picture]:
 
 
 def _per_bearing(folder: Path, stage: str, shown: list[str], draw: Any) -> Iterator[Picture]:
-    for k, name in enumerate(shown):
+    for k, name in enumerate(_there(folder, stage, shown)):
         for bearing, node in _open(folder, stage, name).children.items():
             yield Picture(
                 draw(node.to_dataset().load()), _caption(name, f"bearing {bearing}"), k > 0
@@ -212,7 +218,7 @@ def _p(value: float) -> str:
 def _seed_boxes(folder: Path, manifest: dict[str, Any]) -> list[Picture]:
     """Draw the spread of the seeds of every wind speed that has more than one."""
     groups: dict[str, list[str]] = {}
-    for name in manifest["cases"]:
+    for name in _there(folder, "shaft", manifest["cases"]):
         groups.setdefault(name.rsplit("_s", 1)[0], []).append(name)
     pictures: list[Picture] = []
     for group, names in groups.items():

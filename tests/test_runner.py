@@ -1,0 +1,158 @@
+"""A run computes what is wanted and nothing else, once, and gives the same again."""
+
+import json
+
+import numpy as np
+import pytest
+import xarray as xr
+from synthetic import cube_file
+
+import loadflow as lf
+from loadflow.cube import open_cube
+from loadflow.errors import InputError
+from loadflow.plan import GIVEN_BY, STAGES, make_plan
+from loadflow.scene import Scene, make_scene
+
+
+def scene_of(cube, **keys):
+    data = {
+        "name": "small",
+        "loads": {"source": "files", "files": [str(cube)]},
+        "reduction": {"size": 0.05},
+        "journal": {"grid": [24, 8], "bearings": ["N2"]},
+    }
+    return make_scene(data | keys)
+
+
+@pytest.fixture(scope="module")
+def cube(tmp_path_factory):
+    return cube_file(tmp_path_factory.mktemp("cube") / "loads.h5")
+
+
+@pytest.fixture(scope="module")
+def finished(cube, tmp_path_factory):
+    return lf.run(scene_of(cube), out=tmp_path_factory.mktemp("runs"), report=False)
+
+
+def groups(tree):
+    return {node.path: node.to_dataset() for node in tree.subtree if node.data_vars}
+
+
+def assert_same(first, second):
+    assert groups(first).keys() == groups(second).keys()
+    for path, dataset in groups(first).items():
+        xr.testing.assert_identical(dataset.load(), groups(second)[path].load())
+
+
+def test_every_result_is_given_by_a_stage():
+    assert set(GIVEN_BY) == set(Scene(name="all").results)
+    assert set(GIVEN_BY.values()) <= set(STAGES)
+
+
+def test_rolling_life_never_touches_the_film_solver(cube):
+    plan = make_plan(scene_of(cube, results=["rolling.life"]))
+    assert [step.stage.name for step in plan.steps] == ["loads", "shaft", "reduction", "rolling"]
+    assert "journal" in plan.left_out
+
+
+def test_given_loads_never_touch_wind(cube):
+    assert "wind, rotor" in make_plan(scene_of(cube)).left_out
+
+
+def test_the_shares_of_the_lifetime_add_up(cube):
+    assert sum(case.weight for case in make_plan(scene_of(cube)).cases) == pytest.approx(1.0)
+
+
+def test_a_run_answers_all_that_was_asked(finished):
+    tree = finished.tree
+    assert set(tree.children) == {"statistics", "seeds", "journal", "rolling"}
+    journal = tree["journal"].to_dataset()
+    assert journal.sizes == {"bearing": 1, "case": 4}
+    assert (journal["not_converged"] == 0).all()
+    assert (
+        (journal["largest_eccentricity_ratio"] > 0.2) & (journal["largest_eccentricity_ratio"] < 1)
+    ).all()
+    assert (tree["rolling"]["largest_ball_force"] > 1e3).all()
+    assert finished.failures == {}
+
+
+def test_every_number_of_the_result_has_units_and_a_meaning(finished):
+    for path, dataset in groups(finished.tree).items():
+        for name, variable in dataset.data_vars.items():
+            if variable.dtype.kind in "fi":
+                assert "units" in variable.attrs, f"{path}/{name}"
+                assert "long_name" in variable.attrs, f"{path}/{name}"
+
+
+def test_a_run_that_was_killed_goes_on_and_gives_identical_results(cube, finished, tmp_path):
+    scene = scene_of(cube)
+    lf.run(scene, out=tmp_path, report=False)
+    folder = tmp_path / "small"
+    # as a kill would leave it: parts missing, a temporary file, no result
+    stamp = (folder / "journal" / "dlc1.1_v8_s1.h5").stat().st_mtime_ns
+    for name in ("journal/dlc1.1_v8_s2.h5", "loads/dlc1.1_v12_s1.h5", "shaft/dlc1.1_v12_s2.h5"):
+        (folder / name).unlink()
+    for name in ("seeds.h5", "result.h5"):
+        (folder / name).unlink()
+    (folder / "journal" / ".dlc1.1_v8_s2.h5.99.tmp").write_bytes(b"half")
+    again = lf.run(scene, out=tmp_path, report=False)
+    assert_same(again.tree, finished.tree)
+    assert (folder / "journal" / "dlc1.1_v8_s1.h5").stat().st_mtime_ns == stamp
+    assert not list(folder.rglob(".*.tmp"))
+
+
+def test_two_processes_give_the_numbers_of_one(cube, finished, tmp_path):
+    assert_same(lf.run(scene_of(cube), out=tmp_path, workers=2, report=False).tree, finished.tree)
+
+
+def test_parts_of_other_settings_are_refused_unless_overwritten(cube, tmp_path):
+    narrow = {"results": ["reduction.histogram"]}
+    lf.run(scene_of(cube, **narrow), out=tmp_path, report=False)
+    other = scene_of(cube, **narrow, reduction={"size": 0.2})
+    with pytest.raises(InputError, match="'reduction' that were made with other settings"):
+        lf.run(other, out=tmp_path)
+    lf.run(other, out=tmp_path, overwrite=True, report=False)
+    reduced = open_cube(tmp_path / "small" / "reduction" / "dlc1.1_v8_s1.h5")
+    assert reduced["N"].sizes["sample"] >= 0.2 * 400
+
+
+def test_a_further_result_uses_what_is_there(cube, tmp_path):
+    lf.run(scene_of(cube, results=["reduction.histogram"]), out=tmp_path, report=False)
+    part = tmp_path / "small" / "reduction" / "dlc1.1_v12_s2.h5"
+    stamp = part.stat().st_mtime_ns
+    lf.run(
+        scene_of(cube, results=["reduction.histogram", "rolling.loads"]), out=tmp_path, report=False
+    )
+    assert part.stat().st_mtime_ns == stamp
+
+
+def test_the_manifest_records_how_the_numbers_came_about(finished):
+    manifest = json.loads((finished.path / "manifest.json").read_text())
+    assert len(manifest["cases"]) == 4
+    assert manifest["versions"]["loadflow"] == lf.__version__
+    assert all(len(digest) == 64 for digest in manifest["inputs"].values())
+    assert set(manifest["seconds"]) >= {"loads", "journal", "rolling", "seeds"}
+
+
+def test_a_case_without_an_answer_is_reported_and_the_others_are_kept(tmp_path):
+    path = cube_file(tmp_path / "loads.h5")
+    still = open_cube(path).load()
+    still["speed"][0] = 0.0  # first case: loaded shaft at rest
+    still.to_netcdf(path, engine="h5netcdf")
+    result = lf.run(scene_of(path), out=tmp_path / "runs")
+    (part, reason), *rest = result.failures.items()
+    assert part == "dlc1.1_v8_s1, journal"
+    assert "ω = 0" in reason
+    assert rest == []
+    assert result.tree["journal"].sizes["case"] == 3
+    assert result.tree["rolling"].sizes["case"] == 4
+    assert "ω = 0" in result.report.read_text()
+
+
+def test_nan_in_a_series_is_named_before_anything_runs(tmp_path):
+    path = cube_file(tmp_path / "loads.h5")
+    broken = open_cube(path).load()
+    broken["speed"][1, 7] = np.nan
+    broken.to_netcdf(path, engine="h5netcdf")
+    with pytest.raises(InputError, match=r"loads\.h5.*dlc1\.1_v8_s2.*speed.*7"):
+        lf.run(scene_of(path), out=tmp_path / "runs")
