@@ -161,16 +161,17 @@ def kaimal_box(
 
 
 def _length_scale(hub_height: float | None, length_scale: float | None) -> float:
-    if (hub_height is None) == (length_scale is None):
-        raise InputError("give either hub_height or length_scale")
-    return iec_length_scale(hub_height) if hub_height is not None else float(length_scale or 0)
+    if hub_height is not None and length_scale is None:
+        return iec_length_scale(hub_height)
+    if length_scale is not None and hub_height is None:
+        return length_scale
+    raise InputError("give either hub_height or length_scale")
 
 
 def _choose(method: Method, factors: CoherenceFactors | None, grid: Grid, scale: float) -> Factors:
+    _check_choice("method", method, ("fast", "exact"))
     if method == "exact":
         return ExactFactors(grid, scale)
-    if method != "fast":
-        raise InputError(f"method = {method!r} must be 'fast' or 'exact'")
     if factors is None:
         return CoherenceFactors(grid, scale)
     if factors.length_scale != scale or not same_points(factors.grid, grid):
@@ -194,21 +195,17 @@ def _components(
     import scipy.fft
 
     check_turbulence(wind_speed, sigma, factors.length_scale)
-    if components not in ("u", "uv", "uvw"):
-        raise InputError(f"components = {components!r} must be 'u', 'uv' or 'uvw'")
-    if scaling not in ("none", "hub", "each"):
-        raise InputError(f"scaling = {scaling!r} must be 'none', 'hub' or 'each'")
-    if lateral not in ("coherent", "independent"):
-        raise InputError(f"lateral = {lateral!r} must be 'coherent' or 'independent'")
+    _check_choice("components", components, ("u", "uv", "uvw"))
+    _check_choice("scaling", scaling, ("none", "hub", "each"))
+    _check_choice("lateral", lateral, ("coherent", "independent"))
     time = sample_times(duration, dt)
-    samples = len(time)
-    period = scipy.fft.next_fast_len(samples, real=True)
+    period = scipy.fft.next_fast_len(len(time), real=True)
     frequency = np.arange(period // 2 + 1) / (period * dt)
     decay = coherence_decay(frequency, wind_speed, factors.length_scale)
     root = as_sequence(seed)
     parts = []
     for k in range(len(components)):
-        noise = _noise(factors.grid, frequency, child(root, k))
+        noise = _noise(factors.grid, len(frequency), child(root, k))
         if k == 0 or lateral == "coherent":
             factors.correlate(noise, decay)
         else:
@@ -216,9 +213,14 @@ def _components(
         density = kaimal_spectrum(frequency, wind_speed, sigma, factors.length_scale, k)
         noise *= np.sqrt(density * frequency[1] / 4).astype(np.float32)
         spectra = factors.grid.to_points(noise)
-        series = scipy.fft.irfft(spectra, period, norm="forward", overwrite_x=True)[..., :samples]
-        parts.append(_scaled(series, COMPONENT_SIGMA[k] * sigma, scaling, hub))
+        series = scipy.fft.irfft(spectra, period, norm="forward", overwrite_x=True)
+        parts.append(_scaled(series[..., : len(time)], COMPONENT_SIGMA[k] * sigma, scaling, hub))
     return parts, time
+
+
+def _check_choice(name: str, value: str, known: tuple[str, ...]) -> None:
+    if value not in known:
+        raise InputError(f"{name} = {value!r} must be one of {', '.join(map(repr, known))}")
 
 
 def sample_times(duration: float, dt: float) -> Floats:
@@ -228,9 +230,9 @@ def sample_times(duration: float, dt: float) -> Floats:
     return np.arange(int(np.ceil(round(duration / dt, 6))) + 1, dtype=float) * dt
 
 
-def _noise(grid: Grid, frequency: Floats, seed: np.random.SeedSequence) -> NDArray[np.complex64]:
-    """Complex Gaussian noise of variance 2 at each frequency, none at zero."""
-    shape = (grid.blocks, grid.order, 2 * len(frequency))
+def _noise(grid: Grid, count: int, seed: np.random.SeedSequence) -> NDArray[np.complex64]:
+    """Complex Gaussian noise of variance 2 at `count` frequencies, none at the first, zero."""
+    shape = (grid.blocks, grid.order, 2 * count)
     noise = np.random.default_rng(seed).standard_normal(shape, dtype=np.float32)
     noise[..., :2] = 0
     return noise.view(np.complex64)
