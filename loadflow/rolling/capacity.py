@@ -16,7 +16,7 @@ Array = NDArray[np.float64]
 _LINE_REDUCTION = 0.83  # λν of ISO/TS 16281: edge loading and unequal distribution
 
 # Tab. 4.8: f_cm over γ for contact angles of 45°, 60°, 75° (ISO 281, thrust ball bearings).
-_GAMMA = np.r_[0.01:0.105:0.01, 0.12:0.305:0.02]
+_GAMMA = np.r_[1:11, 12:31:2] / 100
 _F_CM = {
     45: "42.1 51.7 58.2 63.3 67.3 70.7 73.5 75.9 78.0 79.7 82.3 84.1 85.1 85.5 85.4 84.9 84.0 82.8 "
     "81.3 79.6",

@@ -1,0 +1,102 @@
+"""Life rules: tables, spectra, oscillation, and what they refuse."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from loadflow.errors import InputError
+from loadflow.rolling import capacity, friction, life, rating_life_spectrum, safety
+
+
+@pytest.mark.parametrize(
+    ("gamma", "degrees", "value"),
+    [
+        (0.014886, 45, 46.79),
+        (0.01, 60, 39.2),
+        (0.11, 45, 81.0),
+        (0.05, 52.5, 64.95),
+        (0.1, 75, 70.7),
+    ],
+)
+def test_capacity_factor_is_linear_in_its_table(gamma, degrees, value):
+    assert capacity.capacity_factor(gamma, math.radians(degrees)) == pytest.approx(value, abs=0.01)
+
+
+@pytest.mark.parametrize(("gamma", "degrees"), [(0.005, 45), (0.31, 45), (0.25, 60), (0.05, 40)])
+def test_capacity_factor_refuses_what_is_outside_its_table(gamma, degrees):
+    with pytest.raises(InputError, match="tabulated"):
+        capacity.capacity_factor(gamma, math.radians(degrees))
+
+
+def test_capacity_of_open_grooves_is_refused():
+    with pytest.raises(InputError, match="groove_radius"):
+        capacity.slewing_capacity(balls=129, rows=2, ball_diameter=0.04, pitch_diameter=1.9,
+                                  contact_angle=math.pi / 4, groove_radius=0.022)  # fmt: skip
+
+
+@given(st.lists(st.floats(0, 1e7), min_size=1, max_size=20), st.floats(1, 5))
+def test_spectrum_load_lies_between_mean_and_maximum(loads, exponent):
+    value = life.spectrum_load(loads, np.ones(len(loads)), exponent)
+    assert np.mean(loads) * (1 - 1e-9) <= value <= max(loads) * (1 + 1e-9)
+
+
+def test_spectrum_life_adds_damage():
+    load, turns = np.array([1e5, 2e5, 0.0]), np.array([3.0, 1.0, 6.0])
+    damage = (turns / 10 / (1e6 / np.maximum(load, 1e-9)) ** 3).sum()
+    assert rating_life_spectrum(1e6, load, turns) == pytest.approx(1 / damage)
+
+
+def test_spectrum_over_one_axis():
+    load = np.arange(1.0, 7).reshape(2, 3)
+    both = life.spectrum_load(load, np.ones(3), axis=1)
+    assert both == pytest.approx([float(life.spectrum_load(row, np.ones(3))) for row in load])
+
+
+@pytest.mark.parametrize("weight", [[0, 0], [-1, 2]])
+def test_spectrum_weights_must_make_sense(weight):
+    with pytest.raises(InputError, match="weight"):
+        life.spectrum_load([1, 2], weight)
+
+
+def test_amplitude_definition_changes_the_travel_fourfold():
+    travel = life.oscillation_speed(1.0, 0.01)
+    assert life.oscillation_speed(1.0, 0.01, "half") == pytest.approx(4 * travel)
+    with pytest.raises(InputError, match="definition"):
+        life.oscillation_speed(1.0, 0.01, "peak")  # type: ignore[arg-type]
+
+
+def test_both_rules_of_the_amplitude_exponent():
+    rows = {"load": [1e6, 2e6], "frequency": [1, 1], "time": [0.5, 0.5], "amplitude": [0.1, 0.4]}
+    printed = life.oscillation_load(**rows, critical=0.2)
+    swapped = life.oscillation_load(**rows, critical=0.2, rule="rumbarger")
+    plain = life.oscillation_load(**rows)
+    weight = np.array([0.1, 0.4**0.9])
+    expected = np.cbrt((np.array([1e6, 2e6]) ** 3 * weight).sum() / weight.sum())
+    assert printed == pytest.approx(expected)
+    assert swapped < plain < printed
+
+
+def test_life_in_hours():
+    assert life.life_hours(0.11, 0.015 * math.pi / 30) == pytest.approx(122_222, rel=1e-5)
+
+
+def test_no_load_lives_for_ever():
+    assert np.isinf(life.rating_life(1e6, 0.0))
+
+
+def test_hardness_factor_has_a_ceiling():
+    assert safety.hardness_factor(700) == 1.0
+    assert safety.hardness_factor(600) == pytest.approx(0.84375)
+    with pytest.raises(InputError, match="hardness"):
+        safety.hardness_factor(0)
+
+
+def test_friction_from_loads_splits_into_its_parts():
+    parts = [friction.friction_torque_loads(*load, 1.9) for load in np.diag([1e6, 2e5, 1e6])]
+    total = friction.friction_torque_loads(1e6, 2e5, 1e6, 1.9, idle=100)
+    assert total == pytest.approx(100 + sum(parts))
+    assert parts[0] == pytest.approx(0.003 * 0.95 * 1e6)
+    assert parts[2] == pytest.approx(0.003 / 2 * 4.4e6)
