@@ -1,6 +1,7 @@
 """Load cases, gusts and the winds made from them."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -91,6 +92,15 @@ def test_options_reach_the_conditions():
     assert conditions("6.1", NREL_5MW, own)[0].shear_exponent == 0.11
     one = conditions("1.1", NREL_5MW, own, wind_speeds=[11.4], yaw_errors=[0.1], duration=60.0)
     assert [(c.wind_speed, c.yaw_error, c.duration) for c in one] == [(11.4, 0.1, 60.0)] * 2
+
+
+def test_the_example_of_the_documentation_runs():
+    text = (Path(__file__).parents[2] / "docs" / "wind.md").read_text(encoding="utf-8")
+    example = text.split("```python\n")[1].split("```")[0]
+    names: dict = {}
+    exec(example, names)
+    assert len(names["everything"]) == 66
+    assert names["field"].u.shape == (12001, 11, 36)
 
 
 # -- seeds ---------------------------------------------------------------------------------------
