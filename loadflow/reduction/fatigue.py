@@ -109,7 +109,7 @@ def damage_equivalent_load(
     Examples
     --------
     >>> t = np.arange(0, 100.01, 0.01)
-    >>> round(damage_equivalent_load(np.sin(2 * np.pi * t), m=4, duration=100), 3)
+    >>> round(damage_equivalent_load(np.cos(2 * np.pi * t), m=4, duration=100), 3)
     2.0
     """
     cycles = x if isinstance(x, Rainflow) else rainflow(x)

@@ -27,6 +27,7 @@ Method = Literal["as-printed", "calibrated"]
 SEGMENTS = 29  # half-overlapping: each a fifteenth of the shortest record
 LEAST_VALUES = 8 * (SEGMENTS + 1) // 2
 BAND_RATIO = 1.4  # of the frequencies that bound a band, about half an octave
+BAND_COSINES = 10  # more than for single values: segments hardly correlate
 LEAST_SHARE = 1e-4  # of the variance: bands below it do not matter to any bearing
 
 
@@ -168,7 +169,7 @@ class Calibrated:
         floor = 1e-12 * mean[kept]
         return cls(
             [LongRun.of(np.stack([x, np.abs(x - np.median(x))], axis=1)) for x in samples],
-            [LongRun.of(np.log(np.maximum(p[:, kept], floor))) for p in power],
+            [LongRun.of(np.log(np.maximum(p[:, kept], floor)), BAND_COSINES) for p in power],
             starts[1:][kept] / (length * dt),
             alpha,
         )

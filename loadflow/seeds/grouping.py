@@ -87,7 +87,7 @@ def group_seeds(
 
     Examples
     --------
-    >>> x = np.random.default_rng(0).standard_normal((4, 3000))
+    >>> x = np.random.default_rng(1).standard_normal((4, 3000))
     >>> x[2] += 1.0
     >>> group_seeds(x, dt=0.05).groups
     [(0, 1, 3), (2,)]

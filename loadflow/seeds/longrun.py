@@ -2,10 +2,10 @@
 
 The variance of the mean of a correlated record is its spectral density at zero frequency over its
 length. The density is taken from the squared cosine coefficients of the lowest frequencies
-j/(2T), j = 1 … 6 (equal-weighted cosine estimator; Lazarus, Lewis, Stock & Watson, J. Business &
+j/(2T), j = 1 … B (equal-weighted cosine estimator; Lazarus, Lewis, Stock & Watson, J. Business &
 Economic Statistics 36, 2018): it needs no model of the correlation, and a ratio of mean squares
-formed with it is F-distributed. It holds as long as the density is flat up to 3/T, that is for
-correlation times below about T/50: 10 s in a record of 600 s.
+formed with it is F-distributed. It holds as long as the density is flat up to B/(2T): with B = 4
+for correlation times below about T/40: 15 s in a record of 600 s.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 
 from loadflow.seeds._samples import Floats, as_samples
 
-COSINES = 6
+COSINES = 4
 ROUNDING = 1e-12  # of the level: smaller differences are rounding errors, not signal
 
 
@@ -33,7 +33,7 @@ class LongRun:
         Number of values.
     mean : ndarray, shape (k,)
         Mean of each feature.
-    cosines : ndarray, shape (6, k)
+    cosines : ndarray, shape (B, k)
         Lowest cosine coefficients; the mean of their squares is n times the variance of the mean.
     """
 
@@ -42,10 +42,10 @@ class LongRun:
     cosines: Floats
 
     @classmethod
-    def of(cls, z: Floats) -> LongRun:
+    def of(cls, z: Floats, cosines: int = COSINES) -> LongRun:
         """Summarise a record `z` of shape (n, k)."""
         mean = z.mean(axis=0)
-        return cls(z.shape[0], mean, _cosines(z.shape[0]) @ (z - mean))
+        return cls(z.shape[0], mean, _cosines(z.shape[0], cosines) @ (z - mean))
 
 
 @dataclass(frozen=True)
@@ -55,7 +55,7 @@ class EqualMeans:
     Attributes
     ----------
     statistic, pvalue : ndarray, shape (k,)
-        F with (m − 1, 6 m) degrees of freedom, and its p value.
+        F with (m − 1, B m) degrees of freedom, and its p value.
     """
 
     statistic: Floats
@@ -63,9 +63,9 @@ class EqualMeans:
 
 
 @lru_cache(maxsize=4)
-def _cosines(n: int) -> Floats:
-    """First cosine functions on `n` places, of squared norm one; shape (6, n)."""
-    j = np.arange(1, COSINES + 1)[:, None]
+def _cosines(n: int, count: int) -> Floats:
+    """First cosine functions on `n` places, of squared norm one; shape (count, n)."""
+    j = np.arange(1, count + 1)[:, None]
     basis = np.sqrt(2.0 / n) * np.cos(np.pi / n * j * (np.arange(n) + 0.5))
     basis.setflags(write=False)
     return basis
@@ -98,7 +98,7 @@ def equal_means(runs: Sequence[LongRun]) -> EqualMeans:
     within = long_run_variance(runs)
     floor = n.sum() * (ROUNDING * np.abs(means).max(axis=0)) ** 2
     f = np.where(between <= floor, 0.0, between / np.maximum(within, np.finfo(float).tiny))
-    return EqualMeans(f, fdtrc(m - 1, COSINES * m, f))
+    return EqualMeans(f, fdtrc(m - 1, m * runs[0].cosines.shape[0], f))
 
 
 def effective_size(x: Iterable[ArrayLike]) -> float:
@@ -107,7 +107,7 @@ def effective_size(x: Iterable[ArrayLike]) -> float:
     Parameters
     ----------
     x : array_like, shape (case, time), or iterable of array_like, shape (n_i,)
-        Records of one process; the more, the surer the number: six have 36 degrees of freedom.
+        Records of one process; the more, the surer the number: six have 24 degrees of freedom.
 
     Returns
     -------
@@ -117,7 +117,7 @@ def effective_size(x: Iterable[ArrayLike]) -> float:
     Raises
     ------
     InputError
-        A record is not finite or has fewer than 12 values.
+        A record is not finite or has fewer than 8 values.
     """
     samples = as_samples(x, least=2 * COSINES)
     runs = [LongRun.of(sample[:, None]) for sample in samples]

@@ -62,7 +62,7 @@ def equivalence(x: Iterable[ArrayLike], margin: float = 0.05, alpha: float = 0.0
     Raises
     ------
     InputError
-        A series is not finite or has fewer than 12 values; `margin` or `alpha` out of range.
+        A series is not finite or has fewer than 8 values; `margin` or `alpha` out of range.
     """
     from scipy.special import stdtrit
 
@@ -133,7 +133,7 @@ def seeds_needed(values: ArrayLike, uncertainty: float, confidence: float = 0.95
     Examples
     --------
     >>> seeds_needed([0.96, 1.02, 1.05, 0.94, 1.04, 0.99], uncertainty=0.05).seeds
-    5
+    6
     """
     from scipy.special import chdtri, stdtrit
 

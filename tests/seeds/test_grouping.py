@@ -83,7 +83,7 @@ def test_holm_against_its_definition():
 
 
 def test_effective_size_of_exponentially_correlated_noise():
-    """n_eff = T/(2 tau) = 100; 100 records have 600 degrees of freedom, 20 % is 3.5 sigma."""
+    """n_eff = T/(2 tau) = 100; 100 records have 400 degrees of freedom, 20 % is 2.8 sigma."""
     x = ar1(np.random.default_rng(1), (100, N), DT, 3.0)
     assert effective_size(x) == pytest.approx(100, rel=0.2)
     white = effective_size(np.random.default_rng(1).standard_normal((100, N)))
