@@ -3,6 +3,9 @@ from .bounds import frequency_bounds as frequency_bounds
 from .constant import StationaryLoad as StationaryLoad
 from .constant import StationaryLoads as StationaryLoads
 from .constant import stationary as stationary
+from .extremes import ExtremeValue as ExtremeValue
+from .extremes import block_maxima as block_maxima
+from .extremes import extreme_value as extreme_value
 from .fatigue import LoadDuration as LoadDuration
 from .fatigue import Rainflow as Rainflow
 from .fatigue import damage_equivalent_load as damage_equivalent_load
