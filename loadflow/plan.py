@@ -10,6 +10,7 @@ from functools import cache
 from importlib.resources import files
 from typing import Any, Literal
 
+from loadflow import __version__
 from loadflow.scene import Scene
 from loadflow.stages.cases import Case, list_cases
 
@@ -142,7 +143,8 @@ def _with_needs(name: str) -> set[str]:
 
 def _step(scene: Scene, stage: Stage, cases: tuple[Case, ...], done: dict[str, Step]) -> Step:
     rung = _rung(scene, stage.name)
-    parts = [scene.digest(*stage.sections)] if stage.sections else []
+    parts = [__version__, stage.name]
+    parts += [scene.digest(*stage.sections)] if stage.sections else []
     parts += [done[need].digest for need in stage.needs]
     if stage.name == "loads":
         parts += [f"{case.name}:{case.fingerprint}" for case in cases]

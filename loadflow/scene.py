@@ -63,7 +63,7 @@ class Loads(_Section):
     step: Annotated[float, Field(gt=0, le=0.5)] = 0.025
     wind_class: Literal["I", "II", "III"] = "I"
     category: Literal["A+", "A", "B", "C"] = "B"
-    rung: Literal["tables", "bem"] = "bem"
+    rung: Literal["tables", "bem", "flap"] = "flap"
 
     @model_validator(mode="after")
     def _files_for_files(self) -> Self:

@@ -26,7 +26,7 @@ def _simulate(scene: Scene, case: Case) -> xr.Dataset:
     from loadflow.rotor import simulate
 
     loads = scene.loads
-    return simulate(
+    series = simulate(
         scene.turbine.name,
         dlc=case.dlc,
         wind_speed=case.wind_speed,
@@ -37,6 +37,7 @@ def _simulate(scene: Scene, case: Case) -> xr.Dataset:
         category=loads.category,
         rung=loads.rung,
     )
+    return series.assign(wind=series["wind"].sel(axis="x", drop=True))
 
 
 def _read(scene: Scene, case: Case) -> xr.Dataset:

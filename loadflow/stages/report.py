@@ -16,6 +16,16 @@ from loadflow.report import Picture, Section, Table, figures, write_page
 from loadflow.report.style import readable
 from loadflow.scene import Scene, read_scene
 
+CRITICAL_RATIO = 0.95  # eccentricity ratio E_krit at which mixed friction begins (5.2)
+MIXED_FRICTION = 10.0  # Sommerfeld number above which friction is mixed (1.13)
+LOAD_ROWS = (
+    ("speed", "speed"),
+    ("hub_force", "hub force"),
+    ("hub_moment", "hub moment"),
+    ("force", "bearing"),
+)
+LIFETIME = 20 * 365.25 * 24  # h, L10h of IEC 61400-1 (1.10)
+
 
 def write_report(folder: Path) -> Path:
     """Write ``report.html`` into the folder of a run.
@@ -91,8 +101,38 @@ def _overview(tables: dict[str, xr.Dataset], manifest: dict[str, Any]) -> Sectio
     failures = manifest.get("failures", {})
     drawing = figures.over_wind_speed(tables.get("journal"), tables.get("rolling"))
     pictures = [Picture(drawing, "Every load case over wind speed.")] if drawing else []
-    notes = [Table("Without an answer", ["part", "why"], [[k, v] for k, v in failures.items()])]
-    return Section("Overview", tables=notes if failures else [], pictures=pictures)
+    rows = [*_verdicts(tables)]
+    bad = frozenset(k for k, row in enumerate(rows) if row[-1] == "no")
+    notes = [Table("Verdicts", ["bearing", "worst value", "limit", "holds"], rows, bad)]
+    if failures:
+        without = [[part, why] for part, why in failures.items()]
+        notes.append(Table("Without an answer", ["part", "why"], without))
+    return Section("Overview", tables=notes if rows or failures else [], pictures=pictures)
+
+
+def _verdicts(tables: dict[str, xr.Dataset]) -> Iterator[list[str]]:
+    """Yield what the bearings must hold (1.10–1.13, 5.2 of the source) and whether they do."""
+
+    def row(what: str, value: float, limit: float, most: bool, unit: str = "") -> list[str]:
+        holds = value <= limit if most else value >= limit
+        sign = "≤" if most else "≥"
+        word = "yes" if holds else "no"
+        return [what, f"{value:.4g} {unit}", f"{sign} {limit:g} {unit}", word]
+
+    if "journal" in tables:
+        data = tables["journal"]
+        for bearing in data["bearing"].values:
+            part = data.sel(bearing=bearing)
+            ratio = float(part["largest_eccentricity_ratio"].max())
+            number = float(part["largest_sommerfeld_number"].max())
+            yield row(f"journal {bearing}: eccentricity ratio", ratio, CRITICAL_RATIO, True)
+            yield row(f"journal {bearing}: Sommerfeld number", number, MIXED_FRICTION, True)
+    if "rolling" in tables:
+        data = tables["rolling"]
+        safety = float(data["smallest_static_safety"].min())
+        yield row("rolling: static safety over the design load", safety, 1.0, False)
+        for dlc, hours in zip(data["load_case"].values, data["life_hours"].values):
+            yield row(f"rolling: rating life under DLC {dlc}", float(hours), LIFETIME, False, "h")
 
 
 def _shown_cases(tables: dict[str, xr.Dataset], manifest: dict[str, Any]) -> list[str]:
@@ -128,7 +168,7 @@ def _load_table(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
         return
     data = tables["statistics"]
     rows = []
-    for name, title in (("speed", "speed"), ("hub_force", "hub force"), ("force", "force")):
+    for name, title in LOAD_ROWS:
         if name not in data:
             continue
         for label, part in _parts(data[name], title):
