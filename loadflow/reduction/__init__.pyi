@@ -24,3 +24,5 @@ from .quasistatic import Reduced as Reduced
 from .quasistatic import class_edges as class_edges
 from .quasistatic import histogram as histogram
 from .quasistatic import number_of_classes as number_of_classes
+from .running import Phase as Phase
+from .running import phases as phases

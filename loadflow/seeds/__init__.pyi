@@ -1,6 +1,3 @@
-from .equality import SeedEquality as SeedEquality
-from .equality import Stage as Stage
-from .equality import equality as equality
 from .grouping import Grouping as Grouping
 from .grouping import group_seeds as group_seeds
 from .longrun import effective_size as effective_size
@@ -20,3 +17,7 @@ from .sufficiency import Equivalence as Equivalence
 from .sufficiency import SeedsNeeded as SeedsNeeded
 from .sufficiency import equivalence as equivalence
 from .sufficiency import seeds_needed as seeds_needed
+from .verdict import Method as Method
+from .verdict import SeedEquality as SeedEquality
+from .verdict import Stage as Stage
+from .verdict import equality as equality

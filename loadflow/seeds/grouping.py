@@ -12,8 +12,8 @@ import numpy as np
 
 from loadflow.errors import InputError
 from loadflow.seeds._samples import as_samples
-from loadflow.seeds.equality import Method, SeedEquality, evidence
 from loadflow.seeds.spectra import BAND
+from loadflow.seeds.verdict import Method, SeedEquality, evidence
 
 if TYPE_CHECKING:
     import xarray as xr

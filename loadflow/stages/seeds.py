@@ -10,8 +10,7 @@ import numpy as np
 import xarray as xr
 
 from loadflow.scene import Scene
-from loadflow.seeds import equality
-from loadflow.seeds.equality import Method
+from loadflow.seeds import Method, equality
 from loadflow.stages.cases import Case
 
 TESTS = ("location", "spread", "spectrum")

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from test_quasistatic import record
+from load_record import record
 
 from loadflow.errors import InputError
 from loadflow.reduction import histogram, read_parameter_file, write_parameter_file

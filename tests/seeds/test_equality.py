@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from noise import ar1, load_like
 from scipy.stats import binom
+from seed_noise import ar1, load_like
 
 from loadflow.errors import InputError
 from loadflow.seeds import equality

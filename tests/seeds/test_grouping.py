@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 import xarray as xr
-from noise import ar1
 from scipy.stats import binom
+from seed_noise import ar1
 
 from loadflow.errors import InputError
 from loadflow.seeds import (
