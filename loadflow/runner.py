@@ -7,26 +7,21 @@ from memory, so a run that was killed and started again gives the same numbers.
 
 from __future__ import annotations
 
-import json
-import os
-import platform
 import time
-from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import Future, ProcessPoolExecutor, as_completed
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import partial
-from importlib import import_module, metadata
-from multiprocessing import get_context
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 import xarray as xr
 
-import loadflow
 from loadflow.cube import open_cube, save_cube
-from loadflow.errors import InputError, SolverError
+from loadflow.errors import SolverError
+from loadflow.executor import executor, finished
 from loadflow.plan import STAGES, Plan, Stage, make_plan
+from loadflow.run_folder import part_file, prepare, record
 from loadflow.scene import Scene
 from loadflow.stages.cases import Case
 from loadflow.stages.report import write_report
@@ -106,7 +101,7 @@ def run(
     started = time.perf_counter()
     plan = make_plan(scene)
     folder = Path(out) / scene.name
-    manifest = _prepare(folder, scene, plan, overwrite)
+    manifest = prepare(folder, scene, plan, overwrite)
     say = progress or (lambda stage, done, total: None)
 
     timing: dict[str, float] = {}
@@ -115,8 +110,8 @@ def run(
     work = partial(_do_case, scene=scene, plan=plan, folder=folder)
     done = len(plan.cases) - len(todo)
     say("load cases", done, len(plan.cases))
-    with _executor(workers, scheduler) as submit:
-        for outcome in _finished(submit, work, todo):
+    with executor(workers, scheduler) as submit:
+        for outcome in finished(submit, work, todo):
             done += 1
             failures |= outcome.failures
             for stage, seconds in outcome.seconds.items():
@@ -128,7 +123,7 @@ def run(
     over_all = [step.stage for step in plan.of_scope("run")]
     for number, whole in enumerate(over_all):
         say(whole.name, number, len(over_all))
-        if not (target := _file(folder, whole)).exists():
+        if not (target := part_file(folder, whole)).exists():
             begun = time.perf_counter()
             cases = [case for case in plan.cases if _ready(whole, case, folder)]
             inputs = {case.name: _open(whole, case, folder) for case in cases}
@@ -137,9 +132,7 @@ def run(
         say(whole.name, number + 1, len(over_all))
     tree = _collect(plan, folder)
     save_cube(tree, folder / "result.h5")
-    _write_manifest(
-        folder, manifest, timing, failures, workers=workers, wall=time.perf_counter() - started
-    )
+    record(folder, manifest, timing, failures, workers=workers, wall=time.perf_counter() - started)
     if report:
         say("report", 0, 1)
         write_report(folder)
@@ -163,7 +156,7 @@ def _do_case(case: Case, scene: Scene, plan: Plan, folder: Path) -> _Outcome:
     seconds: dict[str, float] = {}
     failures: dict[str, str] = {}
     for step in plan.of_scope("case"):
-        target = _file(folder, step.stage, case)
+        target = part_file(folder, step.stage, case)
         if target.exists() or not _ready(step.stage, case, folder):
             continue
         begun = time.perf_counter()
@@ -182,142 +175,17 @@ def _call(stage: Stage, *arguments: Any) -> Any:
     return getattr(import_module(module), function)(*arguments)
 
 
-def _file(folder: Path, stage: Stage, case: Case | None = None) -> Path:
-    return folder / f"{stage.name}.h5" if case is None else folder / stage.name / f"{case.name}.h5"
-
-
 def _missing(plan: Plan, case: Case, folder: Path) -> bool:
-    return any(not _file(folder, step.stage, case).exists() for step in plan.of_scope("case"))
+    return any(not part_file(folder, step.stage, case).exists() for step in plan.of_scope("case"))
 
 
 def _open(stage: Stage, case: Case, folder: Path) -> dict[str, Any]:
-    return {need: open_cube(_file(folder, STAGES[need], case)) for need in stage.needs}
+    return {need: open_cube(part_file(folder, STAGES[need], case)) for need in stage.needs}
 
 
 def _ready(stage: Stage, case: Case, folder: Path) -> bool:
     """Whether all that the stage reads of this case is there."""
-    return all(_file(folder, STAGES[need], case).exists() for need in stage.needs)
-
-
-# --- where the cases are worked on -----------------------------------------------------------
-
-Submit = Callable[[Callable[[Case], _Outcome], Case], Any]
-
-
-@contextmanager
-def _executor(workers: int, scheduler: str | None) -> Iterator[Submit | None]:
-    """Yield what takes a function and a case and gives a future; None to work in this process."""
-    if scheduler is not None:
-        try:
-            from dask.distributed import Client
-        except ImportError as error:
-            raise InputError(
-                "--scheduler needs the extra dask: pip install loadflow[dask]"
-            ) from error
-        with Client(scheduler) as client:
-            yield partial(client.submit, pure=False)
-    elif workers > 1:
-        # spawned, not forked: HDF5 and numba hold threads and locks that do not survive a fork
-        context = get_context("spawn")
-        with ProcessPoolExecutor(workers, context, initializer=_one_thread) as pool:
-            yield pool.submit
-    else:
-        yield None
-
-
-def _one_thread() -> None:
-    """Keep BLAS to one thread in a worker: the cases are what runs in parallel."""
-    from threadpoolctl import threadpool_limits
-
-    threadpool_limits(1)
-
-
-def _finished(
-    submit: Submit | None, work: Callable[[Case], _Outcome], cases: Iterable[Case]
-) -> Iterator[_Outcome]:
-    """Yield the outcomes as they come; what is not begun when one raises is dropped."""
-    if submit is None:
-        yield from map(work, cases)
-        return
-    futures: list[Future[_Outcome]] = [submit(work, case) for case in cases]
-    completed = as_completed if all(isinstance(f, Future) for f in futures) else _dask_completed
-    try:
-        for future in completed(futures):
-            yield future.result()
-    finally:
-        for future in futures:
-            future.cancel()
-
-
-def _dask_completed(futures: list[Any]) -> Iterator[Any]:
-    from dask.distributed import as_completed as completed
-
-    yield from completed(futures)
-
-
-# --- the folder of a run ---------------------------------------------------------------------
-
-
-def _prepare(folder: Path, scene: Scene, plan: Plan, overwrite: bool) -> dict[str, Any]:
-    """Make the folder, or check that what is in it belongs to these settings."""
-    folder.mkdir(parents=True, exist_ok=True)
-    path = folder / "manifest.json"
-    manifest = json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
-    digests = {step.stage.name: step.digest for step in plan.steps}
-    known = manifest.get("stages", {})
-    for name, digest in digests.items():
-        parts = [*folder.glob(f"{name}/*.h5"), *folder.glob(f"{name}.h5")]
-        if not parts or known.get(name) == digest:
-            continue
-        if not overwrite:
-            raise InputError(
-                f"{folder}: holds {len(parts)} finished parts of the stage {name!r} that were made "
-                "with other settings or inputs; give the run another name, or overwrite it"
-            )
-        for part in parts:
-            part.unlink()
-    for rest in folder.rglob(".*.tmp"):
-        rest.unlink()
-    (folder / "scene.toml").write_text(scene.to_toml(), encoding="utf-8")
-    manifest |= {
-        "stages": known | digests,
-        "rungs": {
-            step.stage.name: {"rung": step.rung, "error": step.error or "not measured"}
-            for step in plan.steps
-        },
-        "inputs": {case.file: case.fingerprint for case in plan.cases if case.file},
-        "cases": [case.name for case in plan.cases],
-        "versions": {"python": platform.python_version(), "loadflow": loadflow.__version__}
-        | {name: metadata.version(name) for name in ("numpy", "scipy", "numba", "xarray")},
-    }
-    _replace(path, json.dumps(manifest, indent=1))
-    return manifest
-
-
-def _write_manifest(
-    folder: Path,
-    manifest: dict[str, Any],
-    timing: dict[str, float],
-    failures: dict[str, str],
-    workers: int,
-    wall: float,
-) -> None:
-    """Record what it took; a run that is taken up again adds to what it took before."""
-    before = manifest.get("seconds", {})
-    spent = {k: round(before.get(k, 0.0) + timing.get(k, 0.0), 3) for k in before | timing}
-    manifest |= {
-        "seconds": spent,
-        "wall_seconds": round(manifest.get("wall_seconds", 0.0) + wall, 3),
-        "workers": workers,
-        "failures": failures,
-    }
-    _replace(folder / "manifest.json", json.dumps(manifest, indent=1))
-
-
-def _replace(path: Path, text: str) -> None:
-    temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
-    temporary.write_text(text, encoding="utf-8")
-    os.replace(temporary, path)
+    return all(part_file(folder, STAGES[need], case).exists() for need in stage.needs)
 
 
 def _collect(plan: Plan, folder: Path) -> xr.DataTree:
@@ -326,9 +194,9 @@ def _collect(plan: Plan, folder: Path) -> xr.DataTree:
     for step in plan.steps:
         module = import_module(step.stage.function.split(":")[0])
         if step.stage.scope == "run":
-            groups[step.stage.name] = open_cube(_file(folder, step.stage))
+            groups[step.stage.name] = open_cube(part_file(folder, step.stage))
         elif hasattr(module, "summary"):
-            files = {case: _file(folder, step.stage, case) for case in plan.cases}
+            files = {case: part_file(folder, step.stage, case) for case in plan.cases}
             parts = {case: open_cube(file) for case, file in files.items() if file.exists()}
             if parts:
                 groups[step.stage.name] = module.summary(parts)

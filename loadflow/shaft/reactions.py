@@ -36,9 +36,9 @@ def bearing_loads(
     ----------
     concept : TwoPoint, ThreePoint or MomentBearing
         The suspension.
-    hub_force : array_like, shape (3, n)
+    hub_force : array_like, shape (3, n) or (3,)
         What the rotor applies to the shaft at the hub centre, weight included, N.
-    hub_moment : array_like, shape (3, n)
+    hub_moment : array_like, shape (3, n) or (3,)
         Its moment about the hub centre, N m.
     tilt : float
         Tilt of the shaft, rad, positive when the hub is the higher end; it turns part of each
@@ -56,6 +56,13 @@ def bearing_loads(
     ------
     loadflow.errors.InputError
         Shapes do not match, a load is not finite, or |tilt| is not below 90°.
+
+    Examples
+    --------
+    >>> weight = [0.0, 0.0, -1.07e6]
+    >>> loads = bearing_loads(TwoPoint(gearbox_mass=0.0), weight, [0.0, 0.0, 0.0])
+    >>> [round(float(f) / 1e3) for f in loads["force"].sel(axis="z").isel(time=0)]
+    [-1638, 568]
     """
     force, moment = _checked(hub_force, "hub_force"), _checked(hub_moment, "hub_moment")
     if force.shape != moment.shape:
@@ -74,6 +81,8 @@ def bearing_loads(
 
 def _checked(load: ArrayLike, name: str) -> Floats:
     values = np.asarray(load, dtype=float)
+    if values.shape == (3,):
+        values = values[:, None]
     if values.ndim != 2 or values.shape[0] != 3:
         raise InputError(f"{name}: shape must be (3, n), got {values.shape}")
     if not np.isfinite(values).all():
