@@ -7,6 +7,7 @@
 `mesh`                    cells of the half film
 `film`                    balance, linearisation and integrals of the discrete film
 `equilibrium`             Newton for film, and for film and shaft together
+`orbit`                   implicit steps of film and shaft in time
 `result`                  what comes back
 `_kernels`                compiled loops
 ========================  ==========================================================

@@ -233,19 +233,21 @@ def correct(u, columns, weights, order):
     largest = 0.0
     for i in range(nx):
         for k in range(nz):
+            row = order[i] * nz + k
             change = 0.0
             for j in range(weights.size):
-                change += weights[j] * columns[j, order[i] * nz + k]
+                if weights[j] != 0.0:
+                    change += weights[j] * columns[j, row]
             u[i, k] -= change
             largest = max(largest, abs(change))
     return largest
 
 
 @njit(cache=True, nogil=True)
-def integrals(state, coef, dz, gz, closed, p_edge, p_line, pocket):
+def integrals(state, coef, dz, gz, closed, p_edge, p_line, groove):
     """Integrals over the half film, in the units of this module.
 
-    Returns the largest pressure, the dissipation Σ H³ |∂p|², the shear ∫ 1/H outside pockets, the
+    Returns the largest pressure, the dissipation Σ H³ |∂p|², the shear ∫ 1/H outside grooves, the
     outflow over the rim (where it leaves), and ∫ F H and ∫ H.
     """
     _, nx, nz = state.shape
@@ -267,7 +269,7 @@ def integrals(state, coef, dz, gz, closed, p_edge, p_line, pocket):
             dissipation += h3 * gz[k] * drop * drop
             if k + 1 == nz:
                 outflow += max(h3 * gz[k] * drop, 0.0)
-            if not pocket[i, k]:
+            if not groove[i, k]:
                 shear += coef[HINV, i] * dz[k]
             liquid += state[FILL, i, k] * coef[HM, i] * dz[k]
             volume += coef[HM, i] * dz[k]

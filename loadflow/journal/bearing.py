@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import numpy as np
 from annotated_types import Gt, Lt
@@ -20,9 +20,13 @@ from loadflow.journal.equilibrium import (
 )
 from loadflow.journal.film import Film
 from loadflow.journal.options import Cavitation, Lubricant, Supply, require
+from loadflow.journal.orbit import march, orbit_dataset
 from loadflow.journal.result import Equilibrium, FilmField, field_row, stack, static_row
 from loadflow.journal.setup import FilmOptions, Grading, Inlet, build_film, operating_points
 from loadflow.tribology.film import butenschoen
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 Array = NDArray[np.float64]
 
@@ -226,6 +230,85 @@ class JournalBearing:
             rows.append(field_row(film, solution))
         half = film.mesh.z * self.radius
         return FilmField(z=np.concatenate([-half[::-1], half]), **stack(rows, shape))
+
+    def orbit(
+        self,
+        time: ArrayLike,
+        force: ArrayLike,
+        speed: ArrayLike,
+        lubricant: Lubricant,
+        cavitation: Cavitation | None = None,
+        edge_pressure: float = 0.0,
+        supply: Supply | None = None,
+        inlet: Inlet = "auto",
+        grid: tuple[int, int] | None = None,
+        grading: Grading = "auto",
+        rung: Literal["grid"] = "grid",
+        start: ArrayLike | None = None,
+        tolerance: float = 1e-8,
+        max_iterations: int = 30,
+    ) -> xr.Dataset:
+        """Path of the shaft under a load that changes with time.
+
+        Implicit steps of second order from one time to the next, squeeze and fill in the same
+        operator as the static film; a step at which Newton fails is cut, the load interpolated.
+
+        Parameters
+        ----------
+        time : array_like (n,)
+            s, increasing.
+        force : array_like (n, 2)
+            What the shaft applies to the bearing, N.
+        speed : array_like (n,) or float
+            rad/s.
+        lubricant, cavitation, edge_pressure, supply, inlet, grid, grading
+            As in `equilibrium`; laws with fill keep it in cells fixed to the shell, so that their
+            mesh is uniform and without an inlet line.
+        rung : {"grid"}
+            Model: finite volumes.
+        start : array_like (2,), optional
+            First eccentricity, m; default the static equilibrium of the first load.
+        tolerance : float
+            On the scaled residual of a step.
+        max_iterations : int
+            Newton steps per time step.
+
+        Returns
+        -------
+        xarray.Dataset
+            Over ``time`` (and ``axis``): eccentricity_ratio, eccentricity, attitude_angle,
+            minimum_film, maximum_pressure, friction_power, side_flow, supply_flow, total_fill,
+            residual, iterations.
+
+        Raises
+        ------
+        InputError
+            Misshapen, not finite or not increasing input.
+        SolverError
+            No equilibrium to start from, or a step that fails even when cut.
+        """
+        require(rung == "grid", "rung", rung, '"grid"')
+        options = FilmOptions(lubricant, cavitation, edge_pressure, supply, inlet, grid, grading)
+        loads, speeds, shape = operating_points(force, speed, "force")
+        times = np.asarray(time, dtype=float)
+        if times.shape != shape:
+            raise InputError(f"time {times.shape} and force, speed {shape} differ in shape")
+        bad = np.flatnonzero(~(np.diff(times) > 0))
+        if bad.size:
+            raise InputError(f"time[{bad[0] + 1}] = {times[bad[0] + 1]} does not increase")
+        film = self._film(options.for_history(), speeds)
+        film.raise_scale(float(np.hypot(*loads.T).max()) / (self.width * self.diameter))
+        film.set_speed(float(speeds[0]))
+        if start is None:
+            first = self._static(film, loads[0], None, tolerance, 2 * max_iterations)
+        else:
+            place = np.asarray(start, dtype=float) / self.clearance
+            require(bool(np.hypot(*place) < 1), "start", start, f"|start| < c = {self.clearance} m")
+            first = solve_film(film, film.start(), place, np.zeros(2), tolerance, 100)
+        if not first.converged:
+            raise SolverError(f"orbit cannot start: {self._refusal(film, loads[0], first)}")
+        rows = march(film, first, times, loads, speeds, tolerance, max_iterations)
+        return orbit_dataset(rows, times, loads, speeds, self.clearance)
 
     # --- inside ----------------------------------------------------------------------------------
     def _film(self, options: FilmOptions, rates: Array) -> Film:

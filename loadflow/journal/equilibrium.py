@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,6 +34,33 @@ class Solution:
     estimate: Array | None = None
 
 
+@dataclass(frozen=True)
+class Motion:
+    """How velocity and storage follow from the position in an implicit step; at rest by default.
+
+    Attributes
+    ----------
+    rate : float
+        1/s; the velocity is ``rate · position − offset``.
+    offset : array (2,)
+        Clearances per second.
+    volume_rate, volume
+        The storage of a cell is ``volume_rate · liquid − volume``.
+    """
+
+    rate: float = 0.0
+    offset: Array = field(default_factory=lambda: np.zeros(2))
+    volume_rate: float = 0.0
+    volume: Array | float = 0.0
+
+    def velocity(self, position: Array) -> Array:
+        """Velocity of the shaft, clearances per second."""
+        return self.rate * position - self.offset
+
+
+REST = Motion()
+
+
 def solve_film(
     film: Film, u: Array, position: Array, velocity: Array, tolerance: float, max_iterations: int
 ) -> Solution:
@@ -53,30 +80,38 @@ def solve_film(
 
 
 def solve_equilibrium(
-    film: Film, force: Array, u: Array, position: Array, tolerance: float, max_iterations: int
+    film: Film,
+    force: Array,
+    u: Array,
+    position: Array,
+    tolerance: float,
+    max_iterations: int,
+    motion: Motion = REST,
 ) -> Solution:
     """Position at which the film carries `force`, by one Newton for film and shaft.
 
     Each step solves the film's linearisation for the pressure and for its derivative by the
-    position; the exact 2×2 stiffness that follows gives the step of the shaft.
+    position; the exact 2×2 stiffness that follows gives the step of the shaft. With `motion` the
+    same is one implicit step in time.
     """
-    rest = np.zeros(2)
     u = u.copy()
+    old = (motion.volume_rate, motion.volume)
     for iteration in range(1, max_iterations + 1):
-        linear = film.linearise(u, position, rest)
+        velocity = motion.velocity(position)
+        linear = film.linearise(u, position, velocity, *old)
+        slope = linear.stiffness + motion.rate * linear.damping
         haste = film.size(linear.columns[0]) / _CALM
-        step = _solve2(linear.stiffness, force - linear.load) / max(haste, 1.0)
-        target = limited(position, step)
-        weights = np.concatenate([[1.0], film.coordinates(target) - film.coordinates(position)])
+        target = limited(position, _solve2(slope, force - linear.load) / max(haste, 1.0))
+        weights = film.weights(position, velocity, target, motion.velocity(target))
         change = film.correct(u, linear.columns, weights)
-        gap = 1.0 - np.hypot(*position)
-        change = max(change, float(np.hypot(*(target - position))) / gap)
+        gap = 1.0 - math.hypot(*position)
+        change = max(change, math.hypot(*(target - position)) / gap)
         position = target
         if change < _QUADRATIC:
-            residual = film.imbalance(u, position, rest, force)
+            residual = film.imbalance(u, position, motion.velocity(position), force, *old)
             if residual < tolerance:
                 return Solution(u, position, linear, True, iteration, residual)
-    residual = film.imbalance(u, position, rest, force)
+    residual = film.imbalance(u, position, motion.velocity(position), force, *old)
     return Solution(u, position, linear, False, max_iterations, residual)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -29,7 +30,16 @@ _KIND = {
     MassConserving: kernel.MASS_CONSERVING,
     GasMixture: kernel.GAS_MIXTURE,
 }
+_SHELL = np.eye(2)
 _TURN = np.array([[0.0, -1.0], [1.0, 0.0]])  # a quarter turn with the rotation
+
+
+def _frame(position: Array) -> Array:
+    """Axes of the frame that turns with the eccentricity: along it, and a quarter turn on."""
+    x, y = position.tolist()
+    ratio = math.hypot(x, y)
+    cos, sin = (x / ratio, y / ratio) if ratio > 0 else (1.0, 0.0)
+    return np.array([[cos, -sin], [sin, cos]])
 
 
 @dataclass(frozen=True)
@@ -42,8 +52,8 @@ class Linear:
         ∫ p (cos θ, sin θ) dA after the Newton step of the pressure alone, N.
     stiffness, damping : array (2, 2)
         Derivatives of `load` by position (per clearance) and velocity (clearances per second).
-    columns : array (1 + m, n)
-        Newton step of the unknowns and their derivatives by the mesh coordinates of the position.
+    columns : array (m, n)
+        Newton step of the unknowns, and their derivatives by what `Film.weights` lists.
     """
 
     load: Array
@@ -68,7 +78,7 @@ class Film:
     edge_pressure : float
         Pressure at the rims and on the inlet line, Pa, absolute.
     grooves : GrooveCells
-        Which cells lie in a groove, which of these in a pocket, and their pressure; (nx, nz) each.
+        Which cells lie in a groove, and their pressure; (nx, nz) each.
     """
 
     def __init__(
@@ -91,7 +101,7 @@ class Film:
         self.relative_clearance = relative_clearance
         self.viscosity = viscosity
         self.slope = 12.0 * viscosity / relative_clearance**2  # squeeze pressure per d(FH)/dt
-        self.fixed, self.pocket, self.fixed_pressure = grooves
+        self.fixed, self.fixed_pressure = grooves
         self.set_scale(0.0)
         self.set_speed(0.0)
 
@@ -111,6 +121,10 @@ class Film:
         """Set the scale of pressure and unknowns, Pa, from the largest speed or squeeze, 1/s."""
         self.scale = max(0.5 * self.slope * rate, self.p_edge, 1.0)
 
+    def raise_scale(self, pressure: float) -> None:
+        """Raise the scale of pressure to at least `pressure`, Pa."""
+        self.scale = max(self.scale, pressure)
+
     # --- state -----------------------------------------------------------------------------------
     def unknown_of(self, pressure: Array) -> Array:
         """Unknowns of a (not ruptured) pressure field."""
@@ -123,16 +137,15 @@ class Film:
         pressure = np.where(self.fixed, self.fixed_pressure, self.p_edge)
         return self.unknown_of(pressure)
 
-    def place(self, u: Array, position: Array) -> tuple[float, float]:
-        """Evaluate law and gap at `u` and `position`; returns the frame's cosine and sine."""
+    def place(self, u: Array, position: Array) -> Array:
+        """Evaluate law and gap at `u` and `position`; returns the axes of the mesh's frame."""
         kernel.apply_law(self.kind, self.mixing, self.p_cav, self.scale, u, self.state)
-        ex, ey = float(position[0]), float(position[1])
         if not self.mesh.polar:
-            self._gap(self.coef, 0.0, ex, ey)
-            return 1.0, 0.0
-        ratio = float(np.hypot(ex, ey))
+            self._gap(self.coef, 0.0, float(position[0]), float(position[1]))
+            return _SHELL
+        ratio = math.hypot(*position)
         self._gap(self.coef, self.mesh.strength * ratio, ratio, 0.0)
-        return (ex / ratio, ey / ratio) if ratio > 0 else (1.0, 0.0)
+        return _frame(position)
 
     def _gap(self, out: Array, stretch: float, ex: float, ey: float) -> None:
         kernel.gap_coefficients(*self.mesh.trigonometry, stretch, ex, ey, out)
@@ -204,8 +217,7 @@ class Film:
             Storage of earlier times.
         """
         mesh = self.mesh
-        cos, sin = self.place(u, position)
-        frame = np.array([[cos, -sin], [sin, cos]])
+        frame = self.place(u, position)
         local = frame.T @ velocity
         mass = self._storage(self.coef, local, rate)
         slopes = self._slope_of_gap(position)
@@ -239,7 +251,7 @@ class Film:
             load=frame @ load,
             stiffness=frame @ np.array(direct).T @ frame.T,
             damping=frame @ damping @ frame.T,
-            columns=columns[: 1 + len(slopes)],
+            columns=columns,
         )
 
     def _integral(self, row: int, coef: Array, column: Array | None = None) -> Array:
@@ -254,9 +266,13 @@ class Film:
         return self._integral(kernel.LOAD, self.coef)
 
     # --- what Newton needs -----------------------------------------------------------------------
-    def coordinates(self, position: Array) -> Array:
-        """Coordinates of the position that the mesh feels: both, or ε if the mesh turns along."""
-        return np.array([np.hypot(*position)]) if self.mesh.polar else position
+    def weights(self, position: Array, velocity: Array, target: Array, speed: Array) -> Array:
+        """Weights of `Linear.columns` in a step to position `target` and velocity `speed`."""
+        if not self.mesh.polar:
+            return np.concatenate([[1.0], target - position, speed - velocity])
+        far = math.hypot(*target) - math.hypot(*position)
+        turned = _frame(target).T @ speed - _frame(position).T @ velocity
+        return np.array([1.0, far, *turned])
 
     def size(self, column: Array) -> float:
         """Largest entry of a change of the unknowns over the pressure of the film."""
@@ -268,19 +284,29 @@ class Film:
         return kernel.correct(u, columns, weights, self.mesh.order) / self.scale
 
     def imbalance(
-        self, u: Array, position: Array, velocity: Array, force: Array | None = None
+        self,
+        u: Array,
+        position: Array,
+        velocity: Array,
+        force: Array | None = None,
+        rate: float = 0.0,
+        old: Array | float = 0.0,
     ) -> float:
         """Largest imbalance of a cell, and of the load if `force` is given, over their scales."""
-        cos, sin = self.place(u, position)
-        frame = np.array([[cos, -sin], [sin, cos]])
-        mass = self._storage(self.coef, frame.T @ velocity, 0.0)
+        frame = self.place(u, position)
+        mass = self._storage(self.coef, frame.T @ velocity, rate)
         flux = (abs(self.wedge) + self.scale) * self.mesh.dz.max()
-        worst = float(np.abs(self.residual(u, mass)).max()) / flux
+        worst = float(np.abs(self.residual(u, mass, old)).max()) / flux
         if force is not None:
             scale = max(float(np.hypot(*force)), self.scale * self.radius**2 * 1e-3)
             missing = force - frame @ self.load_in_frame()
             worst = max(worst, float(np.hypot(*missing)) / scale)
         return worst
+
+    def liquid(self) -> Array:
+        """Liquid in each cell (nx, nz) times the squeeze pressure, Pa s, at the last state."""
+        volume = self.coef[kernel.HM, :-1, None] * self.mesh.dz
+        return self.slope * self.state[kernel.FILL] * volume
 
     # --- results ---------------------------------------------------------------------------------
     def summary(self, u: Array, position: Array) -> dict[str, float]:
@@ -289,7 +315,7 @@ class Film:
         mesh = self.mesh
         peak, dissipation, shear, outflow, liquid, volume = kernel.integrals(
             self.state, self.coef, mesh.dz, mesh.gz, mesh.closed,
-            self.p_edge, self.p_edge, self.pocket,
+            self.p_edge, self.p_edge, self.fixed,
         )  # fmt: skip
         clearance = self.relative_clearance * self.radius
         flow = 2.0 * clearance**3 / (12.0 * self.viscosity)
@@ -309,11 +335,13 @@ class Film:
 
     def field(self, u: Array, position: Array) -> tuple[Array, Array, Array, Array]:
         """Pressure (Pa) and fill of the cells (nx, nz), their angle (nx,), and the load (N)."""
-        cos, sin = self.place(u, position)
-        load = np.array([[cos, -sin], [sin, cos]]) @ self.load_in_frame()
+        frame = self.place(u, position)
+        load = frame @ self.load_in_frame()
         angle = self.mesh.angle
         if self.mesh.polar:
             stretch = self.mesh.strength * float(np.hypot(*position))
             narrow = np.sqrt((1 - stretch) / (1 + stretch))
-            angle = 2 * np.arctan(narrow * np.tan(0.5 * angle)) + np.arctan2(sin, cos)
+            angle = 2 * np.arctan(narrow * np.tan(0.5 * angle)) + np.arctan2(
+                frame[1, 0], frame[0, 0]
+            )
         return self.state[kernel.LOAD].copy(), self.state[kernel.FILL].copy(), angle, load

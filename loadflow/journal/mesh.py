@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from loadflow.errors import InputError
 from loadflow.journal.options import Groove, Supply, require
 
 Array = NDArray[np.float64]
@@ -87,7 +88,7 @@ class Mesh:
         return (2 if self.closed else 1) * self.z.size
 
     @cached_property
-    def trigonometry(self) -> tuple[Array, ...]:
+    def trigonometry(self) -> tuple[Array, Array, Array, Array, Array, Array]:
         """Cosine, sine and weight at the Gauss points between centres, then inside cells."""
         a = self.angle
         ends = (a[-1] - 2 * np.pi, a[0] + 2 * np.pi) if self.closed else self.edges[[0, -1]]
@@ -145,17 +146,15 @@ def build_mesh(
 
 
 def _edges_on_grooves(nx: int, grooves: tuple[Groove, ...]) -> Array:
-    """Cell edges around, with a cell in the middle of the first line or edges on wide grooves.
+    """Cell edges around, about `nx` cells, with edges on those of the grooves.
 
-    The outermost cells of a wide groove are thin, so that its pressure acts at its very edge.
+    The outermost cells of a groove are thin, so that its pressure acts at its very edge.
     """
-    wide = [g for g in grooves if g.arc > 0]
-    if not wide:
-        start = (grooves[0].angle if grooves else 0.0) - np.pi / nx
-        return start + np.linspace(0.0, 2 * np.pi, nx + 1)
-    start = wide[0].angle - 0.5 * wide[0].arc
-    sides = (-0.5, -0.5 + _THIN, 0.5 - _THIN, 0.5)
-    marks = sorted((g.angle + side * g.arc - start) % (2 * np.pi) for g in wide for side in sides)
+    if not grooves:
+        return np.linspace(0.0, 2 * np.pi, nx + 1)
+    start = grooves[0].angle - 0.5 * _arc(grooves[0], nx)
+    sides = np.array([-0.5, -0.5 + _THIN, 0.5 - _THIN, 0.5])
+    marks = np.concatenate([g.angle + sides * _arc(g, nx) - start for g in grooves]) % (2 * np.pi)
     breaks = np.unique(np.round([0.0, *marks, 2 * np.pi], 12))
     cells = np.maximum(np.rint(np.diff(breaks) / (2 * np.pi) * nx).astype(int), 1)
     parts = [
@@ -164,25 +163,31 @@ def _edges_on_grooves(nx: int, grooves: tuple[Groove, ...]) -> Array:
     return start + np.append(np.concatenate(parts), 2 * np.pi)
 
 
+def _arc(groove: Groove, nx: int) -> float:
+    """Arc of a groove; a line takes that of one cell."""
+    return groove.arc if groove.arc > 0 else 2 * np.pi / nx
+
+
 class GrooveCells(NamedTuple):
-    """Cells of the grooves, (nx, nz) each: held at a pressure, deep pocket, that pressure."""
+    """Cells of the grooves, (nx, nz) each: whether held at a pressure, and that pressure."""
 
     fixed: NDArray[np.bool_]
-    pocket: NDArray[np.bool_]
     pressure: Array
 
 
-def groove_cells(mesh: Mesh, supply: Supply | None) -> GrooveCells:
-    """Cells of the grooves of `supply`; a line has no pocket."""
-    cells = GrooveCells(
-        np.zeros(mesh.shape, dtype=bool), np.zeros(mesh.shape, dtype=bool), np.zeros(mesh.shape)
-    )
-    for groove in supply.grooves if supply else ():
+def groove_cells(mesh: Mesh, supply: Supply | None, nx: int, radius: float) -> GrooveCells:
+    """Cells of the grooves of `supply`, for `nx` cells asked for and a shaft radius in m."""
+    cells = GrooveCells(np.zeros(mesh.shape, dtype=bool), np.zeros(mesh.shape))
+    half_width = mesh.z_edges[-1]
+    for number, groove in enumerate(supply.grooves if supply else ()):
+        half_length = half_width if groove.length is None else 0.5 * groove.length / radius
+        if half_length > half_width * (1 + 1e-9):
+            raise InputError(
+                f"grooves[{number}].length = {groove.length} is not allowed: at most the width of "
+                f"the bearing, {2 * half_width * radius:.6g} m"
+            )
         away = np.abs((mesh.angle - groove.angle + np.pi) % (2 * np.pi) - np.pi)
-        around = away < 0.5 * groove.arc if groove.arc > 0 else away < away.min() + 1e-9
-        across = mesh.z < groove.length * mesh.z_edges[-1]
-        inside = around[:, None] & across[None, :]
+        inside = (away < 0.5 * _arc(groove, nx))[:, None] & (mesh.z < half_length)[None, :]
         cells.fixed[inside] = True
-        cells.pocket[inside] = groove.arc > 0
         cells.pressure[inside] = groove.pressure
     return cells

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, Literal
 
-from annotated_types import Ge, Gt, Le
+from annotated_types import Ge, Gt
 
 from loadflow.errors import InputError
 
@@ -111,21 +111,21 @@ class Groove:
     angle : float
         Angle of its middle from the first axis toward the second, rad.
     arc : float
-        Angle it spans, rad; 0 is a line (one column of cells).
-    length : float
-        Axial length as a share of the bearing width, 0…1.
+        Angle it spans, rad; 0 is a line, which takes one column of cells.
+    length : float, optional
+        Axial length, m; default the full width.
     pressure : float
         Supply pressure, Pa, absolute.
     """
 
     angle: float
     arc: Annotated[float, Ge(0)] = 0.0
-    length: Annotated[float, Gt(0), Le(1)] = 1.0
+    length: Annotated[float, Gt(0)] | None = None
     pressure: float = 0.0
 
     def __post_init__(self) -> None:
         require(0 <= self.arc < 6.28, "arc", self.arc, "rad, 0 … 6.28")
-        require(0 < self.length <= 1, "length", self.length, "share of the width, 0 … 1")
+        require(self.length is None or self.length > 0, "length", self.length, "m, > 0")
 
 
 @dataclass(frozen=True)

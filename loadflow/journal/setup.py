@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -47,6 +47,14 @@ class FilmOptions:
         """The law of the ruptured film."""
         return Reynolds() if self.cavitation is None else self.cavitation
 
+    def for_history(self) -> FilmOptions:
+        """The same on a mesh that can keep the fill of its cells, if the law has one."""
+        if not isinstance(self.law, GasMixture | MassConserving):
+            return self
+        require(self.grading != "graded", "grading", self.grading, "uniform where fill has a past")
+        require(self.inlet != "widest gap", "inlet", self.inlet, "None where fill has a past")
+        return replace(self, grading="uniform", inlet=None)
+
 
 def build_film(diameter: float, width: float, clearance: float, options: FilmOptions) -> Film:
     """Discrete film of a bearing (m, m, relative clearance)."""
@@ -69,7 +77,7 @@ def build_film(diameter: float, width: float, clearance: float, options: FilmOpt
         clearance,
         0.5 * diameter,
         options.edge_pressure,
-        groove_cells(mesh, supply),
+        groove_cells(mesh, supply, int(around), 0.5 * diameter),
     )
 
 

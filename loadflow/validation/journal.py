@@ -77,6 +77,60 @@ def base_load_checks() -> Iterator[Check]:
         yield Check(f"So_max, {name}", "Table 5-13", row.so_max, so_max, 0.02)
 
 
+# Tables 5-14 … 5-16, V = 24 m/s: mean, then amplitude (kN) and frequency (°/s) of three sines, for
+# x and for y; So_max, E_max. The frequencies are printed 1.2 times too high and used as printed.
+PERIODIC_LOADS = (
+    ((2584.26, 615.76, 6.59, 336.02, 87.01, 204.15, 261.04),
+     (-459.68, 608.10, 4.83, 329.20, 87.01, 183.02, 265.87), 7.70, 0.74),
+    ((2590.62, 625.83, 13.18, 340.64, 87.01, 238.30, 256.20),
+     (-457.70, 728.74, 7.47, 370.41, 87.01, 205.97, 256.20), 8.24, 0.76),
+    ((3035.93, 489.43, 5.27, 339.83, 87.01, 266.35, 259.72),
+     (-216.86, 457.54, 2.19, 331.02, 87.01, 184.46, 234.67), 8.78, 0.76),
+)  # fmt: skip
+
+
+def periodic_load_checks() -> Iterator[Check]:
+    """Tables 5-15 and 5-16; the phases are not printed, sines of zero phase are taken."""
+    bearing, film = reference_bearing()
+    omega = 12.1 * np.pi / 30
+    time = np.arange(0.0, 80.0, 0.05)
+    for seed, (x, y, so_max, e_max) in enumerate(PERIODIC_LOADS, start=1):
+        force = np.stack([_sines(x, time), _sines(y, time)], axis=-1)
+        orbit = bearing.orbit(time, force, omega, **film)
+        got = float(orbit.eccentricity_ratio.max())
+        yield Check(f"E_max, seed {seed}", "Table 5-16", e_max, got, 0.015, "absolute")
+        got = peak_number(float(orbit.maximum_pressure.max()), omega)
+        yield Check(f"So_max, seed {seed}", "Table 5-15", so_max, got, 0.07)
+
+
+def _sines(components: tuple[float, ...], time: np.ndarray) -> np.ndarray:
+    """Mean and sines of zero phase: kN and °/s to N."""
+    total = np.full(time.shape, components[0])
+    for amplitude, frequency in zip(components[1::2], components[2::2]):
+        total += amplitude * np.sin(np.radians(frequency) * time)
+    return 1e3 * total
+
+
+FRICTION = {4: 2.58, 8: 4.94, 12: 6.40, 16: 6.99, 24: 7.73}  # Table 5-23: V (m/s), P (kW)
+
+
+def friction_checks() -> Iterator[Check]:
+    """Friction power of Table 5-23 at the mean load, with two line grooves of 0.7 B at 0.6 MPa."""
+    from loadflow.journal import Groove, Supply
+
+    bearing, film = reference_bearing()
+    lines = tuple(
+        Groove(turn, length=0.7 * 2.25, pressure=0.6e6) for turn in (np.pi / 2, -np.pi / 2)
+    )
+    for row in BASE_LOADS:
+        if row.wind in FRICTION:
+            load = (1e3 * row.mean_x, 1e3 * row.mean_y)
+            state = bearing.equilibrium(load, row.omega, supply=Supply(lines), **film)
+            got = float(state.friction_power) / 1e3
+            name = f"P_friction, V = {row.wind} m/s"
+            yield Check(name, "Table 5-23", FRICTION[row.wind], got, 0.03, unit="kW")
+
+
 def closed_form_checks() -> Iterator[Check]:
     """Short and long bearings; what is left is the loss at the rims (about 0.7 D/B)."""
     from loadflow.journal import Guembel, Reynolds, Sommerfeld
@@ -208,6 +262,8 @@ def coefficient_checks() -> Iterator[Check]:
 def checks() -> Iterator[Check]:
     """All printed numbers of the journal bearing."""
     yield from base_load_checks()
+    yield from periodic_load_checks()
+    yield from friction_checks()
     yield from closed_form_checks()
     yield from converged_table_checks()
     yield from side_flow_checks()

@@ -73,7 +73,7 @@ def test_mass_conserving_film_is_full_or_at_cavitation_pressure():
 
 
 def test_grooves_give_what_leaves_through_the_rims():
-    supply = Supply([Groove(np.pi / 2, arc=0.2, length=0.7, pressure=2e5), Groove(-np.pi / 2)])
+    supply = Supply([Groove(np.pi / 2, arc=0.2, length=0.5, pressure=2e5), Groove(-np.pi / 2)])
     film = BEARING.pressure((0.5 * BEARING.clearance, 0.0), 10.0, OIL,
                             cavitation=MassConserving(), supply=supply)  # fmt: skip
     assert film.side_flow > 0
