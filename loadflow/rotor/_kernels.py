@@ -30,7 +30,9 @@ def turbulence(inflow, component, time, y, z):
     k_next = k + 1
 
     radius = np.sqrt(y * y + z * z)
-    i = min(np.searchsorted(inflow.box_radius, radius, side="right") - 1, inflow.box_radius.size - 2)
+    i = min(
+        np.searchsorted(inflow.box_radius, radius, side="right") - 1, inflow.box_radius.size - 2
+    )
     width = inflow.box_radius[i + 1] - inflow.box_radius[i]
     outer = min((radius - inflow.box_radius[i]) / width, 1.0)
 
@@ -42,9 +44,9 @@ def turbulence(inflow, component, time, y, z):
 
     value = 0.0
     for plane, share in ((k, 1 - late), (k_next, late)):
-        inner_value = component[plane, i, j] * (1 - turn) + component[plane, i, j_next] * turn
-        outer_value = component[plane, i + 1, j] * (1 - turn) + component[plane, i + 1, j_next] * turn
-        value += share * (inner_value * (1 - outer) + outer_value * outer)
+        inner = component[plane, i, j] * (1 - turn) + component[plane, i, j_next] * turn
+        far = component[plane, i + 1, j] * (1 - turn) + component[plane, i + 1, j_next] * turn
+        value += share * (inner * (1 - outer) + far * outer)
     return value
 
 
@@ -158,10 +160,10 @@ def control(m, c, state, dt):
 def blade_aerodynamics(
     m, inflow, step, time, azimuth, pitch, speed, motion, state, guess, wake, dt, force
 ):
-    """Aerodynamic force (normal, tangential) on each section of one blade, N.
+    """Aerodynamic force (x, r, t) on each section of one blade, N.
 
-    `motion` (n, 4): deflection normal, tangential and their rates; `guess` (n,): inflow angles of
-    the step before, replaced. Returns the means of the axial and the in-plane wind (x, y, z).
+    `motion` (n, 6): see `deflection`; `guess` (n,): inflow angles of the step before, replaced.
+    `wake` (n, 2): see `section_force`. Returns the mean wind over the sections (x, y, z).
     """
     sine, cosine = np.sin(azimuth), np.cos(azimuth)
     cone_s, cone_c = np.sin(m.cone), np.cos(m.cone)
@@ -176,7 +178,10 @@ def blade_aerodynamics(
         shaft_x = wind_x * tilt_c - wind_z * tilt_s
         shaft_z = wind_x * tilt_s + wind_z * tilt_c
         radial = -sine * wind_y + cosine * shaft_z
-        normal = shaft_x * cone_c + radial * cone_s - motion[i, 2]
+        # the section leans with the slope of the bent blade
+        lean = m.cone - motion[i, 4]
+        lean_s, lean_c = np.sin(lean), np.cos(lean)
+        normal = shaft_x * lean_c + radial * lean_s - motion[i, 2]
         tangential = speed * out + motion[i, 3] + cosine * wind_y + sine * shaft_z
         if m.table.shape[0] > 0:
             a, swirl = tabulated_induction(m, i, pitch, normal, tangential)
@@ -187,8 +192,9 @@ def blade_aerodynamics(
         f_normal, f_tangential = section_force(
             m, i, pitch, normal, tangential, a, swirl, dt, wake[i]
         )
-        force[i, 0] = f_normal * m.width[i]
-        force[i, 1] = f_tangential * m.width[i]
+        force[i, 0] = f_normal * lean_c * m.width[i]
+        force[i, 1] = f_normal * lean_s * m.width[i]
+        force[i, 2] = f_tangential * m.width[i]
         mean_x += shaft_x / count
         mean_y += wind_y / count
         mean_z += shaft_z / count
@@ -198,14 +204,17 @@ def blade_aerodynamics(
 @njit(cache=True, nogil=True)
 def place(m, i, motion, cone_s, cone_c):
     """Section i in the axes (x, r, t) of its blade."""
-    along = -m.radius[i] * cone_s + motion[i, 0] * cone_c
-    out = m.radius[i] * cone_c + motion[i, 0] * cone_s
+    radius = m.radius[i] - motion[i, 5]
+    along = -radius * cone_s + motion[i, 0] * cone_c
+    out = radius * cone_c + motion[i, 0] * cone_s
     return along, out, motion[i, 1]
 
 
 @njit(cache=True, nogil=True)
 def deflection(m, pitch, q, v, motion):
-    """Deflection and its rate at each section; the modes turn with the pitch."""
+    """Motion of each section, (n, 6): deflection normal and tangential, their rates, slope of the
+    normal deflection, pull towards the root. The modes turn with the pitch.
+    """
     c, s = np.cos(pitch), np.sin(pitch)
     motion[:] = 0.0
     for i in range(m.radius.size):
@@ -216,13 +225,16 @@ def deflection(m, pitch, q, v, motion):
             motion[i, 1] += tangential * q[k]
             motion[i, 2] += normal * v[k]
             motion[i, 3] += tangential * v[k]
+            motion[i, 4] += (m.slope[i, k, 0] * c - m.slope[i, k, 1] * s) * q[k]
+            for j in range(q.size):
+                motion[i, 5] += m.shortening[i, k, j] * q[k] * q[j]
 
 
 @njit(cache=True, nogil=True)
 def blade_motion(m, b, dt, speed, azimuth, pitch, force, motion, q, v, acc):
     """Newmark step of the modes of one blade (constant mean acceleration), in place.
 
-    `force` (n, 2) holds the aerodynamic force, found at the predicted motion. The change of rotor
+    `force` (n, 3) holds the aerodynamic force, found at the predicted motion. The change of rotor
     speed is left out: it matters to the torque only, and would have to be solved with it.
     """
     modes = q.size
@@ -237,15 +249,15 @@ def blade_motion(m, b, dt, speed, azimuth, pitch, force, motion, q, v, acc):
         inertia_r = -(speed**2) * out - 2 * speed * motion[i, 3]
         inertia_t = 2 * speed * motion[i, 2] * cone_s - speed**2 * turn
         mass = m.mass[i] * m.mass_factor[b]
-        normal = force[i, 0] + mass * (gravity_n - inertia_r * cone_s)
-        tangential = force[i, 1] + mass * (gravity_t - inertia_t)
+        normal = force[i, 0] * cone_c + force[i, 1] * cone_s
+        normal += mass * (gravity_n - inertia_r * cone_s)
+        tangential = force[i, 2] + mass * (gravity_t - inertia_t)
         for k in range(modes):
             load[k] += (m.shape[i, k, 0] * c - m.shape[i, k, 1] * s) * normal
             load[k] += (m.shape[i, k, 0] * s + m.shape[i, k, 1] * c) * tangential
     outward = gravity_r * cone_c - gravity_x * cone_s
-    stiffness = (
-        m.modal_stiffness
-        + m.mass_factor[b] * (speed**2 * m.centrifugal + outward * m.axial_gravity)
+    stiffness = m.modal_stiffness + m.mass_factor[b] * (
+        speed**2 * m.centrifugal + outward * m.axial_gravity
     )
     q_free = q + dt * v + 0.25 * dt * dt * acc
     v_free = v + 0.5 * dt * acc
@@ -280,9 +292,9 @@ def blade_root(m, b, speed, rate, azimuth, pitch, force, motion, acc, total):
         a_x = bend_n * cone_c
         a_r = bend_n * cone_s - speed**2 * out - 2 * speed * motion[i, 3] - rate * turn
         a_t = bend_t + 2 * speed * motion[i, 2] * cone_s + rate * out - speed**2 * turn
-        f_x = force[i, 0] * cone_c + mass * (gravity_x - a_x)
-        f_r = force[i, 0] * cone_s + mass * (cosine * gravity_z - a_r)
-        f_t = force[i, 1] + mass * (-sine * gravity_z - a_t)
+        f_x = force[i, 0] + mass * (gravity_x - a_x)
+        f_r = force[i, 1] + mass * (cosine * gravity_z - a_r)
+        f_t = force[i, 2] + mass * (-sine * gravity_z - a_t)
         m_r, m_t = turn * f_x - along * f_t, along * f_r - out * f_x
         total[0] += f_x
         total[1] += -sine * f_r - cosine * f_t
@@ -300,8 +312,8 @@ def march(m, c, inflow, dt, steps, start, controlled, state, q, v, acc, guess, w
     Not `controlled`: speed and pitch stay. `out` (steps, COLUMNS) is filled.
     """
     sections = m.radius.size
-    motion = np.zeros((sections, 4))
-    force = np.zeros((m.blades, sections, 2))
+    motion = np.zeros((sections, 6))
+    force = np.zeros((m.blades, sections, 3))
     total = np.zeros(7)
     old_rate = state[S_RATE]
     fresh = 1 if np.all(wake == 0.0) else 0
@@ -333,9 +345,7 @@ def march(m, c, inflow, dt, steps, start, controlled, state, q, v, acc, guess, w
             for axis in range(3):
                 mean[axis] += wind[axis] / m.blades
             if q.shape[1] > 0:
-                blade_motion(
-                    m, b, dt, speed, azimuth, pitch, force[b], motion, q[b], v[b], acc[b]
-                )
+                blade_motion(m, b, dt, speed, azimuth, pitch, force[b], motion, q[b], v[b], acc[b])
                 deflection(m, pitch, q[b], v[b], motion)
             if b == 0:
                 out[step, TIP] = motion[sections - 1, 0]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,6 +31,10 @@ class State:
     def speed(self) -> float:
         """Rotor speed, rad/s."""
         return float(self.scalars[kernels.S_SPEED])
+
+    def copy(self) -> State:
+        """Return a state that moves on by itself."""
+        return State(*(getattr(self, f.name).copy() for f in fields(self)))
 
 
 def start_state(m: Machine, c: Controller, wind_speed: float, speed: float, pitch: float) -> State:

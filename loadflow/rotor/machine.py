@@ -43,6 +43,8 @@ class Machine(NamedTuple):
     drag: Array  # (n, p)
     mass: Array  # (n,), kg
     shape: Array  # (n, k, 2)
+    slope: Array  # (n, k, 2)
+    shortening: Array  # (n, k, k), pull towards the root per product of modal coordinates
     modal_mass: Array  # (k, k)
     modal_stiffness: Array  # (k, k)
     modal_damping: Array  # (k, k)
@@ -119,6 +121,7 @@ def machine(turbine: Turbine, options: RotorOptions) -> Machine:
     rotor, blade = turbine.rotor, turbine.blade
     edges = _section_edges(blade.radius, rotor.hub_radius, rotor.radius)
     length = rotor.radius - rotor.hub_radius
+    stations = blade.radius - rotor.hub_radius
     span = np.linspace(0, length, _FINE)
     density = np.interp(span, blade.span, blade.mass_density)
     density *= blade.mass / np.trapezoid(density, span)
@@ -139,8 +142,7 @@ def machine(turbine: Turbine, options: RotorOptions) -> Machine:
         cone=rotor.cone,
         hub_mass=rotor.hub_mass,
         hub_inertia=rotor.hub_inertia,
-        generator_inertia=turbine.drivetrain.generator_inertia
-        * turbine.drivetrain.gear_ratio**2,
+        generator_inertia=turbine.drivetrain.generator_inertia * turbine.drivetrain.gear_ratio**2,
         gear_ratio=turbine.drivetrain.gear_ratio,
         radius=blade.radius,
         width=_widths(blade.radius, rotor.hub_radius, rotor.radius),
@@ -149,7 +151,9 @@ def machine(turbine: Turbine, options: RotorOptions) -> Machine:
         lift=np.array([np.interp(angle, f.angle, f.lift) for f in foils]),
         drag=np.array([np.interp(angle, f.angle, f.drag) for f in foils]),
         mass=_lumps(span, density, edges - rotor.hub_radius),
-        shape=structure.at(blade.radius - rotor.hub_radius),
+        shape=structure.at(structure.shape, stations),
+        slope=structure.at(structure.slope, stations),
+        shortening=structure.shortening(stations),
         modal_mass=structure.mass(),
         modal_stiffness=structure.stiffness(),
         modal_damping=structure.damping(),
@@ -174,9 +178,7 @@ def machine(turbine: Turbine, options: RotorOptions) -> Machine:
 class _Structure:
     """Modal integrals of one blade over its span."""
 
-    def __init__(
-        self, blade: Blade, modes: tuple[Mode, ...], span: Array, density: Array
-    ) -> None:
+    def __init__(self, blade: Blade, modes: tuple[Mode, ...], span: Array, density: Array) -> None:
         self.blade, self.modes, self.span, self.density = blade, modes, span, density
         twist = np.interp(span, blade.span, blade.structural_twist)
         x = span / span[-1]
@@ -195,12 +197,21 @@ class _Structure:
                 self.slope[k, axis] = _from_root(self.curvature[k] * direction, span)
                 self.shape[k, axis] = _from_root(self.slope[k, axis], span)
 
-    def at(self, stations: Array) -> Array:
-        """Mode shapes at stations, (n, k, 2)."""
+    def at(self, function: Array, stations: Array) -> Array:
+        """Mode shapes or slopes (k, 2, span) at stations, (n, k, 2)."""
         out = np.zeros((stations.size, len(self.modes), 2))
         for k in range(len(self.modes)):
             for axis in range(2):
-                out[:, k, axis] = np.interp(stations, self.span, self.shape[k, axis])
+                out[:, k, axis] = np.interp(stations, self.span, function[k, axis])
+        return out
+
+    def shortening(self, stations: Array) -> Array:
+        """Half the integral of the slopes' products from the root, (n, k, k)."""
+        out = np.zeros((stations.size, len(self.modes), len(self.modes)))
+        product = 0.5 * np.einsum("kas,las->kls", self.slope, self.slope)
+        for k, row in enumerate(product):
+            for j, values in enumerate(row):
+                out[:, k, j] = np.interp(stations, self.span, _from_root(values, self.span))
         return out
 
     def mass(self) -> Array:

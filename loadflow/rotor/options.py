@@ -11,7 +11,7 @@ from loadflow.errors import InputError
 
 Rung = Literal["tables", "bem", "flap"]
 RUNGS: tuple[Rung, ...] = ("tables", "bem", "flap")
-"""From cheap to dear: see `loadflow.rotor.simulate`."""
+"""Rigid blades with tabulated induction; with induction solved at every step; bending blades."""
 
 
 @dataclass(frozen=True)

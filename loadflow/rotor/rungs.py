@@ -19,7 +19,7 @@ def prepare(turbine: Turbine, rung: str, options: RotorOptions) -> tuple[Machine
     """Machine and control for a rung; a table of induction is made once per turbine."""
     if rung not in RUNGS:
         raise InputError(f"rung = {rung!r} is not a rung of the rotor; known: {', '.join(RUNGS)}")
-    chosen = replace(options, modes=_MODES[rung], tabulated=rung == "tables")
+    chosen = replace(options, modes=_MODES[rung], tabulated=rung != "bem")
     return _prepare(_Key(turbine), chosen)
 
 

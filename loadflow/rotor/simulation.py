@@ -65,8 +65,8 @@ def simulate(
     base_seed : int
         Seed of the whole study; see `loadflow.wind.case_seed`.
     rung : {"tables", "bem", "flap"}
-        Rigid blades with tabulated induction; rigid blades, blade-element momentum solved at every
-        section and step; the same with two flap and one edge mode per blade.
+        Rigid blades with the induction from a table; rigid blades with the induction solved at
+        every section and step; blades with two flap and one edge mode, induction from the table.
     options : RotorOptions, optional
         Effects and imbalance.
     wind_options : WindOptions, optional
@@ -116,7 +116,7 @@ def simulate(
         start = _MARGIN
     else:
         start = 0.0
-    state = operating_point(m, c, wind_speed, shear)[1]
+    state = operating_point(m, c, wind_speed, shear)[1].copy()
     lost, kept = round(run_in / dt), round(duration / dt)
     inflow = steady_inflow(wind_speed, lost + kept, shear, yaw_error, field)
     out = run(m, c, inflow, state, dt, steps=lost + kept, start=start)[lost:]

@@ -20,8 +20,8 @@ if TYPE_CHECKING:
     from .machine import Controller, Machine
 
 _STEP = 0.04  # s
-_SETTLE, _MEAN = 100.0, 20.0  # s; the mean is over whole revolutions of at least _MEAN
-_ROUNDS = 6
+_SETTLE, _MEAN = 40.0, 20.0  # s; the mean is over whole revolutions of at least _MEAN
+_ROUNDS = 12
 _TOLERANCE = 2e-4  # of the mean speed from one round to the next
 _PITCH_TOLERANCE = 2e-4  # rad
 

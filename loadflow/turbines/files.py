@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tomllib
+from dataclasses import fields
 from importlib import resources
 from pathlib import Path
 from typing import Any
@@ -81,19 +82,21 @@ def load_turbine(turbine: str | Path | Turbine) -> Turbine:
 
 def _turbine(document: dict[str, Any], folder: Path) -> Turbine:
     _check_keys(document, {*_SCALARS, *_PARTS, "blade", "airfoils"}, "file")
-    parts = {name: _part(part, document[name], name) for name, part in _PARTS.items()}
+    parts: dict[str, Any] = {
+        name: _part(part, document[name], name) for name, part in _PARTS.items()
+    }
     airfoils = {
         name: _airfoil(name, entry, folder)
         for name, entry in _table(document["airfoils"], "airfoils").items()
     }
-    scalars = {
+    scalars: dict[str, Any] = {
         key: str(document[key]) if key in ("name", "source") else _number(document[key], key)
         for key in _SCALARS
     }
     return Turbine(**scalars, **parts, blade=_blade(document["blade"]), airfoils=airfoils)
 
 
-def _part(part: type, entry: Any, name: str) -> Any:
+def _part(part: Any, entry: Any, name: str) -> Any:
     """One table of numbers; a key that ends in ``_deg`` is turned into radians."""
     values: dict[str, Any] = {}
     for key, value in _table(entry, name).items():
@@ -102,7 +105,7 @@ def _part(part: type, entry: Any, name: str) -> Any:
             values[key[:-4]] = np.radians(number).item()
         else:
             values[key] = int(number) if key == "blades" else number
-    _check_keys(values, set(part.__dataclass_fields__), name)
+    _check_keys(values, {f.name for f in fields(part)}, name)
     return part(**values)
 
 

@@ -13,7 +13,7 @@ _HALF_PI = 0.5 * np.pi
 _BRACKET = 0.02  # rad, around the inflow angle of the step before
 _TOLERANCE = 1e-7  # rad
 _MOMENTUM_LIMIT = 2.0 / 3.0
-_JONES = ((0.165, 0.0455), (0.335, 0.3))
+_JONES = ((0.165, 0.0455), (0.335, 0.3))  # share and decay of the shed wake
 
 
 @njit(cache=True, nogil=True)
