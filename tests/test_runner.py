@@ -134,19 +134,37 @@ def test_the_manifest_records_how_the_numbers_came_about(finished):
     assert set(manifest["seconds"]) >= {"loads", "journal", "rolling", "seeds"}
 
 
+def with_speed(path, **of_case):
+    cube = open_cube(path).load()
+    for case, (steps, value) in of_case.items():
+        cube["speed"].loc[{"case": case}][steps] = value
+    cube.to_netcdf(path, engine="h5netcdf")
+
+
 def test_a_case_without_an_answer_is_reported_and_the_others_are_kept(tmp_path):
     path = cube_file(tmp_path / "loads.h5")
-    still = open_cube(path).load()
-    still["speed"][0] = 0.0  # first case: loaded shaft at rest
-    still.to_netcdf(path, engine="h5netcdf")
+    with_speed(path, **{"dlc1.1_v8_s1": (slice(None), 0.0)})  # a loaded shaft at rest
     result = lf.run(scene_of(path), out=tmp_path / "runs")
     (part, reason), *rest = result.failures.items()
     assert part == "dlc1.1_v8_s1, journal"
-    assert "ω = 0" in reason
+    assert "no film carries any" in reason
     assert rest == []
     assert result.tree["journal"].sizes["case"] == 3
     assert result.tree["rolling"].sizes["case"] == 4
-    assert "ω = 0" in result.report.read_text()
+    assert "no film carries any" in result.report.read_text()
+
+
+def test_samples_at_standstill_are_counted_and_the_rest_of_the_series_is_answered(tmp_path):
+    path = cube_file(tmp_path / "loads.h5", wind_speeds=(8.0,), seeds=(1,))
+    with_speed(path, **{"dlc1.1_v8_s1": (slice(0, 40), 0.0)})
+    result = lf.run(scene_of(path, results=["journal.film"]), out=tmp_path, report=False)
+    journal = result.tree["journal"].to_dataset().squeeze()
+    samples = open_cube(tmp_path / "small" / "journal" / "dlc1.1_v8_s1.h5")["N2"]
+    still = samples["speed"].values == 0
+    assert still.any()
+    assert journal["not_converged"] == still.sum()
+    assert np.isnan(samples["eccentricity_ratio"].values[still]).all()
+    assert np.isfinite(samples["eccentricity_ratio"].values[~still]).all()
 
 
 def test_nan_in_a_series_is_named_before_anything_runs(tmp_path):

@@ -77,13 +77,13 @@ def list_cases(scene: Scene) -> list[Case]:
             for speed in loads.wind_speeds
             for seed in seeds
         ]
-        return _weighted(_distinct(cases), loads.wind_class)
+        return weighted(_distinct(cases), loads.wind_class)
     if not loads.files:
         raise InputError('loads.files: source = "files" needs load files; none is given')
     files = [path for pattern in loads.files for path in _matching(pattern)]
     cases = [case for path in files for case in _cases_of(path, loads)]
     distinct = _distinct(cases)
-    return distinct if loads.weights == "given" else _weighted(distinct, loads.wind_class)
+    return distinct if loads.weights == "given" else weighted(distinct, loads.wind_class)
 
 
 def _matching(pattern: str) -> list[Path]:
@@ -135,7 +135,7 @@ def _hash(path: Path) -> str:
         return hashlib.file_digest(stream, "sha256").hexdigest()
 
 
-def _weighted(cases: list[Case], wind_class: str) -> list[Case]:
+def weighted(cases: list[Case], wind_class: str) -> list[Case]:
     """Share the lifetime over the wind speeds of each DLC (Rayleigh, (2.2)), and their seeds."""
     share = {
         dlc: _speed_shares({case.wind_speed for case in cases if case.dlc == dlc}, wind_class)

@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 
 from loadflow.errors import SolverError
+from loadflow.journal import Equilibrium
 from loadflow.scene import Scene
 from loadflow.stages.cases import Case
 from loadflow.stages.frames import to_film
@@ -32,10 +33,13 @@ KEPT = {
 def film(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
     """Solve the film for every sample of the reduced series; one group per bearing.
 
+    A sample that no film carries, such as a load at standstill, has ``converged`` 0 and no values:
+    a start-up passes through such samples, and the rest of it still has an answer.
+
     Raises
     ------
     loadflow.errors.SolverError
-        A sample has no equilibrium, such as a load at standstill.
+        No sample at all has an equilibrium.
     """
     return xr.DataTree.from_dict(
         {
@@ -47,22 +51,23 @@ def film(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
 
 def _bearing(scene: Scene, case: Case, bearing: str, reduced: xr.Dataset) -> xr.Dataset:
     options = scene.journal
-    try:
-        answer = options.geometry.equilibrium(
-            force=to_film(reduced["force"].values),
-            speed=reduced["speed"].values,
-            lubricant=options.lubricant,
-            cavitation=options.cavitation,
-            edge_pressure=options.edge_pressure,
-            grid=options.grid,
-            rung=options.rung,
+    answer = options.geometry.equilibrium(
+        force=to_film(reduced["force"].values),
+        speed=reduced["speed"].values,
+        lubricant=options.lubricant,
+        cavitation=options.cavitation,
+        edge_pressure=options.edge_pressure,
+        grid=options.grid,
+        rung=options.rung,
+        strict=False,
+    )
+    if not np.any(answer.converged):
+        speed = np.abs(reduced["speed"].values)
+        raise SolverError(
+            f"bearing {bearing}: no film carries any of the {speed.size} samples; speed "
+            f"{speed.min():.4g} … {speed.max():.4g} rad/s"
         )
-    except SolverError as error:
-        raise SolverError(f"bearing {bearing}: {error}") from error
-    samples: dict[str, Any] = {
-        name: ("sample", np.asarray(getattr(answer, name)), {"units": units, "long_name": meaning})
-        for name, (units, meaning) in KEPT.items()
-    }
+    samples = film_samples(answer)
     samples["eccentricity"] = (
         ("sample", "component"),
         answer.eccentricity,
@@ -79,19 +84,28 @@ def _bearing(scene: Scene, case: Case, bearing: str, reduced: xr.Dataset) -> xr.
     )
 
 
+def film_samples(answer: Equilibrium) -> dict[str, Any]:
+    """Label what is kept of a series of equilibria; dimension ``sample``."""
+    return {
+        name: ("sample", np.asarray(getattr(answer, name)), {"units": units, "long_name": meaning})
+        for name, (units, meaning) in KEPT.items()
+    }
+
+
 def summary(parts: Mapping[Case, xr.DataTree]) -> xr.Dataset:
     """Reduce each case to extremes and weighted means; dimensions ``bearing`` and ``case``."""
     return over_cases({case: _summary_of(tree) for case, tree in parts.items()})
 
 
 def _summary_of(tree: xr.DataTree) -> xr.Dataset:
-    parts = [_extremes(node.to_dataset()) for node in tree.children.values()]
+    parts = [extremes(node.to_dataset()) for node in tree.children.values()]
     return xr.concat(parts, "bearing", combine_attrs="override").assign_coords(
         bearing=list(tree.children)
     )
 
 
-def _extremes(samples: xr.Dataset) -> xr.Dataset:
+def extremes(samples: xr.Dataset) -> xr.Dataset:
+    """Reduce the film of a series of weighted loads to extremes and means."""
     weight = samples["weight"]
 
     def mean(name: str) -> xr.DataArray:
@@ -107,7 +121,7 @@ def _extremes(samples: xr.Dataset) -> xr.Dataset:
         "mean_friction_power": (mean("friction_power"), "mean friction power"),
         "mean_side_flow": (mean("side_flow"), "mean side flow"),
         "largest_residual": (samples["residual"].max(), "largest residual"),
-        "not_converged": ((~samples["converged"].astype(bool)).sum(), "samples not converged"),
+        "not_converged": ((~samples["converged"].astype(bool)).sum(), "samples without a film"),
     }
     units = {
         "smallest_film": "m",

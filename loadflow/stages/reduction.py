@@ -36,7 +36,7 @@ def reduced_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTr
             seed=scene.reduction.seed,
             source=f"{case.name}, bearing {bearing}",
         )
-        groups[str(bearing)] = _dataset(reduced, force, moment, by_moment)
+        groups[str(bearing)] = reduced_dataset(reduced, force, moment, by_moment)
     return xr.DataTree.from_dict(groups)
 
 
@@ -44,9 +44,10 @@ def _vectors(data: xr.DataArray) -> np.ndarray:
     return data.transpose("time", "axis").values.astype(float)
 
 
-def _dataset(
+def reduced_dataset(
     reduced: Reduced, force: np.ndarray, moment: np.ndarray, by_moment: bool
 ) -> xr.Dataset:
+    """Label a reduced series; `force` and `moment` (n, 3) are those of the full one."""
     of, units = ("tilting moment", "N m") if by_moment else ("radial force", "N")
     samples, classes = ("sample",), ("speed_class", "load_class")
     index = reduced.index

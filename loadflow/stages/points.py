@@ -1,0 +1,179 @@
+"""One point, or one reduced series → the numbers of a room, labelled with unit and meaning."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import xarray as xr
+
+if TYPE_CHECKING:
+    from loadflow.journal import GasMixture, JournalBearing, Lubricant
+    from loadflow.rolling import SlewingBearing
+
+Load = Sequence[float]
+Grid = tuple[int, int] | None
+
+
+def _quantities(rows: dict[str, tuple[Any, str, str]], **attrs: str) -> xr.Dataset:
+    """Label values of any shape: name → value, units, meaning."""
+    variables = {
+        name: (
+            [f"{name}_{axis}" for axis in range(np.ndim(value))],
+            np.asarray(value),
+            {"units": units, "long_name": meaning},
+        )
+        for name, (value, units, meaning) in rows.items()
+    }
+    return xr.Dataset(variables, attrs=attrs)
+
+
+def iec_conditions(
+    wind_speed: float, *, wind_class: str, category: str, rotor_diameter: float, hub_height: float
+) -> xr.Dataset:
+    """Return the wind conditions of IEC 61400-1 at a wind speed (m/s) for a rotor (m) and height.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        Unknown class or category, or a wind speed that has no gust.
+    """
+    from loadflow.wind import iec
+
+    v, size = wind_speed, (rotor_diameter, hub_height)
+    rows = {
+        "ntm_sigma": (iec.ntm_sigma(v, category), "m/s", "σ1, normal turbulence"),
+        "etm_sigma": (iec.etm_sigma(v, wind_class, category), "m/s", "σ1, extreme turbulence"),
+        "eog_amplitude": (
+            iec.eog_amplitude(v, wind_class, category, *size),
+            "m/s",
+            "extreme operating gust",
+        ),
+        "edc_angle": (iec.edc_angle(v, category, *size), "rad", "extreme direction change, ±"),
+        "ecd_angle": (iec.ecd_angle(v, wind_class), "rad", "coherent gust with direction change"),
+        "ews_amplitude": (
+            iec.ews_amplitude(v, category, *size),
+            "m/s",
+            "extreme wind shear, bracket before (1 − cos)",
+        ),
+        "length_scale": (iec.length_scale(hub_height), "m", "turbulence scale Λ1"),
+    }
+    conditions = (
+        f"v = {v:g} m/s, class {wind_class}, category {category}, "
+        f"D = {rotor_diameter:g} m, hub at {hub_height:g} m"
+    )
+    return _quantities(rows, conditions=conditions)
+
+
+def journal_point(
+    force: Load,
+    speed: float,
+    bearing: JournalBearing,
+    lubricant: Lubricant,
+    cavitation: GasMixture | None,
+    edge_pressure: float,
+    grid: Grid,
+) -> xr.Dataset:
+    """Return the static equilibrium of a journal bearing under one `force` (N) and `speed` (rad/s).
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        As `JournalBearing.equilibrium`.
+    loadflow.errors.SolverError
+        No equilibrium.
+    """
+    from loadflow.stages.journal import KEPT
+
+    s = bearing.equilibrium(
+        force, speed, lubricant, cavitation=cavitation, edge_pressure=edge_pressure, grid=grid
+    )
+    rows = {name: (getattr(s, name), units, meaning) for name, (units, meaning) in KEPT.items()}
+    more = {
+        "eccentricity": (s.eccentricity, "m", "shaft centre: first axis, second axis"),
+        "stiffness": (s.stiffness, "N/m", "−∂F/∂e: 11, 12, 21, 22"),
+        "damping": (s.damping, "N s/m", "−∂F/∂ė: 11, 12, 21, 22"),
+        "reynolds_number": (s.reynolds_number, "1", "Reynolds number of the gap"),
+        "laminar": (s.laminar, "1", "whether the flow is laminar"),
+    }
+    solver = ("converged", "residual", "iterations")
+    last = {name: rows.pop(name) for name in solver}
+    return _quantities(rows | more | last, model=_film(cavitation, edge_pressure, grid))
+
+
+def journal_series(
+    path: Path,
+    bearing: JournalBearing,
+    lubricant: Lubricant,
+    cavitation: GasMixture | None,
+    edge_pressure: float,
+    grid: Grid,
+) -> xr.Dataset:
+    """Return extremes and weighted means of the film over the series of a parameter file.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        The file is no parameter file; as `JournalBearing.equilibrium`.
+    loadflow.errors.SolverError
+        A load has no equilibrium.
+    """
+    from loadflow.reduction import read_parameter_file
+    from loadflow.stages.journal import extremes, film_samples
+
+    reduced = read_parameter_file(path)
+    answer = bearing.equilibrium(
+        reduced.force,
+        reduced.speed,
+        lubricant,
+        cavitation=cavitation,
+        edge_pressure=edge_pressure,
+        grid=grid,
+    )
+    samples = xr.Dataset({**film_samples(answer), "weight": ("sample", reduced.weight)})
+    return extremes(samples).assign_attrs(
+        series=f"{path}: {reduced.source}, {reduced.weight.size} of {reduced.total} samples",
+        model=_film(cavitation, edge_pressure, grid),
+    )
+
+
+def _film(cavitation: GasMixture | None, edge_pressure: float, grid: Grid) -> str:
+    law = "Reynolds' condition"
+    if cavitation is not None:
+        law = f"gas mixture, constant {cavitation.mixing_constant:g} Pa"
+    cells = f"{grid[0]} × {grid[1]} cells" if grid else "default grid of the law"
+    return f"finite volumes, {cells}; {law}; edge pressure {edge_pressure:g} Pa"
+
+
+def rolling_point(bearing: SlewingBearing, force: Load, moment: Load) -> xr.Dataset:
+    """Return the load distribution of a slewing bearing under one `force` (N), `moment` (N m).
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        A load that is not finite.
+    loadflow.errors.SolverError
+        No equilibrium.
+    """
+    from loadflow.stages.rolling import KEPT
+
+    r = bearing.equilibrium(force=force, moment=moment)
+    rows = {name: (getattr(r, name), units, meaning) for name, (units, meaning) in KEPT.items()}
+    stiffness = np.diag(r.stiffness)
+    more = {
+        "rating_life": (r.rating_life, "1e6 rev", "basic rating life L10"),
+        "friction_torque": (r.friction_torque(), "N m", "friction torque, from the ball forces"),
+        "displacement": (r.displacement[:3], "m", "of the inner ring: x, y, z"),
+        "tilt": (r.displacement[3:], "rad", "of the inner ring: about x, about y"),
+        "radial_stiffness": (stiffness[:2], "N/m", "tangent: x, y"),
+        "axial_stiffness": (stiffness[2], "N/m", "tangent: z"),
+        "tilting_stiffness": (stiffness[3:], "N m/rad", "tangent: about x, about y"),
+        "ball_forces": (r.ball_forces, "N", "contact forces (row, diagonal, ball)"),
+        "contact_angles": (r.contact_angles, "rad", "contact angles (row, diagonal, ball)"),
+    }
+    solver = ("converged", "residual", "iterations")
+    last = {name: rows.pop(name) for name in solver}
+    model = f"rigid rings, Hertzian contacts, {bearing.rows} × {bearing.balls} balls"
+    return _quantities(rows | more | last, model=model)
