@@ -1,0 +1,89 @@
+"""Blade-element momentum: the section solver balances, the table stands for it."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from loadflow.rotor._kernels import tabulated_induction, turbulence
+from loadflow.rotor.aero._kernels import induction, section_force, solve
+from loadflow.rotor.inflow import steady_inflow
+from loadflow.rotor.machine import machine
+from loadflow.rotor.options import RotorOptions
+from loadflow.rotor.tables import with_table
+from loadflow.turbines import load_turbine
+from loadflow.wind.field import Field
+
+RIGID = machine(load_turbine("nrel-5mw"), RotorOptions(modes=()))
+TABLED = with_table(RIGID)
+
+
+@settings(deadline=None, max_examples=300)
+@given(
+    st.integers(0, 16),
+    st.floats(0.5, 30.0),
+    st.floats(3.0, 90.0),
+    st.floats(-0.03, 1.5),
+    st.floats(0.0, 0.5),
+)
+def test_momentum_and_blade_forces_balance_from_any_start(i, normal, tangential, pitch, guess):
+    angle, a, swirl = solve(RIGID, i, pitch, normal, tangential, 0.0)
+    again = solve(RIGID, i, pitch, normal, tangential, guess)[0]
+    for root in (angle, again):
+        assert np.isfinite(root)
+    if 1e-3 < angle < 1.5 and (a, swirl) != (0.0, 0.0):
+        below = induction(RIGID, i, angle - 1e-5, pitch, normal, tangential)[0]
+        above = induction(RIGID, i, angle + 1e-5, pitch, normal, tangential)[0]
+        assert below * above <= 0
+
+
+def test_low_induction_follows_momentum_theory():
+    # C_T of the annulus from the blade forces equals 4 a (1 − a) F
+    i, normal, tangential = 10, 10.0, 60.0
+    angle, a, swirl = solve(RIGID, i, 0.1, normal, tangential, 0.0)
+    assert 0 < a < 1 / 3
+    wake = np.zeros(2)
+    lossless = RIGID._replace(drag=np.zeros_like(RIGID.drag))
+    force, _ = section_force(lossless, i, 0.1, normal, tangential, a, swirl, 0.0, wake)
+    radius = RIGID.radius[i]
+    f = 1.5 * (63 - radius) / (radius * np.sin(angle))
+    g = 1.5 * (radius - 1.5) / (1.5 * np.sin(angle))
+    loss = np.arccos(np.exp(-f)) * np.arccos(np.exp(-g)) * (2 / np.pi) ** 2
+    thrust = 3 * force / (0.5 * RIGID.air_density * normal**2 * 2 * np.pi * radius)
+    assert thrust == pytest.approx(4 * a * (1 - a) * loss, rel=1e-4)
+
+
+def test_table_gives_the_induction_within_one_percent_of_the_wind():
+    generator = np.random.default_rng(5)
+    worst = 0.0
+    for _ in range(400):
+        i, pitch = generator.integers(3, 17), generator.uniform(-0.02, 0.4)
+        normal, tangential = generator.uniform(3, 25), generator.uniform(15, 80)
+        _, a, _ = solve(RIGID, i, pitch, normal, tangential, 0.0)
+        b, _ = tabulated_induction(TABLED, i, pitch, normal, tangential)
+        worst = max(worst, abs(a - b) * normal / np.hypot(normal, tangential))
+    assert worst < 0.01
+
+
+def test_box_is_read_linearly_in_time_radius_and_angle():
+    radius, angles = np.array([0.0, 30.0, 63.0]), 2 * np.pi * np.arange(12) / 12
+    time = np.arange(5) * 0.5
+    box = (time[:, None, None] + 0.1 * radius[None, :, None] * np.ones((1, 1, 12))).astype(
+        np.float32
+    )
+    field = Field(time, radius, angles, box, None, None, 10.0, 0.2)
+    inflow = steady_inflow(10.0, 5, 0.2, box=field)
+    for t, y, z in ((0.6, 10.0, 3.0), (1.9, -40.0, -11.0), (0.0, 0.0, 0.0)):
+        got = turbulence(inflow, inflow.u, t, y, z)
+        assert got == pytest.approx(t + 0.1 * np.hypot(y, z), abs=1e-4)
+
+
+def test_box_turns_clockwise_seen_from_upwind():
+    # angle π/2 lies to the right looking downwind: y < 0
+    angles = 2 * np.pi * np.arange(8) / 8
+    box = np.zeros((3, 2, 8), dtype=np.float32)
+    box[:, 1, 2] = 1.0
+    field = Field(np.arange(3.0), np.array([0.0, 60.0]), angles, box, None, None, 10.0, 0.2)
+    inflow = steady_inflow(10.0, 5, 0.2, box=field)
+    assert turbulence(inflow, inflow.u, 1.0, -60.0, 0.0) == pytest.approx(1.0)
+    assert turbulence(inflow, inflow.u, 1.0, 60.0, 0.0) == pytest.approx(0.0)
