@@ -1,14 +1,8 @@
 """Compiled loops of the rigid-ring equilibrium.
 
-Unknowns q = (ux, uy, uz, θx, θy): motion of the inner ring relative to the outer. Contacts come as
-a table, one line for each kind (row and diagonal of balls, or row and slice of rollers), repeated
-at each element with azimuth φ. Columns: RADIUS and HEIGHT of the point of the inner ring that the
-contact acts on; NORMAL_R and NORMAL_Z; FREE, GAP, STIFFNESS.
-
-Point contact: (NORMAL_R, NORMAL_Z) is the vector from the outer to the inner groove centre, FREE
-the distance of both at touch, GAP = |vector|² - FREE² (kept apart so that nothing cancels);
-F = K δ^1.5 along the actual vector. Line contact: (NORMAL_R, NORMAL_Z) is the fixed unit normal,
-GAP the clearance along it; F = K δ^(10/9). Both energies are convex in q.
+Unknowns q = (ux, uy, uz, θx, θy): motion of the inner ring relative to the outer. The table of
+contacts is described in `loadflow.rolling.contact`. The elastic energy is convex in q for both
+laws, so that its minimum under a load is the one equilibrium.
 """
 
 from __future__ import annotations
@@ -18,125 +12,204 @@ import math
 import numpy as np
 from numba import njit
 
-POINT, LINE = 0, 1
-RADIUS, HEIGHT, NORMAL_R, NORMAL_Z, FREE, GAP, STIFFNESS = range(7)
+from loadflow.rolling.contact import (
+    FREE,
+    GAP,
+    HEIGHT,
+    NORMAL_R,
+    NORMAL_Z,
+    POINT,
+    RADIUS,
+    STIFFNESS,
+)
 
 _EPS = 2.220446049250313e-16
 
 
-@njit(cache=True, nogil=True, inline="always")
-def _contact(line, law, dr, dt, dz):
-    """Approach δ, force, tangent dF/dδ, F/|vector| and unit normal (r, t, z) of one contact."""
-    if law == LINE:
-        delta = line[NORMAL_R] * dr + line[NORMAL_Z] * dz - line[GAP]
+# Sums may be reordered (so that they use vector units); nothing else of fast mathematics.
+_REORDER = {"reassoc", "contract", "nsz"}
+
+
+@njit(cache=True, nogil=True, error_model="numpy", fastmath=_REORDER)
+def _add_points(q, cos, sin, line, spatial, gradient, hessian):
+    """Add all point contacts of one kind (free of branches); returns energy and sum of forces.
+
+    A contact pushes along g = (n, P × n), n the unit vector between the groove centres and P the
+    inner centre: gradient F g, Hessian (F' - F/l) g gᵀ + F/l times the unit tensor over the
+    directions that count.
+    """
+    big, h = line[RADIUS], line[HEIGHT]
+    free, stiffness, gap = line[FREE], line[STIFFNESS], line[GAP]
+    normal_r, normal_z = line[NORMAL_R], line[NORMAL_Z]
+    ux, uy, uz, tx, ty = q[0] + h * q[4], q[1] - h * q[3], q[2], big * q[3], big * q[4]
+    energy = total = 0.0
+    gx = gy = gz = ga = gb = 0.0
+    xx = xy = xz = xa = xb = yy = yz = ya = yb = zz = za = zb = aa = ab = bb = 0.0
+    w1 = wc = ws = wcc = wcs = 0.0
+    for i in range(cos.shape[0]):
+        c, s = cos[i], sin[i]
+        dr = ux * c + uy * s
+        dt = spatial * (uy * c - ux * s)
+        dz = uz + tx * s - ty * c
+        stretch = 2.0 * (normal_r * dr + normal_z * dz) + dr * dr + dt * dt + dz * dz + gap
+        r, z = normal_r + dr, normal_z + dz
+        length = math.sqrt(r * r + dt * dt + z * z)
+        delta = max(stretch, 0.0) / (length + free)
+        root = stiffness * math.sqrt(delta)
+        force = root * delta
+        inverse = 1.0 / length
+        across = force * inverse
+        slope = 1.5 * root - across
+        energy += 0.4 * force * delta
+        total += force
+        nr, nt, nz = r * inverse, dt * inverse, z * inverse
+        nx, ny = c * nr - s * nt, s * nr + c * nt
+        na, nb = big * s * nz - h * ny, h * nx - big * c * nz
+        gx += force * nx
+        gy += force * ny
+        gz += force * nz
+        ga += force * na
+        gb += force * nb
+        sx, sy, sz, sa = slope * nx, slope * ny, slope * nz, slope * na
+        xx += sx * nx
+        xy += sx * ny
+        xz += sx * nz
+        xa += sx * na
+        xb += sx * nb
+        yy += sy * ny
+        yz += sy * nz
+        ya += sy * na
+        yb += sy * nb
+        zz += sz * nz
+        za += sz * na
+        zb += sz * nb
+        aa += sa * na
+        ab += sa * nb
+        bb += slope * nb * nb
+        w1 += across
+        wc += across * c
+        ws += across * s
+        wcc += across * c * c
+        wcs += across * c * s
+    _add_sums(gradient, hessian, gx, gy, gz, ga, gb,
+              xx, xy, xz, xa, xb, yy, yz, ya, yb, zz, za, zb, aa, ab, bb)  # fmt: skip
+    # the unit tensor: radial and axial, and in space also tangential
+    wss = w1 - wcc
+    pxx, pxy, pyy = wcc, wcs, wss
+    if spatial == 1.0:
+        pxx, pxy, pyy = w1, 0.0, w1
+    hessian[0, 0] += pxx
+    hessian[0, 1] += pxy
+    hessian[1, 1] += pyy
+    hessian[2, 2] += w1
+    hessian[0, 3] -= h * pxy
+    hessian[0, 4] += h * pxx
+    hessian[1, 3] -= h * pyy
+    hessian[1, 4] += h * pxy
+    hessian[2, 3] += big * ws
+    hessian[2, 4] -= big * wc
+    hessian[3, 3] += h * h * pyy + big * big * wss
+    hessian[3, 4] -= h * h * pxy + big * big * wcs
+    hessian[4, 4] += h * h * pxx + big * big * wcc
+    return energy, total
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _add_lines(q, cos, sin, line, gradient, hessian):
+    """Add all line contacts of one kind; returns energy and sum of forces."""
+    big, h, nr, nz = line[RADIUS], line[HEIGHT], line[NORMAL_R], line[NORMAL_Z]
+    lever = h * nr - big * nz
+    energy = total = 0.0
+    gx = gy = gz = ga = gb = 0.0
+    xx = xy = xz = xa = xb = yy = yz = ya = yb = zz = za = zb = aa = ab = bb = 0.0
+    for i in range(cos.shape[0]):
+        c, s = cos[i], sin[i]
+        radial = nr * (q[0] * c + q[1] * s) + lever * (q[4] * c - q[3] * s)
+        delta = radial + nz * q[2] - line[GAP]
         if delta <= 0.0:
-            return 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-        root = math.exp(math.log(delta) / 9.0)
-        force = line[STIFFNESS] * delta * root
-        tangent = 10.0 / 9.0 * line[STIFFNESS] * root
-        return delta, force, tangent, 0.0, line[NORMAL_R], 0.0, line[NORMAL_Z]
-    stretch = (
-        2.0 * (line[NORMAL_R] * dr + line[NORMAL_Z] * dz) + dr * dr + dt * dt + dz * dz + line[GAP]
-    )
-    if stretch <= 0.0:
-        return 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-    x, z = line[NORMAL_R] + dr, line[NORMAL_Z] + dz
-    length = math.sqrt(x * x + dt * dt + z * z)
-    delta = stretch / (length + line[FREE])
-    root = line[STIFFNESS] * math.sqrt(delta)
-    force = root * delta
-    return delta, force, 1.5 * root, force / length, x / length, dt / length, z / length
+            continue
+        slope = line[STIFFNESS] * math.exp(math.log(delta) / 9.0)
+        force = slope * delta
+        slope *= 10.0 / 9.0
+        energy += 9.0 / 19.0 * force * delta
+        total += force
+        nx, ny, na, nb = nr * c, nr * s, -lever * s, lever * c
+        gx += force * nx
+        gy += force * ny
+        gz += force * nz
+        ga += force * na
+        gb += force * nb
+        sx, sy, sz, sa = slope * nx, slope * ny, slope * nz, slope * na
+        xx += sx * nx
+        xy += sx * ny
+        xz += sx * nz
+        xa += sx * na
+        xb += sx * nb
+        yy += sy * ny
+        yz += sy * nz
+        ya += sy * na
+        yb += sy * nb
+        zz += sz * nz
+        za += sz * na
+        zb += sz * nb
+        aa += sa * na
+        ab += sa * nb
+        bb += slope * nb * nb
+    _add_sums(gradient, hessian, gx, gy, gz, ga, gb,
+              xx, xy, xz, xa, xb, yy, yz, ya, yb, zz, za, zb, aa, ab, bb)  # fmt: skip
+    return energy, total
+
+
+@njit(cache=True, nogil=True)
+def _add_sums(gradient, hessian, gx, gy, gz, ga, gb,
+              xx, xy, xz, xa, xb, yy, yz, ya, yb, zz, za, zb, aa, ab, bb):  # fmt: skip
+    """Add sums over the elements to the gradient and the upper half of the Hessian."""
+    gradient[0] += gx
+    gradient[1] += gy
+    gradient[2] += gz
+    gradient[3] += ga
+    gradient[4] += gb
+    hessian[0, 0] += xx
+    hessian[0, 1] += xy
+    hessian[0, 2] += xz
+    hessian[0, 3] += xa
+    hessian[0, 4] += xb
+    hessian[1, 1] += yy
+    hessian[1, 2] += yz
+    hessian[1, 3] += ya
+    hessian[1, 4] += yb
+    hessian[2, 2] += zz
+    hessian[2, 3] += za
+    hessian[2, 4] += zb
+    hessian[3, 3] += aa
+    hessian[3, 4] += ab
+    hessian[4, 4] += bb
 
 
 @njit(cache=True, nogil=True)
 def evaluate(q, cos, sin, table, law, spatial, gradient, hessian):
     """Energy of all contacts at `q`; fills its gradient (5,) and Hessian (5, 5).
 
-    Returns the energy and the sum of all contact forces. Per element the contacts are summed in its
-    own frame (radial r, tangential t, axial z; rotation o about t and p about r) and then rotated.
+    Returns the energy and the sum of all contact forces.
     """
     gradient[:] = 0.0
     hessian[:, :] = 0.0
     energy = 0.0
     total = 0.0
-    share = 0.4 if law == POINT else 9.0 / 19.0
-    for i in range(cos.shape[0]):
-        c, s = cos[i], sin[i]
-        ur, ut = q[0] * c + q[1] * s, q[1] * c - q[0] * s
-        om, ro = q[4] * c - q[3] * s, q[3] * c + q[4] * s
-        gr = gt = gz = go = gp = 0.0
-        rr = rt = rz = tt = tz = zz = 0.0
-        r_o = r_p = t_o = t_p = z_o = z_p = oo = op = pp = 0.0
-        touched = False
-        for k in range(table.shape[0]):
-            line = table[k]
-            big, h = line[RADIUS], line[HEIGHT]
-            dt = spatial * (ut - h * ro)
-            delta, force, tangent, fl, nr, nt, nz = _contact(
-                line, law, ur + h * om, dt, q[2] - big * om
-            )
-            if delta == 0.0:
-                continue
-            touched = True
-            energy += share * force * delta
-            total += force
-            fr, ft, fz = force * nr, force * nt, force * nz
-            gr += fr
-            gt += ft
-            gz += fz
-            go += h * fr - big * fz
-            gp -= h * ft
-            if law == LINE:
-                d, across = tangent, 0.0
-            else:
-                d, across = tangent - fl, fl
-            hrr, hrz, hzz = d * nr * nr + across, d * nr * nz, d * nz * nz + across
-            hrt, htt, htz = d * nr * nt, spatial * (d * nt * nt + across), d * nt * nz
-            rr += hrr
-            rt += hrt
-            rz += hrz
-            tt += htt
-            tz += htz
-            zz += hzz
-            r_o += h * hrr - big * hrz
-            r_p -= h * hrt
-            t_o += h * hrt - big * htz
-            t_p -= h * htt
-            z_o += h * hrz - big * hzz
-            z_p -= h * htz
-            oo += h * h * hrr - 2.0 * h * big * hrz + big * big * hzz
-            op -= h * (h * hrt - big * htz)
-            pp += h * h * htt
-        if not touched:
-            continue
-        cc, cs, ss = c * c, c * s, s * s
-        gradient[0] += c * gr - s * gt
-        gradient[1] += s * gr + c * gt
-        gradient[2] += gz
-        gradient[3] += c * gp - s * go
-        gradient[4] += s * gp + c * go
-        hessian[0, 0] += cc * rr - 2.0 * cs * rt + ss * tt
-        hessian[0, 1] += cs * (rr - tt) + (cc - ss) * rt
-        hessian[1, 1] += ss * rr + 2.0 * cs * rt + cc * tt
-        hessian[0, 2] += c * rz - s * tz
-        hessian[1, 2] += s * rz + c * tz
-        hessian[2, 2] += zz
-        hessian[0, 3] += cc * r_p - cs * (r_o + t_p) + ss * t_o
-        hessian[0, 4] += cc * r_o + cs * (r_p - t_o) - ss * t_p
-        hessian[1, 3] += cc * t_p + cs * (r_p - t_o) - ss * r_o
-        hessian[1, 4] += cc * t_o + cs * (r_o + t_p) + ss * r_p
-        hessian[2, 3] += c * z_p - s * z_o
-        hessian[2, 4] += c * z_o + s * z_p
-        hessian[3, 3] += ss * oo - 2.0 * cs * op + cc * pp
-        hessian[3, 4] += cs * (pp - oo) + (cc - ss) * op
-        hessian[4, 4] += cc * oo + 2.0 * cs * op + ss * pp
+    for k in range(table.shape[0]):
+        if law == POINT:
+            part, forces = _add_points(q, cos, sin, table[k], spatial, gradient, hessian)
+        else:
+            part, forces = _add_lines(q, cos, sin, table[k], gradient, hessian)
+        energy += part
+        total += forces
     for a in range(5):
         for b in range(a):
             hessian[a, b] = hessian[b, a]
     return energy, total
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, error_model="numpy")
 def cholesky_solve(matrix, shift, rhs, factor, out):
     """Solve (matrix + shift·1) out = rhs for a 5 × 5 matrix.
 
@@ -176,7 +249,7 @@ def cholesky_solve(matrix, shift, rhs, factor, out):
     return smallest
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, error_model="numpy")
 def _start(load, cos, sin, table, law, compliance, scale, cap, q):
     """Cold start: the displacement along `compliance · load` whose energy balances its work."""
     exponent = 1.5 if law == POINT else 10.0 / 9.0
@@ -216,7 +289,7 @@ def _start(load, cos, sin, table, law, compliance, scale, cap, q):
         q[a] *= amplitude
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, error_model="numpy")
 def _newton(
     q, load, cos, sin, table, law, spatial, scale, cap, tolerance, limit, compliance, cold, hessian
 ):
@@ -307,7 +380,7 @@ def _newton(
     return settled, residual, iterations, pivot <= 1e-12
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, error_model="numpy")
 def solve_series(
     loads, cos, sin, table, law, spatial, scale, cap, tolerance, limit, compliance, chunk
 ):
@@ -346,54 +419,3 @@ def solve_series(
         displacement[i] = q
         converged[i], residual[i], iterations[i], singular[i] = ok, res, count, free
     return displacement, stiffness, converged, residual, iterations, singular
-
-
-@njit(cache=True, nogil=True)
-def contact_state(displacement, cos, sin, table, law, spatial):
-    """Force and signed angle (from the radial plane) of each contact, (n, kind, element)."""
-    n, kinds, count = displacement.shape[0], table.shape[0], cos.shape[0]
-    force, angle = np.zeros((n, kinds, count)), np.zeros((n, kinds, count))
-    for j in range(n):
-        q = displacement[j]
-        for i in range(count):
-            c, s = cos[i], sin[i]
-            ur, ut = q[0] * c + q[1] * s, q[1] * c - q[0] * s
-            om, ro = q[4] * c - q[3] * s, q[3] * c + q[4] * s
-            for k in range(kinds):
-                line = table[k]
-                dr, dz = ur + line[HEIGHT] * om, q[2] - line[RADIUS] * om
-                dt = spatial * (ut - line[HEIGHT] * ro)
-                force[j, k, i] = _contact(line, law, dr, dt, dz)[1]
-                if law == LINE:
-                    dr = dz = 0.0
-                angle[j, k, i] = math.atan2(line[NORMAL_Z] + dz, line[NORMAL_R] + dr)
-    return force, angle
-
-
-@njit(cache=True, nogil=True)
-def force_sums(displacement, cos, sin, table, law, spatial, exponents):
-    """Largest force (n, kind) and sums of powers of the forces (n, kind, exponent)."""
-    n, kinds = displacement.shape[0], table.shape[0]
-    largest = np.zeros((n, kinds))
-    sums = np.zeros((n, kinds, exponents.shape[0]))
-    for j in range(n):
-        q = displacement[j]
-        for i in range(cos.shape[0]):
-            c, s = cos[i], sin[i]
-            ur, ut = q[0] * c + q[1] * s, q[1] * c - q[0] * s
-            om, ro = q[4] * c - q[3] * s, q[3] * c + q[4] * s
-            for k in range(kinds):
-                line = table[k]
-                force = _contact(
-                    line,
-                    law,
-                    ur + line[HEIGHT] * om,
-                    spatial * (ut - line[HEIGHT] * ro),
-                    q[2] - line[RADIUS] * om,
-                )[1]
-                if force > 0.0:
-                    largest[j, k] = max(largest[j, k], force)
-                    log_force = math.log(force)
-                    for e in range(exponents.shape[0]):
-                        sums[j, k, e] += math.exp(exponents[e] * log_force)
-    return largest, sums

@@ -1,4 +1,14 @@
-"""Tables of contacts that the equilibrium solver takes."""
+"""Tables of contacts that the equilibrium solver takes.
+
+A table has one line for each kind of contact (row and diagonal of balls, or row and slice of
+rollers), repeated at each element with azimuth φ. Columns: RADIUS and HEIGHT of the point of the
+inner ring that the contact acts on; NORMAL_R and NORMAL_Z; FREE, GAP, STIFFNESS.
+
+Point contact: (NORMAL_R, NORMAL_Z) is the vector from the outer to the inner groove centre, FREE
+the distance of both at touch, GAP = |vector|² - FREE² (kept apart so that nothing cancels);
+F = K δ^1.5 along the actual vector. Line contact: (NORMAL_R, NORMAL_Z) is the fixed unit normal,
+GAP the clearance along it; F = K δ^(10/9).
+"""
 
 from __future__ import annotations
 
@@ -9,7 +19,8 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-POINT, LINE = 0, 1  # laws of contact, as in the kernels
+POINT, LINE = 0, 1  # laws of contact
+RADIUS, HEIGHT, NORMAL_R, NORMAL_Z, FREE, GAP, STIFFNESS = range(7)
 
 
 @dataclass(frozen=True)
@@ -19,7 +30,7 @@ class Contacts:
     Attributes
     ----------
     table : ndarray, shape (kind, 7)
-        One line for each kind of contact; columns as in `loadflow.rolling._kernels`.
+        One line for each kind of contact; columns as in the module.
     azimuth : ndarray, shape (element,)
         Azimuth of each rolling element from the x axis toward y, rad.
     law : int

@@ -38,23 +38,32 @@ class ContactResult(RingEquilibrium):
     @cached_property
     def _state(self) -> tuple[Array, Array]:
         """Force and signed angle of each contact, (..., kind, element)."""
-        from loadflow.rolling import _kernels
+        from loadflow.rolling import _forces
 
         q = np.ascontiguousarray(self.displacement.reshape(-1, 5))
-        force, angle = _kernels.contact_state(q, *self.contacts.arguments)
+        force, angle = _forces.contact_state(q, *self.contacts.arguments)
         shape = (*self.cases, *force.shape[1:])
         return force.reshape(shape), angle.reshape(shape)
 
-    def _sums(self, *exponents: float) -> tuple[Array, Array]:
-        """Largest force (..., kind) and sums of powers of the forces (..., kind, exponent)."""
-        from loadflow.rolling import _kernels
+    @cached_property
+    def _statistics(self) -> tuple[Array, Array]:
+        """Largest force (..., kind) and sums of powers of the forces (..., kind, 3).
+
+        The powers are 1, 3, 10/3 of points and 1, 4, 9/2 of lines.
+        """
+        from loadflow.rolling import _forces
 
         q = np.ascontiguousarray(self.displacement.reshape(-1, 5))
-        largest, sums = _kernels.force_sums(q, *self.contacts.arguments, np.array(exponents, float))
+        largest, sums = _forces.force_sums(q, *self.contacts.arguments)
         return (
             largest.reshape(*self.cases, largest.shape[-1]),
             sums.reshape(*self.cases, *sums.shape[1:]),
         )
+
+    @property
+    def force_sum(self) -> Array:
+        """Sum ΣF_k of all contact forces, N."""
+        return np.asarray(self._statistics[1][..., 0].sum(axis=-1))
 
 
 @dataclass(frozen=True)
@@ -69,20 +78,10 @@ class BallResult(ContactResult):
 
     bearing: BallRaceways
 
-    @cached_property
-    def _statistics(self) -> tuple[Array, Array]:
-        """Largest force of each kind, and sums of F, F³ and F^(10/3)."""
-        return self._sums(1.0, 3.0, 10 / 3)
-
     @property
     def maximum_force(self) -> Array:
         """Largest contact force, N."""
         return np.asarray(self._statistics[0].max(axis=-1))
-
-    @property
-    def force_sum(self) -> Array:
-        """Sum ΣF_k of all contact forces, N."""
-        return np.asarray(self._statistics[1][..., 0].sum(axis=-1))
 
     @property
     def raceway_pressure(self) -> tuple[Array, Array]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -39,20 +38,10 @@ class RollerResult(ContactResult):
         """Forces on the rollers, N, (..., row, roller)."""
         return np.asarray(self.slice_forces.sum(axis=-2))
 
-    @cached_property
-    def _statistics(self) -> tuple[Array, Array]:
-        """Largest force of each slice, and sums of F, F⁴ and F^(9/2) over the rollers."""
-        return self._sums(1.0, 4.0, 4.5)
-
     @property
     def maximum_force(self) -> Array:
         """Largest force on a roller, N."""
         return np.asarray(self.roller_forces.max(axis=(-2, -1)))
-
-    @property
-    def force_sum(self) -> Array:
-        """Sum of all roller forces, N."""
-        return np.asarray(self._statistics[1][..., 0].sum(axis=-1))
 
     @property
     def maximum_pressure(self) -> Array:

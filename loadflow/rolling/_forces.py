@@ -1,0 +1,128 @@
+"""Compiled loops from the displacement of the inner ring to the forces of all contacts.
+
+Apart from the solver's loops, whose functions these do not call.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+
+from loadflow.rolling.contact import (
+    FREE,
+    GAP,
+    HEIGHT,
+    LINE,
+    NORMAL_R,
+    NORMAL_Z,
+    POINT,
+    RADIUS,
+    STIFFNESS,
+    Array,
+)
+
+# Sums may be reordered (so that they use vector units); nothing else of fast mathematics.
+_REORDER = {"reassoc", "contract", "nsz"}
+
+
+@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+def _approach(line: Array, law: int, dr: float, dt: float, dz: float) -> float:
+    """Approach δ ≥ 0 of one contact whose inner end moves by dr, dt, dz."""
+    along = line[NORMAL_R] * dr + line[NORMAL_Z] * dz
+    if law == LINE:
+        return max(along - line[GAP], 0.0)
+    r, z = line[NORMAL_R] + dr, line[NORMAL_Z] + dz
+    stretch = 2.0 * along + dr * dr + dt * dt + dz * dz + line[GAP]
+    return max(stretch, 0.0) / (math.sqrt(r * r + dt * dt + z * z) + line[FREE])
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def contact_state(
+    displacement: Array, cos: Array, sin: Array, table: Array, law: int, spatial: float
+) -> tuple[Array, Array]:
+    """Force and signed angle (from the radial plane) of each contact, (n, kind, element)."""
+    n, kinds, count = displacement.shape[0], table.shape[0], cos.shape[0]
+    force, angle = np.zeros((n, kinds, count)), np.zeros((n, kinds, count))
+    for j in range(n):
+        q = displacement[j]
+        for i in range(count):
+            c, s = cos[i], sin[i]
+            ur, ut = q[0] * c + q[1] * s, q[1] * c - q[0] * s
+            om, ro = q[4] * c - q[3] * s, q[3] * c + q[4] * s
+            for k in range(kinds):
+                line = table[k]
+                dr, dz = ur + line[HEIGHT] * om, q[2] - line[RADIUS] * om
+                dt = spatial * (ut - line[HEIGHT] * ro)
+                delta = _approach(line, law, dr, dt, dz)
+                power = 1.5 if law == POINT else 10.0 / 9.0
+                force[j, k, i] = line[STIFFNESS] * delta**power
+                if law == LINE:
+                    dr = dz = 0.0
+                angle[j, k, i] = math.atan2(line[NORMAL_Z] + dz, line[NORMAL_R] + dr)
+    return force, angle
+
+
+@njit(cache=True, nogil=True, error_model="numpy", fastmath=_REORDER)
+def _point_sums(
+    q: Array, cos: Array, sin: Array, line: Array, spatial: float
+) -> tuple[float, float, float, float]:
+    """Largest force, and sums of F, F³, F^(10/3) of one kind of point contact."""
+    big, h = line[RADIUS], line[HEIGHT]
+    ux, uy, tx, ty = q[0] + h * q[4], q[1] - h * q[3], big * q[3], big * q[4]
+    third = line[STIFFNESS] ** (1.0 / 3.0)
+    largest = first = cubes = powers = 0.0
+    for i in range(cos.shape[0]):
+        c, s = cos[i], sin[i]
+        dt = spatial * (uy * c - ux * s)
+        delta = _approach(line, POINT, ux * c + uy * s, dt, q[2] + tx * s - ty * c)
+        root = math.sqrt(delta)
+        force = line[STIFFNESS] * delta * root
+        cube = force * force * force
+        largest = max(largest, force)
+        first += force
+        cubes += cube
+        powers += cube * third * root
+    return largest, first, cubes, powers
+
+
+@njit(cache=True, nogil=True, error_model="numpy", fastmath=_REORDER)
+def _line_sums(q: Array, cos: Array, sin: Array, line: Array) -> tuple[float, float, float, float]:
+    """Largest force, and sums of F, F⁴, F^(9/2) of one kind of line contact."""
+    lever = line[HEIGHT] * line[NORMAL_R] - line[RADIUS] * line[NORMAL_Z]
+    fixed = line[NORMAL_Z] * q[2] - line[GAP]
+    x, y = line[NORMAL_R] * q[0] + lever * q[4], line[NORMAL_R] * q[1] - lever * q[3]
+    largest = first = fourth = powers = 0.0
+    for i in range(cos.shape[0]):
+        delta = x * cos[i] + y * sin[i] + fixed
+        if delta <= 0.0:
+            continue
+        force = line[STIFFNESS] * delta ** (10.0 / 9.0)
+        square = force * force
+        largest = max(largest, force)
+        first += force
+        fourth += square * square
+        powers += square * square * math.sqrt(force)
+    return largest, first, fourth, powers
+
+
+@njit(cache=True, nogil=True)
+def force_sums(
+    displacement: Array, cos: Array, sin: Array, table: Array, law: int, spatial: float
+) -> tuple[Array, Array]:
+    """Largest force (n, kind) and sums of powers of the forces (n, kind, 3).
+
+    The powers are 1, 3, 10/3 of points and 1, 4, 9/2 of lines, as the lives of the raceways need.
+    """
+    n, kinds = displacement.shape[0], table.shape[0]
+    largest, sums = np.zeros((n, kinds)), np.zeros((n, kinds, 3))
+    for j in range(n):
+        for k in range(kinds):
+            if law == POINT:
+                part = _point_sums(displacement[j], cos, sin, table[k], spatial)
+            else:
+                part = _line_sums(displacement[j], cos, sin, table[k])
+            largest[j, k] = part[0]
+            sums[j, k, 0], sums[j, k, 1], sums[j, k, 2] = part[1], part[2], part[3]
+    return largest, sums
