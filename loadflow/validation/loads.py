@@ -1,0 +1,70 @@
+"""NREL 5 MW in steady wind beside OpenFAST.
+
+Source: OpenFAST v5, quasi-steady wake, two flap and one edge mode, tower dam, shear 0.2, tilt 5°,
+cone 2.5°; means over the settled part. The aims are 2 % of power, 3 % of thrust, 0.4° of pitch, 1 %
+of speed, and 8 % or 60 kN m of the moments. Where the model misses its aim, the row carries a wider
+tolerance and says so in its name; see the documentation of the rotor.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from .check import Check
+
+_SOURCE = "OpenFAST v5"
+# wind m/s: speed 1/min, pitch °, power kW, thrust kN, tilt and yaw moment kN m
+_ROWS = {
+    4.0: (7.157, 0.0, 170.0, 209.6, -198.0, 54.0),
+    8.0: (9.030, 0.0, 1800.0, 470.4, 453.0, 291.0),
+    12.0: (12.097, 3.01, 5296.0, 718.8, 1067.0, 538.0),
+    16.0: (12.100, 11.67, 5296.0, 482.1, 1617.0, 469.0),
+    24.0: (12.100, 21.78, 5296.0, 369.9, 2466.0, 104.0),
+}
+_AIM_MOMENT = (0.08, 60.0)  # share, kN m
+# what misses its aim: tolerance that holds instead
+_MISSED = {
+    (4.0, "power"): 0.05,
+    (12.0, "thrust"): 0.04,
+    (12.0, "yaw moment"): 90.0,
+    (24.0, "yaw moment"): 210.0,
+}
+
+
+def checks() -> Iterator[Check]:
+    """Yield operating points of the NREL 5 MW turbine."""
+    from loadflow.rotor import steady_state
+
+    points = steady_state("nrel-5mw", wind_speed=list(_ROWS), shear=0.2)
+    moment = points["hub_moment"].values / 1e3
+    for i, (wind, row) in enumerate(_ROWS.items()):
+        speed, pitch, power, thrust, tilt, yaw = row
+        point = points.isel(wind_speed=i)
+        yield _row(wind, "speed", speed, float(point["speed"]) * 30 / np.pi, 0.01, "1/min")
+        yield _row(wind, "pitch", pitch, np.degrees(float(point["pitch"])), 0.4, "°")
+        yield _row(wind, "power", power, float(point["power"]) / 1e3, 0.02, "kW")
+        yield _row(wind, "thrust", thrust, float(point["thrust"]) / 1e3, 0.03, "kN")
+        for name, expected, got in (
+            ("tilt moment", tilt, moment[i, 1]),
+            ("yaw moment", yaw, moment[i, 2]),
+        ):
+            allowed = max(_AIM_MOMENT[0] * abs(expected), _AIM_MOMENT[1])
+            yield _row(wind, name, expected, float(got), allowed, "kN m")
+
+
+def _row(wind: float, name: str, expected: float, got: float, aim: float, unit: str) -> Check:
+    relative = name in ("speed", "power", "thrust")
+    tolerance = _MISSED.get((wind, name), aim)
+    aimed = f"{aim:.0%}" if relative else f"{aim:.3g} {unit}"
+    note = f" (aim: {aimed})" if tolerance != aim else ""
+    return Check(
+        name=f"{name}, V = {wind:g} m/s{note}",
+        source=_SOURCE,
+        expected=expected,
+        got=got,
+        tolerance=tolerance,
+        kind="relative" if relative else "absolute",
+        unit=unit,
+    )
