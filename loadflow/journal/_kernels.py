@@ -209,21 +209,35 @@ def gather(field, order, column):
 
 
 @njit(cache=True, nogil=True)
-def load_of(state, row, coef, dz, order, column):
-    """∫ (cos θ, sin θ) over the half film of `state[row]`, times `column` if that is not empty."""
+def load_of(state, coef, dz):
+    """∫ p (cos θ, sin θ) over the half film."""
     _, nx, nz = state.shape
     fx = 0.0
     fy = 0.0
     for i in range(nx):
         total = 0.0
         for k in range(nz):
-            value = state[row, i, k] * dz[k]
-            if column.size:
-                value *= column[order[i] * nz + k]
-            total += value
+            total += state[LOAD, i, k] * dz[k]
         fx += coef[COS, i] * total
         fy += coef[SIN, i] * total
     return fx, fy
+
+
+@njit(cache=True, nogil=True)
+def carried_by(state, coef, dz, order, columns, out):
+    """Change of `load_of` by each of `columns` (m, n) of changes of the unknowns, `out` (m, 2)."""
+    _, nx, nz = state.shape
+    for j in range(columns.shape[0]):
+        fx = 0.0
+        fy = 0.0
+        for i in range(nx):
+            total = 0.0
+            for k in range(nz):
+                total += state[DLOAD, i, k] * dz[k] * columns[j, order[i] * nz + k]
+            fx += coef[COS, i] * total
+            fy += coef[SIN, i] * total
+        out[j, 0] = fx
+        out[j, 1] = fy
 
 
 @njit(cache=True, nogil=True)

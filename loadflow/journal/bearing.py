@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import TYPE_CHECKING, Annotated, Literal
 
 import numpy as np
@@ -345,8 +346,7 @@ class JournalBearing:
         wanted = self.sommerfeld_number(float(np.hypot(*load)), film.speed, film.viscosity)
         if wanted == 0.0:
             return np.zeros(2)
-        width_ratio = min(max(self.width / self.diameter, 0.125), 1.0)
-        numbers, attitudes = butenschoen(_RATIOS, width_ratio)
+        numbers, attitudes = _closed_form(self.width / self.diameter)
         ratio = float(np.interp(wanted, numbers, _RATIOS)) * min(wanted / numbers[0], 1.0)
         attitude = float(np.interp(ratio, _RATIOS, attitudes)) if film.ruptures else 0.5 * np.pi
         turn = np.arctan2(load[1], load[0]) + np.sign(film.speed) * attitude
@@ -361,3 +361,9 @@ class JournalBearing:
             f"{head} (So = {so:.4g}): no equilibrium found; residual {solution.residual:.3g} after "
             f"{solution.iterations} steps, at ε = {np.hypot(*solution.position):.6g}"
         )
+
+
+@lru_cache(maxsize=32)
+def _closed_form(width_ratio: float) -> tuple[Array, Array]:
+    """So and attitude over `_RATIOS`, the width kept within the validity of the closed form."""
+    return butenschoen(_RATIOS, min(max(width_ratio, 0.125), 1.0))

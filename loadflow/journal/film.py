@@ -239,9 +239,11 @@ class Film:
             kernel.gather(field, mesh.order, column)
         dgbtrs(lu, mesh.bandwidth, mesh.bandwidth, columns.T, pivots, overwrite_b=1)
 
-        carried = np.array([self._integral(kernel.DLOAD, self.coef, c) for c in columns])
-        load = self.load_in_frame() - carried[0]
-        by_gap = [self._integral(kernel.LOAD, c) for c in slopes]
+        carried = np.empty((len(fields), 2))
+        kernel.carried_by(self.state, self.coef, mesh.dz, mesh.order, columns, carried)
+        carried *= 2.0 * self.radius**2
+        load = self._load(self.coef) - carried[0]
+        by_gap = [self._load(c) for c in slopes]
         damping = -carried[-2:].T
         direct = [d - c for d, c in zip(by_gap, carried[1:])]
         if mesh.polar:
@@ -254,16 +256,9 @@ class Film:
             columns=columns,
         )
 
-    def _integral(self, row: int, coef: Array, column: Array | None = None) -> Array:
-        """∫ (cos θ, sin θ) dA of a state, over the full width, N."""
-        mesh = self.mesh
-        empty = self.ab[0, :0] if column is None else column
-        pair = kernel.load_of(self.state, row, coef, mesh.dz, mesh.order, empty)
-        return 2.0 * self.radius**2 * np.array(pair)
-
-    def load_in_frame(self) -> Array:
-        """∫ p (cos θ, sin θ) dA at the state last placed, in the mesh's frame, N."""
-        return self._integral(kernel.LOAD, self.coef)
+    def _load(self, coef: Array) -> Array:
+        """∫ p (cos θ, sin θ) dA at the state last placed, full width, in the mesh's frame, N."""
+        return 2.0 * self.radius**2 * np.array(kernel.load_of(self.state, coef, self.mesh.dz))
 
     # --- what Newton needs -----------------------------------------------------------------------
     def weights(self, position: Array, velocity: Array, target: Array, speed: Array) -> Array:
@@ -299,7 +294,7 @@ class Film:
         worst = float(np.abs(self.residual(u, mass, old)).max()) / flux
         if force is not None:
             scale = max(float(np.hypot(*force)), self.scale * self.radius**2 * 1e-3)
-            missing = force - frame @ self.load_in_frame()
+            missing = force - frame @ self._load(self.coef)
             worst = max(worst, float(np.hypot(*missing)) / scale)
         return worst
 
@@ -336,7 +331,7 @@ class Film:
     def field(self, u: Array, position: Array) -> tuple[Array, Array, Array, Array]:
         """Pressure (Pa) and fill of the cells (nx, nz), their angle (nx,), and the load (N)."""
         frame = self.place(u, position)
-        load = frame @ self.load_in_frame()
+        load = frame @ self._load(self.coef)
         angle = self.mesh.angle
         if self.mesh.polar:
             stretch = self.mesh.strength * float(np.hypot(*position))

@@ -145,11 +145,12 @@ def static_row(
     surface = abs(speed) * bearing.radius
     reynolds = lubricant.density * surface * bearing.clearance / lubricant.viscosity
     size = float(np.hypot(*load))
+    position = solution.position if solution.converged else np.full(2, np.nan)
     return {
         "force": load,
         "speed": speed,
-        "eccentricity": solution.position * bearing.clearance,
-        "attitude_angle": _attitude(load, solution.position, speed),
+        "eccentricity": position * bearing.clearance,
+        "attitude_angle": _attitude(load, position, speed),
         "sommerfeld_number": bearing.sommerfeld_number(size, speed, lubricant.viscosity),
         "reynolds_number": reynolds,
         "laminar": reynolds < 41.3 * bearing.relative_clearance**-0.5,

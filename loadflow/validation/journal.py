@@ -95,7 +95,7 @@ def periodic_load_checks() -> Iterator[Check]:
     omega = 12.1 * np.pi / 30
     time = np.arange(0.0, 80.0, 0.05)
     for seed, (x, y, so_max, e_max) in enumerate(PERIODIC_LOADS, start=1):
-        force = np.stack([_sines(x, time), _sines(y, time)], axis=-1)
+        force = np.stack([sines(x, time), sines(y, time)], axis=-1)
         orbit = bearing.orbit(time, force, omega, **film)
         got = float(orbit.eccentricity_ratio.max())
         yield Check(f"E_max, seed {seed}", "Table 5-16", e_max, got, 0.015, "absolute")
@@ -103,7 +103,7 @@ def periodic_load_checks() -> Iterator[Check]:
         yield Check(f"So_max, seed {seed}", "Table 5-15", so_max, got, 0.07)
 
 
-def _sines(components: tuple[float, ...], time: np.ndarray) -> np.ndarray:
+def sines(components: tuple[float, ...], time: np.ndarray) -> np.ndarray:
     """Mean and sines of zero phase: kN and °/s to N."""
     total = np.full(time.shape, components[0])
     for amplitude, frequency in zip(components[1::2], components[2::2]):

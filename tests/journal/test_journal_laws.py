@@ -120,3 +120,23 @@ def test_newton_finds_every_load():
         state = bearing.equilibrium(loads, 10.0, OIL, law, edge, grid=(60, 20))
         assert state.converged.all()
         np.testing.assert_allclose(state.sommerfeld_number, so)
+
+
+@pytest.mark.parametrize(("law", "edge"), LAWS, ids=str)
+def test_turning_backwards_mirrors_every_law(law, edge):
+    film = {"lubricant": OIL, "cavitation": law, "edge_pressure": edge, "grid": (40, 8)}
+    forward = BEARING.equilibrium((3e5, 1e5), 10.0, **film)
+    backward = BEARING.equilibrium((3e5, -1e5), -10.0, **film)
+    np.testing.assert_allclose(backward.eccentricity, forward.eccentricity * [1, -1], rtol=1e-8)
+    mirror = np.outer([1, -1], [1, -1])
+    np.testing.assert_allclose(backward.damping, forward.damping * mirror, rtol=1e-5)
+
+
+@pytest.mark.parametrize(("law", "edge"), LAWS, ids=str)
+def test_turning_the_load_turns_the_answer(law, edge):
+    film = {"lubricant": OIL, "cavitation": law, "edge_pressure": edge, "grid": (40, 8)}
+    states = BEARING.equilibrium([(3e5, 0.0), (0.0, 3e5)], 10.0, **film)
+    turn = np.array([[0, -1], [1, 0]])
+    np.testing.assert_allclose(states.eccentricity[1], turn @ states.eccentricity[0], rtol=1e-7)
+    turned = turn @ states.stiffness[0] @ turn.T
+    np.testing.assert_allclose(states.stiffness[1], turned, rtol=1e-5, atol=1e-5 * turned.max())
