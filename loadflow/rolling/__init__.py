@@ -10,6 +10,7 @@ raceway, result  what all ball bearings share
 patches          points where raceways ride on the rings
 contact          table of contacts that the solver takes
 equilibrium      rigid rings in five degrees of freedom, for arrays of load cases
+expansion        rings that widen under axial load, closed form
 _kernels         the compiled loops of the solver; `_forces`: of all contact forces
 capacity, life   dynamic capacities; equivalent load, spectra, oscillation
 safety           hardness factor, static safety

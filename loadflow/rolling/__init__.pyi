@@ -1,5 +1,8 @@
 from .ball import BallBearing as BallBearing
 from .ball import BallBearingResult as BallBearingResult
+from .expansion import ExpansionResult as ExpansionResult
+from .expansion import RingSections as RingSections
+from .expansion import axial_expansion as axial_expansion
 from .friction import friction_torque_forces as friction_torque_forces
 from .friction import friction_torque_loads as friction_torque_loads
 from .hertz import LineContact as LineContact
