@@ -91,8 +91,26 @@ def _add_points(q, cos, sin, line, spatial, gradient, hessian):
         ws += across * s
         wcc += across * c * c
         wcs += across * c * s
-    _add_sums(gradient, hessian, gx, gy, gz, ga, gb,
-              xx, xy, xz, xa, xb, yy, yz, ya, yb, zz, za, zb, aa, ab, bb)  # fmt: skip
+    gradient[0] += gx
+    gradient[1] += gy
+    gradient[2] += gz
+    gradient[3] += ga
+    gradient[4] += gb
+    hessian[0, 0] += xx
+    hessian[0, 1] += xy
+    hessian[0, 2] += xz
+    hessian[0, 3] += xa
+    hessian[0, 4] += xb
+    hessian[1, 1] += yy
+    hessian[1, 2] += yz
+    hessian[1, 3] += ya
+    hessian[1, 4] += yb
+    hessian[2, 2] += zz
+    hessian[2, 3] += za
+    hessian[2, 4] += zb
+    hessian[3, 3] += aa
+    hessian[3, 4] += ab
+    hessian[4, 4] += bb
     # the unit tensor: radial and axial, and in space also tangential
     wss = w1 - wcc
     pxx, pxy, pyy = wcc, wcs, wss
@@ -116,74 +134,55 @@ def _add_points(q, cos, sin, line, spatial, gradient, hessian):
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _add_lines(q, cos, sin, line, gradient, hessian):
-    """Add all line contacts of one kind; returns energy and sum of forces."""
-    big, h, nr, nz = line[RADIUS], line[HEIGHT], line[NORMAL_R], line[NORMAL_Z]
-    lever = h * nr - big * nz
-    energy = total = 0.0
-    gx = gy = gz = ga = gb = 0.0
-    xx = xy = xz = xa = xb = yy = yz = ya = yb = zz = za = zb = aa = ab = bb = 0.0
+    """Add all line contacts of one kind; returns energy and sum of forces.
+
+    Their direction (n_r c, n_r s, n_z, -L s, L c), L the lever of the normal, is fixed, so that
+    force and slope need only be summed with c and s.
+    """
+    nr, nz = line[NORMAL_R], line[NORMAL_Z]
+    lever = line[HEIGHT] * nr - line[RADIUS] * nz
+    x, y = nr * q[0] + lever * q[4], nr * q[1] - lever * q[3]
+    fixed = nz * q[2] - line[GAP]
+    energy = f1 = fc = fs = k1 = kc = ks = kcc = kcs = 0.0
     for i in range(cos.shape[0]):
         c, s = cos[i], sin[i]
-        radial = nr * (q[0] * c + q[1] * s) + lever * (q[4] * c - q[3] * s)
-        delta = radial + nz * q[2] - line[GAP]
+        delta = x * c + y * s + fixed
         if delta <= 0.0:
             continue
         slope = line[STIFFNESS] * math.exp(math.log(delta) / 9.0)
         force = slope * delta
         slope *= 10.0 / 9.0
         energy += 9.0 / 19.0 * force * delta
-        total += force
-        nx, ny, na, nb = nr * c, nr * s, -lever * s, lever * c
-        gx += force * nx
-        gy += force * ny
-        gz += force * nz
-        ga += force * na
-        gb += force * nb
-        sx, sy, sz, sa = slope * nx, slope * ny, slope * nz, slope * na
-        xx += sx * nx
-        xy += sx * ny
-        xz += sx * nz
-        xa += sx * na
-        xb += sx * nb
-        yy += sy * ny
-        yz += sy * nz
-        ya += sy * na
-        yb += sy * nb
-        zz += sz * nz
-        za += sz * na
-        zb += sz * nb
-        aa += sa * na
-        ab += sa * nb
-        bb += slope * nb * nb
-    _add_sums(gradient, hessian, gx, gy, gz, ga, gb,
-              xx, xy, xz, xa, xb, yy, yz, ya, yb, zz, za, zb, aa, ab, bb)  # fmt: skip
-    return energy, total
-
-
-@njit(cache=True, nogil=True)
-def _add_sums(gradient, hessian, gx, gy, gz, ga, gb,
-              xx, xy, xz, xa, xb, yy, yz, ya, yb, zz, za, zb, aa, ab, bb):  # fmt: skip
-    """Add sums over the elements to the gradient and the upper half of the Hessian."""
-    gradient[0] += gx
-    gradient[1] += gy
-    gradient[2] += gz
-    gradient[3] += ga
-    gradient[4] += gb
-    hessian[0, 0] += xx
-    hessian[0, 1] += xy
-    hessian[0, 2] += xz
-    hessian[0, 3] += xa
-    hessian[0, 4] += xb
-    hessian[1, 1] += yy
-    hessian[1, 2] += yz
-    hessian[1, 3] += ya
-    hessian[1, 4] += yb
-    hessian[2, 2] += zz
-    hessian[2, 3] += za
-    hessian[2, 4] += zb
-    hessian[3, 3] += aa
-    hessian[3, 4] += ab
-    hessian[4, 4] += bb
+        f1 += force
+        fc += force * c
+        fs += force * s
+        k1 += slope
+        kc += slope * c
+        ks += slope * s
+        kcc += slope * c * c
+        kcs += slope * c * s
+    kss = k1 - kcc
+    gradient[0] += nr * fc
+    gradient[1] += nr * fs
+    gradient[2] += nz * f1
+    gradient[3] -= lever * fs
+    gradient[4] += lever * fc
+    hessian[0, 0] += nr * nr * kcc
+    hessian[0, 1] += nr * nr * kcs
+    hessian[0, 2] += nr * nz * kc
+    hessian[0, 3] -= nr * lever * kcs
+    hessian[0, 4] += nr * lever * kcc
+    hessian[1, 1] += nr * nr * kss
+    hessian[1, 2] += nr * nz * ks
+    hessian[1, 3] -= nr * lever * kss
+    hessian[1, 4] += nr * lever * kcs
+    hessian[2, 2] += nz * nz * k1
+    hessian[2, 3] -= nz * lever * ks
+    hessian[2, 4] += nz * lever * kc
+    hessian[3, 3] += lever * lever * kss
+    hessian[3, 4] -= lever * lever * kcs
+    hessian[4, 4] += lever * lever * kcc
+    return energy, f1
 
 
 @njit(cache=True, nogil=True)

@@ -53,7 +53,7 @@ class BallBearing(BallRaceways):
     ...     dynamic_capacity=23_400)
     >>> result = bearing.equilibrium(force=(1000, 0, 0))
     >>> round(float(result.displacement[0]) * 1e6, 2)
-    15.12
+    15.11
     """
 
     contact_angle: float = 0.0

@@ -300,7 +300,7 @@ def hertz_line(
     --------
     >>> c = hertz_line(100.0, 0.0, length=0.01, force=1e4)
     >>> round(float(c.pressure) / 1e6)
-    1917
+    1916
     """
     load, span = np.asarray(force, float), np.asarray(length, float)
     total = np.asarray(r1, float) + np.asarray(r2, float)

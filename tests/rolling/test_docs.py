@@ -1,0 +1,15 @@
+"""The examples in the docstrings are true."""
+
+import doctest
+import importlib
+
+import pytest
+
+
+@pytest.mark.parametrize(
+    "module", ["rolling.slewing", "rolling.ball", "rolling.roller", "tribology.hertz"]
+)
+def test_examples_of_the_docstrings(module):
+    outcome = doctest.testmod(importlib.import_module(f"loadflow.{module}"))
+    assert outcome.attempted > 0
+    assert outcome.failed == 0
