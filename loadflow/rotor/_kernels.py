@@ -21,33 +21,40 @@ SLOTS = 10
 
 
 @njit(cache=True, nogil=True)
-def turbulence(inflow, component, time, y, z):
-    """One component of the box at a point of the rotor plane: linear in time, radius and angle."""
-    count = component.shape[0]
+def turbulence(inflow, time, y, z):
+    """Fluctuation (u, v, w) at a point of the rotor plane: linear in time, radius and angle."""
+    count, rings, angles = inflow.u.shape
     position = min(max(time / inflow.box_step, 0.0), count - 1.0)
     k = min(int(position), count - 2)
     late = position - k
-    k_next = k + 1
 
     radius = np.sqrt(y * y + z * z)
-    i = min(
-        np.searchsorted(inflow.box_radius, radius, side="right") - 1, inflow.box_radius.size - 2
-    )
+    i = min(np.searchsorted(inflow.box_radius, radius, side="right") - 1, rings - 2)
     width = inflow.box_radius[i + 1] - inflow.box_radius[i]
     outer = min((radius - inflow.box_radius[i]) / width, 1.0)
 
-    angles = component.shape[2]
     around = (np.arctan2(-y, z) * (angles / (2 * np.pi))) % angles
     j = min(int(around), angles - 1)
     turn = around - j
     j_next = j + 1 if j + 1 < angles else 0
 
-    value = 0.0
-    for plane, share in ((k, 1 - late), (k_next, late)):
-        inner = component[plane, i, j] * (1 - turn) + component[plane, i, j_next] * turn
-        far = component[plane, i + 1, j] * (1 - turn) + component[plane, i + 1, j_next] * turn
-        value += share * (inner * (1 - outer) + far * outer)
-    return value
+    u = v = w = 0.0
+    for plane, ring, angle, share in (
+        (k, i, j, (1 - late) * (1 - outer) * (1 - turn)),
+        (k, i, j_next, (1 - late) * (1 - outer) * turn),
+        (k, i + 1, j, (1 - late) * outer * (1 - turn)),
+        (k, i + 1, j_next, (1 - late) * outer * turn),
+        (k + 1, i, j, late * (1 - outer) * (1 - turn)),
+        (k + 1, i, j_next, late * (1 - outer) * turn),
+        (k + 1, i + 1, j, late * outer * (1 - turn)),
+        (k + 1, i + 1, j_next, late * outer * turn),
+    ):
+        u += share * inflow.u[plane, ring, angle]
+        if inflow.v.shape[0] > 0:
+            v += share * inflow.v[plane, ring, angle]
+        if inflow.w.shape[0] > 0:
+            w += share * inflow.w[plane, ring, angle]
+    return u, v, w
 
 
 @njit(cache=True, nogil=True)
@@ -61,11 +68,10 @@ def wind_at(m, inflow, step, time, x, y, z):
     wind_x, wind_y, wind_z = speed * np.cos(direction), speed * np.sin(direction), 0.0
     if inflow.u.shape[0] > 0:
         shifted = time - x / max(mean, 1.0)
-        wind_x += turbulence(inflow, inflow.u, shifted, y, z)
-        if inflow.v.shape[0] > 0:
-            wind_y += turbulence(inflow, inflow.v, shifted, y, z)
-        if inflow.w.shape[0] > 0:
-            wind_z += turbulence(inflow, inflow.w, shifted, y, z)
+        u, v, w = turbulence(inflow, shifted, y, z)
+        wind_x += u
+        wind_y += v
+        wind_z += w
     if m.tower_base_radius > 0 and height < m.tower_height:
         share = height / m.tower_height
         radius = m.tower_base_radius + (m.tower_top_radius - m.tower_base_radius) * share

@@ -74,7 +74,7 @@ def test_box_is_read_linearly_in_time_radius_and_angle():
     field = Field(time, radius, angles, box, None, None, 10.0, 0.2)
     inflow = steady_inflow(10.0, 5, 0.2, box=field)
     for t, y, z in ((0.6, 10.0, 3.0), (1.9, -40.0, -11.0), (0.0, 0.0, 0.0)):
-        got = turbulence(inflow, inflow.u, t, y, z)
+        got = turbulence(inflow, t, y, z)[0]
         assert got == pytest.approx(t + 0.1 * np.hypot(y, z), abs=1e-4)
 
 
@@ -85,5 +85,5 @@ def test_box_turns_clockwise_seen_from_upwind():
     box[:, 1, 2] = 1.0
     field = Field(np.arange(3.0), np.array([0.0, 60.0]), angles, box, None, None, 10.0, 0.2)
     inflow = steady_inflow(10.0, 5, 0.2, box=field)
-    assert turbulence(inflow, inflow.u, 1.0, -60.0, 0.0) == pytest.approx(1.0)
-    assert turbulence(inflow, inflow.u, 1.0, 60.0, 0.0) == pytest.approx(0.0)
+    assert turbulence(inflow, 1.0, -60.0, 0.0)[0] == pytest.approx(1.0)
+    assert turbulence(inflow, 1.0, 60.0, 0.0)[0] == pytest.approx(0.0)
