@@ -321,8 +321,10 @@ class JournalBearing:
         self, film: Film, load: Array, last: Solution | None, tolerance: float, max_iterations: int
     ) -> Solution:
         """Equilibrium from the closed form, robustly."""
-        if film.speed == 0.0 and load.any():
-            return no_film(film)
+        if film.speed == 0.0:
+            if load.any():
+                return no_film(film)
+            return solve_film(film, film.start(), load, load, tolerance, max_iterations)
         position = self._estimate(load, film)
         for u, start in self._starts(film, position, last):
             solution = solve_equilibrium(film, load, u, start, tolerance, max_iterations)

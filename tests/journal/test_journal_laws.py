@@ -140,3 +140,14 @@ def test_turning_the_load_turns_the_answer(law, edge):
     np.testing.assert_allclose(states.eccentricity[1], turn @ states.eccentricity[0], rtol=1e-7)
     turned = turn @ states.stiffness[0] @ turn.T
     np.testing.assert_allclose(states.stiffness[1], turned, rtol=1e-5, atol=1e-5 * turned.max())
+
+
+@pytest.mark.parametrize(("law", "edge"), LAWS, ids=str)
+def test_extreme_loads_have_an_answer_or_are_flagged(law, edge):
+    film = {"lubricant": OIL, "cavitation": law, "edge_pressure": edge, "grid": (40, 8)}
+    idle = BEARING.equilibrium((0.0, 0.0), 0.0, **film)
+    assert idle.eccentricity_ratio == 0.0
+    feather = BEARING.equilibrium((1e-3, 0.0), 10.0, **film)
+    assert 0.0 < feather.eccentricity_ratio < 1e-6
+    anvil = BEARING.equilibrium((1e14, 0.0), 10.0, strict=False, max_iterations=20, **film)
+    assert anvil.converged or np.isnan(anvil.eccentricity_ratio)
