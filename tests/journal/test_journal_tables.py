@@ -1,10 +1,28 @@
-"""Every printed number of the journal bearing."""
+"""Every printed number of the journal bearing, table by table."""
 
 import pytest
 
-from loadflow.validation.journal import checks
+from loadflow.validation import journal
+
+TABLES = [
+    journal.base_load_checks,
+    journal.periodic_load_checks,
+    journal.friction_checks,
+    journal.closed_form_checks,
+    journal.converged_table_checks,
+    journal.side_flow_checks,
+    journal.squeeze_checks,
+    journal.coefficient_checks,
+]
 
 
-@pytest.mark.parametrize("check", list(checks()), ids=lambda c: f"{c.source}: {c.name}")
-def test_printed_number(check):
-    assert check.ok, f"{check.got} beside {check.expected} (deviation {check.deviation:.4f})"
+@pytest.mark.parametrize("table", TABLES, ids=lambda table: table.__name__)
+def test_printed_numbers(table):
+    checks = list(table())
+    assert checks
+    missed = [
+        f"{c.source}, {c.name}: {c.got:.6g} beside {c.expected:.6g} ({c.deviation:+.4f})"
+        for c in checks
+        if not c.ok
+    ]
+    assert not missed, "\n".join(missed)
