@@ -217,7 +217,7 @@ def _per_bearing(folder: Path, stage: str, shown: list[str], draw: Any) -> Itera
 
 
 def _seed_section(folder: Path, seeds: xr.Dataset, manifest: dict[str, Any]) -> Section:
-    tables: list[Table] = []
+    tables: list[Table] = [_merge_table(seeds)]
     pictures: list[Picture] = []
     for method in seeds["variant"].values:
         part = seeds.sel(variant=method)
@@ -243,6 +243,21 @@ def _seed_section(folder: Path, seeds: xr.Dataset, manifest: dict[str, Any]) -> 
         "reject nearly always. The calibrated ones hold their level."
     )
     return Section("Seeds", text, tables, pictures)
+
+
+def _merge_table(seeds: xr.Dataset) -> Table:
+    """Return one row for each wind speed: whether its seeds may be merged."""
+    rows = [
+        [
+            str(seeds["dlc"].values[g]),
+            f"{seeds['wind_speed'].values[g]:g}",
+            str(seeds["seeds"].values[g]),
+            *("yes" if merge else "no" for merge in seeds["may_merge"].isel(group=g).values),
+        ]
+        for g in range(seeds.sizes["group"])
+    ]
+    heads = ["DLC", "wind, m/s", "seeds", *(str(variant) for variant in seeds["variant"].values)]
+    return Table("May the seeds be merged?", heads, rows)
 
 
 def _cells(part: xr.Dataset) -> Iterator[tuple[Any, xr.Dataset]]:

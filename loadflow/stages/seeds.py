@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 
 from loadflow.scene import Scene
-from loadflow.seeds import Method, equality
+from loadflow.seeds import Method, equality, holm
 from loadflow.stages.cases import Case
 
 TESTS = ("location", "spread", "spectrum")
@@ -26,14 +26,20 @@ def equality_of_seeds(
     Returns
     -------
     xarray.Dataset
-        `statistic`, `pvalue`, `equal` (variant, group, component, test) and `verdict` in words;
-        a group is one wind speed of one load case.
+        `statistic`, `pvalue`, `equal` (variant, group, component, test), `verdict` in words
+        (variant, group, component), and `may_merge` (variant, group): whether all components are
+        equal, with Holm's correction for their number and that of the groups where the tests hold
+        their level. A group is one wind speed of one load case, sampled at one step.
     """
-    groups = [list(group) for _, group in groupby(sorted(cases, key=_group), key=_group)]
-    per_method = [
-        xr.concat([_one_group(scene, method, group, inputs) for group in groups], "group")
-        for method in scene.seeds.methods
-    ]
+
+    def group_of(case: Case) -> tuple[str, float, float]:
+        return case.dlc, case.wind_speed, _step(inputs[case.name]["loads"])
+
+    groups = [list(group) for _, group in groupby(sorted(cases, key=group_of), key=group_of)]
+    per_method = []
+    for method in scene.seeds.methods:
+        found = xr.concat([_one_group(scene, method, group, inputs) for group in groups], "group")
+        per_method.append(found.assign(may_merge=_may_merge(found, method, scene.seeds.alpha)))
     return (
         xr.concat(per_method, "variant")
         .assign_coords(variant=list(scene.seeds.methods))
@@ -41,8 +47,19 @@ def equality_of_seeds(
     )
 
 
-def _group(case: Case) -> tuple[str, float]:
-    return case.dlc, case.wind_speed
+def _step(loads: xr.Dataset) -> float:
+    return round(float(loads["time"][1] - loads["time"][0]), 9)
+
+
+def _may_merge(found: xr.Dataset, method: Method, alpha: float) -> xr.DataArray:
+    """Whether the seeds of each group may be merged, all components taken together."""
+    if method == "calibrated":
+        adjusted = holm(found["joint_pvalue"].values.ravel())
+        equal = found["joint_pvalue"].copy(data=adjusted.reshape(found["joint_pvalue"].shape))
+        verdict = (equal >= alpha).all("component")
+    else:
+        verdict = found["equal"].all(("component", "test"))
+    return verdict.astype(int).assign_attrs(units="1", long_name="whether the seeds may be merged")
 
 
 def _one_group(
@@ -65,6 +82,11 @@ def _one_group(
             "statistic": (dims, table("statistic"), {"units": "1", "long_name": "test statistic"}),
             "pvalue": (dims, table("pvalue"), {"units": "1", "long_name": "p value"}),
             "equal": (dims, table("equal"), {"units": "1", "long_name": "not rejected"}),
+            "joint_pvalue": (
+                dims[:2],
+                [[e.pvalue for e in found.values()]],
+                {"units": "1", "long_name": "p value of the three stages together"},
+            ),
             "verdict": (dims[:2], [[e.text for e in found.values()]]),
         },
         {
@@ -90,7 +112,7 @@ def components(
 
 def _series(parts: dict[str, Any]) -> Iterator[tuple[str, np.ndarray, float]]:
     loads, shaft = parts["loads"], parts["shaft"]
-    step = float(loads["time"][1] - loads["time"][0])
+    step = _step(loads)
     yield "speed", loads["speed"].values.astype(float), step
     for bearing in shaft["bearing"].values:
         moment = shaft["moment"].sel(bearing=bearing)

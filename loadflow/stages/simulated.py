@@ -43,12 +43,13 @@ def simulate_cube(
     Raises
     ------
     loadflow.errors.InputError
-        A setting out of its range, or a case that is given twice.
+        A setting out of its range.
     """
     loads = {"source": "simulate", "wind_speeds": list(wind_speeds), **settings}
     data = {"results": ["loads.statistics"], "turbine": {"name": turbine}, "loads": loads}
     scene = make_scene(data, source="simulation")
-    plain = [Case(scene.loads.dlc, speed, seed) for speed in wind_speeds for seed in seeds]
+    wanted = dict.fromkeys((speed, seed) for speed in wind_speeds for seed in seeds)
+    plain = [Case(scene.loads.dlc, speed, seed) for speed, seed in wanted]
     cases = weighted(plain, scene.loads.wind_class)
     done = []
     for case in cases:
