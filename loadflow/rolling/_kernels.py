@@ -395,26 +395,19 @@ def solve_series(
     converged, singular = np.zeros(n, np.bool_), np.zeros(n, np.bool_)
     q = np.zeros(5)
     for i in range(n):
-        cold = i % chunk == 0 or not converged[i - 1] or singular[i - 1]
-        ok, res, count, free = _newton(
-            q, loads[i], cos, sin, table, law, spatial, scale, cap, tolerance, limit, compliance,
-            cold, stiffness[i],
-        )  # fmt: skip
-        if not cold and (free or not ok):
-            ok, res, again, free = _newton(
-                q, loads[i], cos, sin, table, law, spatial, scale, cap, tolerance, limit,
-                compliance, True, stiffness[i],
+        warm = i % chunk > 0 and converged[i - 1] and not singular[i - 1]
+        ok, res, count, free = False, 0.0, 0, False
+        for attempt in range(13):  # warm, cold, then from 1e10 times the load down
+            if attempt == 0 and not warm:
+                continue
+            factor = 1.0 if attempt < 2 else 10.0 ** (12 - attempt)
+            ok, res, more, free = _newton(
+                q, factor * loads[i], cos, sin, table, law, spatial, scale, cap, tolerance, limit,
+                compliance, attempt == 1 or attempt == 2, stiffness[i],
             )  # fmt: skip
-            count += again
-        if not ok:
-            factor = 1e10
-            while factor >= 1.0:
-                ok, res, again, free = _newton(
-                    q, factor * loads[i], cos, sin, table, law, spatial, scale, cap, tolerance,
-                    limit, compliance, factor == 1e10, stiffness[i],
-                )  # fmt: skip
-                count += again
-                factor *= 0.1
+            count += more
+            if ok and (attempt == 1 or (attempt == 0 and not free)):
+                break
         displacement[i] = q
         converged[i], residual[i], iterations[i], singular[i] = ok, res, count, free
     return displacement, stiffness, converged, residual, iterations, singular
