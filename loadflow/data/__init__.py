@@ -1,0 +1,1 @@
+"""Package data: polars, reference tables, speed and error of the rungs."""
