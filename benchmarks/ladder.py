@@ -1,0 +1,115 @@
+"""Speed and error of every model rung: writes loadflow/data/ladder.json and docs/speed-vs-error.md.
+
+python benchmarks/ladder.py [--quick] [--only STAGE]
+
+One run on one core, over wind speeds from cut-in to cut-out. Seconds depend on the machine; their
+ratios and the errors do not. ``--quick`` takes fewer and shorter cases and writes nothing.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+from ladder_bearings import measure_journal, measure_reduction, measure_rolling
+from ladder_loads import measure_loads, measure_seeds, measure_shaft, measure_statistics
+from measuring import QUICK, Bench, Entry, Rungs, Setting, percent
+
+ROOT = Path(__file__).parents[1]
+LADDER = ROOT / "loadflow" / "data" / "ladder.json"
+DOC = ROOT / "docs" / "speed-vs-error.md"
+
+STAGES: dict[str, Callable[[Bench], Rungs]] = {
+    "loads": measure_loads,
+    "shaft": measure_shaft,
+    "statistics": measure_statistics,
+    "seeds": measure_seeds,
+    "reduction": measure_reduction,
+    "journal": measure_journal,
+    "rolling": measure_rolling,
+}
+
+HEAD = """# Speed against error
+
+What each model costs, and how far it is from the finest one that is there. `loadflow plan SCENE`
+reads the same numbers. All of this page is written by `python benchmarks/ladder.py`.
+
+**Relative time** is against the dearest rung of the stage, measured in the same run; the seconds
+hold for one core of one busy machine and are only rough. **Errors** are relative deviations from
+the stated reference: the largest of all cases, the 95 % quantile, and the worst case. They say what
+a coarser model changes, not how well the finest one fits a real turbine. A rung is **dominated** if
+another one is cheaper and nowhere less accurate.
+"""
+
+RELATIVE = {"reduction": "film solutions, relative"}
+
+
+def page(ladder: dict[str, Rungs]) -> str:
+    """The whole document."""
+    return "\n".join([HEAD, *(line for name in ladder for line in _section(name, ladder[name]))])
+
+
+def _section(stage: str, rungs: Rungs) -> Iterator[str]:
+    yield f"## {stage}\n"
+    yield f"| rung | includes | {RELATIVE.get(stage, 'relative time')} | seconds | error |"
+    yield "|---|---|---:|---:|---|"
+    for name, entry in rungs.items():
+        yield (
+            f"| {name}{_mark(entry)} | {'; '.join(entry['includes'])} "
+            f"| {entry['relative_time']:.2g} "
+            f"| {_seconds(entry)} | {entry['error']} |"
+        )
+    measured = {name: entry for name, entry in rungs.items() if entry["errors"]}
+    if measured:
+        yield from _errors(measured)
+    yield ""
+
+
+def _seconds(entry: Entry) -> str:
+    if "seconds_per_case" in entry:
+        return f"{entry['seconds_per_case']:.2g} per 600 s"
+    return f"{entry['seconds_per_sample']:.1g} per sample"
+
+
+def _mark(entry: Entry) -> str:
+    return f" (dominated by {entry['dominated_by']})" if "dominated_by" in entry else ""
+
+
+def _errors(rungs: Rungs) -> Iterator[str]:
+    first = next(iter(rungs.values()))
+    yield f"\nReference: {first['reference']}.\n\nCases: {first['cases']}.\n"
+    yield "| rung | quantity | largest error | 95 % below | worst case |"
+    yield "|---|---|---:|---:|---|"
+    for name, entry in rungs.items():
+        for quantity, error in entry["errors"].items():
+            largest, most = percent(error["max"]), percent(error["p95"])
+            yield f"| {name} | {quantity} | {largest} | {most} | {error['worst']} |"
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--quick", action="store_true", help="a few short cases; writes nothing")
+    parser.add_argument("--only", choices=STAGES, help="one stage; the others stay as they are")
+    arguments = parser.parse_args()
+    bench = Bench(QUICK if arguments.quick else Setting())
+    ladder = json.loads(LADDER.read_text(encoding="utf-8"))
+    measured = {}
+    for name in [arguments.only] if arguments.only else STAGES:
+        start = time.perf_counter()
+        measured[name] = STAGES[name](bench)
+        print(f"{name}: {time.perf_counter() - start:.0f} s")
+        for rung, entry in measured[name].items():
+            print(f"  {rung}: {entry['relative_time']:.3g} × top, {entry['error']}")
+    if arguments.quick:
+        return
+    found = ladder | measured
+    ordered = {name: found[name] for name in STAGES if name in found}
+    LADDER.write_text(json.dumps(ordered, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+    DOC.write_text(page(ordered), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

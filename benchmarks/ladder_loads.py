@@ -1,0 +1,185 @@
+"""Ladder of the stages that make and describe loads."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from measuring import (
+    Bench,
+    Entry,
+    Errors,
+    Rungs,
+    inputs,
+    label,
+    on_cases,
+    radial_loads,
+    rounded,
+    sentence,
+    timed,
+    with_ratios,
+)
+
+from loadflow.cube import make_cube, save_cube
+from loadflow.reduction import damage_equivalent_load
+from loadflow.scene import Scene, Shaft, with_loads
+from loadflow.stages import loads, seeds, shaft, statistics
+from loadflow.stages.cases import list_cases
+
+SLOPE = 4.0
+
+ROTOR = {
+    "tables": ["rigid blades", "tabulated induction"],
+    "bem": ["rigid blades", "blade-element momentum at every section and step"],
+    "flap": ["two flap modes and one edge mode per blade", "blade-element momentum"],
+}
+
+
+def measure_loads(bench: Bench) -> Rungs:
+    setting = bench.setting
+    keys = {
+        "wind_speeds": list(setting.wind_speeds),
+        "seeds": setting.seeds,
+        "duration": setting.duration,
+    }
+    described = {rung: dict(_describe_cases(bench.with_loads(**keys, rung=rung))) for rung in ROTOR}
+    rungs: Rungs = {}
+    for rung, includes in ROTOR.items():
+        scene = bench.with_loads(
+            wind_speeds=[12.0], seeds=1, duration=setting.full_duration, rung=rung
+        )
+        case = list_cases(scene)[0]
+        seconds = timed(lambda s=scene, c=case: loads.hub_loads(s, c, {}), setting.repeat)  # type: ignore[misc]
+        errors = _deviations(described[rung], described["flap"]).summary()
+        rungs[rung] = {
+            "includes": includes,
+            "seconds_per_case": rounded(seconds * 600.0 / setting.full_duration),
+            "reference": "rung flap, same wind",
+            "cases": f"{on_cases(bench)}; {setting.seeds} seeds, {setting.duration:g} s",
+            "errors": errors if rung != "flap" else {},
+            "error": sentence(
+                errors, "tilt moment DEL", "yaw moment DEL", "bearing force DEL", "bearing load max"
+            )
+            + " against flap"
+            if rung != "flap"
+            else "top rung; not compared with flexible tower and drivetrain",
+        }
+    return with_ratios(rungs | {"files": _files(bench)}, "flap")
+
+
+def _describe_cases(scene: Scene) -> Iterator[tuple[str, dict[tuple[str, str], float]]]:
+    """Yield spread, damage and extreme of hub moments and bearing loads of each case."""
+    for case in list_cases(scene):
+        parts = inputs(scene, case)
+        hub, bearings = parts["loads"]["hub_moment"], parts["shaft"]
+        tracks = {
+            ("tilt moment", "hub"): hub.sel(axis="y"),
+            ("yaw moment", "hub"): hub.sel(axis="z"),
+        }
+        for bearing in ("N", "N2"):
+            for axis in ("y", "z"):
+                tracks["bearing force", f"{bearing} F{axis}"] = bearings["force"].sel(
+                    bearing=bearing, axis=axis
+                )
+        found: dict[tuple[str, str], float] = {}
+        for (name, where), data in tracks.items():
+            values = data.values.astype(float)
+            found[f"{name} std", where] = values.std()
+            found[f"{name} DEL", where] = damage_equivalent_load(
+                values, SLOPE, scene.loads.duration
+            )
+        for name, load in radial_loads(bearings).items():
+            found["bearing load max", name] = np.hypot(load[:, 0], load[:, 1]).max()
+        yield label(case), found
+
+
+def _deviations(rung: dict[str, Any], top: dict[str, Any]) -> Errors:
+    errors = Errors()
+    for case, found in rung.items():
+        for (quantity, where), value in found.items():
+            errors.add(quantity, f"{case}, {where}", value, top[case][quantity, where])
+    return errors
+
+
+def _files(bench: Bench) -> Entry:
+    """Reading one case of a cube; single precision is all that it loses."""
+    case, series = bench.middle, bench.series[bench.middle]["loads"]
+    with tempfile.TemporaryDirectory() as folder:
+        path = save_cube(make_cube([series]), Path(folder) / "loads.h5")
+        scene = with_loads(bench.scene, [str(path)])
+        given = list_cases(scene)[0]
+        seconds = timed(lambda: loads.hub_loads(scene, given, {}), bench.setting.repeat)
+    return {
+        "includes": ["what the given series include"],
+        "seconds_per_case": rounded(seconds * 600.0 / bench.setting.full_duration),
+        "reference": "the given series",
+        "cases": f"a load cube, {label(case)}",
+        "errors": {},
+        "error": "that of the given series; stored in single precision, 6e-08",
+    }
+
+
+def measure_shaft(bench: Bench) -> Rungs:
+    full, parts = bench.scene.shaft, bench.series[bench.middle]
+    concepts = {
+        "two_point": Shaft(two_point=full.two_point),
+        "moment": Shaft(moment=full.moment),
+        "two_point+moment": full,
+    }
+
+    def seconds(concept: Shaft) -> float:
+        scene = bench.scene.model_copy(update={"shaft": concept})
+        return timed(lambda: shaft.bearing_loads(scene, bench.middle, parts), bench.setting.repeat)
+
+    return with_ratios(
+        {
+            name: _exact(bench, seconds(concept), "rigid shaft, weights, statically determinate")
+            | {"error": "exact (statically determinate)"}
+            for name, concept in concepts.items()
+        },
+        "two_point+moment",
+    )
+
+
+def _exact(bench: Bench, seconds: float, includes: str) -> Entry:
+    return {
+        "includes": [includes],
+        "seconds_per_case": rounded(seconds * 600.0 / bench.setting.full_duration),
+        "reference": "none needed",
+        "cases": f"DLC 1.1, {label(bench.middle)}",
+        "errors": {},
+    }
+
+
+def measure_statistics(bench: Bench) -> Rungs:
+    case = bench.middle
+    seconds = timed(
+        lambda: statistics.statistics(bench.scene, case, bench.series[case]), bench.setting.repeat
+    )
+    entry = _exact(bench, seconds, "mean, spread, extremes, rainflow count on every step")
+    return with_ratios({"-": entry | {"error": "exact on the given series"}}, "-")
+
+
+def measure_seeds(bench: Bench) -> Rungs:
+    scene = bench.with_loads(
+        wind_speeds=[12.0], seeds=6, duration=bench.setting.full_duration, rung="tables"
+    )
+    cases = list_cases(scene)
+    parts = {case.name: inputs(scene, case) for case in cases}
+    rungs: Rungs = {}
+    for methods in (["as-printed"], ["calibrated"], ["as-printed", "calibrated"]):
+        chosen = scene.seeds.model_copy(update={"methods": methods})
+        tested = scene.model_copy(update={"seeds": chosen})
+        seconds = timed(
+            lambda s=tested: seeds.equality_of_seeds(s, cases, parts),  # type: ignore[misc]
+            bench.setting.repeat,
+        )
+        entry = _exact(bench, seconds / len(cases), "location, spread and spectrum")
+        rungs["+".join(methods)] = entry | {
+            "cases": "DLC 1.1, 12 m/s, 6 seeds",
+            "error": "rates of false alarms: docs/seeds.md",
+        }
+    return with_ratios(rungs, "as-printed+calibrated")
