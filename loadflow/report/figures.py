@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
+from matplotlib.ticker import NullFormatter
 
 from loadflow.report.style import envelope, figure, readable
 
@@ -64,7 +65,38 @@ def seed_boxes(samples: dict[str, dict[str, np.ndarray]], units: dict[str, str])
         )
         axis.set_title(component)
         axis.set_ylabel(units[component])
-        axis.set_xlabel("seed (whiskers: 1 % and 99 %)")
+        axis.set_xlabel("seed")
+    drawing.supxlabel("box: quartiles; whiskers: 1 % and 99 %", fontsize="small")
+    return drawing
+
+
+def seed_spectra(spectra: dict[str, xr.DataArray], band: float) -> Figure:
+    """Draw the spectrum of each seed, and below its ratio to the mean of the seeds.
+
+    Parameters
+    ----------
+    spectra : dict
+        For each component the density over (seed, frequency), with its `units` and, in the
+        attribute ``confidence``, the bounds of one density over the density itself.
+    band : float
+        Allowed relative difference, shown about the mean.
+    """
+    drawing, axes = figure(2, len(spectra), height=2.2, squeeze=False, sharex="col")
+    for (above, below), (component, density) in zip(axes.T, spectra.items()):
+        frequency, mean = density["frequency"].values, density.mean("seed").values
+        used = mean > 0
+        for seed in density["seed"].values:
+            line = density.sel(seed=seed).values
+            above.plot(frequency[used], line[used], lw=0.7, label=str(seed))
+            below.plot(frequency[used], line[used] / mean[used], lw=0.6)
+        below.axhspan(*density.attrs["confidence"], color="black", alpha=0.08, lw=0)
+        below.axhspan(1 - band, 1 + band, color="black", alpha=0.5, lw=0)
+        above.set(xscale="log", title=component, ylabel=density.attrs["units"])
+        if used.any():
+            above.set_yscale("log")
+        below.set(xscale="log", xlabel="frequency, Hz", ylabel="over the mean")
+        below.xaxis.set_minor_formatter(NullFormatter())  # they overlap in narrow panels
+    axes[0, 0].legend(title="seed", ncols=2, loc="lower left")
     return drawing
 
 

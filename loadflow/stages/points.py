@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import xarray as xr
 
+from loadflow.errors import SolverError
+
 if TYPE_CHECKING:
     from loadflow.journal import GasMixture, JournalBearing, Lubricant
     from loadflow.rolling import SlewingBearing
@@ -113,12 +115,14 @@ def journal_series(
 ) -> xr.Dataset:
     """Return extremes and weighted means of the film over the series of a parameter file.
 
+    Samples that no film carries, such as a load at standstill, are counted in ``not_converged``.
+
     Raises
     ------
     loadflow.errors.InputError
         The file is no parameter file; as `JournalBearing.equilibrium`.
     loadflow.errors.SolverError
-        A load has no equilibrium.
+        No load at all has an equilibrium.
     """
     from loadflow.reduction import read_parameter_file
     from loadflow.stages.journal import extremes, film_samples
@@ -131,7 +135,10 @@ def journal_series(
         cavitation=cavitation,
         edge_pressure=edge_pressure,
         grid=grid,
+        strict=False,
     )
+    if not np.any(answer.converged):
+        raise SolverError(f"{path}: no film carries any of the {reduced.weight.size} samples")
     samples = xr.Dataset({**film_samples(answer), "weight": ("sample", reduced.weight)})
     return extremes(samples).assign_attrs(
         series=f"{path}: {reduced.source}, {reduced.weight.size} of {reduced.total} samples",

@@ -81,16 +81,23 @@ class Verdict:
 def as_row(verdict: Verdict) -> list[str]:
     """The verdict under `HEADS`."""
     e = verdict.equality
+    pvalues = [*(getattr(e, name).pvalue for name in STAGES), verdict.pvalue]
     return [
         verdict.dlc,
         f"{verdict.wind_speed:g}",
         str(verdict.seeds),
         verdict.component,
-        *(_p(getattr(e, name).pvalue) for name in STAGES),
-        _p(verdict.pvalue),
+        *(_p(p) if verdict.seeds > 1 else "-" for p in pvalues),
         "yes" if verdict.equal else "no",
         e.text,
     ]
+
+
+def count_different(verdicts: Sequence[Verdict]) -> str:
+    """How many differ, in words."""
+    tested = sum(verdict.seeds > 1 for verdict in verdicts)
+    different = sum(not verdict.equal for verdict in verdicts)
+    return f"{different} of {tested} differ, {len(verdicts) - tested} have one seed"
 
 
 def _p(value: float) -> str:
@@ -106,6 +113,8 @@ def seed_verdicts(
     source: str = "load cube",
 ) -> list[Verdict]:
     """Test the seeds of every wind speed of every load case, component by component.
+
+    Seeds that are sampled at different steps are not compared with each other.
 
     Parameters
     ----------
@@ -129,13 +138,12 @@ def seed_verdicts(
     Raises
     ------
     loadflow.errors.InputError
-        An unknown component, seeds of different steps, or a series that is too short.
+        An unknown component, or a series that is too short.
     """
     groups = _groups(cube)
     names = _components(next(iter(groups.values()))[0], wanted, source)
     found: list[Verdict] = []
-    for (dlc, wind_speed), group in groups.items():
-        step = _step(group, f"{source}: DLC {dlc}, {wind_speed:g} m/s")
+    for (dlc, wind_speed, step), group in groups.items():
         for name in names:
             series = [_pick(case, name).values.astype(float) for case in group]
             try:
@@ -154,23 +162,16 @@ def _corrected(verdicts: list[Verdict], alpha: float) -> list[Verdict]:
     return [replace(v, pvalue=q, equal=q >= alpha) for v, q in zip(verdicts, p)]
 
 
-def _groups(cube: Cube) -> dict[tuple[str, float], Group]:
-    """Cases of one load case and wind speed, in order."""
-    groups: dict[tuple[str, float], Group] = {}
+def _groups(cube: Cube) -> dict[tuple[str, float, float], Group]:
+    """Cases of one load case, wind speed (m/s) and time step (s), in order."""
+    groups: dict[tuple[str, float, float], Group] = {}
     for _, case in iter_cases(cube):
-        groups.setdefault((str(case["dlc"].item()), float(case["wind_speed"])), []).append(case)
+        step = round(float(case["time"][1] - case["time"][0]), 9)
+        key = str(case["dlc"].item()), float(case["wind_speed"]), step
+        groups.setdefault(key, []).append(case)
     if not groups:
         raise InputError("the load cube is empty, it holds no case")
     return dict(sorted(groups.items()))
-
-
-def _step(group: Group, where: str) -> float:
-    """Time step of the seeds, s."""
-    steps = [float(case["time"][1] - case["time"][0]) for case in group]
-    if not np.allclose(steps, steps[0], rtol=1e-6):
-        listed = ", ".join(f"{step:g}" for step in sorted(set(steps)))
-        raise InputError(f"{where}: the seeds have steps of {listed} s; resample the cube first")
-    return steps[0]
 
 
 def _components(case: xr.Dataset, wanted: Sequence[str], source: str) -> list[str]:
@@ -232,13 +233,13 @@ def write_seed_page(
     facts = {
         "Method": first.method,
         "Level of significance": f"{first.alpha:g}",
-        "Result": f"{len(different)} of {len(verdicts)} differ",
+        "Result": count_different(verdicts),
     }
     sections = [Section("Verdicts", TEXT[first.method], [table])]
     names = list(dict.fromkeys(verdict.component for verdict in verdicts))
-    for (dlc, wind_speed), group in _groups(cube).items():
+    for (dlc, wind_speed, step), group in _groups(cube).items():
         if len(group) > 1:
-            pictures = [*_pictures(group, names, fold=len(sections) > 1)]
+            pictures = [*_pictures(group, step, names, fold=len(sections) > 1)]
             sections.append(Section(f"DLC {dlc}, {wind_speed:g} m/s", pictures=pictures))
     return write_page(path, f"Seeds of {source}", facts, sections)
 
@@ -255,9 +256,8 @@ TEXT = {
 }
 
 
-def _pictures(group: Group, names: list[str], fold: bool) -> Iterator[Picture]:
+def _pictures(group: Group, step: float, names: list[str], fold: bool) -> Iterator[Picture]:
     """Draw boxes and spectra of the seeds, a few components to a figure."""
-    step = _step(group, "seeds")
     duration = min(case.sizes["time"] for case in group) * step
     for k in range(0, len(names), PANELS):
         boxes: dict[str, dict[str, np.ndarray]] = {}

@@ -1,0 +1,5 @@
+"""``python -m loadflow.cli``."""
+
+from loadflow.cli import main
+
+main()

@@ -1,0 +1,120 @@
+"""The application that commands register with, and how they print."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+from rich.console import Console
+from rich.table import Table
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+app = typer.Typer(
+    help="From wind and load series to the main bearing of a wind turbine.",
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    add_completion=False,
+)
+out = Console(width=None if sys.stdout.isatty() else 150)
+err = Console(stderr=True)
+
+AsJson = Annotated[bool, typer.Option("--json", help="Print JSON, for a machine to read.")]
+
+WIDEST = 4  # values of one quantity that fit a line of a table; more are for --json
+
+
+def print_json(data: Any) -> None:
+    """Print as JSON; what is not finite becomes null, which JSON has."""
+    print(json.dumps(_plain(data), allow_nan=False))
+
+
+def _plain(data: Any) -> Any:
+    """Turn mappings, sequences and arrays into what JSON knows."""
+    if hasattr(data, "tolist"):  # an array or one of its numbers
+        data = data.tolist()
+    if isinstance(data, Mapping):
+        return {str(key): _plain(value) for key, value in data.items()}
+    if isinstance(data, list | tuple):
+        return [_plain(value) for value in data]
+    if isinstance(data, float) and not -float("inf") < data < float("inf"):
+        return None
+    return data
+
+
+def print_rows(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
+    """Print a table of text."""
+    table = Table(*heads, box=None)
+    for row in rows:
+        table.add_row(*row)
+    out.print(table)
+
+
+def print_quantities(data: xr.Dataset, as_json: bool) -> None:
+    """Print every variable of a Dataset with its unit, one for each line.
+
+    JSON has all values, in SI units; the table those of few values, in the units of engineers.
+    """
+    if as_json:
+        quantities = {
+            name: {"value": v.values, "units": v.attrs["units"], "long_name": v.attrs["long_name"]}
+            for name, v in data.data_vars.items()
+        }
+        print_json(quantities | data.attrs)
+        return
+    print_rows(
+        ("quantity", "value", "unit", "meaning"),
+        [_row(str(name), v) for name, v in data.data_vars.items() if v.size <= WIDEST],
+    )
+    for name, text in data.attrs.items():
+        out.print(f"{name}: {text}", soft_wrap=True, highlight=False)
+
+
+def _row(name: str, data: xr.DataArray) -> tuple[str, str, str, str]:
+    from loadflow.report.style import readable
+
+    meaning = data.attrs["long_name"]
+    if data.dtype.kind == "b":
+        return name, ", ".join("yes" if yes else "no" for yes in data.values.flat), "", meaning
+    unit = data.attrs["units"]
+    if unit == "N m":  # friction as well as tilting: no one larger unit suits both
+        values = data.values
+    else:
+        small = unit == "m" and bool((abs(data) < 1e-2).all())
+        values, unit = readable(data, "µm" if small else None)
+    return name, ", ".join(f"{value:.6g}" for value in values.flat), unit, meaning
+
+
+@contextmanager
+def progress(quiet: bool) -> Iterator[Any]:
+    """Yield a callback that draws one bar for each stage."""
+    from rich.progress import (
+        BarColumn,
+        MofNCompleteColumn,
+        Progress,
+        TextColumn,
+        TimeElapsedColumn,
+        TimeRemainingColumn,
+    )
+
+    columns = [
+        TextColumn("{task.description:<12}"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TimeElapsedColumn(),
+        TimeRemainingColumn(),
+    ]
+    with Progress(*columns, console=err, disable=quiet) as bars:
+        tasks: dict[str, Any] = {}
+
+        def show(stage: str, done: int, total: int) -> None:
+            if stage not in tasks:
+                tasks[stage] = bars.add_task(stage, total=total)
+            bars.update(tasks[stage], completed=done, total=total)
+
+        yield show

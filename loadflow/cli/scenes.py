@@ -1,0 +1,145 @@
+"""Commands for scenes and their runs: run, plan, scene, report; and validate."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+from rich.table import Table
+
+from loadflow.cli.base import AsJson, app, out, print_json, progress
+from loadflow.errors import InputError, LoadflowError
+
+SceneFile = Annotated[Path, typer.Argument(help="Scene, a TOML file.", show_default=False)]
+LoadFiles = Annotated[
+    list[str] | None,
+    typer.Option("--loads", help="Load files (name or quoted pattern) in place of the scene's."),
+]
+
+
+def _read(path: Path, loads: list[str] | None, name: str | None = None) -> Any:
+    from loadflow.scene import read_scene, with_loads
+
+    scene = read_scene(path)
+    scene = with_loads(scene, loads) if loads else scene
+    return scene.model_copy(update={"name": name}) if name else scene
+
+
+@app.command()
+def run(
+    scene: SceneFile,
+    loads: LoadFiles = None,
+    out_folder: Annotated[Path, typer.Option("--out", help="Folder for runs.")] = Path("runs"),
+    name: Annotated[str | None, typer.Option(help="Name of the run; default: the scene's.")] = None,
+    workers: Annotated[int, typer.Option(min=0, help="Processes; 0: one for each core.")] = 0,
+    scheduler: Annotated[str | None, typer.Option(help="Dask scheduler, tcp://host:port.")] = None,
+    overwrite: Annotated[bool, typer.Option(help="Replace parts of other settings.")] = False,
+    as_json: AsJson = False,
+) -> None:
+    """Carry a scene out; a run that was killed goes on where it was."""
+    from loadflow.runner import run as carry_out
+
+    with progress(quiet=as_json) as show:
+        result = carry_out(
+            _read(scene, loads, name),
+            out=out_folder,
+            workers=workers or len(os.sched_getaffinity(0)),
+            scheduler=scheduler,
+            overwrite=overwrite,
+            progress=show,
+        )
+    if as_json:
+        paths = {"path": str(result.path), "report": str(result.report)}
+        print_json(paths | {"failures": result.failures})
+    else:
+        out.print(f"results  {result.path / 'result.h5'}\nreport   {result.report}", soft_wrap=True)
+    if result.failures:
+        lines = "\n".join(f"  {case}: {why}" for case, why in result.failures.items())
+        raise LoadflowError(f"{len(result.failures)} parts have no answer:\n{lines}")
+
+
+@app.command()
+def plan(scene: SceneFile, loads: LoadFiles = None, as_json: AsJson = False) -> None:
+    """Show which stages and models a scene needs, their expected time and error."""
+    from loadflow.plan import make_plan
+
+    made = make_plan(_read(scene, loads))
+    if as_json:
+        steps = [
+            {
+                "stage": step.stage.name,
+                "rung": step.rung,
+                "runs": step.runs,
+                "seconds": step.seconds,
+                "error": step.error,
+            }
+            for step in made.steps
+        ]
+        cases = [case.name for case in made.cases]
+        print_json({"steps": steps, "cases": cases, "left_out": made.left_out})
+        return
+    table = Table("stage", "model", "runs", "expected time, one core", "error", box=None)
+    for step in made.steps:
+        seconds = "not measured" if step.seconds is None else f"{step.seconds:.0f} s"
+        table.add_row(
+            step.stage.name, step.rung, str(step.runs), seconds, step.error or "not measured"
+        )
+    out.print(table)
+    out.print(f"{len(made.cases)} load cases")
+    for stage, why in made.left_out.items():
+        out.print(f"left out: {stage} ({why})")
+
+
+@app.command("scene")
+def show_scene(
+    scene: SceneFile,
+    show: Annotated[bool, typer.Option("--show", help="Print it with all defaults.")] = False,
+) -> None:
+    """Check a scene; with --show print it as resolved."""
+    resolved = _read(scene, None)
+    print(resolved.to_toml() if show else f"{scene}: valid")
+
+
+@app.command()
+def report(run_folder: Annotated[Path, typer.Argument(help="Folder of a run.")]) -> None:
+    """Write the report page of a run again."""
+    from loadflow.stages.report import write_report
+
+    out.print(str(write_report(run_folder)), soft_wrap=True)
+
+
+@app.command()
+def validate(
+    names: Annotated[list[str] | None, typer.Argument(help="Tables; default: all.")] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Print the sources' numbers beside ours; fails if one is out of its tolerance."""
+    from loadflow import validation
+
+    known = validation.names()
+    if unknown := set(names or []) - set(known):
+        raise InputError(f"no table {', '.join(sorted(unknown))}; there are {', '.join(known)}")
+    rows = [(name, check) for name in names or known for check in validation.all_checks(name)]
+    bad = sum(not check.ok for _, check in rows)
+    if as_json:
+        print_json([{"table": name, **vars(c), "ok": c.ok} for name, c in rows])
+    else:
+        table = Table("table", "number", "source", "printed", "ours", "deviation", "allowed", "")
+        for name, check in rows:
+            scale, sign = (1, "") if check.kind == "absolute" else (100, " %")
+            table.add_row(
+                name,
+                check.name,
+                check.source,
+                f"{check.expected:.6g} {check.unit}",
+                f"{check.got:.6g} {check.unit}",
+                f"{check.deviation * scale:+.3g}{sign}",
+                f"{check.tolerance * scale:.3g}{sign}",
+                "ok" if check.ok else "[red]out[/]",
+            )
+        out.print(table)
+        out.print(f"{len(rows) - bad} of {len(rows)} within their tolerance")
+    if bad:
+        raise LoadflowError(f"{bad} numbers are out of their tolerance")
