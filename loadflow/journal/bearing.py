@@ -124,7 +124,8 @@ class JournalBearing:
             gas mixture, (120, 40) else.
         grading : {"auto", "uniform", "graded"}
             Uniform cells, or cells that crowd at the narrowest gap and the rims. "auto": uniform
-            for the gas mixture and with a supply, graded else.
+            for the gas mixture and with a supply, graded else. A load so heavy that the uniform
+            cells cannot resolve the gap is then solved on a graded mesh.
         rung : {"grid"}
             Model: finite volumes.
         tolerance : float
@@ -150,16 +151,16 @@ class JournalBearing:
         options = FilmOptions(lubricant, cavitation, edge_pressure, supply, inlet, grid, grading)
         loads, speeds, shape = operating_points(force, speed, "force")
         film = self._film(options, speeds)
+        finer = self._film(options.graded(), speeds) if options.may_grade else None
         rows = []
         last: Solution | None = None
         for index, (load, omega) in enumerate(zip(loads, speeds.tolist())):
-            film.set_speed(omega)
-            solution = self._static(film, load, last, tolerance, max_iterations)
-            if solution.converged:
+            used, solution = self._static(film, finer, load, omega, last, tolerance, max_iterations)
+            if not solution.converged and strict:
+                raise SolverError(f"load {index}: {self._refusal(used, load, solution)}")
+            if solution.converged and used is film:
                 last = solution
-            elif strict:
-                raise SolverError(f"load {index}: {self._refusal(film, load, solution)}")
-            rows.append(static_row(self, film, load, lubricant, solution))
+            rows.append(static_row(self, used, load, lubricant, solution))
         return Equilibrium(**stack(rows, shape))
 
     def pressure(
@@ -299,9 +300,12 @@ class JournalBearing:
             raise InputError(f"time[{bad[0] + 1}] = {times[bad[0] + 1]} does not increase")
         film = self._film(options.for_history(), speeds)
         film.raise_scale(float(np.hypot(*loads.T).max()) / (self.width * self.diameter))
-        film.set_speed(float(speeds[0]))
+        omega = float(speeds[0])
+        film.set_speed(omega)
         if start is None:
-            first = self._static(film, loads[0], None, tolerance, 2 * max_iterations)
+            _, first = self._static(
+                film, None, loads[0], omega, None, tolerance, 2 * max_iterations
+            )
         else:
             place = np.asarray(start, dtype=float) / self.clearance
             require(bool(np.hypot(*place) < 1), "start", start, f"|start| < c = {self.clearance} m")
@@ -318,20 +322,32 @@ class JournalBearing:
         return film
 
     def _static(
-        self, film: Film, load: Array, last: Solution | None, tolerance: float, max_iterations: int
-    ) -> Solution:
-        """Equilibrium from the closed form, robustly."""
-        if film.speed == 0.0:
+        self,
+        film: Film,
+        finer: Film | None,
+        load: Array,
+        speed: float,
+        last: Solution | None,
+        tolerance: float,
+        max_iterations: int,
+    ) -> tuple[Film, Solution]:
+        """Equilibrium from the closed form, robustly; the film it was found on comes with it."""
+        film.set_speed(speed)
+        if speed == 0.0:
             if load.any():
-                return no_film(film)
-            return solve_film(film, film.start(), load, load, tolerance, max_iterations)
+                return film, no_film(film)
+            return film, solve_film(film, film.start(), load, load, tolerance, max_iterations)
         position = self._estimate(load, film)
-        for u, start in self._starts(film, position, last):
-            solution = solve_equilibrium(film, load, u, start, tolerance, max_iterations)
+        attempts = [(film, *start) for start in self._starts(film, position, last)]
+        if finer is not None:
+            finer.set_speed(speed)
+            attempts.append((finer, finer.start(), position))
+        for used, u, start in attempts:
+            solution = solve_equilibrium(used, load, u, start, tolerance, max_iterations)
             if solution.converged:
-                return replace(solution, estimate=position)
+                return used, replace(solution, estimate=position)
         solution = solve_patiently(film, load, position, tolerance, max_iterations)
-        return replace(solution, estimate=position)
+        return film, replace(solution, estimate=position)
 
     def _starts(
         self, film: Film, position: Array, last: Solution | None

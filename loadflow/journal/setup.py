@@ -47,6 +47,18 @@ class FilmOptions:
         """The law of the ruptured film."""
         return Reynolds() if self.cavitation is None else self.cavitation
 
+    @property
+    def may_grade(self) -> bool:
+        """Whether a load that the uniform mesh cannot resolve may be tried on a graded one."""
+        uniform = isinstance(self.law, GasMixture) and self.supply is None
+        return self.grading == "auto" and uniform
+
+    def graded(self) -> FilmOptions:
+        """The same on a graded mesh, fine enough for a gap of a thousandth of the clearance."""
+        around, across = self.grid or SHARP_GRID
+        grid = (max(around, SHARP_GRID[0]), max(across, SHARP_GRID[1]))
+        return replace(self, grading="graded", grid=grid)
+
     def for_history(self) -> FilmOptions:
         """The same on a mesh that can keep the fill of its cells, if the law has one."""
         if not isinstance(self.law, GasMixture | MassConserving):

@@ -132,3 +132,19 @@ def test_reynolds_number_against_the_critical_one():
         fast.reynolds_number, 870 * np.array([1.2, 300]) * 1.5 * 0.75e-3 / 0.05
     )
     assert fast.laminar.tolist() == [True, False]
+
+
+@pytest.mark.parametrize("speed", [1e-2, 5e-3, 1e-3, 1e-4])
+def test_a_mixture_film_is_resolved_down_to_a_crawl(speed):
+    """ω → 0 under load: ε → 1, where the source's 60 × 20 cells no longer resolve the gap."""
+    state = BEARING.equilibrium(
+        (1.47e6, -1.1e5),
+        speed,
+        Lubricant(0.05),
+        cavitation=GasMixture(0.05e6),
+        edge_pressure=0.5e6,
+        grid=(60, 20),
+    )
+    assert state.converged
+    assert state.residual < 1e-10
+    assert 0.99 < state.eccentricity_ratio < 1.0
