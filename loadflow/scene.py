@@ -48,6 +48,8 @@ class Loads(_Section):
     ``source = "simulate"`` makes them from IEC wind; ``source = "files"`` reads them: the output of
     a simulator, or a load cube (``.h5``). ``weights = "given"`` keeps the shares of the lifetime
     that a cube or a case list states; otherwise they follow from the wind speed (2.2).
+    ``mass_imbalance`` (share of its mass) and ``pitch_imbalance`` (rad) are those of blade 1;
+    without them the rotor is perfect and the fixed-frame loads have no 1p line.
     """
 
     source: Literal["simulate", "files"] = "simulate"
@@ -64,6 +66,8 @@ class Loads(_Section):
     wind_class: Literal["I", "II", "III"] = "I"
     category: Literal["A+", "A", "B", "C"] = "B"
     rung: Literal["tables", "bem", "flap"] = "flap"
+    mass_imbalance: Annotated[float, Field(ge=-0.2, le=0.2)] = 0.0
+    pitch_imbalance: Annotated[float, Field(ge=-0.2, le=0.2)] = 0.0
 
     @model_validator(mode="after")
     def _files_for_files(self) -> Self:

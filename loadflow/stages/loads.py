@@ -23,7 +23,7 @@ def hub_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
 
 
 def _simulate(scene: Scene, case: Case) -> xr.Dataset:
-    from loadflow.rotor import simulate
+    from loadflow.rotor import RotorOptions, simulate
 
     loads = scene.loads
     series = simulate(
@@ -36,6 +36,9 @@ def _simulate(scene: Scene, case: Case) -> xr.Dataset:
         wind_class=loads.wind_class,
         category=loads.category,
         rung=loads.rung,
+        options=RotorOptions(
+            mass_imbalance=loads.mass_imbalance, pitch_imbalance=loads.pitch_imbalance
+        ),
     )
     return series.assign(wind=series["wind"].sel(axis="x", drop=True))
 
