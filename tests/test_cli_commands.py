@@ -1,0 +1,352 @@
+"""Commands of the command line on small input: what they print and write, and what they refuse."""
+
+import json
+import math
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from synthetic import case, cube_file
+
+from loadflow.cli import main
+from loadflow.cube import make_cube, open_cube, save_cube
+from loadflow.journal import GasMixture, JournalBearing, Lubricant
+from loadflow.reduction import read_parameter_file
+from loadflow.rolling import SlewingBearing
+from loadflow.seeds import equality, holm
+from loadflow.shaft import TwoPoint, bearing_loads
+from loadflow.wind import iec
+
+JOURNAL = [
+    *("--diameter", "3", "--width", "2.25", "--relative-clearance", "0.5e-3"),
+    *("--viscosity", "0.05", "--edge-pressure", "0.5e6", "--mixing-constant", "0.05e6"),
+]
+ROLLING = ["--balls", "129", "--rows", "2", "--ball-diameter", "0.04", "--pitch-diameter", "1.9"]
+
+
+@pytest.fixture
+def loadflow(capsys):
+    """The command line in this process: arguments → exit code, standard output, errors."""
+
+    def call(*arguments):
+        capsys.readouterr()
+        with pytest.raises(SystemExit) as stop:
+            main([str(argument) for argument in arguments])
+        printed = capsys.readouterr()
+        return stop.value.code or 0, printed.out, printed.err
+
+    return call
+
+
+@pytest.fixture(scope="module")
+def hub_cube(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("hub")
+    return cube_file(folder / "hub.h5", wind_speeds=(8.0, 12.0), seeds=(1, 2))
+
+
+@pytest.fixture(scope="module")
+def bearing_cube(tmp_path_factory):
+    """Two seeds with the forces of both bearings, and a third seed at another step."""
+    cases = []
+    for seed, step in ((1, 0.25), (2, 0.25), (3, 0.5)):
+        series = case(8.0, seed, steps=240, dt=step)
+        loads = bearing_loads(TwoPoint(), series["hub_force"], series["hub_moment"])
+        cases.append(
+            series[["speed"]]
+            .assign(force=loads["force"].drop_vars("time", errors="ignore"))
+            .assign_coords(position=loads["position"])
+        )
+    return save_cube(make_cube(cases), tmp_path_factory.mktemp("bearings") / "bearings.h5")
+
+
+# -- seeds ------------------------------------------------------------------------------------
+
+
+def test_seeds_prints_the_verdicts_of_the_room(loadflow, hub_cube):
+    code, out, _ = loadflow(
+        "seeds", hub_cube, "--variable", "speed", "--variable", "hub_moment.y", "--json"
+    )
+    found = json.loads(out)
+    assert code == 0
+    assert [(f["wind_speed"], f["component"]) for f in found] == [
+        (8.0, "speed"),
+        (8.0, "hub_moment.y"),
+        (12.0, "speed"),
+        (12.0, "hub_moment.y"),
+    ]
+    cube = open_cube(hub_cube)
+    tests = [
+        equality(part.values.astype(float), 0.25)
+        for at in (cube["wind_speed"] == 8, cube["wind_speed"] == 12)
+        for part in (cube["speed"][at], cube["hub_moment"].sel(axis="y")[at])
+    ]
+    for row, test in zip(found, tests):
+        assert row["spread"] == {"pvalue": test.spread.pvalue, "equal": test.spread.equal}
+    corrected = holm([test.pvalue for test in tests])
+    np.testing.assert_allclose([f["pvalue"] for f in found], corrected, rtol=1e-12)
+    assert [f["equal"] for f in found] == (corrected >= 0.05).tolist()
+
+
+def test_seeds_as_printed_has_no_p_value_of_the_spectrum(loadflow, hub_cube):
+    _, out, _ = loadflow("seeds", hub_cube, "--method", "as-printed", "--json")
+    found = json.loads(out)
+    assert {f["component"] for f in found} == {
+        "speed",
+        *(f"hub_{load}.{axis}" for load in ("force", "moment") for axis in "xyz"),
+    }
+    assert all(f["spectrum"]["pvalue"] is None for f in found)
+
+
+def test_seeds_writes_a_page_that_needs_no_other_file(loadflow, hub_cube, tmp_path):
+    page = tmp_path / "seeds.html"
+    code, out, _ = loadflow("seeds", hub_cube, "--variable", "hub_moment.y", "-o", page)
+    text = page.read_text(encoding="utf-8")
+    assert code == 0
+    assert "hub_moment.y" in out
+    assert text.count('src="data:image/png;base64,') == 4  # boxes and spectra of two wind speeds
+    assert "http" not in text
+
+
+def test_seeds_takes_bearing_forces_and_leaves_out_what_is_zero(loadflow, bearing_cube):
+    _, out, _ = loadflow("seeds", bearing_cube, "--json")
+    found = json.loads(out)
+    components = {f["component"] for f in found}
+    assert "force.N.x" not in components  # N floats
+    assert components == {"speed", "force.N.y", "force.N.z", *(f"force.N2.{a}" for a in "xyz")}
+
+
+def test_seeds_at_another_step_are_not_compared(loadflow, bearing_cube):
+    _, out, _ = loadflow("seeds", bearing_cube, "--variable", "speed", "--json")
+    assert sorted(f["seeds"] for f in json.loads(out)) == [1, 2]
+    _, out, _ = loadflow("seeds", bearing_cube, "--variable", "speed")
+    assert "one seed, nothing to test" in out
+    assert "1 have one seed" in out
+
+
+# -- reduce -----------------------------------------------------------------------------------
+
+
+def test_reduce_writes_a_parameter_file_for_each_case_and_bearing(loadflow, hub_cube, tmp_path):
+    code, out, _ = loadflow("reduce", hub_cube, "-o", tmp_path / "reduced", "--json")
+    answer = json.loads(out)
+    assert code == 0
+    assert "hub loads only" in answer["suspension"]
+    assert len(answer["series"]) == 8
+    cube = open_cube(hub_cube)
+    for part in answer["series"]:
+        reduced = read_parameter_file(part["file"])
+        full = cube.sel(case=part["case"])
+        assert part["kept"] == reduced.time.size < part["samples"] == reduced.total == 400
+        np.testing.assert_array_equal(reduced.speed, full["speed"].values[reduced.index])
+        largest = np.hypot(*reduced.force.T).max()
+        assert part["largest_force"]["reduced"] == pytest.approx(largest, rel=1e-12)
+        assert largest == part["largest_force"]["full"]  # the default pick keeps the extremes
+    page = (tmp_path / "reduced" / "reduction.html").read_text(encoding="utf-8")
+    assert page.count('src="data:image/png;base64,') == 8
+
+
+def test_reduce_takes_the_forces_of_the_cube_in_the_frame_of_the_film(
+    loadflow, bearing_cube, tmp_path
+):
+    _, out, _ = loadflow(
+        "reduce", bearing_cube, "-o", tmp_path, "--bearing", "N2", "--size", 0.3, "--json"
+    )
+    answer = json.loads(out)
+    assert answer["suspension"] == "of the cube"
+    assert {part["bearing"] for part in answer["series"]} == {"N2"}
+    assert len(answer["series"]) == 3
+    reduced = read_parameter_file(tmp_path / "dlc1.1_v8_s3_N2.txt")
+    leaf = next(n for n in open_cube(bearing_cube).leaves if "dlc1.1_v8_s3" in n["case"])
+    force = leaf.to_dataset()["force"].sel(case="dlc1.1_v8_s3", bearing="N2")
+    kept = force.isel(time=reduced.index)
+    np.testing.assert_array_equal(reduced.force[:, 0], -kept.sel(axis="z"))
+    np.testing.assert_array_equal(reduced.force[:, 1], kept.sel(axis="y"))
+
+
+def test_a_reduced_file_goes_into_the_film_solver(loadflow, hub_cube, tmp_path):
+    loadflow("reduce", hub_cube, "-o", tmp_path, "--bearing", "N", "--size", 0.02)
+    file = tmp_path / "dlc1.1_v8_s1_N.txt"
+    code, out, _ = loadflow("journal", *JOURNAL, "--grid", 36, 8, "--series", file, "--json")
+    answer = json.loads(out)
+    reduced = read_parameter_file(file)
+    film = JournalBearing(3.0, 2.25, 0.5e-3).equilibrium(
+        reduced.force,
+        reduced.speed,
+        Lubricant(0.05),
+        cavitation=GasMixture(0.05e6),
+        edge_pressure=0.5e6,
+        grid=(36, 8),
+    )
+    assert code == 0
+    assert answer["largest_eccentricity_ratio"]["value"] == film.eccentricity_ratio.max()
+    assert answer["mean_friction_power"]["value"] == pytest.approx(
+        float(reduced.mean(film.friction_power)), rel=1e-12
+    )
+    assert answer["not_converged"]["value"] == 0
+
+
+# -- loads ------------------------------------------------------------------------------------
+
+
+def test_loads_simulates_a_cube_that_seeds_can_read(loadflow, tmp_path):
+    file = tmp_path / "loads.h5"
+    code, _, err = loadflow(
+        *("loads", "--wind-speed", 8, "--seed", 1, "--seed", 4, "--seed", 4, "-o", file),
+        *("--duration", 4, "--step", 0.025, "--rung", "tables", "--json"),
+    )
+    assert code == 0, err
+    cube = open_cube(file)
+    assert cube["case"].values.tolist() == ["dlc1.1_v8_s1", "dlc1.1_v8_s4"]
+    assert cube.sizes["time"] == 160
+    np.testing.assert_allclose(cube["weight"], 0.5)
+    assert cube["hub_force"].attrs["units"] == "N"
+    assert loadflow("seeds", file, "--variable", "hub_force.x")[0] == 0
+
+
+# -- wind, journal, rolling -------------------------------------------------------------------
+
+
+def test_wind_prints_the_numbers_of_the_standard(loadflow):
+    answer = json.loads(loadflow("wind", 12, "--category", "A", "--class", "II", "--json")[1])
+    assert answer["ntm_sigma"]["value"] == float(iec.ntm_sigma(12, "A"))
+    assert answer["etm_sigma"]["value"] == float(iec.etm_sigma(12, "II", "A"))
+    assert answer["eog_amplitude"]["value"] == float(iec.eog_amplitude(12, "II", "A", 126, 90))
+    assert answer["length_scale"] == {
+        "value": 42.0,
+        "units": "m",
+        "long_name": "turbulence scale Λ1",
+    }
+    _, out, _ = loadflow("wind", 12)
+    row = next(line for line in out.splitlines() if "ecd_angle" in line)
+    assert row.split()[1:3] == ["60", "°"]
+
+
+def test_journal_prints_one_operating_point_with_units_and_convergence(loadflow):
+    point = ["--force-x", 2.0586e6, "--force-y", -0.4428e6, "--speed-rpm", 12, "--grid", 36, 8]
+    state = JournalBearing(3.0, 2.25, 0.5e-3).equilibrium(
+        (2.0586e6, -0.4428e6),
+        12 * math.pi / 30,
+        Lubricant(0.05),
+        cavitation=GasMixture(0.05e6),
+        edge_pressure=0.5e6,
+        grid=(36, 8),
+    )
+    answer = json.loads(loadflow("journal", *JOURNAL, *point, "--json")[1])
+    assert answer["eccentricity_ratio"]["value"] == state.eccentricity_ratio
+    assert answer["stiffness"] == {
+        "value": state.stiffness.tolist(),
+        "units": "N/m",
+        "long_name": answer["stiffness"]["long_name"],
+    }
+    assert answer["converged"]["value"] is True
+    _, out, _ = loadflow("journal", *JOURNAL, *point)
+    lines = {line.split()[0]: line.split() for line in out.splitlines() if line.split()}
+    assert lines["minimum_film"][1:3] == [f"{state.minimum_film * 1e6:.6g}", "µm"]
+    assert lines["iterations"][1] == str(state.iterations)
+    assert {"converged", "residual"} <= lines.keys()
+
+
+def test_rolling_prints_the_load_of_the_hardest_loaded_ball(loadflow):
+    arguments = [*ROLLING, "--groove-radius", 0.0205, "--force-z", 2e6, "--moment-y", 1e5]
+    bearing = SlewingBearing(
+        balls=129,
+        rows=2,
+        ball_diameter=0.04,
+        pitch_diameter=1.9,
+        groove_radius=0.0205,
+        contact_angle=math.radians(45),
+    )
+    result = bearing.equilibrium(force=(0, 0, 2e6), moment=(0, 1e5))
+    answer = json.loads(loadflow("rolling", *arguments, "--json")[1])
+    assert answer["maximum_force"]["value"] == float(result.maximum_force)
+    assert np.shape(answer["ball_forces"]["value"]) == (2, 2, 129)
+    _, out, _ = loadflow("rolling", *arguments)
+    row = next(line for line in out.splitlines() if "maximum_force" in line)
+    assert row.split()[1:3] == [f"{result.maximum_force / 1e3:.6g}", "kN"]
+    assert "ball_forces" not in out  # 516 numbers are for --json
+    assert "converged" in out
+
+
+# -- what is refused --------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        (["seeds", "CUBE", "--variable", "hub_moment.q"], "no variable 'hub_moment.q'; there are"),
+        (["seeds", "CUBE", "--alpha", 2], "alpha = 2.0; allowed: 0 < alpha < 1"),
+        (["seeds", "CUBE", "--method", "best"], "as-printed"),
+        (["seeds", "gone.h5"], "gone.h5: no such load cube"),
+        (["reduce", "CUBE", "-o", "OUT", "--bearing", "N7"], "no bearing 'N7'; there are N, N2"),
+        (["reduce", "CUBE", "-o", "OUT", "--size", 3], "size = 3.0"),
+        (["reduce", "CUBE", "-o", "OUT", "--pick", "best"], "extremes"),
+        (["reduce", "CUBE"], "Missing option"),
+        (["loads", "--wind-speed", 40, "-o", "OUT"], "wind_speed = 40.0 m/s is not allowed"),
+        (["loads", "--wind-speed", 8, "--category", "Q", "-o", "OUT"], "category = 'Q'"),
+        (["loads", "--wind-speed", 8, "--duration", -1, "-o", "OUT"], "duration = -1"),
+        (["loads", "--wind-speed", 8, "--turbine", "none", "-o", "OUT"], "unknown turbine 'none'"),
+        (["loads", "--wind-speed", "fast", "-o", "OUT"], "Invalid value for '--wind-speed'"),
+        (["wind", 90], "no gust"),
+        (["wind", 12, "--category", "Q"], "turbulence category 'Q' is unknown"),
+        (["journal", *JOURNAL], "give --force-x and --speed-rpm"),
+        (["journal", *JOURNAL, "--series", "gone.txt"], "gone.txt"),
+        (
+            ["journal", *JOURNAL, "--series", "gone.txt", "--speed-rpm", 12],
+            "leave out --force-x and --speed-rpm",
+        ),
+        (
+            ["journal", *JOURNAL, "--diameter", -3, "--force-x", 1, "--speed-rpm", 1],
+            "diameter = -3.0 is not allowed",
+        ),
+        (["rolling", *ROLLING, "--groove-radius", 0.01], "groove_radius"),
+        (["rolling", *ROLLING, "--groove-radius", 0.0205, "--force-z", "nan"], "nan"),
+    ],
+)
+def test_bad_input_gives_one_message_and_code_2(loadflow, hub_cube, tmp_path, arguments, says):
+    places = {"CUBE": hub_cube, "OUT": tmp_path / "out"}
+    code, out, err = loadflow(*(places.get(argument, argument) for argument in arguments))
+    assert code == 2
+    assert says in " ".join(err.replace("│", " ").split())
+    assert out == ""
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_film_without_an_answer_fails_with_code_1(loadflow):
+    code, _, err = loadflow("journal", *JOURNAL, "--force-x", 1e6, "--speed-rpm", 0)
+    assert code == 1
+    assert "without rotation and squeeze the film carries no load" in err
+
+
+def test_a_folder_that_cannot_be_written_fails_with_code_1(loadflow, hub_cube, tmp_path):
+    (tmp_path / "file").touch()
+    code, _, err = loadflow("reduce", hub_cube, "-o", tmp_path / "file" / "inside")
+    assert code == 1
+    assert "inside" in err
+
+
+def test_a_cube_without_loads_cannot_be_reduced(loadflow, tmp_path):
+    plain = save_cube(make_cube([case(8.0, 1)[["speed", "pitch"]]]), tmp_path / "plain.h5")
+    code, _, err = loadflow("reduce", plain, "-o", tmp_path / "out")
+    assert code == 2
+    assert "plain.h5: dlc1.1_v8_s1: neither 'force' of bearings nor 'hub_force'" in err
+
+
+# -- start-up ---------------------------------------------------------------------------------
+
+
+def test_help_imports_nothing_heavy():
+    code = (
+        "import sys, loadflow.cli\n"
+        "heavy = {'numba', 'scipy', 'xarray', 'pandas', 'matplotlib', 'pydantic'}\n"
+        "sys.exit(' '.join(sorted(heavy & set(sys.modules))) or 0)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize("command", ["seeds", "reduce", "wind", "loads", "journal", "rolling"])
+def test_every_command_has_help_and_json(loadflow, command):
+    code, out, _ = loadflow(command, "--help")
+    assert code == 0
+    assert "--json" in out
