@@ -49,6 +49,18 @@ class Run:
     failures: dict[str, str] = field(default_factory=dict)
 
     @property
+    def flagged(self) -> dict[str, int]:
+        """Number of samples without an answer, by stage and case, where there are any."""
+        found = {}
+        for stage, node in self.tree.children.items():
+            if "not_converged" in node:
+                flags = node.to_dataset()["not_converged"]
+                per_case = flags.sum([dim for dim in flags.dims if dim != "case"])
+                for case in per_case["case"].values[per_case.to_numpy() > 0]:
+                    found[f"{case}, {stage}"] = int(per_case.sel(case=case))
+        return found
+
+    @property
     def report(self) -> Path:
         """The report page."""
         return self.path / "report.html"

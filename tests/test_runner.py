@@ -73,7 +73,7 @@ def test_a_run_answers_all_that_was_asked(finished):
         (journal["largest_eccentricity_ratio"] > 0.2) & (journal["largest_eccentricity_ratio"] < 1)
     ).all()
     assert (tree["rolling"]["largest_ball_force"] > 1e3).all()
-    assert finished.failures == {}
+    assert finished.failures == finished.flagged == {}
 
 
 def test_every_number_of_the_result_has_units_and_a_meaning(finished):
@@ -163,6 +163,7 @@ def test_samples_at_standstill_are_counted_and_the_rest_of_the_series_is_answere
     still = samples["speed"].values == 0
     assert still.any()
     assert journal["not_converged"] == still.sum()
+    assert result.flagged == {"dlc1.1_v8_s1, journal": still.sum()}
     assert np.isnan(samples["eccentricity_ratio"].values[still]).all()
     assert np.isfinite(samples["eccentricity_ratio"].values[~still]).all()
 

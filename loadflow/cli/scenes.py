@@ -52,9 +52,11 @@ def run(
         )
     if as_json:
         paths = {"path": str(result.path), "report": str(result.report)}
-        print_json(paths | {"failures": result.failures})
+        print_json(paths | {"failures": result.failures, "flagged": result.flagged})
     else:
         out.print(f"results  {result.path / 'result.h5'}\nreport   {result.report}", soft_wrap=True)
+        for part, count in result.flagged.items():
+            out.print(f"flagged  {part}: {count} samples have no answer", soft_wrap=True)
     if result.failures:
         lines = "\n".join(f"  {case}: {why}" for case, why in result.failures.items())
         raise LoadflowError(f"{len(result.failures)} parts have no answer:\n{lines}")
