@@ -95,7 +95,6 @@ def main() -> None:
     parser.add_argument("--only", choices=STAGES, help="one stage; the others stay as they are")
     arguments = parser.parse_args()
     bench = Bench(QUICK if arguments.quick else Setting())
-    ladder = json.loads(LADDER.read_text(encoding="utf-8"))
     measured = {}
     for name in [arguments.only] if arguments.only else STAGES:
         start = time.perf_counter()
@@ -105,7 +104,7 @@ def main() -> None:
             print(f"  {rung}: {entry['relative_time']:.3g} × top, {entry['error']}")
     if arguments.quick:
         return
-    found = ladder | measured
+    found = json.loads(LADDER.read_text(encoding="utf-8")) | measured
     ordered = {name: found[name] for name in STAGES if name in found}
     LADDER.write_text(json.dumps(ordered, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
     DOC.write_text(page(ordered), encoding="utf-8")

@@ -220,7 +220,10 @@ def measure_journal(bench: Bench) -> Rungs:
         f"{', '.join(f'{w:g}' for w in setting.speeds)} rad/s; bearing, oil and gas content of "
         "pipelines/dlc_1_1.toml"
     )
-    models = {f"grid, {a}x{b}": {"grid": (a, b), "rung": "grid"} for a, b in GRIDS}
+    models: dict[str, Entry] = {
+        f"grid, {a}x{b}": {"grid": (a, b), "rung": "grid"} for a, b in GRIDS
+    }
+    models["grid, 60x20, graded"] = {"grid": (60, 20), "grading": "graded", "rung": "grid"}
     others = get_args(Journal.model_fields["rung"].annotation)
     models |= {rung: {"rung": rung} for rung in others if rung != "grid"}
     rungs: Rungs = {}

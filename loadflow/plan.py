@@ -69,6 +69,9 @@ GIVEN_BY = {
 }
 """Which stage gives a result."""
 
+STEPS_PER_CASE = 24_000
+"""Length of a load case in the ladder: 600 s in steps of 0.025 s."""
+
 
 @dataclass(frozen=True)
 class Step:
@@ -157,20 +160,29 @@ def _step(scene: Scene, stage: Stage, cases: tuple[Case, ...], done: dict[str, S
 
 
 def _rung(scene: Scene, stage: str) -> str:
+    """Return the model that the scene chooses, by its name in the ladder."""
     if stage == "loads":
         return scene.loads.rung if scene.loads.source == "simulate" else "files"
     return {
         "shaft": "+".join(name for name, _ in scene.shaft if getattr(scene.shaft, name)),
-        "seeds": "+".join(scene.seeds.methods),
-        "reduction": f"histogram, {scene.reduction.pick}",
-        "journal": scene.journal.rung,
+        "seeds": "+".join(sorted(set(scene.seeds.methods))),
+        "reduction": f"histogram, {scene.reduction.pick}, {scene.reduction.size:g}",
+        "journal": _film_rung(scene),
         "rolling": scene.rolling.rings,
     }.get(stage, "-")
+
+
+def _film_rung(scene: Scene) -> str:
+    around, across = scene.journal.grid
+    rung = scene.journal.rung
+    return f"grid, {around}x{across}" if rung == "grid" else rung
 
 
 def _units(scene: Scene, stage: Stage, case: Case) -> float:
     """Return how many units of work one load case holds."""
     if stage.unit == "case":
-        return 1.0
-    samples = scene.reduction.size * case.steps
-    return samples * (len(scene.journal.bearings) if stage.name == "journal" else 1)
+        return case.steps / STEPS_PER_CASE
+    known = ladder().get("reduction", {}).get(_rung(scene, "reduction"), {})
+    share = min(1.0, scene.reduction.size * known.get("samples_over_wanted", 1.0))
+    bearings = len(scene.journal.bearings) if stage.name == "journal" else 1
+    return share * case.steps * bearings
