@@ -332,6 +332,22 @@ def test_a_cube_without_loads_cannot_be_reduced(loadflow, tmp_path):
     assert "plain.h5: dlc1.1_v8_s1: neither 'force' of bearings nor 'hub_force'" in err
 
 
+@pytest.mark.parametrize("command", [["seeds", "CUBE"], ["reduce", "CUBE", "-o", "OUT"]])
+def test_a_bad_cube_is_named_with_case_variable_and_index(loadflow, tmp_path, command):
+    whole = make_cube([case(8.0, 1), case(8.0, 2)])
+    holed = whole.copy(deep=True)
+    holed["hub_force"][1, 0, 7] = np.nan
+    for cube, says in (
+        (holed, "case 'dlc1.1_v8_s1', variable 'hub_force', index (axis y, time 7)"),
+        (whole.drop_vars("dlc"), "coordinate 'dlc' is missing"),
+    ):
+        places = {"CUBE": save_cube(cube, tmp_path / "bad.h5"), "OUT": tmp_path / "out"}
+        code, _, err = loadflow(*(places.get(argument, argument) for argument in command))
+        assert code == 2
+        assert "bad.h5" in err
+        assert says in err
+
+
 # -- start-up ---------------------------------------------------------------------------------
 
 

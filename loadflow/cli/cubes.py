@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from loadflow.cli.base import AsJson, app, out, print_json, print_rows, progress
+
+if TYPE_CHECKING:
+    from loadflow.cube import Cube
 
 CubeFile = Annotated[
     Path, typer.Argument(help="Load cube (.h5), or a folder of its cases.", show_default=False)
@@ -28,6 +31,15 @@ class Pick(StrEnum):
 
     random = "random"
     extremes = "extremes"
+
+
+def _open(path: Path) -> Cube:
+    """Open a cube and check it whole."""
+    from loadflow.cube import check_cube, open_cube
+
+    cube = open_cube(path)
+    check_cube(cube, source=str(path))
+    return cube
 
 
 @app.command()
@@ -99,7 +111,6 @@ def seeds(
     as_json: AsJson = False,
 ) -> None:
     """Test for each wind speed and load component whether its seeds are equal."""
-    from loadflow.cube import open_cube
     from loadflow.stages.seed_report import (
         HEADS,
         as_row,
@@ -108,7 +119,7 @@ def seeds(
         write_seed_page,
     )
 
-    series = open_cube(cube)
+    series = _open(cube)
     verdicts = seed_verdicts(
         series, variable or [], alpha=alpha, method=method.value, source=str(cube)
     )
@@ -136,15 +147,14 @@ def reduce_series(
     turbine: TurbineName = "nrel-5mw",
     as_json: AsJson = False,
 ) -> None:
-    """Reduce every case to a tenth of the same load character; a parameter file for each.
+    """Reduce the radial force of each bearing in each case; write parameter files and a page.
 
     A cube of hub loads alone gets its bearing forces from the default suspension on two points.
     """
-    from loadflow.cube import open_cube
     from loadflow.stages.reduced_files import HEADS, as_row, reduce_cube, write_reduction_page
 
     made = reduce_cube(
-        open_cube(cube),
+        _open(cube),
         output,
         size=size,
         pick=pick.value,
