@@ -293,7 +293,7 @@ def test_rolling_prints_the_load_of_the_hardest_loaded_ball(loadflow):
         (["journal", *JOURNAL, "--series", "gone.txt"], "gone.txt"),
         (
             ["journal", *JOURNAL, "--series", "gone.txt", "--speed-rpm", 12],
-            "leave out --force-x and --speed-rpm",
+            "leave out --force-… and --speed-rpm",
         ),
         (
             ["journal", *JOURNAL, "--diameter", -3, "--force-x", 1, "--speed-rpm", 1],

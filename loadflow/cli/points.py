@@ -72,8 +72,8 @@ def journal(
     lubricant = Lubricant(viscosity)
     cavitation = None if mixing_constant is None else GasMixture(mixing_constant)
     if series is not None:
-        if force_x is not None or speed_rpm is not None:
-            raise InputError("--series brings its own loads: leave out --force-x and --speed-rpm")
+        if force_x is not None or force_y or speed_rpm is not None:
+            raise InputError("--series brings its own loads: leave out --force-… and --speed-rpm")
         answer = journal_series(series, bearing, lubricant, cavitation, edge_pressure, grid)
     elif force_x is None or speed_rpm is None:
         raise InputError("give --force-x and --speed-rpm, or a parameter file with --series")
