@@ -1,0 +1,109 @@
+"""The ladder knows every rung that a scene can choose, and what it says still holds."""
+
+from pathlib import Path
+from typing import get_args
+
+import pytest
+
+from loadflow.plan import STEPS_PER_CASE, ladder, make_plan
+from loadflow.scene import Journal, Loads, Reduction, Rolling, Scene, Seeds, make_scene
+
+BENCHMARKS = Path(__file__).parents[1] / "benchmarks"
+
+
+def choices(section, name):
+    """The values that a Literal of the scene allows."""
+    return get_args(section.model_fields[name].annotation)
+
+
+def plan_of(**sections):
+    return make_plan(make_scene({"name": "ladder"} | sections))
+
+
+SCENES = [
+    *({"loads": {"rung": rung}} for rung in choices(Loads, "rung")),
+    *({"reduction": {"pick": pick}} for pick in choices(Reduction, "pick")),
+    *({"journal": {"rung": rung}} for rung in choices(Journal, "rung")),
+    *({"rolling": {"rings": rings}} for rings in choices(Rolling, "rings")),
+    *({"seeds": {"methods": [m]}} for m in get_args(choices(Seeds, "methods")[0])),
+    {"seeds": {"methods": ["calibrated", "as-printed"]}},
+]
+
+
+@pytest.mark.parametrize("sections", SCENES, ids=str)
+def test_every_rung_that_a_scene_can_choose_has_cost_and_error(sections):
+    for step in plan_of(**sections).steps:
+        assert step.seconds is not None, (step.stage.name, step.rung)
+        assert step.seconds > 0
+        assert step.error
+
+
+@pytest.mark.parametrize("concept", ["two_point", "moment"])
+def test_each_suspension_alone_is_measured(concept):
+    plan = plan_of(shaft={concept: {}}, results=["loads.statistics"])
+    assert all(step.seconds for step in plan.steps)
+
+
+def test_what_was_not_measured_says_so():
+    step = plan_of(journal={"grid": [48, 16]}).steps[-2]
+    assert step.stage.name == "journal"
+    assert step.seconds is None
+    assert step.error is None
+
+
+def test_expected_time_grows_with_length_and_cases():
+    def seconds(**loads):
+        return {s.stage.name: s.seconds for s in plan_of(loads=loads).steps}
+
+    short = seconds(wind_speeds=[12.0], seeds=1, duration=300.0)
+    long = seconds(wind_speeds=[8.0, 12.0], seeds=3, duration=600.0)
+    assert long == {name: pytest.approx(12 * value) for name, value in short.items()}
+
+
+def test_one_case_of_the_plan_is_one_case_of_the_ladder():
+    steps = plan_of(loads={"wind_speeds": [12.0], "seeds": 1}).steps
+    assert Scene(name="defaults").loads.duration / 0.025 == STEPS_PER_CASE
+    assert steps[0].seconds == pytest.approx(ladder()["loads"]["flap"]["seconds_per_case"])
+
+
+def test_errors_are_ordered_and_name_their_worst_case():
+    measured = [
+        error
+        for rungs in ladder().values()
+        for e in rungs.values()
+        for error in e["errors"].values()
+    ]
+    assert len(measured) > 20
+    for error in measured:
+        assert 0 <= error["p95"] <= error["max"]
+        assert error["worst"]
+
+
+def test_a_finer_film_grid_is_dearer_and_more_accurate():
+    rungs = ladder()["journal"]
+    coarse, usual, fine = (rungs[f"grid, {g}"] for g in ("30x10", "60x20", "240x80"))
+    assert coarse["relative_time"] < usual["relative_time"] < fine["relative_time"]
+    for quantity in coarse["errors"]:
+        assert coarse["errors"][quantity]["max"] > fine["errors"][quantity]["max"]
+
+
+def test_stored_film_errors_still_hold(monkeypatch):
+    """Measured again at two loads; the coarser reference leaves out at most half of the error."""
+    monkeypatch.syspath_prepend(BENCHMARKS)
+    from ladder_bearings import film_errors, reference_film
+    from measuring import Setting
+
+    options = Journal()
+    setting = Setting(sommerfeld=(1.0, 10.0), speeds=(1.267,))
+    reference = reference_film(options, setting, (240, 80))
+    errors = film_errors(options, setting, reference, grid=(60, 20)).summary()
+    for quantity, stored in ladder()["journal"]["grid, 60x20"]["errors"].items():
+        assert errors[quantity]["max"] < 1.5 * stored["max"], quantity
+        assert errors[quantity]["max"] > stored["max"] / 10, quantity
+
+
+def test_the_page_shows_what_is_stored(monkeypatch):
+    monkeypatch.syspath_prepend(BENCHMARKS)
+    from ladder import DOC, page
+
+    assert DOC.read_text(encoding="utf-8") == page(ladder())
