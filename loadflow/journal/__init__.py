@@ -3,6 +3,7 @@
 ========================  ==========================================================
 `options`                 lubricant, laws of the ruptured film, grooves
 `bearing`                 `JournalBearing`: what the user calls
+`rungs`                   the table of models behind the same signature
 `setup`                   from the user's words to the discrete film
 `mesh`                    cells of the half film
 `film`                    balance, linearisation and integrals of the discrete film

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
 from annotated_types import Gt, Lt
@@ -22,7 +22,8 @@ from loadflow.journal.equilibrium import (
 from loadflow.journal.film import Film
 from loadflow.journal.options import Cavitation, Lubricant, Supply, require
 from loadflow.journal.orbit import march, orbit_dataset
-from loadflow.journal.result import Equilibrium, FilmField, field_row, stack, static_row
+from loadflow.journal.result import Equilibrium, FilmField, field_row, shaped, stack, static_row
+from loadflow.journal.rungs import Control, Rung, check_rung, model
 from loadflow.journal.setup import FilmOptions, Grading, Inlet, build_film, operating_points
 from loadflow.tribology.film import butenschoen
 
@@ -95,7 +96,7 @@ class JournalBearing:
         inlet: Inlet = "auto",
         grid: tuple[int, int] | None = None,
         grading: Grading = "auto",
-        rung: Literal["grid"] = "grid",
+        rung: Rung = "grid",
         tolerance: float = 1e-10,
         max_iterations: int = 60,
         strict: bool = True,
@@ -147,9 +148,13 @@ class JournalBearing:
         SolverError
             A load at ω = 0 (no film without squeeze), or no convergence; names the first such load.
         """
-        require(rung == "grid", "rung", rung, '"grid"')
+        check_rung(rung)
         options = FilmOptions(lubricant, cavitation, edge_pressure, supply, inlet, grid, grading)
         loads, speeds, shape = operating_points(force, speed, "force")
+        if rung != "grid":
+            control = Control(tolerance, max_iterations, strict)
+            answer = model(rung).equilibrium(self, options, loads, speeds, control)
+            return Equilibrium(**shaped(answer, shape))
         film = self._film(options, speeds)
         finer = self._film(options.graded(), speeds) if options.may_grade else None
         rows = []
@@ -245,7 +250,7 @@ class JournalBearing:
         inlet: Inlet = "auto",
         grid: tuple[int, int] | None = None,
         grading: Grading = "auto",
-        rung: Literal["grid"] = "grid",
+        rung: Rung = "grid",
         start: ArrayLike | None = None,
         tolerance: float = 1e-8,
         max_iterations: int = 30,
@@ -289,7 +294,7 @@ class JournalBearing:
         SolverError
             No equilibrium to start from, or a step that fails even when cut.
         """
-        require(rung == "grid", "rung", rung, '"grid"')
+        check_rung(rung)
         options = FilmOptions(lubricant, cavitation, edge_pressure, supply, inlet, grid, grading)
         loads, speeds, shape = operating_points(force, speed, "force")
         times = np.asarray(time, dtype=float)
@@ -298,17 +303,21 @@ class JournalBearing:
         bad = np.flatnonzero(~(np.diff(times) > 0))
         if bad.size:
             raise InputError(f"time[{bad[0] + 1}] = {times[bad[0] + 1]} does not increase")
+        place = None if start is None else np.asarray(start, dtype=float) / self.clearance
+        if place is not None:
+            require(bool(np.hypot(*place) < 1), "start", start, f"|start| < c = {self.clearance} m")
+        if rung != "grid":
+            control = Control(tolerance, max_iterations)
+            return model(rung).orbit(self, options, times, loads, speeds, place, control)
         film = self._film(options.for_history(), speeds)
         film.raise_scale(float(np.hypot(*loads.T).max()) / (self.width * self.diameter))
         omega = float(speeds[0])
         film.set_speed(omega)
-        if start is None:
+        if place is None:
             _, first = self._static(
                 film, None, loads[0], omega, None, tolerance, 2 * max_iterations
             )
         else:
-            place = np.asarray(start, dtype=float) / self.clearance
-            require(bool(np.hypot(*place) < 1), "start", start, f"|start| < c = {self.clearance} m")
             first = solve_film(film, film.start(), place, np.zeros(2), tolerance, 100)
         if not first.converged:
             raise SolverError(f"orbit cannot start: {self._refusal(film, loads[0], first)}")

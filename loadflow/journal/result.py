@@ -130,11 +130,12 @@ total_fill, stiffness, damping, converged, iterations, residual
 
 def stack(rows: list[dict[str, Any]], shape: tuple[int, ...]) -> dict[str, Any]:
     """Turn a list of rows into arrays of leading `shape`; one row of shape () into scalars."""
-    columns = {}
-    for name in rows[0]:
-        values = np.array([row[name] for row in rows])
-        columns[name] = values.reshape(shape + values.shape[1:])[()]
-    return columns
+    return shaped({name: np.array([row[name] for row in rows]) for name in rows[0]}, shape)
+
+
+def shaped(columns: dict[str, Any], shape: tuple[int, ...]) -> dict[str, Any]:
+    """Give the leading axis of `columns` the `shape` of the input; () makes scalars."""
+    return {name: values.reshape(shape + values.shape[1:])[()] for name, values in columns.items()}
 
 
 def static_row(

@@ -1,0 +1,84 @@
+"""Models of the film behind one signature: the table of rungs, and what each must offer.
+
+The finite volumes ("grid") are `JournalBearing`'s own; every other rung is a module with the two
+functions of `Model`, imported when it is used.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from importlib import import_module
+from typing import TYPE_CHECKING, Any, Literal, Protocol, cast, get_args
+
+import numpy as np
+from numpy.typing import NDArray
+
+from loadflow.journal.options import require
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from loadflow.journal.bearing import JournalBearing
+    from loadflow.journal.setup import FilmOptions
+
+Array = NDArray[np.float64]
+
+Rung = Literal["grid"]
+"""Names of the rungs, from the cheapest to the dearest."""
+
+_MODULES: dict[str, str] = {}
+
+
+@dataclass(frozen=True)
+class Control:
+    """When a solver stops: tolerance of the scaled residual, Newton steps, and what then.
+
+    `strict` raises for the first load without an answer; else its results are NaN.
+    """
+
+    tolerance: float
+    max_iterations: int
+    strict: bool = True
+
+
+class Model(Protocol):
+    """What the module of a rung offers."""
+
+    def equilibrium(
+        self,
+        bearing: JournalBearing,
+        options: FilmOptions,
+        force: Array,
+        speed: Array,
+        control: Control,
+    ) -> dict[str, Any]:
+        """Return the fields of `Equilibrium` for `force` (n, 2) and `speed` (n,), n leading."""
+
+    def orbit(
+        self,
+        bearing: JournalBearing,
+        options: FilmOptions,
+        time: Array,
+        force: Array,
+        speed: Array,
+        start: Array | None,
+        control: Control,
+    ) -> xr.Dataset:
+        """Return the Dataset of `JournalBearing.orbit`; `start` is in clearances."""
+
+
+def check_rung(rung: str) -> None:
+    """Refuse a name that no rung bears.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        Names the rungs that there are.
+    """
+    names = get_args(Rung)
+    require(rung in names, "rung", rung, " or ".join(f'"{name}"' for name in names))
+
+
+def model(rung: str) -> Model:
+    """The module of a rung other than "grid"."""
+    return cast("Model", import_module(_MODULES[rung]))
