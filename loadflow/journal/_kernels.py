@@ -5,7 +5,10 @@ clearance and pressures in Pa. The balance of a film cell is then ::
 
     sum of outflows (wedge · F · H − H³ ∂p) + storage = 0,   wedge = 6 η ω / ψ²
 
-which is (3.51) of the source times 12 η / ψ² …; only half of the width is solved.
+which is (3.51) of the source times 12 η / ψ² …. A symmetric gap is solved over half of the width.
+
+Coefficients of the gap have the shape (8, nx + 1, rows): one row where the gap does not change
+along the axis, else one for each row of cells and a last one for the far rim.
 """
 
 from __future__ import annotations
@@ -17,8 +20,9 @@ FULL, GUEMBEL, REYNOLDS, MASS_CONSERVING, GAS_MIXTURE = range(5)
 
 # rows of the state of the cells
 P, DP, FILL, DFILL, SLACK, DSLACK, LOAD, DLOAD = range(8)
-# rows of the coefficients of the gap: on faces, then on cells
-G, E, H3, HM, COS, SIN, ARC, HINV = range(8)
+# coefficients of the gap: on the faces around, on the faces across (H3), on cells; CELL3 is ∫H³ of
+# cells, from which the faces across of a gap that changes along the axis follow
+G, E, H3, HM, COS, SIN, CELL3, HINV = range(8)
 
 
 @njit(cache=True, nogil=True)
@@ -71,7 +75,7 @@ def apply_law(kind, mixing, p_cav, scale, u, state):
 
 @njit(cache=True, nogil=True)
 def gap_coefficients(cos_face, sin_face, w_face, cos_cell, sin_cell, w_cell, stretch, ex, ey, out):
-    """Coefficients of the gap H = 1 − ex cos θ − ey sin θ, `out` (8, nx + 1).
+    """Coefficients of the gap H = 1 − ex cos θ − ey sin θ, `out` (8, nx + 1, 1).
 
     Between two cell centres the flux is taken constant, so that conductance and effective gap are
     G = 1/∫H⁻³, E = G ∫H⁻²; this stays right across steps of the gap. Nodes are given in the
@@ -90,29 +94,29 @@ def gap_coefficients(cos_face, sin_face, w_face, cos_cell, sin_cell, w_cell, str
             r = 1.0 / (1.0 - ex * c - ey * s)
             i2 += w * r * r
             i3 += w * r * r * r
-        out[G, i] = 1.0 / i3
-        out[E, i] = i2 / i3
+        out[G, i, 0] = 1.0 / i3
+        out[E, i, 0] = i2 / i3
     for i in range(nf - 1):
         for row in range(H3, HINV + 1):
-            out[row, i] = 0.0
+            out[row, i, 0] = 0.0
         for q in range(nq):
             d = 1.0 / (1.0 + stretch * cos_cell[i, q])
             c = (stretch + cos_cell[i, q]) * d
             s = root * sin_cell[i, q] * d
             w = w_cell[i, q] * root * d
             h = 1.0 - ex * c - ey * s
-            out[H3, i] += w * h * h * h
-            out[HM, i] += w * h
-            out[COS, i] += w * c
-            out[SIN, i] += w * s
-            out[ARC, i] += w
-            out[HINV, i] += w / h
+            out[H3, i, 0] += w * h * h * h
+            out[HM, i, 0] += w * h
+            out[COS, i, 0] += w * c
+            out[SIN, i, 0] += w * s
+            out[HINV, i, 0] += w / h
 
 
 @njit(cache=True, nogil=True)
 def balance(state, coef, dz, gz, closed, wedge, p_edge, p_line, f_line, mass, out):
-    """Add the outflow of each cell to `out` (nx, nz); linear in `coef` and `mass` (nx,)."""
+    """Add the outflow of each cell to `out` (nx, nz); linear in `coef` and `mass` (nx, rows)."""
     _, nx, nz = state.shape
+    row = 1 if coef.shape[2] > 1 else 0
     p = state[P]
     fill = state[FILL]
     for i in range(nx + 1):
@@ -120,9 +124,9 @@ def balance(state, coef, dz, gz, closed, wedge, p_edge, p_line, f_line, mass, ou
         right = i if i < nx else 0
         if closed and i == nx:
             break
-        g = coef[G, i]
-        e = wedge * coef[E, i]
         for k in range(nz):
+            g = coef[G, i, row * k]
+            e = wedge * coef[E, i, row * k]
             p_l, f_l, p_r, f_r = p[left, k], fill[left, k], p[right, k], fill[right, k]
             if not closed:
                 if i == 0:
@@ -135,10 +139,11 @@ def balance(state, coef, dz, gz, closed, wedge, p_edge, p_line, f_line, mass, ou
             if closed or i < nx:
                 out[right, k] -= q
     for i in range(nx):
-        h3 = coef[H3, i]
+        out[i, 0] -= coef[H3, i, 0] * gz[0] * (p_edge - p[i, 0])
         for k in range(nz):
-            out[i, k] += fill[i, k] * mass[i] * dz[k]
-            q = h3 * gz[k] * (p[i, k] - (p[i, k + 1] if k + 1 < nz else p_edge))
+            out[i, k] += fill[i, k] * mass[i, row * k] * dz[k]
+            g = coef[H3, i, row * (k + 1)] * gz[k + 1]
+            q = g * (p[i, k] - (p[i, k + 1] if k + 1 < nz else p_edge))
             out[i, k] += q
             if k + 1 < nz:
                 out[i, k + 1] -= q
@@ -148,6 +153,7 @@ def balance(state, coef, dz, gz, closed, wedge, p_edge, p_line, f_line, mass, ou
 def jacobian(state, coef, dz, gz, closed, wedge, mass, order, fixed, ab):
     """Band matrix ∂(balance + slack)/∂u in LAPACK's layout, `ab` (n, 3 kl + 1), column by row."""
     _, nx, nz = state.shape
+    row = 1 if coef.shape[2] > 1 else 0
     ab[:] = 0.0
     kl = (ab.shape[1] - 1) // 3
     mid = 2 * kl
@@ -158,14 +164,14 @@ def jacobian(state, coef, dz, gz, closed, wedge, mass, order, fixed, ab):
             break
         left = i - 1 if i > 0 else nx - 1
         right = i if i < nx else 0
-        g = coef[G, i]
-        e = wedge * coef[E, i]
-        e_l = e if wedge > 0 else 0.0
-        e_r = e if wedge <= 0 else 0.0
         has_l = closed or i > 0
         has_r = closed or i < nx
         shift = (order[right] - order[left]) * nz
         for k in range(nz):
+            g = coef[G, i, row * k]
+            e = wedge * coef[E, i, row * k]
+            e_l = e if wedge > 0 else 0.0
+            e_r = e if wedge <= 0 else 0.0
             if has_l:
                 col = order[left] * nz + k
                 d = dz[k] * (e_l * df[left, k] + g * dp[left, k])
@@ -179,11 +185,11 @@ def jacobian(state, coef, dz, gz, closed, wedge, mass, order, fixed, ab):
                 if has_l:
                     ab[col, mid - shift] += d
     for i in range(nx):
-        h3 = coef[H3, i]
         base = order[i] * nz
+        ab[base, mid] += coef[H3, i, 0] * gz[0] * dp[i, 0]
         for k in range(nz):
-            ab[base + k, mid] += df[i, k] * mass[i] * dz[k] + state[DSLACK, i, k]
-            g = h3 * gz[k]
+            ab[base + k, mid] += df[i, k] * mass[i, row * k] * dz[k] + state[DSLACK, i, k]
+            g = coef[H3, i, row * (k + 1)] * gz[k + 1]
             ab[base + k, mid] += g * dp[i, k]
             if k + 1 < nz:
                 ab[base + k, mid + 1] -= g * dp[i, k]
@@ -193,10 +199,10 @@ def jacobian(state, coef, dz, gz, closed, wedge, mass, order, fixed, ab):
     for i in range(nx):
         for k in range(nz):
             if fixed[i, k]:
-                row = order[i] * nz + k
-                for col in range(max(0, row - kl), min(n, row + kl + 1)):
-                    ab[col, mid + row - col] = 0.0
-                ab[row, mid] = 1.0
+                at = order[i] * nz + k
+                for col in range(max(0, at - kl), min(n, at + kl + 1)):
+                    ab[col, mid + at - col] = 0.0
+                ab[at, mid] = 1.0
 
 
 @njit(cache=True, nogil=True)
@@ -209,35 +215,33 @@ def gather(field, order, column):
 
 
 @njit(cache=True, nogil=True)
-def load_of(state, coef, dz):
-    """∫ p (cos θ, sin θ) over the half film."""
-    _, nx, nz = state.shape
-    fx = 0.0
-    fy = 0.0
-    for i in range(nx):
-        total = 0.0
-        for k in range(nz):
-            total += state[LOAD, i, k] * dz[k]
-        fx += coef[COS, i] * total
-        fy += coef[SIN, i] * total
-    return fx, fy
-
-
-@njit(cache=True, nogil=True)
-def carried_by(state, coef, dz, order, columns, out):
-    """Change of `load_of` by each of `columns` (m, n) of changes of the unknowns, `out` (m, 2)."""
-    _, nx, nz = state.shape
-    for j in range(columns.shape[0]):
-        fx = 0.0
-        fy = 0.0
+def load_of(load, around, across, dz, out):
+    """∫ p N_j over the film for modes N_j = around_j (m, nx) · across_j (m, rows), `out` (m,)."""
+    nx, nz = load.shape
+    row = 1 if across.shape[1] > 1 else 0
+    for j in range(out.size):
+        out[j] = 0.0
         for i in range(nx):
             total = 0.0
             for k in range(nz):
-                total += state[DLOAD, i, k] * dz[k] * columns[j, order[i] * nz + k]
-            fx += coef[COS, i] * total
-            fy += coef[SIN, i] * total
-        out[j, 0] = fx
-        out[j, 1] = fy
+                total += load[i, k] * dz[k] * across[j, row * k]
+            out[j] += around[j, i] * total
+
+
+@njit(cache=True, nogil=True)
+def carried_by(slope, around, across, dz, order, columns, out):
+    """Change of `load_of` by each of `columns` (l, n) of changes of the unknowns, `out` (l, m)."""
+    nx, nz = slope.shape
+    row = 1 if across.shape[1] > 1 else 0
+    out[:] = 0.0
+    for c in range(columns.shape[0]):
+        for i in range(nx):
+            base = order[i] * nz
+            for j in range(out.shape[1]):
+                total = 0.0
+                for k in range(nz):
+                    total += slope[i, k] * dz[k] * across[j, row * k] * columns[c, base + k]
+                out[c, j] += around[j, i] * total
 
 
 @njit(cache=True, nogil=True)
@@ -259,12 +263,13 @@ def correct(u, columns, weights, order):
 
 @njit(cache=True, nogil=True)
 def integrals(state, coef, dz, gz, closed, p_edge, p_line, groove):
-    """Integrals over the half film, in the units of this module.
+    """Integrals over the solved film, in the units of this module.
 
     Returns the largest pressure, the dissipation Σ H³ |∂p|², the shear ∫ 1/H outside grooves, the
-    outflow over the rim (where it leaves), and ∫ F H and ∫ H.
+    outflow over the rims (where it leaves), and ∫ F H and ∫ H.
     """
     _, nx, nz = state.shape
+    row = 1 if coef.shape[2] > 1 else 0
     p = state[LOAD]
     peak = p[0, 0]
     dissipation, shear, outflow, liquid, volume = 0.0, 0.0, 0.0, 0.0, 0.0
@@ -274,17 +279,21 @@ def integrals(state, coef, dz, gz, closed, p_edge, p_line, groove):
         for k in range(nz):
             p_l = p[i - 1 if i > 0 else nx - 1, k] if closed or i > 0 else p_line
             p_r = p[i, k] if i < nx else p_line
-            dissipation += coef[G, i] * dz[k] * (p_r - p_l) ** 2
+            dissipation += coef[G, i, row * k] * dz[k] * (p_r - p_l) ** 2
     for i in range(nx):
-        h3 = coef[H3, i]
+        drop = p[i, 0] - p_edge
+        flow = coef[H3, i, 0] * gz[0] * drop
+        dissipation += flow * drop
+        outflow += max(flow, 0.0)
         for k in range(nz):
             peak = max(peak, p[i, k])
             drop = p[i, k] - (p[i, k + 1] if k + 1 < nz else p_edge)
-            dissipation += h3 * gz[k] * drop * drop
+            flow = coef[H3, i, row * (k + 1)] * gz[k + 1] * drop
+            dissipation += flow * drop
             if k + 1 == nz:
-                outflow += max(h3 * gz[k] * drop, 0.0)
+                outflow += max(flow, 0.0)
             if not groove[i, k]:
-                shear += coef[HINV, i] * dz[k]
-            liquid += state[FILL, i, k] * coef[HM, i] * dz[k]
-            volume += coef[HM, i] * dz[k]
+                shear += coef[HINV, i, row * k] * dz[k]
+            liquid += state[FILL, i, k] * coef[HM, i, row * k] * dz[k]
+            volume += coef[HM, i, row * k] * dz[k]
     return peak, dissipation, shear, outflow, liquid, volume

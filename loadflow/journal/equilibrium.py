@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.journal.film import Film, Linear
+from loadflow.journal.film import EVERY, Film, Linear
 
 Array = NDArray[np.float64]
 
@@ -42,14 +42,14 @@ class Motion:
     ----------
     rate : float
         1/s; the velocity is ``rate · position − offset``.
-    offset : array (2,)
+    offset : array (m,) or 0
         Clearances per second.
     volume_rate, volume
         The storage of a cell is ``volume_rate · liquid − volume``.
     """
 
     rate: float = 0.0
-    offset: Array = field(default_factory=lambda: np.zeros(2))
+    offset: Array | float = 0.0
     volume_rate: float = 0.0
     volume: Array | float = 0.0
 
@@ -87,12 +87,13 @@ def solve_equilibrium(
     tolerance: float,
     max_iterations: int,
     motion: Motion = REST,
+    free: slice = EVERY,
 ) -> Solution:
     """Position at which the film carries `force`, by one Newton for film and shaft.
 
     Each step solves the film's linearisation for the pressure and for its derivative by the
-    position; the exact 2×2 stiffness that follows gives the step of the shaft. With `motion` the
-    same is one implicit step in time.
+    position; the exact stiffness that follows gives the step of the shaft. With `motion` the
+    same is one implicit step in time. Only the degrees of freedom `free` move; the others are held.
     """
     u = u.copy()
     old = (motion.volume_rate, motion.volume)
@@ -101,69 +102,62 @@ def solve_equilibrium(
         linear = film.linearise(u, position, velocity, *old)
         slope = linear.stiffness + motion.rate * linear.damping
         haste = film.size(linear.columns[0]) / _CALM
-        target = limited(position, _solve2(slope, force - linear.load) / max(haste, 1.0))
+        step = np.zeros(position.size)
+        step[free] = _solve(slope[free, free], (force - linear.load)[free]) / max(haste, 1.0)
+        target = film.gap.advance(position, step)
         weights = film.weights(position, velocity, target, motion.velocity(target))
         change = film.correct(u, linear.columns, weights)
-        gap = 1.0 - math.hypot(*position)
-        change = max(change, math.hypot(*(target - position)) / gap)
+        change = max(change, math.hypot(*(target - position)) / film.gap.narrowest(position))
         position = target
         if change < _QUADRATIC:
-            residual = film.imbalance(u, position, motion.velocity(position), force, *old)
+            residual = film.imbalance(u, position, motion.velocity(position), force, *old, free)
             if residual < tolerance:
                 return Solution(u, position, linear, True, iteration, residual)
-    residual = film.imbalance(u, position, motion.velocity(position), force, *old)
+    residual = film.imbalance(u, position, motion.velocity(position), force, *old, free)
     return Solution(u, position, linear, False, max_iterations, residual)
 
 
 def solve_patiently(
-    film: Film, force: Array, position: Array, tolerance: float, max_iterations: int
+    film: Film,
+    force: Array,
+    position: Array,
+    tolerance: float,
+    max_iterations: int,
+    free: slice = EVERY,
 ) -> Solution:
     """As `solve_equilibrium`, for the few loads at which that fails: film solved at every position.
 
     The step of the shaft is halved until the missing force shrinks.
     """
-    rest = np.zeros(2)
+    rest = np.zeros(position.size)
+    wanted = force[free]
     state = solve_film(film, film.start(), position, rest, tolerance, max_iterations)
     spent = state.iterations
-    missing = force - state.linear.load
+    missing = wanted - state.linear.load[free]
     while state.converged and spent < 10 * max_iterations:
-        step = _solve2(state.linear.stiffness, missing)
+        step = np.zeros(position.size)
+        step[free] = _solve(state.linear.stiffness[free, free], missing)
         for _ in range(20):
-            target = limited(state.position, step)
+            target = film.gap.advance(state.position, step)
             trial = solve_film(film, state.u, target, rest, tolerance, max_iterations)
             spent += trial.iterations
-            left = force - trial.linear.load
-            if trial.converged and np.hypot(*left) < np.hypot(*missing):
+            left = wanted - trial.linear.load[free]
+            if trial.converged and math.hypot(*left) < math.hypot(*missing):
                 break
             step = 0.5 * step
         state, missing = trial, left
-        if np.hypot(*missing) < 1e-3 * np.hypot(*force):
-            end = solve_equilibrium(film, force, state.u, state.position, tolerance, max_iterations)
+        if math.hypot(*missing) < 1e-3 * math.hypot(*wanted):
+            end = solve_equilibrium(
+                film, force, state.u, state.position, tolerance, max_iterations, free=free
+            )
             return replace(end, iterations=spent + end.iterations)
     return replace(state, converged=False, iterations=spent)
 
 
-def limited(position: Array, step: Array) -> Array:
-    """Position after `step`, of which the narrowest gap keeps at least a third of its height.
-
-    An eccentric shaft goes along the gap, not along the chord.
-    """
-    x, y = position.tolist()
-    dx, dy = step.tolist()
-    ratio = math.hypot(x, y)
-    limit = 1.0 - 0.3 * (1.0 - ratio)
-    if ratio < 0.5:
-        length = math.hypot(x + dx, y + dy)
-        share = min(1.0, limit / length) if length > 0 else 1.0
-        return np.array([share * (x + dx), share * (y + dy)])
-    radial = (x * dx + y * dy) / ratio
-    turn = math.atan2(y, x) + max(-0.5, min(0.5, (x * dy - y * dx) / ratio**2))
-    length = max(0.3, min(limit, ratio + radial))
-    return np.array([length * math.cos(turn), length * math.sin(turn)])
-
-
-def _solve2(matrix: Array, rhs: Array) -> Array:
-    """Solve a 2×2 system; a singular one gives no step."""
+def _solve(matrix: Array, rhs: Array) -> Array:
+    """Solve for a step; a singular 2×2 system gives none, a larger one the shortest."""
+    if rhs.size != 2:
+        return np.asarray(np.linalg.lstsq(matrix, rhs)[0], dtype=float)
     (a, b), (c, d) = matrix.tolist()
     det = a * d - b * c
     if det == 0.0:
@@ -173,6 +167,6 @@ def _solve2(matrix: Array, rhs: Array) -> Array:
 
 def no_film(film: Film) -> Solution:
     """The answer where there is none: NaN, not converged."""
-    nothing = np.full((2, 2), np.nan)
+    nothing = np.full((film.gap.size, film.gap.size), np.nan)
     linear = Linear(nothing[0], nothing, nothing, nothing)
     return Solution(film.start(), nothing[0], linear, False, 0, np.inf)

@@ -11,7 +11,8 @@ from scipy.linalg.lapack import dgbtrf, dgbtrs
 
 from loadflow.errors import SolverError
 from loadflow.journal import _kernels as kernel
-from loadflow.journal.mesh import GrooveCells, Mesh
+from loadflow.journal.gap import Gap, turning_frame
+from loadflow.journal.mesh import GrooveCells
 from loadflow.journal.options import (
     Cavitation,
     GasMixture,
@@ -30,16 +31,8 @@ _KIND = {
     MassConserving: kernel.MASS_CONSERVING,
     GasMixture: kernel.GAS_MIXTURE,
 }
-_SHELL = np.eye(2)
+EVERY = slice(None)  # all degrees of freedom
 _TURN = np.array([[0.0, -1.0], [1.0, 0.0]])  # a quarter turn with the rotation
-
-
-def _frame(position: Array) -> Array:
-    """Axes of the frame that turns with the eccentricity: along it, and a quarter turn on."""
-    x, y = position.tolist()
-    ratio = math.hypot(x, y)
-    cos, sin = (x / ratio, y / ratio) if ratio > 0 else (1.0, 0.0)
-    return np.array([[cos, -sin], [sin, cos]])
 
 
 @dataclass(frozen=True)
@@ -48,11 +41,11 @@ class Linear:
 
     Attributes
     ----------
-    load : array (2,)
-        ∫ p (cos θ, sin θ) dA after the Newton step of the pressure alone, N.
-    stiffness, damping : array (2, 2)
+    load : array (m,)
+        ∫ p N_j dA for each degree of freedom, after the Newton step of the pressure alone, N.
+    stiffness, damping : array (m, m)
         Derivatives of `load` by position (per clearance) and velocity (clearances per second).
-    columns : array (m, n)
+    columns : array (l, n)
         Newton step of the unknowns, and their derivatives by what `Film.weights` lists.
     """
 
@@ -69,8 +62,8 @@ class Film:
 
     Parameters
     ----------
-    mesh : Mesh
-        Cells of the half film.
+    gap : Gap
+        Gap on its mesh.
     law : Cavitation
         Law of the ruptured film.
     viscosity, relative_clearance, radius : float
@@ -83,7 +76,7 @@ class Film:
 
     def __init__(
         self,
-        mesh: Mesh,
+        gap: Gap,
         law: Cavitation,
         viscosity: float,
         relative_clearance: float,
@@ -91,7 +84,8 @@ class Film:
         edge_pressure: float,
         grooves: GrooveCells,
     ) -> None:
-        self.mesh = mesh
+        self.gap = gap
+        self.mesh = mesh = gap.mesh
         self.kind = _KIND[type(law)]
         self.ruptures = self.kind != kernel.FULL
         self.mixing = law.mixing_constant if isinstance(law, GasMixture) else 0.0
@@ -109,8 +103,7 @@ class Film:
         n = nx * nz
         self.ab = np.empty((n, 3 * mesh.bandwidth + 1))
         self.state = np.empty((8, nx, nz))
-        self.coef = np.zeros((8, nx + 1))
-        self.shifted = (np.zeros((8, nx + 1)), np.zeros((8, nx + 1)))
+        self.mirrors = 2.0 if mesh.half else 1.0
 
     def set_speed(self, speed: float) -> None:
         """Set the speed of the shaft, rad/s."""
@@ -140,44 +133,14 @@ class Film:
     def place(self, u: Array, position: Array) -> Array:
         """Evaluate law and gap at `u` and `position`; returns the axes of the mesh's frame."""
         kernel.apply_law(self.kind, self.mixing, self.p_cav, self.scale, u, self.state)
-        if not self.mesh.polar:
-            self._gap(self.coef, 0.0, float(position[0]), float(position[1]))
-            return _SHELL
-        ratio = math.hypot(*position)
-        self._gap(self.coef, self.mesh.strength * ratio, ratio, 0.0)
-        return _frame(position)
-
-    def _gap(self, out: Array, stretch: float, ex: float, ey: float) -> None:
-        kernel.gap_coefficients(*self.mesh.trigonometry, stretch, ex, ey, out)
-
-    def _slope_of_gap(self, position: Array) -> list[Array]:
-        """Derivative of the gap coefficients by the mesh coordinates of the position.
-
-        Central differences of closed forms: the relative error is below 1e-7.
-        """
-        ex, ey = float(position[0]), float(position[1])
-        ratio = float(np.hypot(ex, ey))
-        step = 1e-5 * (1.0 - ratio)
-        if self.mesh.polar:
-            turns = [(1.0, 0.0)]
-            ex, ey = ratio, 0.0
-        else:
-            turns = [(1.0, 0.0), (0.0, 1.0)]
-        slopes = []
-        plus, minus = self.shifted
-        for tx, ty in turns:
-            for out, h in ((plus, step), (minus, -step)):
-                x, y = ex + h * tx, ey + h * ty
-                self._gap(out, self.mesh.strength * x if self.mesh.polar else 0.0, x, y)
-            slopes.append((plus - minus) / (2 * step))
-        return slopes
+        return self.gap.place(position)
 
     # --- balance ---------------------------------------------------------------------------------
-    def _storage(self, coef: Array, velocity: Array, rate: float) -> Array:
-        """Growth of the gap volume of each cell, (nx,), Pa."""
-        cells = coef[:, :-1]
-        moving = velocity[0] * cells[kernel.COS] + velocity[1] * cells[kernel.SIN]
-        return self.slope * (rate * cells[kernel.HM] - moving)
+    def _storage(self, coef: Array, around: Array, velocity: Array, rate: float) -> Array:
+        """Growth of the gap volume of each cell, (nx, rows), Pa."""
+        across = self.gap.across
+        moving = (around.T * velocity) @ across
+        return self.slope * (rate * coef[kernel.HM, :-1, : across.shape[1]] - moving)
 
     def _balance(self, coef: Array, mass: Array) -> Array:
         mesh = self.mesh
@@ -190,7 +153,7 @@ class Film:
 
     def residual(self, u: Array, mass: Array, old: Array | float = 0.0) -> Array:
         """Balance of every cell (nx, nz), after `place`."""
-        field = self._balance(self.coef, mass) + self.state[kernel.SLACK]
+        field = self._balance(self.gap.coef, mass) + self.state[kernel.SLACK]
         field -= old
         field[self.fixed] = 0.0
         return field
@@ -219,10 +182,12 @@ class Film:
         mesh = self.mesh
         frame = self.place(u, position)
         local = frame.T @ velocity
-        mass = self._storage(self.coef, local, rate)
-        slopes = self._slope_of_gap(position)
+        gap = self.gap
+        around, across = gap.around, gap.across
+        mass = self._storage(gap.coef, around, local, rate)
+        slopes = gap.slopes(position)
         kernel.jacobian(
-            self.state, self.coef, mesh.dz, mesh.gz, mesh.closed, self.wedge, mass,
+            self.state, gap.coef, mesh.dz, mesh.gz, mesh.closed, self.wedge, mass,
             mesh.order, self.fixed, self.ab,
         )  # fmt: skip
         lu, pivots, info = dgbtrf(self.ab.T, mesh.bandwidth, mesh.bandwidth, overwrite_ab=1)
@@ -230,21 +195,22 @@ class Film:
             raise SolverError(f"film matrix is singular in row {info} at eccentricity {position}")
 
         fields = [self.residual(u, mass, old)]
-        fields += [self._balance(c, self._storage(c, local, rate)) for c in slopes]
+        fields += [self._balance(c, self._storage(c, a, local, rate)) for c, a in slopes]
         squeeze = -self.slope * self.state[kernel.FILL] * mesh.dz
-        fields += [squeeze * self.coef[row, :-1, None] for row in (kernel.COS, kernel.SIN)]
+        fields += [squeeze * np.outer(a, b) for a, b in zip(around, across)]
         columns = np.empty((len(fields), mesh.angle.size * mesh.z.size))
         for column, field in zip(columns, fields):
             field[self.fixed] = 0.0
             kernel.gather(field, mesh.order, column)
         dgbtrs(lu, mesh.bandwidth, mesh.bandwidth, columns.T, pivots, overwrite_b=1)
 
-        carried = np.empty((len(fields), 2))
-        kernel.carried_by(self.state, self.coef, mesh.dz, mesh.order, columns, carried)
-        carried *= 2.0 * self.radius**2
-        load = self._load(self.coef) - carried[0]
-        by_gap = [self._load(c) for c in slopes]
-        damping = -carried[-2:].T
+        carried = np.empty((len(fields), gap.size))
+        slope = self.state[kernel.DLOAD]
+        kernel.carried_by(slope, around, across, mesh.dz, mesh.order, columns, carried)
+        carried *= self.mirrors * self.radius**2
+        load = self._load(around) - carried[0]
+        by_gap = [self._load(a) for _, a in slopes]
+        damping = -carried[-gap.size :].T
         direct = [d - c for d, c in zip(by_gap, carried[1:])]
         if mesh.polar:
             ratio = max(float(np.hypot(*position)), 1e-9)
@@ -256,9 +222,12 @@ class Film:
             columns=columns,
         )
 
-    def _load(self, coef: Array) -> Array:
-        """∫ p (cos θ, sin θ) dA at the state last placed, full width, in the mesh's frame, N."""
-        return 2.0 * self.radius**2 * np.array(kernel.load_of(self.state, coef, self.mesh.dz))
+    def _load(self, around: Array) -> Array:
+        """∫ p N_j dA at the state last placed, whole film, in the mesh's frame, N."""
+        out = np.empty(self.gap.size)
+        load = self.state[kernel.LOAD]
+        kernel.load_of(load, around, self.gap.across, self.mesh.dz, out)
+        return self.mirrors * self.radius**2 * out
 
     # --- what Newton needs -----------------------------------------------------------------------
     def weights(self, position: Array, velocity: Array, target: Array, speed: Array) -> Array:
@@ -266,7 +235,7 @@ class Film:
         if not self.mesh.polar:
             return np.concatenate([[1.0], target - position, speed - velocity])
         far = math.hypot(*target) - math.hypot(*position)
-        turned = _frame(target).T @ speed - _frame(position).T @ velocity
+        turned = turning_frame(target).T @ speed - turning_frame(position).T @ velocity
         return np.array([1.0, far, *turned])
 
     def size(self, column: Array) -> float:
@@ -286,21 +255,27 @@ class Film:
         force: Array | None = None,
         rate: float = 0.0,
         old: Array | float = 0.0,
+        free: slice = EVERY,
     ) -> float:
-        """Largest imbalance of a cell, and of the load if `force` is given, over their scales."""
+        """Largest imbalance of a cell, and of the load if `force` is given, over their scales.
+
+        Only the degrees of freedom `free` need balance.
+        """
         frame = self.place(u, position)
-        mass = self._storage(self.coef, frame.T @ velocity, rate)
+        around = self.gap.around
+        mass = self._storage(self.gap.coef, around, frame.T @ velocity, rate)
         flux = (abs(self.wedge) + self.scale) * self.mesh.dz.max()
         worst = float(np.abs(self.residual(u, mass, old)).max()) / flux
         if force is not None:
-            scale = max(float(np.hypot(*force)), self.scale * self.radius**2 * 1e-3)
-            missing = force - frame @ self._load(self.coef)
-            worst = max(worst, float(np.hypot(*missing)) / scale)
+            scale = max(math.hypot(*force), self.scale * self.radius**2 * 1e-3)
+            missing = force - frame @ self._load(around)
+            worst = max(worst, math.hypot(*missing[free]) / scale)
         return worst
 
     def liquid(self) -> Array:
         """Liquid in each cell (nx, nz) times the squeeze pressure, Pa s, at the last state."""
-        volume = self.coef[kernel.HM, :-1, None] * self.mesh.dz
+        rows = self.gap.across.shape[1]
+        volume = self.gap.coef[kernel.HM, :-1, :rows] * self.mesh.dz
         return self.slope * self.state[kernel.FILL] * volume
 
     # --- results ---------------------------------------------------------------------------------
@@ -309,14 +284,14 @@ class Film:
         self.place(u, position)
         mesh = self.mesh
         peak, dissipation, shear, outflow, liquid, volume = kernel.integrals(
-            self.state, self.coef, mesh.dz, mesh.gz, mesh.closed,
+            self.state, self.gap.coef, mesh.dz, mesh.gz, mesh.closed,
             self.p_edge, self.p_edge, self.fixed,
         )  # fmt: skip
         clearance = self.relative_clearance * self.radius
-        flow = 2.0 * clearance**3 / (12.0 * self.viscosity)
-        drag = 2.0 * self.viscosity * self.speed**2 * self.radius**4 / clearance
+        flow = self.mirrors * clearance**3 / (12.0 * self.viscosity)
+        drag = self.mirrors * self.viscosity * self.speed**2 * self.radius**4 / clearance
         return {
-            "minimum_film": clearance * (1.0 - float(np.hypot(*position))),
+            "minimum_film": clearance * self.gap.narrowest(position),
             "maximum_pressure": peak,
             "friction_power": flow * dissipation + drag * shear,
             "side_flow": flow * outflow,
@@ -325,13 +300,13 @@ class Film:
         }
 
     def _groove_outflow(self) -> float:
-        mass = np.zeros(self.mesh.shape[0])
-        return float(self._balance(self.coef, mass)[self.fixed].sum())
+        mass = np.zeros((self.mesh.shape[0], self.gap.across.shape[1]))
+        return float(self._balance(self.gap.coef, mass)[self.fixed].sum())
 
     def field(self, u: Array, position: Array) -> tuple[Array, Array, Array, Array]:
         """Pressure (Pa) and fill of the cells (nx, nz), their angle (nx,), and the load (N)."""
         frame = self.place(u, position)
-        load = frame @ self._load(self.coef)
+        load = frame @ self._load(self.gap.around)
         angle = self.mesh.angle
         if self.mesh.polar:
             stretch = self.mesh.strength * float(np.hypot(*position))

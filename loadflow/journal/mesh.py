@@ -1,4 +1,4 @@
-"""Cells of the half film: around in the coordinate of the Sommerfeld map, across to the rim."""
+"""Cells of the film: around in the coordinate of the Sommerfeld map, across to the rims."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ RIM_STRENGTH = 0.8  # share of the sine in the axial grading toward the rim
 
 @dataclass(frozen=True, eq=False)
 class Mesh:
-    """Half film of an aligned bearing.
+    """Cells of the half or the whole film.
 
     Attributes
     ----------
     edges : array (nx + 1,)
         Cell edges around, in the coordinate a of the Sommerfeld map, rad.
     z_edges : array (nz + 1,)
-        Cell edges across, from mid-plane 0 to the rim, in shaft radii.
+        Cell edges across, from mid-plane 0 or from the other rim to the rim, in shaft radii.
     closed : bool
         Whether the film runs round; else both ends lie on an inlet line.
     polar : bool
@@ -64,14 +64,23 @@ class Mesh:
         """Cell widths across."""
         return np.diff(self.z_edges)
 
+    @property
+    def half(self) -> bool:
+        """Whether only the half from mid-plane to one rim is solved."""
+        return bool(self.z_edges[0] == 0.0)
+
     @cached_property
     def gz(self) -> Array:
-        """Inverse distance to the next cell centre outward; the last one to the rim."""
-        return 1.0 / np.append(np.diff(self.z), self.z_edges[-1] - self.z[-1])
+        """Inverse distances between cell centres and to the rims (nz + 1,); 0 at mid-plane."""
+        first, last = self.z[0] - self.z_edges[0], self.z_edges[-1] - self.z[-1]
+        inverse = 1.0 / np.concatenate([[first], np.diff(self.z), [last]])
+        if self.half:
+            inverse[0] = 0.0
+        return inverse
 
     @property
     def shape(self) -> tuple[int, int]:
-        """Cells around and across the half width."""
+        """Cells around and across."""
         return self.angle.size, self.z.size
 
     @cached_property
@@ -187,7 +196,7 @@ def groove_cells(mesh: Mesh, supply: Supply | None, nx: int, radius: float) -> G
                 f"the bearing, {2 * half_width * radius:.6g} m"
             )
         away = np.abs((mesh.angle - groove.angle + np.pi) % (2 * np.pi) - np.pi)
-        inside = (away < 0.5 * _arc(groove, nx))[:, None] & (mesh.z < half_length)[None, :]
+        inside = (away < 0.5 * _arc(groove, nx))[:, None] & (np.abs(mesh.z) < half_length)[None, :]
         cells.fixed[inside] = True
         cells.pressure[inside] = groove.pressure
     return cells

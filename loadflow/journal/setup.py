@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError
 from loadflow.journal.film import Film
+from loadflow.journal.gap import PlainGap
 from loadflow.journal.mesh import build_mesh, groove_cells
 from loadflow.journal.options import (
     Cavitation,
@@ -83,7 +84,7 @@ def build_film(diameter: float, width: float, clearance: float, options: FilmOpt
     around, across = options.grid or (SOURCE_GRID if smooth else SHARP_GRID)
     mesh = build_mesh(width / diameter, (int(around), int(across)), graded, inlet, supply)
     return Film(
-        mesh,
+        PlainGap(mesh),
         law,
         options.lubricant.viscosity,
         clearance,
