@@ -31,8 +31,8 @@ class Gap(Protocol):
         Number of degrees of freedom m.
     coef : array (8, nx + 1, rows)
         Coefficients of the gap where the shaft was last placed, rows as in `_kernels`.
-    around : array (m, nx)
-        Modes, integrated over each cell around; times `across` (m, rows or 1) along the axis.
+    across : array (m, rows)
+        Modes along the axis, of which `around` (m, nx) is the factor around.
     """
 
     mesh: Mesh
@@ -41,7 +41,8 @@ class Gap(Protocol):
     across: Array
 
     @property
-    def around(self) -> Array: ...
+    def around(self) -> Array:
+        """Modes where the shaft was last placed, integrated over each cell around (m, nx)."""
 
     def place(self, position: Array) -> Array:
         """Evaluate `coef` at `position`; returns the axes of the frame of the mesh (m, m)."""
