@@ -1,11 +1,15 @@
 """Hydrodynamic journal bearing: film, cavitation, supply, equilibrium, orbit.
 
 ========================  ==========================================================
-`options`                 lubricant, laws of the ruptured film, grooves
+`options`                 lubricant, laws of the ruptured film
+`supply`                  grooves, pockets, restrictors, pump
 `bearing`                 `JournalBearing`: what the user calls
 `rungs`                   the table of models behind the same signature
 `setup`                   from the user's words to the discrete film
 `mesh`                    cells of the half film
+`grooves`                 cells of grooves and pockets
+`feed`                    flow against pressure of what feeds them
+`pockets`                 their unknown pressures in the film
 `film`                    balance, linearisation and integrals of the discrete film
 `equilibrium`             Newton for film, and for film and shaft together
 `orbit`                   implicit steps of film and shaft in time

@@ -1,11 +1,15 @@
 from .bearing import JournalBearing as JournalBearing
 from .options import GasMixture as GasMixture
-from .options import Groove as Groove
 from .options import Guembel as Guembel
 from .options import Lubricant as Lubricant
 from .options import MassConserving as MassConserving
 from .options import Reynolds as Reynolds
 from .options import Sommerfeld as Sommerfeld
-from .options import Supply as Supply
 from .result import Equilibrium as Equilibrium
 from .result import FilmField as FilmField
+from .supply import Capillary as Capillary
+from .supply import ConstantFlow as ConstantFlow
+from .supply import Groove as Groove
+from .supply import Orifice as Orifice
+from .supply import Pump as Pump
+from .supply import Supply as Supply

@@ -113,8 +113,11 @@ def gap_coefficients(cos_face, sin_face, w_face, cos_cell, sin_cell, w_cell, str
 
 
 @njit(cache=True, nogil=True)
-def balance(state, coef, dz, gz, closed, wedge, p_edge, p_line, f_line, mass, out):
-    """Add the outflow of each cell to `out` (nx, nz); linear in `coef` and `mass` (nx, rows)."""
+def balance(state, coef, dz, gz, closed, wedge, p_edge, p_line, f_line, mass, groove, out):
+    """Add the outflow of each cell to `out` (nx, nz); linear in `coef` and `mass` (nx, rows).
+
+    A groove that reaches a rim is closed there.
+    """
     _, nx, nz = state.shape
     row = 1 if coef.shape[2] > 1 else 0
     p = state[P]
@@ -139,9 +142,12 @@ def balance(state, coef, dz, gz, closed, wedge, p_edge, p_line, f_line, mass, ou
             if closed or i < nx:
                 out[right, k] -= q
     for i in range(nx):
-        out[i, 0] -= coef[H3, i, 0] * gz[0] * (p_edge - p[i, 0])
+        if not groove[i, 0]:
+            out[i, 0] -= coef[H3, i, 0] * gz[0] * (p_edge - p[i, 0])
         for k in range(nz):
             out[i, k] += fill[i, k] * mass[i, row * k] * dz[k]
+            if k + 1 == nz and groove[i, k]:
+                continue
             g = coef[H3, i, row * (k + 1)] * gz[k + 1]
             q = g * (p[i, k] - (p[i, k + 1] if k + 1 < nz else p_edge))
             out[i, k] += q
@@ -281,13 +287,15 @@ def integrals(state, coef, dz, gz, closed, p_edge, p_line, groove):
             p_r = p[i, k] if i < nx else p_line
             dissipation += coef[G, i, row * k] * dz[k] * (p_r - p_l) ** 2
     for i in range(nx):
-        drop = p[i, 0] - p_edge
+        drop = 0.0 if groove[i, 0] else p[i, 0] - p_edge
         flow = coef[H3, i, 0] * gz[0] * drop
         dissipation += flow * drop
         outflow += max(flow, 0.0)
         for k in range(nz):
             peak = max(peak, p[i, k])
             drop = p[i, k] - (p[i, k + 1] if k + 1 < nz else p_edge)
+            if k + 1 == nz and groove[i, k]:
+                drop = 0.0
             flow = coef[H3, i, row * (k + 1)] * gz[k + 1] * drop
             dissipation += flow * drop
             if k + 1 == nz:

@@ -20,11 +20,12 @@ from loadflow.journal.equilibrium import (
     solve_patiently,
 )
 from loadflow.journal.film import Film
-from loadflow.journal.options import Cavitation, Lubricant, Supply, require
+from loadflow.journal.options import Cavitation, Lubricant, require
 from loadflow.journal.orbit import march, orbit_dataset
 from loadflow.journal.result import Equilibrium, FilmField, field_row, shaped, stack, static_row
 from loadflow.journal.rungs import Control, Rung, check_rung, model
 from loadflow.journal.setup import FilmOptions, Grading, Inlet, build_film, operating_points
+from loadflow.journal.supply import Supply
 from loadflow.tribology.film import butenschoen
 
 if TYPE_CHECKING:
@@ -33,6 +34,12 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 _RATIOS = np.concatenate([np.linspace(0.0, 0.9, 91)[1:], 1.0 - np.geomspace(0.099, 1e-4, 60)])
+_HIGH = 0.99  # eccentricity ratio at which the lift of a supply is stated
+_STARVED = (
+    "the supply is starved, a groove would fall below the cavitation pressure: MassConserving and "
+    "GasMixture follow a groove that is not full"
+)
+_AFLOAT = 0.5  # eccentricity ratio at which a shaft is sought that its supply carries
 _NEAR = 0.3  # share of the narrowest gap that the estimate may move for a warm start
 
 
@@ -156,6 +163,7 @@ class JournalBearing:
             answer = model(rung).equilibrium(self, options, loads, speeds, control)
             return Equilibrium(**shaped(answer, shape))
         film = self._film(options, speeds)
+        film.raise_scale(self._lifted_pressure(film, loads))
         finer = self._film(options.graded(), speeds) if options.may_grade else None
         rows = []
         last: Solution | None = None
@@ -229,6 +237,8 @@ class JournalBearing:
         for index, (place, moving, omega) in enumerate(zip(places, velocities, speeds.tolist())):
             film.set_speed(omega)
             solution = solve_film(film, film.start(), place, moving, tolerance, max_iterations)
+            if strict and film.dry(solution.u):
+                raise SolverError(f"film {index} at ε = {np.hypot(*place):.6g}: {_STARVED}")
             if strict and not solution.converged:
                 raise SolverError(
                     f"film {index} at ε = {np.hypot(*place):.6g}, ω = {omega:.6g} rad/s: residual "
@@ -330,6 +340,12 @@ class JournalBearing:
         film.set_scale(float(np.abs(rates).max()))
         return film
 
+    def _lifted_pressure(self, film: Film, loads: Array) -> float:
+        """Pressure that the supply must raise, Pa; 0 if it raises none."""
+        if not film.pockets.free.size:
+            return 0.0
+        return float(np.hypot(*loads.T).max()) / (self.width * self.diameter)
+
     def _static(
         self,
         film: Film,
@@ -342,19 +358,24 @@ class JournalBearing:
     ) -> tuple[Film, Solution]:
         """Equilibrium from the closed form, robustly; the film it was found on comes with it."""
         film.set_speed(speed)
-        if speed == 0.0:
+        lifts = film.pockets.lifts(film.p_edge)
+        if speed == 0.0 and not lifts:
             if load.any():
                 return film, no_film(film)
             return film, solve_film(film, film.start(), load, load, tolerance, max_iterations)
         position = self._estimate(load, film)
         attempts = [(film, *start) for start in self._starts(film, position, last)]
+        if lifts:
+            floating = _floating(film, load, position)
+            attempts.insert(0 if film.pockets.free.size else len(attempts), floating)
         if finer is not None:
             finer.set_speed(speed)
             attempts.append((finer, finer.start(), position))
         for used, u, start in attempts:
             solution = solve_equilibrium(used, load, u, start, tolerance, max_iterations)
             if solution.converged:
-                return used, replace(solution, estimate=position)
+                dry = used.dry(solution.u)
+                return used, replace(solution, estimate=position, converged=not dry)
         solution = solve_patiently(film, load, position, tolerance, max_iterations)
         return film, replace(solution, estimate=position)
 
@@ -371,7 +392,7 @@ class JournalBearing:
     def _estimate(self, load: Array, film: Film) -> Array:
         """Position by Butenschön's closed form, in clearances."""
         wanted = self.sommerfeld_number(float(np.hypot(*load)), film.speed, film.viscosity)
-        if wanted == 0.0:
+        if wanted == 0.0 or film.speed == 0.0:
             return np.zeros(2)
         numbers, attitudes = _closed_form(self.width / self.diameter)
         ratio = float(np.interp(wanted, numbers, _RATIOS)) * min(wanted / numbers[0], 1.0)
@@ -381,13 +402,35 @@ class JournalBearing:
 
     def _refusal(self, film: Film, load: Array, solution: Solution) -> str:
         head = f"F = ({load[0]:.6g}, {load[1]:.6g}) N at ω = {film.speed:.6g} rad/s"
+        if film.dry(solution.u):
+            return f"{head}: {_STARVED}"
         if film.speed == 0.0:
-            return f"{head}: without rotation and squeeze the film carries no load"
+            if not film.pockets.lifts(film.p_edge):
+                return f"{head}: without rotation and squeeze the film carries no load"
+            return (
+                f"{head}: the supply carries no more than {_lift(film, load):.6g} N, at ε = {_HIGH}"
+            )
         so = self.sommerfeld_number(float(np.hypot(*load)), film.speed, film.viscosity)
         return (
             f"{head} (So = {so:.4g}): no equilibrium found; residual {solution.residual:.3g} after "
             f"{solution.iterations} steps, at ε = {np.hypot(*solution.position):.6g}"
         )
+
+
+def _floating(film: Film, load: Array, position: Array) -> tuple[Film, Array, Array]:
+    """Start for a shaft that its supply carries: well off the shell, the film settled."""
+    ratio = float(np.hypot(*position))
+    if film.speed == 0.0 or ratio > _AFLOAT:
+        position = _AFLOAT * load / (float(np.hypot(*load)) or 1.0)
+    state = solve_film(film, film.start(), position, np.zeros(2), 1e-6, 30)
+    return film, state.u, position
+
+
+def _lift(film: Film, load: Array) -> float:
+    """Load that the supply carries against `load` with the shaft nearly on the shell, N."""
+    way = load / (float(np.hypot(*load)) or 1.0)
+    state = solve_film(film, film.start(), _HIGH * way, np.zeros(2), 1e-6, 100)
+    return float(state.linear.load @ way)
 
 
 @lru_cache(maxsize=32)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +13,6 @@ from scipy.linalg.lapack import dgbtrf, dgbtrs
 from loadflow.errors import SolverError
 from loadflow.journal import _kernels as kernel
 from loadflow.journal.gap import Gap, turning_frame
-from loadflow.journal.mesh import GrooveCells
 from loadflow.journal.options import (
     Cavitation,
     GasMixture,
@@ -21,6 +21,7 @@ from loadflow.journal.options import (
     Reynolds,
     Sommerfeld,
 )
+from loadflow.journal.pockets import Pockets
 
 Array = NDArray[np.float64]
 
@@ -70,8 +71,8 @@ class Film:
         η (Pa s), ψ, shaft radius (m).
     edge_pressure : float
         Pressure at the rims and on the inlet line, Pa, absolute.
-    grooves : GrooveCells
-        Which cells lie in a groove, and their pressure; (nx, nz) each.
+    pockets : Pockets
+        Grooves and what feeds them.
     """
 
     def __init__(
@@ -82,7 +83,7 @@ class Film:
         relative_clearance: float,
         radius: float,
         edge_pressure: float,
-        grooves: GrooveCells,
+        pockets: Pockets,
     ) -> None:
         self.gap = gap
         self.mesh = mesh = gap.mesh
@@ -95,7 +96,8 @@ class Film:
         self.relative_clearance = relative_clearance
         self.viscosity = viscosity
         self.slope = 12.0 * viscosity / relative_clearance**2  # squeeze pressure per d(FH)/dt
-        self.fixed, self.fixed_pressure = grooves
+        self.pockets = pockets
+        self.fixed = pockets.fixed
         self.set_scale(0.0)
         self.set_speed(0.0)
 
@@ -112,7 +114,9 @@ class Film:
 
     def set_scale(self, rate: float) -> None:
         """Set the scale of pressure and unknowns, Pa, from the largest speed or squeeze, 1/s."""
-        self.scale = max(0.5 * self.slope * rate, self.p_edge, 1.0)
+        feed = self.pockets.feed
+        fed = max(feed.largest_pressure, feed.largest_flow / self.pockets.flow_unit)
+        self.scale = max(0.5 * self.slope * rate, self.p_edge, fed, 1.0)
 
     def raise_scale(self, pressure: float) -> None:
         """Raise the scale of pressure to at least `pressure`, Pa."""
@@ -127,13 +131,21 @@ class Film:
 
     def start(self) -> Array:
         """Unknowns of a film at edge pressure everywhere but in the grooves."""
-        pressure = np.where(self.fixed, self.fixed_pressure, self.p_edge)
-        return self.unknown_of(pressure)
+        return self.unknown_of(self.pockets.given(self.p_edge))
 
     def place(self, u: Array, position: Array) -> Array:
         """Evaluate law and gap at `u` and `position`; returns the axes of the mesh's frame."""
         kernel.apply_law(self.kind, self.mixing, self.p_cav, self.scale, u, self.state)
+        if self.kind == kernel.REYNOLDS and self.pockets.free.size:
+            self._keep_full(u)
         return self.gap.place(position)
+
+    def _keep_full(self, u: Array) -> None:
+        """Keep the free grooves full: the complementarity has no row for their pressure."""
+        cells = self.pockets.free_cells
+        for row, value in ((kernel.P, u[cells]), (kernel.DP, 1.0), (kernel.SLACK, 0.0)):
+            self.state[row][cells] = value
+        self.state[kernel.LOAD][cells], self.state[kernel.DLOAD][cells] = u[cells], 1.0
 
     # --- balance ---------------------------------------------------------------------------------
     def _storage(self, coef: Array, around: Array, velocity: Array, rate: float) -> Array:
@@ -142,19 +154,20 @@ class Film:
         moving = (around.T * velocity) @ across
         return self.slope * (rate * coef[kernel.HM, :-1, : across.shape[1]] - moving)
 
-    def _balance(self, coef: Array, mass: Array) -> Array:
+    def _balance(self, coef: Array, mass: Array, change: Array | None = None) -> Array:
+        """Outflow of every cell (nx, nz) at the state last placed, or by a `change` of it."""
         mesh = self.mesh
         field = np.zeros(mesh.shape)
+        state, rim, full = (self.state, self.p_edge, 1.0) if change is None else (change, 0.0, 0.0)
         kernel.balance(
-            self.state, coef, mesh.dz, mesh.gz, mesh.closed, self.wedge,
-            self.p_edge, self.p_edge, 1.0, mass, field,
+            state, coef, mesh.dz, mesh.gz, mesh.closed, self.wedge,
+            rim, rim, full, mass, self.fixed, field,
         )  # fmt: skip
         return field
 
-    def residual(self, u: Array, mass: Array, old: Array | float = 0.0) -> Array:
-        """Balance of every cell (nx, nz), after `place`."""
-        field = self._balance(self.gap.coef, mass) + self.state[kernel.SLACK]
-        field -= old
+    def _residual(self, outflow: Array) -> Array:
+        """Balance of every cell (nx, nz) of which `outflow` leaves, after `place`."""
+        field = outflow + self.state[kernel.SLACK]
         field[self.fixed] = 0.0
         return field
 
@@ -194,17 +207,24 @@ class Film:
         if info:
             raise SolverError(f"film matrix is singular in row {info} at eccentricity {position}")
 
-        fields = [self.residual(u, mass, old)]
+        outflow = self._balance(gap.coef, mass) - old
+        fields = [self._residual(outflow)]
         fields += [self._balance(c, self._storage(c, a, local, rate)) for c, a in slopes]
         squeeze = -self.slope * self.state[kernel.FILL] * mesh.dz
         fields += [squeeze * np.outer(a, b) for a, b in zip(around, across)]
+        free = self.pockets.free
+        flows = [self.pockets.flows(f)[free] for f in (outflow, *fields[1:])] if free.size else []
+        for field in fields:
+            field[self.fixed] = 0.0
+        fields += [np.where(self.pockets.numbers == number, 1.0, 0.0) for number in free]
         columns = np.empty((len(fields), mesh.angle.size * mesh.z.size))
         for column, field in zip(columns, fields):
-            field[self.fixed] = 0.0
             kernel.gather(field, mesh.order, column)
         dgbtrs(lu, mesh.bandwidth, mesh.bandwidth, columns.T, pivots, overwrite_b=1)
+        if free.size:
+            columns = self._settle(columns, np.array(flows), mass)
 
-        carried = np.empty((len(fields), gap.size))
+        carried = np.empty((columns.shape[0], gap.size))
         slope = self.state[kernel.DLOAD]
         kernel.carried_by(slope, around, across, mesh.dz, mesh.order, columns, carried)
         carried *= self.mirrors * self.radius**2
@@ -221,6 +241,21 @@ class Film:
             damping=frame @ damping @ frame.T,
             columns=columns,
         )
+
+    def _settle(self, columns: Array, direct: Array, mass: Array) -> Array:
+        """Let the pressure of the free grooves follow their flow in all `columns`."""
+        pockets, mesh = self.pockets, self.mesh
+        change = np.zeros_like(self.state)
+        through = np.empty((columns.shape[0], pockets.free.size))
+        for row, column in zip(through, columns):
+            field = column.reshape(mesh.shape)[mesh.order]
+            change[kernel.P] = self.state[kernel.DP] * field
+            change[kernel.FILL] = self.state[kernel.DFILL] * field
+            outflow = self._balance(self.gap.coef, mass, change)
+            row[:] = pockets.flows(outflow)[pockets.free]
+        pressure = pockets.of_free(self.state[kernel.P])
+        slope = pockets.of_free(self.state[kernel.DP])
+        return pockets.settle(columns, direct, through, pressure, slope, self.scale)
 
     def _load(self, around: Array) -> Array:
         """∫ p N_j dA at the state last placed, whole film, in the mesh's frame, N."""
@@ -265,7 +300,10 @@ class Film:
         around = self.gap.around
         mass = self._storage(self.gap.coef, around, frame.T @ velocity, rate)
         flux = (abs(self.wedge) + self.scale) * self.mesh.dz.max()
-        worst = float(np.abs(self.residual(u, mass, old)).max()) / flux
+        outflow = self._balance(self.gap.coef, mass) - old
+        worst = float(np.abs(self._residual(outflow)).max()) / flux
+        if self.pockets.free.size:
+            worst = max(worst, self.pockets.missing(self.state[kernel.P], outflow, self.scale))
         if force is not None:
             scale = max(math.hypot(*force), self.scale * self.radius**2 * 1e-3)
             missing = force - frame @ self._load(around)
@@ -279,7 +317,7 @@ class Film:
         return self.slope * self.state[kernel.FILL] * volume
 
     # --- results ---------------------------------------------------------------------------------
-    def summary(self, u: Array, position: Array) -> dict[str, float]:
+    def summary(self, u: Array, position: Array) -> dict[str, Any]:
         """Integral results at `u`, in SI units, named as in `Equilibrium`."""
         self.place(u, position)
         mesh = self.mesh
@@ -288,20 +326,37 @@ class Film:
             self.p_edge, self.p_edge, self.fixed,
         )  # fmt: skip
         clearance = self.relative_clearance * self.radius
-        flow = self.mirrors * clearance**3 / (12.0 * self.viscosity)
+        flow = self.pockets.flow_unit
         drag = self.mirrors * self.viscosity * self.speed**2 * self.radius**4 / clearance
         return {
             "minimum_film": clearance * self.gap.narrowest(position),
             "maximum_pressure": peak,
             "friction_power": flow * dissipation + drag * shear,
             "side_flow": flow * outflow,
-            "supply_flow": flow * self._groove_outflow() if self.fixed.any() else 0.0,
             "total_fill": liquid / volume,
+            **self._supplied(u),
         }
 
-    def _groove_outflow(self) -> float:
+    def _supplied(self, u: Array) -> dict[str, Any]:
+        """Flow and pressure of the grooves at the state last placed, named as in `Equilibrium`."""
+        pockets = self.pockets
         mass = np.zeros((self.mesh.shape[0], self.gap.across.shape[1]))
-        return float(self._balance(self.gap.coef, mass)[self.fixed].sum())
+        flows = pockets.flows(self._balance(self.gap.coef, mass))
+        pressure = self.state[kernel.P].ravel()[pockets.samples]
+        lack = self.unknown_of(np.array(self.p_edge)) - pockets.of_free(u)
+        return {
+            "supply_flow": float(flows.sum()),
+            "supply_power": pockets.feed.power(pressure, flows),
+            "groove_flow": flows,
+            "groove_pressure": pressure,
+            "starved": bool(np.any(lack > 1e-9 * self.scale)),
+        }
+
+    def dry(self, u: Array) -> bool:
+        """Whether a fed groove would have to rupture, which only laws with fill can follow."""
+        if self.kind in (kernel.MASS_CONSERVING, kernel.GAS_MIXTURE):
+            return False
+        return bool(np.any(self.pockets.of_free(u) < self.p_cav))
 
     def field(self, u: Array, position: Array) -> tuple[Array, Array, Array, Array]:
         """Pressure (Pa) and fill of the cells (nx, nz), their angle (nx,), and the load (N)."""

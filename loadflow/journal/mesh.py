@@ -4,20 +4,19 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.errors import InputError
-from loadflow.journal.options import Groove, Supply, require
+from loadflow.journal.grooves import edges_across, edges_around
+from loadflow.journal.options import require
+from loadflow.journal.supply import Supply
 
 Array = NDArray[np.float64]
 
 MAP_STRENGTH = (
     0.95  # of the Sommerfeld map, times the eccentricity ratio: least error up to ε = 0.99
 )
-_THIN = 1e-4  # share of a groove's arc in its outermost cells
 RIM_STRENGTH = 0.8  # share of the sine in the axial grading toward the rim
 
 
@@ -115,7 +114,12 @@ def _gauss(edges: Array, nodes: int) -> tuple[Array, Array, Array]:
 
 @lru_cache(maxsize=32)
 def build_mesh(
-    width_ratio: float, grid: tuple[int, int], graded: bool, inlet: bool, supply: Supply | None
+    width_ratio: float,
+    grid: tuple[int, int],
+    graded: bool,
+    inlet: bool,
+    supply: Supply | None,
+    radius: float,
 ) -> Mesh:
     """Mesh of a bearing of width over diameter `width_ratio`.
 
@@ -131,6 +135,8 @@ def build_mesh(
         Inlet line at the widest gap.
     supply : Supply or None
         Grooves of the shell; the mesh is then fixed to the shell, with edges on the grooves'.
+    radius : float
+        Of the shaft, m.
     """
     nx, nz = grid
     require(nx >= 8, "grid[0]", nx, "at least 8 cells around")
@@ -138,65 +144,19 @@ def build_mesh(
     share = np.linspace(0.0, 1.0, nz // 2 + 1)
     if graded:
         share = (1 - RIM_STRENGTH) * share + RIM_STRENGTH * np.sin(0.5 * np.pi * share)
+    z_edges = width_ratio * share
     polar = supply is None and (graded or inlet)
     if supply is None:
         start = -np.pi if polar else 0.0
         edges = start + np.linspace(0.0, 2 * np.pi, nx + 1)
     else:
-        edges = _edges_on_grooves(nx, supply.grooves)
+        edges = edges_around(nx, supply.grooves, radius)
+        z_edges = edges_across(z_edges, supply.grooves, radius)
     return Mesh(
         edges=edges,
-        z_edges=width_ratio * share,
+        z_edges=z_edges,
         closed=not inlet,
         polar=polar,
         strength=MAP_STRENGTH if graded and polar else 0.0,
         nodes=3 if graded else 1,
     )
-
-
-def _edges_on_grooves(nx: int, grooves: tuple[Groove, ...]) -> Array:
-    """Cell edges around, about `nx` cells, with edges on those of the grooves.
-
-    The outermost cells of a groove are thin, so that its pressure acts at its very edge.
-    """
-    if not grooves:
-        return np.linspace(0.0, 2 * np.pi, nx + 1)
-    start = grooves[0].angle - 0.5 * _arc(grooves[0], nx)
-    sides = np.array([-0.5, -0.5 + _THIN, 0.5 - _THIN, 0.5])
-    marks = np.concatenate([g.angle + sides * _arc(g, nx) - start for g in grooves]) % (2 * np.pi)
-    breaks = np.unique(np.round([0.0, *marks, 2 * np.pi], 12))
-    cells = np.maximum(np.rint(np.diff(breaks) / (2 * np.pi) * nx).astype(int), 1)
-    parts = [
-        np.linspace(a, b, n, endpoint=False) for a, b, n in zip(breaks[:-1], breaks[1:], cells)
-    ]
-    return start + np.append(np.concatenate(parts), 2 * np.pi)
-
-
-def _arc(groove: Groove, nx: int) -> float:
-    """Arc of a groove; a line takes that of one cell."""
-    return groove.arc if groove.arc > 0 else 2 * np.pi / nx
-
-
-class GrooveCells(NamedTuple):
-    """Cells of the grooves, (nx, nz) each: whether held at a pressure, and that pressure."""
-
-    fixed: NDArray[np.bool_]
-    pressure: Array
-
-
-def groove_cells(mesh: Mesh, supply: Supply | None, nx: int, radius: float) -> GrooveCells:
-    """Cells of the grooves of `supply`, for `nx` cells asked for and a shaft radius in m."""
-    cells = GrooveCells(np.zeros(mesh.shape, dtype=bool), np.zeros(mesh.shape))
-    half_width = mesh.z_edges[-1]
-    for number, groove in enumerate(supply.grooves if supply else ()):
-        half_length = half_width if groove.length is None else 0.5 * groove.length / radius
-        if half_length > half_width * (1 + 1e-9):
-            raise InputError(
-                f"grooves[{number}].length = {groove.length} is not allowed: at most the width of "
-                f"the bearing, {2 * half_width * radius:.6g} m"
-            )
-        away = np.abs((mesh.angle - groove.angle + np.pi) % (2 * np.pi) - np.pi)
-        inside = (away < 0.5 * _arc(groove, nx))[:, None] & (np.abs(mesh.z) < half_length)[None, :]
-        cells.fixed[inside] = True
-        cells.pressure[inside] = groove.pressure
-    return cells

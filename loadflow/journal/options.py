@@ -1,11 +1,11 @@
-"""What a user states about a film: lubricant, cavitation law, supply. Options only, no solver."""
+"""What a user states about a film: lubricant and cavitation law. Options only, no solver."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from typing import Annotated, Literal
 
-from annotated_types import Ge, Gt
+from annotated_types import Gt
 
 from loadflow.errors import InputError
 
@@ -100,45 +100,3 @@ class MassConserving:
 
 Cavitation = GasMixture | Sommerfeld | Guembel | Reynolds | MassConserving
 Inlet = Literal["widest gap"] | None
-
-
-@dataclass(frozen=True)
-class Groove:
-    """Axial groove, centred across the width, held at one pressure.
-
-    Attributes
-    ----------
-    angle : float
-        Angle of its middle from the first axis toward the second, rad.
-    arc : float
-        Angle it spans, rad; 0 is a line, which takes one column of cells.
-    length : float, optional
-        Axial length, m; default the full width.
-    pressure : float
-        Supply pressure, Pa, absolute.
-    """
-
-    angle: float
-    arc: Annotated[float, Ge(0)] = 0.0
-    length: Annotated[float, Gt(0)] | None = None
-    pressure: float = 0.0
-
-    def __post_init__(self) -> None:
-        require(0 <= self.arc < 6.28, "arc", self.arc, "rad, 0 … 6.28")
-        require(self.length is None or self.length > 0, "length", self.length, "m, > 0")
-
-
-@dataclass(frozen=True)
-class Supply:
-    """Lubricant supply through grooves of the shell.
-
-    Attributes
-    ----------
-    grooves : tuple of Groove
-        Grooves; they must not overlap.
-    """
-
-    grooves: tuple[Groove, ...] = ()
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "grooves", tuple(self.grooves))

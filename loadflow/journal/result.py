@@ -48,12 +48,21 @@ class Equilibrium:
         Oil that leaves through the rims, (3.31–3.33), m³/s.
     supply_flow : array (…)
         Oil that the grooves give to the film, net, m³/s; 0 without a supply.
+    supply_power : array (…)
+        Q p of Table 5-23: what lifts that oil from tank to supply pressure, W.
+    groove_flow, groove_pressure : array (…, grooves)
+        Oil that each groove gives to the film, m³/s, and its pressure, Pa, absolute.
+    starved : array of bool (…)
+        Whether a fed groove gives less than the film would draw from it at the pressure of the
+        rims, so that its own pressure falls below that.
     total_fill : array (…)
         ∫F h dA/∫h dA, (3.43).
     reynolds_number : array (…)
         Re = ρ ω R c/η.
+    critical_reynolds_number : array (…)
+        Re_cr = 41.3 √(D/s), (3.14).
     laminar : array of bool (…)
-        Whether Re is below Re_cr = 41.3 √(D/s), (3.14).
+        Whether Re is below Re_cr.
     stiffness, damping : array (…, 2, 2)
         −∂F_film/∂e (N/m) and −∂F_film/∂ė (N s/m), [i, j].
     converged : array of bool (…)
@@ -75,8 +84,13 @@ class Equilibrium:
     friction_power: Array
     side_flow: Array
     supply_flow: Array
+    supply_power: Array
+    groove_flow: Array
+    groove_pressure: Array
+    starved: NDArray[np.bool_]
     total_fill: Array
     reynolds_number: Array
+    critical_reynolds_number: Array
     laminar: NDArray[np.bool_]
     stiffness: Array
     damping: Array
@@ -104,7 +118,8 @@ class FilmField:
     z : array (nz,)
         Axial position of the cell centres from mid-plane, m.
     eccentricity_ratio, minimum_film, maximum_pressure, friction_power, side_flow, supply_flow, \
-total_fill, stiffness, damping, converged, iterations, residual
+supply_power, groove_flow, groove_pressure, starved, total_fill, stiffness, damping, converged, \
+iterations, residual
         As in `Equilibrium`.
     """
 
@@ -120,6 +135,10 @@ total_fill, stiffness, damping, converged, iterations, residual
     friction_power: Array
     side_flow: Array
     supply_flow: Array
+    supply_power: Array
+    groove_flow: Array
+    groove_pressure: Array
+    starved: NDArray[np.bool_]
     total_fill: Array
     stiffness: Array
     damping: Array
@@ -145,6 +164,7 @@ def static_row(
     speed = film.speed
     surface = abs(speed) * bearing.radius
     reynolds = lubricant.density * surface * bearing.clearance / lubricant.viscosity
+    critical = 41.3 * bearing.relative_clearance**-0.5
     size = float(np.hypot(*load))
     position = solution.position if solution.converged else np.full(2, np.nan)
     return {
@@ -154,7 +174,8 @@ def static_row(
         "attitude_angle": _attitude(load, position, speed),
         "sommerfeld_number": bearing.sommerfeld_number(size, speed, lubricant.viscosity),
         "reynolds_number": reynolds,
-        "laminar": reynolds < 41.3 * bearing.relative_clearance**-0.5,
+        "critical_reynolds_number": critical,
+        "laminar": reynolds < critical,
         **_common_row(film, solution),
     }
 
@@ -179,11 +200,16 @@ def _common_row(film: Film, solution: Solution) -> dict[str, Any]:
     row["stiffness"] = solution.linear.stiffness / clearance
     row["damping"] = solution.linear.damping / clearance
     if not solution.converged:
-        row = {name: np.full_like(value, np.nan) for name, value in row.items()}
+        row = {name: _nothing(value) for name, value in row.items()}
     row["converged"] = solution.converged
     row["iterations"] = solution.iterations
     row["residual"] = solution.residual
     return row
+
+
+def _nothing(value: Any) -> Any:
+    """NaN in the shape of `value`; flags are False."""
+    return False if isinstance(value, bool) else np.full_like(value, np.nan)
 
 
 def _attitude(load: Array, position: Array, speed: float) -> float:

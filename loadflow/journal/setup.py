@@ -9,9 +9,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError
+from loadflow.journal.feed import Feed
 from loadflow.journal.film import Film
 from loadflow.journal.gap import PlainGap
-from loadflow.journal.mesh import build_mesh, groove_cells
+from loadflow.journal.grooves import groove_numbers
+from loadflow.journal.mesh import build_mesh
 from loadflow.journal.options import (
     Cavitation,
     GasMixture,
@@ -19,9 +21,10 @@ from loadflow.journal.options import (
     Lubricant,
     MassConserving,
     Reynolds,
-    Supply,
     require,
 )
+from loadflow.journal.pockets import Pockets
+from loadflow.journal.supply import Supply
 
 Array = NDArray[np.float64]
 Grading = Literal["auto", "uniform", "graded"]
@@ -82,15 +85,19 @@ def build_film(diameter: float, width: float, clearance: float, options: FilmOpt
     if options.grading == "auto":
         graded = not smooth and supply is None
     around, across = options.grid or (SOURCE_GRID if smooth else SHARP_GRID)
-    mesh = build_mesh(width / diameter, (int(around), int(across)), graded, inlet, supply)
+    grid, radius = (int(around), int(across)), 0.5 * diameter
+    mesh = build_mesh(width / diameter, grid, graded, inlet, supply, radius)
+    numbers = groove_numbers(mesh.angle, mesh.z, width / diameter, supply, grid[0], radius)
+    mirrors = 2.0 if mesh.half else 1.0
+    flow_unit = mirrors * (clearance * radius) ** 3 / (12.0 * options.lubricant.viscosity)
     return Film(
         PlainGap(mesh),
         law,
         options.lubricant.viscosity,
         clearance,
-        0.5 * diameter,
+        radius,
         options.edge_pressure,
-        groove_cells(mesh, supply, int(around), 0.5 * diameter),
+        Pockets(numbers, Feed(supply or Supply(), options.lubricant), flow_unit),
     )
 
 
@@ -99,12 +106,14 @@ def _check_oil(law: Cavitation, edge_pressure: float, supply: Supply | None) -> 
     name = "edge_pressure"
     require(np.isfinite(edge_pressure), name, edge_pressure, "Pa, absolute, finite")
     pressures = [edge_pressure]
-    if supply:
-        pressures += [groove.pressure for groove in supply.grooves]
+    grooves = supply.grooves if supply else ()
+    pump = supply.pump if supply else None
+    pressures += [g.pressure for g in grooves if g.restrictor is None and pump is None]
     floor = 0.0 if isinstance(law, GasMixture) else getattr(law, "cavitation_pressure", -np.inf)
     allowed = f"Pa, absolute, not below the cavitation pressure {floor:g} Pa"
     require(min(pressures) >= floor, name, min(pressures), allowed)
-    if isinstance(law, GasMixture | MassConserving):
+    fed = pump is not None or any(g.restrictor is not None for g in grooves)
+    if isinstance(law, GasMixture | MassConserving) and not fed:
         allowed = f"above {floor:g} Pa at a rim or in a groove, or no oil enters"
         require(max(pressures) > floor, name, edge_pressure, allowed)
 

@@ -1,0 +1,105 @@
+"""Where grooves and pockets lie on the mesh: cell edges on their outlines, and their cells."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from loadflow.errors import InputError
+from loadflow.journal.supply import Groove, Supply
+
+Array = NDArray[np.float64]
+
+_THIN = 1e-4  # share of a groove in its outermost cells
+_ROUND = 10  # cells across the diameter of a circle, at least
+
+
+def edges_around(count: int, grooves: tuple[Groove, ...], radius: float) -> Array:
+    """Cell edges around, about `count` cells, with edges on those of the grooves.
+
+    The outermost cells of a groove are thin, so that its pressure acts at its very edge.
+    """
+    if not grooves:
+        return np.linspace(0.0, 2 * np.pi, count + 1)
+    arcs = [_arc(groove, count, radius) for groove in grooves]
+    start = grooves[0].angle - 0.5 * arcs[0]
+    marks = [g.angle - start + arc * _sides(g) for g, arc in zip(grooves, arcs)]
+    return start + _divided(np.concatenate(marks) % (2 * np.pi), 2 * np.pi, 2 * np.pi / count)
+
+
+def edges_across(edges: Array, grooves: tuple[Groove, ...], radius: float) -> Array:
+    """The cell `edges` across the half width (in radii), with edges on the ends of the grooves."""
+    ends = [(g.axial + g.length * _sides(g)) / radius for g in grooves if g.length is not None]
+    marks = np.concatenate([[], *ends])
+    marks = marks[(marks > 0) & (marks < edges[-1])]
+    return _divided(marks, float(edges[-1]), edges[-1] / (edges.size - 1)) if marks.size else edges
+
+
+def groove_numbers(
+    angle: Array, z: Array, half_width: float, supply: Supply | None, count: int, radius: float
+) -> NDArray[np.int64]:
+    """Number of the groove in which each cell (nx, nz) lies, −1 for none.
+
+    Parameters
+    ----------
+    angle, z : array (nx,), (nz,)
+        Cell centres, rad and shaft radii.
+    half_width : float
+        Shaft radii.
+    supply : Supply or None
+        Its grooves.
+    count : int
+        Cells around that were asked for.
+    radius : float
+        Of the shaft, m.
+
+    Raises
+    ------
+    InputError
+        A groove beyond the rim, or two that overlap.
+    """
+    numbers = np.full((angle.size, z.size), -1)
+    for number, groove in enumerate(supply.grooves if supply else ()):
+        half_length = half_width if groove.length is None else 0.5 * groove.length / radius
+        middle = groove.axial / radius
+        if middle + half_length > half_width * (1 + 1e-9):
+            length = 2 * half_length * radius
+            raise InputError(
+                f"grooves[{number}] of length {length:.6g} m at {groove.axial:.6g} m from mid-plane"
+                f" is not allowed: the bearing is {2 * half_width * radius:.6g} m wide"
+            )
+        away = np.abs((angle - groove.angle + np.pi) % (2 * np.pi) - np.pi)[:, None]
+        along = np.abs(np.abs(z) - middle)[None, :]
+        if groove.shape == "circle":
+            inside = np.hypot(away, along) < half_length
+        else:
+            inside = (away < 0.5 * _arc(groove, count, radius)) & (along < half_length)
+        other = numbers[inside].max(initial=-1)
+        if other >= 0:
+            raise InputError(f"grooves[{number}] overlaps grooves[{other}]: give them apart")
+        numbers[inside] = number
+    return numbers
+
+
+def _arc(groove: Groove, count: int, radius: float) -> float:
+    """Arc of a groove, rad; a line takes that of a cell."""
+    if groove.shape == "circle" and groove.length is not None:
+        return groove.length / radius
+    return groove.arc if groove.arc > 0 else 2 * np.pi / count
+
+
+def _sides(groove: Groove) -> Array:
+    """Edges that a groove asks for, from its middle and over its size."""
+    if groove.shape == "circle":
+        return np.linspace(-0.5, 0.5, _ROUND + 1)
+    return np.array([-0.5, -0.5 + _THIN, 0.5 - _THIN, 0.5])
+
+
+def _divided(marks: Array, length: float, spacing: float) -> Array:
+    """Edges from 0 to `length` at all `marks`, evenly spaced between them by about `spacing`."""
+    breaks = np.unique(np.round([0.0, *marks, length], 12))
+    cells = np.maximum(np.rint(np.diff(breaks) / spacing).astype(int), 1)
+    parts = [
+        np.linspace(a, b, n, endpoint=False) for a, b, n in zip(breaks[:-1], breaks[1:], cells)
+    ]
+    return np.append(np.concatenate(parts), length)

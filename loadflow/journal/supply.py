@@ -1,0 +1,182 @@
+"""How oil reaches the film: grooves and pockets of the shell, restrictors, pump. Options only."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Literal
+
+from annotated_types import Ge, Gt, MinLen
+
+from loadflow.journal.options import require
+
+_TURN = 6.283185307179586
+
+
+@dataclass(frozen=True)
+class Capillary:
+    """Laminar restrictor: Δp = 128 η l Q/(π d⁴).
+
+    Attributes
+    ----------
+    diameter, length : float
+        Of the bore, m.
+    """
+
+    diameter: Annotated[float, Gt(0)]
+    length: Annotated[float, Gt(0)]
+
+    def __post_init__(self) -> None:
+        require(self.diameter > 0, "diameter", self.diameter, "m, > 0")
+        require(self.length > 0, "length", self.length, "m, > 0")
+
+
+@dataclass(frozen=True)
+class Orifice:
+    """Sharp-edged restrictor: Δp = ρ/2 (Q/(α A))².
+
+    Attributes
+    ----------
+    diameter : float
+        Of the bore, m.
+    discharge_coefficient : float
+        α.
+    """
+
+    diameter: Annotated[float, Gt(0)]
+    discharge_coefficient: Annotated[float, Gt(0)] = 0.62
+
+    def __post_init__(self) -> None:
+        require(self.diameter > 0, "diameter", self.diameter, "m, > 0")
+        alpha = self.discharge_coefficient
+        require(alpha > 0, "discharge_coefficient", alpha, "> 0")
+
+
+@dataclass(frozen=True)
+class ConstantFlow:
+    """Flow control: one pump for each pocket, or a valve that keeps its flow.
+
+    Attributes
+    ----------
+    flow : float
+        Q, m³/s.
+    """
+
+    flow: Annotated[float, Gt(0)]
+
+    def __post_init__(self) -> None:
+        require(self.flow > 0, "flow", self.flow, "m³/s, > 0")
+
+
+Restrictor = Capillary | Orifice | ConstantFlow
+
+
+@dataclass(frozen=True)
+class Groove:
+    """Groove or pocket of the shell, under one pressure.
+
+    The length along the axis and the arc make it an axial groove, a circumferential groove
+    (``arc=2π``) or a rectangular pocket; ``shape="circle"`` makes a spot.
+
+    Attributes
+    ----------
+    angle : float
+        Angle of its middle from the first axis toward the second, rad.
+    arc : float
+        Angle it spans, rad; 0 is a line, which takes one column of cells (of a circle it follows
+        from `length`).
+    length : float, optional
+        Axial length, or diameter of a circle, m; default the full width.
+    pressure : float
+        Its pressure, or that before its `restrictor`, Pa, absolute. Not used with a pump.
+    axial : float
+        Distance of its middle from mid-plane, m. A groove off mid-plane is a pair, mirrored about
+        mid-plane and fed as one.
+    shape : {"rectangle", "circle"}
+        Its outline in the developed shell.
+    restrictor : Capillary, Orifice or ConstantFlow, optional
+        What the oil passes on its way in; the pressure of the groove then follows from the flow
+        into the film.
+    """
+
+    angle: float
+    arc: Annotated[float, Ge(0)] = 0.0
+    length: Annotated[float, Gt(0)] | None = None
+    pressure: float = 0.0
+    axial: Annotated[float, Ge(0)] = 0.0
+    shape: Literal["rectangle", "circle"] = "rectangle"
+    restrictor: Restrictor | None = None
+
+    def __post_init__(self) -> None:
+        require(0 <= self.arc <= _TURN + 1e-9, "arc", self.arc, "rad, 0 … 2π")
+        require(self.length is None or self.length > 0, "length", self.length, "m, > 0")
+        require(self.axial >= 0, "axial", self.axial, "m, ≥ 0")
+        require(self.shape in ("rectangle", "circle"), "shape", self.shape, "rectangle or circle")
+        if self.shape == "circle":
+            require(self.length is not None, "length", self.length, "the diameter of a circle, m")
+            require(self.arc == 0, "arc", self.arc, "0 for a circle, whose length is its diameter")
+
+
+@dataclass(frozen=True)
+class Pump:
+    """Pump that feeds all grooves, with a line between.
+
+    Attributes
+    ----------
+    flow : tuple of float
+        Flow at the points of its curve, m³/s, increasing.
+    pressure : tuple of float
+        Pressure there, Pa, absolute, not increasing; straight lines between and beyond. One point
+        is a constant pressure.
+    line : Capillary or Orifice, optional
+        Resistance between pump and grooves.
+
+    Examples
+    --------
+    A pump of 200 l/min at 0.6 MPa whose pressure falls to nothing at 240 l/min:
+
+    >>> pump = Pump(flow=(0.0, 200 / 60e3, 240 / 60e3), pressure=(0.65e6, 0.6e6, 0.0))
+    """
+
+    flow: Annotated[tuple[float, ...], MinLen(1)]
+    pressure: Annotated[tuple[float, ...], MinLen(1)]
+    line: Capillary | Orifice | None = None
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "flow", tuple(map(float, self.flow)))
+        object.__setattr__(self, "pressure", tuple(map(float, self.pressure)))
+        require(len(self.flow) > 0, "flow", self.flow, "m³/s, one point or more")
+        rising = all(a < b for a, b in zip(self.flow, self.flow[1:]))
+        require(rising, "flow", self.flow, "m³/s, increasing")
+        same = len(self.flow) == len(self.pressure)
+        require(
+            same, "pressure", self.pressure, f"Pa, one value for each of {len(self.flow)} flows"
+        )
+        falling = all(a >= b for a, b in zip(self.pressure, self.pressure[1:]))
+        require(falling, "pressure", self.pressure, "Pa, not increasing with flow")
+
+
+@dataclass(frozen=True)
+class Supply:
+    """Lubricant supply through grooves and pockets of the shell.
+
+    Attributes
+    ----------
+    grooves : tuple of Groove
+        Grooves; they must not overlap.
+    pump : Pump, optional
+        What feeds them all; without it each groove has its own pressure.
+    tank_pressure : float
+        Pressure from which the oil is raised, Pa, absolute; only for the supply power.
+    """
+
+    grooves: tuple[Groove, ...] = ()
+    pump: Pump | None = None
+    tank_pressure: float = 0.0
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "grooves", tuple(self.grooves))
+        if self.pump is not None:
+            require(len(self.grooves) > 0, "grooves", self.grooves, "one or more with a pump")
+            for number, groove in enumerate(self.grooves):
+                name = f"grooves[{number}].pressure"
+                require(groove.pressure == 0, name, groove.pressure, "not given with a pump")
