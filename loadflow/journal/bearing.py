@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from functools import lru_cache
 from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
@@ -15,10 +14,12 @@ from loadflow.errors import InputError, SolverError
 from loadflow.journal.equilibrium import (
     Solution,
     no_film,
+    refusal,
     solve_equilibrium,
     solve_film,
     solve_patiently,
 )
+from loadflow.journal.estimate import closed_form_position
 from loadflow.journal.film import Film
 from loadflow.journal.options import Cavitation, Lubricant, require
 from loadflow.journal.orbit import march, orbit_dataset
@@ -26,14 +27,12 @@ from loadflow.journal.result import Equilibrium, FilmField, field_row, shaped, s
 from loadflow.journal.rungs import Control, Rung, check_rung, model
 from loadflow.journal.setup import FilmOptions, Grading, Inlet, build_film, operating_points
 from loadflow.journal.supply import Supply
-from loadflow.tribology.film import butenschoen
 
 if TYPE_CHECKING:
     import xarray as xr
 
 Array = NDArray[np.float64]
 
-_RATIOS = np.concatenate([np.linspace(0.0, 0.9, 91)[1:], 1.0 - np.geomspace(0.099, 1e-4, 60)])
 _HIGH = 0.99  # eccentricity ratio at which the lift of a supply is stated
 _STARVED = (
     "the supply is starved, a groove would fall below the cavitation pressure: MassConserving and "
@@ -391,14 +390,12 @@ class JournalBearing:
 
     def _estimate(self, load: Array, film: Film) -> Array:
         """Position by Butenschön's closed form, in clearances."""
-        wanted = self.sommerfeld_number(float(np.hypot(*load)), film.speed, film.viscosity)
-        if wanted == 0.0 or film.speed == 0.0:
+        if film.speed == 0.0:
             return np.zeros(2)
-        numbers, attitudes = _closed_form(self.width / self.diameter)
-        ratio = float(np.interp(wanted, numbers, _RATIOS)) * min(wanted / numbers[0], 1.0)
-        attitude = float(np.interp(ratio, _RATIOS, attitudes)) if film.ruptures else 0.5 * np.pi
-        turn = np.arctan2(load[1], load[0]) + np.sign(film.speed) * attitude
-        return ratio * np.array([np.cos(turn), np.sin(turn)])
+        wanted = self.sommerfeld_number(float(np.hypot(*load)), film.speed, film.viscosity)
+        return closed_form_position(
+            self.width / self.diameter, wanted, load, film.speed, film.ruptures
+        )
 
     def _refusal(self, film: Film, load: Array, solution: Solution) -> str:
         head = f"F = ({load[0]:.6g}, {load[1]:.6g}) N at ω = {film.speed:.6g} rad/s"
@@ -410,11 +407,8 @@ class JournalBearing:
             return (
                 f"{head}: the supply carries no more than {_lift(film, load):.6g} N, at ε = {_HIGH}"
             )
-        so = self.sommerfeld_number(float(np.hypot(*load)), film.speed, film.viscosity)
-        return (
-            f"{head} (So = {so:.4g}): no equilibrium found; residual {solution.residual:.3g} after "
-            f"{solution.iterations} steps, at ε = {np.hypot(*solution.position):.6g}"
-        )
+        ratio = float(np.hypot(*solution.position))
+        return refusal(load, film.speed, solution.residual, solution.iterations, ratio)
 
 
 def _floating(film: Film, load: Array, position: Array) -> tuple[Film, Array, Array]:
@@ -431,9 +425,3 @@ def _lift(film: Film, load: Array) -> float:
     way = load / (float(np.hypot(*load)) or 1.0)
     state = solve_film(film, film.start(), _HIGH * way, np.zeros(2), 1e-6, 100)
     return float(state.linear.load @ way)
-
-
-@lru_cache(maxsize=32)
-def _closed_form(width_ratio: float) -> tuple[Array, Array]:
-    """So and attitude over `_RATIOS`, the width kept within the validity of the closed form."""
-    return butenschoen(_RATIOS, min(max(width_ratio, 0.125), 1.0))

@@ -170,3 +170,14 @@ def no_film(film: Film) -> Solution:
     nothing = np.full((film.gap.size, film.gap.size), np.nan)
     linear = Linear(nothing[0], nothing, nothing, nothing)
     return Solution(film.start(), nothing[0], linear, False, 0, np.inf)
+
+
+def refusal(force: Array, speed: float, residual: float, iterations: float, ratio: float) -> str:
+    """Why no film carries `force` (2,), in words."""
+    head = f"F = ({force[0]:.6g}, {force[1]:.6g}) N at ω = {speed:.6g} rad/s"
+    if speed == 0.0:
+        return f"{head}: without rotation and squeeze the film carries no load"
+    return (
+        f"{head}: no equilibrium found; residual {residual:.3g} after {iterations:.0f} steps, at "
+        f"ε = {ratio:.6g}"
+    )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -54,6 +54,19 @@ class Linear:
     stiffness: Array
     damping: Array
     columns: Array
+
+
+class Integrals(NamedTuple):
+    """Integrals over the solved film in the units of `_kernels`; numbers, or arrays over states.
+
+    Largest pressure, dissipation, shear, flow over the rims, total fill.
+    """
+
+    peak: Any
+    dissipation: Any
+    shear: Any
+    outflow: Any
+    fill: Any
 
 
 class Film:
@@ -325,16 +338,23 @@ class Film:
             self.state, self.gap.coef, mesh.dz, mesh.gz, mesh.closed,
             self.p_edge, self.p_edge, self.fixed,
         )  # fmt: skip
+        found = Integrals(peak, dissipation, shear, outflow, liquid / volume)
+        return {
+            **self.in_units(found, self.speed, self.gap.narrowest(position)),
+            **self._supplied(u),
+        }
+
+    def in_units(self, found: Integrals, speed: Any, narrowest: Any) -> dict[str, Any]:
+        """Name `found` at `speed` and `narrowest` gap as in `Equilibrium`, in SI units."""
         clearance = self.relative_clearance * self.radius
         flow = self.pockets.flow_unit
-        drag = self.mirrors * self.viscosity * self.speed**2 * self.radius**4 / clearance
+        drag = self.mirrors * self.viscosity * speed**2 * self.radius**4 / clearance
         return {
-            "minimum_film": clearance * self.gap.narrowest(position),
-            "maximum_pressure": peak,
-            "friction_power": flow * dissipation + drag * shear,
-            "side_flow": flow * outflow,
-            "total_fill": liquid / volume,
-            **self._supplied(u),
+            "minimum_film": clearance * narrowest,
+            "maximum_pressure": found.peak,
+            "friction_power": flow * found.dissipation + drag * found.shear,
+            "side_flow": flow * found.outflow,
+            "total_fill": found.fill,
         }
 
     def _supplied(self, u: Array) -> dict[str, Any]:

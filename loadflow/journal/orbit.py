@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from loadflow.errors import SolverError
 from loadflow.journal.equilibrium import Motion, Solution, solve_equilibrium
 from loadflow.journal.film import Film
+from loadflow.journal.result import attitude_angle
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -121,8 +122,8 @@ def march(
     speed: Array,
     tolerance: float,
     max_iterations: int,
-) -> list[dict[str, float]]:
-    """Rows of the orbit at every time, the first being `start`.
+) -> dict[str, Array]:
+    """What `orbit_dataset` needs at every time, the first being `start`.
 
     Raises
     ------
@@ -143,7 +144,7 @@ def march(
                 f"{solution.residual:.3g} after {solution.iterations} Newton steps"
             )
         rows.append(_row(film, solution))
-    return rows
+    return {name: np.array([row[name] for row in rows]) for name in rows[0]}
 
 
 def _row(film: Film, solution: Solution) -> dict[str, float]:
@@ -167,17 +168,13 @@ _VARIABLES = {
 
 
 def orbit_dataset(
-    rows: list[dict[str, float]], time: Array, force: Array, speed: Array, clearance: float
+    values: dict[str, Array], time: Array, force: Array, speed: Array, clearance: float
 ) -> xr.Dataset:
-    """The orbit as a Dataset over time."""
+    """The orbit as a Dataset over time; `values` hold its variables and the position x, y."""
     import xarray as xr
 
-    path = np.array([(row["x"], row["y"]) for row in rows])
-    cross = force[:, 0] * path[:, 1] - force[:, 1] * path[:, 0]
-    along = (force * path).sum(axis=1)
-    attitude = np.arctan2(np.where(speed < 0, -1.0, 1.0) * cross, along)
-    values = {name: np.array([row[name] for row in rows]) for name in _VARIABLES if name in rows[0]}
-    values["eccentricity_ratio"] = np.hypot(path[:, 0], path[:, 1])
+    path = np.stack([values["x"], values["y"]], axis=-1)
+    values = values | {"eccentricity_ratio": np.hypot(path[:, 0], path[:, 1])}
     data = {
         name: ("time", values[name], {"units": units, "long_name": text})
         for name, (units, text) in _VARIABLES.items()
@@ -191,7 +188,7 @@ def orbit_dataset(
             ),
             "attitude_angle": (
                 "time",
-                attitude,
+                attitude_angle(force, path, speed),
                 {"units": "rad", "long_name": "angle from load to eccentricity, > 0 with rotation"},
             ),
             **data,

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 if TYPE_CHECKING:
     from loadflow.journal.bearing import JournalBearing
@@ -161,22 +161,36 @@ def static_row(
     bearing: JournalBearing, film: Film, load: Array, lubricant: Lubricant, solution: Solution
 ) -> dict[str, Any]:
     """One row of `Equilibrium`."""
-    speed = film.speed
-    surface = abs(speed) * bearing.radius
-    reynolds = lubricant.density * surface * bearing.clearance / lubricant.viscosity
-    critical = 41.3 * bearing.relative_clearance**-0.5
-    size = float(np.hypot(*load))
     position = solution.position if solution.converged else np.full(2, np.nan)
     return {
-        "force": load,
+        **operating_columns(bearing, load, film.speed, lubricant, position),
+        **_common_row(film, solution),
+    }
+
+
+def operating_columns(
+    bearing: JournalBearing,
+    force: Array,
+    speed: ArrayLike,
+    lubricant: Lubricant,
+    position: Array,
+) -> dict[str, Any]:
+    """What `Equilibrium` says of loads (…, 2), speeds (…) and positions (…, 2), in clearances."""
+    number = np.vectorize(bearing.sommerfeld_number, otypes=[float])
+    surface = np.abs(speed) * bearing.radius
+    critical = np.full(np.shape(speed), 41.3 * bearing.relative_clearance**-0.5)
+    reynolds = lubricant.density * surface * bearing.clearance / lubricant.viscosity
+    return {
+        "force": force,
         "speed": speed,
         "eccentricity": position * bearing.clearance,
-        "attitude_angle": _attitude(load, position, speed),
-        "sommerfeld_number": bearing.sommerfeld_number(size, speed, lubricant.viscosity),
+        "attitude_angle": attitude_angle(force, position, speed),
+        "sommerfeld_number": number(
+            np.hypot(force[..., 0], force[..., 1]), speed, lubricant.viscosity
+        ),
         "reynolds_number": reynolds,
         "critical_reynolds_number": critical,
         "laminar": reynolds < critical,
-        **_common_row(film, solution),
     }
 
 
@@ -212,9 +226,9 @@ def _nothing(value: Any) -> Any:
     return False if isinstance(value, bool) else np.full_like(value, np.nan)
 
 
-def _attitude(load: Array, position: Array, speed: float) -> float:
+def attitude_angle(force: Array, position: Array, speed: ArrayLike) -> Array:
     """Angle from load to eccentricity, > 0 with rotation; the limit π/2 where either vanishes."""
-    if not load.any() or not position.any():
-        return 0.5 * np.pi
-    cross = load[0] * position[1] - load[1] * position[0]
-    return float(np.arctan2(np.copysign(1.0, speed) * cross, load @ position))
+    cross = force[..., 0] * position[..., 1] - force[..., 1] * position[..., 0]
+    along = (force * position).sum(axis=-1)
+    angle = np.arctan2(np.where(np.asarray(speed) < 0, -1.0, 1.0) * cross, along)
+    return np.where(force.any(axis=-1) & position.any(axis=-1), angle, 0.5 * np.pi)

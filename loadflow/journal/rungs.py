@@ -23,10 +23,10 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-Rung = Literal["grid"]
+Rung = Literal["reduced", "grid"]
 """Names of the rungs, from the cheapest to the dearest."""
 
-_MODULES: dict[str, str] = {}
+_MODULES = {"reduced": "loadflow.journal.reduced"}
 
 
 @dataclass(frozen=True)
