@@ -14,7 +14,8 @@ expansion        rings that widen under axial load, closed form
 _kernels         the compiled loops of the solver; `_forces`: of all contact forces
 capacity, life   dynamic capacities; equivalent load, spectra, oscillation
 safety           hardness factor, static safety
-friction         friction torque after both formulas of the source
+kinematics       speeds of cage, rollers and surfaces; `radial_distribution`: one row, one plane
+friction         components of friction with an energy audit, catalogues, slewing bearings
 ===============  ==============================================================================
 """
 

@@ -3,8 +3,10 @@ from .ball import BallBearingResult as BallBearingResult
 from .expansion import ExpansionResult as ExpansionResult
 from .expansion import RingSections as RingSections
 from .expansion import axial_expansion as axial_expansion
+from .friction import FrictionOptions as FrictionOptions
 from .friction import friction_torque_forces as friction_torque_forces
 from .friction import friction_torque_loads as friction_torque_loads
+from .friction import roller_friction as roller_friction
 from .hertz import LineContact as LineContact
 from .hertz import PointContact as PointContact
 from .hertz import hertz_line as hertz_line

@@ -1,0 +1,72 @@
+"""Checks of the annotated fields of option dataclasses."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, get_args, get_type_hints
+
+import annotated_types as at
+
+from loadflow.errors import InputError
+
+
+def check_fields(instance: Any) -> None:
+    """Check every annotated field of a dataclass against its range.
+
+    Parameters
+    ----------
+    instance : dataclass instance
+        Fields ``Annotated[T, annotated_types.Gt(...), ...]``; a ``None`` is let pass where the
+        field is optional.
+
+    Raises
+    ------
+    InputError
+        Naming the field, its value and the range.
+    """
+    for name, hint in get_type_hints(type(instance), include_extras=True).items():
+        value = getattr(instance, name)
+        bounds = _bounds(hint)
+        if not bounds or value is None:
+            continue
+        if not isinstance(value, (int, float)) or not math.isfinite(value):
+            raise InputError(f"{name}: must be a finite number, got {value!r}")
+        for bound in bounds:
+            if not _holds(bound, value):
+                raise InputError(f"{name}: must be {_words(bound)}, got {value!r}")
+
+
+def _bounds(hint: Any) -> list[Any]:
+    """All bounds of an annotation, also inside an optional."""
+    found = [m for m in getattr(hint, "__metadata__", ()) if isinstance(m, _KINDS)]
+    for inner in get_args(hint):
+        found += _bounds(inner)
+    return found
+
+
+_KINDS = (at.Gt, at.Ge, at.Lt, at.Le)
+
+
+def _holds(bound: Any, value: float) -> bool:
+    """Whether `value` keeps `bound`."""
+    if isinstance(bound, at.Gt):
+        return bool(value > bound.gt)  # type: ignore[operator]
+    if isinstance(bound, at.Ge):
+        return bool(value >= bound.ge)  # type: ignore[operator]
+    if isinstance(bound, at.Lt):
+        return bool(value < bound.lt)  # type: ignore[operator]
+    return bool(value <= bound.le)
+
+
+def _words(bound: Any) -> str:
+    """The bound in words."""
+    signs = {at.Gt: (">", "gt"), at.Ge: ("≥", "ge"), at.Lt: ("<", "lt"), at.Le: ("≤", "le")}
+    sign, attribute = signs[type(bound)]
+    return f"{sign} {getattr(bound, attribute):g}"
+
+
+def check_choice(instance: Any, name: str, allowed: tuple[str, ...]) -> None:
+    """Raise an InputError unless field `name` is one of `allowed`."""
+    value = getattr(instance, name)
+    if value not in allowed:
+        raise InputError(f"{name}: must be one of {', '.join(allowed)}, got {value!r}")

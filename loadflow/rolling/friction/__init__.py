@@ -1,0 +1,20 @@
+"""Friction of rolling bearings, component by component, and as catalogues have it.
+
+==================  ===========================================================================
+module              responsibility
+==================  ===========================================================================
+rolling_resistance  hysteresis and hydrodynamic rolling resistance of a contact
+roller_drag         viscous drag in cage pocket and at ribs (Hampp)
+coulomb             roller and cage with Coulomb friction: forces, moments, losses
+guides              cage sides and rim, thrust washers, lip seals
+churning            churning with two constants, fitted to a run without load
+energy              audit: shaft power = losses + stored energy
+bearing_losses      film, Λ and losses of a whole roller bearing in ideal rolling
+catalogue           Stribeck, Palmgren, SKF
+slewing_torque      slewing bearings, from loads and from ball forces
+==================  ===========================================================================
+"""
+
+import lazy_loader as _lazy
+
+__getattr__, __dir__, __all__ = _lazy.attach_stub(__name__, __file__)

@@ -1,0 +1,182 @@
+"""Catalogue formulas of the friction torque: Stribeck, Palmgren, SKF. For comparison.
+
+They are scaled from small fast bearings; on a slow main bearing they spread by a factor of three
+and more, which is why they stand beside the component models. SI units at the door.
+
+References
+----------
+Stribeck 1901; Palmgren 1957 and 1964, as (4.31)–(4.35) of von Hollen 2013; SKF, Rolling bearings,
+chapter Friction (forms of G_rr, G_sl, μ_sl, inlet heating; the constants R, S of each series are in
+the catalogue's table and are arguments here; the drag term needs its diagrams and is left out).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from loadflow.errors import InputError
+
+Array = NDArray[np.float64]
+_RPM = 30 / np.pi  # rad/s in 1/min
+
+# Palmgren's f₀ of oil-bath or grease lubrication, and f₁ of cylindrical, tapered and spherical
+# roller bearings, middle of the ranges of Harris & Kotzalas, Essential Concepts, ch. 10.
+PALMGREN_F0 = {"cylindrical": 2.5, "tapered": 4.0, "spherical": 5.0, "ball": 1.5}
+PALMGREN_F1 = {"cylindrical": 3e-4, "tapered": 4e-4, "spherical": 5e-4}
+
+_SLIDING = {"cylindrical": 0.02, "tapered": 0.002}  # μ_EHL; other bearings 0.05 (mineral oil)
+
+
+def stribeck_torque(load: ArrayLike, pitch_diameter: float, friction: float) -> Array:
+    """Torque F μ d_m/2, N m, (4.31).
+
+    Parameters
+    ----------
+    load : array_like
+        N.
+    pitch_diameter : float
+        d_m, m.
+    friction : float
+        μ, 0.001 … 0.003.
+    """
+    return np.asarray(np.asarray(load, float) * friction * pitch_diameter / 2)
+
+
+def palmgren_idle_torque(
+    speed: ArrayLike, viscosity: ArrayLike, pitch_diameter: float, factor: float
+) -> Array:
+    """Palmgren's torque without load M₀, N m, (4.33).
+
+    Parameters
+    ----------
+    speed : array_like
+        rad/s.
+    viscosity : array_like
+        Kinematic viscosity, m²/s.
+    pitch_diameter : float
+        m.
+    factor : float
+        f₀ of type and lubrication (`PALMGREN_F0`).
+    """
+    flow = np.asarray(viscosity, float) * 1e6 * np.abs(np.asarray(speed, float)) * _RPM
+    # constant below ν n = 2000, where 160 = 2000^(2/3) to 0.8 %
+    law = np.where(flow < 2000, 160.0, flow ** (2 / 3))
+    return np.asarray(1e-7 * factor * (pitch_diameter * 1e3) ** 3 * law * 1e-3)
+
+
+def palmgren_load_torque(
+    load: ArrayLike,
+    pitch_diameter: float,
+    factor: float,
+    static_capacity: float | None = None,
+    exponent: float = 0.0,
+) -> Array:
+    """Palmgren's torque of the load M₁ = f F d_m (F/C₀)^c, N m, (4.34); c = 0 gives (4.35).
+
+    Parameters
+    ----------
+    load : array_like
+        Load that decides friction, N.
+    pitch_diameter : float
+        m.
+    factor : float
+        f, or f₁ (`PALMGREN_F1`) with c = 0.
+    static_capacity : float, optional
+        C₀, N; needed unless c = 0.
+    exponent : float
+        c.
+
+    Raises
+    ------
+    InputError
+        If `exponent` is not 0 and `static_capacity` is missing.
+    """
+    force = np.asarray(load, float)
+    if exponent == 0:
+        return np.asarray(factor * force * pitch_diameter)
+    if static_capacity is None:
+        raise InputError("static_capacity: needed for an exponent other than 0")
+    return np.asarray(factor * force * pitch_diameter * (force / static_capacity) ** exponent)
+
+
+@dataclass(frozen=True, kw_only=True)
+class SkfConstants:
+    """Constants of one bearing series, from SKF's table.
+
+    Attributes
+    ----------
+    kind : {"cylindrical", "tapered"}
+        Type of bearing.
+    r1, r2 : float
+        R₁ and R₂ of the rolling torque (R₂ of tapered bearings only).
+    s1, s2 : float
+        S₁ and S₂ of the sliding torque.
+    axial_factor : float
+        Y of tapered bearings.
+    starvation, geometry : float
+        K_rs (3e-8 oil bath, 6e-8 grease) and K_Z (cylindrical 5.1, tapered 6).
+    """
+
+    kind: Literal["cylindrical", "tapered"]
+    r1: float
+    s1: float
+    s2: float
+    r2: float = 0.0
+    axial_factor: float = 0.0
+    starvation: float = 6e-8
+    geometry: float = 5.1
+
+
+def skf_torque(
+    constants: SkfConstants,
+    radial: ArrayLike,
+    axial: ArrayLike,
+    speed: ArrayLike,
+    viscosity: ArrayLike,
+    bore: float,
+    outside_diameter: float,
+    boundary: float = 0.15,
+) -> tuple[Array, Array]:
+    """Rolling and sliding torque after SKF, N m, (4.36) without seals and drag.
+
+    Parameters
+    ----------
+    constants : SkfConstants
+        Of the series.
+    radial, axial : array_like
+        Magnitudes of the loads, N.
+    speed : array_like
+        rad/s.
+    viscosity : array_like
+        Kinematic viscosity of the (base) oil, m²/s.
+    bore, outside_diameter : float
+        m.
+    boundary : float
+        μ_bl of boundary lubrication.
+    """
+    fr, fa = np.asarray(radial, float), np.asarray(axial, float)
+    n = np.abs(np.asarray(speed, float)) * _RPM
+    nu, d, big = np.asarray(viscosity, float) * 1e6, bore * 1e3, outside_diameter * 1e3
+    mean = (d + big) / 2
+    if constants.kind == "cylindrical":
+        rolling = constants.r1 * mean**2.41 * fr**0.31
+        sliding = constants.s1 * mean**0.9 * fa + constants.s2 * mean * fr
+    elif constants.kind == "tapered":
+        thrust = constants.axial_factor * fa
+        rolling = constants.r1 * mean**2.38 * (fr + constants.r2 * thrust) ** 0.31
+        sliding = constants.s1 * mean**0.82 * (fr + constants.s2 * thrust)
+    else:
+        raise InputError(f"kind: must be 'cylindrical' or 'tapered', got {constants.kind!r}")
+    heated = 1 / (1 + 1.84e-9 * (n * mean) ** 1.28 * nu**0.64)
+    crowd = np.sqrt(constants.geometry / (2 * (big - d)))
+    refill = np.exp(-constants.starvation * nu * n * (d + big) * crowd)
+    dry = np.exp(-2.6e-8 * (n * nu) ** 1.4 * mean)
+    friction = dry * boundary + (1 - dry) * _SLIDING[constants.kind]
+    return (
+        np.asarray(heated * refill * rolling * (nu * n) ** 0.6 * 1e-3),
+        np.asarray(sliding * friction * 1e-3),
+    )

@@ -1,0 +1,165 @@
+"""Roller and cage with Coulomb friction (Hampp): forces, moments, losses of the first model stage.
+
+Signed forces on one roller: radial load R, the inertia it needs N (radial) and U (tangential), both
+mass times acceleration, and the rib drag M_b over its lever ρ_h. μ is the adhesion of the raceways,
+μ' the sliding friction at cage and rib. Plain expressions for floats or arrays; equation numbers
+are those of von Hollen 2013, ``variant="printed"`` gives them with their misprints.
+"""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from loadflow.errors import InputError
+
+Value = float | NDArray[np.float64]
+Driving = Literal["inner", "outer"]
+Variant = Literal["physics", "printed"]
+
+RIB_LEVER = 0.75  # ρ_h/ρ
+
+
+def cage_force(
+    radial: Value,
+    tangential: Value,
+    rib_force: Value,
+    adhesion: float,
+    sliding: float,
+    driving: Driving = "inner",
+    rib: Literal["outer", "inner"] = "outer",
+) -> Value:
+    """Tangential force K between an unloaded roller and the cage, N, (4.73), (4.75).
+
+    Parameters
+    ----------
+    radial, tangential : float or ndarray
+        N and U, N.
+    rib_force : float or ndarray
+        M_b/ρ_h, N.
+    adhesion, sliding : float
+        μ and μ'.
+    driving : {"inner", "outer"}
+        Ring that turns.
+    rib : {"outer", "inner"}
+        Ring with the ribs.
+    """
+    _check(driving, ("inner", "outer"), "driving")
+    _check(rib, ("outer", "inner"), "rib")
+    side = 1.0 if rib == "outer" else -1.0
+    if driving == "inner":
+        grip, drag = adhesion * radial, -side * rib_force
+    else:
+        grip, drag = -adhesion * radial, side * rib_force
+    return (grip - tangential + drag) / (1 - adhesion * sliding)
+
+
+def driving_moment(
+    load: Value,
+    radial: Value,
+    tangential: Value,
+    rib_force: Value,
+    radius: float,
+    adhesion: float,
+    sliding: float,
+    driving: Driving = "inner",
+    rib: Literal["outer", "inner"] = "outer",
+    variant: Variant = "physics",
+) -> Value:
+    """Moment that drives the spin before viscous drag, N m, (4.74), (4.76).
+
+    It contains the cage friction with the sign of the source, which for a driving outer ring helps
+    the spin; see `pocket_moment` for the dissipative form. The source prints (1 ∓ μ') for (1 ∓ μ)
+    in the rib's term and, in (5.32), in that of U.
+
+    Parameters
+    ----------
+    load : float or ndarray
+        R, N.
+    radius : float
+        ρ, m.
+    radial, tangential, rib_force, adhesion, sliding, driving, rib
+        As `cage_force`.
+    variant : {"physics", "printed"}
+        See the module.
+    """
+    _check(variant, ("physics", "printed"), "variant")
+    _check(driving, ("inner", "outer"), "driving")
+    _check(rib, ("outer", "inner"), "rib")
+    sign = -1.0 if driving == "inner" else 1.0
+    side = (1.0 if rib == "outer" else -1.0) * -sign
+    bind = 1 - adhesion * sliding
+    wrong = variant == "printed"
+    in_rib = sliding if wrong else adhesion
+    in_inertia = sliding if wrong and driving == "outer" else adhesion
+    moment = 2 * adhesion * load + adhesion * np.abs(radial) * (1 + sign * sliding) / bind
+    moment = moment + sliding * tangential * (1 + sign * in_inertia) / bind
+    return radius * (moment + side * sliding * (1 + sign * in_rib) / bind * rib_force)
+
+
+def pocket_moment(force: Value, spin: Value, radius: float, sliding: float) -> Value:
+    """Moment of the cage pocket against the spin, μ' ρ |K| sign(ω_w), N m: it always brakes."""
+    return sliding * radius * np.abs(force) * np.sign(spin)
+
+
+def rolling_loss(
+    load: Value, radial: Value, cage: Value, spin: Value, radius: float, coefficient: float,
+    sliding: float,
+) -> Value:  # fmt: skip
+    """Loss of rolling, μ_R ρ |2R + N + μ'K| ω_roller, W, (5.36), (5.37).
+
+    Parameters
+    ----------
+    load, radial, cage : float or ndarray
+        R, N and K, N.
+    spin : float or ndarray
+        Absolute spin of the roller, rad/s.
+    radius : float
+        ρ, m.
+    coefficient : float
+        μ_R of rolling friction.
+    sliding : float
+        μ'.
+    """
+    return coefficient * radius * np.abs(2 * load + radial + sliding * cage) * spin
+
+
+def sliding_loss(
+    load: Value, radial: Value, cage: Value, slip: Value, radius: float, sliding: float,
+    adhesion_force: Value = 0.0, variant: Variant = "physics",
+) -> Value:  # fmt: skip
+    """Loss of sliding on the raceways, μ' ρ |2R + N + μ'K| Δω, W, (5.38), (5.39).
+
+    Parameters
+    ----------
+    load, radial, cage, radius, sliding
+        As `rolling_loss`.
+    slip : float or ndarray
+        Ideal less actual spin, rad/s.
+    adhesion_force : float or ndarray
+        μ N/(1 - μμ'), only used by "printed": (5.38) has it with the opposite sign in K.
+    variant : {"physics", "printed"}
+        See the module.
+    """
+    _check(variant, ("physics", "printed"), "variant")
+    force = cage - 2 * adhesion_force if variant == "printed" else cage
+    return sliding * radius * np.abs(2 * load + radial + sliding * force) * slip
+
+
+def pocket_loss(
+    cage: Value, spin: Value, radius: float, sliding: float, variant: Variant = "physics"
+) -> Value:
+    """Loss of roller and cage, μ' ρ |K| |ω_w|, W, (5.40), (5.41).
+
+    The source prints μ'² for μ', which makes it 25 times too small.
+    """
+    _check(variant, ("physics", "printed"), "variant")
+    power = sliding**2 if variant == "printed" else sliding
+    return power * radius * np.abs(cage) * np.abs(spin)
+
+
+def _check(value: str, allowed: tuple[str, ...], name: str) -> None:
+    if value not in allowed:
+        raise InputError(f"{name}: must be one of {', '.join(allowed)}, got {value!r}")

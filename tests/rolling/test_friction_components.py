@@ -1,0 +1,231 @@
+"""Components of friction: areas by quadrature, variants, Coulomb balance, churning, catalogues."""
+
+import doctest
+import importlib
+import itertools
+
+import numba
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.integrate import quad
+
+from loadflow.errors import InputError, SolverError
+from loadflow.rolling import friction, kinematics, radial_distribution
+from loadflow.rolling.friction import catalogue, coulomb, guides, roller_drag, rolling_resistance
+from loadflow.validation.friction import MAIN, MAIN_RACES, MODULUS
+
+MODULES = [
+    "kinematics",
+    "radial_distribution",
+    "friction.guides",
+    "friction.energy",
+    "friction.bearing_losses",
+]
+
+
+@pytest.mark.parametrize("name", MODULES)
+def test_examples_of_the_docstrings(name):
+    outcome = doctest.testmod(importlib.import_module(f"loadflow.rolling.{name}"))
+    assert outcome.attempted > 0
+    assert outcome.failed == 0
+
+
+@pytest.mark.parametrize(("radius", "height"), [(5.5, 1.6), (3.75, 0.4), (20.0, 6.0)])
+def test_areas_of_the_roller_end_by_quadrature(radius, height):
+    def chord(y):
+        return 2 * np.sqrt(radius**2 - y**2)
+
+    def across(y):
+        return 2 * (radius**2 - y**2) ** 1.5 / 3
+
+    left = radius - height
+    segment = {
+        "area": quad(lambda y: y * chord(y), left, radius)[0],
+        "square": quad(lambda y: y * y * chord(y), left, radius)[0],
+    }
+    assert roller_drag.segment_area_moment(radius, height) == pytest.approx(
+        segment["area"], rel=1e-7
+    )
+    assert roller_drag.segment_square(radius, height) == pytest.approx(segment["square"], rel=1e-7)
+    polar = segment["square"] + quad(across, left, radius)[0]
+    assert roller_drag.segment_polar(radius, height) == pytest.approx(2 * polar, rel=1e-7)
+    strip = 2 * quad(lambda y: y * y * chord(y) + across(y), 0, height)[0]
+    assert roller_drag.strip_moment(radius, height) == pytest.approx(strip, rel=1e-7)
+
+
+def test_pocket_is_the_flat_bar_of_the_drawing():
+    r, s, delta, angle = 5.5e-3, 0.39e-3, 3.84e-6, np.radians(30)
+
+    def side(gap):  # 2 ∫ dθ ρ/(gap at θ) over the half angle, without the constant η ρ² l
+        return 2 * quad(lambda a: r / ((r + gap) / np.cos(a) - r), 0, angle, epsabs=0)[0]
+
+    exact = side(2 * s) + side(delta)
+    ours = 2 * roller_drag.pocket_integral(s, r, angle, delta) - 4 * angle
+    assert ours == pytest.approx(exact, rel=1e-6)
+    thesis = roller_drag.pocket_integral(s, r, angle, delta, "thesis")
+    assert thesis > 2.5 * roller_drag.pocket_integral(s, r, angle, delta)
+
+
+def test_variants_change_what_they_name():
+    args = (MAIN, 0.037, 9 / 22)
+    found = {v: friction.drag_constants(*args, variant=v) for v in roller_drag.VARIANTS}
+    assert found["geometric"].spin < found["thesis"].spin
+    assert found["thesis"].orbit < 0 < found["printed"].orbit
+    with pytest.raises(InputError, match="geometric"):
+        friction.drag_constants(*args, variant="guess")
+
+
+def test_driving_moment_is_the_balance_of_the_roller():
+    mu, sliding, rho = 0.12, 0.04, 5.5e-3
+    for driving, rib, r, n, u, b in itertools.product(
+        ("inner", "outer"), ("outer", "inner"), (0.0, 300.0), (0.6, 5.0), (0.0, 0.3), (0.0, 0.02)
+    ):
+        k = coulomb.cage_force(n, u, b, mu, sliding, driving, rib)
+        exact = 2 * mu * r + mu * (n + sliding * k) - sliding * k
+        if driving == "outer":  # N < 0 presses the roller outward; K counts the other way
+            exact = 2 * mu * r + mu * (n - sliding * k) - sliding * k
+        ours = coulomb.driving_moment(r, n, u, b, rho, mu, sliding, driving, rib)
+        assert ours == pytest.approx(rho * exact, rel=1e-12)
+
+
+def test_printed_losses_differ_as_stated():
+    assert coulomb.pocket_loss(1.0, 300.0, 5.5e-3, 0.04) == pytest.approx(
+        25 * coulomb.pocket_loss(1.0, 300.0, 5.5e-3, 0.04, "printed")
+    )
+    args = (100.0, 0.6, 0.1, 20.0, 5.5e-3, 0.04, 0.09)
+    assert coulomb.sliding_loss(*args, variant="printed") < coulomb.sliding_loss(*args)
+
+
+def test_pocket_always_brakes():
+    moment = coulomb.pocket_moment(np.array([3.0, -3.0]), np.array([200.0, -200.0]), 5e-3, 0.04)
+    assert (moment * np.array([200.0, -200.0]) > 0).all()
+
+
+@given(st.floats(0.05, 0.9), st.floats(-50, 50), st.floats(-50, 50))
+def test_ideal_rolling_has_no_sliding(ratio, inner, outer):
+    d, big = 0.4 * ratio, 0.4
+    cage, spin = kinematics.ideal_speeds(inner, outer, d, big)
+    v = kinematics.contact_speeds(inner, outer, cage, spin, d, big)
+    scale = 1e-12 * (1 + abs(inner) + abs(outer))
+    assert abs(v.sliding_inner) < scale
+    assert abs(v.sliding_outer) < scale
+    gamma = (big - d) / (big + d)
+    mean = kinematics.entrainment_speed(inner, outer, (d + big) / 2, gamma)
+    assert abs(v.mean_inner) == pytest.approx(mean, rel=1e-9, abs=1e-12)
+
+
+def test_rigid_rolling_force_is_martins_by_quadrature():
+    h = 1.0  # film over x = √(2 R h) tan γ; rupture where p = p' = 0
+
+    def slope(g, at):
+        return (1 - at * np.cos(g) ** 2) * np.cos(g) ** 2
+
+    from scipy.optimize import brentq
+
+    def end(at):
+        return quad(slope, -np.pi / 2, np.arctan(np.sqrt(at - 1)), args=(at,))[0]
+
+    at = brentq(end, 1.05, 1.5)
+    stop = np.arctan(np.sqrt(at - 1))
+
+    def pressure(g):
+        return quad(slope, -np.pi / 2, g, args=(at,))[0]
+
+    load = 24 * quad(lambda g: pressure(g) / np.cos(g) ** 2, -np.pi / 2, stop)[0] / h
+    shear = 6 * np.sqrt(2) * quad(lambda g: 1 - at * np.cos(g) ** 2, -np.pi / 2, stop)[0]
+    ours = rolling_resistance.rigid_force(load, 1.0, 1.0, 1.0)
+    assert shear == pytest.approx(ours, rel=1e-5)
+
+
+def test_hydrodynamic_force_takes_the_smaller_regime():
+    common = (11e-3, 4.5e-3, 1.53, 10.6e-3, 2e-8, MODULUS)
+    loaded = rolling_resistance.hydrodynamic_force(718.29, *common)
+    assert loaded == pytest.approx(rolling_resistance.elastic_force(718.29, *common), rel=1e-2)
+    light = rolling_resistance.hydrodynamic_force(1e-3, *common)
+    assert light == pytest.approx(
+        rolling_resistance.rigid_force(1e-3, 11e-3, 1.53, 10.6e-3), rel=1e-2
+    )
+    still = rolling_resistance.hydrodynamic_force(np.zeros(2), *common)
+    assert (still == 0).all()
+    assert numba.njit(rolling_resistance.hydrodynamic_force)(718.29, *common) == pytest.approx(
+        float(loaded), rel=1e-13
+    )
+
+
+def test_zhou_hoeprich_table_within_the_models_uncertainty():
+    # their Table 1: 2 F R_e per length at G = 3745, W = 2e-4 (R_e not stated); shape only
+    speeds = np.array([1, 3, 10, 60, 100]) * 1e-11
+    printed = np.array([0.0623, 0.1455, 0.3172, 0.8781, 1.1290])
+    power = np.polyfit(np.log(speeds), np.log(printed), 1)[0]
+    assert power == pytest.approx(0.648, abs=0.03)
+
+
+def test_rolling_coefficient_is_the_moment_over_load_and_radius():
+    moment = rolling_resistance.hysteresis_moment(700.0, 57e-6, 0.01)
+    mu = rolling_resistance.rolling_coefficient(57e-6, 5.5e-3, 0.01)
+    assert moment == pytest.approx(mu * 700.0 * 5.5e-3, rel=1e-12)
+
+
+def test_churning_finds_its_constants_again():
+    true = friction.Churning(2e-3, 3e-6)
+    speed = np.linspace(5, 200, 9)
+    torque = true.torque(speed, 0.02, 850.0)
+    found = friction.fit_churning(speed, torque, 0.02, 850.0)
+    assert (found.viscous, found.inertial) == pytest.approx((2e-3, 3e-6), rel=1e-9)
+    assert friction.fit_churning(speed, -torque, 0.02, 850.0) == friction.Churning(0.0, 0.0)
+    with pytest.raises(InputError, match="two or more"):
+        friction.fit_churning([1.0], [1.0], 0.02, 850.0)
+
+
+def test_cage_rub_as_printed_is_not_the_torque():
+    force = guides.cage_inertia_force(0.03, 18, 6.67e-3, 42.5e-3, 100.0)
+    right = guides.cage_rub_torque(force, 0.04, 31.425e-3)
+    printed = guides.cage_rub_torque(force, 0.04, 31.425e-3, "printed", 42.5e-3, 100.0, 56.8)
+    assert right == pytest.approx(0.04 * force * 31.425e-3)
+    assert printed < right / 100
+
+
+def test_palmgren_is_continuous_and_loads_follow_their_exponents():
+    edge = 2000 / 30 * np.pi / 30  # ν n = 2000 at 30 mm²/s
+    slow, fast = catalogue.palmgren_idle_torque(edge * np.array([0.99, 1.01]), 30e-6, 0.06, 2.5)
+    assert slow == pytest.approx(float(fast), rel=0.02)
+    lawful = catalogue.palmgren_load_torque([1e3, 2e3], 0.06, 3e-4, 5e4, 0.5)
+    assert lawful[1] / lawful[0] == pytest.approx(2**1.5)
+    with pytest.raises(InputError, match="static_capacity"):
+        catalogue.palmgren_load_torque(1e3, 0.06, 3e-4, exponent=0.3)
+
+
+def test_skf_sliding_goes_from_boundary_to_full_film():
+    series = catalogue.SkfConstants(kind="cylindrical", r1=1e-6, s1=0.16, s2=0.0015)
+    _, still = catalogue.skf_torque(series, 5e3, 0.0, 0.0, 100e-6, 0.04, 0.08)
+    _, fast = catalogue.skf_torque(series, 5e3, 0.0, 500.0, 100e-6, 0.04, 0.08)
+    assert still / fast == pytest.approx(0.15 / 0.02, rel=1e-3)
+    rolling, _ = catalogue.skf_torque(series, 5e3, 0.0, np.array([10.0, 20.0]), 10e-6, 0.04, 0.08)
+    assert rolling[1] / rolling[0] == pytest.approx(2**0.6, rel=0.05)
+
+
+def test_radial_distribution_of_the_main_bearing():
+    angles = 2 * np.pi * np.arange(14) / 14
+    law = radial_distribution.behw_law(11e-3)
+    shift, loads = radial_distribution.radial_distribution([2000.0, 13800.0], angles, 8e-6, law)
+    assert shift * 1e6 == pytest.approx([8.6408, 27.8536], rel=1e-5)
+    assert loads[1, :4] == pytest.approx([4208.63, 3685.55, 2251.54, 320.46], rel=1e-5)
+    assert (loads * np.cos(angles)).sum(axis=-1) == pytest.approx([2000.0, 13800.0], rel=1e-12)
+    straddling = radial_distribution.radial_distribution(2000.0, angles + np.pi / 14, 8e-6, law)
+    assert straddling.loads.max() == pytest.approx(691.72, rel=1e-5)
+
+
+def test_radial_distribution_without_load_or_support():
+    law = radial_distribution.iso_law(11e-3)
+    found = radial_distribution.radial_distribution(0.0, [0.0, 2.0, 4.0], 8e-6, law)
+    assert (found.loads == 0).all()
+    with pytest.raises(SolverError, match="side"):
+        radial_distribution.radial_distribution(1.0, [2.0, 3.0], 8e-6, law)
+    with pytest.raises(InputError, match="clearance"):
+        radial_distribution.radial_distribution(1.0, [0.0], -1e-6, law)
+
+
+def test_raceways_of_the_main_bearing_leave_room_for_the_rollers():
+    assert MAIN_RACES[1] - MAIN_RACES[0] == pytest.approx(4 * MAIN.radius)

@@ -1,0 +1,182 @@
+"""Sum of losses = shaft power less stored energy; friction of a whole bearing."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from loadflow.errors import InputError
+from loadflow.rolling import FrictionOptions, RollerBearing, friction, roller_friction
+from loadflow.rolling.friction import RollerState, energy_audit, rolling_resistance
+from loadflow.rolling.kinematics import contact_speeds, ideal_speeds
+from loadflow.tribology import lubricant, traction
+from loadflow.validation.friction import MAIN, MAIN_BEARING, MAIN_RACES, MODULUS
+
+INERTIA = 0.5 * 11e-3 * (5.5e-3) ** 2
+force_values = st.floats(0, 20)
+
+
+@given(
+    st.floats(-100, 100), st.floats(-100, 100), st.floats(-60, 60), st.floats(-600, 600),
+    force_values, force_values, force_values, force_values, st.floats(0, 0.05), force_values,
+)  # fmt: skip
+def test_every_state_that_obeys_the_rollers_equation_balances(
+    inner, outer, cage, spin, pull_i, pull_o, roll_i, roll_o, drag, tangential
+):
+    radius = (MAIN_RACES[1] - MAIN_RACES[0]) / 4
+    moment = radius * (pull_i + pull_o - roll_i - roll_o) - drag
+    state = RollerState(
+        inner_speed=inner, outer_speed=outer, cage_speed=cage, spin=spin,
+        spin_rate=moment / INERTIA, traction=(pull_i, pull_o), rolling=(roll_i, roll_o),
+        drag=drag, tangential=tangential,
+    )  # fmt: skip
+    audit = energy_audit(state, *MAIN_RACES, INERTIA)
+    scale = abs(audit.shaft) + abs(audit.stored) + sum(abs(p) for p in audit.losses.values())
+    assert abs(audit.imbalance) <= 1e-11 * scale + 1e-12
+
+
+def test_the_audit_finds_a_wrong_equation_of_motion():
+    cage, spin = ideal_speeds(100.0, 0.0, *MAIN_RACES)
+    state = RollerState(
+        inner_speed=100.0, outer_speed=0.0, cage_speed=cage, spin=spin, traction=(1.0, 1.0),
+        rolling=(0.9, 1.0),
+    )  # fmt: skip
+    assert energy_audit(state, *MAIN_RACES, INERTIA).error > 0.01
+
+
+def test_a_roller_that_spins_up_stores_what_is_not_lost():
+    """Traction, rolling and drag over a run-up: integrals of both sides agree."""
+    speed, load = 1000 * np.pi / 30, 20.0
+    cage, ideal = ideal_speeds(speed, 0.0, *MAIN_RACES)
+    drag = friction.drag_constants(MAIN, 10.6e-3, 9 / 22).spin
+    step, spin, put_in, lost = 2e-5, 0.3 * ideal, 0.0, 0.0
+
+    def state(w):
+        v = contact_speeds(speed, 0.0, cage, w, *MAIN_RACES)
+        area, film = 2 * 9.5e-6 * 11e-3, 0.1e-6
+        pulls, rolls = [], []
+        for sliding, mean, radius in (
+            (v.sliding_inner, v.mean_inner, 4.5e-3),
+            (v.sliding_outer, v.mean_outer, 6.5e-3),
+        ):
+            stress = traction.smooth_stress(traction.newtonian_stress(1.0, sliding, film), 4e6)
+            pulls.append(stress * area)
+            rolls.append(
+                rolling_resistance.hydrodynamic_force(
+                    load, 11e-3, radius, mean, 10.6e-3, 2e-8, MODULUS
+                )
+            )
+        moment = 5.5e-3 * (sum(pulls) - sum(rolls)) - drag * w
+        return RollerState(
+            inner_speed=speed, outer_speed=0.0, cage_speed=cage, spin=w,
+            spin_rate=moment / INERTIA, traction=tuple(pulls), rolling=tuple(rolls), drag=drag * w,
+        )  # fmt: skip
+
+    start = spin
+    for _ in range(400):  # midpoint rule
+        middle = state(spin + step / 2 * state(spin).spin_rate)
+        audit = energy_audit(middle, *MAIN_RACES, INERTIA)
+        assert audit.error < 1e-12
+        put_in += audit.shaft * step
+        lost += sum(audit.losses.values()) * step
+        spin = spin + step * middle.spin_rate
+    stored = INERTIA / 2 * ((spin - cage) ** 2 - (start - cage) ** 2)
+    assert spin > 0.9 * ideal
+    assert put_in - lost == pytest.approx(stored, rel=1e-4)
+
+
+OPTIONS = FrictionOptions(
+    oil=lubricant("crankshaft-5w-30"), temperature=363.15, roughness=0.2e-6, hysteresis=0.01
+)
+
+
+def test_torque_is_the_sum_of_rolling_powers_at_both_rings():
+    result = MAIN_BEARING.equilibrium(force=(2000.0, 0.0, 0.0))
+    omega = 1000 * np.pi / 30
+    found = roller_friction(result, omega, OPTIONS)
+    forces = result.roller_forces[0]
+    sums = []
+    for radius in (4.5e-3, 6.5e-3):
+        half = np.sqrt(8 * forces * radius / (np.pi * 11e-3 * MODULUS))
+        sums.append(rolling_resistance.hysteresis_moment(forces, half, 0.01).sum() / (2 * radius))
+    torque = friction.hydrodynamic_torque(*sums, *MAIN_RACES)
+    assert found.torques["hysteresis"] == pytest.approx(float(torque), rel=1e-12)
+    assert found.torque == pytest.approx(float(found.power) / omega, rel=1e-14)
+    assert found.torques["rolling"] > 0
+
+
+def test_films_of_the_main_bearing():
+    result = MAIN_BEARING.equilibrium(force=(2000.0, 0.0, 0.0))
+    options = dataclasses.replace(
+        OPTIONS,
+        film="hamrock",
+        oil=dataclasses.replace(OPTIONS.oil, pressure_coefficient=2e-8),
+    )
+    found = roller_friction(result, 1000 * np.pi / 30, options)
+    # 0.115 μm at 718 N; here 732 N, C_th 0.977
+    assert found.film[0, 0, 0] == pytest.approx(0.115e-6 * 0.977, rel=0.01)
+    assert found.film_parameter[0, 0, 0] == pytest.approx(found.film[0, 0, 0] / 0.2e-6)
+    assert (found.film[..., 1] > found.film[..., 0]).all()
+
+
+WIND = RollerBearing(
+    rollers=36, roller_diameter=0.08, roller_length=0.15, pitch_diameter=1.0, clearance=0.0
+)
+
+
+def test_a_slow_main_bearing_runs_in_mixed_friction():
+    load = 36 / 4.08 * 200e3
+    result = WIND.equilibrium(force=(load, 0, 0))
+    options = FrictionOptions(
+        oil=lubricant("mineral-vg-320"), temperature=333.15, roughness=0.55e-6
+    )
+    found = roller_friction(result, 10 * np.pi / 30, options)
+    loaded = result.roller_forces > 1e5
+    assert 0.4 < found.film_parameter[loaded].min() < 2
+    assert found.asperity_share[loaded].max() > 0.1
+    assert (found.traction_use[loaded] < 0.1).all()
+    # rolling alone, without ribs, cage, seals and churning: well below the catalogues' 0.001
+    assert 5e-5 < found.torque / (load * 0.5) < 1e-3
+
+
+@settings(max_examples=20, deadline=None)
+@given(st.floats(1e3, 1e6), st.floats(0.01, 50))
+def test_losses_are_finite_and_not_negative(force, omega):
+    found = roller_friction(MAIN_BEARING.equilibrium(force=(force, 0, 0)), omega, OPTIONS)
+    assert all(np.isfinite(p) and p >= 0 for p in found.losses.values())
+    assert np.isfinite(found.film).all()
+
+
+def test_speed_may_stand_still_or_turn_back():
+    result = MAIN_BEARING.equilibrium(force=(2000.0, 0.0, 0.0))
+    still, back, fore = (roller_friction(result, w, OPTIONS) for w in (0.0, -100.0, 100.0))
+    assert still.power == 0
+    assert (still.film == 0).all()
+    assert back.power == pytest.approx(float(fore.power))
+    series = roller_friction(result, np.array([0.0, -100.0, 100.0]), OPTIONS)
+    assert series.power == pytest.approx([0.0, float(back.power), float(fore.power)])
+    with pytest.raises(InputError, match="speed"):
+        roller_friction(result, np.nan, OPTIONS)
+
+
+def test_components_add_what_they_say():
+    result = MAIN_BEARING.equilibrium(force=(2000.0, 0.0, 0.0))
+    plain = roller_friction(result, 100.0, OPTIONS)
+    more = dataclasses.replace(
+        OPTIONS,
+        seal_torque=0.06,
+        churning=friction.Churning(1e-3),
+        roller_drag=1e-6,
+        rib_angle=0.05,
+        rib_height=1e-3,
+    )
+    found = roller_friction(result, 100.0, more)
+    assert found.torques["seal"] == pytest.approx(0.06)
+    assert found.torques["churning"] == pytest.approx(
+        0.1 * float(OPTIONS.oil.viscosity(OPTIONS.temperature))
+    )
+    assert found.losses["rib"] > 0
+    assert found.losses["drag"] > 0
+    assert found.losses["rolling"] == pytest.approx(float(plain.losses["rolling"]))

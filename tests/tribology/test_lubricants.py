@@ -1,0 +1,113 @@
+"""Laws of lubricants, the library of oils, film against roughness, traction."""
+
+import doctest
+import importlib
+
+import numba
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from loadflow.errors import InputError
+from loadflow.tribology import Oil, lubricant, lubricant_names, traction
+from loadflow.tribology import lubricant_laws as laws
+
+MODULES = ["lubricant_laws", "lubricants", "contact_film", "asperities", "traction"]
+
+
+@pytest.mark.parametrize("name", MODULES)
+def test_examples_of_the_docstrings(name):
+    outcome = doctest.testmod(importlib.import_module(f"loadflow.tribology.{name}"))
+    assert outcome.failed == 0
+
+
+@given(st.floats(5e-6, 2e-3), st.floats(0.02, 0.5))
+def test_walther_returns_its_two_points(thick, share):
+    thin = max(thick * share, 1e-6)
+    at = laws.walther(np.array([313.15, 373.15]), (thick, thin))
+    assert at == pytest.approx([thick, thin], rel=1e-12)
+
+
+@pytest.mark.parametrize("name", lubricant_names())
+def test_every_oil_of_the_library_thins_with_heat_and_thickens_under_pressure(name):
+    oil = lubricant(name)
+    assert oil.source
+    eta = oil.viscosity(np.linspace(263, 393, 27))
+    assert (np.diff(eta) < 0).all()
+    assert oil.viscosity(333.15, 0.5e9) > 10 * oil.viscosity(333.15)
+    assert 5e-9 < oil.pressure_viscosity(333.15) < 4e-8
+    assert 0.1 < oil.conductivity(333.15) < 0.2
+
+
+@pytest.mark.parametrize("name", ["lgwm-2", "pao-vg-320", "cylinder-oil"])
+def test_steepness_is_the_derivative_of_the_viscosity(name):
+    oil, t, dt = lubricant(name), 330.0, 0.01
+    slope = -np.log(oil.viscosity(t + dt) / oil.viscosity(t - dt)) / (2 * dt)
+    assert oil.steepness(t) == pytest.approx(slope, rel=1e-7)
+
+
+def test_roelands_starts_like_barus_and_stays_below():
+    p = np.array([1e3, 1e8, 1e9, 3e9])
+    thick, barus = laws.roelands(0.1, 2e-8, p), laws.barus(0.1, 2e-8, p)
+    assert thick[0] == pytest.approx(barus[0], rel=1e-9)
+    assert (thick[1:] < barus[1:]).all()
+    assert np.isfinite(laws.barus(0.1, 2e-8, 1e12))
+
+
+def test_bulk_modulus_is_that_of_the_compressed_density():
+    p, dp = 0.4e9, 1e5
+    rho = laws.compressed_density(870.0, np.array([p - dp, p, p + dp]))
+    assert laws.bulk_modulus(p) == pytest.approx(rho[1] * 2 * dp / (rho[2] - rho[0]), rel=1e-6)
+
+
+def test_conductivity_as_printed_is_lower():
+    assert laws.conductivity(363.15, 805.0) == pytest.approx(0.1386, abs=1e-4)
+    assert laws.conductivity(363.15, 805.0, "printed") == pytest.approx(0.1172, abs=1e-4)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"viscosities": (1e-5, 1e-4)},
+        {"viscosities": (100.0, 10.0)},
+        {"temperatures": (373.15, 313.15)},
+        {"base": "water"},
+        {"density_15": -1.0},
+    ],
+)
+def test_an_impossible_oil_is_refused(change):
+    with pytest.raises(InputError):
+        Oil(**({"viscosities": (1e-4, 1e-5)} | change))
+
+
+def test_an_unknown_oil_is_refused():
+    with pytest.raises(InputError, match="lgep-2"):
+        lubricant("olive")
+
+
+@given(st.floats(-1e12, 1e12), st.floats(1e5, 1e8))
+def test_stress_never_passes_its_limit(newtonian, limit):
+    for law in (traction.clipped_stress, traction.smooth_stress):
+        stress = law(newtonian, limit)
+        assert abs(stress) <= limit
+        assert stress * newtonian >= 0
+    clipped, smooth = (
+        f(newtonian, limit) for f in (traction.clipped_stress, traction.smooth_stress)
+    )
+    assert abs(clipped - smooth) <= 0.2385 * limit  # 1 - tanh 1
+
+
+def test_limiting_stress_is_continuous_at_the_critical_pressure():
+    p = 502e6 + np.array([-1.0, 0.0, 1.0])
+    assert traction.limiting_stress(p, 4e6, 502e6, 0.07) == pytest.approx(4e6, abs=0.1)
+
+
+def test_a_solid_film_at_rest_has_no_stress():
+    assert traction.newtonian_stress(1e300, 0.0, 1e-7) == 0.0
+    assert np.isfinite(traction.smooth_stress(traction.newtonian_stress(1e300, 5.0, 1e-7), 4e6))
+
+
+def test_traction_compiles_as_it_stands():
+    compiled = numba.njit(traction.smooth_stress)
+    assert compiled(3e6, 4e6) == pytest.approx(float(traction.smooth_stress(3e6, 4e6)), rel=1e-15)
