@@ -6,6 +6,7 @@ import json
 import sys
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -14,6 +15,8 @@ from rich.table import Table
 
 if TYPE_CHECKING:
     import xarray as xr
+
+    from loadflow.cube import Cube
 
 app = typer.Typer(
     help="From wind and load series to the main bearing of a wind turbine.",
@@ -24,9 +27,22 @@ app = typer.Typer(
 out = Console(width=None if sys.stdout.isatty() else 150)
 err = Console(stderr=True)
 
+CubeFile = Annotated[
+    Path, typer.Argument(help="Load cube (.h5), or a folder of its cases.", show_default=False)
+]
+TurbineName = Annotated[str, typer.Option(help="Turbine: a name, or a file.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON, for a machine to read.")]
 
 WIDEST = 4  # values of one quantity that fit a line of a table; more are for --json
+
+
+def open_checked(path: Path) -> Cube:
+    """Open a cube and check it whole."""
+    from loadflow.cube import check_cube, open_cube
+
+    cube = open_cube(path)
+    check_cube(cube, source=str(path))
+    return cube
 
 
 def print_json(data: Any) -> None:

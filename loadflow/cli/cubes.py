@@ -1,59 +1,42 @@
-"""Commands for load cubes: convert, loads, seeds, reduce."""
+"""Commands that make load cubes and hand them on: convert, loads."""
 
 from __future__ import annotations
 
-from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
-from loadflow.cli.base import AsJson, app, out, print_json, print_rows, progress
-
-if TYPE_CHECKING:
-    from loadflow.cube import Cube
-
-CubeFile = Annotated[
-    Path, typer.Argument(help="Load cube (.h5), or a folder of its cases.", show_default=False)
-]
-TurbineName = Annotated[str, typer.Option(help="Turbine: a name, or a file.")]
-
-
-class Method(StrEnum):
-    """How seeds are tested."""
-
-    as_printed = "as-printed"
-    calibrated = "calibrated"
-
-
-class Pick(StrEnum):
-    """How the members of a class are picked."""
-
-    random = "random"
-    extremes = "extremes"
-
-
-def _open(path: Path) -> Cube:
-    """Open a cube and check it whole."""
-    from loadflow.cube import check_cube, open_cube
-
-    cube = open_cube(path)
-    check_cube(cube, source=str(path))
-    return cube
+from loadflow.cli.base import AsJson, TurbineName, app, open_checked, out, print_json, progress
 
 
 @app.command()
 def convert(
-    files: Annotated[list[str], typer.Argument(help="Load files or patterns.")],
-    output: Annotated[Path, typer.Option("-o", "--output", help="Load cube to write, .h5.")],
+    files: Annotated[list[str], typer.Argument(help="Load files or patterns, or one load cube.")],
+    output: Annotated[
+        Path,
+        typer.Option("-o", "--output", help="File to write: .h5, or .csv, .parquet, .mat."),
+    ],
     turbine: Annotated[str, typer.Option(help="Turbine that the files are of.")] = "nrel-5mw",
+    step: Annotated[
+        float | None, typer.Option(help="Bring all series to this time step, s.")
+    ] = None,
 ) -> None:
-    """Read load files of OpenFAST and others into one load cube."""
-    from loadflow.cube import iter_cases, save_cube
+    """Read load files of OpenFAST and others into one load cube, or hand a cube to other programs.
+
+    What the name of the output ends with decides: a load cube (.h5, .nc), or tables for other
+    programs (.csv, .parquet) or for MATLAB (.mat).
+    """
+    from loadflow.cube import EXPORTS, export_cube, iter_cases, resample, save_cube
     from loadflow.readers import read_loads
 
-    cube = read_loads(files, turbine=turbine)
-    save_cube(cube, output)
+    first = Path(files[0])
+    one_cube = len(files) == 1 and (first.suffix in (".h5", ".nc") or first.is_dir())
+    cube = open_checked(first) if one_cube else read_loads(files, turbine=turbine)
+    if step is not None:
+        cube = resample(cube, step)
+    write = export_cube if output.suffix in EXPORTS else save_cube
+    write(cube, output)
     out.print(f"{output}: {sum(1 for _ in iter_cases(cube))} load cases", soft_wrap=True)
 
 
@@ -94,85 +77,3 @@ def loads(
     else:
         each = f"{duration:g} s each, in steps of {step:g} s"
         out.print(f"{output}: {', '.join(cases)}; {each}", soft_wrap=True)
-
-
-@app.command()
-def seeds(
-    cube: CubeFile,
-    variable: Annotated[
-        list[str] | None,
-        typer.Option(help="What to test, such as hub_moment.y; repeatable; default: all loads."),
-    ] = None,
-    alpha: Annotated[float, typer.Option(help="Level of significance.")] = 0.05,
-    method: Annotated[Method, typer.Option(help="Of the tests.")] = Method.calibrated,
-    output: Annotated[
-        Path | None, typer.Option("-o", "--output", help="Page with figures to write, .html.")
-    ] = None,
-    as_json: AsJson = False,
-) -> None:
-    """Test for each wind speed and load component whether its seeds are equal."""
-    from loadflow.stages.seed_report import (
-        HEADS,
-        as_row,
-        count_different,
-        seed_verdicts,
-        write_seed_page,
-    )
-
-    series = _open(cube)
-    verdicts = seed_verdicts(
-        series, variable or [], alpha=alpha, method=method.value, source=str(cube)
-    )
-    if output:
-        write_seed_page(output, series, verdicts, source=cube.name)
-    if as_json:
-        print_json([verdict.as_dict() for verdict in verdicts])
-        return
-    print_rows(HEADS, [as_row(verdict) for verdict in verdicts])
-    out.print(f"{count_different(verdicts)}; {method.value}, α = {alpha:g}")
-    if output:
-        out.print(f"page     {output}", soft_wrap=True)
-
-
-@app.command("reduce")
-def reduce_series(
-    cube: CubeFile,
-    output: Annotated[Path, typer.Option("-o", "--output", help="Folder to write to.")],
-    size: Annotated[float, typer.Option(help="Share of each series to keep, 0 … 1.")] = 0.1,
-    pick: Annotated[Pick, typer.Option(help="Of the members of a class.")] = Pick.extremes,
-    seed: Annotated[int, typer.Option(min=0, help="Of the random pick.")] = 0,
-    bearing: Annotated[
-        list[str] | None, typer.Option(help="Which bearing; repeatable; default: all.")
-    ] = None,
-    turbine: TurbineName = "nrel-5mw",
-    as_json: AsJson = False,
-) -> None:
-    """Reduce the radial force of each bearing in each case; write parameter files and a page.
-
-    A cube of hub loads alone gets its bearing forces from the default suspension on two points.
-    """
-    from loadflow.stages.reduced_files import HEADS, as_row, reduce_cube, write_reduction_page
-
-    made = reduce_cube(
-        _open(cube),
-        output,
-        size=size,
-        pick=pick.value,
-        seed=seed,
-        bearings=bearing or [],
-        turbine=turbine,
-        source=str(cube),
-    )
-    page = write_reduction_page(output / "reduction.html", made, source=cube.name)
-    if as_json:
-        print_json(
-            {
-                "suspension": made.suspension,
-                "page": str(page),
-                "series": [part.as_dict() for part in made.parts],
-            }
-        )
-        return
-    out.print(f"bearing forces: {made.suspension}", soft_wrap=True, highlight=False)
-    print_rows(HEADS, [as_row(part) for part in made.parts])
-    out.print(f"page     {page}", soft_wrap=True)

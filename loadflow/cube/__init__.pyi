@@ -7,6 +7,8 @@ from .build import select as select
 from .checks import check_case as check_case
 from .checks import check_cube as check_cube
 from .checks import regular_time as regular_time
+from .export import EXPORTS as EXPORTS
+from .export import export_cube as export_cube
 from .files import open_cube as open_cube
 from .files import save_cube as save_cube
 from .resampling import resample as resample

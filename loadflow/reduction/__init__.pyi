@@ -14,6 +14,8 @@ from .fatigue import rainflow as rainflow
 from .harmonics import Harmonic as Harmonic
 from .harmonics import amplitude_spectrum as amplitude_spectrum
 from .harmonics import find_harmonics as find_harmonics
+from .lifetime import lifetime_duration as lifetime_duration
+from .lifetime import lifetime_equivalent_load as lifetime_equivalent_load
 from .parameter_file import read_parameter_file as read_parameter_file
 from .parameter_file import write_parameter_file as write_parameter_file
 from .periodic_load import ClosingPeriod as ClosingPeriod
@@ -26,3 +28,10 @@ from .quasistatic import histogram as histogram
 from .quasistatic import number_of_classes as number_of_classes
 from .running import Phase as Phase
 from .running import phases as phases
+from .tails import LongTermExtreme as LongTermExtreme
+from .tails import Tail as Tail
+from .tails import long_term_extreme as long_term_extreme
+from .tails import tail_of_maxima as tail_of_maxima
+from .tails import tail_of_peaks as tail_of_peaks
+from .transitions import MarkovMatrix as MarkovMatrix
+from .transitions import markov_matrix as markov_matrix

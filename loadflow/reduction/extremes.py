@@ -109,9 +109,9 @@ def extreme_value(
         raise InputError(f"horizon = {horizon}; allowed: horizon > 1")
     if not 0 < confidence < 1:
         raise InputError(f"confidence = {confidence}; allowed: 0 < confidence < 1")
-    location, scale = (float(v) for v in _gumbel(x))
+    location, scale = (float(v) for v in gumbel_parameters(x))
     draws = np.random.default_rng(seed).gumbel(size=(RESAMPLES, x.size))
-    standard_location, standard_scale = _gumbel(draws)
+    standard_location, standard_scale = gumbel_parameters(draws)
     variate = -np.log(-np.log1p(-1.0 / horizon))
     # pivot: how far a fit of k standard maxima misses the true level, in its own scale
     miss = (standard_location + standard_scale * variate - variate) / standard_scale
@@ -122,7 +122,7 @@ def extreme_value(
     )
 
 
-def _gumbel(x: Floats) -> tuple[Floats, Floats]:
+def gumbel_parameters(x: Floats) -> tuple[Floats, Floats]:
     """Location and scale of a Gumbel distribution by L-moments along the last axis."""
     ordered = np.sort(x, axis=-1)
     n = x.shape[-1]

@@ -6,6 +6,7 @@ counted in a bivariate histogram, and from each class a share of its members is 
 
 from __future__ import annotations
 
+import bisect
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -19,7 +20,7 @@ from loadflow.reduction._series import Floats, check_series, finite
 
 Ints = NDArray[np.int64]
 Pick = Literal["random", "extremes"]
-Rounding = Literal["up", "nearest"]
+Rounding = Literal["up", "nearest", "total"]
 Edges = tuple[Floats, Floats]
 Grid = int | tuple[int, int] | Sequence[ArrayLike]
 
@@ -150,8 +151,10 @@ def histogram(
         ``"random"`` is the source's pick; it loses the extremes of a class. ``"extremes"`` keeps
         the pair with the largest force over speed of each class and spreads the others evenly
         over the rest of the class in the order of force over speed.
-    rounding : {"up", "nearest"}
-        Of q_x; ``"nearest"`` keeps at least one, too.
+    rounding : {"up", "nearest", "total"}
+        Of q_x; ``"nearest"`` keeps at least one, too. ``"total"`` rounds up, but from a smaller q,
+        so that no more than the wanted size remain in all (or one of each class, if these are
+        more).
     seed : int
         Of the random generator; the same seed gives the same pick.
     source : str
@@ -248,11 +251,18 @@ def bin_sums(
 def _shares(counts: Ints, q: int, rounding: Rounding) -> Ints:
     """q_x of every class; whole numbers throughout, so that no rounding error adds a pair."""
     n = int(counts.sum())
+
+    def up(size: int) -> Ints:
+        return -(-counts * size // n)
+
     if rounding == "up":
-        return -(-counts * q // n)
+        return up(q)
     if rounding == "nearest":
         return np.maximum((2 * counts * q + n) // (2 * n), counts > 0)
-    raise InputError(f'rounding = {rounding!r}; allowed: "up", "nearest"')
+    if rounding == "total":
+        fits = bisect.bisect_right(range(1, q + 1), q, key=lambda size: int(up(size).sum()))
+        return up(max(fits, 1))
+    raise InputError(f'rounding = {rounding!r}; allowed: "up", "nearest", "total"')
 
 
 def _severity(resultant: Floats, speed: Floats) -> Floats:

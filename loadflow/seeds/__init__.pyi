@@ -1,5 +1,7 @@
 from .grouping import Grouping as Grouping
 from .grouping import group_seeds as group_seeds
+from .grouping import group_seeds_jointly as group_seeds_jointly
+from .joint import JointEquality as JointEquality
 from .longrun import effective_size as effective_size
 from .longrun import holm as holm
 from .probability import ProbabilityPaper as ProbabilityPaper

@@ -2,24 +2,44 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cache
 from itertools import combinations
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
 from loadflow.errors import InputError
 from loadflow.seeds._samples import as_samples
+from loadflow.seeds.joint import JointEquality
 from loadflow.seeds.spectra import BAND
-from loadflow.seeds.verdict import Method, SeedEquality, evidence
+from loadflow.seeds.sufficiency import Equivalence, equivalence
+from loadflow.seeds.verdict import Method, evidence
 
 if TYPE_CHECKING:
     import xarray as xr
 
 Group = tuple[int, ...]
-Compare = Callable[[Group], SeedEquality]
+
+
+class Likeness(Protocol):
+    """What grouping needs of a verdict on a subset of the seeds."""
+
+    @property
+    def equal(self) -> bool:
+        """Whether they may be merged."""
+
+    @property
+    def pvalue(self) -> float:
+        """How alike they are."""
+
+    @property
+    def text(self) -> str:
+        """The verdict in words."""
+
+
+Compare = Callable[[Group], Likeness]
 
 
 @dataclass(frozen=True)
@@ -34,14 +54,18 @@ class Grouping:
         Why groups are apart, one line per pair of groups; why they are together if there is one.
     representatives : ndarray of int, shape (groups,)
         Place (along case) of the member of each group that is most like its other members.
-    verdict : SeedEquality
+    verdict : SeedEquality or JointEquality
         On all the seeds together.
+    equivalence : tuple of Equivalence
+        For each group whether its members are shown to differ by less than a margin; empty if none
+        was given.
     """
 
     labels: Any
     reasons: tuple[str, ...]
     representatives: np.ndarray
-    verdict: SeedEquality
+    verdict: Any
+    equivalence: tuple[Equivalence, ...] = ()
 
     @property
     def groups(self) -> list[Group]:
@@ -57,6 +81,7 @@ def group_seeds(
     *,
     dt: float | None = None,
     band: float = BAND,
+    margin: float | None = None,
 ) -> Grouping:
     """Partition seeds into groups that may be merged.
 
@@ -75,6 +100,9 @@ def group_seeds(
         Time step in s; by default that of the coordinate ``time``.
     band : float
         Allowed relative difference of the printed spectral criterion.
+    margin : float, optional
+        Also say of each group whether its members are equivalent to within this relative
+        difference (`equivalence`), which is what merging them needs.
 
     Returns
     -------
@@ -95,15 +123,74 @@ def group_seeds(
     series, labelled, step = _unpack(x, dt)
     samples = as_samples(series, least=2)
     compare: Compare = cache(evidence(samples, step, alpha, method, band).compare)
-    groups = partition(len(samples), compare)
-    labels = np.empty(len(samples), dtype=int)
+    grouping = _group(len(samples), compare)
+    if labelled is not None:
+        grouping = replace(grouping, labels=labelled(grouping.labels))
+    if margin is not None:
+        shown = [equivalence([samples[i] for i in g], margin, alpha) for g in grouping.groups]
+        grouping = replace(grouping, equivalence=tuple(shown))
+    return grouping
+
+
+def group_seeds_jointly(
+    series: Mapping[str, Sequence[np.ndarray] | np.ndarray],
+    dt: float,
+    alpha: float = 0.05,
+    method: Method = "calibrated",
+    *,
+    band: float = BAND,
+) -> Grouping:
+    """Partition the seeds of a wind speed by all their components together.
+
+    Seeds are joined only if speed and every load component say equal; the calibrated tests are
+    corrected for the number of components (Holm).
+
+    Parameters
+    ----------
+    series : mapping of str to array_like, shape (case, time)
+        The seeds of each component, in the same order.
+    dt : float
+        Time step in s.
+    alpha, method, band
+        See `group_seeds`.
+
+    Returns
+    -------
+    Grouping
+        Its reasons name the components that differ.
+
+    Raises
+    ------
+    InputError
+        No component, different numbers of seeds; see `group_seeds`.
+    """
+    proofs = {
+        name: evidence(as_samples(x, least=2), dt, alpha, method, band)
+        for name, x in series.items()
+    }
+    counts = {name: len(x) for name, x in series.items()}
+    if len(set(counts.values())) != 1:
+        raise InputError(f"series: number of seeds {counts}; the same for every component, >= 1")
+
+    @cache
+    def compare(group: Group) -> JointEquality:
+        found = {name: proof.compare(group) for name, proof in proofs.items()}
+        return JointEquality(found, alpha, method)
+
+    return _group(next(iter(counts.values())), compare)
+
+
+def _group(m: int, compare: Compare) -> Grouping:
+    """Partition seeds 0 … m − 1 with reasons and representatives."""
+    groups = partition(m, compare)
+    labels = np.empty(m, dtype=int)
     for g, group in enumerate(groups):
         labels[list(group)] = g
     return Grouping(
-        labels=labels if labelled is None else labelled(labels),
+        labels=labels,
         reasons=_reasons(groups, compare),
         representatives=np.array([_representative(group, compare) for group in groups]),
-        verdict=compare(tuple(range(len(samples)))),
+        verdict=compare(tuple(range(m))),
     )
 
 

@@ -2,25 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from loadflow.cube import Cube, iter_cases
+from loadflow.cube import Cube
 from loadflow.errors import InputError
-from loadflow.reduction import histogram, write_parameter_file
+from loadflow.reduction import histogram, phases, write_parameter_file
 from loadflow.report import Picture, Section, Table, figures, write_page
-from loadflow.shaft import TwoPoint, bearing_loads
-from loadflow.stages.frames import to_film
 from loadflow.stages.reduction import reduced_dataset
+from loadflow.stages.suspended import BearingSeries, iter_bearings, suspension
 
 HEADS = (
     "case",
     "bearing",
+    "phase",
     "samples",
     "kept",
     "largest F, kN",
@@ -30,15 +31,23 @@ HEADS = (
     "file",
 )
 
+PHASES = ("standstill", "run-up", "operation", "run-down", "part speed")
+
 
 @dataclass(frozen=True)
 class Part:
-    """One case of one bearing, reduced.
+    """One case of one bearing, or a phase of it, reduced.
 
     Attributes
     ----------
     case, bearing : str
         Which.
+    phase : str
+        Name of the phase of the series; empty for the whole series.
+    start : float
+        Time at which the series or phase begins, s.
+    peak_time : float
+        Time of the largest radial force, s.
     file : Path
         Its parameter file.
     samples, kept : int
@@ -51,6 +60,9 @@ class Part:
 
     case: str
     bearing: str
+    phase: str
+    start: float
+    peak_time: float
     file: Path
     samples: int
     kept: int
@@ -63,6 +75,9 @@ class Part:
         return {
             "case": self.case,
             "bearing": self.bearing,
+            "phase": self.phase,
+            "start": self.start,
+            "peak_time": self.peak_time,
             "file": str(self.file),
             "samples": self.samples,
             "kept": self.kept,
@@ -83,16 +98,16 @@ def as_row(part: Part) -> list[str]:
     """The part under `HEADS`."""
     forces = [f"{force / 1e3:.5g}" for force in (*part.largest, *part.mean)]
     counts = [str(part.samples), str(part.kept)]
-    return [part.case, part.bearing, *counts, *forces, part.file.name]
+    phase = f"{part.phase} from {part.start:.4g} s" if part.phase else "all"
+    return [part.case, part.bearing, phase, *counts, *forces, part.file.name]
 
 
 def reduce_cube(
     cube: Cube,
     folder: Path,
     *,
-    size: float = 0.1,
-    pick: Any = "extremes",
-    seed: int = 0,
+    options: Mapping[str, Any] = MappingProxyType({}),
+    phase: str = "",
     bearings: Sequence[str] = (),
     turbine: str = "nrel-5mw",
     source: str = "load cube",
@@ -106,8 +121,11 @@ def reduce_cube(
         default `TwoPoint` suspension turns into bearing forces.
     folder : Path
         Where to write; made if it is not there.
-    size, pick, seed
-        See `loadflow.reduction.histogram`.
+    options : mapping
+        `size`, `classes`, `pick`, `rounding`, `seed` of `loadflow.reduction.histogram`.
+    phase : str
+        Reduce only phases of this name (`loadflow.reduction.phases`), or ``"each"`` phase by
+        itself; empty: the series as a whole.
     bearings : sequence of str
         Which bearings; default: all.
     turbine : str
@@ -122,85 +140,65 @@ def reduce_cube(
     Raises
     ------
     loadflow.errors.InputError
-        No such loads or bearing in the cube; an option out of its range.
+        No such loads, bearing or phase in the cube; an option out of its range.
     """
     parts = []
-    suspension = "of the cube"
-    for name, case in iter_cases(cube):
+    for series in iter_bearings(cube, bearings, turbine, source):
         try:
-            loads, text = _bearing_loads(case.load(), turbine)
-            suspension = text or suspension
-            for bearing in _chosen(loads, bearings):
-                found = loads.sel(bearing=bearing)
-                parts.append(_reduce(name, str(bearing), found, folder, size, pick, seed))
+            for name, places in _stretches(series, phase):
+                parts.append(_reduce(series, name, places, folder, options))
         except InputError as error:
-            raise InputError(f"{source}: {name}: {error}") from error
+            raise InputError(f"{source}: {series.case}: {error}") from error
     if not parts:
-        raise InputError(f"{source}: the load cube is empty, it holds no case")
-    return ReducedCube(parts, suspension)
+        raise InputError(f"{source}: no case has a phase {phase!r}")
+    return ReducedCube(parts, suspension(cube, turbine))
 
 
-def _bearing_loads(case: xr.Dataset, turbine: str) -> tuple[xr.Dataset, str]:
-    """Return `speed` with `force` and `moment` of the bearings, and the suspension if assumed."""
-    if "speed" not in case:
-        raise InputError("no rotor speed; the reduction needs the variable 'speed'")
-    if "force" in case:
-        moment = case.get("moment", xr.zeros_like(case["force"]))
-        return case[["speed", "force"]].assign(moment=moment), ""
-    if "hub_force" not in case or "hub_moment" not in case:
-        raise InputError("neither 'force' of bearings nor 'hub_force' with 'hub_moment'")
-    from loadflow.turbines import load_turbine
-
-    tilt = load_turbine(turbine).rotor.tilt
-    concept = TwoPoint()
-    hub = [case[name].transpose("axis", "time").values for name in ("hub_force", "hub_moment")]
-    loads = bearing_loads(concept, *hub, tilt=tilt, time=case["time"].values)
-    text = (
-        f"the cube has hub loads only; taken: two points, N at {concept.hub_to_first:g} m and N2 "
-        f"{concept.span:g} m behind, gearbox {concept.gearbox_mass:g} kg, shaft tilted "
-        f"{np.degrees(tilt):g}° ({turbine})"
-    )
-    return loads.assign(speed=("time", case["speed"].values)), text
-
-
-def _chosen(loads: xr.Dataset, bearings: Sequence[str]) -> list[Any]:
-    """Labels of the wanted bearings."""
-    there = [str(label) for label in loads["bearing"].values]
-    if unknown := [name for name in bearings if name not in there]:
-        raise InputError(f"no bearing {unknown[0]!r}; there are {', '.join(there)}")
-    return [label for label in loads["bearing"].values if not bearings or str(label) in bearings]
+def _stretches(series: BearingSeries, phase: str) -> Iterator[tuple[str, slice]]:
+    """Names and places of what is to be reduced by itself."""
+    if phase not in ("", "each", *PHASES):
+        raise InputError(f"phase = {phase!r}; allowed: each, {', '.join(PHASES)}")
+    if not phase:
+        yield "", slice(0, series.time.size)
+        return
+    for found in phases(series.speed):
+        if phase in ("each", found.name):
+            yield found.name, found.places
 
 
 def _reduce(
-    name: str, bearing: str, loads: xr.Dataset, folder: Path, size: float, pick: Any, seed: int
+    series: BearingSeries, phase: str, places: slice, folder: Path, options: Mapping[str, Any]
 ) -> Part:
-    """Reduce one bearing of one case and write its file."""
-    force, moment = (
-        loads[load].transpose("time", "axis").values.astype(float) for load in ("force", "moment")
-    )
-    radial = to_film(force)
+    """Reduce one stretch of one bearing of one case and write its file."""
+    force, time = series.force[places], series.time[places]
+    radial = series.radial[places]
+    of_phase = f"{phase} from {time[0]:.10g} s" if phase else ""
     reduced = histogram(
-        loads["speed"].values.astype(float),
+        series.speed[places],
         radial,
-        loads["time"].values,
-        size=size,
-        pick=pick,
-        seed=seed,
-        source=f"{name}, bearing {bearing}",
+        time,
+        source=", ".join(filter(None, [series.source, of_phase])),
+        **options,
     )
     folder.mkdir(parents=True, exist_ok=True)
-    file = folder / f"{name}_{bearing}.txt"
+    stem = f"{series.case}_{series.bearing}"
+    file = folder / (
+        f"{stem}_{phase.replace(' ', '-')}-{places.start}.txt" if phase else f"{stem}.txt"
+    )
     write_parameter_file(file, reduced)
     full, kept = np.hypot(*radial.T), np.hypot(*reduced.force.T)
     return Part(
-        name,
-        bearing,
+        series.case,
+        series.bearing,
+        phase,
+        float(time[0]),
+        float(time[np.argmax(full)]),
         file,
         full.size,
         kept.size,
         (float(full.max()), float(kept.max())),
         (float(full.mean()), float(reduced.mean(kept))),
-        reduced_dataset(reduced, force, moment, by_moment=False),
+        reduced_dataset(reduced, force, series.moment[places], by_moment=False),
     )
 
 
@@ -220,7 +218,7 @@ def write_reduction_page(path: Path, made: ReducedCube, source: str = "load cube
     facts = {"Bearing forces": made.suspension, "Pick": f"{first['pick']}, seed {first['seed']}"}
     table = Table("", list(HEADS), [as_row(part) for part in made.parts])
     pictures = [
-        Picture(figures.histograms(part.series), f"{part.case}, bearing {part.bearing}", k > 0)
+        Picture(figures.histograms(part.series), part.series.attrs["source"], k > 0)
         for k, part in enumerate(made.parts)
     ]
     sections = [Section("Series", tables=[table]), Section("Histograms", pictures=pictures)]

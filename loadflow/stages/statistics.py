@@ -1,4 +1,4 @@
-"""Load series of one case → mean, spread, extremes and damage-equivalent loads, on every step."""
+"""Load series of one case → mean, spread, shape, extremes and damage-equivalent loads."""
 
 from __future__ import annotations
 
@@ -16,12 +16,22 @@ from loadflow.stages.summary import over_cases
 SLOPE = 4.0
 """Wöhler exponent of the damage-equivalent loads: steel parts, as in spec tables of shafts."""
 
-STATISTICS = ("mean", "std", "min", "max", "del")
+STATISTICS = ("mean", "std", "min", "max", "skewness", "kurtosis", "del")
 
 
 def statistics(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
     """Return `STATISTICS` of every load variable of the case, dimension ``statistic``."""
     series = xr.merge([inputs["loads"].load(), inputs["shaft"].load()], compat="override")
+    return describe(series)
+
+
+def describe(series: xr.Dataset) -> xr.Dataset:
+    """Return `STATISTICS` of every variable over ``time``, dimension ``statistic``.
+
+    Skewness and kurtosis are those of the distribution of the values (0 and 3 if it is normal; both
+    0 for a constant). The damage-equivalent load is a range at 1 Hz with the exponent `SLOPE`. The
+    azimuth, an angle that only runs round, is left out.
+    """
     wanted = [name for name in series.data_vars if "time" in series[name].dims]
     wanted = [name for name in wanted if name != "azimuth"]
     time = series["time"].values
@@ -32,21 +42,21 @@ def statistics(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
 
 def _describe(data: xr.DataArray, duration: float) -> xr.DataArray:
     values = np.moveaxis(data.values.astype(float), data.dims.index("time"), -1)
-    flat = values.reshape(-1, values.shape[-1])
-    rows = np.stack(
-        [
-            flat.mean(axis=-1),
-            flat.std(axis=-1),
-            flat.min(axis=-1),
-            flat.max(axis=-1),
-            [damage_equivalent_load(row, SLOPE, duration) for row in flat],
-        ],
-        axis=-1,
-    )
+    rows = [_row(x, duration) for x in values.reshape(-1, values.shape[-1])]
     dims = [dim for dim in data.dims if dim != "time"]
     coords = {dim: data[dim] for dim in dims if dim in data.coords}
     shape = (*values.shape[:-1], len(STATISTICS))
-    return xr.DataArray(rows.reshape(shape), coords, [*dims, "statistic"], attrs=data.attrs)
+    return xr.DataArray(np.reshape(rows, shape), coords, [*dims, "statistic"], attrs=data.attrs)
+
+
+def _row(x: np.ndarray, duration: float) -> list[float]:
+    mean, deviation = float(x.mean()), float(x.std())
+    varies = deviation > 1e-12 * max(abs(mean), np.finfo(float).tiny)
+    z = (x - mean) / deviation if varies else np.zeros(1)
+    square = z * z
+    shape = float(np.mean(square * z)), float(np.mean(square * square))
+    fatigue = float(damage_equivalent_load(x, SLOPE, duration))
+    return [mean, deviation, float(x.min()), float(x.max()), *shape, fatigue]
 
 
 def summary(parts: Mapping[Case, xr.Dataset]) -> xr.Dataset:

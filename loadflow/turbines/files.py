@@ -81,6 +81,7 @@ def load_turbine(turbine: str | Path | Turbine) -> Turbine:
 
 
 def _turbine(document: dict[str, Any], folder: Path) -> Turbine:
+    frequencies = _table(document.pop("frequencies", {}), "frequencies")
     _check_keys(document, {*_SCALARS, *_PARTS, "blade", "airfoils"}, "file")
     parts: dict[str, Any] = {
         name: _part(part, document[name], name) for name, part in _PARTS.items()
@@ -93,7 +94,13 @@ def _turbine(document: dict[str, Any], folder: Path) -> Turbine:
         key: str(document[key]) if key in ("name", "source") else _number(document[key], key)
         for key in _SCALARS
     }
-    return Turbine(**scalars, **parts, blade=_blade(document["blade"]), airfoils=airfoils)
+    return Turbine(
+        **scalars,
+        **parts,
+        blade=_blade(document["blade"]),
+        airfoils=airfoils,
+        frequencies={k: _number(v, f"frequencies.{k}") for k, v in frequencies.items()},
+    )
 
 
 def _part(part: Any, entry: Any, name: str) -> Any:

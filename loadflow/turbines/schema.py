@@ -297,6 +297,8 @@ class Turbine:
         m/s.
     rotor, tower, drivetrain, control, blade : the parts
     airfoils : dict of Airfoil by name
+    frequencies : dict of float by name
+        Natural frequencies that a load spectrum may show, Hz.
     """
 
     name: str
@@ -311,6 +313,7 @@ class Turbine:
     control: Control
     blade: Blade
     airfoils: dict[str, Airfoil] = field(default_factory=dict)
+    frequencies: dict[str, float] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         _require_positive(self, "rated_power")
@@ -320,6 +323,8 @@ class Turbine:
         for name in self.blade.airfoil:
             known = ", ".join(sorted(self.airfoils))
             _require(name in self.airfoils, "Blade", "airfoil", name, f"one of {known}")
+        for name, value in self.frequencies.items():
+            _require(value > 0, "frequencies", name, value, "positive, in Hz")
         tip, root = self.rotor.radius, self.rotor.hub_radius
         inside = bool(self.blade.radius[0] > root and self.blade.radius[-1] < tip)
         _require(

@@ -1,0 +1,237 @@
+"""Commands that process load cubes: seeds, reduce."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from loadflow.cli.base import (
+    AsJson,
+    CubeFile,
+    TurbineName,
+    app,
+    open_checked,
+    out,
+    print_json,
+    print_rows,
+)
+from loadflow.errors import InputError
+
+if TYPE_CHECKING:
+    from loadflow.cube import Cube
+
+
+class Test(StrEnum):
+    """How seeds are tested."""
+
+    as_printed = "as-printed"
+    calibrated = "calibrated"
+
+
+class Kind(StrEnum):
+    """Kinds of design load."""
+
+    histogram = "histogram"
+    stationary = "stationary"
+    periodic = "periodic"
+
+
+class Pick(StrEnum):
+    """How the members of a class are picked."""
+
+    random = "random"
+    extremes = "extremes"
+
+
+class Rounding(StrEnum):
+    """How the number kept of a class is rounded."""
+
+    up = "up"
+    nearest = "nearest"
+    total = "total"
+
+
+@app.command()
+def seeds(
+    cube: CubeFile,
+    variable: Annotated[
+        list[str] | None,
+        typer.Option(help="What to test, such as hub_moment.y; repeatable; default: all loads."),
+    ] = None,
+    bearings: Annotated[
+        bool, typer.Option("--bearings", help="Test the forces on the bearings, not at the hub.")
+    ] = False,
+    alpha: Annotated[float, typer.Option(help="Level of significance.")] = 0.05,
+    method: Annotated[Test, typer.Option(help="Of the tests.")] = Test.calibrated,
+    margin: Annotated[float, typer.Option(help="Of equivalent seeds, relative.")] = 0.05,
+    uncertainty: Annotated[
+        float, typer.Option(help="Wanted of a mean over seeds, relative.")
+    ] = 0.05,
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", help="Page with figures to write, .html.")
+    ] = None,
+    turbine: TurbineName = "nrel-5mw",
+    as_json: AsJson = False,
+) -> None:
+    """Test for each wind speed and load component whether its seeds are equal.
+
+    Then group the seeds of each wind speed: those of one group may be merged.
+    """
+    from loadflow.stages.seed_page import write_seed_page
+    from loadflow.stages.seed_verdicts import (
+        HEADS,
+        as_row,
+        count_different,
+        groupings,
+        seed_verdicts,
+    )
+    from loadflow.stages.suspended import bearing_cube
+
+    series = open_checked(cube)
+    if bearings:
+        series = bearing_cube(series, turbine, str(cube))
+    options: dict[str, Any] = {"alpha": alpha, "method": method.value, "source": str(cube)}
+    verdicts = seed_verdicts(series, variable or [], **options)
+    groups = groupings(series, verdicts)
+    if output:
+        write_seed_page(
+            output, series, verdicts, groups, margin=margin, uncertainty=uncertainty,
+            source=cube.name,
+        )  # fmt: skip
+    if as_json:
+        print_json([verdict.as_dict() for verdict in verdicts])
+        return
+    print_rows(HEADS, [as_row(verdict) for verdict in verdicts])
+    out.print(f"{count_different(verdicts)}; {method.value}, α = {alpha:g}; * differs by itself")
+    for text in groups.values():
+        out.print(text, soft_wrap=True, highlight=False)
+    if output:
+        out.print(f"page     {output}", soft_wrap=True)
+
+
+@app.command("reduce")
+def reduce_series(
+    cube: CubeFile,
+    output: Annotated[Path, typer.Option("-o", "--output", help="Folder to write to.")],
+    method: Annotated[Kind, typer.Option(help="Kind of design load.")] = Kind.histogram,
+    size: Annotated[float, typer.Option(help="Histogram: share of each series to keep.")] = 0.1,
+    pick: Annotated[
+        Pick, typer.Option(help="Histogram: of the members of a class.")
+    ] = Pick.extremes,
+    rounding: Annotated[
+        Rounding, typer.Option(help="Histogram: of the number kept of a class.")
+    ] = Rounding.up,
+    classes: Annotated[
+        tuple[int, int] | None, typer.Option(help="Histogram: classes of speed and of force.")
+    ] = None,
+    phase: Annotated[
+        str,
+        typer.Option(
+            help="Histogram: only standstill, run-up, operation, run-down or 'part speed'; or each."
+        ),
+    ] = "",
+    seed: Annotated[int, typer.Option(min=0, help="Histogram: of the random pick.")] = 0,
+    bounds: Annotated[
+        tuple[float, float] | None,
+        typer.Option(help="Periodic: slow and fast bound, Hz; default: ask the film."),
+    ] = None,
+    additional: Annotated[int, typer.Option(min=0, help="Periodic: loads on each axis.")] = 2,
+    order: Annotated[
+        list[float] | None,
+        typer.Option(help="Periodic: take this multiple of the rotor's frequency; repeatable."),
+    ] = None,
+    scene: Annotated[
+        Path | None, typer.Option(help="Periodic: scene whose journal bearing is asked.")
+    ] = None,
+    bearing: Annotated[
+        list[str] | None, typer.Option(help="Which bearing; repeatable; default: all.")
+    ] = None,
+    turbine: TurbineName = "nrel-5mw",
+    as_json: AsJson = False,
+) -> None:
+    """Turn the radial force of each bearing in each case into design loads; write files and a page.
+
+    histogram: fewer samples of the same load character; stationary: constant loads; periodic: mean
+    and harmonics that the bearing feels. A cube of hub loads alone gets its bearing forces from the
+    default suspension on two points.
+    """
+    source = open_checked(cube)
+    where: dict[str, Any] = {"bearings": bearing or [], "turbine": turbine, "source": str(cube)}
+    if method is Kind.stationary:
+        _stationary(source, output, where, as_json)
+    elif method is Kind.periodic:
+        options = {"bounds": bounds, "additional": additional, "orders": order}
+        _periodic(source, output, where, options, scene, as_json)
+    else:
+        histogram: dict[str, Any] = {"size": size, "pick": pick.value, "rounding": rounding.value}
+        histogram |= {"classes": classes, "seed": seed}
+        _histogram(source, output, where, histogram, phase, as_json)
+
+
+def _histogram(
+    cube: Cube,
+    folder: Path,
+    where: dict[str, Any],
+    options: dict[str, Any],
+    phase: str,
+    as_json: bool,
+) -> None:
+    from loadflow.stages.reduced_files import HEADS, as_row, reduce_cube, write_reduction_page
+
+    made = reduce_cube(cube, folder, options=options, phase=phase, **where)
+    page = write_reduction_page(folder / "reduction.html", made, source=Path(where["source"]).name)
+    if as_json:
+        parts = [part.as_dict() for part in made.parts]
+        print_json({"suspension": made.suspension, "page": str(page), "series": parts})
+        return
+    out.print(f"bearing forces: {made.suspension}", soft_wrap=True, highlight=False)
+    print_rows(HEADS, [as_row(part) for part in made.parts])
+    out.print(f"page     {page}", soft_wrap=True)
+
+
+def _stationary(cube: Cube, folder: Path, where: dict[str, Any], as_json: bool) -> None:
+    from loadflow.stages.design_loads import (
+        STATIONARY_HEADS,
+        stationary_row,
+        stationary_rows,
+        write_stationary,
+    )
+    from loadflow.stages.suspended import iter_bearings
+
+    rows = [row for series in iter_bearings(cube, **where) for row in stationary_rows(series)]
+    file = write_stationary(rows, folder)
+    if as_json:
+        print_json({"file": str(file), "loads": rows})
+        return
+    print_rows(STATIONARY_HEADS, [stationary_row(row) for row in rows])
+    out.print(f"table    {file}", soft_wrap=True)
+
+
+def _periodic(
+    cube: Cube,
+    folder: Path,
+    where: dict[str, Any],
+    options: dict[str, Any],
+    scene: Path | None,
+    as_json: bool,
+) -> None:
+    from loadflow.scene import read_scene
+    from loadflow.stages.design_loads import PERIODIC_HEADS, periodic_parts, write_periodic
+    from loadflow.stages.suspended import iter_bearings
+    from loadflow.turbines import load_turbine
+
+    if scene is not None and options["bounds"]:
+        raise InputError("give either --bounds or --scene, whose bearing would find them")
+    journal = None if scene is None else read_scene(scene).journal
+    named = load_turbine(where["turbine"]).frequencies
+    series = iter_bearings(cube, **where)
+    parts = list(periodic_parts(series, journal=journal, named=named, **options))
+    page = write_periodic(parts, folder, Path(where["source"]).name)
+    if as_json:
+        print_json({"page": str(page), "loads": [part.as_dict() for part in parts]})
+        return
+    print_rows(PERIODIC_HEADS, [row for part in parts for row in part.rows()])
+    out.print(f"page     {page}", soft_wrap=True)

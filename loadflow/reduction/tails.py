@@ -1,0 +1,277 @@
+"""Extremes over a lifetime: how often each wind speed exceeds a level, weighted and extrapolated.
+
+A tail says how often per second a level is exceeded. It is fitted to block maxima (Gumbel) or to
+peaks over a threshold (generalised Pareto), both by L-moments [Hosking & Wallis, Regional Frequency
+Analysis, 1997]. The tails of all wind speeds add up, each weighted by its share of the lifetime, as
+IEC 61400-1 extrapolates design load case 1.1.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from loadflow.errors import InputError
+from loadflow.reduction._series import Floats, finite
+from loadflow.reduction.extremes import block_maxima, gumbel_parameters
+
+YEAR = 365.25 * 86_400.0
+LEAST = 10  # values that a fit needs
+RESAMPLES = 500
+STEPS = 200  # halvings of the interval that holds the level: beyond double precision
+
+
+@dataclass(frozen=True)
+class Tail:
+    """How often a level is exceeded: rate · (1 + shape (x − threshold)/scale)^(−1/shape).
+
+    Attributes
+    ----------
+    threshold : float
+        Level from which the tail begins; for block maxima the location of the Gumbel distribution.
+    scale : float
+        In the unit of the series.
+    shape : float
+        Generalised Pareto shape: 0 exponential (Gumbel), < 0 bounded, > 0 heavy.
+    rate : float
+        Exceedances of the threshold, 1/s.
+    count : int
+        Number of maxima or peaks that it was fitted to.
+    """
+
+    threshold: float
+    scale: float
+    shape: float
+    rate: float
+    count: int
+
+    def rate_above(self, level: ArrayLike) -> Floats:
+        """Expected exceedances of `level` per second."""
+        return _rate(np.asarray(level, dtype=float), self._parameters)
+
+    @property
+    def _parameters(self) -> Floats:
+        return np.array([self.threshold, self.scale, self.shape, self.rate])
+
+    def _resampled(self, rng: np.random.Generator, draws: int) -> Floats:
+        """Parameters (draws, 4) fitted to as many values drawn from this tail itself."""
+        if self.shape == 0.0:
+            maxima = rng.gumbel(self.threshold, self.scale, (draws, self.count))
+            location, scale = gumbel_parameters(maxima)
+            return np.stack([location, scale, 0 * scale, np.full(draws, self.rate)], axis=1)
+        exponent = rng.standard_exponential((draws, self.count))
+        excess = self.scale * np.expm1(self.shape * exponent) / self.shape
+        scale, shape = _pareto(excess)
+        rate = self.rate * rng.poisson(self.count, draws) / self.count
+        return np.stack([np.full(draws, self.threshold), scale, shape, rate], axis=1)
+
+
+@dataclass(frozen=True)
+class LongTermExtreme:
+    """A level that the lifetime exceeds once on average.
+
+    Attributes
+    ----------
+    value, low, high : float
+        The level and its confidence interval, in the unit of the series.
+    shares : ndarray, shape (k,)
+        How much each tail contributes to the exceedances; sums to 1.
+    """
+
+    value: float
+    low: float
+    high: float
+    shares: Floats
+
+
+def tail_of_maxima(x: ArrayLike, dt: float, block: float) -> Tail:
+    """Fit a Gumbel distribution to block maxima.
+
+    Parameters
+    ----------
+    x : array_like, shape (..., n)
+        Series of one wind speed, along the last axis.
+    dt : float
+        Time step in s.
+    block : float
+        Length of a block in s, several correlation times.
+
+    Returns
+    -------
+    Tail
+
+    Raises
+    ------
+    InputError
+        Fewer than ten blocks, or see `block_maxima`.
+    """
+    maxima = block_maxima(x, dt, block)
+    _enough(maxima, "blocks")
+    location, scale = (float(v) for v in gumbel_parameters(maxima))
+    return Tail(location, _positive(scale), 0.0, 1.0 / (round(block / dt) * dt), maxima.size)
+
+
+def tail_of_peaks(
+    x: ArrayLike, dt: float, quantile: float = 0.95, separation: float = 10.0
+) -> Tail:
+    """Fit a generalised Pareto distribution to peaks over a threshold.
+
+    Parameters
+    ----------
+    x : array_like, shape (..., n)
+        Series of one wind speed, along the last axis.
+    dt : float
+        Time step in s.
+    quantile : float
+        Of all values: the threshold.
+    separation : float
+        s; exceedances nearer to each other than this are one peak.
+
+    Returns
+    -------
+    Tail
+
+    Raises
+    ------
+    InputError
+        Fewer than ten peaks, a value is not finite, or an option out of range.
+
+    Examples
+    --------
+    >>> x = np.random.default_rng(0).standard_exponential((6, 24_000))
+    >>> tail = tail_of_peaks(x, dt=1.0, quantile=0.99, separation=1.0)
+    >>> abs(tail.shape) < 0.1, abs(tail.scale - 1) < 0.1
+    (True, True)
+    """
+    series = finite("x", x)
+    if not 0 < quantile < 1:
+        raise InputError(f"quantile = {quantile}; allowed: 0 < quantile < 1")
+    if not (dt > 0 and separation >= dt):
+        raise InputError(f"separation = {separation} s; allowed: at least the time step, {dt} s")
+    threshold = float(np.quantile(series, quantile))
+    rows = series.reshape(-1, series.shape[-1])
+    apart = round(separation / dt)
+    peaks = np.concatenate([_peaks(row, threshold, apart) for row in rows])
+    _enough(peaks, "peaks over the threshold")
+    scale, shape = (float(v) for v in _pareto(peaks - threshold))
+    return Tail(threshold, _positive(scale), shape, peaks.size / (series.size * dt), peaks.size)
+
+
+def long_term_extreme(
+    tails: Sequence[Tail],
+    weights: ArrayLike,
+    years: float = 50.0,
+    confidence: float = 0.95,
+    seed: int = 0,
+) -> LongTermExtreme:
+    """Return the level that is exceeded once in so many years on average.
+
+    Parameters
+    ----------
+    tails : sequence of Tail
+        One for each wind speed.
+    weights : array_like, shape (k,)
+        Share of the lifetime of each; they need not sum to 1 (the rest has no such loads).
+    years : float
+        Return period: IEC 61400-1 takes 50.
+    confidence : float
+        Of the interval, a parametric bootstrap of the fits; doubt about the distribution itself is
+        not in it.
+    seed : int
+        Of the bootstrap.
+
+    Raises
+    ------
+    InputError
+        Lengths differ, a share is negative, or all are zero.
+
+    Examples
+    --------
+    >>> tail = Tail(threshold=100.0, scale=5.0, shape=0.0, rate=1 / 600, count=60)
+    >>> round(long_term_extreme([tail], [1.0]).value, 1)
+    173.9
+    """
+    shares = finite("weights", weights)
+    if shares.shape != (len(tails),) or shares.size == 0:
+        raise InputError(f"weights has shape {shares.shape}; ({len(tails)},) is needed, as tails")
+    if shares.min() < 0 or shares.sum() == 0:
+        raise InputError(f"weights = {shares.tolist()}; allowed: >= 0, not all 0")
+    if not years > 0:
+        raise InputError(f"years = {years}; allowed: years > 0")
+    if not 0 < confidence < 1:
+        raise InputError(f"confidence = {confidence}; allowed: 0 < confidence < 1")
+    wanted = 1.0 / (years * YEAR)
+    best = np.stack([tail._parameters for tail in tails])[:, None]
+    value = _level(best, shares, wanted)
+    rng = np.random.default_rng(seed)
+    drawn = np.stack([tail._resampled(rng, RESAMPLES) for tail in tails])
+    low, high = np.quantile(
+        _level(drawn, shares, wanted), [(1 - confidence) / 2, (1 + confidence) / 2]
+    )
+    rates = shares * [float(tail.rate_above(value[0])) for tail in tails]
+    return LongTermExtreme(float(value[0]), float(low), float(high), rates / rates.sum())
+
+
+def _rate(level: Floats, parameters: Floats) -> Floats:
+    """Exceedances per second of `level` for parameters (..., 4)."""
+    threshold, scale, shape, rate = np.moveaxis(parameters, -1, 0)
+    y = (level - threshold) / scale
+    curved = np.abs(shape) > 1e-9
+    xi = np.where(curved, shape, 1.0)
+    inside = np.maximum(1.0 + xi * y, 1e-300)
+    exponent = np.where(curved, -np.log(inside) / xi, -y)
+    return rate * np.exp(np.clip(exponent, -700.0, 700.0))
+
+
+def _level(parameters: Floats, shares: Floats, wanted: float) -> Floats:
+    """Level that all tails (k, draws, 4) together exceed at the `wanted` rate, by bisection."""
+    spread = parameters[..., 1].max(axis=0)
+    low = parameters[..., 0].min(axis=0) - 50.0 * spread
+    high = parameters[..., 0].max(axis=0) + spread
+
+    def rate(level: Floats) -> Floats:
+        return np.einsum("k,kd->d", shares, _rate(level, parameters))
+
+    for _ in range(STEPS):
+        too_low = rate(high) > wanted
+        if not too_low.any():
+            break
+        high = np.where(too_low, high + 2.0 * (high - low), high)
+    for _ in range(STEPS):
+        middle = 0.5 * (low + high)
+        above = rate(middle) > wanted
+        low, high = np.where(above, middle, low), np.where(above, high, middle)
+    return 0.5 * (low + high)
+
+
+def _pareto(excess: Floats) -> tuple[Floats, Floats]:
+    """Scale and shape of a generalised Pareto distribution by L-moments along the last axis."""
+    ordered = np.sort(excess, axis=-1)
+    n = excess.shape[-1]
+    first = ordered.mean(axis=-1)
+    second = 2.0 * (ordered @ np.arange(n)) / (n * (n - 1.0)) - first
+    shape = 2.0 - first / np.maximum(second, np.finfo(float).tiny)
+    return first * (1.0 - shape), shape
+
+
+def _peaks(x: Floats, threshold: float, apart: int) -> Floats:
+    """Largest value of each cluster of exceedances."""
+    above = np.flatnonzero(x > threshold)
+    if above.size == 0:
+        return np.empty(0)
+    starts = np.concatenate(([0], 1 + np.flatnonzero(np.diff(above) >= apart)))
+    return np.maximum.reduceat(x[above], starts)
+
+
+def _enough(values: Floats, what: str) -> None:
+    if values.size < LEAST:
+        raise InputError(f"{values.size} {what}; a tail needs at least {LEAST}")
+
+
+def _positive(scale: float) -> float:
+    if not scale > 0:
+        raise InputError("all maxima are equal; there is no tail to extrapolate")
+    return scale
