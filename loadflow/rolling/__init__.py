@@ -10,6 +10,9 @@ raceway, result  what all ball bearings share
 patches          points where raceways ride on the rings
 contact          table of contacts that the solver takes
 equilibrium      rigid rings in five degrees of freedom, for arrays of load cases
+rings            flexible rings, condensed to few modes; `slewing_flexible`: their equilibrium
+ring_beam        ring as a curved beam on its supports; `ring_section`: their constants
+ring_given       ring by a given compliance or stiffness; Guyan condensation
 expansion        rings that widen under axial load, closed form
 _kernels         the compiled loops of the solver; `_forces`: of all contact forces
 capacity, life   dynamic capacities; equivalent load, spectra, oscillation

@@ -13,8 +13,17 @@ from .hertz import hertz_line as hertz_line
 from .hertz import hertz_point as hertz_point
 from .life import rating_life_spectrum as rating_life_spectrum
 from .life import spectrum_load as spectrum_load
+from .patches import patch_points as patch_points
 from .patches import raceway_points as raceway_points
+from .ring_beam import RingBeam as RingBeam
+from .ring_given import CompliantRing as CompliantRing
+from .ring_given import guyan as guyan
+from .ring_section import RingSection as RingSection
+from .ring_section import Support as Support
+from .ring_section import legs as legs
+from .rings import FlexibleRings as FlexibleRings
 from .roller import RollerBearing as RollerBearing
 from .roller_result import RollerResult as RollerResult
 from .slewing import SlewingBearing as SlewingBearing
+from .slewing_flexible import FlexibleResult as FlexibleResult
 from .slewing_result import SlewingResult as SlewingResult

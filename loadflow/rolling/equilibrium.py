@@ -15,6 +15,16 @@ CHUNK = 512
 
 
 @dataclass(frozen=True)
+class Control:
+    """How an equilibrium is sought; the fields are described at `solve`."""
+
+    tolerance: float = 1e-10
+    max_iterations: int = 100
+    strict: bool = True
+    chunk: int = CHUNK
+
+
+@dataclass(frozen=True)
 class RingEquilibrium:
     """Where the inner ring comes to rest under each load.
 
@@ -94,7 +104,7 @@ def solve(
     """
     from loadflow.rolling import _kernels
 
-    f, m = _loads(force, moment)
+    f, m = broadcast_loads(force, moment)
     shape = f.shape[:-1]
     loads = np.concatenate([f, m], axis=-1).reshape(-1, 5)
     if chunk < 1:
@@ -110,7 +120,7 @@ def solve(
         chunk,
     )
     if strict and not converged.all():
-        _complain(loads, converged, residual, iterations, shape)
+        complain(loads, converged, residual, iterations, shape)
     return RingEquilibrium(
         force=f,
         moment=m,
@@ -123,7 +133,7 @@ def solve(
     )
 
 
-def _loads(force: ArrayLike, moment: ArrayLike) -> tuple[Array, Array]:
+def broadcast_loads(force: ArrayLike, moment: ArrayLike) -> tuple[Array, Array]:
     """Broadcast force (..., 3) and moment (..., 2) against each other."""
     f, m = np.asarray(force, float), np.asarray(moment, float)
     for name, value, size in (("force", f, 3), ("moment", m, 2)):
@@ -141,7 +151,7 @@ def _loads(force: ArrayLike, moment: ArrayLike) -> tuple[Array, Array]:
     return np.broadcast_to(f, (*shape, 3)), np.broadcast_to(m, (*shape, 2))
 
 
-def _complain(
+def complain(
     loads: Array,
     converged: NDArray[np.bool_],
     residual: Array,

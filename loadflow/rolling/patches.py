@@ -3,12 +3,67 @@
 from __future__ import annotations
 
 import math
-from typing import Literal
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
 from loadflow.rolling.contact import Array, azimuths
-from loadflow.rolling.slewing import SlewingBearing
+
+if TYPE_CHECKING:
+    from loadflow.rolling.slewing import SlewingBearing
+
+
+@dataclass(frozen=True)
+class PatchPoints:
+    """Points of one ring that its raceway patches ride on, one for each contact of the bearing.
+
+    Attributes
+    ----------
+    radius, height : ndarray, shape (kind,)
+        Of each kind of contact (row and diagonal), m.
+    azimuth : ndarray, shape (ball,)
+        Of the balls, in the frame of the ring, rad.
+    """
+
+    radius: Array
+    height: Array
+    azimuth: Array
+
+
+def patch_points(
+    bearing: SlewingBearing,
+    ring: Literal["inner", "outer"],
+    azimuth: Array,
+    shell: float = 0.5e-3,
+    turning: bool = False,
+) -> PatchPoints:
+    """Points that carry the patches of all contacts of a bearing on one ring.
+
+    Parameters
+    ----------
+    bearing : SlewingBearing
+        The bearing.
+    ring : {"inner", "outer"}
+        Which ring.
+    azimuth : ndarray, shape (ball,)
+        Of the balls, rad.
+    shell : float
+        Thickness T_S of the patches, m.
+    turning : bool
+        Whether a patch turns with its section (its groove centre is then the point that counts) or
+        only shifts with its master point.
+    """
+    side = -1.0 if ring == "inner" else 1.0  # the inner ring is touched below by diagonal 0
+    if turning:
+        # the groove centre lies beyond the ball, by its radius less the ball's
+        reach = side * (bearing.ball_diameter / 2 - bearing.groove(ring))
+    else:
+        reach = side * (bearing.ball_diameter / 2 + shell)
+    cos, sin = math.cos(bearing.contact_angle), math.sin(bearing.contact_angle)
+    heights = [h + sign * reach * sin for h in bearing.row_heights() for sign in (1.0, -1.0)]
+    radius = np.full(len(heights), bearing.pitch_diameter / 2 + reach * cos)
+    return PatchPoints(radius, np.array(heights), azimuth)
 
 
 def raceway_points(

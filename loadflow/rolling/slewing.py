@@ -14,9 +14,11 @@ from numpy.typing import ArrayLike
 from loadflow.errors import InputError
 from loadflow.rolling import capacity
 from loadflow.rolling.contact import POINT, Contacts, azimuths
-from loadflow.rolling.equilibrium import CHUNK, solve
+from loadflow.rolling.equilibrium import CHUNK, Control, solve
 from loadflow.rolling.options import check_choice
 from loadflow.rolling.raceway import BallRaceways
+from loadflow.rolling.rings import FlexibleRings
+from loadflow.rolling.slewing_flexible import solve_flexible
 from loadflow.rolling.slewing_result import SlewingResult
 
 DIAGONALS = (1.0, -1.0)  # diagonal 0 carries +Fz on the inner ring, diagonal 1 carries -Fz
@@ -123,7 +125,7 @@ class SlewingBearing(BallRaceways):
         force: ArrayLike,
         moment: ArrayLike = (0.0, 0.0),
         *,
-        rings: Literal["rigid"] = "rigid",
+        rings: Literal["rigid"] | FlexibleRings = "rigid",
         ball_angle: float = 0.0,
         tolerance: float = 1e-10,
         max_iterations: int = 100,
@@ -138,8 +140,9 @@ class SlewingBearing(BallRaceways):
             (Fx, Fy, Fz) on the inner ring at the bearing centre, N; z is the bearing axis.
         moment : array_like, shape (..., 2)
             (Mx, My) on the inner ring, N m. Broadcasts with `force`.
-        rings : {"rigid"}
-            How the rings deform.
+        rings : "rigid" or FlexibleRings
+            How the rings deform. With flexible rings the displacement is that of the inner ring's
+            structure relative to the outer ring's, where their supports hold them.
         ball_angle : float
             Azimuth of the first ball of each row, rad.
         tolerance, max_iterations, strict, chunk
@@ -148,7 +151,7 @@ class SlewingBearing(BallRaceways):
         Returns
         -------
         SlewingResult
-            Over the shape of the load cases.
+            Over the shape of the load cases; a `FlexibleResult` with flexible rings.
 
         Raises
         ------
@@ -157,16 +160,11 @@ class SlewingBearing(BallRaceways):
         SolverError
             If `strict` and a case has no equilibrium.
         """
+        control = Control(tolerance, max_iterations, strict, chunk)
+        if isinstance(rings, FlexibleRings):
+            return solve_flexible(self, rings, ball_angle, force, moment, control)
         if rings != "rigid":
-            raise InputError(f"rings: must be 'rigid', got {rings!r}")
+            raise InputError(f"rings: must be 'rigid' or FlexibleRings, got {rings!r}")
         contacts = self.contacts(ball_angle)
-        state = solve(
-            contacts,
-            force,
-            moment,
-            tolerance=tolerance,
-            max_iterations=max_iterations,
-            strict=strict,
-            chunk=chunk,
-        )
+        state = solve(contacts, force, moment, **vars(control))
         return SlewingResult(**vars(state), bearing=self, contacts=contacts)

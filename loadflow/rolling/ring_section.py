@@ -1,0 +1,134 @@
+"""Cross sections of bearing rings, and what holds a ring in place."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Annotated
+
+from annotated_types import Ge, Gt, Le
+
+from loadflow.errors import InputError
+from loadflow.rolling.options import check_fields
+
+
+@dataclass(frozen=True, kw_only=True)
+class RingSection:
+    """Section of a ring by its constants about axes through its centroid.
+
+    ρ is the radial, ζ the axial distance from the centroid.
+
+    Attributes
+    ----------
+    area : float
+        A, m².
+    inertia_axial : float
+        ∫ρ² dA, second moment about the axial direction (bending within the plane of the ring), m⁴.
+    inertia_radial : float
+        ∫ζ² dA, second moment about the radial direction (bending out of the plane; twist of the
+        section stretches the ring against it), m⁴.
+    inertia_product : float
+        ∫ρζ dA, m⁴.
+    torsion : float
+        St. Venant torsion constant J, m⁴.
+    shear_factor : float
+        Share of the area that carries shear; 5/6 for a rectangle.
+
+    Raises
+    ------
+    InputError
+        If a constant is out of its range or no section can have these moments.
+    """
+
+    area: Annotated[float, Gt(0)]
+    inertia_axial: Annotated[float, Gt(0)]
+    inertia_radial: Annotated[float, Gt(0)]
+    torsion: Annotated[float, Gt(0)]
+    inertia_product: float = 0.0
+    shear_factor: Annotated[float, Gt(0), Le(1)] = 5 / 6
+
+    def __post_init__(self) -> None:
+        check_fields(self)
+        if not self.inertia_product**2 < self.inertia_axial * self.inertia_radial:
+            raise InputError(
+                f"inertia_product: its square must be < inertia_axial · inertia_radial, "
+                f"got {self.inertia_product:g}"
+            )
+
+    @classmethod
+    def rectangle(cls, width: float, height: float) -> RingSection:
+        """Section `width` (radial) by `height` (axial), m.
+
+        Raises
+        ------
+        InputError
+            If a side is not positive.
+        """
+        for name, side in (("width", width), ("height", height)):
+            if not (math.isfinite(side) and side > 0):
+                raise InputError(f"{name}: must be > 0, got {side!r}")
+        short, long = sorted((width, height))
+        ratio = short / long
+        # series of St. Venant's solution; its terms fall as 1/n⁵
+        series = sum(math.tanh(n * math.pi / (2 * ratio)) / n**5 for n in range(1, 12, 2))
+        torsion = long * short**3 / 3 * (1 - 192 / math.pi**5 * ratio * series)
+        return cls(
+            area=width * height,
+            inertia_axial=height * width**3 / 12,
+            inertia_radial=width * height**3 / 12,
+            torsion=torsion,
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Support:
+    """Elastic foundation of a ring: bolted flange, legs, sectors.
+
+    Springs per length of their own circle act at one point of the section, all round or within
+    sectors.
+
+    Attributes
+    ----------
+    radial, tangential, axial : float
+        Stiffness per length of arc, N/m².
+    tilt : float
+        Stiffness against rotation of the section about the tangent, N m/rad per m of arc.
+    radius, height : float
+        Where the springs act, m.
+    sectors : tuple of (float, float), optional
+        (centre, width) of each supported sector, rad; all round if None.
+
+    Raises
+    ------
+    InputError
+        If a stiffness is negative, or a sector has no width or more than a full turn.
+    """
+
+    radius: Annotated[float, Gt(0)]
+    height: float = 0.0
+    radial: Annotated[float, Ge(0)] = 0.0
+    tangential: Annotated[float, Ge(0)] = 0.0
+    axial: Annotated[float, Ge(0)] = 0.0
+    tilt: Annotated[float, Ge(0)] = 0.0
+    sectors: tuple[tuple[float, float], ...] | None = None
+
+    def __post_init__(self) -> None:
+        check_fields(self)
+        for centre, width in self.sectors or ():
+            if not (math.isfinite(centre) and 0 < width <= 2 * math.pi):
+                raise InputError(f"sectors: widths must be in (0, 2π], got {(centre, width)}")
+        if self.sectors == ():
+            raise InputError("sectors: must name at least one sector, or be None for all round")
+
+
+def legs(count: int, width: float, first: float = 0.0) -> tuple[tuple[float, float], ...]:
+    """Sectors of `count` equally spaced legs, each `width` rad wide, the first centred at `first`.
+
+    Raises
+    ------
+    InputError
+        If the legs overlap or there are none.
+    """
+    if count < 1 or not 0 < count * width <= 2 * math.pi * (1 + 1e-12):
+        raise InputError(f"width: {count} legs of {width:g} rad do not fit round a ring")
+    return tuple((first + 2 * math.pi * k / count, width) for k in range(count))
