@@ -40,28 +40,50 @@ def _compress(stretch, stiffness, local):
     return stiffness * root**3, slope / (1.0 + local * slope)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
-def evaluate(x, basis, table, local, push, slope, across):
-    """Energy at x; fills the push (3, contact) of the contacts, its slope along and across.
+@njit(cache=True, nogil=True, error_model="numpy", fastmath=_REORDER)
+def _dot(a, b):
+    """Sum of products; loops rather than array expressions, which take seconds to compile."""
+    total = 0.0
+    for i in range(a.shape[0]):
+        total += a[i] * b[i]
+    return total
 
-    Returns energy, sum of forces, and whether a loaded contact lies beyond 90°.
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _largest(a, b):
+    """Largest |a b|."""
+    most = 0.0
+    for i in range(a.shape[0]):
+        most = max(most, abs(a[i] * b[i]))
+    return most
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def evaluate(x, basis, table, local, push, slope, across, angle, pull):
+    """Energy at x; fills push (3, contact), slope along and across, and angle of the contacts.
+
+    Fills the force `pull` on all unknowns as well. Returns energy, sum of forces, and whether a
+    loaded contact lies beyond 90°.
     """
-    count = basis.shape[1]
+    count, size = basis.shape[1], x.shape[0]
     balls = count // table.shape[0]
-    shift = np.dot(basis.reshape(3 * count, basis.shape[2]), x).reshape(3, count)
     energy = total = 0.0
     beyond = False
+    for a in range(size):
+        pull[a] = x[a] if a >= 5 else 0.0
+        energy += 0.5 * pull[a] * pull[a]
     for i in range(count):
         line = table[i // balls]
-        dr, dt, dz = shift[0, i], shift[1, i], shift[2, i]
+        dr, dt, dz = _dot(basis[0, i], x), _dot(basis[1, i], x), _dot(basis[2, i], x)
         stretch = (
             2.0 * (line[NORMAL_R] * dr + line[NORMAL_Z] * dz)
             + dr * dr + dt * dt + dz * dz + line[GAP]
         )  # fmt: skip
-        if stretch <= 0.0:
-            push[0, i] = push[1, i] = push[2, i] = slope[i] = across[i] = 0.0
-            continue
         r, z = line[NORMAL_R] + dr, line[NORMAL_Z] + dz
+        angle[i] = math.atan2(z, r)
+        push[0, i] = push[1, i] = push[2, i] = slope[i] = across[i] = 0.0
+        if stretch <= 0.0:
+            continue
         length = math.sqrt(r * r + dt * dt + z * z)
         delta = stretch / (length + line[FREE])
         force, slope[i] = _compress(delta, line[STIFFNESS], local)
@@ -70,8 +92,12 @@ def evaluate(x, basis, table, local, push, slope, across):
         across[i] = force / length
         push[0, i], push[1, i], push[2, i] = across[i] * r, across[i] * dt, across[i] * z
         beyond = beyond or r <= 0.0
-    for a in range(5, x.shape[0]):
-        energy += 0.5 * x[a] * x[a]
+        for a in range(size):
+            pull[a] += (
+                push[0, i] * basis[0, i, a]
+                + push[1, i] * basis[1, i, a]
+                + push[2, i] * basis[2, i, a]
+            )
     return energy, total, beyond
 
 
@@ -135,44 +161,48 @@ def _condense(basis, push, slope, across, room, factor, solved, condensed):
     unknown, and the 5 × 5 tangent that is left.
     """
     hessian = _tangent(basis, push, slope, across, room)
-    factor[:, :] = hessian[5:, 5:]
-    solved[:, :] = hessian[:5, 5:]
+    modes = factor.shape[0]
+    for a in range(modes):
+        for b in range(modes):
+            factor[a, b] = hessian[5 + a, 5 + b]
     _factorise(factor)
     for a in range(5):
+        for b in range(modes):
+            solved[a, b] = hessian[a, 5 + b]
         _solve(factor, solved[a])
     for a in range(5):
         for b in range(5):
-            condensed[a, b] = hessian[a, b] - np.sum(hessian[a, 5:] * solved[b])
+            condensed[a, b] = hessian[a, b] - _dot(hessian[a, 5:], solved[b])
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _direction(rest, factor, solved, condensed, cap, small, step):
-    """Fill `step` by Newton's, with a Levenberg shift where the rigid part is singular."""
-    rhs, rigid = np.empty(5), np.zeros(5)
-    largest = 0.0
+    """Fill `step` by Newton's, with a Levenberg shift where the rigid part is singular.
+
+    Returns the largest diagonal term and the smallest pivot of the rigid part.
+    """
+    rhs, modes = np.empty(5), step[5:]
+    largest = norm = 0.0
     for a in range(5):
-        rhs[a] = rest[a] - np.sum(solved[a] * rest[5:])
+        rhs[a] = rest[a] - _dot(solved[a], rest[5:])
         largest = max(largest, condensed[a, a])
-    pivot, shift = cholesky_solve(condensed, 0.0, rhs, small, rigid), 1e-10 * largest
-    while pivot <= 1e-13 and largest > 0.0:
-        pivot = cholesky_solve(condensed, shift, rhs, small, rigid)
-        shift *= 100.0
+        norm += rhs[a] * rhs[a]
+    regular, shift = 0.0, 0.0
+    pivot = -1.0
+    while regular <= 1e-13 and (largest > 0.0 or pivot < 0.0):
+        regular = cholesky_solve(condensed, shift, rhs, small, step)
+        pivot = regular if pivot < 0.0 else pivot
+        shift = max(100.0 * shift, 1e-10 * largest)
     if largest == 0.0:  # nothing touches: go along the load
-        rigid[:] = rhs * (cap / math.sqrt(max(np.sum(rhs * rhs), 1e-300)))
-    step[:5] = rigid
-    modes = step[5:]
-    modes[:] = rest[5:]
+        for a in range(5):
+            step[a] = rhs[a] * cap / math.sqrt(max(norm, 1e-300))
+    for b in range(modes.shape[0]):
+        modes[b] = rest[5 + b]
     _solve(factor, modes)
     for a in range(5):
-        modes -= solved[a] * rigid[a]
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def _unbalanced(x, load, flat, push):
-    """What the load leaves over contacts and ring modes."""
-    rest = load - np.dot(push.reshape(flat.shape[0]), flat)
-    rest[5:] -= x[5:]
-    return rest
+        for b in range(modes.shape[0]):
+            modes[b] -= solved[a, b] * step[a]
+    return largest, pivot
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -183,64 +213,78 @@ def _newton(
     """Minimise energy - load·x from `x`; returns converged, residual, iterations, singular.
 
     Newton with the exact tangent, kept while the residual falls tenfold at each step (`known` says
-    whether a tangent from near `x` is there to begin with), a cap on the shift of the contacts, and
+    whether a tangent from near `x` is there to begin with), a cap on the step of the contacts, and
     halving until energy or residual falls. Leaves the exact tangent at the solution.
     """
     count, size = basis.shape[1], basis.shape[2]
-    push, slope, across = np.zeros((3, count)), np.zeros(count), np.zeros(count)
-    small, step = np.zeros((5, 5)), np.zeros(size)
-    flat = basis.reshape(3 * count, size)
-    external = np.max(np.abs(load))
-    energy, total, beyond = evaluate(x, basis, table, local, push, slope, across)
-    rest = _unbalanced(x, load, flat, push)
-    iterations, residual, moved, exact = 0, 0.0, 0.0, False
+    push, small = np.zeros((3, count)), np.zeros((5, 5))
+    slope, across, angle = np.zeros(count), np.zeros(count), np.zeros(count)
+    pull, rest, step, trial = np.zeros(size), np.zeros(size), np.zeros(size), np.zeros(size)
+    one = np.ones(size)
+    for a in range(size):
+        trial[a] = x[a]
+    external = _largest(load, one)
+    iterations, residual, moved, norm, energy = 0, 0.0, 0.0, 0.0, 0.0
+    damping, exact, fresh, beyond = 1.0, False, True, False
+    potential, descent, halvings = 0.0, 0.0, 0
     while True:
-        reference = max(external, 1e-4 * total)
-        before = residual
-        residual = np.max(np.abs(rest) * reach)
-        residual = residual / reference if reference > 0.0 else 0.0
-        moved = np.max(np.abs(x[:5]))
-        if residual <= tolerance or iterations == limit:
+        energy, total, beyond = evaluate(
+            trial, basis, table, local, push, slope, across, angle, pull
+        )
+        new_norm = 0.0
+        for a in range(size):
+            new_norm += ((load[a] - pull[a]) * reach[a]) ** 2
+        # accept where residual or potential falls, or at the very start
+        if fresh or new_norm < norm * (1.0 - 1e-4 * damping) or (
+            energy - _dot(load, trial) < potential + 1e-4 * damping * descent
+        ):  # fmt: skip
+            for a in range(size):
+                x[a] = trial[a]
+                rest[a] = load[a] - pull[a]
+            norm, before = new_norm, residual
+            reference = max(external, 1e-4 * total)
+            residual = _largest(rest, reach)
+            residual = residual / reference if reference > 0.0 else 0.0
+            moved = _largest(x[:5], one)
+            slow = not fresh and residual > 0.1 * before
+            fresh = False
+            if residual <= tolerance or iterations == limit:
+                break
+            exact = not known or slow
+        elif halvings < 30:
+            halvings += 1
+            damping *= 0.5
+            for a in range(size):
+                trial[a] = x[a] + damping * step[a]
+            continue
+        elif exact:
             break
-        exact = not known or (iterations > 0 and residual > 0.1 * before)
+        else:  # an old tangent misled: go back and take the exact one
+            for a in range(size):
+                trial[a] = x[a]
+            known, fresh, halvings = False, True, 0
+            continue
         if exact:
             _condense(basis, push, slope, across, room, factor, solved, condensed)
             known = True
         _direction(rest, factor, solved, condensed, cap, small, step)
         iterations += 1
-        shift = np.max(np.abs(np.dot(flat, step)))
-        if exact and max(shift, np.max(np.abs(step[:5]))) <= 4.0 * _EPS * moved:
+        shift = 0.0
+        for i in range(count):
+            for c in range(3):
+                shift = max(shift, abs(_dot(basis[c, i], step)))
+        if exact and max(shift, _largest(step[:5], one)) <= 4.0 * _EPS * moved:
             break
         damping = min(1.0, cap / shift) if shift > 0.0 else 1.0
-        potential = energy - np.sum(load * x)
-        descent = -np.sum(rest * step)
-        norm = np.sum((rest * reach) ** 2)
-        accepted = False
-        for _ in range(30):
-            trial = x + damping * step
-            new_energy, total, beyond = evaluate(trial, basis, table, local, push, slope, across)
-            new_rest = _unbalanced(trial, load, flat, push)
-            if np.sum((new_rest * reach) ** 2) < norm * (1.0 - 1e-4 * damping) or (
-                new_energy - np.sum(load * trial) < potential + 1e-4 * damping * descent
-            ):
-                accepted = True
-                break
-            damping *= 0.5
-        if accepted:
-            energy, rest = new_energy, new_rest
-            x[:] = trial
-        elif exact:
-            break
-        else:  # an old tangent may mislead; take the exact one here
-            energy, total, beyond = evaluate(x, basis, table, local, push, slope, across)
-            known = False
+        potential, descent, halvings = energy - _dot(load, x), -_dot(rest, step), 0
+        for a in range(size):
+            trial[a] = x[a] + damping * step[a]
     _condense(basis, push, slope, across, room, factor, solved, condensed)
-    singular = cholesky_solve(condensed, 0.0, rest[:5].copy(), small, step[:5]) <= 1e-12
-    stiffest = np.max(np.diag(condensed))
+    stiffest, pivot = _direction(rest, factor, solved, condensed, cap, small, step)
     settled = residual <= tolerance or (
         residual * max(external, 1e-4 * total) <= 16.0 * _EPS * moved * stiffest
     )
-    return settled and not beyond, residual, iterations, singular
+    return settled and not beyond, residual, iterations, pivot <= 1e-12
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -264,13 +308,15 @@ def solve_series(loads, rigid, basis, table, local, reach, cap, tolerance, limit
         for attempt in range(9):  # warm, cold, then from 1e6 times the load down
             if attempt == 0 and not warm:
                 continue
-            if attempt == 0:
-                stiffness[i] = stiffness[i - 1]
-            if attempt == 1 or attempt == 2:
-                x[:] = 0.0
-                x[:5] = rigid[i]
             times = 1.0 if attempt < 2 else 10.0 ** (8 - attempt)
-            load[:5] = times * loads[i]
+            for a in range(5):
+                load[a] = times * loads[i, a]
+                for b in range(5):
+                    if attempt == 0:
+                        stiffness[i, a, b] = stiffness[i - 1, a, b]
+            if attempt == 1 or attempt == 2:
+                for a in range(size):
+                    x[a] = rigid[i, a] if a < 5 else 0.0
             ok, res, more, free = _newton(
                 x, load, basis, table, local, reach, cap, tolerance, limit, room,
                 factor, solved, stiffness[i], attempt == 0,
@@ -278,7 +324,8 @@ def solve_series(loads, rigid, basis, table, local, reach, cap, tolerance, limit
             count += more
             if ok and (attempt == 1 or (attempt == 0 and not free)):
                 break
-        states[i] = x
+        for a in range(size):
+            states[i, a] = x[a]
         converged[i], residual[i], iterations[i], singular[i] = ok, res, count, free
     return states, stiffness, converged, residual, iterations, singular
 
@@ -287,15 +334,11 @@ def solve_series(loads, rigid, basis, table, local, reach, cap, tolerance, limit
 def contact_state(states, basis, table, local):
     """Force and signed angle (from the radial plane) of each contact, (n, contact)."""
     count = basis.shape[1]
-    flat = basis.reshape(3 * count, basis.shape[2])
-    balls = count // table.shape[0]
     force, angle = np.zeros((len(states), count)), np.zeros((len(states), count))
-    push, slope, across = np.zeros((3, count)), np.zeros(count), np.zeros(count)
+    push, pull = np.zeros((3, count)), np.zeros(basis.shape[2])
+    slope, across = np.zeros(count), np.zeros(count)
     for j in range(len(states)):
-        evaluate(states[j], basis, table, local, push, slope, across)
-        shift = np.dot(flat, states[j]).reshape(3, count)
+        evaluate(states[j], basis, table, local, push, slope, across, angle[j], pull)
         for i in range(count):
-            line = table[i // balls]
             force[j, i] = math.sqrt(push[0, i] ** 2 + push[1, i] ** 2 + push[2, i] ** 2)
-            angle[j, i] = math.atan2(line[NORMAL_Z] + shift[2, i], line[NORMAL_R] + shift[0, i])
     return force, angle
