@@ -24,6 +24,7 @@ from .ring_section import legs as legs
 from .rings import FlexibleRings as FlexibleRings
 from .roller import RollerBearing as RollerBearing
 from .roller_result import RollerResult as RollerResult
+from .rotor_dynamics import rotor_coefficients as rotor_coefficients
 from .slewing import SlewingBearing as SlewingBearing
 from .slewing_flexible import FlexibleResult as FlexibleResult
 from .slewing_result import SlewingResult as SlewingResult

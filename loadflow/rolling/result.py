@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from loadflow.errors import InputError
 from loadflow.rolling import safety
-from loadflow.rolling.contact import Array, Contacts
+from loadflow.rolling.contact import HEIGHT, RADIUS, Array, Contacts
 from loadflow.rolling.equilibrium import RingEquilibrium
 from loadflow.rolling.raceway import BallRaceways
 
@@ -59,6 +59,24 @@ class ContactResult(RingEquilibrium):
             largest.reshape(*self.cases, largest.shape[-1]),
             sums.reshape(*self.cases, *sums.shape[1:]),
         )
+
+    @property
+    def contact_forces(self) -> Array:
+        """Force of each contact, N, (..., kind, element); kinds as in `contacts.table`."""
+        return self._state[0]
+
+    @property
+    def contact_directions(self) -> Array:
+        """Motion v of the inner ring that each contact resists, (..., kind, element, 5).
+
+        The load of all contacts is ΣF v; a stiffness k along each adds Σk v vᵀ.
+        """
+        table, angle = self.contacts.table, self._state[1]
+        radius, height = table[:, RADIUS, None], table[:, HEIGHT, None]
+        cos, sin = np.cos(self.contacts.azimuth), np.sin(self.contacts.azimuth)
+        out, along = np.cos(angle), np.sin(angle)
+        lever = height * out - radius * along
+        return np.stack([out * cos, out * sin, along, -lever * sin, lever * cos], axis=-1)
 
     @property
     def force_sum(self) -> Array:

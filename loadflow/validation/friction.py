@@ -10,14 +10,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import replace
 
 import numpy as np
 
 from loadflow.rolling import RollerBearing
 from loadflow.rolling import friction as parts
+from loadflow.rolling.film_dynamics import richter_plate, richter_printed
 from loadflow.rolling.friction import roller_drag as drag
 from loadflow.rolling.kinematics import common_period, contact_speeds, ideal_speeds
+from loadflow.rolling.lim_singh import lim_singh_ball, lim_singh_roller
+from loadflow.rolling.radial_distribution import LineLaw, behw_law, radial_distribution
 from loadflow.tribology import contact_film as film
 from loadflow.tribology import lubricant, traction
 from loadflow.tribology import lubricant_laws as laws
@@ -64,6 +66,8 @@ def checks() -> Iterator[Check]:
     yield from _lubricant()
     yield from _contact()
     yield from _instruments()
+    yield from _film_dynamics()
+    yield from _tangent()
 
 
 def _kinematics() -> Iterator[Check]:
@@ -150,15 +154,52 @@ def _rolling_torque() -> Iterator[Check]:
 
 def _distribution() -> Iterator[Check]:
     """Load factor without clearance, case A9, and ISO loads of the main bearing, case B6."""
-    many = replace(MAIN_BEARING, rollers=14 * 60, roller_diameter=0.2e-3, clearance=0.0)
-    result = many.equilibrium(force=(1e4, 0.0, 0.0))
-    factor = float(result.maximum_force) * many.rollers / 1e4
-    yield Check("z R_max/F, exponent 10/9", "(5.13), rebuilt", 4.085, factor, 0.002, "absolute")
+    many = np.linspace(0, 2 * np.pi, 2000, endpoint=False)
+    for exponent, expected in ((1.08, 4.0614), (10 / 9, 4.0850), (1.0, 4.0)):
+        found = radial_distribution(1e4, many, 0.0, LineLaw(1e9, exponent))
+        factor = float(found.loads.max()) * many.size / 1e4
+        name = f"z R_max/F, exponent {exponent:.4g}"
+        yield Check(name, "(5.13), rebuilt", expected, factor, 0.002, "absolute")
+    yield from _printed_law()
     loaded = MAIN_BEARING.equilibrium(force=(2000.0, 0.0, 0.0))
     source = "(5.13) with ISO 16281, rebuilt"
     shift = float(loaded.displacement[0]) * 1e6
     yield Check("δ₀, F = 2 kN", source, 8.412, shift, 1e-4, unit="μm")
     yield Check("R_max, F = 2 kN", source, 731.6, float(loaded.maximum_force), 1e-4, unit="N")
+
+
+def _printed_law() -> Iterator[Check]:
+    """Loads of single rollers with the law of the source, case B6."""
+    angles, law = 2 * np.pi * np.arange(14) / 14, behw_law(11e-3)
+    source = "(5.13)–(5.16), Tab. 8.2, rebuilt"
+    table = (
+        (2000.0, 8.6408, 62.42, (718.29, 576.37, 194.97, 0.0), 691.72),
+        (13_800.0, 27.8536, 81.74, (4208.63, 3685.55, 2251.54, 320.46), 4055.14),
+    )
+    for force, shift, zone, rollers, straddling in table:
+        found = radial_distribution(force, angles, 8e-6, law)
+        name = f"F = {force / 1e3:g} kN"
+        delta = float(found.displacement)
+        yield Check(f"δ₀, {name}", source, shift, delta * 1e6, 1e-5, unit="μm")
+        half = math.degrees(math.acos(4e-6 / delta))
+        yield Check(f"half load zone, {name}", source, zone, half, 0.005, "absolute", "°")
+        for i, expected in enumerate(rollers):
+            got = float(found.loads[i])
+            yield Check(f"R_{i}, {name}", source, expected, got, 0.005, "absolute", "N")
+        between = radial_distribution(force, angles + np.pi / 14, 8e-6, law)
+        largest = float(between.loads.max())
+        yield Check(f"R_max, straddling, {name}", source, straddling, largest, 1e-5, unit="N")
+    pin = 2 * np.pi * np.arange(18) / 18
+    for gap, shift, largest, count in (
+        (25, 17.194, 1143.9, 5), (13, 10.509, 964.7, 5), (0, 2.888, 677.0, 9),
+    ):  # fmt: skip
+        found = radial_distribution(3000.0, pin, gap * 1e-6, behw_law(18e-3))
+        name, source = f"pin, e = {gap} μm", "(5.13)–(5.16), Tab. 8.1, 3 kN, rebuilt"
+        delta = float(found.displacement) * 1e6
+        yield Check(f"δ₀, {name}", source, shift, delta, 5e-4, "absolute", "μm")
+        yield Check(f"R_max, {name}", source, largest, float(found.loads.max()), 1e-4, unit="N")
+        loaded = int((found.loads > 1e-6).sum())
+        yield Check(f"rollers loaded, {name}", source, count, loaded, 0)
 
 
 def _lubricant() -> Iterator[Check]:
@@ -226,3 +267,34 @@ def _instruments() -> Iterator[Check]:
         yield Check(
             f"drift in 100 s, {axis}", "Tab. 6.1", expected, float(got), 0.01, "absolute", "N"
         )
+
+
+def _film_dynamics() -> Iterator[Check]:
+    """Richter's plate, case A12: the complex form against numbers and the printed real form."""
+    for eta, omega, stiffness, damping in (
+        (30.0, 100.0, 7.045323e8, 1.838292e7), (0.03, 6283.0, 3.199633e6, 2.110757e4),
+    ):  # fmt: skip
+        args = (1.5e9, 11e-3, 100e-6, 0.5e-6, eta, omega)
+        plate, printed = complex(richter_plate(*args)), richter_printed(*args)
+        source = f"Kruk (2.5)–(2.10), η = {eta:g} Pa s"
+        for name, expected, real, got, unit in (
+            ("k_pl", stiffness, printed[0], plate.real, "N/m"),
+            ("d_pl", damping, printed[1], plate.imag / omega, "N s/m"),
+        ):
+            yield Check(name, f"{source}, rebuilt", expected, got, 1e-6, unit=unit)
+            yield Check(f"{name}, printed form", source, real, got, 1e-9, unit=unit)
+
+
+def _tangent() -> Iterator[Check]:
+    """Lim and Singh's stiffness against differences of their own forces, case A13."""
+    azimuth = 2 * np.pi * np.arange(9) / 9
+    ball, roller = (32.5e-3, 1e10, 0.5e-3, 0.4, 1e-6), (32.5e-3, 1e9, 0.3, 1e-6)
+    steps, q = (2e-10, 2e-10, 2e-10, 1e-8, 1e-8), np.array([2e-5, 5e-6, 1e-5, 1e-4, -2e-4])
+    for name, row, args in (("ball", lim_singh_ball, ball), ("roller", lim_singh_roller, roller)):
+        exact = row(q, azimuth, *args).stiffness
+        for i, j in ((0, 0), (0, 2), (1, 3), (2, 2), (3, 3), (4, 4)):
+            change = np.eye(5)[j] * steps[j]
+            up, down = (row(q + s * change, azimuth, *args).loads for s in (1, -1))
+            got = float(up[i] - down[i]) / (2 * steps[j])
+            source = "Kruk (2.1), Lim and Singh 1990"
+            yield Check(f"k_{i + 1}{j + 1}, {name}", source, got, float(exact[i, j]), 1e-6)

@@ -1,5 +1,4 @@
 from .bearing_losses import BearingFriction as BearingFriction
-from .bearing_losses import FrictionOptions as FrictionOptions
 from .bearing_losses import roller_friction as roller_friction
 from .catalogue import SkfConstants as SkfConstants
 from .catalogue import palmgren_idle_torque as palmgren_idle_torque
@@ -8,6 +7,10 @@ from .catalogue import skf_torque as skf_torque
 from .catalogue import stribeck_torque as stribeck_torque
 from .churning import Churning as Churning
 from .churning import fit_churning as fit_churning
+from .contact_films import ContactFilm as ContactFilm
+from .contact_films import groove_film as groove_film
+from .contact_films import line_film as line_film
+from .contact_films import raceway_radius as raceway_radius
 from .coulomb import cage_force as cage_force
 from .coulomb import driving_moment as driving_moment
 from .coulomb import pocket_loss as pocket_loss
@@ -23,6 +26,7 @@ from .guides import cage_rub_torque as cage_rub_torque
 from .guides import cage_side_torque as cage_side_torque
 from .guides import seal_torque as seal_torque
 from .guides import thrust_washer_torque as thrust_washer_torque
+from .options import FrictionOptions as FrictionOptions
 from .roller_drag import DragConstants as DragConstants
 from .roller_drag import RollerGaps as RollerGaps
 from .roller_drag import coulomb_drag_constants as coulomb_drag_constants

@@ -7,78 +7,22 @@ the torque is their sum over the speed.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from typing import Annotated, Literal
+from dataclasses import dataclass
 
 import numpy as np
-from annotated_types import Ge, Gt, Le
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError
-from loadflow.numerics.fields import check_fields
 from loadflow.rolling.friction import rolling_resistance as resistance
-from loadflow.rolling.friction.churning import Churning
+from loadflow.rolling.friction.contact_films import Ring, line_film, raceway_radius
+from loadflow.rolling.friction.options import FrictionOptions
 from loadflow.rolling.kinematics import entrainment_speed
 from loadflow.rolling.roller_result import RollerResult
-from loadflow.tribology import asperities, contact_film, traction
+from loadflow.tribology import asperities, traction
 from loadflow.tribology.hertz import effective_modulus
-from loadflow.tribology.lubricants import Oil
 
 Array = NDArray[np.float64]
-RINGS: tuple[Literal["inner", "outer"], ...] = ("inner", "outer")
-
-
-@dataclass(frozen=True, kw_only=True)
-class FrictionOptions:
-    """What the friction of a roller bearing depends on besides load and speed.
-
-    Attributes
-    ----------
-    oil : Oil
-        Oil, or base oil of the grease.
-    temperature : float
-        Of the oil at the inlets of the contacts, K.
-    roughness : float
-        Combined roughness σ of roller and raceway, m.
-    hysteresis : float
-        Loss factor α of the steel.
-    film : str
-        Film law, see `loadflow.tribology.film_ratio`; ``"moes"`` holds in all regimes.
-    starvation : float
-        Share of the flooded film and rolling force that is left; grease 0.5 … 0.7, oil 1.
-    boundary_friction : float
-        Friction coefficient where asperities touch.
-    rib_angle : float
-        Angle between the contact normals of both raceways, rad; a rib carries its sine of the load
-        (tapered rollers 0.02 … 0.06, cylindrical 0).
-    rib_height : float
-        Height of the rib contact over the raceway, m.
-    rib_friction : float
-        Friction coefficient of the rib's film.
-    roller_drag : float
-        C₁ of the viscous drag on each roller (`drag_constants`), N m s.
-    churning : Churning
-        Torque of churning.
-    seal_torque : float
-        Torque of the seals, N m.
-    """
-
-    oil: Oil
-    temperature: Annotated[float, Gt(200), Le(500)]
-    roughness: Annotated[float, Gt(0)] = 0.5e-6
-    hysteresis: Annotated[float, Ge(0), Le(0.1)] = 0.01
-    film: str = "moes"
-    starvation: Annotated[float, Gt(0), Le(1)] = 1.0
-    boundary_friction: Annotated[float, Ge(0), Le(1)] = 0.12
-    rib_angle: Annotated[float, Ge(0), Le(0.5)] = 0.0
-    rib_height: Annotated[float, Ge(0)] = 0.0
-    rib_friction: Annotated[float, Ge(0), Le(1)] = 0.05
-    roller_drag: Annotated[float, Ge(0)] = 0.0
-    churning: Churning = field(default_factory=Churning)
-    seal_torque: Annotated[float, Ge(0)] = 0.0
-
-    def __post_init__(self) -> None:
-        check_fields(self)
+RINGS: tuple[Ring, ...] = ("inner", "outer")
 
 
 @dataclass(frozen=True)
@@ -162,7 +106,7 @@ def roller_friction(
 
     Examples
     --------
-    >>> from loadflow.rolling import RollerBearing
+    >>> from loadflow.rolling import FrictionOptions, RollerBearing
     >>> from loadflow.tribology import lubricant
     >>> pair = RollerBearing(rollers=48, roller_diameter=0.04, roller_length=0.06,
     ...     pitch_diameter=0.8, contact_angle=0.35, rows=2, row_spacing=0.12, clearance=-20e-6)
@@ -189,7 +133,9 @@ def roller_friction(
     radius = bearing.roller_diameter / 2
     spin = 2 * u / bearing.roller_diameter
     drag = options.roller_drag * spin
-    rib_speed = options.rib_height * u / _radius(bearing.roller_diameter, bearing.gamma, "inner")
+    rib_speed = (
+        options.rib_height * u / raceway_radius(bearing.roller_diameter, bearing.gamma, "inner")
+    )
     rib = options.rib_friction * np.sin(options.rib_angle) * force * rib_speed
 
     def total(power: Array) -> Array:
@@ -216,53 +162,35 @@ def roller_friction(
     )
 
 
-def _radius(roller_diameter: float, gamma: float, ring: str) -> float:
-    """Reduced radius ρ (1 ∓ γ) of roller and raceway, m, (5.66), (5.67)."""
-    return roller_diameter / 2 * (1 - gamma if ring == "inner" else 1 + gamma)
-
-
 def _contact(
     result: RollerResult,
-    ring: Literal["inner", "outer"],
+    ring: Ring,
     force: Array,
     u: Array,
     viscosity: float,
     options: FrictionOptions,
 ) -> _Contact:
     """Film, rolling forces and grip of all contacts with one ring."""
-    bearing, oil, t = result.bearing, options.oil, options.temperature
+    bearing, oil = result.bearing, options.oil
     modulus = 2 * float(effective_modulus(bearing.elastic_modulus, bearing.poisson_ratio))
     length = bearing.roller_length
-    radius = _radius(bearing.roller_diameter, bearing.gamma, ring)
-    alpha = float(oil.pressure_viscosity(t))
-    half_width = np.sqrt(8 * force * radius / (np.pi * length * modulus))
-    pressure = force / np.maximum(2 * half_width * length, 1e-30)
-
-    entraining = viscosity * np.maximum(u, 1e-12) / (modulus * radius)
-    ratio = contact_film.film_ratio(
-        options.film, alpha * modulus, entraining, force / (modulus * radius * length)
-    )
-    loading = contact_film.thermal_loading(
-        viscosity, float(oil.steepness(t)), u, float(oil.conductivity(t))
-    )
-    heated = contact_film.thermal_factor(loading)
-    film = np.where(u > 0, options.starvation * heated * ratio * radius, 0.0)
-    parameter = asperities.film_parameter(film, options.roughness)
+    radius = raceway_radius(bearing.roller_diameter, bearing.gamma, ring)
+    found = line_film(force, length, radius, modulus, u, options)
+    parameter = asperities.film_parameter(found.film, options.roughness)
     share = np.where(force > 0, asperities.asperity_share(parameter), 0.0)
+    alpha = float(oil.pressure_viscosity(options.temperature))
     rolling = resistance.hydrodynamic_force(force, length, radius, u, viscosity, alpha, modulus)
-    moment = resistance.hysteresis_moment(force, half_width, options.hysteresis)
+    moment = resistance.hysteresis_moment(force, found.half_width, options.hysteresis)
     limit = traction.limiting_stress(
-        pressure, oil.critical_stress, oil.critical_pressure, oil.limiting_slope
+        found.pressure, oil.critical_stress, oil.critical_pressure, oil.limiting_slope
     )
+    area = 2 * found.half_width * length
+    grip = traction.mixed_force(limit, area, force, share, options.boundary_friction)
     return _Contact(
-        film=film,
+        film=found.film,
         parameter=np.asarray(parameter),
         share=share,
-        rolling=np.asarray(options.starvation * heated * rolling),
+        rolling=np.asarray(found.share * rolling),
         hysteresis=np.asarray(moment / (2 * radius)),
-        grip=np.asarray(
-            traction.mixed_force(
-                limit, 2 * half_width * length, force, share, options.boundary_friction
-            )
-        ),
+        grip=np.asarray(grip),
     )

@@ -1,0 +1,119 @@
+"""Film of every contact of a bearing: roller on raceway, ball in groove."""
+
+from __future__ import annotations
+
+from typing import Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from loadflow.rolling.friction.options import FrictionOptions
+from loadflow.rolling.raceway import BallRaceways
+from loadflow.tribology import contact_film
+from loadflow.tribology.hertz import effective_modulus
+
+Array = NDArray[np.float64]
+Ring = Literal["inner", "outer"]
+
+
+class ContactFilm(NamedTuple):
+    """Film and Hertzian strip of contacts, arrays of one shape.
+
+    `film` is central, m, 0 at standstill; `half_width` along rolling and `length` across, m, of a
+    strip of the contact's area; `pressure` the mean one, Pa; `radius` R_eff along rolling, m;
+    `share` what thermal and starved inlets leave of the flooded isothermal film.
+    """
+
+    film: Array
+    half_width: Array
+    length: Array
+    pressure: Array
+    radius: float
+    share: Array
+
+
+def raceway_radius(roller_diameter: float, gamma: float, ring: Ring) -> float:
+    """Reduced radius ρ (1 ∓ γ) of rolling element and raceway, m, (5.66), (5.67)."""
+    return roller_diameter / 2 * (1 - gamma if ring == "inner" else 1 + gamma)
+
+
+def line_film(
+    force: Array,
+    length: float,
+    radius: float,
+    modulus: float,
+    mean_speed: Array,
+    options: FrictionOptions,
+) -> ContactFilm:
+    """Film between a roller, or a slice of it, and a raceway.
+
+    Parameters
+    ----------
+    force : ndarray
+        N, not negative.
+    length : float
+        Effective length, m.
+    radius : float
+        `raceway_radius`, m.
+    modulus : float
+        Reduced modulus E₀ = 2 E*, Pa.
+    mean_speed : ndarray
+        Mean surface speed u ≥ 0, m/s; broadcasts with `force`.
+    options : FrictionOptions
+        Oil, temperature, film law, starvation.
+    """
+    half_width = np.sqrt(8 * force * radius / (np.pi * length * modulus))
+    pressure = force / np.maximum(2 * half_width * length, 1e-30)
+    viscosity, alpha, share = _inlet(mean_speed, options)
+    groups = (
+        alpha * modulus,
+        viscosity * np.maximum(mean_speed, 1e-12) / (modulus * radius),
+        force / (modulus * radius * length),
+    )
+    ratio = contact_film.film_ratio(options.film, *groups)
+    film = np.where(mean_speed > 0, share * ratio * radius, 0.0)
+    return ContactFilm(film, half_width, np.full_like(force, length), pressure, radius, share)
+
+
+def groove_film(
+    bearing: BallRaceways,
+    ring: Ring,
+    force: Array,
+    mean_speed: Array,
+    options: FrictionOptions,
+) -> ContactFilm:
+    """Film between balls and a groove (Hamrock and Dowson, central).
+
+    Parameters
+    ----------
+    bearing : BallRaceways
+        Ball bearing.
+    ring : {"inner", "outer"}
+        Which groove.
+    force, mean_speed, options
+        As `line_film`.
+    """
+    radius = raceway_radius(bearing.ball_diameter, bearing.gamma, ring)
+    modulus = 2 * float(effective_modulus(bearing.elastic_modulus, bearing.poisson_ratio))
+    contact = bearing.raceway_contact(ring, force)
+    across, along = contact.semi_axes
+    viscosity, alpha, share = _inlet(mean_speed, options)
+    ratio = contact_film.hamrock_dowson_central(
+        alpha * modulus,
+        viscosity * np.maximum(mean_speed, 1e-12) / (modulus * radius),
+        np.maximum(force, 1e-9) / (modulus * radius**2),
+        contact.ellipticity,
+    )
+    film = np.where(mean_speed > 0, share * ratio * radius, 0.0)
+    return ContactFilm(film, along, np.pi / 2 * across, 2 / 3 * contact.pressure, radius, share)
+
+
+def _inlet(mean_speed: Array, options: FrictionOptions) -> tuple[float, float, Array]:
+    """Viscosity, pressure–viscosity coefficient, and what heat and starvation leave of the film."""
+    oil, t = options.oil, options.temperature
+    viscosity = float(oil.viscosity(t))
+    loading = contact_film.thermal_loading(
+        viscosity, float(oil.steepness(t)), mean_speed, float(oil.conductivity(t))
+    )
+    share = options.starvation * contact_film.thermal_factor(loading)
+    return viscosity, float(oil.pressure_viscosity(t)), np.asarray(share)
