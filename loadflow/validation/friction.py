@@ -15,6 +15,7 @@ import numpy as np
 
 from loadflow.rolling import RollerBearing
 from loadflow.rolling import friction as parts
+from loadflow.rolling.crank import CrankDrive
 from loadflow.rolling.film_dynamics import richter_plate, richter_printed
 from loadflow.rolling.friction import roller_drag as drag
 from loadflow.rolling.kinematics import common_period, contact_speeds, ideal_speeds
@@ -58,6 +59,7 @@ MAIN_BEARING = RollerBearing(
 def checks() -> Iterator[Check]:
     """Yield all rows."""
     yield from _kinematics()
+    yield from _crank()
     yield from _cage_and_seal()
     yield from _traction()
     yield from _drag_integrals()
@@ -92,6 +94,23 @@ def _kinematics() -> Iterator[Check]:
     ]
     for name, expected, got in rows:
         yield Check(name, "(4.50)–(4.60), Tab. 8.1, 8.2, rebuilt", expected, float(got), 5e-7)
+
+
+def _crank() -> Iterator[Check]:
+    """Inertia of rollers on the crank pin and loads in three frames, cases A2 and A3."""
+    drive = CrankDrive(
+        radius=42.5e-3, rod_length=143.5e-3, piston_mass=0.4, rod_mass=0.6, rod_centre=43e-3
+    )
+    for angle, radial, tangential in ((0.3, -3.183036, -0.585376), (1.7, -1.735308, -2.463459)):
+        found = drive.roller_inertia(angle, 1000 * RPM, 6.67e-3, *PIN_RACES)
+        source = f"(4.69), (4.70), φ = {angle}, 1000/min, rebuilt"
+        yield Check("N", source, radial, float(found.radial), 1e-6, unit="N")
+        yield Check("U", source, tangential, float(found.tangential), 1e-6, unit="N")
+        loads = drive.pin_loads(angle, 3000 * RPM, 5e3)
+        sizes = [float(np.hypot(*frame)) for frame in loads]
+        for frame, size in zip(("crank", "space"), sizes[1:]):
+            name = f"pin load, {frame} against rod"
+            yield Check(name, "(5.1)–(5.6), masses assumed", sizes[0], size, 1e-12, unit="N")
 
 
 def _cage_and_seal() -> Iterator[Check]:

@@ -17,6 +17,7 @@ from loadflow.rolling.friction import catalogue, coulomb, guides, roller_drag, r
 from loadflow.validation.friction import MAIN, MAIN_RACES, MODULUS
 
 MODULES = [
+    "friction.catalogue",
     "kinematics",
     "radial_distribution",
     "friction.guides",
@@ -75,6 +76,35 @@ def test_variants_change_what_they_name():
     assert found["thesis"].orbit < 0 < found["printed"].orbit
     with pytest.raises(InputError, match="geometric"):
         friction.drag_constants(*args, variant="guess")
+
+
+@pytest.mark.parametrize("rib", ["outer", "inner"])
+@pytest.mark.parametrize(("spin", "ring"), [(278.0, -43.0), (100.0, 60.0), (0.0, -43.0)])
+def test_rib_shear_by_integration_over_the_segment(rib, spin, ring):
+    found = friction.rib_shear(MAIN, 0.037, spin, ring, rib)
+    r, h, pitch, side = MAIN.radius, MAIN.rib_height, MAIN.pitch_diameter / 2, 1.0
+    if rib == "inner":
+        side = -1.0
+    nodes, weights = np.polynomial.legendre.leggauss(60)
+    angle = np.arccos((r - h) / r) * nodes  # across the segment by angle, out by radius
+    inside = (r - h) / np.cos(angle)
+    rho = (r + inside + (r - inside) * nodes[:, None]) / 2
+    area = rho * (r - inside) / 2 * np.arccos((r - h) / r) * weights[:, None] * weights
+    x, y = rho * np.sin(angle), side * rho * np.cos(angle)
+    slip_x, slip_y = -ring * (pitch + y) - spin * y, (ring + spin) * x  # rib less roller
+    film = 2 * 0.037 / 0.06e-3
+    assert found.moment == pytest.approx(film * (area * (x * slip_y - y * slip_x)).sum(), rel=1e-6)
+    assert found.force == pytest.approx(film * -(area * slip_x).sum(), rel=1e-6)
+    assert found.loss == pytest.approx(film * (area * (slip_x**2 + slip_y**2)).sum(), rel=1e-6)
+
+
+def test_drag_constants_hold_the_moment_of_the_rib():
+    """C₁ and C₃₂ of ideal rolling against the shear over the rib."""
+    cage, spin = kinematics.ideal_speeds(100.0, 0.0, *MAIN_RACES)
+    viscous = friction.drag_constants(MAIN, 0.037, 9 / 22)
+    without = roller_drag.rib_constant(MAIN, 0.037)
+    shear = friction.rib_shear(MAIN, 0.037, spin, -cage)
+    assert shear.moment == pytest.approx(without * spin + viscous.orbit * 100.0, rel=1e-9)
 
 
 def test_driving_moment_is_the_balance_of_the_roller():

@@ -21,16 +21,17 @@ force_values = st.floats(0, 20)
 @given(
     st.floats(-100, 100), st.floats(-100, 100), st.floats(-60, 60), st.floats(-600, 600),
     force_values, force_values, force_values, force_values, st.floats(0, 0.05), force_values,
+    st.floats(-0.05, 0.05), st.floats(-3, 3), st.sampled_from(["inner", "outer"]),
 )  # fmt: skip
 def test_every_state_that_obeys_the_rollers_equation_balances(
-    inner, outer, cage, spin, pull_i, pull_o, roll_i, roll_o, drag, tangential
+    inner, outer, cage, spin, pull_i, pull_o, roll_i, roll_o, drag, tangential, turn, push, rib
 ):
     radius = (MAIN_RACES[1] - MAIN_RACES[0]) / 4
-    moment = radius * (pull_i + pull_o - roll_i - roll_o) - drag
+    moment = radius * (pull_i + pull_o - roll_i - roll_o) - drag - turn
     state = RollerState(
         inner_speed=inner, outer_speed=outer, cage_speed=cage, spin=spin,
         spin_rate=moment / INERTIA, traction=(pull_i, pull_o), rolling=(roll_i, roll_o),
-        drag=drag, tangential=tangential,
+        drag=drag, tangential=tangential, rib_moment=turn, rib_force=push, rib=rib,
     )  # fmt: skip
     audit = energy_audit(state, *MAIN_RACES, INERTIA)
     scale = abs(audit.shaft) + abs(audit.stored) + sum(abs(p) for p in audit.losses.values())

@@ -1,6 +1,7 @@
 from .bearing_losses import BearingFriction as BearingFriction
 from .bearing_losses import roller_friction as roller_friction
 from .catalogue import SkfConstants as SkfConstants
+from .catalogue import catalogue_torques as catalogue_torques
 from .catalogue import palmgren_idle_torque as palmgren_idle_torque
 from .catalogue import palmgren_load_torque as palmgren_load_torque
 from .catalogue import skf_torque as skf_torque
@@ -28,9 +29,11 @@ from .guides import seal_torque as seal_torque
 from .guides import thrust_washer_torque as thrust_washer_torque
 from .options import FrictionOptions as FrictionOptions
 from .roller_drag import DragConstants as DragConstants
+from .roller_drag import RibShear as RibShear
 from .roller_drag import RollerGaps as RollerGaps
 from .roller_drag import coulomb_drag_constants as coulomb_drag_constants
 from .roller_drag import drag_constants as drag_constants
+from .roller_drag import rib_shear as rib_shear
 from .rolling_resistance import elastic_force as elastic_force
 from .rolling_resistance import hydrodynamic_force as hydrodynamic_force
 from .rolling_resistance import hydrodynamic_torque as hydrodynamic_torque

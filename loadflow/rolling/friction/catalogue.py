@@ -28,6 +28,14 @@ _RPM = 30 / np.pi  # rad/s in 1/min
 PALMGREN_F0 = {"cylindrical": 2.5, "tapered": 4.0, "spherical": 5.0, "ball": 1.5}
 PALMGREN_F1 = {"cylindrical": 3e-4, "tapered": 4e-4, "spherical": 5e-4}
 
+# Constant coefficients of friction of open bearings at about a tenth of their capacity (SKF)
+FRICTION_COEFFICIENTS = {
+    "cylindrical": 0.0011,
+    "tapered": 0.0018,
+    "spherical": 0.0018,
+    "ball": 0.0015,
+}
+
 _SLIDING = {"cylindrical": 0.02, "tapered": 0.002}  # μ_EHL; other bearings 0.05 (mineral oil)
 
 
@@ -109,23 +117,27 @@ class SkfConstants:
 
     Attributes
     ----------
-    kind : {"cylindrical", "tapered"}
+    kind : {"cylindrical", "tapered", "spherical"}
         Type of bearing.
-    r1, r2 : float
-        R₁ and R₂ of the rolling torque (R₂ of tapered bearings only).
-    s1, s2 : float
-        S₁ and S₂ of the sliding torque.
+    r1, r2, r3, r4 : float
+        R of the rolling torque (cylindrical: R₁; tapered: R₁, R₂; spherical: all).
+    s1, s2, s3, s4 : float
+        S of the sliding torque (spherical: all, else S₁, S₂).
     axial_factor : float
         Y of tapered bearings.
     starvation, geometry : float
-        K_rs (3e-8 oil bath, 6e-8 grease) and K_Z (cylindrical 5.1, tapered 6).
+        K_rs (3e-8 oil bath, 6e-8 grease) and K_Z (cylindrical 5.1, spherical 5.5, tapered 6).
     """
 
-    kind: Literal["cylindrical", "tapered"]
+    kind: Literal["cylindrical", "tapered", "spherical"]
     r1: float
     s1: float
     s2: float
     r2: float = 0.0
+    r3: float = 0.0
+    r4: float = 0.0
+    s3: float = 0.0
+    s4: float = 0.0
     axial_factor: float = 0.0
     starvation: float = 6e-8
     geometry: float = 5.1
@@ -169,14 +181,71 @@ def skf_torque(
         thrust = constants.axial_factor * fa
         rolling = constants.r1 * mean**2.38 * (fr + constants.r2 * thrust) ** 0.31
         sliding = constants.s1 * mean**0.82 * (fr + constants.s2 * thrust)
+    elif constants.kind == "spherical":
+        points = constants.r1 * mean**1.85 * (fr + constants.r2 * fa) ** 0.54
+        lines = constants.r3 * mean**2.3 * (fr + constants.r4 * fa) ** 0.31
+        rolling = np.minimum(points, lines)
+        points = constants.s1 * mean**0.25 * (fr**4 + constants.s2 * fa**4) ** (1 / 3)
+        lines = constants.s3 * mean**0.94 * (fr**3 + constants.s4 * fa**3) ** (1 / 3)
+        sliding = np.minimum(points, lines)
     else:
-        raise InputError(f"kind: must be 'cylindrical' or 'tapered', got {constants.kind!r}")
+        raise InputError(f"kind: must be cylindrical, tapered or spherical, got {constants.kind!r}")
     heated = 1 / (1 + 1.84e-9 * (n * mean) ** 1.28 * nu**0.64)
     crowd = np.sqrt(constants.geometry / (2 * (big - d)))
     refill = np.exp(-constants.starvation * nu * n * (d + big) * crowd)
     dry = np.exp(-2.6e-8 * (n * nu) ** 1.4 * mean)
-    friction = dry * boundary + (1 - dry) * _SLIDING[constants.kind]
+    friction = dry * boundary + (1 - dry) * _SLIDING.get(constants.kind, 0.05)
     return (
         np.asarray(heated * refill * rolling * (nu * n) ** 0.6 * 1e-3),
         np.asarray(sliding * friction * 1e-3),
     )
+
+
+def catalogue_torques(
+    kind: Literal["cylindrical", "tapered", "spherical"],
+    radial: ArrayLike,
+    axial: ArrayLike,
+    speed: ArrayLike,
+    viscosity: ArrayLike,
+    bore: float,
+    outside_diameter: float,
+    series: SkfConstants | None = None,
+) -> dict[str, Array]:
+    """Torque after each catalogue that needs no more than type, size and load, N m.
+
+    Parameters
+    ----------
+    kind : {"cylindrical", "tapered", "spherical"}
+        Type of bearing.
+    radial, axial : array_like
+        Magnitudes of the loads, N.
+    speed, viscosity, bore, outside_diameter
+        As `skf_torque`.
+    series : SkfConstants, optional
+        Adds SKF's model.
+
+    Returns
+    -------
+    dict of str to ndarray
+        "constant coefficient" (on bore and load), "palmgren", and "skf".
+
+    Examples
+    --------
+    >>> spread = catalogue_torques("cylindrical", 1e6, 0.0, 1.5, 1e-4, 0.5, 0.72)
+    >>> {name: round(float(torque)) for name, torque in spread.items()}
+    {'constant coefficient': 275, 'palmgren': 192}
+    """
+    if kind not in PALMGREN_F1:
+        raise InputError(f"kind: must be one of {', '.join(PALMGREN_F1)}, got {kind!r}")
+    fr, fa = np.asarray(radial, float), np.asarray(axial, float)
+    load, mean = np.hypot(fr, fa), (bore + outside_diameter) / 2
+    idle = palmgren_idle_torque(speed, viscosity, mean, PALMGREN_F0[kind])
+    torques = {
+        "constant coefficient": stribeck_torque(load, bore, FRICTION_COEFFICIENTS[kind]),
+        "palmgren": idle + palmgren_load_torque(load, mean, PALMGREN_F1[kind]),
+    }
+    if series is not None:
+        torques["skf"] = sum(
+            skf_torque(series, fr, fa, speed, viscosity, bore, outside_diameter), np.zeros(())
+        )
+    return torques

@@ -8,6 +8,7 @@ Both agree only if forces, levers and the roller's equation of motion are right.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,6 +34,11 @@ class RollerState:
         Rolling force on each surface at both rings (`rolling_resistance`), N, of the spin's sign.
     drag : float or ndarray
         Moment of cage, pocket and oil against the spin, N m, of the spin's sign.
+    rib_moment, rib_force : float or ndarray
+        Of the ribs on the roller (`rib_shear`): moment against the spin, N m, and force along the
+        positive sense of turning, N.
+    rib : {"outer", "inner"}
+        Ring with the ribs.
     tangential : float or ndarray
         Tangential inertia force U (mass times acceleration) of the roller, N.
     """
@@ -45,6 +51,9 @@ class RollerState:
     traction: tuple[Value, Value] = (0.0, 0.0)
     rolling: tuple[Value, Value] = (0.0, 0.0)
     drag: Value = 0.0
+    rib_moment: Value = 0.0
+    rib_force: Value = 0.0
+    rib: Literal["outer", "inner"] = "outer"
     tangential: Value = 0.0
 
 
@@ -59,7 +68,7 @@ class EnergyAudit:
     stored : float
         Growth of the kinetic energy of the rollers' spin and orbit.
     losses : dict of str to float
-        Slip, rolling and drag.
+        Slip, rolling, drag and rib.
     """
 
     shaft: float
@@ -93,10 +102,11 @@ def roller_torques(
     lean_i = 2 * inner / (inner + roller)  # 2 R_eff/ρ
     lean_o = 2 * outer / (outer - roller)
     on_roller = pull_i - roll_i + lean_i * roll_i - (pull_o - roll_o + lean_o * roll_o)
-    cage_push = state.tangential - on_roller
+    cage_push = state.tangential - on_roller - state.rib_force
+    at_rib = pitch * state.rib_force + state.rib_moment
     return (
-        inner * (roll_i + pull_i),
-        -outer * (roll_o + pull_o),
+        inner * (roll_i + pull_i) + (at_rib if state.rib == "inner" else 0.0),
+        -outer * (roll_o + pull_o) + (at_rib if state.rib == "outer" else 0.0),
         pitch * cage_push + state.drag,
     )
 
@@ -138,10 +148,13 @@ def energy_audit(
         inner_diameter, outer_diameter,
     )  # fmt: skip
     (pull_i, pull_o), (roll_i, roll_o) = state.traction, state.rolling
+    ring = state.inner_speed if state.rib == "inner" else state.outer_speed
     losses = {
         "slip": pull_i * v.sliding_inner + pull_o * v.sliding_outer,
         "rolling": 2 * (roll_i * v.mean_inner + roll_o * v.mean_outer),
         "drag": state.drag * state.spin,
+        "rib": state.rib_moment * state.spin
+        + (pitch * state.rib_force + state.rib_moment) * (ring - state.cage_speed),
     }
     shape = np.broadcast_shapes(*(np.shape(x) for x in (shaft, stored, *losses.values())))
 

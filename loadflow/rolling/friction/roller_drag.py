@@ -8,7 +8,8 @@ misprints or errs, `variant` names the choice:
     what the source's program must have computed (its tables follow): the pocket of (4.80) as
     printed, the rest put right;
 ``"geometric"``
-    the pocket as the flat bar of the drawing has it, 4 to 8 times less drag;
+    the pocket as the flat bar of the drawing has it, 4 to 8 times less drag; at the rib also the
+    part of the shear that crosses the radius (x² beside y²);
 ``"printed"``
     everything as printed in (5.20), (5.21).
 """
@@ -17,7 +18,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Annotated, Literal
+from typing import Annotated, Literal, NamedTuple
 
 from annotated_types import Ge, Gt, Lt
 
@@ -209,7 +210,10 @@ def drag_constants(
     spin = ends + rib_constant(gaps, viscosity, variant) + viscosity * r**2 * gaps.length * pocket
     side = 1.0 if rib == "outer" else -1.0
     area = gaps.pitch_diameter / 2 * segment_area_moment(r, gaps.rib_height)
-    area += side * segment_square(r, gaps.rib_height, variant)
+    if variant == "geometric":
+        area += side * segment_polar(r, gaps.rib_height) / 2
+    else:
+        area += side * segment_square(r, gaps.rib_height, variant)
     sign = 1.0 if variant == "printed" else -1.0
     return DragConstants(spin, sign * _conductance(gaps, viscosity) * rib_ratio * area)
 
@@ -244,3 +248,49 @@ def coulomb_drag_constants(
     half = 2.0 if variant == "printed" else 1.0  # the source drops the factor ½ of (5.20)
     rib_part = half * rib_constant(gaps, viscosity, variant)
     return DragConstants(plain.spin + change * rib_part, plain.orbit * (1 + change))
+
+
+class RibShear(NamedTuple):
+    """What the oil between a roller's ends and the ribs of one ring does to the roller.
+
+    `moment` against the spin, N m; `force` along the ring's turning, N; `loss` of both bodies, W.
+    """
+
+    moment: float
+    force: float
+    loss: float
+
+
+def rib_shear(
+    gaps: RollerGaps,
+    viscosity: float,
+    spin: float,
+    ring_speed: float,
+    rib: Literal["outer", "inner"] = "outer",
+) -> RibShear:
+    """Viscous shear at the ribs from the whole field of sliding speeds, which loses what it must.
+
+    Parameters
+    ----------
+    gaps : RollerGaps
+        Roller and ribs.
+    viscosity : float
+        Pa s.
+    spin : float
+        Spin of the roller against the cage, rad/s.
+    ring_speed : float
+        Speed of the ring with the ribs against the cage, rad/s.
+    rib : {"outer", "inner"}
+        Ring with the ribs.
+    """
+    r, h = gaps.radius, gaps.rib_height
+    pitch = gaps.pitch_diameter / 2
+    polar = segment_polar(r, h) / 2
+    left = r - h
+    area = r**2 * math.acos(left / r) - left * math.sqrt(2 * r * h - h**2)
+    first = segment_area_moment(r, h) * (1.0 if rib == "outer" else -1.0)
+    film = _conductance(gaps, viscosity)
+    moment = film * ((ring_speed + spin) * polar + ring_speed * pitch * first)
+    force = film * (ring_speed * (pitch * area + first) + spin * first)
+    loss = moment * spin + (force * pitch + moment) * ring_speed
+    return RibShear(moment, force, loss)
