@@ -1,4 +1,4 @@
-"""Speed and error of every model rung: writes loadflow/data/ladder.json and docs/speed-vs-error.md.
+"""Speed and error of every model rung: writes docs/speed-vs-error.md and ladder.json, gains.json.
 
 python benchmarks/ladder.py [--quick] [--only STAGE]
 
@@ -13,13 +13,15 @@ import json
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
-from ladder_bearings import measure_journal, measure_reduction, measure_rolling
+from ladder_bearings import measure_gains, measure_journal, measure_reduction, measure_rolling
 from ladder_loads import measure_loads, measure_seeds, measure_shaft, measure_statistics
 from measuring import QUICK, Bench, Entry, Rungs, Setting, percent
 
 ROOT = Path(__file__).parents[1]
 LADDER = ROOT / "loadflow" / "data" / "ladder.json"
+GAINS = LADDER.with_name("gains.json")
 DOC = ROOT / "docs" / "speed-vs-error.md"
 
 STAGES: dict[str, Callable[[Bench], Rungs]] = {
@@ -47,9 +49,24 @@ another one is cheaper and nowhere less accurate.
 RELATIVE = {"reduction": "film solutions, relative"}
 
 
-def page(ladder: dict[str, Rungs]) -> str:
+GAINS_HEAD = """## From loads to answers
+
+An error of the load reaches the bearings' answers through their gain, d ln(answer)/d ln(load), at
+its largest over the cases above. `loadflow plan` adds up load, reduction and bearing with it.
+
+| bearing | answer | gain |
+|---|---|---:|"""
+
+
+def page(ladder: dict[str, Rungs], gains: dict[str, dict[str, float]]) -> str:
     """The whole document."""
-    return "\n".join([HEAD, *(line for name in ladder for line in _section(name, ladder[name]))])
+    sections = [line for name in ladder for line in _section(name, ladder[name])]
+    rows = [
+        f"| {room} | {answer} | {gain:.2g} |"
+        for room, found in gains.items()
+        for answer, gain in found.items()
+    ]
+    return "\n".join([HEAD, *sections, GAINS_HEAD, *rows, ""])
 
 
 def _section(stage: str, rungs: Rungs) -> Iterator[str]:
@@ -102,12 +119,18 @@ def main() -> None:
         print(f"{name}: {time.perf_counter() - start:.0f} s")
         for rung, entry in measured[name].items():
             print(f"  {rung}: {entry['relative_time']:.3g} × top, {entry['error']}")
+    gains = measure_gains(bench)
     if arguments.quick:
         return
     found = json.loads(LADDER.read_text(encoding="utf-8")) | measured
     ordered = {name: found[name] for name in STAGES if name in found}
-    LADDER.write_text(json.dumps(ordered, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
-    DOC.write_text(page(ordered), encoding="utf-8")
+    _write(LADDER, ordered)
+    _write(GAINS, gains)
+    DOC.write_text(page(ordered, gains), encoding="utf-8")
+
+
+def _write(path: Path, data: dict[str, Any]) -> None:
+    path.write_text(json.dumps(data, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

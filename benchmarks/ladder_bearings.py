@@ -30,6 +30,7 @@ from loadflow.stages.cases import Case
 from loadflow.stages.frames import to_film, to_rolling
 
 FILM = ("eccentricity_ratio", "minimum_film", "maximum_pressure", "friction_power", "side_flow")
+LIFE_EXPONENT = 3.0  # of point contacts, (4.2)
 GRIDS = ((30, 10), (60, 20), (120, 40), (240, 80))
 
 
@@ -52,6 +53,7 @@ def _reduced(bench: Bench, table: FilmTable, pick: str, size: float, top: Entry)
     errors, kept = _reduction_errors(bench, table, pick, size)
     found = errors.summary()
     return {
+        "settings": {"pick": pick, "size": size},
         "includes": [_PICKED[pick], f"size {size:g}"],
         "seconds_per_case": rounded(seconds * 600.0 / bench.setting.full_duration),
         "relative_time": rounded(kept),
@@ -71,6 +73,7 @@ _PICKED = {
 
 def _full_series(bench: Bench, table: FilmTable) -> Entry:
     return {
+        "settings": {"pick": "extremes", "size": 1.0},
         "includes": ["every step"],
         "seconds_per_case": 0.0,
         "relative_time": 1.0,
@@ -105,6 +108,8 @@ def _reduction_errors(
                 load = np.hypot(full[name][:, 0], full[name][:, 1])
                 errors.add("largest load", where, load[index].max(), load.max())
                 kept.append(index.size / speed.size)
+                life = speed * load**LIFE_EXPONENT
+                errors.add("life", where, life.mean(), np.average(life[index], weights=weight))
                 if name in films:
                     _compare_films(errors, where, films[name], index, weight)
     return errors, float(np.mean(kept))
@@ -120,6 +125,8 @@ def _compare_films(
     ratio, pressure = film["eccentricity_ratio"], film["maximum_pressure"]
     power = film["friction_power"]
     errors.add("E_max", where, ratio[index].max(), ratio.max())
+    gap = film["minimum_film"]
+    errors.add("h_min", where, gap[index].min(), gap.min())
     errors.add("p_max", where, pressure[index].max(), pressure.max())
     errors.add("E_mean", where, np.average(ratio[index], weights=weight), ratio.mean())
     errors.add("friction power", where, np.average(power[index], weights=weight), power.mean())
@@ -131,7 +138,7 @@ class FilmTable:
     Solved once on a lattice, so that the film of every step of every case costs nothing.
     """
 
-    quantities = ("eccentricity_ratio", "maximum_pressure", "friction_power")
+    quantities = ("eccentricity_ratio", "minimum_film", "maximum_pressure", "friction_power")
 
     def __init__(self, options: Journal, series: dict[Case, dict[str, xr.Dataset]]) -> None:
         radial = [
@@ -229,7 +236,8 @@ def measure_journal(bench: Bench) -> Rungs:
     rungs: Rungs = {}
     for name, keys in models.items():
         errors = film_errors(options, setting, reference, **keys).summary()
-        rungs[name] = {
+        named = {} if "grading" in keys else {"settings": keys}
+        rungs[name] = named | {
             "includes": ["gas mixture, mass conserving", "aligned, rigid, isothermal"],
             "seconds_per_sample": rounded(_film_seconds(bench, keys)),
             "reference": about,
@@ -277,10 +285,13 @@ def measure_rolling(bench: Bench) -> Rungs:
                     getattr(usual, quantity)[i],
                     float(getattr(sharp, quantity)),
                 )
+            lives = (usual.equivalent_load[i], float(sharp.equivalent_load))
+            errors.add("life", where, *(load**LIFE_EXPONENT for load in lives))
     found = errors.summary()
     return with_ratios(
         {
             "rigid": {
+                "settings": {"rings": "rigid"},
                 "includes": ["rigid rings", "Hertzian contacts, operating contact angles"],
                 "seconds_per_sample": rounded(seconds / samples),
                 "reference": "the same model to tolerance 1e-13, each load from a cold start",
@@ -292,3 +303,43 @@ def measure_rolling(bench: Bench) -> Rungs:
         },
         "rigid",
     )
+
+
+def measure_gains(bench: Bench) -> dict[str, dict[str, float]]:
+    """Largest |d ln(answer)/d ln(load)| of what users read of each kind of bearing."""
+    return {"journal": _film_gains(bench), "rolling": _contact_gains(bench)}
+
+
+STEP = 1.02  # ratio of the loads that a gain compares
+
+
+def _gain(more: np.ndarray, less: np.ndarray) -> float:
+    return rounded(float(np.max(np.abs(np.log(more / less))) / np.log(STEP)))
+
+
+def _film_gains(bench: Bench) -> dict[str, float]:
+    options = bench.scene.journal
+    load, speed = operating_points(options, bench.setting)
+    more, less = (solve(options, load * r, speed) for r in (STEP**0.5, STEP**-0.5))
+    return {
+        name.replace("_", " "): _gain(getattr(more, name), getattr(less, name)) for name in FILM
+    }
+
+
+def _contact_gains(bench: Bench) -> dict[str, float]:
+    """Of the rolling bearing, at the largest load of each case."""
+    bearing, name = bench.scene.rolling.geometry, bench.scene.rolling.bearing
+    found: dict[str, list[float]] = {}
+    for parts in bench.series.values():
+        worst = int(np.argmax(np.hypot(*radial_loads(parts["shaft"])[name].T)))
+        load = parts["shaft"].sel(bearing=name).isel(time=worst).transpose("axis", ...)
+        force = to_rolling(load["force"].values[None].astype(float))
+        moment = to_rolling(load["moment"].values[None].astype(float))[:, :2]
+        more, less = (
+            bearing.equilibrium(force=force * r, moment=moment * r) for r in (STEP**0.5, STEP**-0.5)
+        )
+        for key in ("maximum_force", "maximum_pressure", "equivalent_load"):
+            gain = _gain(getattr(more, key), getattr(less, key))
+            found.setdefault(key.replace("_", " "), []).append(gain)
+    largest = {key: max(values) for key, values in found.items()}
+    return largest | {"life": rounded(LIFE_EXPONENT * largest["equivalent load"])}

@@ -55,6 +55,7 @@ def measure_loads(bench: Bench) -> Rungs:
         seconds = timed(lambda s=scene, c=case: loads.hub_loads(s, c, {}), setting.repeat)  # type: ignore[misc]
         errors = _deviations(described[rung], described["flap"]).summary()
         rungs[rung] = {
+            "settings": {"rung": rung},
             "includes": includes,
             "seconds_per_case": rounded(seconds * 600.0 / setting.full_duration),
             "reference": "rung flap, same wind",

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import hashlib
-import json
-from collections.abc import Iterator
-from dataclasses import dataclass
-from functools import cache
-from importlib.resources import files
-from typing import Any, Literal
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+from typing import Literal
 
 from loadflow import __version__
+from loadflow.accuracy import choose, climb
+from loadflow.ladder import expected_seconds, measured, rung_of
 from loadflow.scene import Scene
 from loadflow.stages.cases import Case, list_cases
 
@@ -31,8 +30,8 @@ class Stage:
         Sections of the scene that it depends on.
     function : str
         ``"module:function"``, imported when used.
-    unit : str
-        What the cost in the ladder counts.
+    sample : int, optional
+        Number of cases that it looks at, spread over all of them; default all.
     """
 
     name: str
@@ -40,10 +39,13 @@ class Stage:
     scope: Literal["case", "run"]
     sections: tuple[str, ...]
     function: str
-    unit: str = "case"
+    sample: int | None = None
 
 
 _S = "loadflow.stages"
+CHECKED = ("loads", "shaft", "reduction", "journal", "rolling")
+"""Stages whose models are checked against the next better ones, where they run."""
+
 STAGES = {
     stage.name: stage
     for stage in (
@@ -54,8 +56,9 @@ STAGES = {
         Stage(
             "reduction", ("loads", "shaft"), "case", ("reduction",), f"{_S}.reduction:reduced_loads"
         ),
-        Stage("journal", ("reduction",), "case", ("journal",), f"{_S}.journal:film", "sample"),
-        Stage("rolling", ("reduction",), "case", ("rolling",), f"{_S}.rolling:balls", "sample"),
+        Stage("journal", ("reduction",), "case", ("journal",), f"{_S}.journal:film"),
+        Stage("rolling", ("reduction",), "case", ("rolling",), f"{_S}.rolling:balls"),
+        Stage("check", CHECKED, "run", (), f"{_S}.check:differences", sample=3),
     )
 }
 
@@ -68,9 +71,6 @@ GIVEN_BY = {
     "rolling.life": "rolling",
 }
 """Which stage gives a result."""
-
-STEPS_PER_CASE = 24_000
-"""Length of a load case in the ladder: 600 s in steps of 0.025 s."""
 
 
 @dataclass(frozen=True)
@@ -91,31 +91,48 @@ class Step:
 
 @dataclass(frozen=True)
 class Plan:
-    """What will run, over which cases, and what was left out and why."""
+    """What will run, over which cases, and what was left out and why.
 
+    Attributes
+    ----------
+    scene : Scene
+        As wanted, with the chosen models in it.
+    steps : tuple of Step
+        In the order of the flow.
+    cases : tuple of Case
+        Load cases.
+    left_out : dict
+        Why a stage does not run, by stage.
+    reasons : dict
+        Why a model was taken, by stage.
+    errors : dict
+        Expected error of what users read, by result and quantity; None where not measured.
+    accurate : bool
+        Whether the accuracy that the scene asks for is expected to hold.
+    """
+
+    scene: Scene
     steps: tuple[Step, ...]
     cases: tuple[Case, ...]
     left_out: dict[str, str]
+    reasons: dict[str, str]
+    errors: dict[str, dict[str, float | None]]
+    accurate: bool
 
     def of_scope(self, scope: str) -> Iterator[Step]:
         """Yield the steps of one scope, in the order of the flow."""
         return (step for step in self.steps if step.stage.scope == scope)
 
 
-@cache
-def ladder() -> dict[str, Any]:
-    """Return measured cost and error of every rung, as written by ``benchmarks/ladder.py``."""
-    text = files("loadflow").joinpath("data", "ladder.json").read_text(encoding="utf-8")
-    return json.loads(text)
-
-
-def make_plan(scene: Scene) -> Plan:
-    """Choose the stages that the wanted results need.
+def make_plan(scene: Scene, climbed: Iterable[str] = ()) -> Plan:
+    """Choose the stages that the wanted results need, and their models.
 
     Parameters
     ----------
     scene : Scene
         What is wanted.
+    climbed : iterable of str
+        Stages whose chosen model was found too coarse, once for each better model to take.
 
     Returns
     -------
@@ -130,14 +147,28 @@ def make_plan(scene: Scene) -> Plan:
     wanted = {GIVEN_BY[result] for result in scene.results}
     needed = set().union(*(_with_needs(name) for name in wanted))
     cases = tuple(list_cases(scene))
+    choice = climb(choose(scene, needed, cases), climbed)
     steps: dict[str, Step] = {}
     for name, stage in STAGES.items():
         if name in needed:
-            steps[name] = _step(scene, stage, cases, steps)
-    left_out = {name: "no wanted result needs it" for name in STAGES if name not in needed}
+            steps[name] = _step(choice.scene, stage, cases, steps)
+    left_out = {
+        name: "no wanted result needs it" for name in STAGES if name not in {*needed, "check"}
+    }
     if scene.loads.source == "files":
         left_out["wind, rotor"] = "load series are given, nothing is simulated"
-    return Plan(tuple(steps.values()), cases, left_out)
+    if "reduction" in needed:
+        among = tuple(name for name in CHECKED if name in needed)
+        steps["check"] = _step(choice.scene, replace(STAGES["check"], needs=among), cases, steps)
+    return Plan(
+        choice.scene,
+        tuple(steps.values()),
+        cases,
+        left_out,
+        choice.reasons,
+        choice.errors,
+        choice.met,
+    )
 
 
 def _with_needs(name: str) -> set[str]:
@@ -145,44 +176,17 @@ def _with_needs(name: str) -> set[str]:
 
 
 def _step(scene: Scene, stage: Stage, cases: tuple[Case, ...], done: dict[str, Step]) -> Step:
-    rung = _rung(scene, stage.name)
     parts = [__version__, stage.name]
     parts += [scene.digest(*stage.sections)] if stage.sections else []
     parts += [done[need].digest for need in stage.needs]
     if stage.name == "loads":
         parts += [f"{case.name}:{case.fingerprint}" for case in cases]
     digest = hashlib.sha256("\n".join(parts).encode()).hexdigest()
-    runs = 1 if stage.scope == "run" else len(cases)
-    known = ladder().get(stage.name, {}).get(rung, {})
-    cost = known.get(f"seconds_per_{stage.unit}")
-    seconds = None if cost is None else cost * sum(_units(scene, stage, case) for case in cases)
-    return Step(stage, rung, digest, runs, seconds, known.get("error"))
-
-
-def _rung(scene: Scene, stage: str) -> str:
-    """Return the model that the scene chooses, by its name in the ladder."""
-    if stage == "loads":
-        return scene.loads.rung if scene.loads.source == "simulate" else "files"
-    return {
-        "shaft": "+".join(name for name, _ in scene.shaft if getattr(scene.shaft, name)),
-        "seeds": "+".join(sorted(set(scene.seeds.methods))),
-        "reduction": f"histogram, {scene.reduction.pick}, {scene.reduction.size:g}",
-        "journal": _film_rung(scene),
-        "rolling": scene.rolling.rings,
-    }.get(stage, "-")
-
-
-def _film_rung(scene: Scene) -> str:
-    around, across = scene.journal.grid
-    rung = scene.journal.rung
-    return f"grid, {around}x{across}" if rung == "grid" else rung
-
-
-def _units(scene: Scene, stage: Stage, case: Case) -> float:
-    """Return how many units of work one load case holds."""
-    if stage.unit == "case":
-        return case.steps / STEPS_PER_CASE
-    known = ladder().get("reduction", {}).get(_rung(scene, "reduction"), {})
-    share = min(1.0, scene.reduction.size * known.get("samples_over_wanted", 1.0))
-    bearings = len(scene.journal.bearings) if stage.name == "journal" else 1
-    return share * case.steps * bearings
+    return Step(
+        stage,
+        rung_of(scene, stage.name),
+        digest,
+        1 if stage.scope == "run" else len(cases),
+        expected_seconds(scene, stage.name, cases),
+        (measured(scene, stage.name) or {}).get("error"),
+    )

@@ -21,18 +21,46 @@ def part_file(folder: Path, stage: Stage, case: Case | None = None) -> Path:
     return folder / f"{stage.name}.h5" if case is None else folder / stage.name / f"{case.name}.h5"
 
 
-def prepare(folder: Path, scene: Scene, plan: Plan, overwrite: bool) -> dict[str, Any]:
+def climbs(folder: Path, scene: Scene) -> list[str]:
+    """Return the stages for which this scene has had to take a better model before, in order."""
+    manifest = _manifest(folder)
+    return manifest["climbed"] if manifest.get("wanted") == scene.digest() else []
+
+
+def _manifest(folder: Path) -> dict[str, Any]:
+    path = folder / "manifest.json"
+    return json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
+
+
+def finished_parts(folder: Path, plan: Plan) -> dict[str, int]:
+    """Return the number of parts of each stage that a run of this plan would find finished."""
+    known = _manifest(folder).get("stages", {})
+    return {
+        step.stage.name: len(_parts(folder, step.stage.name))
+        if known.get(step.stage.name) == step.digest
+        else 0
+        for step in plan.steps
+    }
+
+
+def _parts(folder: Path, stage: str) -> list[Path]:
+    return [*folder.glob(f"{stage}/*.h5"), *folder.glob(f"{stage}.h5")]
+
+
+def prepare(
+    folder: Path, scene: Scene, plan: Plan, climbed: list[str], overwrite: bool
+) -> dict[str, Any]:
     """Make the folder, or check that what is in it belongs to these settings."""
     folder.mkdir(parents=True, exist_ok=True)
-    path = folder / "manifest.json"
-    manifest = json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
+    manifest = _manifest(folder)
     digests = {step.stage.name: step.digest for step in plan.steps}
     known = manifest.get("stages", {})
+    samples = {step.stage.name for step in plan.steps if step.stage.sample}  # cheap: made anew
     for name, digest in digests.items():
-        parts = [*folder.glob(f"{name}/*.h5"), *folder.glob(f"{name}.h5")]
+        parts = _parts(folder, name)
         if not parts or known.get(name) == digest:
             continue
-        if not overwrite:
+        if not overwrite and name not in samples:
             raise InputError(
                 f"{folder}: holds {len(parts)} finished parts of the stage {name!r} that were made "
                 "with other settings or inputs; give the run another name, or overwrite it"
@@ -41,11 +69,14 @@ def prepare(folder: Path, scene: Scene, plan: Plan, overwrite: bool) -> dict[str
             part.unlink()
     for rest in folder.rglob(".*.tmp"):
         rest.unlink()
-    (folder / "scene.toml").write_text(scene.to_toml(), encoding="utf-8")
+    (folder / "scene.toml").write_text(plan.scene.to_toml(), encoding="utf-8")
     manifest |= {
+        "wanted": scene.digest(),
+        "climbed": climbed,
         "stages": known | digests,
         "rungs": {
             step.stage.name: {"rung": step.rung, "error": step.error or "not measured"}
+            | {"reason": plan.reasons.get(step.stage.name, "")}
             for step in plan.steps
         },
         "inputs": {case.file: case.fingerprint for case in plan.cases if case.file},
@@ -53,7 +84,7 @@ def prepare(folder: Path, scene: Scene, plan: Plan, overwrite: bool) -> dict[str
         "versions": {"python": platform.python_version(), "loadflow": loadflow.__version__}
         | {name: metadata.version(name) for name in ("numpy", "scipy", "numba", "xarray")},
     }
-    replace_text(path, json.dumps(manifest, indent=1))
+    replace_text(folder / "manifest.json", json.dumps(manifest, indent=1))
     return manifest
 
 

@@ -17,12 +17,14 @@ from typing import Any
 
 import xarray as xr
 
+from loadflow.accuracy import may_climb
 from loadflow.cube import open_cube, save_cube
 from loadflow.errors import SolverError
 from loadflow.executor import executor, finished
 from loadflow.plan import STAGES, Plan, Stage, make_plan
-from loadflow.run_folder import part_file, prepare, record
+from loadflow.run_folder import climbs, part_file, prepare, record
 from loadflow.scene import Scene
+from loadflow.stages import check
 from loadflow.stages.cases import Case
 from loadflow.stages.report import write_report
 
@@ -59,6 +61,11 @@ class Run:
                 for case in per_case["case"].values[per_case.to_numpy() > 0]:
                     found[f"{case}, {stage}"] = int(per_case.sel(case=case))
         return found
+
+    @property
+    def warnings(self) -> list[str]:
+        """What the run found doubtful about its own models."""
+        return check.warnings(self.tree)
 
     @property
     def report(self) -> Path:
@@ -110,16 +117,38 @@ def run(
     loadflow.errors.SolverError
         No case at all could be answered.
     """
-    started = time.perf_counter()
-    plan = make_plan(scene)
     folder = Path(out) / scene.name
-    manifest = prepare(folder, scene, plan, overwrite)
     say = progress or (lambda stage, done, total: None)
+    climbed = climbs(folder, scene)
+    while True:
+        started = time.perf_counter()
+        plan = make_plan(scene, climbed)
+        manifest = prepare(folder, scene, plan, climbed, overwrite)
+        timing, failures = _carry_out(plan, folder, workers, scheduler, say)
+        tree = _collect(plan, folder)
+        save_cube(tree, folder / "result.h5")
+        wall = time.perf_counter() - started
+        record(folder, manifest, timing, failures, workers=workers, wall=wall)
+        higher = [stage for stage in check.exceeded(tree) if may_climb(scene, plan.scene, stage)]
+        if not higher:
+            break
+        climbed = [*climbed, *higher]
+        overwrite = True  # the parts of the coarser models are this run's own
+    if report:
+        say("report", 0, 1)
+        write_report(folder)
+        say("report", 1, 1)
+    return Run(folder, tree, failures)
 
+
+def _carry_out(
+    plan: Plan, folder: Path, workers: int, scheduler: str | None, say: Report
+) -> tuple[dict[str, float], dict[str, str]]:
+    """Do what is missing of a plan; return seconds by stage, and what has no answer."""
     timing: dict[str, float] = {}
     failures: dict[str, str] = {}
     todo = [case for case in plan.cases if _missing(plan, case, folder)]
-    work = partial(_do_case, scene=scene, plan=plan, folder=folder)
+    work = partial(_do_case, scene=plan.scene, plan=plan, folder=folder)
     done = len(plan.cases) - len(todo)
     say("load cases", done, len(plan.cases))
     with executor(workers, scheduler) as submit:
@@ -137,19 +166,21 @@ def run(
         say(whole.name, number, len(over_all))
         if not (target := part_file(folder, whole)).exists():
             begun = time.perf_counter()
-            cases = [case for case in plan.cases if _ready(whole, case, folder)]
+            cases = _looked_at(whole, plan.cases, folder)
             inputs = {case.name: _open(whole, case, folder) for case in cases}
-            save_cube(_call(whole, scene, cases, inputs), target)
+            save_cube(_call(whole, plan.scene, cases, inputs), target)
             timing[whole.name] = time.perf_counter() - begun
         say(whole.name, number + 1, len(over_all))
-    tree = _collect(plan, folder)
-    save_cube(tree, folder / "result.h5")
-    record(folder, manifest, timing, failures, workers=workers, wall=time.perf_counter() - started)
-    if report:
-        say("report", 0, 1)
-        write_report(folder)
-        say("report", 1, 1)
-    return Run(folder, tree, failures)
+    return timing, failures
+
+
+def _looked_at(stage: Stage, cases: tuple[Case, ...], folder: Path) -> list[Case]:
+    """Return the cases that a stage over all of them reads: those that are there, or a sample."""
+    there = [case for case in cases if _ready(stage, case, folder)]
+    if stage.sample is None or len(there) <= stage.sample:
+        return there
+    last, parts = len(there) - 1, stage.sample - 1
+    return [there[round(k * last / parts)] for k in range(stage.sample)]
 
 
 # --- one load case ---------------------------------------------------------------------------

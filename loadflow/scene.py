@@ -69,6 +69,14 @@ class Loads(_Section):
     mass_imbalance: Annotated[float, Field(ge=-0.2, le=0.2)] = 0.0
     pitch_imbalance: Annotated[float, Field(ge=-0.2, le=0.2)] = 0.0
 
+    @model_validator(mode="before")
+    @classmethod
+    def _given_before_simulated(cls, data: Any) -> Any:
+        """Given series are read, not simulated anew, unless the scene says otherwise."""
+        if isinstance(data, dict) and data.get("files") and "source" not in data:
+            return data | {"source": "files"}
+        return data
+
     @model_validator(mode="after")
     def _files_for_files(self) -> Self:
         if self.source == "simulate" and self.files:
@@ -147,10 +155,14 @@ class Scene(_Section):
         Name of the run and of its folder.
     results : list of str
         What is wanted; the plan runs only the stages that these need.
+    accuracy : float or dict, optional
+        Largest relative error allowed, of every result or by result. The plan then takes the
+        cheapest models that hold it, wherever the scene names none; without it the defaults.
     """
 
     name: Annotated[str, Field(pattern=r"^[A-Za-z0-9_.-]+$")]
     results: Annotated[list[Result], Field(min_length=1)] = list(get_args(Result))
+    accuracy: Positive | dict[Result, Positive] | None = None
     turbine: Turbine = Turbine()
     loads: Loads = Loads()
     shaft: Shaft = Shaft(two_point=TwoPoint(), moment=MomentBearing())
@@ -175,6 +187,12 @@ class Scene(_Section):
     def wants(self, room: str) -> bool:
         """Whether a result of `room` is wanted."""
         return any(result.split(".")[0] == room for result in self.results)
+
+    def allowed_error(self, result: str) -> float | None:
+        """Largest relative error allowed of a result; None where nothing is asked."""
+        if isinstance(self.accuracy, dict):
+            return {str(name): value for name, value in self.accuracy.items()}.get(result)
+        return self.accuracy
 
     def to_toml(self) -> str:
         """Return the scene with all defaults, as TOML."""

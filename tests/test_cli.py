@@ -52,7 +52,8 @@ def test_run_on_given_loads_writes_result_and_report(cube, tmp_path):
 def test_plan_states_stages_and_what_is_left_out(cube, tmp_path):
     done = loadflow("plan", scene_file(tmp_path), "--loads", cube, "--json")
     plan = json.loads(done.stdout)
-    assert [step["stage"] for step in plan["steps"]] == ["loads", "shaft", "reduction", "rolling"]
+    stages = ["loads", "shaft", "reduction", "rolling", "check"]
+    assert [step["stage"] for step in plan["steps"]] == stages
     assert plan["left_out"].keys() >= {"journal", "seeds", "wind, rotor"}
 
 

@@ -5,7 +5,8 @@ from typing import get_args
 
 import pytest
 
-from loadflow.plan import STEPS_PER_CASE, ladder, make_plan
+from loadflow.ladder import STEPS_PER_CASE, gains, ladder
+from loadflow.plan import make_plan
 from loadflow.scene import Journal, Loads, Reduction, Rolling, Scene, Seeds, make_scene
 
 BENCHMARKS = Path(__file__).parents[1] / "benchmarks"
@@ -33,6 +34,8 @@ SCENES = [
 @pytest.mark.parametrize("sections", SCENES, ids=str)
 def test_every_rung_that_a_scene_can_choose_has_cost_and_error(sections):
     for step in plan_of(**sections).steps:
+        if step.stage.name == "check":
+            continue
         assert step.seconds is not None, (step.stage.name, step.rung)
         assert step.seconds > 0
         assert step.error
@@ -45,15 +48,15 @@ def test_each_suspension_alone_is_measured(concept):
 
 
 def test_what_was_not_measured_says_so():
-    step = plan_of(journal={"grid": [48, 16]}).steps[-2]
-    assert step.stage.name == "journal"
+    steps = {step.stage.name: step for step in plan_of(journal={"grid": [48, 16]}).steps}
+    step = steps["journal"]
     assert step.seconds is None
     assert step.error is None
 
 
 def test_expected_time_grows_with_length_and_cases():
     def seconds(**loads):
-        return {s.stage.name: s.seconds for s in plan_of(loads=loads).steps}
+        return {s.stage.name: s.seconds for s in plan_of(loads=loads).steps if s.seconds}
 
     short = seconds(wind_speeds=[12.0], seeds=1, duration=300.0)
     long = seconds(wind_speeds=[8.0, 12.0], seeds=3, duration=600.0)
@@ -106,4 +109,4 @@ def test_the_page_shows_what_is_stored(monkeypatch):
     monkeypatch.syspath_prepend(BENCHMARKS)
     from ladder import DOC, page
 
-    assert DOC.read_text(encoding="utf-8") == page(ladder())
+    assert DOC.read_text(encoding="utf-8") == page(ladder(), gains())

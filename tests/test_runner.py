@@ -51,7 +51,9 @@ def test_every_result_is_given_by_a_stage():
 
 def test_rolling_life_never_touches_the_film_solver(cube):
     plan = make_plan(scene_of(cube, results=["rolling.life"]))
-    assert [step.stage.name for step in plan.steps] == ["loads", "shaft", "reduction", "rolling"]
+    stages = ["loads", "shaft", "reduction", "rolling", "check"]
+    assert [step.stage.name for step in plan.steps] == stages
+    assert plan.steps[-1].stage.needs == ("loads", "shaft", "reduction", "rolling")
     assert "journal" in plan.left_out
 
 
@@ -65,7 +67,7 @@ def test_the_shares_of_the_lifetime_add_up(cube):
 
 def test_a_run_answers_all_that_was_asked(finished):
     tree = finished.tree
-    assert set(tree.children) == {"statistics", "seeds", "journal", "rolling"}
+    assert set(tree.children) == {"statistics", "seeds", "journal", "rolling", "check"}
     journal = tree["journal"].to_dataset()
     assert journal.sizes == {"bearing": 1, "case": 4}
     assert (journal["not_converged"] == 0).all()

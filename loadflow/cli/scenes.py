@@ -52,44 +52,71 @@ def run(
         )
     if as_json:
         paths = {"path": str(result.path), "report": str(result.report)}
-        print_json(paths | {"failures": result.failures, "flagged": result.flagged})
+        found = {"failures": result.failures, "flagged": result.flagged}
+        print_json(paths | found | {"warnings": result.warnings})
     else:
         out.print(f"results  {result.path / 'result.h5'}\nreport   {result.report}", soft_wrap=True)
         for part, count in result.flagged.items():
             out.print(f"flagged  {part}: {count} samples have no answer", soft_wrap=True)
+        for warning in result.warnings:
+            out.print(f"warning  {warning}", soft_wrap=True)
     if result.failures:
         lines = "\n".join(f"  {case}: {why}" for case, why in result.failures.items())
         raise LoadflowError(f"{len(result.failures)} parts have no answer:\n{lines}")
 
 
 @app.command()
-def plan(scene: SceneFile, loads: LoadFiles = None, as_json: AsJson = False) -> None:
+def plan(
+    scene: SceneFile,
+    loads: LoadFiles = None,
+    out_folder: Annotated[Path, typer.Option("--out", help="Folder for runs.")] = Path("runs"),
+    as_json: AsJson = False,
+) -> None:
     """Show which stages and models a scene needs, their expected time and error."""
     from loadflow.plan import make_plan
+    from loadflow.run_folder import climbs, finished_parts
 
-    made = make_plan(_read(scene, loads))
+    wanted = _read(scene, loads)
+    folder = out_folder / wanted.name
+    made = make_plan(wanted, climbs(folder, wanted))
+    there = finished_parts(folder, made)
+    steps = [
+        {
+            "stage": step.stage.name,
+            "rung": step.rung,
+            "reason": made.reasons.get(step.stage.name, ""),
+            "runs": step.runs,
+            "finished": there[step.stage.name],
+            "seconds": step.seconds and step.seconds * (1 - there[step.stage.name] / step.runs),
+            "error": step.error,
+        }
+        for step in made.steps
+    ]
     if as_json:
-        steps = [
-            {
-                "stage": step.stage.name,
-                "rung": step.rung,
-                "runs": step.runs,
-                "seconds": step.seconds,
-                "error": step.error,
-            }
-            for step in made.steps
-        ]
         cases = [case.name for case in made.cases]
-        print_json({"steps": steps, "cases": cases, "left_out": made.left_out})
+        found = {"steps": steps, "cases": cases, "left_out": made.left_out}
+        print_json(found | {"errors": made.errors, "accurate": made.accurate})
         return
-    table = Table("stage", "model", "runs", "expected time, one core", "error", box=None)
-    for step in made.steps:
-        seconds = "not measured" if step.seconds is None else f"{step.seconds:.0f} s"
+    heads = ("stage", "model", "chosen", "runs", "on disk", "expected time, one core", "error")
+    table = Table(*heads, box=None)
+    for step in steps:
+        seconds = "not measured" if step["seconds"] is None else f"{step['seconds']:.0f} s"
         table.add_row(
-            step.stage.name, step.rung, str(step.runs), seconds, step.error or "not measured"
+            *(str(step[key]) for key in ("stage", "rung", "reason", "runs", "finished")),
+            seconds,
+            str(step["error"] or "not measured"),
         )
     out.print(table)
     out.print(f"{len(made.cases)} load cases")
+    for result, errors in made.errors.items():
+        sizes = (
+            f"{quantity} " + ("not measured" if error is None else f"≤ {100 * error:.2g} %")
+            for quantity, error in errors.items()
+        )
+        if errors:
+            out.print(f"expected error of {result}: {', '.join(sizes)}")
+    if not made.accurate:
+        out.print("the accuracy that the scene asks for is not expected to hold")
     for stage, why in made.left_out.items():
         out.print(f"left out: {stage} ({why})")
 

@@ -10,7 +10,7 @@ import xarray as xr
 
 from loadflow.errors import SolverError
 from loadflow.journal import Equilibrium
-from loadflow.scene import Scene
+from loadflow.scene import Journal, Scene
 from loadflow.stages.cases import Case
 from loadflow.stages.frames import to_film
 from loadflow.stages.summary import over_cases
@@ -50,17 +50,7 @@ def film(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
 
 
 def _bearing(scene: Scene, case: Case, bearing: str, reduced: xr.Dataset) -> xr.Dataset:
-    options = scene.journal
-    answer = options.geometry.equilibrium(
-        force=to_film(reduced["force"].values),
-        speed=reduced["speed"].values,
-        lubricant=options.lubricant,
-        cavitation=options.cavitation,
-        edge_pressure=options.edge_pressure,
-        grid=options.grid,
-        rung=options.rung,
-        strict=False,
-    )
+    answer = equilibria(scene.journal, reduced["force"].values, reduced["speed"].values)
     if not np.any(answer.converged):
         speed = np.abs(reduced["speed"].values)
         raise SolverError(
@@ -77,10 +67,24 @@ def _bearing(scene: Scene, case: Case, bearing: str, reduced: xr.Dataset) -> xr.
         reduced[["time", "speed", "weight"]]
         .assign(samples)
         .assign_attrs(
-            radial_clearance=options.geometry.clearance,
+            radial_clearance=scene.journal.geometry.clearance,
             laminar=int(np.all(answer.laminar)),
             largest_reynolds_number=float(np.max(answer.reynolds_number)),
         )
+    )
+
+
+def equilibria(options: Journal, force: np.ndarray, speed: np.ndarray) -> Equilibrium:
+    """Solve the film of a scene's bearing for `force` (n, 3) in the cube's frame, N."""
+    return options.geometry.equilibrium(
+        force=to_film(force),
+        speed=speed,
+        lubricant=options.lubricant,
+        cavitation=options.cavitation,
+        edge_pressure=options.edge_pressure,
+        grid=options.grid,
+        rung=options.rung,
+        strict=False,
     )
 
 

@@ -15,6 +15,7 @@ from loadflow.errors import InputError
 from loadflow.report import Picture, Section, Table, figures, write_page
 from loadflow.report.style import readable
 from loadflow.scene import Scene, read_scene
+from loadflow.stages.check import WARN
 
 CRITICAL_RATIO = 0.95  # eccentricity ratio E_krit at which mixed friction begins (5.2)
 MIXED_FRICTION = 10.0  # Sommerfeld number above which friction is mixed (1.13)
@@ -94,6 +95,8 @@ def _sections(
                 for k, name in enumerate(_there(folder, "rolling", shown))
             ],
         )
+    if "check" in tables:
+        yield _check_section(tables["check"])
     yield _provenance(manifest)
 
 
@@ -315,17 +318,37 @@ def _case_table(data: xr.Dataset) -> Table:
     return Table("", heads, rows, frozenset(bad))
 
 
+def _check_section(check: xr.Dataset) -> Section:
+    """Tabulate how far the answers of sampled cases move with better models."""
+    doubtful = check["difference"] > check["allowed"].fillna(WARN)
+    rows = [
+        [
+            *(str(check[name].values[k]) for name in ("stage", "quantity", "case", "against")),
+            f"{100 * check['difference'].values[k]:.2g} %",
+        ]
+        for k in range(check.sizes["check"])
+    ]
+    heads = ["stage", "quantity", "case", "against", "largest change"]
+    bad = frozenset(map(int, np.flatnonzero(doubtful)))
+    text = (
+        "A few load cases of this run, solved again by better models. Marked: more than the "
+        f"accuracy asked for, or {WARN:.0%} where none is."
+    )
+    return Section("Check", text, [Table("", heads, rows, bad)])
+
+
 def _provenance(manifest: dict[str, Any]) -> Section:
     rows = [
         [
             stage,
             rung["rung"],
+            rung.get("reason", ""),
             rung["error"],
             f"{manifest.get('seconds', {}).get(stage, 0.0):.1f}",
         ]
         for stage, rung in manifest["rungs"].items()
     ]
-    heads = ["stage", "model", "error against the top model", "seconds, all processes"]
+    heads = ["stage", "model", "chosen", "error against the top model", "seconds, all processes"]
     inputs = [[Path(file).name, digest[:16]] for file, digest in manifest["inputs"].items()]
     tables = [Table("Models", heads, rows)]
     if inputs:

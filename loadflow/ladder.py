@@ -1,0 +1,103 @@
+"""What each model costs and how far it is off: the measured ladder, and a scene's place on it.
+
+``loadflow/data/ladder.json`` is written by ``benchmarks/ladder.py``: for each stage and rung the
+processor time per unit of work, and the error of what users read against a stated reference.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable
+from functools import cache
+from importlib.resources import files
+from typing import Any
+
+from loadflow.scene import Scene
+from loadflow.stages.cases import Case
+
+STEPS_PER_CASE = 24_000
+"""Length of a load case in the ladder: 600 s in steps of 0.025 s."""
+
+
+@cache
+def ladder() -> dict[str, Any]:
+    """Return measured cost and error of every rung, as written by ``benchmarks/ladder.py``."""
+    return _data("ladder.json")
+
+
+@cache
+def gains() -> dict[str, dict[str, float]]:
+    """Return d ln(answer)/d ln(load) of what users read of each bearing, at its largest."""
+    return _data("gains.json")
+
+
+def _data(name: str) -> dict[str, Any]:
+    return json.loads(files("loadflow").joinpath("data", name).read_text(encoding="utf-8"))
+
+
+def rung_of(scene: Scene, stage: str) -> str:
+    """Return the model that the scene chooses for a stage, by its name in the ladder."""
+    if stage == "loads":
+        return scene.loads.rung if scene.loads.source == "simulate" else "files"
+    return {
+        "shaft": "+".join(name for name, _ in scene.shaft if getattr(scene.shaft, name)),
+        "seeds": "+".join(sorted(set(scene.seeds.methods))),
+        "reduction": _reduction_rung(scene),
+        "journal": _film_rung(scene),
+        "rolling": scene.rolling.rings,
+    }.get(stage, "-")
+
+
+def _film_rung(scene: Scene) -> str:
+    around, across = scene.journal.grid
+    rung = scene.journal.rung
+    return f"grid, {around}x{across}" if rung == "grid" else rung
+
+
+def _reduction_rung(scene: Scene) -> str:
+    pick, size = scene.reduction.pick, scene.reduction.size
+    return "full series" if size == 1.0 else f"histogram, {pick}, {size:g}"
+
+
+def measured(scene: Scene, stage: str) -> dict[str, Any] | None:
+    """Return what the ladder holds of the scene's rung of a stage, None if it was not measured."""
+    return ladder().get(stage, {}).get(rung_of(scene, stage))
+
+
+def expected_seconds(scene: Scene, stage: str, cases: Iterable[Case]) -> float | None:
+    """Processor time that a stage takes over `cases`, s; None if its rung was not measured."""
+    known = measured(scene, stage)
+    if known is None:
+        return None
+    if "seconds_per_case" in known:
+        return known["seconds_per_case"] * sum(case.steps for case in cases) / STEPS_PER_CASE
+    reduction = measured(scene, "reduction") or {}
+    share = min(1.0, scene.reduction.size * reduction.get("samples_over_wanted", 1.0))
+    bearings = len(scene.journal.bearings) if stage == "journal" else 1
+    return known["seconds_per_sample"] * share * bearings * sum(case.steps for case in cases)
+
+
+def choices(scene: Scene, stage: str) -> list[Scene]:
+    """Return the scene with each rung that it leaves open for a stage; itself alone if none is.
+
+    A rung is open where the scene names none of its settings. Rungs that another one makes
+    needless, or that a scene cannot ask for, are passed over.
+    """
+    section = getattr(scene, stage)
+    if stage == "loads" and scene.loads.source == "files":
+        return [scene]
+    entries = ladder().get(stage, {}).values()
+    useful = [e["settings"] for e in entries if "settings" in e and "dominated_by" not in e]
+    opened = [settings for settings in useful if not section.model_fields_set & set(settings)]
+    return [_with(scene, stage, settings) for settings in opened] or [scene]
+
+
+def is_open(scene: Scene, stage: str) -> bool:
+    """Whether the scene leaves the model of a stage to the plan."""
+    return len(choices(scene, stage)) > 1
+
+
+def _with(scene: Scene, stage: str, settings: dict[str, Any]) -> Scene:
+    section = getattr(scene, stage)
+    changed = type(section).model_validate(section.model_dump(exclude_unset=True) | settings)
+    return scene.model_copy(update={stage: changed})

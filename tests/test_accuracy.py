@@ -1,0 +1,138 @@
+"""A scene that states an accuracy gets the cheapest models that hold it on its own cases."""
+
+import json
+
+import numpy as np
+import pytest
+from synthetic import cube_file
+
+import loadflow as lf
+from loadflow.accuracy import CHAINS, expected_errors
+from loadflow.cli import main
+from loadflow.ladder import expected_seconds, gains, ladder, rung_of
+from loadflow.plan import GIVEN_BY, make_plan
+from loadflow.scene import make_scene
+
+
+def scene_of(**keys):
+    return make_scene({"name": "accurate", "loads": {"wind_speeds": [12.0], "seeds": 1}} | keys)
+
+
+def film_seconds(scene):
+    return expected_seconds(scene, "journal", make_plan(scene).cases)
+
+
+@pytest.fixture(scope="module")
+def cube(tmp_path_factory):
+    return cube_file(tmp_path_factory.mktemp("cube") / "loads.h5")
+
+
+def given(cube, **keys):
+    loads = {"files": [str(cube)]}
+    return make_scene({"name": "given", "loads": loads, "results": ["journal.film"]} | keys)
+
+
+def test_every_result_has_a_chain_of_errors():
+    assert set(CHAINS) == set(GIVEN_BY)
+
+
+def test_without_a_stated_accuracy_nothing_is_chosen():
+    scene = scene_of()
+    assert make_plan(scene).scene == scene
+
+
+@pytest.mark.parametrize("accuracy", [0.3, 0.1, 0.05, 0.02, 0.01])
+def test_the_expected_error_is_within_the_accuracy_asked_for(accuracy):
+    plan = make_plan(scene_of(accuracy=accuracy))
+    assert plan.accurate
+    assert max(e for errors in plan.errors.values() for e in errors.values()) <= accuracy
+
+
+def test_a_lower_accuracy_never_costs_more():
+    plans = [make_plan(scene_of(accuracy=a)) for a in (0.01, 0.02, 0.05, 0.1, 0.3)]
+    costs = [film_seconds(plan.scene) for plan in plans]
+    assert costs == sorted(costs, reverse=True)
+    assert costs[0] > 5 * costs[-1]
+
+
+def test_an_accuracy_out_of_reach_is_said_and_the_best_is_taken():
+    plan = make_plan(scene_of(accuracy=1e-6))
+    assert not plan.accurate
+    assert rung_of(plan.scene, "journal") == "grid, 240x80"
+
+
+def test_a_named_model_is_kept():
+    plan = make_plan(scene_of(accuracy=0.01, journal={"grid": [30, 10]}))
+    assert plan.scene.journal.grid == (30, 10)
+    assert not plan.accurate
+
+
+def test_only_the_named_result_must_be_accurate():
+    strict = make_plan(scene_of(accuracy={"journal.film": 0.01}))
+    loose = make_plan(scene_of(accuracy={"rolling.loads": 0.001}))
+    assert film_seconds(strict.scene) > 5 * film_seconds(loose.scene)
+
+
+def test_an_error_of_the_load_reaches_the_film_through_its_gain():
+    scene = scene_of(loads={"rung": "tables"}, results=["journal.film"])
+    top = scene_of(loads={"rung": "flap"}, results=["journal.film"])
+    added = {
+        name: expected_errors(scene)["journal.film"][name] - error
+        for name, error in expected_errors(top)["journal.film"].items()
+    }
+    load = ladder()["loads"]["tables"]["errors"]["bearing load max"]["max"]
+    assert added == {name: pytest.approx(load * gains()["journal"][name]) for name in added}
+
+
+def test_life_answers_the_load_with_about_the_third_power():
+    """Somewhat less: the contact angles of the four-point ball grow with the load."""
+    assert 2.5 < gains()["rolling"]["life"] < 3.1
+    assert gains()["rolling"]["maximum pressure"] == pytest.approx(
+        gains()["rolling"]["maximum force"] / 3, rel=0.02
+    )
+    assert 0 < gains()["journal"]["eccentricity ratio"] < 1
+
+
+def test_given_series_are_read_without_saying_so(cube):
+    assert given(cube).loads.source == "files"
+
+
+def test_a_run_reports_how_far_better_models_move_it(cube, tmp_path):
+    journal = {"grid": [24, 8], "bearings": ["N2"]}
+    run = lf.run(given(cube, journal=journal, accuracy=1e-4), out=tmp_path)
+    check = run.tree["check"].to_dataset()
+    assert {"journal", "reduction", "heat"} == set(check["stage"].values)
+    film = check["difference"].values[check["stage"].values == "journal"]
+    assert np.all((film > 0) & (film < 0.2))
+    assert "solved again by better models" in run.report.read_text(encoding="utf-8")
+    assert any(warning.startswith("journal: ") for warning in run.warnings)
+
+
+def test_a_run_climbs_where_its_own_cases_need_it_and_gives_the_same_when_taken_up(cube, tmp_path):
+    """A bearing far from that of the ladder: its coarse grid does not hold what the ladder says."""
+    hard = {"geometry": {"diameter": 1.0, "width": 0.5, "relative_clearance": 1e-3}}
+    scene = given(cube, accuracy=0.06, journal=hard | {"bearings": ["N2"]})
+    assert make_plan(scene).scene.journal.grid == (30, 10)
+    run = lf.run(scene, out=tmp_path, report=False)
+    manifest = json.loads((run.path / "manifest.json").read_text(encoding="utf-8"))
+    assert manifest["climbed"][0] == "journal"
+    assert "climbed" in manifest["rungs"]["journal"]["reason"]
+    check = run.tree["check"].to_dataset()
+    film = check.isel(check=check["stage"].values == "journal")
+    assert (film["difference"] <= 0.06).all()
+    before = {part: part.read_bytes() for part in run.path.rglob("journal/*.h5")}
+    lf.run(scene, out=tmp_path, report=False)
+    assert {part: part.read_bytes() for part in run.path.rglob("journal/*.h5")} == before
+
+
+def test_plan_prints_choice_error_and_what_is_on_disk(cube, tmp_path, capsys):
+    scene = tmp_path / "given.toml"
+    scene.write_text(given(cube, accuracy=0.2).to_toml(), encoding="utf-8")
+    lf.run(lf.read_scene(scene), out=tmp_path / "runs", report=False)
+    with pytest.raises(SystemExit) as ended:
+        main(["plan", str(scene), "--out", str(tmp_path / "runs"), "--json"])
+    assert ended.value.code == 0
+    found = json.loads(capsys.readouterr().out)
+    assert all(step["finished"] == step["runs"] for step in found["steps"])
+    assert found["accurate"]
+    assert found["errors"]["journal.film"]["eccentricity ratio"] > 0
