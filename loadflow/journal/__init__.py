@@ -13,6 +13,7 @@
 `film`                    balance, linearisation and integrals of the discrete film
 `equilibrium`             Newton for film, and for film and shaft together
 `orbit`                   implicit steps of film and shaft in time
+`mapped`                  the rung "map": `mobility` tabulated from `moving` films
 `result`                  what comes back
 `_kernels`                compiled loops
 ========================  ==========================================================

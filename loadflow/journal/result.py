@@ -194,6 +194,17 @@ def operating_columns(
     }
 
 
+def without_supply(count: int) -> dict[str, Any]:
+    """What `Equilibrium` says of the supply of `count` films that have none."""
+    return {
+        "supply_flow": np.zeros(count),
+        "supply_power": np.zeros(count),
+        "groove_flow": np.zeros((count, 0)),
+        "groove_pressure": np.zeros((count, 0)),
+        "starved": np.zeros(count, dtype=bool),
+    }
+
+
 def field_row(film: Film, solution: Solution) -> dict[str, Any]:
     """One row of `FilmField`, but for z; the half film is mirrored."""
     pressure, fill, angle, load = film.field(solution.u, solution.position)

@@ -23,10 +23,13 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-Rung = Literal["reduced", "grid"]
+Rung = Literal["map", "reduced", "grid"]
 """Names of the rungs, from the cheapest to the dearest."""
 
-_MODULES = {"reduced": "loadflow.journal.reduced"}
+_MODULES = {
+    "map": "loadflow.journal.mapped",
+    "reduced": "loadflow.journal.reduced",
+}
 
 
 @dataclass(frozen=True)
