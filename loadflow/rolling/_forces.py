@@ -107,6 +107,31 @@ def _line_sums(q: Array, cos: Array, sin: Array, line: Array) -> tuple[float, fl
     return largest, first, fourth, powers
 
 
+@njit(cache=True, nogil=True, error_model="numpy")
+def row_forces(displacement: Array, cos: Array, sin: Array, table: Array, rows: int) -> Array:
+    """Sums of the forces of each row's kinds of line contact, (n, row, element).
+
+    Loops over kinds outside, so that the inner loop runs along the ring.
+    """
+    n, count, kinds = displacement.shape[0], cos.shape[0], table.shape[0] // rows
+    force = np.zeros((n, rows, count))
+    for j in range(n):
+        q = displacement[j]
+        for row in range(rows):
+            total = force[j, row]
+            for k in range(row * kinds, (row + 1) * kinds):
+                line = table[k]
+                lever = line[HEIGHT] * line[NORMAL_R] - line[RADIUS] * line[NORMAL_Z]
+                fixed = line[NORMAL_Z] * q[2] - line[GAP]
+                x = line[NORMAL_R] * q[0] + lever * q[4]
+                y = line[NORMAL_R] * q[1] - lever * q[3]
+                for i in range(count):
+                    delta = x * cos[i] + y * sin[i] + fixed
+                    if delta > 0.0:
+                        total[i] += line[STIFFNESS] * delta ** (10.0 / 9.0)
+    return force
+
+
 @njit(cache=True, nogil=True)
 def force_sums(
     displacement: Array, cos: Array, sin: Array, table: Array, law: int, spatial: float

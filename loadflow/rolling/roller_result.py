@@ -35,8 +35,13 @@ class RollerResult(ContactResult):
 
     @property
     def roller_forces(self) -> Array:
-        """Forces on the rollers, N, (..., row, roller)."""
-        return np.asarray(self.slice_forces.sum(axis=-2))
+        """Forces on the rollers, N, (..., row, roller); needs no array of all slices."""
+        from loadflow.rolling import _forces
+
+        cos, sin, table, *_ = self.contacts.arguments
+        q = np.ascontiguousarray(self.displacement.reshape(-1, 5))
+        forces = _forces.row_forces(q, cos, sin, table, self.bearing.rows)
+        return forces.reshape(*self.cases, *forces.shape[1:])
 
     @property
     def maximum_force(self) -> Array:

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from loadflow.errors import InputError
+from loadflow.errors import InputError, SolverError
 from loadflow.rolling import FrictionOptions, RollerBearing, friction, roller_friction
 from loadflow.rolling.friction import RollerState, energy_audit, rolling_resistance
 from loadflow.rolling.kinematics import contact_speeds, ideal_speeds
@@ -181,3 +181,47 @@ def test_components_add_what_they_say():
     assert found.losses["rib"] > 0
     assert found.losses["drag"] > 0
     assert found.losses["rolling"] == pytest.approx(float(plain.losses["rolling"]))
+
+
+def test_heat_balance_sheds_what_friction_makes():
+    result = MAIN_BEARING.equilibrium(force=[(2000.0, 0, 0), (4000.0, 0, 0)])
+    found = friction.balanced_temperature(result, 300.0, OPTIONS, 2.0, 293.15, weights=[3, 1])
+    loss = np.average(found.friction.power, weights=[3, 1])
+    assert found.convergence.converged
+    assert loss == pytest.approx(2.0 * (found.temperature - 293.15), rel=1e-5)
+    assert found.temperature > 293.15
+    still = friction.balanced_temperature(result, 0.0, OPTIONS, 2.0, 293.15)
+    assert still.temperature == 293.15
+    hot = dataclasses.replace(OPTIONS, seal_torque=5.0)
+    with pytest.raises(SolverError, match="heat balance"):
+        friction.balanced_temperature(result, 300.0, hot, 1e-3, 293.15)
+    with pytest.raises(InputError, match="conductance"):
+        friction.balanced_temperature(result, 300.0, OPTIONS, 0.0, 293.15)
+
+
+def test_rib_friction_lies_between_film_and_boundary():
+    pair = RollerBearing(
+        rollers=48, roller_diameter=0.04, roller_length=0.06, pitch_diameter=0.8,
+        contact_angle=0.35, rows=2, row_spacing=0.12, clearance=-20e-6,
+    )  # fmt: skip
+    result = pair.equilibrium(force=(0, -4e5, 1e5))
+    rib = FrictionOptions(
+        oil=lubricant("lgwm-2"), temperature=313.15, rib_angle=0.04, rib_height=3e-3,
+        rib_friction=0.04, boundary_friction=0.12,
+    )  # fmt: skip
+    plain = roller_friction(result, 1.5, rib).losses["rib"]
+    losses = [
+        roller_friction(result, w, dataclasses.replace(rib, rib_radius=2.0)).losses["rib"] / w
+        for w in (0.01, 1.5, 50.0)
+    ]
+    assert plain / 1.5 < losses[2] * 1.01
+    assert losses[2] < losses[1] < losses[0] <= 3 * plain / 1.5 * 1.001
+
+
+def test_roller_forces_are_the_sums_of_their_slices():
+    pair = RollerBearing(
+        rollers=20, roller_diameter=0.04, roller_length=0.06, pitch_diameter=0.8,
+        contact_angle=0.35, rows=2, row_spacing=0.12, clearance=-20e-6, slices=7,
+    )  # fmt: skip
+    result = pair.equilibrium(force=[(0, -4e5, 1e5), (1e5, 2e5, 0)], moment=(2e4, -1e4))
+    assert result.roller_forces == pytest.approx(result.slice_forces.sum(axis=-2), rel=1e-12)

@@ -11,6 +11,7 @@ churning            churning with two constants, fitted to a run without load
 energy              audit: shaft power = losses + stored energy
 contact_films       film of every roller and ball contact; `options`: lubricant, surfaces, ribs
 bearing_losses      film, Λ and losses of a whole roller bearing in ideal rolling
+heat                temperature at which losses and cooling balance
 catalogue           Stribeck, Palmgren, SKF
 slewing_torque      slewing bearings, from loads and from ball forces
 ==================  ===========================================================================

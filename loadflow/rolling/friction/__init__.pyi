@@ -12,6 +12,7 @@ from .contact_films import ContactFilm as ContactFilm
 from .contact_films import groove_film as groove_film
 from .contact_films import line_film as line_film
 from .contact_films import raceway_radius as raceway_radius
+from .contact_films import sphere_film as sphere_film
 from .coulomb import cage_force as cage_force
 from .coulomb import driving_moment as driving_moment
 from .coulomb import pocket_loss as pocket_loss
@@ -27,6 +28,8 @@ from .guides import cage_rub_torque as cage_rub_torque
 from .guides import cage_side_torque as cage_side_torque
 from .guides import seal_torque as seal_torque
 from .guides import thrust_washer_torque as thrust_washer_torque
+from .heat import HeatBalance as HeatBalance
+from .heat import balanced_temperature as balanced_temperature
 from .options import FrictionOptions as FrictionOptions
 from .roller_drag import DragConstants as DragConstants
 from .roller_drag import RibShear as RibShear

@@ -14,7 +14,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError
 from loadflow.rolling.friction import rolling_resistance as resistance
-from loadflow.rolling.friction.contact_films import Ring, line_film, raceway_radius
+from loadflow.rolling.friction.contact_films import (
+    Ring,
+    line_film,
+    raceway_radius,
+    sphere_film,
+)
 from loadflow.rolling.friction.options import FrictionOptions
 from loadflow.rolling.kinematics import entrainment_speed
 from loadflow.rolling.roller_result import RollerResult
@@ -133,10 +138,6 @@ def roller_friction(
     radius = bearing.roller_diameter / 2
     spin = 2 * u / bearing.roller_diameter
     drag = options.roller_drag * spin
-    rib_speed = (
-        options.rib_height * u / raceway_radius(bearing.roller_diameter, bearing.gamma, "inner")
-    )
-    rib = options.rib_friction * np.sin(options.rib_angle) * force * rib_speed
 
     def total(power: Array) -> Array:
         return np.asarray(np.broadcast_to(power, force.shape).sum(axis=(-2, -1)))
@@ -145,7 +146,7 @@ def roller_friction(
     losses = {
         "hysteresis": total(2 * u * sum(c.hysteresis for c in contacts)),
         "rolling": total(2 * u * sum(c.rolling for c in contacts)),
-        "rib": total(rib),
+        "rib": total(_rib_loss(result, force, u, options)),
         "drag": total(drag * spin),
         "churning": churning * np.abs(omega),
         "seal": options.seal_torque * np.abs(omega),
@@ -160,6 +161,25 @@ def roller_friction(
         asperity_share=np.stack([c.share for c in contacts], axis=-1),
         traction_use=np.divide(needed, grip, out=np.full(force.shape, np.inf), where=grip > 0),
     )
+
+
+def _rib_loss(result: RollerResult, force: Array, u: Array, options: FrictionOptions) -> Array:
+    """Loss of roller ends on the ribs of the inner ring, W.
+
+    A rib contact at height e slides with e u/R_eff, the rolling speed times its distance from the
+    raceway.
+    """
+    bearing = result.bearing
+    pressed = np.sin(options.rib_angle) * force
+    radius = raceway_radius(bearing.roller_diameter, bearing.gamma, "inner")
+    sliding = options.rib_height * u / radius
+    friction: float | Array = options.rib_friction
+    if options.rib_radius is not None:
+        modulus = 2 * float(effective_modulus(bearing.elastic_modulus, bearing.poisson_ratio))
+        film = sphere_film(pressed, options.rib_radius, modulus, u, options)
+        share = asperities.asperity_share(asperities.film_parameter(film, options.roughness))
+        friction = options.rib_friction + share * (options.boundary_friction - options.rib_friction)
+    return np.asarray(friction * pressed * sliding)
 
 
 def _contact(

@@ -108,6 +108,28 @@ def groove_film(
     return ContactFilm(film, along, np.pi / 2 * across, 2 / 3 * contact.pressure, radius, share)
 
 
+def sphere_film(
+    force: Array, radius: float, modulus: float, mean_speed: Array, options: FrictionOptions
+) -> Array:
+    """Central film of a circular contact, m, as a roller end on a rib; 0 at standstill.
+
+    Parameters
+    ----------
+    force, modulus, mean_speed, options
+        As `line_film`.
+    radius : float
+        Reduced radius, m.
+    """
+    viscosity, alpha, share = _inlet(mean_speed, options)
+    ratio = contact_film.nijenbanning_point(
+        alpha * modulus,
+        viscosity * np.maximum(mean_speed, 1e-12) / (modulus * radius),
+        force / (modulus * radius**2),
+        1.0,
+    )
+    return np.asarray(np.where(mean_speed > 0, share * ratio * radius, 0.0))
+
+
 def _inlet(mean_speed: Array, options: FrictionOptions) -> tuple[float, float, Array]:
     """Viscosity, pressure–viscosity coefficient, and what heat and starvation leave of the film."""
     oil, t = options.oil, options.temperature

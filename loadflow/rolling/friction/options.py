@@ -39,6 +39,10 @@ class FrictionOptions:
         Height of the rib contact over the raceway, m.
     rib_friction : float
         Friction coefficient of the rib's film.
+    rib_radius : float, optional
+        Reduced radius of roller end and rib, m (sphere on cone: about the apex distance over one
+        less their ratio). If given, the film there decides how much of the rib's load rubs with
+        `boundary_friction`; if not, all of it with `rib_friction`.
     roller_drag : float
         C₁ of the viscous drag on each roller (`drag_constants`), N m s.
     churning : Churning
@@ -57,6 +61,7 @@ class FrictionOptions:
     rib_angle: Annotated[float, Ge(0), Le(0.5)] = 0.0
     rib_height: Annotated[float, Ge(0)] = 0.0
     rib_friction: Annotated[float, Ge(0), Le(1)] = 0.05
+    rib_radius: Annotated[float, Gt(0)] | None = None
     roller_drag: Annotated[float, Ge(0)] = 0.0
     churning: Churning = field(default_factory=Churning)
     seal_torque: Annotated[float, Ge(0)] = 0.0

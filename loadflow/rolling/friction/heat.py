@@ -1,0 +1,98 @@
+"""Lumped heat balance: the temperature at which a bearing sheds what its friction makes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from loadflow.errors import InputError, SolverError
+from loadflow.numerics.convergence import Convergence
+from loadflow.rolling.friction.bearing_losses import BearingFriction, roller_friction
+from loadflow.rolling.friction.options import FrictionOptions
+from loadflow.rolling.roller_result import RollerResult
+
+_HOTTEST = 200.0  # K above the surroundings that are searched
+
+
+@dataclass(frozen=True)
+class HeatBalance:
+    """State in which mean loss and cooling are equal.
+
+    Attributes
+    ----------
+    temperature : float
+        Of oil and bearing, K.
+    friction : BearingFriction
+        Films and losses at that temperature.
+    convergence : Convergence
+        Of the search; the residual is the power not balanced over the loss.
+    """
+
+    temperature: float
+    friction: BearingFriction
+    convergence: Convergence
+
+
+def balanced_temperature(
+    result: RollerResult,
+    speed: ArrayLike,
+    options: FrictionOptions,
+    conductance: float,
+    ambient: float,
+    weights: ArrayLike | None = None,
+) -> HeatBalance:
+    """Find the temperature of a bearing over a duty of many cases.
+
+    The bearing is one mass, slow against the cases: its temperature follows from the mean loss.
+
+    Parameters
+    ----------
+    result, speed, options
+        As `roller_friction`; `options.temperature` is replaced.
+    conductance : float
+        Heat that leaves the bearing, W/K > 0.
+    ambient : float
+        Temperature around it, K.
+    weights : array_like, optional
+        Share of time of each case; equal if not given.
+
+    Raises
+    ------
+    InputError
+        If the conductance is not positive or the oil is not known so cold.
+    SolverError
+        If the bearing would run more than 200 K hot.
+    """
+    from scipy.optimize import brentq
+
+    if not conductance > 0:
+        raise InputError(f"conductance: must be > 0 W/K, got {conductance}")
+
+    def friction(temperature: float) -> BearingFriction:
+        return roller_friction(result, speed, replace(options, temperature=temperature))
+
+    def surplus(temperature: float) -> float:
+        power = friction(temperature).power
+        share = (
+            None if weights is None else np.broadcast_to(np.asarray(weights, float), power.shape)
+        )
+        return float(np.average(power, weights=share)) - conductance * (temperature - ambient)
+
+    idle = surplus(ambient)
+    if idle <= 0:  # stands still
+        return HeatBalance(ambient, friction(ambient), Convergence(True, 0.0, 0))
+    hottest = min(ambient + _HOTTEST, 500.0)
+    left = surplus(hottest)
+    if left > 0:
+        raise SolverError(
+            f"heat balance: {left:.3g} W are left at {hottest:g} K; conductance {conductance:g} W/K"
+        )
+    found, report = brentq(surplus, ambient, hottest, xtol=1e-6, full_output=True)
+    residual = abs(surplus(found)) / idle
+    return HeatBalance(
+        float(found),
+        friction(found),
+        Convergence(bool(report.converged), residual, int(report.iterations)),
+    )
