@@ -6,12 +6,15 @@
 `bearing`                 `JournalBearing`: what the user calls
 `rungs`                   the table of models behind the same signature
 `setup`                   from the user's words to the discrete film
-`mesh`                    cells of the half film
+`shapes`                  shapes of the bore and their relief
+`mesh`, `gap_mesh`        cells of the film: of a plain cylinder, of a shaped bore
+`gap`, `gap_shaped`       the discrete gap: of a plain cylinder; of any shape, shaft tilted or bent
 `grooves`                 cells of grooves and pockets
 `feed`                    flow against pressure of what feeds them
 `pockets`                 their unknown pressures in the film
 `film`                    balance, linearisation and integrals of the discrete film
 `equilibrium`             Newton for film, and for film and shaft together
+`shaped`                  statics of shaped bores, tilted shafts and tilting pads
 `orbit`                   implicit steps of film and shaft in time
 `mapped`                  the rung "map": `mobility` tabulated from `moving` films
 `result`                  what comes back

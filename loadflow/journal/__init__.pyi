@@ -7,6 +7,13 @@ from .options import Reynolds as Reynolds
 from .options import Sommerfeld as Sommerfeld
 from .result import Equilibrium as Equilibrium
 from .result import FilmField as FilmField
+from .shapes import Arc as Arc
+from .shapes import Contour as Contour
+from .shapes import Crown as Crown
+from .shapes import Cylindrical as Cylindrical
+from .shapes import Lobes as Lobes
+from .shapes import Recess as Recess
+from .shapes import TiltingPads as TiltingPads
 from .supply import Capillary as Capillary
 from .supply import ConstantFlow as ConstantFlow
 from .supply import Groove as Groove

@@ -305,3 +305,80 @@ def integrals(state, coef, dz, gz, closed, p_edge, p_line, groove):
             liquid += state[FILL, i, k] * coef[HM, i, row * k] * dz[k]
             volume += coef[HM, i, row * k] * dz[k]
     return peak, dissipation, shear, outflow, liquid, volume
+
+
+@njit(cache=True, nogil=True)
+def shaped_coefficients(face, face_gap, cell, cell_gap, ex, ey, coef, by_x, by_y):
+    """Coefficients of the gap H = H_0 − ex cos θ − ey sin θ and their derivatives by ex and ey.
+
+    `face` (3, nx + 1, 2) and `cell` (3, nx) are cosine, sine and weight of the nodes between cell
+    centres and in cells, `face_gap` (nx + 1, 2, rows) and `cell_gap` (nx, rows) H_0 there; ex and
+    ey (nx, rows). Each side of a face has a node of its own, so that a step of the gap is exact.
+    """
+    nx, rows = ex.shape
+    for i in range(nx + 1):
+        j = min(i, nx - 1)
+        for k in range(rows):
+            i2, i3, x2, x3, y2, y3 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+            for q in range(2):
+                c, s = face[0, i, q], face[1, i, q]
+                r = 1.0 / (face_gap[i, q, k] - ex[j, k] * c - ey[j, k] * s)
+                w2 = face[2, i, q] * r * r
+                w3 = w2 * r
+                i2 += w2
+                i3 += w3
+                x2 += 2.0 * w3 * c
+                y2 += 2.0 * w3 * s
+                x3 += 3.0 * w3 * r * c
+                y3 += 3.0 * w3 * r * s
+            g = 1.0 / i3
+            e = i2 * g
+            coef[G, i, k], by_x[G, i, k], by_y[G, i, k] = g, -g * g * x3, -g * g * y3
+            coef[E, i, k], by_x[E, i, k], by_y[E, i, k] = e, g * (x2 - e * x3), g * (y2 - e * y3)
+    for i in range(nx):
+        c, s, w = cell[0, i], cell[1, i], cell[2, i]
+        coef[COS, i, 0], coef[SIN, i, 0] = w * c, w * s
+        for k in range(rows):
+            h = cell_gap[i, k] - ex[i, k] * c - ey[i, k] * s
+            coef[CELL3, i, k] = w * h * h * h
+            by_x[CELL3, i, k], by_y[CELL3, i, k] = -3.0 * w * h * h * c, -3.0 * w * h * h * s
+            coef[HM, i, k], by_x[HM, i, k], by_y[HM, i, k] = w * h, -w * c, -w * s
+            coef[HINV, i, k] = w / h
+
+
+@njit(cache=True, nogil=True)
+def mode_slope(by_x, by_y, ax, ay, across, out):
+    """Derivative of the coefficients by a mode that moves the shaft by (ax, ay) (nx) · across."""
+    nx = ax.size
+    rows = across.size
+    for i in range(nx + 1):
+        j = min(i, nx - 1)
+        for k in range(rows):
+            x, y = ax[j] * across[k], ay[j] * across[k]
+            for row in (G, E, HM, CELL3):
+                out[row, i, k] = x * by_x[row, i, k] + y * by_y[row, i, k]
+
+
+@njit(cache=True, nogil=True)
+def faces_across(coef, dz, slope, out):
+    """Fill row H3 of `out` from CELL3 of `coef`: conductances in series from centre to centre.
+
+    With `slope` the row is the derivative along that of CELL3 in `out`.
+    """
+    nx, rows = coef.shape[1] - 1, coef.shape[2]
+    for i in range(nx):
+        if rows == 1:
+            out[H3, i, 0] = out[CELL3, i, 0]
+            continue
+        nz = rows - 1
+        out[H3, i, 0] = out[CELL3, i, 0]
+        out[H3, i, nz] = out[CELL3, i, nz - 1]
+        for k in range(1, nz):
+            low, high = coef[CELL3, i, k - 1], coef[CELL3, i, k]
+            both = dz[k - 1] + dz[k]
+            h3 = both / (dz[k - 1] / low + dz[k] / high)
+            if slope:
+                change = dz[k - 1] / (low * low) * out[CELL3, i, k - 1]
+                change += dz[k] / (high * high) * out[CELL3, i, k]
+                h3 *= h3 / both * change
+            out[H3, i, k] = h3

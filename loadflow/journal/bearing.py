@@ -26,6 +26,8 @@ from loadflow.journal.orbit import march, orbit_dataset
 from loadflow.journal.result import Equilibrium, FilmField, field_row, shaped, stack, static_row
 from loadflow.journal.rungs import Control, Rung, check_rung, model
 from loadflow.journal.setup import FilmOptions, Grading, Inlet, build_film, operating_points
+from loadflow.journal.shaped import Line, equilibrium_rows, field_rows, plain
+from loadflow.journal.shapes import CYLINDER, Relief, Shape
 from loadflow.journal.supply import Supply
 
 if TYPE_CHECKING:
@@ -44,7 +46,7 @@ _NEAR = 0.3  # share of the narrowest gap that the estimate may move for a warm 
 
 @dataclass(frozen=True)
 class JournalBearing:
-    """Plain cylindrical journal bearing, aligned and rigid.
+    """Rigid journal bearing.
 
     Attributes
     ----------
@@ -52,6 +54,10 @@ class JournalBearing:
         Bore D and width B, m.
     relative_clearance : float
         ψ = clearance/diameter; the radial clearance is c = ψ D/2.
+    shape : Cylindrical, Arc, Lobes or TiltingPads
+        How the bore runs around.
+    relief : tuple of Crown, Recess or Contour
+        What widens the gap of that shape.
 
     Examples
     --------
@@ -67,12 +73,15 @@ class JournalBearing:
     diameter: Annotated[float, Gt(0)]
     width: Annotated[float, Gt(0)]
     relative_clearance: Annotated[float, Gt(0), Lt(0.1)]
+    shape: Shape = CYLINDER
+    relief: tuple[Relief, ...] = ()
 
     def __post_init__(self) -> None:
         require(self.diameter > 0, "diameter", self.diameter, "m, > 0")
         require(self.width > 0, "width", self.width, "m, > 0")
         psi = self.relative_clearance
         require(0 < psi < 0.1, "relative_clearance", psi, "0 … 0.1")
+        object.__setattr__(self, "relief", tuple(self.relief))
 
     @property
     def radius(self) -> float:
@@ -106,6 +115,9 @@ class JournalBearing:
         tolerance: float = 1e-10,
         max_iterations: int = 60,
         strict: bool = True,
+        moment: ArrayLike | None = None,
+        tilt: ArrayLike | None = None,
+        bend: ArrayLike | None = None,
     ) -> Equilibrium:
         """Position of the shaft in which the film carries `force` at rest.
 
@@ -142,6 +154,15 @@ class JournalBearing:
         strict : bool
             Raise for the first load without an answer; else its results are NaN and `converged`
             is False.
+        moment : array_like (…, 2), optional
+            What the shaft applies to the bearing about its middle, N m, about the first and the
+            second axis; the shaft then tilts freely. Needs the full width.
+        tilt : array_like (…, 2), optional
+            Rotation of the shaft about the first and the second axis, rad, held. The third axis,
+            along the shaft, makes the three right-handed: at z the shaft is displaced by
+            (tilt[1] z, −tilt[0] z).
+        bend : array_like (…, 2), optional
+            Curvature of the shaft, 1/m: at z it is displaced by bend z²/2.
 
         Returns
         -------
@@ -152,11 +173,17 @@ class JournalBearing:
         InputError
             Not finite or misshapen input; a law without oil (a mixture at edge pressure 0).
         SolverError
-            A load at ω = 0 (no film without squeeze), or no convergence; names the first such load.
+            A load at ω = 0 (no film without squeeze), no convergence, or a shaft that touches the
+            bore wherever it is; names the first such load.
         """
         check_rung(rung)
         options = FilmOptions(lubricant, cavitation, edge_pressure, supply, inlet, grid, grading)
         loads, speeds, shape = operating_points(force, speed, "force")
+        line = Line.of(shape, moment=moment, tilt=tilt, bend=bend)
+        if not self._plain(line, rung):
+            control = Control(tolerance, max_iterations, strict)
+            found = equilibrium_rows(self, options, loads, speeds, line, control)
+            return Equilibrium(**stack(found, shape))
         if rung != "grid":
             control = Control(tolerance, max_iterations, strict)
             answer = model(rung).equilibrium(self, options, loads, speeds, control)
@@ -190,6 +217,8 @@ class JournalBearing:
         tolerance: float = 1e-10,
         max_iterations: int = 100,
         strict: bool = True,
+        tilt: ArrayLike | None = None,
+        bend: ArrayLike | None = None,
     ) -> FilmField:
         """Film at a given position and velocity of the shaft.
 
@@ -203,8 +232,9 @@ class JournalBearing:
             The liquid.
         velocity : array_like (…, 2)
             Velocity of the shaft centre, m/s. The squeeze is F ∂h/∂t, the fill is quasi-steady.
-        cavitation, edge_pressure, supply, inlet, grid, grading, tolerance, max_iterations, strict
-            As in `equilibrium`.
+        cavitation, edge_pressure, supply, inlet, grid, grading, tolerance, max_iterations, \
+strict, tilt, bend
+            As in `equilibrium`. Pads that tilt are where their film has no moment about the pivot.
 
         Returns
         -------
@@ -213,7 +243,7 @@ class JournalBearing:
         Raises
         ------
         InputError
-            Not finite or misshapen input, |eccentricity| ≥ c.
+            Not finite or misshapen input, a shaft that touches the bore.
         SolverError
             No convergence.
         """
@@ -224,6 +254,11 @@ class JournalBearing:
         places, speeds, shape = operating_points(both[0], speed, "eccentricity")
         velocities, _, _ = operating_points(both[1], speed, "velocity")
         places, velocities = places / self.clearance, velocities / self.clearance
+        line = Line.of(shape, tilt=tilt, bend=bend)
+        if not self._plain(line, "grid"):
+            control = Control(tolerance, max_iterations, strict)
+            found, z = field_rows(self, options, places, velocities, speeds, line, control)
+            return FilmField(z=z if z[0] < 0 else np.append(-z[::-1], z), **stack(found, shape))
         ratio = np.hypot(places[:, 0], places[:, 1])
         if ratio.max(initial=0.0) >= 1.0:
             raise InputError(
@@ -334,6 +369,14 @@ class JournalBearing:
         return orbit_dataset(rows, times, loads, speeds, self.clearance)
 
     # --- inside ----------------------------------------------------------------------------------
+    def _plain(self, line: Line, rung: Rung) -> bool:
+        """Whether a plain cylinder surrounds an aligned shaft; if not, only the grid serves."""
+        if plain(self, line):
+            return True
+        allowed = '"grid" for a shaped bore or a shaft that tilts or bends'
+        require(rung == "grid", "rung", rung, allowed)
+        return False
+
     def _film(self, options: FilmOptions, rates: Array) -> Film:
         film = build_film(self.diameter, self.width, self.relative_clearance, options)
         film.set_scale(float(np.abs(rates).max()))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,7 +22,8 @@ _CALM = (
 class Solution:
     """A solved film: unknowns, position (clearances), last linearisation, convergence.
 
-    `estimate` is the position by the closed form, which tells whether the next load is near.
+    `estimate` is the position by the closed form, which tells whether the next load is near; `free`
+    are the degrees of freedom that are in balance.
     """
 
     u: Array
@@ -32,6 +33,7 @@ class Solution:
     iterations: int
     residual: float
     estimate: Array | None = None
+    free: slice | NDArray[np.int64] = field(default_factory=lambda: EVERY)
 
 
 @dataclass(frozen=True)
@@ -87,7 +89,7 @@ def solve_equilibrium(
     tolerance: float,
     max_iterations: int,
     motion: Motion = REST,
-    free: slice = EVERY,
+    free: slice | NDArray[np.int64] = EVERY,
 ) -> Solution:
     """Position at which the film carries `force`, by one Newton for film and shaft.
 
@@ -96,6 +98,7 @@ def solve_equilibrium(
     same is one implicit step in time. Only the degrees of freedom `free` move; the others are held.
     """
     u = u.copy()
+    ease = film.gap.ease[free]
     old = (motion.volume_rate, motion.volume)
     for iteration in range(1, max_iterations + 1):
         velocity = motion.velocity(position)
@@ -103,7 +106,8 @@ def solve_equilibrium(
         slope = linear.stiffness + motion.rate * linear.damping
         haste = film.size(linear.columns[0]) / _CALM
         step = np.zeros(position.size)
-        step[free] = _solve(slope[free, free], (force - linear.load)[free]) / max(haste, 1.0)
+        missing = (force - linear.load)[free]
+        step[free] = _solve(slope[free][:, free], missing, ease) / max(haste, 1.0)
         target = film.gap.advance(position, step)
         weights = film.weights(position, velocity, target, motion.velocity(target))
         change = film.correct(u, linear.columns, weights)
@@ -112,7 +116,7 @@ def solve_equilibrium(
         if change < _QUADRATIC:
             residual = film.imbalance(u, position, motion.velocity(position), force, *old, free)
             if residual < tolerance:
-                return Solution(u, position, linear, True, iteration, residual)
+                return Solution(u, position, linear, True, iteration, residual, free=free)
     residual = film.imbalance(u, position, motion.velocity(position), force, *old, free)
     return Solution(u, position, linear, False, max_iterations, residual)
 
@@ -123,20 +127,20 @@ def solve_patiently(
     position: Array,
     tolerance: float,
     max_iterations: int,
-    free: slice = EVERY,
+    free: slice | NDArray[np.int64] = EVERY,
 ) -> Solution:
     """As `solve_equilibrium`, for the few loads at which that fails: film solved at every position.
 
     The step of the shaft is halved until the missing force shrinks.
     """
     rest = np.zeros(position.size)
-    wanted = force[free]
+    wanted, ease = force[free], film.gap.ease[free]
     state = solve_film(film, film.start(), position, rest, tolerance, max_iterations)
     spent = state.iterations
     missing = wanted - state.linear.load[free]
     while state.converged and spent < 10 * max_iterations:
         step = np.zeros(position.size)
-        step[free] = _solve(state.linear.stiffness[free, free], missing)
+        step[free] = _solve(state.linear.stiffness[free][:, free], missing, ease)
         for _ in range(20):
             target = film.gap.advance(state.position, step)
             trial = solve_film(film, state.u, target, rest, tolerance, max_iterations)
@@ -154,10 +158,13 @@ def solve_patiently(
     return replace(state, converged=False, iterations=spent)
 
 
-def _solve(matrix: Array, rhs: Array) -> Array:
-    """Solve for a step; a singular 2×2 system gives none, a larger one the shortest."""
+def _solve(matrix: Array, rhs: Array, ease: Array) -> Array:
+    """Solve for a step. A singular 2×2 system gives none; a larger one moves what moves with ease.
+
+    The second is a shaft on one single pad, free to go sideways while the pad follows.
+    """
     if rhs.size != 2:
-        return np.asarray(np.linalg.lstsq(matrix, rhs)[0], dtype=float)
+        return ease * np.asarray(np.linalg.lstsq(matrix * ease, rhs, rcond=1e-10)[0])
     (a, b), (c, d) = matrix.tolist()
     det = a * d - b * c
     if det == 0.0:

@@ -86,6 +86,9 @@ class Film:
         Pressure at the rims and on the inlet line, Pa, absolute.
     pockets : Pockets
         Grooves and what feeds them.
+    end_pressure : float, optional
+        Pressure of the grooves at both ends of a film that does not run round, Pa; without one
+        an open film ends on the inlet line.
     """
 
     def __init__(
@@ -97,6 +100,7 @@ class Film:
         radius: float,
         edge_pressure: float,
         pockets: Pockets,
+        end_pressure: float | None = None,
     ) -> None:
         self.gap = gap
         self.mesh = mesh = gap.mesh
@@ -105,12 +109,17 @@ class Film:
         self.mixing = law.mixing_constant if isinstance(law, GasMixture) else 0.0
         self.p_cav = getattr(law, "cavitation_pressure", 0.0)
         self.p_edge = edge_pressure
+        self.p_line = edge_pressure if end_pressure is None else end_pressure
+        self.ends_supply = end_pressure is not None and not gap.mesh.closed
+        wet = self.p_line + self.mixing
+        self.line_fill = self.p_line / wet if self.mixing and wet > 0 else 1.0
         self.radius = radius
         self.relative_clearance = relative_clearance
         self.viscosity = viscosity
         self.slope = 12.0 * viscosity / relative_clearance**2  # squeeze pressure per d(FH)/dt
         self.pockets = pockets
-        self.fixed = pockets.fixed
+        self.fixed = self.grooved = pockets.fixed  # cells held, and those of them without drag
+        self.given = pockets.given(edge_pressure)
         self.set_scale(0.0)
         self.set_speed(0.0)
 
@@ -119,6 +128,7 @@ class Film:
         self.ab = np.empty((n, 3 * mesh.bandwidth + 1))
         self.state = np.empty((8, nx, nz))
         self.mirrors = 2.0 if mesh.half else 1.0
+        self.ambient: Array | float = 0.0  # of `_load`: what acts outside the film, N
 
     def set_speed(self, speed: float) -> None:
         """Set the speed of the shaft, rad/s."""
@@ -130,6 +140,15 @@ class Film:
         feed = self.pockets.feed
         fed = max(feed.largest_pressure, feed.largest_flow / self.pockets.flow_unit)
         self.scale = max(0.5 * self.slope * rate, self.p_edge, fed, 1.0)
+
+    def fill(self, columns: NDArray[np.bool_], pressure: float) -> None:
+        """Make `columns` (nx,) of cells a groove at `pressure`, Pa."""
+        self.given = np.where(columns[:, None] & ~self.grooved, pressure, self.given)
+        self.fixed = self.grooved = self.grooved | columns[:, None]
+
+    def rest(self, columns: NDArray[np.bool_]) -> None:
+        """Hold `columns` (nx,) of cells at edge pressure: pads without load."""
+        self.fixed = self.grooved | columns[:, None]
 
     def raise_scale(self, pressure: float) -> None:
         """Raise the scale of pressure to at least `pressure`, Pa."""
@@ -144,7 +163,7 @@ class Film:
 
     def start(self) -> Array:
         """Unknowns of a film at edge pressure everywhere but in the grooves."""
-        return self.unknown_of(self.pockets.given(self.p_edge))
+        return self.unknown_of(self.given)
 
     def place(self, u: Array, position: Array) -> Array:
         """Evaluate law and gap at `u` and `position`; returns the axes of the mesh's frame."""
@@ -171,10 +190,12 @@ class Film:
         """Outflow of every cell (nx, nz) at the state last placed, or by a `change` of it."""
         mesh = self.mesh
         field = np.zeros(mesh.shape)
-        state, rim, full = (self.state, self.p_edge, 1.0) if change is None else (change, 0.0, 0.0)
+        state, rim, line, full = self.state, self.p_edge, self.p_line, self.line_fill
+        if change is not None:
+            state, rim, line, full = change, 0.0, 0.0, 0.0
         kernel.balance(
             state, coef, mesh.dz, mesh.gz, mesh.closed, self.wedge,
-            rim, rim, full, mass, self.fixed, field,
+            rim, line, full, mass, self.fixed, field,
         )  # fmt: skip
         return field
 
@@ -242,7 +263,7 @@ class Film:
         kernel.carried_by(slope, around, across, mesh.dz, mesh.order, columns, carried)
         carried *= self.mirrors * self.radius**2
         load = self._load(around) - carried[0]
-        by_gap = [self._load(a) for _, a in slopes]
+        by_gap = [self._load(a) + self.ambient for _, a in slopes]
         damping = -carried[-gap.size :].T
         direct = [d - c for d, c in zip(by_gap, carried[1:])]
         if mesh.polar:
@@ -275,7 +296,7 @@ class Film:
         out = np.empty(self.gap.size)
         load = self.state[kernel.LOAD]
         kernel.load_of(load, around, self.gap.across, self.mesh.dz, out)
-        return self.mirrors * self.radius**2 * out
+        return self.mirrors * self.radius**2 * out - self.ambient
 
     # --- what Newton needs -----------------------------------------------------------------------
     def weights(self, position: Array, velocity: Array, target: Array, speed: Array) -> Array:
@@ -303,7 +324,7 @@ class Film:
         force: Array | None = None,
         rate: float = 0.0,
         old: Array | float = 0.0,
-        free: slice = EVERY,
+        free: slice | NDArray[np.int64] = EVERY,
     ) -> float:
         """Largest imbalance of a cell, and of the load if `force` is given, over their scales.
 
@@ -336,7 +357,7 @@ class Film:
         mesh = self.mesh
         peak, dissipation, shear, outflow, liquid, volume = kernel.integrals(
             self.state, self.gap.coef, mesh.dz, mesh.gz, mesh.closed,
-            self.p_edge, self.p_edge, self.fixed,
+            self.p_edge, self.p_line, self.grooved,
         )  # fmt: skip
         found = Integrals(peak, dissipation, shear, outflow, liquid / volume)
         return {
@@ -361,16 +382,31 @@ class Film:
         """Flow and pressure of the grooves at the state last placed, named as in `Equilibrium`."""
         pockets = self.pockets
         mass = np.zeros((self.mesh.shape[0], self.gap.across.shape[1]))
-        flows = pockets.flows(self._balance(self.gap.coef, mass))
+        outflow = self._balance(self.gap.coef, mass)
+        flows = pockets.flows(outflow)
+        shaped = float(outflow[self.fixed & ~pockets.fixed].sum()) + self._from_ends()
         pressure = self.state[kernel.P].ravel()[pockets.samples]
         lack = self.unknown_of(np.array(self.p_edge)) - pockets.of_free(u)
         return {
-            "supply_flow": float(flows.sum()),
+            "supply_flow": float(flows.sum()) + pockets.flow_unit * shaped,
             "supply_power": pockets.feed.power(pressure, flows),
             "groove_flow": flows,
             "groove_pressure": pressure,
             "starved": bool(np.any(lack > 1e-9 * self.scale)),
         }
+
+    def _from_ends(self) -> float:
+        """Flow in at both ends of the film, where these are grooves."""
+        if not self.ends_supply:
+            return 0.0
+        total = 0.0
+        for cell, sign in ((0, 1.0), (-1, -1.0)):
+            pressure, fill = (self.state[row, cell] for row in (kernel.P, kernel.FILL))
+            upstream = self.line_fill if sign * self.wedge > 0 else fill
+            g, e = self.gap.coef[[kernel.G, kernel.E], cell, : self.mesh.z.size]
+            flow = g * (self.p_line - pressure) + sign * self.wedge * e * upstream
+            total += float(self.mesh.dz @ flow)
+        return total
 
     def dry(self, u: Array) -> bool:
         """Whether a fed groove would have to rupture, which only laws with fill can follow."""

@@ -19,7 +19,7 @@ from loadflow.journal.mesh import Mesh
 Array = NDArray[np.float64]
 
 _SHELL = np.eye(2)
-_KEPT = 0.3  # share of the narrowest gap that a step of the shaft leaves
+KEPT = 0.3  # share of the narrowest gap that a step of the shaft leaves
 
 
 class Gap(Protocol):
@@ -27,18 +27,25 @@ class Gap(Protocol):
 
     Attributes
     ----------
-    size : int
-        Number of degrees of freedom m.
+    size, shaft : int
+        Number of degrees of freedom m, and of those of the shaft.
     coef : array (8, nx + 1, rows)
         Coefficients of the gap where the shaft was last placed, rows as in `_kernels`.
+    ease : array (m,)
+        How readily each degree of freedom moves where nothing holds it.
     across : array (m, rows)
         Modes along the axis, of which `around` (m, nx) is the factor around.
     """
 
-    mesh: Mesh
     size: int
+    shaft: int
+    ease: Array
     coef: Array
     across: Array
+
+    @property
+    def mesh(self) -> Mesh:
+        """Cells."""
 
     @property
     def around(self) -> Array:
@@ -68,13 +75,14 @@ def turning_frame(position: Array) -> Array:
 class PlainGap:
     """Gap of a cylinder around an aligned shaft; its mesh may turn with the eccentricity."""
 
-    size = 2
+    size = shaft = 2
 
     def __init__(self, mesh: Mesh) -> None:
         self.mesh = mesh
         shape = (8, mesh.angle.size + 1, 1)
         self.coef = np.zeros(shape)
         self.across = np.ones((2, 1))
+        self.ease = np.ones(2)
         self._shifted = (np.zeros(shape), np.zeros(shape))
 
     @property
@@ -123,7 +131,7 @@ class PlainGap:
         x, y = position.tolist()
         dx, dy = step.tolist()
         ratio = math.hypot(x, y)
-        limit = 1.0 - _KEPT * (1.0 - ratio)
+        limit = 1.0 - KEPT * (1.0 - ratio)
         if ratio < 0.5:
             length = math.hypot(x + dx, y + dy)
             share = min(1.0, limit / length) if length > 0 else 1.0

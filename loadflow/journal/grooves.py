@@ -21,18 +21,26 @@ def edges_around(count: int, grooves: tuple[Groove, ...], radius: float) -> Arra
     """
     if not grooves:
         return np.linspace(0.0, 2 * np.pi, count + 1)
-    arcs = [_arc(groove, count, radius) for groove in grooves]
-    start = grooves[0].angle - 0.5 * arcs[0]
-    marks = [g.angle - start + arc * _sides(g) for g, arc in zip(grooves, arcs)]
-    return start + _divided(np.concatenate(marks) % (2 * np.pi), 2 * np.pi, 2 * np.pi / count)
+    marks, _ = groove_marks(grooves, count, radius)
+    start = marks[0]
+    return start + _divided((marks - start) % (2 * np.pi), 2 * np.pi, 2 * np.pi / count)
 
 
 def edges_across(edges: Array, grooves: tuple[Groove, ...], radius: float) -> Array:
     """The cell `edges` across the half width (in radii), with edges on the ends of the grooves."""
-    ends = [(g.axial + g.length * _sides(g)) / radius for g in grooves if g.length is not None]
-    marks = np.concatenate([[], *ends])
+    _, marks = groove_marks(grooves, 1, radius)
     marks = marks[(marks > 0) & (marks < edges[-1])]
     return _divided(marks, float(edges[-1]), edges[-1] / (edges.size - 1)) if marks.size else edges
+
+
+def groove_marks(grooves: tuple[Groove, ...], count: int, radius: float) -> tuple[Array, Array]:
+    """Angles and axial places (shaft radii) at which `grooves` ask for cell edges.
+
+    The first angle is that of the first groove's start; `count` is the number of cells around.
+    """
+    turns = [g.angle + _arc(g, count, radius) * _sides(g) for g in grooves]
+    ends = [(g.axial + g.length * _sides(g)) / radius for g in grooves if g.length is not None]
+    return np.concatenate([[], *turns]), np.concatenate([[], *ends])
 
 
 def groove_numbers(

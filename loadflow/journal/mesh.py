@@ -59,6 +59,11 @@ class Mesh:
         return 0.5 * (self.z_edges[1:] + self.z_edges[:-1])
 
     @cached_property
+    def dx(self) -> Array:
+        """Cell widths around, in the coordinate of the map."""
+        return np.diff(self.edges)
+
+    @cached_property
     def dz(self) -> Array:
         """Cell widths across."""
         return np.diff(self.z_edges)
@@ -112,6 +117,20 @@ def _gauss(edges: Array, nodes: int) -> tuple[Array, Array, Array]:
     return np.cos(a), np.sin(a), np.ascontiguousarray(half * w)
 
 
+def check_grid(grid: tuple[int, int]) -> tuple[int, int]:
+    """Cells around and across the full width, if they are possible."""
+    nx, nz = int(grid[0]), int(grid[1])
+    require(nx >= 8, "grid[0]", nx, "at least 8 cells around")
+    require(nz >= 2 and nz % 2 == 0, "grid[1]", nz, "an even number of cells across the width")
+    return nx, nz
+
+
+def graded_share(cells: int) -> Array:
+    """Edges of `cells` from mid-plane 0 to rim 1 that crowd at the rim."""
+    share = np.linspace(0.0, 1.0, cells + 1)
+    return (1 - RIM_STRENGTH) * share + RIM_STRENGTH * np.sin(0.5 * np.pi * share)
+
+
 @lru_cache(maxsize=32)
 def build_mesh(
     width_ratio: float,
@@ -138,12 +157,8 @@ def build_mesh(
     radius : float
         Of the shaft, m.
     """
-    nx, nz = grid
-    require(nx >= 8, "grid[0]", nx, "at least 8 cells around")
-    require(nz >= 2 and nz % 2 == 0, "grid[1]", nz, "an even number of cells across the width")
-    share = np.linspace(0.0, 1.0, nz // 2 + 1)
-    if graded:
-        share = (1 - RIM_STRENGTH) * share + RIM_STRENGTH * np.sin(0.5 * np.pi * share)
+    nx, nz = check_grid(grid)
+    share = graded_share(nz // 2) if graded else np.linspace(0.0, 1.0, nz // 2 + 1)
     z_edges = width_ratio * share
     polar = supply is None and (graded or inlet)
     if supply is None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 if TYPE_CHECKING:
     from loadflow.journal.bearing import JournalBearing
     from loadflow.journal.equilibrium import Solution
-    from loadflow.journal.film import Film
+    from loadflow.journal.film import Film, Linear
     from loadflow.journal.options import Lubricant
 
 Array = NDArray[np.float64]
@@ -37,7 +37,7 @@ class Equilibrium:
     attitude_angle : array (…)
         From load to eccentricity, > 0 with rotation, rad; π/2 without load.
     minimum_film : array (…)
-        c (1 − ε), m.
+        Narrowest gap, m; c (1 − ε) in a plain bearing.
     maximum_pressure : array (…)
         Largest pressure of the film, Pa, absolute.
     sommerfeld_number : array (…)
@@ -63,14 +63,20 @@ class Equilibrium:
         Re_cr = 41.3 √(D/s), (3.14).
     laminar : array of bool (…)
         Whether Re is below Re_cr.
-    stiffness, damping : array (…, 2, 2)
-        −∂F_film/∂e (N/m) and −∂F_film/∂ė (N s/m), [i, j].
+    stiffness, damping : array (…, 2, 2) or (…, 4, 4)
+        −∂F_film/∂e (N/m) and −∂F_film/∂ė (N s/m), [i, j]. On the full width also the moments (rows
+        2, 3) and tilts (columns 2, 3) about both axes. Pads follow without moment, slowly.
     converged : array of bool (…)
         Whether `residual` fell below the tolerance.
     iterations : array of int (…)
         Newton steps.
     residual : array (…)
         Largest imbalance of a cell and of the load, over their scales.
+    moment, tilt : array (…, 2)
+        What the shaft applies to the bearing about both axes, N m, and its rotation about them,
+        rad; 0 where the film is symmetric.
+    pad_tilt : array (…, pads)
+        Rotation of the pads about their pivots, rad, from the first axis toward the second.
     """
 
     force: Array
@@ -97,6 +103,9 @@ class Equilibrium:
     converged: NDArray[np.bool_]
     iterations: NDArray[np.int64]
     residual: Array
+    moment: Array = field(default_factory=lambda: np.zeros(2))
+    tilt: Array = field(default_factory=lambda: np.zeros(2))
+    pad_tilt: Array = field(default_factory=lambda: np.zeros(0))
 
 
 @dataclass(frozen=True)
@@ -119,7 +128,7 @@ class FilmField:
         Axial position of the cell centres from mid-plane, m.
     eccentricity_ratio, minimum_film, maximum_pressure, friction_power, side_flow, supply_flow, \
 supply_power, groove_flow, groove_pressure, starved, total_fill, stiffness, damping, converged, \
-iterations, residual
+iterations, residual, moment, tilt, pad_tilt
         As in `Equilibrium`.
     """
 
@@ -145,6 +154,9 @@ iterations, residual
     converged: NDArray[np.bool_]
     iterations: NDArray[np.int64]
     residual: Array
+    moment: Array = field(default_factory=lambda: np.zeros(2))
+    tilt: Array = field(default_factory=lambda: np.zeros(2))
+    pad_tilt: Array = field(default_factory=lambda: np.zeros(0))
 
 
 def stack(rows: list[dict[str, Any]], shape: tuple[int, ...]) -> dict[str, Any]:
@@ -161,7 +173,7 @@ def static_row(
     bearing: JournalBearing, film: Film, load: Array, lubricant: Lubricant, solution: Solution
 ) -> dict[str, Any]:
     """One row of `Equilibrium`."""
-    position = solution.position if solution.converged else np.full(2, np.nan)
+    position = solution.position[:2] if solution.converged else np.full(2, np.nan)
     return {
         **operating_columns(bearing, load, film.speed, lubricant, position),
         **_common_row(film, solution),
@@ -208,11 +220,14 @@ def without_supply(count: int) -> dict[str, Any]:
 def field_row(film: Film, solution: Solution) -> dict[str, Any]:
     """One row of `FilmField`, but for z; the half film is mirrored."""
     pressure, fill, angle, load = film.field(solution.u, solution.position)
+    if film.mesh.half:
+        pressure = np.concatenate([pressure[:, ::-1], pressure], axis=1)
+        fill = np.concatenate([fill[:, ::-1], fill], axis=1)
     return {
-        "film_force": -load,
-        "force": load,
-        "pressure": np.concatenate([pressure[:, ::-1], pressure], axis=1),
-        "fill": np.concatenate([fill[:, ::-1], fill], axis=1),
+        "film_force": -load[:2],
+        "force": load[:2],
+        "pressure": pressure,
+        "fill": fill,
         "angle": angle,
         **_common_row(film, solution),
     }
@@ -221,15 +236,46 @@ def field_row(film: Film, solution: Solution) -> dict[str, Any]:
 def _common_row(film: Film, solution: Solution) -> dict[str, Any]:
     clearance = film.relative_clearance * film.radius
     row: dict[str, Any] = film.summary(solution.u, solution.position)
-    row["eccentricity_ratio"] = float(np.hypot(*solution.position))
-    row["stiffness"] = solution.linear.stiffness / clearance
-    row["damping"] = solution.linear.damping / clearance
+    shaft, lengths = film.gap.shaft, np.ones(film.gap.shaft)
+    lengths[2:] = film.radius  # of the degrees of freedom: those of tilts are arms
+    pads = np.intersect1d(np.arange(film.gap.size)[solution.free], np.arange(shaft, film.gap.size))
+    stiffness, damping = without_pads(solution.linear, shaft, pads)
+    both = np.outer(lengths, lengths) / clearance
+    row["eccentricity_ratio"] = float(np.hypot(*solution.position[:2]))
+    row["stiffness"] = stiffness * both
+    row["damping"] = damping * both
+    tilted = shaft > 2
+    row["moment"] = film.radius * solution.linear.load[2:4] if tilted else np.zeros(2)
+    per_radius = clearance / film.radius
+    row["tilt"] = per_radius * solution.position[2:4] if tilted else np.zeros(2)
+    row["pad_tilt"] = per_radius * solution.position[shaft:]
     if not solution.converged:
         row = {name: _nothing(value) for name, value in row.items()}
     row["converged"] = solution.converged
     row["iterations"] = solution.iterations
     row["residual"] = solution.residual
     return row
+
+
+def without_pads(linear: Linear, shaft: int, pads: NDArray[np.int64]) -> tuple[Array, Array]:
+    """Stiffness and damping of the shaft alone: `pads` follow it without moment, slowly.
+
+    With the pads' tilt −N q, N = K_pp⁻¹ K_ps, and the same for its rate, what is left of K + C d/dt
+    to first order in d/dt is exact (static condensation).
+    """
+    k, c = linear.stiffness, linear.damping
+    if not pads.size:
+        return k[:shaft, :shaft], c[:shaft, :shaft]
+    every = np.append(np.arange(shaft), pads)
+    k, c = k[np.ix_(every, every)], c[np.ix_(every, every)]
+    follow = np.vstack([np.eye(shaft), -following(k, shaft)])
+    lead = np.vstack([np.eye(shaft), -following(k.T, shaft)])
+    return lead.T @ k @ follow, lead.T @ c @ follow
+
+
+def following(stiffness: Array, shaft: int) -> Array:
+    """How far pads tilt with the shaft, (pads, shaft)."""
+    return np.asarray(np.linalg.solve(stiffness[shaft:, shaft:], stiffness[shaft:, :shaft]))
 
 
 def _nothing(value: Any) -> Any:

@@ -12,7 +12,9 @@ from loadflow.errors import InputError
 from loadflow.journal.feed import Feed
 from loadflow.journal.film import Film
 from loadflow.journal.gap import PlainGap
-from loadflow.journal.grooves import groove_numbers
+from loadflow.journal.gap_mesh import recess_marks, shaped_mesh
+from loadflow.journal.gap_shaped import Bore, ShapedGap
+from loadflow.journal.grooves import groove_marks, groove_numbers
 from loadflow.journal.mesh import build_mesh
 from loadflow.journal.options import (
     Cavitation,
@@ -24,6 +26,7 @@ from loadflow.journal.options import (
     require,
 )
 from loadflow.journal.pockets import Pockets
+from loadflow.journal.shapes import Arc, Shape
 from loadflow.journal.supply import Supply
 
 Array = NDArray[np.float64]
@@ -32,6 +35,7 @@ Inlet = Literal["auto", "widest gap"] | None
 
 SOURCE_GRID = (60, 20)  # the grid of the source, enough for its smooth law
 SHARP_GRID = (120, 40)  # graded, for laws with a sharp rupture
+FULL_GRID = (120, 24)  # the same where both halves of the width differ
 
 
 @dataclass(frozen=True)
@@ -101,11 +105,63 @@ def build_film(diameter: float, width: float, clearance: float, options: FilmOpt
     )
 
 
-def _check_oil(law: Cavitation, edge_pressure: float, supply: Supply | None) -> None:
+def build_shaped_film(
+    bore: Bore, shape: Shape, options: FilmOptions, straight: bool
+) -> tuple[ShapedGap, Film]:
+    """Discrete film of a bearing of any shape; `straight`: around an aligned, straight shaft."""
+    law, supply = options.law, options.supply
+    require(options.inlet != "widest gap", "inlet", options.inlet, "None but for a plain cylinder")
+    pressure = getattr(shape, "groove_pressure", None)
+    pressure = options.edge_pressure if pressure is None else pressure
+    _check_oil(law, options.edge_pressure, supply, pressure)
+    smooth = isinstance(law, GasMixture)
+    half = straight and all(part.symmetric(bore.width) for part in bore.relief)
+    sharp_grid = SHARP_GRID if half else FULL_GRID
+    grid = options.grid or (SOURCE_GRID if smooth else sharp_grid)
+    graded = options.grading == "graded" or (options.grading == "auto" and not smooth)
+    turns, places = recess_marks(bore.relief, bore.radius, bore.width)
+    around, ends = groove_marks(supply.grooves if supply else (), int(grid[0]), bore.radius)
+    ratio = bore.width / (2 * bore.radius)
+    mesh = shaped_mesh(
+        ratio, grid, half, graded, bore.segments, [*turns, *around], [*places, *ends, *-ends]
+    )
+    numbers = groove_numbers(mesh.angle, mesh.z, ratio, supply, int(grid[0]), bore.radius)
+    mirrors = 2.0 if half else 1.0
+    flow_unit = mirrors * bore.clearance**3 / (12.0 * options.lubricant.viscosity)
+    gap = ShapedGap(mesh, bore)
+    film = Film(
+        gap,
+        law,
+        options.lubricant.viscosity,
+        bore.clearance / bore.radius,
+        bore.radius,
+        options.edge_pressure,
+        Pockets(numbers, Feed(supply or Supply(), options.lubricant), flow_unit),
+        end_pressure=pressure,
+    )
+    film.fill(mesh.groove, pressure)
+    film.ambient = _outside(gap, film, options.edge_pressure, shape)
+    return gap, film
+
+
+def _outside(gap: ShapedGap, film: Film, edge_pressure: float, shape: Shape) -> Array | float:
+    """Load of what is not in the film: the edge pressure all round, the groove at its ends, N.
+
+    The edge pressure acts on the shaft beside an arc and on the back of pads.
+    """
+    if not gap.bore.segments:
+        return 0.0
+    load = edge_pressure * gap.uniform()
+    if not isinstance(shape, Arc):
+        load -= (film.p_line - edge_pressure) * gap.facing_groove()
+    return np.asarray(film.mirrors * film.radius**2 * load)
+
+
+def _check_oil(law: Cavitation, edge_pressure: float, supply: Supply | None, *other: float) -> None:
     """Refuse pressures at which a mass-conserving film would run dry, or rupture at its rim."""
     name = "edge_pressure"
     require(np.isfinite(edge_pressure), name, edge_pressure, "Pa, absolute, finite")
-    pressures = [edge_pressure]
+    pressures = [edge_pressure, *other]
     grooves = supply.grooves if supply else ()
     pump = supply.pump if supply else None
     pressures += [g.pressure for g in grooves if g.restrictor is None and pump is None]

@@ -1,0 +1,341 @@
+"""Shapes of the bore: what a user states about the gap of a journal bearing. Options only.
+
+The *outline* tells how the bore runs around: a cylinder, fixed lobes, one partial arc, tilting
+pads. The *relief* is what is cut into it or what it is deformed by: crowning, a measured or
+calculated contour, recesses. All of it widens the gap where it is positive.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Annotated, Literal, NamedTuple
+
+import numpy as np
+from annotated_types import Ge, Gt, Le, Lt
+from numpy.typing import NDArray
+
+from loadflow.journal.options import require
+
+Array = NDArray[np.float64]
+_TURN = 2 * np.pi
+
+
+class Segment(NamedTuple):
+    """Part of the bore between two axial grooves, angles in rad.
+
+    Its radius of curvature exceeds that of the shaft by ``c / (1 − preload)``; centred, the shaft
+    is nearest to it at `narrowest`, where the gap is the radial clearance c.
+    """
+
+    start: float
+    end: float
+    narrowest: float
+    preload: float
+    tilting: bool
+
+
+def _require_preload(preload: float, offset: float) -> None:
+    require(0 <= preload < 1, "preload", preload, "0 ≤ preload < 1")
+    require(0 <= offset <= 1, "offset", offset, "0 … 1, share of the arc before the narrowest gap")
+
+
+@dataclass(frozen=True)
+class Cylindrical:
+    """Full cylinder."""
+
+    kind: Literal["cylindrical"] = "cylindrical"
+
+    @property
+    def segments(self) -> tuple[Segment, ...]:
+        """None: the bore runs all the way round."""
+        return ()
+
+
+@dataclass(frozen=True)
+class Arc:
+    """One partial arc of a cylinder; both of its ends lie in oil.
+
+    Attributes
+    ----------
+    angle : float
+        Angle of its middle from the first axis toward the second, rad.
+    span : float
+        Angle it spans, rad: 180, 150, 120, 90° in ISO 7902.
+    groove_pressure : float, optional
+        Pressure of the oil at both ends, Pa, absolute; default the edge pressure.
+    """
+
+    angle: float
+    span: Annotated[float, Gt(0), Lt(6.28)]
+    groove_pressure: float | None = None
+    kind: Literal["arc"] = "arc"
+
+    def __post_init__(self) -> None:
+        require(0 < self.span < 6.28, "span", self.span, "rad, 0 < span < 6.28")
+
+    @property
+    def segments(self) -> tuple[Segment, ...]:
+        """The one arc."""
+        half = 0.5 * self.span
+        return (Segment(self.angle - half, self.angle + half, self.angle, 0.0, False),)
+
+
+@dataclass(frozen=True)
+class Lobes:
+    """Equal fixed lobes with axial grooves between them.
+
+    The relative clearance of the bearing is the assembled one: c is the radius of the largest
+    circle inside the bore less that of the shaft (for the `offset` 1/2). The lobes are arcs of the
+    clearance ``c / (1 − preload)``.
+
+    Attributes
+    ----------
+    count : int
+        Number of lobes.
+    preload : float
+        1 − assembled over machined clearance, 0 … 1; 0 is a cylinder with grooves.
+    groove : float
+        Angle that each axial groove spans, rad.
+    angle : float
+        Angle of the middle of the first lobe from the first axis toward the second, rad.
+    offset : float
+        Place of a lobe's narrowest gap as a share of its arc, from its end of smaller angle: 1/2 is
+        symmetric, 1 converges all along where the shaft turns from the first axis to the second.
+    groove_pressure : float, optional
+        Pressure in the grooves, Pa, absolute; default the edge pressure.
+    """
+
+    count: Annotated[int, Ge(1), Le(12)]
+    preload: Annotated[float, Ge(0), Lt(1)] = 0.0
+    groove: Annotated[float, Gt(0)] = 0.3490658503988659
+    angle: float = 0.0
+    offset: Annotated[float, Ge(0), Le(1)] = 0.5
+    groove_pressure: float | None = None
+    kind: Literal["lobes"] = "lobes"
+
+    def __post_init__(self) -> None:
+        require(1 <= self.count <= 12, "count", self.count, "1 … 12")
+        _require_preload(self.preload, self.offset)
+        widest = 0.9 * _TURN / self.count
+        require(0 < self.groove < widest, "groove", self.groove, f"rad, 0 < groove < {widest:.4g}")
+
+    @property
+    def segments(self) -> tuple[Segment, ...]:
+        """The lobes, in the order of their angle."""
+        arc = _TURN / self.count - self.groove
+        middles = [self.angle + k * _TURN / self.count for k in range(self.count)]
+        return tuple(
+            _segment(m - 0.5 * arc, arc, self.preload, self.offset, False) for m in middles
+        )
+
+
+@dataclass(frozen=True)
+class TiltingPads:
+    """Equal pads that tilt about axial pivots on their back without friction or inertia.
+
+    The pads are thin and rigid and hold still where their film carries nothing. The gap of the
+    centred shaft over the pivots is the radial clearance c; the pads are arcs of the clearance
+    ``c / (1 − preload)``.
+
+    Attributes
+    ----------
+    count : int
+        Number of pads.
+    arc : float
+        Angle that each pad spans, rad.
+    preload : float
+        1 − assembled over machined clearance, 0 … 1.
+    angle : float
+        Angle of the first pivot from the first axis toward the second, rad: with the load along
+        the first axis 0 is load on pad, π/count load between pads.
+    offset : float
+        Place of the pivot as a share of the arc, from the end of smaller angle.
+    groove_pressure : float, optional
+        Pressure between the pads, Pa, absolute; default the edge pressure.
+    """
+
+    count: Annotated[int, Ge(1), Le(12)]
+    arc: Annotated[float, Gt(0)]
+    preload: Annotated[float, Ge(0), Lt(1)] = 0.0
+    angle: float = 0.0
+    offset: Annotated[float, Gt(0), Lt(1)] = 0.5
+    groove_pressure: float | None = None
+    kind: Literal["tilting pads"] = "tilting pads"
+
+    def __post_init__(self) -> None:
+        require(1 <= self.count <= 12, "count", self.count, "1 … 12")
+        _require_preload(self.preload, self.offset)
+        require(0 < self.offset < 1, "offset", self.offset, "0 < offset < 1 for a pivot")
+        whole = _TURN / self.count
+        require(0 < self.arc < whole, "arc", self.arc, f"rad, 0 < arc < 2π/count = {whole:.4g}")
+
+    @property
+    def segments(self) -> tuple[Segment, ...]:
+        """The pads, in the order of their angle."""
+        pivots = [self.angle + k * _TURN / self.count for k in range(self.count)]
+        starts = [pivot - self.offset * self.arc for pivot in pivots]
+        return tuple(_segment(s, self.arc, self.preload, self.offset, True) for s in starts)
+
+
+def _segment(start: float, arc: float, preload: float, offset: float, tilting: bool) -> Segment:
+    return Segment(start, start + arc, start + offset * arc, preload, tilting)
+
+
+Shape = Cylindrical | Arc | Lobes | TiltingPads
+CYLINDER = Cylindrical()
+
+
+@dataclass(frozen=True)
+class Crown:
+    """Bore that widens toward both rims, against the bending of the shaft (Fig. 1-8).
+
+    The gap grows by ``height · ((|z| − B/2 + length) / length)^exponent`` over the last `length`
+    before each rim.
+
+    Attributes
+    ----------
+    height : float
+        Growth of the gap at the rims, m.
+    length : float, optional
+        Axial length of either crown, m; default half of the width.
+    exponent : float
+        2 is a parabola, 1 a cone.
+    """
+
+    height: float
+    length: Annotated[float, Gt(0)] | None = None
+    exponent: Annotated[float, Ge(1)] = 2.0
+    kind: Literal["crown"] = "crown"
+
+    def __post_init__(self) -> None:
+        require(bool(np.isfinite(self.height)), "height", self.height, "m, finite")
+        require(self.length is None or self.length > 0, "length", self.length, "m, > 0")
+        require(self.exponent >= 1, "exponent", self.exponent, "≥ 1")
+
+    def added(self, angle: Array, z: Array, width: float) -> Array:
+        """Growth of the gap at `angle` (n,) and `z` (m,) of a bearing of `width`, (n, m), m."""
+        half = 0.5 * width
+        length = half if self.length is None else min(self.length, half)
+        share = np.maximum(np.abs(z) - half + length, 0.0) / length
+        return np.broadcast_to(self.height * share**self.exponent, (angle.size, z.size))
+
+    def symmetric(self, width: float) -> bool:
+        """Whether both halves of the width are alike."""
+        return True
+
+
+@dataclass(frozen=True)
+class Recess:
+    """Rectangular pocket of constant depth in the bore, filled by what flows through it.
+
+    Attributes
+    ----------
+    angle, arc : float
+        Angle of its middle from the first axis toward the second and the angle it spans, rad.
+    depth : float
+        m.
+    length : float, optional
+        Axial length, m; default the full width.
+    z : float
+        Axial place of its middle, m from mid-plane.
+    """
+
+    angle: float
+    arc: Annotated[float, Gt(0), Lt(6.28)]
+    depth: Annotated[float, Gt(0)]
+    length: Annotated[float, Gt(0)] | None = None
+    z: float = 0.0
+    kind: Literal["recess"] = "recess"
+
+    def __post_init__(self) -> None:
+        require(0 < self.arc < 6.28, "arc", self.arc, "rad, 0 < arc < 6.28")
+        require(self.depth > 0, "depth", self.depth, "m, > 0")
+        require(self.length is None or self.length > 0, "length", self.length, "m, > 0")
+
+    def added(self, angle: Array, z: Array, width: float) -> Array:
+        """Growth of the gap at `angle` (n,) and `z` (m,) of a bearing of `width`, (n, m), m."""
+        away = np.abs((angle - self.angle + np.pi) % _TURN - np.pi)
+        low, high = self.across(width)
+        inside = (away < 0.5 * self.arc)[:, None] & ((z > low) & (z < high))[None, :]
+        return np.where(inside, self.depth, 0.0)
+
+    def around(self) -> tuple[float, float]:
+        """Angles of both ends, rad."""
+        return self.angle - 0.5 * self.arc, self.angle + 0.5 * self.arc
+
+    def across(self, width: float) -> tuple[float, float]:
+        """Axial places of both ends, m; beyond the rims where it is as long as the bearing."""
+        half = width if self.length is None else 0.5 * self.length
+        return self.z - half, self.z + half
+
+    def symmetric(self, width: float) -> bool:
+        """Whether both halves of the width are alike."""
+        low, high = (np.clip(end, -0.5 * width, 0.5 * width) for end in self.across(width))
+        return bool(low == -high)
+
+
+@dataclass(frozen=True)
+class Contour:
+    """Given contour or deformation of the bore, linear between its points.
+
+    Attributes
+    ----------
+    angle : sequence of float (n,)
+        rad, increasing; a contour that spans less than a turn is closed between its last and first
+        point.
+    height : sequence (n,) or (n, m)
+        Growth of the gap, m.
+    z : sequence of float (m,), optional
+        Axial places, m from mid-plane, increasing; constant beyond them. Needed for heights (n, m).
+    """
+
+    angle: Sequence[float]
+    height: Sequence[float] | Sequence[Sequence[float]]
+    z: Sequence[float] | None = None
+    kind: Literal["contour"] = "contour"
+
+    def __post_init__(self) -> None:
+        height = np.asarray(self.height, dtype=float)
+        rows = height.tolist()
+        object.__setattr__(self, "height", tuple(map(tuple, rows) if height.ndim == 2 else rows))
+        for name in ("angle", "z"):
+            if (points := getattr(self, name)) is not None:
+                object.__setattr__(self, name, tuple(np.asarray(points, dtype=float).tolist()))
+        angle, z, table = self._table
+        shape = (angle.size, z.size)
+        require(table.shape == shape, "height", height.shape, f"one value for each point {shape}")
+        for name, points in (("angle", angle), ("z", z)):
+            require(bool(np.all(np.diff(points) > 0)), name, points.tolist(), "increasing")
+        require(bool(np.isfinite(table).all()), "height", "not finite", "m, finite")
+        require(angle[-1] - angle[0] <= _TURN, "angle", angle[-1], "within one turn of the first")
+
+    @cached_property
+    def _table(self) -> tuple[Array, Array, Array]:
+        """Angles (n,), axial places (m,) and heights (n, m) as arrays."""
+        height = np.asarray(self.height, dtype=float)
+        z = np.asarray([0.0] if self.z is None else self.z, dtype=float)
+        table = height[:, None] if height.ndim == 1 else height
+        return np.asarray(self.angle, dtype=float), z, table
+
+    def added(self, angle: Array, z: Array, width: float) -> Array:
+        """Growth of the gap at `angle` (n,) and `z` (m,) of a bearing of `width`, (n, m), m."""
+        angles, places, table = self._table
+        turned = angles[0] + (angle - angles[0]) % _TURN
+        if angles[-1] < angles[0] + _TURN:
+            angles = np.append(angles, angles[0] + _TURN)
+            table = np.concatenate([table, table[:1]])
+        around = np.array([np.interp(turned, angles, column) for column in table.T])
+        share = np.interp(z, places, np.arange(places.size))
+        low = np.minimum(share.astype(int), places.size - 1)
+        high = np.minimum(low + 1, places.size - 1)
+        return (1 - share + low) * around[low].T + (share - low) * around[high].T
+
+    def symmetric(self, width: float) -> bool:
+        """Whether both halves of the width are alike."""
+        _, z, table = self._table
+        return bool(np.array_equal(z, -z[::-1]) and np.array_equal(table, table[:, ::-1]))
+
+
+Relief = Crown | Recess | Contour
