@@ -65,7 +65,7 @@ def test_axial_operator_is_exact_for_its_polynomials(nodes):
 
 def test_with_the_cells_of_the_grid_it_is_the_grid(monkeypatch):
     """Every line of the compiled loops but the polynomials, against the rung "grid"."""
-    mesh = build_mesh(0.75, (36, 8), False, False, None)
+    mesh = build_mesh(0.75, (36, 8), False, False, None, 1.5)
     monkeypatch.setattr(reduced, "POINTS", mesh.z.size)
     monkeypatch.setattr(reduced, "lobatto", lambda half_width, _: cells(half_width, mesh))
     time = np.linspace(0.0, 2.0, 41)
