@@ -7,17 +7,36 @@ right-handed. Shaft frame: e_r = −sin ψ y + cos ψ z, e_t = −cos ψ y − s
 import numpy as np
 from numba import njit
 
+from ._slots import (
+    AZIMUTH,
+    COLUMNS,
+    FX,
+    FY,
+    FZ,
+    MX,
+    MY,
+    MZ,
+    PITCH,
+    S_AXIAL,
+    S_AZIMUTH,
+    S_RATE,
+    S_SPEED,
+    S_STATE,
+    S_TORQUE,
+    S_Y,
+    S_Z,
+    SPEED,
+    STATE,
+    TIP,
+    TORQUE,
+    WIND_X,
+    WIND_Y,
+    WIND_Z,
+)  # fmt: skip
 from .aero._kernels import section_force, solve
+from .control._kernels import brake, control
 
 GRAVITY = 9.80665
-
-# columns of the output
-SPEED, PITCH, AZIMUTH, FX, FY, FZ, MX, MY, MZ, WIND_X, WIND_Y, WIND_Z, TIP, TORQUE = range(14)
-COLUMNS = 14
-
-# slots of the scalar state
-S_AZIMUTH, S_SPEED, S_RATE, S_FILTERED, S_INTEGRAL, S_PITCH, S_TORQUE, S_AXIAL, S_Y, S_Z = range(10)
-SLOTS = 10
 
 
 @njit(cache=True, nogil=True)
@@ -60,18 +79,16 @@ def turbulence(inflow, time, y, z):
 @njit(cache=True, nogil=True)
 def wind_at(m, inflow, step, time, x, y, z):
     """Wind (X, Y, Z) in the ground frame, tower dam included, at a point relative to the hub."""
-    mean = inflow.speed[step]
     height = max(m.hub_height + z, 1.0)
-    speed = mean * (height / m.hub_height) ** inflow.shear
-    speed += inflow.vertical[step] * z + inflow.horizontal[step] * y
-    direction = inflow.direction[step]
-    wind_x, wind_y, wind_z = speed * np.cos(direction), speed * np.sin(direction), 0.0
+    speed = inflow.mean * (height / m.hub_height) ** inflow.shear + inflow.rise[step]
+    turn_c, turn_s = np.cos(inflow.direction[step]), np.sin(inflow.direction[step])
+    along, across = turn_c * x + turn_s * y, turn_c * y - turn_s * x
+    speed += inflow.vertical[step] * z + inflow.horizontal[step] * across
+    v = wind_z = 0.0
     if inflow.u.shape[0] > 0:
-        shifted = time - x / max(mean, 1.0)
-        u, v, w = turbulence(inflow, shifted, y, z)
-        wind_x += u
-        wind_y += v
-        wind_z += w
+        u, v, wind_z = turbulence(inflow, time - along / max(inflow.mean, 1.0), across, z)
+        speed += u
+    wind_x, wind_y = turn_c * speed - turn_s * v, turn_s * speed + turn_c * v
     if m.tower_base_radius > 0 and height < m.tower_height:
         share = height / m.tower_height
         radius = m.tower_base_radius + (m.tower_top_radius - m.tower_base_radius) * share
@@ -125,41 +142,15 @@ def skewed(m, a, r_y, r_z, state):
 
 
 @njit(cache=True, nogil=True)
-def control_torque(c, speed, pitch):
-    """Generator torque of the speed, N m (regions 1 to 3; 3 is held above 1° of pitch)."""
-    if speed >= c.rated_speed or pitch >= np.radians(1.0):
-        torque = c.rated_power / max(speed, 1.0)
-    elif speed <= c.region_15_start:
-        torque = 0.0
-    elif speed < c.region_2_start:
-        top = c.region_2_gain * c.region_2_start**2
-        share = (speed - c.region_15_start) / (c.region_2_start - c.region_15_start)
-        torque = top * share
-    else:
-        slope = c.rated_power / c.rated_speed / (c.rated_speed - c.synchronous_speed)
-        # region 2 follows the parabola until the line of region 2 1/2 crosses it
-        torque = max(c.region_2_gain * speed**2, slope * (speed - c.synchronous_speed))
-    return min(torque, c.maximum_torque)
-
-
-@njit(cache=True, nogil=True)
-def control(m, c, state, dt):
-    """One step of the control: filtered speed, generator torque, collective pitch."""
-    share = 1 - np.exp(-dt * c.filter_rate)
-    state[S_FILTERED] += share * (m.gear_ratio * state[S_SPEED] - state[S_FILTERED])
-    speed, pitch = state[S_FILTERED], state[S_PITCH]
-
-    change = control_torque(c, speed, pitch) - state[S_TORQUE]
-    state[S_TORQUE] += min(max(change, -c.torque_rate * dt), c.torque_rate * dt)
-
-    gain = 1 / (1 + pitch / c.gain_halving_pitch)
-    error = speed - c.reference_speed
-    span = gain * c.integral_gain
-    integral = state[S_INTEGRAL] + error * dt
-    state[S_INTEGRAL] = min(max(integral, c.minimum_pitch / span), c.maximum_pitch / span)
-    wanted = gain * c.proportional_gain * error + span * state[S_INTEGRAL]
-    change = min(max(wanted, c.minimum_pitch), c.maximum_pitch) - pitch
-    state[S_PITCH] += min(max(change, -c.pitch_rate * dt), c.pitch_rate * dt)
+def momentum_share(m, speed, state):
+    """Share of the induction that momentum theory gives: none up to a tip speed ratio of 1, where
+    a rotor that stands or idles has no wake of rings, all of it from 2 on.
+    """
+    wind = np.sqrt(state[S_AXIAL] ** 2 + state[S_Y] ** 2 + state[S_Z] ** 2)
+    excess = abs(speed) * m.tip_radius - wind
+    if excess >= wind:
+        return 1.0
+    return 0.5 * (1 - np.cos(np.pi * excess / wind)) if excess > 0 else 0.0
 
 
 @njit(cache=True, nogil=True)
@@ -175,6 +166,7 @@ def blade_aerodynamics(
     cone_s, cone_c = np.sin(m.cone), np.cos(m.cone)
     tilt_s, tilt_c = np.sin(m.tilt), np.cos(m.tilt)
     count = m.radius.size
+    momentum = momentum_share(m, speed, state)
     mean_x = mean_y = mean_z = 0.0
     for i in range(count):
         along, out, turn = place(m, i, motion, cone_s, cone_c)
@@ -189,11 +181,15 @@ def blade_aerodynamics(
         lean_s, lean_c = np.sin(lean), np.cos(lean)
         normal = shaft_x * lean_c + radial * lean_s - motion[i, 2]
         tangential = speed * out + motion[i, 3] + cosine * wind_y + sine * shaft_z
-        if m.table.shape[0] > 0:
+        if momentum == 0.0:
+            a = swirl = 0.0
+        elif m.table.shape[0] > 0:
             a, swirl = tabulated_induction(m, i, pitch, normal, tangential)
         else:
             angle, a, swirl = solve(m, i, pitch, normal, tangential, guess[i])
             guess[i] = angle
+        if momentum < 1.0:
+            a, swirl = a * momentum, swirl * momentum
         a = skewed(m, a, y, z, state)
         f_normal, f_tangential = section_force(
             m, i, pitch, normal, tangential, a, swirl, dt, wake[i]
@@ -312,10 +308,22 @@ def blade_root(m, b, speed, rate, azimuth, pitch, force, motion, acc, total):
 
 
 @njit(cache=True, nogil=True)
-def march(m, c, inflow, dt, steps, start, controlled, state, q, v, acc, guess, wake, out):
-    """March the rotor; `state` (SLOTS,), `q`, `v`, `acc` (blades, k), `guess`, `wake` go on.
+def braked_rate(speed, drive, held):
+    """Angular acceleration under a drive and a friction `held`, both over the inertia, rad/s²."""
+    if speed == 0.0:
+        return 0.0 if abs(drive) <= held else drive - np.sign(drive) * held
+    return drive - np.sign(speed) * held
 
-    Not `controlled`: speed and pitch stay. `out` (steps, COLUMNS) is filled.
+
+@njit(cache=True, nogil=True)
+def march(
+    m, c, schedule, inflow, dt, steps, start, controlled,
+    state, blade_pitch, q, v, acc, guess, wake, out,
+):  # fmt: skip
+    """March the rotor; `state` (SLOTS,), `blade_pitch` (blades,), `q`, `v`, `acc` (blades, k),
+    `guess` and `wake` go on.
+
+    Not `controlled`: speed and pitch stay. `out` (steps, COLUMNS + blades) is filled.
     """
     sections = m.radius.size
     motion = np.zeros((sections, 6))
@@ -325,29 +333,19 @@ def march(m, c, inflow, dt, steps, start, controlled, state, q, v, acc, guess, w
     fresh = 1 if np.all(wake == 0.0) else 0
     for step in range(steps):
         time = start + step * dt
-        speed, rate, common = state[S_SPEED], state[S_RATE], state[S_PITCH]
+        speed, rate = state[S_SPEED], state[S_RATE]
         total[:] = 0.0
         mean = np.zeros(3)
         for b in range(m.blades):
             azimuth = state[S_AZIMUTH] + 2 * np.pi * b / m.blades
-            pitch = common + m.pitch_offset[b]
+            pitch = blade_pitch[b] + m.pitch_offset[b]
             ahead = q[b] + dt * v[b] + 0.5 * dt * dt * acc[b]
             deflection(m, pitch, ahead, v[b] + dt * acc[b], motion)
+            since = dt if fresh == 0 or step > 0 else 0.0
             wind = blade_aerodynamics(
-                m,
-                inflow,
-                step,
-                time,
-                azimuth,
-                pitch,
-                speed,
-                motion,
-                state,
-                guess[b],
-                wake[b],
-                dt if fresh == 0 or step > 0 else 0.0,
-                force[b],
-            )
+                m, inflow, step, time, azimuth, pitch, speed, motion, state, guess[b], wake[b],
+                since, force[b],
+            )  # fmt: skip
             for axis in range(3):
                 mean[axis] += wind[axis] / m.blades
             if q.shape[1] > 0:
@@ -356,14 +354,20 @@ def march(m, c, inflow, dt, steps, start, controlled, state, q, v, acc, guess, w
             if b == 0:
                 out[step, TIP] = motion[sections - 1, 0]
             blade_root(m, b, speed, rate, azimuth, pitch, force[b], motion, acc[b], total)
+            out[step, COLUMNS + b] = blade_pitch[b]
         state[S_AXIAL], state[S_Y], state[S_Z] = mean[0], mean[1], mean[2]
 
         inertia = total[6] + m.hub_inertia
+        whole = inertia + m.generator_inertia
         torque = total[3] + total[6] * rate  # without the inertia of the changing speed
+        held = 0.0
         if controlled:
-            rate = (torque - m.gear_ratio * state[S_TORQUE]) / (inertia + m.generator_inertia)
+            held = brake(c, state, dt) / whole
+            rate = (torque - m.gear_ratio * state[S_TORQUE]) / whole
+            if held > 0.0:
+                rate = braked_rate(speed, rate, held)
         out[step, SPEED] = speed
-        out[step, PITCH] = common
+        out[step, PITCH] = blade_pitch[0]
         out[step, AZIMUTH] = state[S_AZIMUTH] % (2 * np.pi)
         out[step, FX] = total[0] + m.hub_mass * GRAVITY * np.sin(m.tilt)
         out[step, FY] = total[1]
@@ -374,10 +378,16 @@ def march(m, c, inflow, dt, steps, start, controlled, state, q, v, acc, guess, w
         hub = wind_at(m, inflow, step, time, 0.0, 0.0, 0.0)
         out[step, WIND_X], out[step, WIND_Y], out[step, WIND_Z] = hub[0], hub[1], hub[2]
         out[step, TORQUE] = state[S_TORQUE]
+        out[step, STATE] = state[S_STATE]
 
         if controlled:
-            control(m, c, state, dt)
-            state[S_SPEED] = speed + dt * (1.5 * rate - 0.5 * old_rate)
+            control(
+                c, schedule, state, blade_pitch, m.gear_ratio * speed, total[4], total[5], time, dt
+            )
+            new = speed + dt * (1.5 * rate - 0.5 * old_rate)
+            if held > 0.0 and new * speed <= 0.0 and speed != 0.0:
+                new = rate = 0.0  # friction stops the rotor, it does not turn it back
+            state[S_SPEED] = new
             state[S_RATE] = old_rate = rate
         state[S_AZIMUTH] += 0.5 * dt * (speed + state[S_SPEED])
 

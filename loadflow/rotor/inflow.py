@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from loadflow.turbines import Turbine
+from loadflow.wind import Condition, transient
+from loadflow.wind import Machine as WindMachine
 from loadflow.wind.field import Field
 
 Array = NDArray[np.float64]
@@ -14,13 +17,15 @@ _NO_BOX = np.zeros((0, 1, 1), dtype=np.float32)
 
 
 class Inflow(NamedTuple):
-    """Wind at the rotor: hub values at each step, shear, and a box of turbulence.
+    """Wind at the rotor: its course at each step, shear, and a box of turbulence.
 
-    The wind at height Z and lateral place y is ``speed (Z/Z_hub)^shear + vertical z +
-    horizontal y`` in the given direction, plus the fluctuation of the box.
+    The wind at height Z and lateral place y is ``mean (Z/Z_hub)^shear + rise + vertical z +
+    horizontal y`` in the given direction, plus the fluctuation of the box; y and the box turn with
+    the wind.
     """
 
-    speed: Array  # (steps,), m/s
+    mean: float  # m/s
+    rise: Array  # (steps,), m/s
     direction: Array  # (steps,), rad, positive to the left
     vertical: Array  # (steps,), linear shear, 1/s
     horizontal: Array  # (steps,), 1/s
@@ -38,7 +43,8 @@ def steady_inflow(
     """Constant hub wind with a power-law profile, and turbulence if a box is given."""
     zero = np.zeros(steps)
     return Inflow(
-        speed=np.full(steps, float(wind_speed)),
+        mean=float(wind_speed),
+        rise=zero,
         direction=np.full(steps, float(direction)),
         vertical=zero,
         horizontal=zero,
@@ -48,4 +54,28 @@ def steady_inflow(
         u=_NO_BOX if box is None else box.u,
         v=_NO_BOX if box is None or box.v is None else box.v,
         w=_NO_BOX if box is None or box.w is None else box.w,
+    )
+
+
+def case_inflow(
+    condition: Condition, machine: WindMachine, time: Array, box: Field | None
+) -> Inflow:
+    """Wind of a load case at each step; `time` counts from the start of the series, s."""
+    steady = steady_inflow(
+        condition.wind_speed, time.size, condition.shear_exponent, condition.yaw_error, box
+    )
+    change: dict[str, Any] = dict(transient(condition, machine, time))
+    if "direction" in change:
+        change["direction"] = condition.yaw_error + change["direction"]
+    return steady._replace(**change)
+
+
+def wind_machine(turbine: Turbine) -> WindMachine:
+    """What the wind conditions need to know of a turbine."""
+    return WindMachine(
+        cut_in=turbine.cut_in,
+        rated=turbine.rated_wind_speed,
+        cut_out=turbine.cut_out,
+        rotor_diameter=2 * turbine.rotor.radius,
+        hub_height=turbine.rotor.hub_height,
     )

@@ -10,8 +10,11 @@ from numpy.typing import NDArray
 from loadflow.errors import SolverError
 
 from . import _kernels as kernels
+from . import _slots as k
+from .control._kernels import control_torque
+from .control.constants import IDLE, PARK, UNEVENTFUL, Controller, Schedule
 from .inflow import Inflow
-from .machine import Controller, Machine
+from .machine import Machine
 
 Array = NDArray[np.float64]
 
@@ -21,6 +24,7 @@ class State:
     """What the loop carries from step to step; `run` moves it on."""
 
     scalars: Array
+    pitch: Array  # (blades,), rad
     modes: Array  # (blades, k), deflection of each mode, m
     mode_speed: Array
     mode_acceleration: Array
@@ -30,28 +34,64 @@ class State:
     @property
     def speed(self) -> float:
         """Rotor speed, rad/s."""
-        return float(self.scalars[kernels.S_SPEED])
+        return float(self.scalars[k.S_SPEED])
+
+    @property
+    def azimuth(self) -> float:
+        """Azimuth of blade 1, rad."""
+        return float(self.scalars[k.S_AZIMUTH])
 
     def copy(self) -> State:
         """Return a state that moves on by itself."""
         return State(*(getattr(self, f.name).copy() for f in fields(self)))
 
 
-def start_state(m: Machine, c: Controller, wind_speed: float, speed: float, pitch: float) -> State:
-    """State that turns steadily at `speed` (rad/s) and `pitch` (rad), blades straight."""
-    scalars = np.zeros(kernels.SLOTS)
-    scalars[kernels.S_SPEED] = speed
-    scalars[kernels.S_PITCH] = pitch
-    scalars[kernels.S_FILTERED] = m.gear_ratio * speed
-    scalars[kernels.S_TORQUE] = kernels.control_torque(c, m.gear_ratio * speed, pitch)
+def turning_state(
+    m: Machine, c: Controller, wind_speed: float, speed: float, pitch: float
+) -> State:
+    """Running at steady `speed` (rad/s) and `pitch` (rad), blades straight."""
+    state = _state(m, wind_speed, pitch)
+    scalars = state.scalars
+    scalars[k.S_SPEED] = speed
+    scalars[k.S_FILTERED] = m.gear_ratio * speed
+    scalars[k.S_TORQUE] = control_torque(c, m.gear_ratio * speed, pitch)
+    scalars[k.S_FLOOR] = c.minimum_pitch
     gain = 1 / (1 + pitch / c.gain_halving_pitch)
-    scalars[kernels.S_INTEGRAL] = pitch / (gain * c.integral_gain)
-    scalars[kernels.S_AXIAL] = wind_speed * np.cos(m.tilt)
-    scalars[kernels.S_Z] = wind_speed * np.sin(m.tilt)
+    scalars[k.S_INTEGRAL] = pitch / (gain * c.integral_gain)
+    return state
+
+
+def standing_state(
+    m: Machine, c: Controller, wind_speed: float, azimuth: float, *, idle: bool, stuck: bool
+) -> State:
+    """Parked with the brake closed, or free to idle; `stuck`: the last blade at fine pitch."""
+    pitch = c.idling_pitch if idle else c.stopped_pitch
+    state = _state(m, wind_speed, pitch)
+    scalars = state.scalars
+    scalars[k.S_AZIMUTH] = azimuth
+    scalars[k.S_STATE] = IDLE if idle else PARK
+    scalars[k.S_FLOOR] = pitch
+    scalars[k.S_BRAKE] = 0.0 if idle else 1.0
+    if stuck:
+        state.pitch[-1] = c.minimum_pitch
+    return state
+
+
+def _state(m: Machine, wind_speed: float, pitch: float) -> State:
+    scalars = np.zeros(k.SLOTS)
+    scalars[k.S_PITCH] = pitch
+    scalars[k.S_AXIAL] = wind_speed * np.cos(m.tilt)
+    scalars[k.S_Z] = wind_speed * np.sin(m.tilt)
     modes = np.zeros((m.blades, m.shape.shape[1]))
     sections = (m.blades, m.radius.size)
     return State(
-        scalars, modes, modes.copy(), modes.copy(), np.zeros(sections), np.zeros((*sections, 2))
+        scalars,
+        np.full(m.blades, float(pitch)),
+        modes,
+        modes.copy(),
+        modes.copy(),
+        np.zeros(sections),
+        np.zeros((*sections, 2)),
     )
 
 
@@ -64,26 +104,32 @@ def run(
     *,
     steps: int,
     start: float = 0.0,
+    schedule: Schedule = UNEVENTFUL,
     controlled: bool = True,
 ) -> Array:
-    """March `steps` of `dt` from time `start`; return the columns of `_kernels`, (steps, …).
+    """March `steps` of `dt` from time `start`.
+
+    Returns
+    -------
+    ndarray, shape (steps, COLUMNS + blades)
+        The columns of `_slots`, then the pitch of each blade.
 
     Raises
     ------
     SolverError
         If a value is not finite or the rotor runs away.
     """
-    out = np.empty((steps, kernels.COLUMNS))
+    out = np.empty((steps, k.COLUMNS + m.blades))
     kernels.march(
-        m, c, inflow, dt, steps, start, controlled, state.scalars, state.modes, state.mode_speed,
-        state.mode_acceleration, state.inflow_angle, state.wake, out,
+        m, c, schedule, inflow, dt, steps, start, controlled, state.scalars, state.pitch,
+        state.modes, state.mode_speed, state.mode_acceleration, state.inflow_angle, state.wake, out,
     )  # fmt: skip
-    bad = ~np.isfinite(out).all(axis=1) | (np.abs(out[:, kernels.SPEED]) > 10)
+    bad = ~np.isfinite(out).all(axis=1) | (np.abs(out[:, k.SPEED]) > 10)
     if bad.any():
         step = int(np.argmax(bad))
         raise SolverError(
             f"the rotor model broke down at t = {start + step * dt:.3f} s: speed "
-            f"{out[step, kernels.SPEED]:.4g} rad/s, pitch {out[step, kernels.PITCH]:.4g} rad, hub "
-            f"wind {out[step, kernels.WIND_X]:.4g} m/s"
+            f"{out[step, k.SPEED]:.4g} rad/s, pitch {out[step, k.PITCH]:.4g} rad, hub "
+            f"wind {out[step, k.WIND_X]:.4g} m/s"
         )
     return out

@@ -1,4 +1,4 @@
-"""A turbine as the compiled loops see it: plain numbers and arrays, made once per rung."""
+"""Rotor and blades as the compiled loops see them: plain numbers and arrays, made once per rung."""
 
 from __future__ import annotations
 
@@ -63,50 +63,6 @@ class Machine(NamedTuple):
     table: Array  # (n, p, q, 2) induced over undisturbed speed; empty: solved at every step
     table_angle: tuple[float, float]  # first inflow angle and step, rad
     table_pitch: tuple[float, float]  # first pitch and step, rad
-
-
-class Controller(NamedTuple):
-    """Constants of the control, generator side, SI."""
-
-    region_2_gain: float
-    region_15_start: float
-    region_2_start: float
-    rated_speed: float
-    synchronous_speed: float
-    rated_power: float
-    maximum_torque: float
-    torque_rate: float
-    filter_rate: float
-    proportional_gain: float
-    integral_gain: float
-    gain_halving_pitch: float
-    reference_speed: float
-    pitch_rate: float
-    minimum_pitch: float
-    maximum_pitch: float
-
-
-def controller(turbine: Turbine) -> Controller:
-    """Constants of the turbine's control."""
-    c = turbine.control
-    return Controller(
-        c.region_2_gain,
-        c.region_15_start,
-        c.region_2_start,
-        c.rated_speed,
-        c.rated_speed / (1 + c.slip),
-        c.rated_mechanical_power,
-        c.maximum_torque,
-        c.maximum_torque_rate,
-        2 * np.pi * c.speed_filter,
-        c.proportional_gain,
-        c.integral_gain,
-        c.gain_halving_pitch,
-        c.reference_speed,
-        c.pitch_rate,
-        c.minimum_pitch,
-        c.maximum_pitch,
-    )
 
 
 def machine(turbine: Turbine, options: RotorOptions) -> Machine:

@@ -35,6 +35,8 @@ class RotorOptions:
         Whether the lift lags behind the angle of attack (shed wake, attached flow).
     tower_dam : bool
         Whether the blades pass through the potential flow around the tower.
+    individual_pitch : bool
+        Whether each blade pitches by itself against the tilt and yaw moment of the rotor.
     mass_imbalance : float
         Excess mass of blade 1, share of its mass.
     pitch_imbalance : float
@@ -48,6 +50,7 @@ class RotorOptions:
     drag_in_induction: bool = False
     shed_wake: bool = True
     tower_dam: bool = True
+    individual_pitch: bool = False
     mass_imbalance: Annotated[float, Ge(-0.2), Le(0.2)] = 0.0
     pitch_imbalance: Annotated[float, Ge(-0.2), Le(0.2)] = 0.0
 

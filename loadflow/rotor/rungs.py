@@ -7,9 +7,11 @@ from functools import lru_cache
 
 from loadflow.errors import InputError
 from loadflow.turbines import Turbine
+from loadflow.wind.cases import Event
 
-from .machine import Controller, Machine, controller, machine
-from .options import RUNGS, RotorOptions
+from .control.constants import Controller, controller
+from .machine import Machine, machine
+from .options import RUNGS, RotorOptions, Rung
 from .tables import with_table
 
 _MODES = {"tables": (), "bem": (), "flap": ("flap1", "flap2", "edge1")}
@@ -21,6 +23,11 @@ def prepare(turbine: Turbine, rung: str, options: RotorOptions) -> tuple[Machine
         raise InputError(f"rung = {rung!r} is not a rung of the rotor; known: {', '.join(RUNGS)}")
     chosen = replace(options, modes=_MODES[rung], tabulated=rung != "bem")
     return _prepare(_Key(turbine), chosen)
+
+
+def default_rung(event: Event) -> Rung:
+    """Rung where none is named: bending blades, but rigid ones for a turbine that is parked."""
+    return "tables" if event.startswith("parked") else "flap"
 
 
 class _Key:
@@ -39,4 +46,6 @@ class _Key:
 @lru_cache(maxsize=8)
 def _prepare(key: _Key, options: RotorOptions) -> tuple[Machine, Controller]:
     built = machine(key.turbine, options)
-    return (with_table(built) if options.tabulated else built), controller(key.turbine)
+    return (with_table(built) if options.tabulated else built), controller(
+        key.turbine, options.individual_pitch
+    )

@@ -2,24 +2,28 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from loadflow.errors import InputError
 from loadflow.turbines import Turbine, load_turbine
-from loadflow.wind.field import Field
-from loadflow.wind.options import WindOptions
+from loadflow.wind import Condition, Field, WindOptions, condition, inflow
+from loadflow.wind.cases import STANDING, Event
 
 from .options import RotorOptions
 
 if TYPE_CHECKING:
     import xarray as xr
 
-SUPPORTED = ("1.1", "1.2", "1.3")
-"""Load cases that `simulate` knows: power production in normal or extreme turbulence."""
+    from .control.constants import Controller, Schedule
+    from .loop import State
+    from .machine import Machine
+
 _MARGIN = 10.0  # s of wind before and after, because the sections meet it early and late
+_FASTEST = 100.0  # m/s
 
 
 def simulate(
@@ -28,15 +32,19 @@ def simulate(
     dlc: str = "1.1",
     wind_speed: float,
     seed: int = 1,
-    duration: float = 600.0,
-    category: str = "B",
-    wind_class: str = "I",
-    shear: float = 0.2,
-    yaw_error: float = 0.0,
+    duration: float | None = None,
+    category: str | None = None,
+    wind_class: str | None = None,
+    shear: float | None = None,
+    yaw_error: float | None = None,
+    azimuth: float | None = None,
+    event: Event | None = None,
+    event_time: float | None = None,
+    steady: bool = False,
     dt: float = 0.025,
     run_in: float = 60.0,
     base_seed: int = 0,
-    rung: str = "flap",
+    rung: str | None = None,
     options: RotorOptions | None = None,
     wind_options: WindOptions | None = None,
     field: Field | None = None,
@@ -47,32 +55,48 @@ def simulate(
     ----------
     turbine : str, Path or Turbine
     dlc : str
-        Design load case: 1.1 and 1.2 (normal turbulence) or 1.3 (extreme turbulence).
+        Design load case of IEC 61400-1, 1.1 … 7.1; see `loadflow.wind.LOAD_CASES`.
     wind_speed : float
         Mean at the hub, m/s.
     seed : int
-        Index of the realisation; the same arguments give the same result, bit for bit.
-    duration, dt : float
-        Length and step of the result, s.
-    category, wind_class : str
-        Turbulence category and wind class of IEC 61400-1.
-    shear : float
-        Exponent of the wind profile.
-    yaw_error : float
+        Index of the realisation of a turbulent wind, or of the variant (sign, time of the event,
+        yaw error) of another; the same arguments give the same result, bit for bit.
+    duration : float, optional
+        Length of the result, s; that of the load case by default (600 s for 1.1).
+    category, wind_class : str, optional
+        Turbulence category ("B") and wind class ("I") of IEC 61400-1.
+    shear : float, optional
+        Exponent of the wind profile; by default 0.2, and 0.11 in the extreme wind.
+    yaw_error : float, optional
         Direction of the mean wind against the shaft, rad, positive blowing to the left.
+    azimuth : float, optional
+        Of blade 1 when a gust begins, or of a rotor that stands, rad.
+    event : str, optional
+        What the control does or suffers instead of what the load case says: "none", "start",
+        "stop", "emergency stop", "grid loss", "blade stuck", "pitch runaway", "parked", "idling"
+        or "parked, blade stuck".
+    event_time : float, optional
+        When, s from the start of the result.
+    steady : bool
+        The steady extreme wind instead of the turbulent one (6.1 … 6.3, 7.1).
+    dt : float
+        Step of the result, s.
     run_in : float
         Simulated before t = 0 and thrown away, s.
     base_seed : int
         Seed of the whole study; see `loadflow.wind.case_seed`.
-    rung : {"tables", "bem", "flap"}
+    rung : {"tables", "bem", "flap"}, optional
         Rigid blades with the induction from a table; rigid blades with the induction solved at
         every section and step; blades with two flap and one edge mode, induction from the table.
+        By default "flap", and "tables" where the turbine is parked: without dynamic stall, bending
+        blades that stand in an oblique storm shake themselves far beyond what is real.
     options : RotorOptions, optional
-        Effects and imbalance.
+        Effects and imbalance, individual pitch control.
     wind_options : WindOptions, optional
-        Grid and scaling of the turbulence.
+        Wind class, category, shear, grid and scaling of the turbulence; the arguments above go
+        before it.
     field : Field, optional
-        Wind of the user's own instead of ``dlc``, `category` and `seed`; from −run_in on.
+        Wind of the user's own instead of that of the load case; from −run_in on.
 
     Returns
     -------
@@ -81,98 +105,185 @@ def simulate(
         from upwind), ``hub_force`` (axis, time; N) and ``hub_moment`` (axis, time; N m): what the
         rotor applies to the shaft at its apex, weight included, in the shaft frame that does not
         rotate (x along the shaft downwind, z up, y left looking downwind); ``wind`` (axis, time;
-        m/s, ground frame) at the hub, ``generator_torque`` (N m), ``tip_deflection`` (m).
+        m/s, ground frame) at the hub, ``generator_torque`` (N m), ``tip_deflection`` (m),
+        ``blade_pitch`` (blade, time; rad), ``state`` (number of the supervisory state).
 
     Raises
     ------
     InputError
-        Unknown turbine, load case or rung; a wind speed outside cut-in … cut-out; bad times.
+        Unknown turbine, load case, event or rung; a wind speed outside cut-in … cut-out where the
+        turbine runs; bad times; a variant that the load case does not have.
     SolverError
         If the model breaks down.
-    """
-    from .inflow import steady_inflow
-    from .loop import run
-    from .rungs import prepare
-    from .steady import operating_point
 
-    machine = load_turbine(turbine)
-    if not machine.cut_in <= wind_speed <= machine.cut_out:
-        raise InputError(
-            f"wind_speed = {wind_speed} m/s is not allowed; {machine.name} runs from "
-            f"{machine.cut_in} to {machine.cut_out} m/s"
-        )
-    if not 0.005 <= dt <= 0.1:
-        raise InputError(f"dt = {dt} s is not allowed; it must be within 0.005 … 0.1 s")
-    if not (duration >= dt and run_in >= 0):
-        raise InputError(f"duration = {duration} s, run_in = {run_in} s: > 0 and >= 0 are needed")
-    m, c = prepare(machine, rung, options or RotorOptions())
-    lead = run_in + _MARGIN
-    if field is None:
-        length = lead + duration + _MARGIN
-        field = _turbulence(
-            machine, dlc, wind_speed, seed, category, wind_class, shear, length, base_seed,
-            wind_options or WindOptions(shear_exponent=shear),
-        )  # fmt: skip
+    Examples
+    --------
+    A stop that begins after 20 s and ends at rest:
+
+    >>> from loadflow.rotor import simulate
+    >>> stop = simulate(dlc="4.1", wind_speed=8, duration=80, event_time=20, rung="tables")
+    >>> float(stop["speed"][-1])
+    0.0
+    """
+    from .inflow import wind_machine
+
+    plant = load_turbine(turbine)
+    own = _given(category=category, wind_class=wind_class, shear_exponent=shear)
+    winds = replace(wind_options or WindOptions(), **own)
+    case = condition(
+        dlc,
+        wind_machine(plant),
+        winds,
+        wind_speed=wind_speed,
+        index=seed,
+        duration=duration,
+        steady=steady,
+    )
+    changes = _given(
+        shear_exponent=shear,
+        yaw_error=yaw_error,
+        azimuth=azimuth,
+        event=event,
+        event_time=event_time,
+    )
+    return simulate_condition(
+        plant,
+        replace(case, **changes),
+        winds,
+        dt=dt,
+        run_in=run_in,
+        base_seed=base_seed,
+        rung=rung,
+        options=options,
+        field=field,
+    )
+
+
+def simulate_condition(
+    turbine: str | Path | Turbine,
+    case: Condition,
+    winds: WindOptions,
+    *,
+    dt: float = 0.025,
+    run_in: float = 60.0,
+    base_seed: int = 0,
+    rung: str | None = None,
+    options: RotorOptions | None = None,
+    field: Field | None = None,
+) -> xr.Dataset:
+    """Loads over time in one wind of a load case, as `loadflow.wind.conditions` lists them.
+
+    Parameters and result are those of `simulate`; `winds` are the options that made the condition.
+    """
+    from .inflow import case_inflow, wind_machine
+    from .loop import run
+    from .rungs import default_rung, prepare
+
+    plant = load_turbine(turbine)
+    _check(plant, case, dt, run_in)
+    rung = rung or default_rung(case.event)
+    m, c = prepare(plant, rung, options or RotorOptions())
+    state = _first_state(m, c, case)
+    run_in += _wait(state, case, run_in)
+    start = 0.0
+    if field is None and case.sigma > 0:
         start = _MARGIN
-    else:
-        start = 0.0
-    state = operating_point(m, c, wind_speed, shear)[1].copy()
-    lost, kept = round(run_in / dt), round(duration / dt)
-    inflow = steady_inflow(wind_speed, lost + kept, shear, yaw_error, field)
-    out = run(m, c, inflow, state, dt, steps=lost + kept, start=start)[lost:]
-    data = _dataset(out, dt)
+        length = run_in + case.duration + 2 * _MARGIN
+        field = inflow(replace(case, duration=length), wind_machine(plant), winds, seed=base_seed)
+    lost, kept = round(run_in / dt), round(case.duration / dt)
+    time = dt * np.arange(-lost, kept, dtype=np.float64)
+    out = run(
+        m,
+        c,
+        case_inflow(case, wind_machine(plant), time, field),
+        state,
+        dt,
+        steps=time.size,
+        start=start,
+        schedule=_schedule(case, start + lost * dt, dt),
+    )
+    data = _dataset(out[lost:], dt)
     data.attrs = {
-        "turbine": machine.name,
-        "dlc": dlc,
-        "wind_speed": wind_speed,
-        "seed": seed,
-        "category": category,
+        "turbine": plant.name,
+        "dlc": case.dlc,
+        "wind_speed": case.wind_speed,
+        "seed": case.index,
+        "category": winds.category,
         "rung": rung,
-        "shear": shear,
+        "shear": case.shear_exponent,
+        "event": case.event,
+        "event_time": case.event_time,
+        "safety_factor": case.safety_factor,
     }
     return data
 
 
-def _turbulence(
-    turbine: Turbine,
-    dlc: str,
-    wind_speed: float,
-    seed: int,
-    category: str,
-    wind_class: str,
-    shear: float,
-    length: float,
-    base_seed: int,
-    options: WindOptions,
-) -> Field:
-    from loadflow.wind import case_seed, iec, kaimal, polar_angles
+def _given(**arguments: Any) -> dict[str, Any]:
+    return {name: value for name, value in arguments.items() if value is not None}
 
-    if dlc not in SUPPORTED:
-        raise InputError(f"dlc = {dlc!r} is not supported; supported are {', '.join(SUPPORTED)}")
-    sigma = (
-        iec.etm_sigma(wind_speed, wind_class, category)
-        if dlc == "1.3"
-        else iec.ntm_sigma(wind_speed, category)
-    )
-    return kaimal(
-        wind_speed,
-        float(sigma),
-        radius=np.linspace(0.0, turbine.rotor.radius, options.radii),
-        angles=polar_angles(options.angles),
-        duration=length,
-        dt=options.step,
-        seed=case_seed(dlc, wind_speed, seed, base_seed),
-        hub_height=turbine.rotor.hub_height,
-        shear_exponent=shear,
-        scaling=options.scaling,
-        lateral=options.lateral,
-    )
+
+def _check(turbine: Turbine, case: Condition, dt: float, run_in: float) -> None:
+    from .control.constants import EVENTS
+
+    if case.event not in EVENTS:
+        raise InputError(f"event = {case.event!r} is unknown; known: {', '.join(EVENTS)}")
+    low, high = turbine.cut_in, turbine.cut_out
+    if case.event in STANDING:
+        low, high = 0.0, _FASTEST
+    if not low <= case.wind_speed <= high:
+        raise InputError(
+            f"wind_speed = {case.wind_speed} m/s is not allowed; {turbine.name} "
+            f"{'stands' if case.event in STANDING else 'runs'} from {low} to {high} m/s"
+        )
+    if not 0.005 <= dt <= 0.1:
+        raise InputError(f"dt = {dt} s is not allowed; it must be within 0.005 … 0.1 s")
+    if not (case.duration >= dt and run_in >= 0):
+        raise InputError(
+            f"duration = {case.duration} s, run_in = {run_in} s: > 0 and >= 0 are needed"
+        )
+
+
+def _first_state(m: Machine, c: Controller, case: Condition) -> State:
+    """State before the run-in: at rest, idling, or running in a wind without its changes."""
+    from .loop import standing_state
+    from .steady import operating_point
+
+    if case.event in STANDING or case.event == "start":
+        return standing_state(
+            m,
+            c,
+            case.wind_speed,
+            case.azimuth,
+            idle=case.event == "idling",
+            stuck=case.event == "parked, blade stuck",
+        )
+    return operating_point(m, c, case.wind_speed, case.shear_exponent)[1].copy()
+
+
+def _wait(state: State, case: Condition, run_in: float) -> float:
+    """Time to add to the run-in so that blade 1 is where it shall be when the gust begins, s.
+
+    Turbulence meets the rotor anywhere, and a rotor that stands is there already.
+    """
+    if case.sigma > 0 or state.speed == 0:
+        return 0.0
+    passed = state.azimuth + state.speed * (run_in + case.gust_time)
+    return float((case.azimuth - passed) % (2 * np.pi) / state.speed)
+
+
+def _schedule(case: Condition, zero: float, dt: float) -> Schedule:
+    """What happens when; `zero`: the loop's time at the start of the series."""
+    from .control.constants import EVENTS, Schedule
+
+    # half a step early: sums of steps miss the time by a rounding error
+    return Schedule(EVENTS.index(case.event), zero + case.event_time - 0.5 * dt)
 
 
 def _dataset(out: np.ndarray, dt: float) -> xr.Dataset:
     import xarray as xr
 
-    from . import _kernels as k
+    from . import _slots as k
+    from .control.constants import STATES
 
     def scalar(column: int, units: str, name: str) -> tuple:
         return "time", out[:, column].copy(), {"units": units, "long_name": name}
@@ -193,8 +304,23 @@ def _dataset(out: np.ndarray, dt: float) -> xr.Dataset:
             "wind": vector([k.WIND_X, k.WIND_Y, k.WIND_Z], "m/s", "wind at the hub"),
             "generator_torque": scalar(k.TORQUE, "N m", "generator torque"),
             "tip_deflection": scalar(k.TIP, "m", "deflection of the outermost section of blade 1"),
+            "blade_pitch": (
+                ("blade", "time"),
+                out[:, k.COLUMNS :].T.copy(),
+                {"units": "rad", "long_name": "pitch of each blade"},
+            ),
+            "state": (
+                "time",
+                out[:, k.STATE].astype(np.int8),
+                {
+                    "units": "1",
+                    "long_name": "supervisory state",
+                    "flag_meanings": ", ".join(STATES),
+                },
+            ),
         },
         coords={
+            "blade": np.arange(1, out.shape[1] - k.COLUMNS + 1),
             "time": ("time", time, {"units": "s", "long_name": "time"}),
             "axis": ["x", "y", "z"],
         },

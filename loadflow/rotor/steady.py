@@ -16,8 +16,9 @@ from .options import RotorOptions
 if TYPE_CHECKING:
     import xarray as xr
 
+    from .control.constants import Controller
     from .loop import State
-    from .machine import Controller, Machine
+    from .machine import Machine
 
 _STEP = 0.04  # s
 _SETTLE, _MEAN = 40.0, 20.0  # s; the mean is over whole revolutions of at least _MEAN
@@ -85,7 +86,7 @@ def steady_state(
         raise InputError(f"shear = {shear} is not allowed; it must be in [0, 1)")
     m, c = prepare(machine, rung, options or RotorOptions())
     rows = np.array([operating_point(m, c, float(v), shear)[0] for v in speeds])
-    from . import _kernels as k
+    from . import _slots as k
 
     moment, force = rows[:, [k.MX, k.MY, k.MZ]], rows[:, [k.FX, k.FY, k.FZ]]
     along = ("wind_speed",)
@@ -117,13 +118,13 @@ def operating_point(
     m: Machine, c: Controller, wind_speed: float, shear: float
 ) -> tuple[np.ndarray, State]:
     """Mean columns over whole revolutions, and the state that the control settled at."""
-    from . import _kernels as k
+    from . import _slots as k
     from .inflow import steady_inflow
-    from .loop import run, start_state
+    from .loop import run, turning_state
 
-    state = start_state(m, c, wind_speed, *_guess(m, c, wind_speed))
+    state = turning_state(m, c, wind_speed, *_guess(m, c, wind_speed))
     inflow = steady_inflow(wind_speed, round(_SETTLE / _STEP), shear)
-    before = np.full(k.COLUMNS, np.inf)
+    before = np.full(k.COLUMNS + m.blades, np.inf)
     for _ in range(_ROUNDS):
         out = run(m, c, inflow, state, _STEP, steps=round(_SETTLE / _STEP))
         turns = np.floor(_MEAN * state.speed / (2 * np.pi)) + 1

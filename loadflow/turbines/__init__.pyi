@@ -6,5 +6,6 @@ from .schema import Control as Control
 from .schema import Drivetrain as Drivetrain
 from .schema import Mode as Mode
 from .schema import RotorGeometry as RotorGeometry
+from .schema import Supervision as Supervision
 from .schema import Tower as Tower
 from .schema import Turbine as Turbine

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import tomllib
-from dataclasses import fields
+from collections.abc import Iterable
+from dataclasses import MISSING, fields
+from functools import cache
 from importlib import resources
 from pathlib import Path
 from typing import Any
@@ -12,7 +14,17 @@ import numpy as np
 
 from loadflow.errors import InputError
 
-from .schema import Airfoil, Blade, Control, Drivetrain, Mode, RotorGeometry, Tower, Turbine
+from .schema import (
+    Airfoil,
+    Blade,
+    Control,
+    Drivetrain,
+    Mode,
+    RotorGeometry,
+    Supervision,
+    Tower,
+    Turbine,
+)
 
 _PARTS = {
     "rotor": RotorGeometry,
@@ -67,7 +79,17 @@ def load_turbine(turbine: str | Path | Turbine) -> Turbine:
                 f"unknown turbine {str(turbine)!r}; known are {', '.join(turbine_names())}, "
                 "or give the path of a .toml file"
             )
-        path = Path(str(resources.files(__package__))) / f"{turbine}.toml"
+        return _shipped(str(turbine))
+    return _read(path)
+
+
+@cache
+def _shipped(name: str) -> Turbine:
+    """A turbine of the package, read once, so that what is derived from it is made once too."""
+    return _read(Path(str(resources.files(__package__))) / f"{name}.toml")
+
+
+def _read(path: Path) -> Turbine:
     if not path.is_file():
         raise InputError(f"turbine file {path} does not exist")
     try:
@@ -82,10 +104,11 @@ def load_turbine(turbine: str | Path | Turbine) -> Turbine:
 
 def _turbine(document: dict[str, Any], folder: Path) -> Turbine:
     frequencies = _table(document.pop("frequencies", {}), "frequencies")
-    _check_keys(document, {*_SCALARS, *_PARTS, "blade", "airfoils"}, "file")
+    _check_keys(document, {*_SCALARS, *_PARTS, "blade", "airfoils"}, "file", {"supervision"})
     parts: dict[str, Any] = {
         name: _part(part, document[name], name) for name, part in _PARTS.items()
     }
+    parts["supervision"] = _part(Supervision, document.get("supervision", {}), "supervision")
     airfoils = {
         name: _airfoil(name, entry, folder)
         for name, entry in _table(document["airfoils"], "airfoils").items()
@@ -112,7 +135,8 @@ def _part(part: Any, entry: Any, name: str) -> Any:
             values[key[:-4]] = np.radians(number).item()
         else:
             values[key] = int(number) if key == "blades" else number
-    _check_keys(values, {f.name for f in fields(part)}, name)
+    needed = {f.name for f in fields(part) if f.default is MISSING}
+    _check_keys(values, needed, name, {f.name for f in fields(part)} - needed)
     return part(**values)
 
 
@@ -177,8 +201,10 @@ def _polars(folder: Path, file: str, column: str, where: str) -> list[np.ndarray
     return [values[:, names.index(name)] for name in wanted]
 
 
-def _check_keys(found: dict[str, Any], expected: set[str], where: str) -> None:
-    missing, unknown = expected - set(found), set(found) - expected
+def _check_keys(
+    found: dict[str, Any], needed: set[str], where: str, optional: Iterable[str] = ()
+) -> None:
+    missing, unknown = needed - set(found), set(found) - needed - set(optional)
     if missing:
         raise InputError(f"{where}: missing key {', '.join(sorted(missing))}")
     if unknown:

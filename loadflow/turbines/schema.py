@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from math import pi
 from typing import Annotated
 
 import numpy as np
@@ -14,6 +15,7 @@ from loadflow.errors import InputError
 Array = NDArray[np.float64]
 Positive = Annotated[float, Gt(0)]
 NotNegative = Annotated[float, Ge(0)]
+_DEGREE = pi / 180
 
 
 def _require(ok: bool, owner: str, name: str, value: object, allowed: str) -> None:
@@ -199,13 +201,20 @@ class Drivetrain:
         Generator speed over rotor speed (1 for direct drive).
     generator_inertia : float
         kg m² about the generator shaft.
+    brake_torque, brake_time : float
+        Shaft brake: torque at the generator shaft when fully closed, N m (0: there is none), and
+        the time it takes to close, s.
     """
 
     gear_ratio: Positive
     generator_inertia: NotNegative
+    brake_torque: NotNegative = 0.0
+    brake_time: Positive = 0.6
 
     def __post_init__(self) -> None:
-        _require_positive(self, "gear_ratio")
+        _require_positive(self, "gear_ratio", "brake_time")
+        braked = bool(np.isfinite(self.brake_torque) and self.brake_torque >= 0)
+        _require(braked, "Drivetrain", "brake_torque", self.brake_torque, ">= 0 and finite")
 
 
 @dataclass(frozen=True)
@@ -234,6 +243,9 @@ class Control:
         rad/s.
     pitch_rate, minimum_pitch, maximum_pitch : float
         rad/s; rad.
+    individual_gain, individual_limit : float
+        Of the individual pitch control: integral gain on the tilt and yaw moment, rad/(N m s), and
+        largest deviation from the collective pitch, rad.
     """
 
     region_2_gain: Positive
@@ -252,6 +264,8 @@ class Control:
     pitch_rate: Positive
     minimum_pitch: float
     maximum_pitch: float
+    individual_gain: NotNegative = 0.0
+    individual_limit: NotNegative = 5.0 * _DEGREE
 
     def __post_init__(self) -> None:
         speeds = (self.region_15_start, self.region_2_start, self.rated_speed)
@@ -285,6 +299,43 @@ class Control:
 
 
 @dataclass(frozen=True)
+class Supervision:
+    """What the control does around power production; the file of a turbine may leave it out.
+
+    The pitch by state is that of the source (Table 2-1: 70° idling, 90° stopped); rates, delay and
+    overspeed are common practice and no property of a published turbine.
+
+    Attributes
+    ----------
+    idling_pitch, stopped_pitch : float
+        rad.
+    start_rate, stop_rate : float
+        Pitch rate of start and normal stop, rad/s; fault and emergency take `Control.pitch_rate`.
+    overspeed : float
+        Generator speed that trips the protection, share of `Control.reference_speed`.
+    fault_delay : float
+        From a fault to the reaction of the control, s.
+    brake_speed : float
+        Rotor speed below which the brake closes in a stop, rad/s.
+    """
+
+    idling_pitch: Positive = 70.0 * _DEGREE
+    stopped_pitch: Positive = 90.0 * _DEGREE
+    start_rate: Positive = 2.0 * _DEGREE
+    stop_rate: Positive = 4.0 * _DEGREE
+    overspeed: Annotated[float, Gt(1)] = 1.2
+    fault_delay: NotNegative = 0.2
+    brake_speed: Positive = 0.1
+
+    def __post_init__(self) -> None:
+        _require_positive(
+            self, "idling_pitch", "stopped_pitch", "start_rate", "stop_rate", "brake_speed"
+        )
+        _require(self.overspeed > 1, "Supervision", "overspeed", self.overspeed, "above 1")
+        _require(self.fault_delay >= 0, "Supervision", "fault_delay", self.fault_delay, ">= 0")
+
+
+@dataclass(frozen=True)
 class Turbine:
     """A wind turbine as far as its main bearing feels it.
 
@@ -299,6 +350,7 @@ class Turbine:
     airfoils : dict of Airfoil by name
     frequencies : dict of float by name
         Natural frequencies that a load spectrum may show, Hz.
+    supervision : Supervision
     """
 
     name: str
@@ -314,9 +366,13 @@ class Turbine:
     blade: Blade
     airfoils: dict[str, Airfoil] = field(default_factory=dict)
     frequencies: dict[str, float] = field(default_factory=dict)
+    supervision: Supervision = Supervision()
 
     def __post_init__(self) -> None:
         _require_positive(self, "rated_power")
+        pitch, highest = self.supervision.stopped_pitch, self.control.maximum_pitch
+        within = max(pitch, self.supervision.idling_pitch) <= highest
+        _require(within, "Supervision", "stopped_pitch", pitch, f"at most {highest} rad")
         speeds = (self.cut_in, self.rated_wind_speed, self.cut_out)
         ordered = 0 < speeds[0] < speeds[1] < speeds[2]
         _require(ordered, self.name, "cut_in, rated, cut_out", speeds, "positive and increasing")

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from loadflow.wind import gusts
-from loadflow.wind.cases import Condition
 from loadflow.wind.coherence import CoherenceFactors, PolarGrid
+from loadflow.wind.expansion import Condition
 from loadflow.wind.field import Field, polar_angles
 from loadflow.wind.iec import length_scale
 from loadflow.wind.options import Machine, WindOptions
@@ -75,17 +76,6 @@ def inflow(
             factors=factors,
         )
     time = sample_times(condition.duration, options.step)
-    since = time - condition.gust_time
-    change: dict[str, np.ndarray] = {}
-    if condition.wind == "EOG":
-        change["rise"] = gusts.operating_gust(since, condition.gust)
-    elif condition.wind == "EDC":
-        change["direction"] = gusts.direction_change(since, condition.gust)
-    elif condition.wind == "ECD":
-        change["rise"], change["direction"] = gusts.coherent_gust(since, condition.gust)
-    elif condition.wind == "EWS":
-        gradient = gusts.wind_shear(since, condition.gust) / machine.rotor_diameter
-        change["horizontal" if condition.horizontal else "vertical"] = gradient
     return gusts.gust_field(
         time,
         grid.radius,
@@ -93,5 +83,29 @@ def inflow(
         condition.wind_speed,
         machine.hub_height,
         condition.shear_exponent,
-        **change,
+        **transient(condition, machine, time),
     )
+
+
+def transient(
+    condition: Condition, machine: Machine, time: NDArray[np.float64]
+) -> dict[str, NDArray[np.float64]]:
+    """Course of a gust over `time` (s from the start of the series), for `gusts.gust_field`.
+
+    Returns
+    -------
+    dict
+        What changes of ``rise`` (m/s), ``direction`` (rad), ``vertical`` and ``horizontal`` (1/s).
+    """
+    since = time - condition.gust_time
+    if condition.wind == "EOG":
+        return {"rise": gusts.operating_gust(since, condition.gust)}
+    if condition.wind == "EDC":
+        return {"direction": gusts.direction_change(since, condition.gust)}
+    if condition.wind == "ECD":
+        rise, direction = gusts.coherent_gust(since, condition.gust)
+        return {"rise": rise, "direction": direction}
+    if condition.wind == "EWS":
+        gradient = gusts.wind_shear(since, condition.gust) / machine.rotor_diameter
+        return {"horizontal" if condition.horizontal else "vertical": gradient}
+    return {}

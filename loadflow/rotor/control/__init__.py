@@ -1,0 +1,1 @@
+"""Control of the rotor: speed and pitch, supervisory states, individual pitch."""
