@@ -17,6 +17,7 @@
 `shaped`                  statics of shaped bores, tilted shafts and tilting pads
 `orbit`                   implicit steps of film and shaft in time
 `mapped`                  the rung "map": `mobility` tabulated from `moving` films
+`periodic`                the closed orbit under a load that repeats
 `result`                  what comes back
 `_kernels`                compiled loops
 ========================  ==========================================================

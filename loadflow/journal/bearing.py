@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import numpy as np
 from annotated_types import Gt, Lt
@@ -22,7 +22,8 @@ from loadflow.journal.equilibrium import (
 from loadflow.journal.estimate import closed_form_position
 from loadflow.journal.film import Film
 from loadflow.journal.options import Cavitation, Lubricant, require
-from loadflow.journal.orbit import march, orbit_dataset
+from loadflow.journal.orbit import Marcher, march, mass_balance, orbit_dataset, orbit_row
+from loadflow.journal.periodic import Method, check_period, close_orbit, refuse_half_speed_whirl
 from loadflow.journal.result import Equilibrium, FilmField, field_row, shaped, stack, static_row
 from loadflow.journal.rungs import Control, Rung, check_rung, model
 from loadflow.journal.setup import FilmOptions, Grading, Inlet, build_film, operating_points
@@ -36,6 +37,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 _HIGH = 0.99  # eccentricity ratio at which the lift of a supply is stated
+_METHODS = (False, True, "direct", "marching")
 _STARVED = (
     "the supply is starved, a groove would fall below the cavitation pressure: MassConserving and "
     "GasMixture follow a groove that is not full"
@@ -298,8 +300,13 @@ strict, tilt, bend
         start: ArrayLike | None = None,
         tolerance: float = 1e-8,
         max_iterations: int = 30,
+        step: Literal["given", "adaptive"] = "given",
+        step_tolerance: float = 1e-3,
+        periodic: bool | Literal["direct", "marching"] = False,
+        closure: float = 1e-6,
+        max_periods: int = 100,
     ) -> xr.Dataset:
-        """Path of the shaft under a load that changes with time.
+        """Path of the shaft under a load that changes with time, or repeats.
 
         Implicit steps of second order from one time to the next, squeeze and fill in the same
         operator as the static film; a step at which Newton fails is cut, the load interpolated.
@@ -323,20 +330,37 @@ strict, tilt, bend
             On the scaled residual of a step.
         max_iterations : int
             Newton steps per time step.
+        step : {"given", "adaptive"}
+            One step from each time to the next, or as many as the accuracy asks for; load and
+            speed are straight lines between the times. Only "grid" adapts.
+        step_tolerance : float
+            Error of an adaptive step, share of the narrowest gap.
+        periodic : bool or {"direct", "marching"}
+            Find the closed orbit; `time` is one period, whose last sample closes it. True is
+            "direct": the state that comes back after a period, solved for; "marching" goes on from
+            period to period. Only "grid" closes orbits.
+        closure : float
+            Largest change of position (clearances) and film (over the scale of pressure) from one
+            period to the next.
+        max_periods : int
+            Periods to go through at most.
 
         Returns
         -------
         xarray.Dataset
-            Over ``time`` (and ``axis``): eccentricity_ratio, eccentricity, attitude_angle,
-            minimum_film, maximum_pressure, friction_power, side_flow, supply_flow, total_fill,
-            residual, iterations.
+            Over ``time`` (and ``axis``, ``groove``): eccentricity_ratio, eccentricity,
+            attitude_angle, minimum_film, maximum_pressure, friction_power, side_flow, supply_flow,
+            supply_power, total_fill, groove_flow, groove_pressure, residual, iterations, steps.
+            Attributes: ``mass_balance``, what entered the film less what left and what stayed, over
+            what left; of a closed orbit ``closure`` and ``periods``.
 
         Raises
         ------
         InputError
             Misshapen, not finite or not increasing input.
         SolverError
-            No equilibrium to start from, or a step that fails even when cut.
+            No equilibrium to start from, a step that fails even when cut, an orbit that does not
+            close, or a load that turns at half the speed of the shaft.
         """
         check_rung(rung)
         options = FilmOptions(lubricant, cavitation, edge_pressure, supply, inlet, grid, grading)
@@ -350,10 +374,19 @@ strict, tilt, bend
         place = None if start is None else np.asarray(start, dtype=float) / self.clearance
         if place is not None:
             require(bool(np.hypot(*place) < 1), "start", start, f"|start| < c = {self.clearance} m")
+        require(step in ("given", "adaptive"), "step", step, '"given" or "adaptive"')
+        require(step_tolerance > 0, "step_tolerance", step_tolerance, "> 0")
+        require(periodic in _METHODS, "periodic", periodic, 'False, True, "direct" or "marching"')
         if rung != "grid":
+            require(step == "given", "step", step, f'"given" for rung = "{rung}"')
+            require(not periodic, "periodic", periodic, f'False for rung = "{rung}"')
             control = Control(tolerance, max_iterations)
             return model(rung).orbit(self, options, times, loads, speeds, place, control)
         film = self._film(options.for_history(), speeds)
+        if periodic:
+            check_period(times, loads, speeds)
+            if not film.pockets.lifts(film.p_edge):
+                refuse_half_speed_whirl(times, loads, speeds)
         film.raise_scale(float(np.hypot(*loads.T).max()) / (self.width * self.diameter))
         omega = float(speeds[0])
         film.set_speed(omega)
@@ -365,8 +398,21 @@ strict, tilt, bend
             first = solve_film(film, film.start(), place, np.zeros(2), tolerance, 100)
         if not first.converged:
             raise SolverError(f"orbit cannot start: {self._refusal(film, loads[0], first)}")
-        rows = march(film, first, times, loads, speeds, tolerance, max_iterations)
-        return orbit_dataset(rows, times, loads, speeds, self.clearance)
+        accuracy = step_tolerance if step == "adaptive" else np.inf
+        marcher = Marcher(film, tolerance, max_iterations, accuracy)
+        if periodic:
+            way: Method = "marching" if periodic == "marching" else "direct"
+            rows, ends, about = close_orbit(
+                marcher, first, times, loads, speeds, way, closure, max_periods
+            )
+        else:
+            past = marcher.begin(float(times[0]), first)
+            rows, end = march(marcher, past, times, loads, speeds)
+            rows, ends, about = [orbit_row(film, first, 0), *rows], (past[-1], end[-1]), {}
+        values = {name: np.array([row[name] for row in rows]) for name in rows[0]}
+        about["mass_balance"] = mass_balance(*ends, rows, times)
+        orbit = orbit_dataset(values, times, loads, speeds, self.clearance)
+        return orbit.assign_attrs(about)
 
     # --- inside ----------------------------------------------------------------------------------
     def _plain(self, line: Line, rung: Rung) -> bool:

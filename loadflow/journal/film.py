@@ -350,6 +350,14 @@ class Film:
         volume = self.gap.coef[kernel.HM, :-1, :rows] * self.mesh.dz
         return self.slope * self.state[kernel.FILL] * volume
 
+    def stock(self) -> tuple[float, float]:
+        """Liquid outside the grooves, m³, and what it gains over rims and grooves, m³/s."""
+        mass = np.zeros((self.mesh.shape[0], self.gap.across.shape[1]))
+        outflow = self._balance(self.gap.coef, mass)
+        free = ~self.fixed
+        unit = self.pockets.flow_unit
+        return unit * float(self.liquid()[free].sum()), -unit * float(outflow[free].sum())
+
     # --- results ---------------------------------------------------------------------------------
     def summary(self, u: Array, position: Array) -> dict[str, Any]:
         """Integral results at `u`, in SI units, named as in `Equilibrium`."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,16 +20,26 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 _SMALLEST = 1.0 / 256  # of a given step, to which a step that fails may be cut
+_SAFETY = 0.8  # of the step that the error would allow
+_FINEST = 1.0 / 65536  # of a given step, to which one that is not accurate may be cut
 
 
 @dataclass(frozen=True)
-class _Past:
-    """What a step needs of an earlier time: position, unknowns, liquid in the cells."""
+class Past:
+    """What a step needs of an earlier time: position, unknowns, liquid in the cells.
+
+    `volume` is the liquid outside grooves, m³, `gain` what enters it at this time, m³/s, and
+    `gained` what has entered so far, m³; `ahead` is the step that its error allows next, s.
+    """
 
     time: float
     position: Array
     u: Array
     liquid: Array
+    volume: float
+    gain: float
+    gained: float = 0.0
+    ahead: float = math.inf
 
 
 @dataclass(frozen=True)
@@ -37,51 +47,79 @@ class Marcher:
     """Second-order implicit steps (BDF2 of variable step) of one film.
 
     A mesh fixed to the shell keeps the liquid of each cell as history; a mesh that turns with the
-    shaft serves the laws without fill, whose only history is the path of the shaft.
+    shaft serves the laws without fill, whose only history is the path of the shaft. With an
+    `accuracy`, steps are cut until their error is below that share of the narrowest gap.
     """
 
     film: Film
     tolerance: float
     max_iterations: int
+    accuracy: float = math.inf
 
-    def begin(self, time: float, solution: Solution) -> list[_Past]:
+    def begin(self, time: float, solution: Solution) -> list[Past]:
         """History that starts at `solution`."""
-        return [self._past(time, solution)]
+        return [self.past(time, solution.u, solution.position)]
 
     def step(
         self,
-        past: list[_Past],
+        past: list[Past],
         time: float,
         force: Array,
         speed: float,
         before: tuple[Array, float],
-    ) -> tuple[Solution, list[_Past]]:
-        """Advance to `time` under `force` (N) and `speed` (rad/s).
+    ) -> tuple[Solution, list[Past], int]:
+        """Advance to `time` under `force` (N) and `speed` (rad/s), in the number of steps returned.
 
-        `before` are force and speed at the last time; where Newton fails the step is cut and the
-        load interpolated.
+        `before` are force and speed at the last time; where Newton fails, or the error is too
+        large, the step is cut and the load interpolated.
         """
         start = past[-1].time
-        share, done, spent = 1.0, 0.0, 0
+        smallest = _SMALLEST if math.isinf(self.accuracy) else _FINEST
+        share, done, spent, steps = 1.0, 0.0, 0, 0
+        if self.accuracy < math.inf:
+            share = min(past[-1].ahead / (time - start), 1.0)
         while True:
-            at = min(1.0, done + share)
+            at = 1.0 if done + 1.01 * share > 1.0 else done + share
             now = start + at * (time - start)
             load = before[0] + at * (force - before[0])
             self.film.set_speed(before[1] + at * (speed - before[1]))
             solution = self._try(past, now, load)
             spent += solution.iterations
-            if solution.converged:
-                past = [past[-1], self._past(now, solution)]
-                done = at
+            growth = self._growth(past, now, solution.position) if solution.converged else 0.5
+            if growth >= _SAFETY:
+                share = (
+                    min(growth * (at - done), 1.0) if at < 1.0 else max(growth * (at - done), share)
+                )
+                past = [*past[-2:], self._next(past[-1], now, solution, share * (time - start))]
+                done, steps = at, steps + 1
                 if done >= 1.0:
-                    return _counted(solution, spent), past
-                share = min(2 * share, 1.0)
-            elif share > _SMALLEST:
-                share *= 0.5
+                    return replace(solution, iterations=spent), past, steps
+            elif share > smallest:
+                share *= growth
             else:
-                return _counted(solution, spent), past
+                return replace(solution, iterations=spent, converged=False), past, steps
 
-    def _try(self, past: list[_Past], time: float, force: Array) -> Solution:
+    def _growth(self, past: list[Past], time: float, position: Array) -> float:
+        """How much longer the next step may be; below `_SAFETY` this one was too long.
+
+        The error of the step follows from how far the corrector left the polynomial through the
+        last positions.
+        """
+        if math.isinf(self.accuracy):
+            return 2.0
+        step = time - past[-1].time
+        times = np.array([p.time - time for p in past])
+        weights = np.array([np.prod([s / (s - t) for s in times if s != t]) for t in times])
+        left = position - weights @ np.array([p.position for p in past])
+        share = 1.0
+        if len(past) == 3:
+            ratio = step / (past[-1].time - past[-2].time)
+            known = step * (1 + ratio) / (1 + 2 * ratio)
+            share = known / (known - times[0])
+        error = share * math.hypot(*left) / self.film.gap.narrowest(position)
+        return min(2.0, max(0.2, _SAFETY * (self.accuracy / max(error, 1e-300)) ** (1 / 3)))
+
+    def _try(self, past: list[Past], time: float, force: Array) -> Solution:
         last = past[-1]
         step = time - last.time
         u, position = last.u, last.position
@@ -89,12 +127,13 @@ class Marcher:
             rate = 1.0 / step
             kept = [(rate, last)]
         else:
-            ratio = step / (last.time - past[0].time)
+            before = past[-2]
+            ratio = step / (last.time - before.time)
             rate = (1 + 2 * ratio) / (1 + ratio) / step
-            kept = [((1 + ratio) / step, last), (-(ratio**2) / (1 + ratio) / step, past[0])]
-            ahead = last.position + ratio * (last.position - past[0].position)
+            kept = [((1 + ratio) / step, last), (-(ratio**2) / (1 + ratio) / step, before)]
+            ahead = last.position + ratio * (last.position - before.position)
             if math.hypot(*ahead) < 0.5 + 0.5 * math.hypot(*last.position):
-                u, position = last.u + ratio * (last.u - past[0].u), ahead
+                u, position = last.u + ratio * (last.u - before.u), ahead
         if self.film.mesh.polar:
             offset = sum((w * p.position for w, p in kept), np.zeros(2))
             motion = Motion(rate=rate, offset=offset)
@@ -105,53 +144,61 @@ class Marcher:
             self.film, force, u, position, self.tolerance, self.max_iterations, motion
         )
 
-    def _past(self, time: float, solution: Solution) -> _Past:
-        self.film.place(solution.u, solution.position)
-        return _Past(time, solution.position, solution.u, self.film.liquid())
+    def _next(self, last: Past, time: float, solution: Solution, ahead: float) -> Past:
+        new = self.past(time, solution.u, solution.position)
+        gained = last.gained + 0.5 * (last.gain + new.gain) * (time - last.time)
+        return replace(new, gained=gained, ahead=ahead)
 
-
-def _counted(solution: Solution, iterations: int) -> Solution:
-    return replace(solution, iterations=iterations)
+    def past(self, time: float, u: Array, position: Array) -> Past:
+        """History of a film with unknowns `u` at `position`."""
+        self.film.place(u, position)
+        volume, gain = self.film.stock()
+        return Past(time, position, u, self.film.liquid(), volume, gain)
 
 
 def march(
-    film: Film,
-    start: Solution,
-    time: Array,
-    force: Array,
-    speed: Array,
-    tolerance: float,
-    max_iterations: int,
-) -> dict[str, Array]:
-    """What `orbit_dataset` needs at every time, the first being `start`.
+    marcher: Marcher, past: list[Past], time: Array, force: Array, speed: Array
+) -> tuple[list[dict[str, Any]], list[Past]]:
+    """Rows of the orbit at every time after the first, and the history at the last.
 
     Raises
     ------
     SolverError
-        A step fails even when cut to 1/256.
+        A step fails even when cut.
     """
-    marcher = Marcher(film, tolerance, max_iterations)
-    past = marcher.begin(float(time[0]), start)
-    rows = [_row(film, start)]
+    rows = []
     for i in range(1, time.size):
         before = (force[i - 1], float(speed[i - 1]))
         now = float(time[i])
-        solution, past = marcher.step(past, now, force[i], float(speed[i]), before)
+        solution, past, steps = marcher.step(past, now, force[i], float(speed[i]), before)
         if not solution.converged:
             raise SolverError(
                 f"orbit stops at t = {now:.6g} s: F = ({force[i, 0]:.6g}, {force[i, 1]:.6g}) N, "
                 f"ω = {speed[i]:.6g} rad/s, ε = {math.hypot(*solution.position):.6g}; residual "
                 f"{solution.residual:.3g} after {solution.iterations} Newton steps"
             )
-        rows.append(_row(film, solution))
-    return {name: np.array([row[name] for row in rows]) for name in rows[0]}
+        rows.append(orbit_row(marcher.film, solution, steps))
+    return rows, past
 
 
-def _row(film: Film, solution: Solution) -> dict[str, float]:
+def orbit_row(film: Film, solution: Solution, steps: int) -> dict[str, Any]:
+    """What an orbit says of one time, after `steps` implicit steps."""
     row = film.summary(solution.u, solution.position)
     x, y = solution.position.tolist()
-    row |= {"x": x, "y": y, "residual": solution.residual, "iterations": solution.iterations}
-    return row
+    return row | {
+        "x": x,
+        "y": y,
+        "residual": solution.residual,
+        "iterations": solution.iterations,
+        "steps": steps,
+    }
+
+
+def mass_balance(first: Past, last: Past, rows: list[dict[str, Any]], time: Array) -> float:
+    """What entered the film less what left and what stayed, over what left or was there."""
+    left = float(np.trapezoid([row["side_flow"] for row in rows], time))
+    stored = last.volume - first.volume
+    return float((last.gained - first.gained - stored) / max(left, last.volume))
 
 
 _VARIABLES = {
@@ -161,9 +208,15 @@ _VARIABLES = {
     "friction_power": ("W", "friction power of the film"),
     "side_flow": ("m3/s", "oil that leaves through the rims"),
     "supply_flow": ("m3/s", "oil that the grooves give, net"),
+    "supply_power": ("W", "what lifts that oil from tank to supply pressure"),
     "total_fill": ("1", "share of liquid in the gap"),
     "residual": ("1", "largest imbalance of cell and load, scaled"),
     "iterations": ("1", "Newton steps"),
+    "steps": ("1", "implicit steps since the time before"),
+}
+_GROOVES = {
+    "groove_flow": ("m3/s", "oil that each groove gives to the film"),
+    "groove_pressure": ("Pa", "pressure of each groove, absolute"),
 }
 
 
@@ -176,8 +229,10 @@ def orbit_dataset(
     path = np.stack([values["x"], values["y"]], axis=-1)
     values = values | {"eccentricity_ratio": np.hypot(path[:, 0], path[:, 1])}
     data = {
-        name: ("time", values[name], {"units": units, "long_name": text})
-        for name, (units, text) in _VARIABLES.items()
+        name: (dims, values[name], {"units": units, "long_name": text})
+        for dims, names in (("time", _VARIABLES), (("time", "groove"), _GROOVES))
+        for name, (units, text) in names.items()
+        if name in values
     }
     return xr.Dataset(
         {

@@ -13,6 +13,20 @@ from numpy.typing import ArrayLike, NDArray
 Array = NDArray[np.float64]
 
 
+def effective_speed(shaft: float, shell: float = 0.0, load: float = 0.0) -> float:
+    """Speed at which a film at rest would carry the same: ω_shaft + ω_shell − 2 ω_load, rad/s.
+
+    (3.8) of the source [Jonuschies 2015]; a load that turns at half the speed of the shaft finds
+    no film.
+
+    Examples
+    --------
+    >>> effective_speed(10.0, load=5.0)
+    0.0
+    """
+    return shaft + shell - 2.0 * load
+
+
 def short_bearing(eccentricity_ratio: ArrayLike, width_ratio: float) -> tuple[Array, Array]:
     """So and β (rad) of the short bearing of Ocvirk with the Gümbel condition.
 
