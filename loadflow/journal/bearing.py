@@ -350,7 +350,8 @@ strict, tilt, bend
         xarray.Dataset
             Over ``time`` (and ``axis``, ``groove``): eccentricity_ratio, eccentricity,
             attitude_angle, minimum_film, maximum_pressure, friction_power, side_flow, supply_flow,
-            supply_power, total_fill, groove_flow, groove_pressure, residual, iterations, steps.
+            supply_power, total_fill, groove_flow, groove_pressure, residual, iterations; steps
+            where they adapt.
             Attributes: ``mass_balance``, what entered the film less what left and what stayed, over
             what left; of a closed orbit ``closure`` and ``periods``.
 
@@ -410,6 +411,8 @@ strict, tilt, bend
             rows, end = march(marcher, past, times, loads, speeds)
             rows, ends, about = [orbit_row(film, first, 0), *rows], (past[-1], end[-1]), {}
         values = {name: np.array([row[name] for row in rows]) for name in rows[0]}
+        if step == "given":
+            del values["steps"]
         about["mass_balance"] = mass_balance(*ends, rows, times)
         orbit = orbit_dataset(values, times, loads, speeds, self.clearance)
         return orbit.assign_attrs(about)
