@@ -18,7 +18,7 @@ _kernels         the compiled loops of the solver; `_forces`: of all contact for
 capacity, life   dynamic capacities; equivalent load, spectra, oscillation
 safety           hardness factor, static safety
 crank            crank drive: motion, loads, inertia of the pin bearing's rollers
-kinematics       speeds of cage, rollers and surfaces; `radial_distribution`: one row, one plane
+kinematics       speeds of cage, rollers and surfaces; `radial_load`: one row, one plane
 friction         components of friction with an energy audit, catalogues, slewing bearings
 lim_singh        6 × 6 stiffness in closed form; `film_dynamics`: films and damping of a contact
 rotor_dynamics   stiffness and damping of a bearing over load and frequency

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
@@ -9,7 +10,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError
 from loadflow.rolling import film_dynamics as dynamics
-from loadflow.rolling.ball import BallBearingResult
 from loadflow.rolling.contact import POINT, STIFFNESS
 from loadflow.rolling.friction.contact_films import (
     ContactFilm,
@@ -21,6 +21,7 @@ from loadflow.rolling.friction.contact_films import (
 from loadflow.rolling.friction.options import FrictionOptions
 from loadflow.rolling.kinematics import entrainment_speed
 from loadflow.rolling.lim_singh import DOF
+from loadflow.rolling.result import BallResult
 from loadflow.rolling.roller_result import RollerResult
 from loadflow.tribology.hertz import effective_modulus
 from loadflow.tribology.lubricant_laws import bulk_modulus
@@ -30,7 +31,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complexfloating]
-Result = RollerResult | BallBearingResult
+Result = RollerResult | BallResult
 Model = Literal["film", "dry", "proportional"]
 RINGS: tuple[Ring, ...] = ("inner", "outer")
 # m of h ~ Q^-m: Moes's elastic film of lines, Hamrock and Dowson's of points
@@ -56,8 +57,8 @@ def rotor_coefficients(
 
     Parameters
     ----------
-    result : RollerResult or BallBearingResult
-        Equilibrium under cases (...).
+    result : RollerResult or BallResult
+        Equilibrium under cases (...), with rigid rings.
     frequency : array_like, shape (frequency,)
         Circular frequencies of the vibration (not of the shaft), rad/s, > 0.
     speed : array_like
@@ -109,11 +110,12 @@ def rotor_coefficients(
         forces = result.contact_forces.reshape(len(static), -1)
         v = result.contact_directions.reshape(len(static), -1, 5)
         dry = _tangents(result)
-        exponent = _POINT_EXPONENT if result.contacts.law == POINT else _LINE_EXPONENT
-        films = _films(result, speed, options) if options and model == "film" else ()
+        springs = _film_springs(result, speed, options) if model == "film" and options else ()
+        loaded = forces > 0
+        solid = np.where(loaded, dry, 1.0) * (1 + 1j * loss)
         for i, w in enumerate(omega):
-            wet = _wet(dry * (1 + 1j * loss), forces, films, options, float(w), exponent)
-            change = np.where(forces > 0, wet - dry, 0.0)
+            wet = 1 / (1 / solid + sum(spring.compliance(float(w)) for spring in springs))
+            change = np.where(loaded, wet - dry, 0.0)
             matrix[:, i, :5, :5] = static + np.einsum("cj,cja,cjb->cab", change, v, v)
     return _dataset(result, omega, matrix, model)
 
@@ -129,48 +131,62 @@ def _tangents(result: Result) -> Array:
     return tangent.reshape(int(np.prod(result.cases)), -1)
 
 
-def _films(result: Result, speed: ArrayLike, options: FrictionOptions) -> tuple[ContactFilm, ...]:
+@dataclass(frozen=True)
+class _FilmSpring:
+    """Films between all contacts and one ring, (case, contact), as springs and dampers."""
+
+    film: ContactFilm
+    wedge: Array
+    viscosity: Array
+
+    def compliance(self, frequency: float) -> Complex:
+        """Complex compliance, m/N; 0 where there is no film: it is rigid, or nothing is loaded."""
+        there = (self.film.film > 0) & (self.film.half_width > 0)
+        plate = dynamics.richter_plate(
+            bulk_modulus(self.film.pressure),
+            self.film.length,
+            self.film.half_width,
+            np.where(there, self.film.film, 1.0),
+            self.viscosity,
+            frequency,
+        )
+        return np.asarray(np.where(there, 1 / np.where(there, self.wedge + plate, 1.0), 0.0))
+
+
+def _film_springs(
+    result: Result, speed: ArrayLike, options: FrictionOptions
+) -> tuple[_FilmSpring, ...]:
+    """Films of every contact at both rings."""
+    forces = result.contact_forces.reshape(int(np.prod(result.cases)), -1)
+    exponent = _POINT_EXPONENT if result.contacts.law == POINT else _LINE_EXPONENT
+    springs = []
+    for film in _films(result, forces, speed, options):
+        thickness = np.where(film.film > 0, film.film, 1.0)
+        springs.append(
+            _FilmSpring(
+                film=film,
+                wedge=dynamics.dietl_film_stiffness(forces, thickness, exponent),
+                viscosity=options.oil.viscosity(options.temperature, film.pressure),
+            )
+        )
+    return tuple(springs)
+
+
+def _films(
+    result: Result, forces: Array, speed: ArrayLike, options: FrictionOptions
+) -> tuple[ContactFilm, ...]:
     """Films of every contact at both rings, (case, contact)."""
-    cases = int(np.prod(result.cases))
-    forces = result.contact_forces.reshape(cases, -1)
     bearing = result.bearing
-    omega = np.broadcast_to(np.asarray(speed, float), result.cases).reshape(cases, 1)
+    omega = np.broadcast_to(np.asarray(speed, float), result.cases).reshape(-1, 1)
     mean = entrainment_speed(omega, 0.0, bearing.pitch_diameter, bearing.gamma)
     u = np.broadcast_to(np.asarray(mean), forces.shape)
-    if isinstance(result, BallBearingResult):
+    if isinstance(result, BallResult):
         return tuple(groove_film(result.bearing, r, forces, u, options) for r in RINGS)
     rollers = result.bearing
     modulus = 2 * float(effective_modulus(rollers.elastic_modulus, rollers.poisson_ratio))
     length = rollers.roller_length / rollers.slices
     radii = (raceway_radius(rollers.roller_diameter, rollers.gamma, r) for r in RINGS)
     return tuple(line_film(forces, length, r, modulus, u, options) for r in radii)
-
-
-def _wet(
-    contact: Complex,
-    forces: Array,
-    films: tuple[ContactFilm, ...],
-    options: FrictionOptions | None,
-    frequency: float,
-    exponent: float,
-) -> Complex:
-    """Contacts in series with their films at one frequency; a film that is not there is rigid."""
-    compliance = np.where(contact == 0, 0.0, 1 / np.where(contact == 0, 1.0, contact))
-    for film in films:
-        assert options is not None
-        there = (film.film > 0) & (film.half_width > 0)
-        thickness = np.where(there, film.film, 1.0)
-        wedge = dynamics.dietl_film_stiffness(forces, thickness, exponent)
-        plate = dynamics.richter_plate(
-            bulk_modulus(film.pressure),
-            film.length,
-            np.where(there, film.half_width, 1.0),
-            thickness,
-            options.oil.viscosity(options.temperature, film.pressure),
-            frequency,
-        )
-        compliance = compliance + np.where(there, 1 / (wedge + plate), 0.0)
-    return np.asarray(np.where(compliance == 0, 0.0, 1 / np.where(compliance == 0, 1, compliance)))
 
 
 def _dataset(result: Result, omega: Array, matrix: Complex, model: str) -> xr.Dataset:

@@ -5,7 +5,7 @@ import pytest
 
 from loadflow.rolling import FrictionOptions, RollerBearing, roller_friction, rotor_coefficients
 from loadflow.rolling.film_dynamics import richter_plate, richter_printed
-from loadflow.rolling.radial_distribution import behw_law, radial_distribution
+from loadflow.rolling.radial_load import behw_law, radial_distribution
 from loadflow.tribology import lubricant, moes_line, traction
 from loadflow.tribology.lubricant_laws import barus
 

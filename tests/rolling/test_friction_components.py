@@ -12,14 +12,15 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 
 from loadflow.errors import InputError, SolverError
-from loadflow.rolling import friction, kinematics, radial_distribution
+from loadflow.rolling import friction, kinematics, radial_load
 from loadflow.rolling.friction import catalogue, coulomb, guides, roller_drag, rolling_resistance
+from loadflow.tribology import asperities, contact_film, traction
 from loadflow.validation.friction import MAIN, MAIN_RACES, MODULUS
 
 MODULES = [
     "friction.catalogue",
     "kinematics",
-    "radial_distribution",
+    "radial_load",
     "friction.guides",
     "friction.energy",
     "friction.bearing_losses",
@@ -184,6 +185,24 @@ def test_hydrodynamic_force_takes_the_smaller_regime():
     )
 
 
+@pytest.mark.parametrize(
+    ("function", "args"),
+    [
+        (kinematics.ideal_speeds, (100.0, 0.0, 49.5e-3, 71.5e-3)),
+        (kinematics.contact_speeds, (100.0, 0.0, 40.9, 260.0, 49.5e-3, 71.5e-3)),
+        (rolling_resistance.hysteresis_moment, (700.0, 57e-6, 0.01)),
+        (traction.limiting_stress, (1e9, 4e6, 502e6, 0.07)),
+        (traction.newtonian_stress, (30.0, 0.1, 1e-7)),
+        (traction.clipped_stress, (5e6, 4e6)),
+        (traction.boundary_coefficient, (0.01, 0.12)),
+        (asperities.asperity_share, (0.8,)),
+        (contact_film.thermal_factor, (0.1,)),
+    ],
+)
+def test_components_compile_as_they_stand(function, args):
+    assert numba.njit(function)(*args) == pytest.approx(function(*args), rel=1e-14)
+
+
 def test_zhou_hoeprich_table_within_the_models_uncertainty():
     # their Table 1: 2 F R_e per length at G = 3745, W = 2e-4 (R_e not stated); shape only
     speeds = np.array([1, 3, 10, 60, 100]) * 1e-11
@@ -238,23 +257,23 @@ def test_skf_sliding_goes_from_boundary_to_full_film():
 
 def test_radial_distribution_of_the_main_bearing():
     angles = 2 * np.pi * np.arange(14) / 14
-    law = radial_distribution.behw_law(11e-3)
-    shift, loads = radial_distribution.radial_distribution([2000.0, 13800.0], angles, 8e-6, law)
+    law = radial_load.behw_law(11e-3)
+    shift, loads = radial_load.radial_distribution([2000.0, 13800.0], angles, 8e-6, law)
     assert shift * 1e6 == pytest.approx([8.6408, 27.8536], rel=1e-5)
     assert loads[1, :4] == pytest.approx([4208.63, 3685.55, 2251.54, 320.46], rel=1e-5)
     assert (loads * np.cos(angles)).sum(axis=-1) == pytest.approx([2000.0, 13800.0], rel=1e-12)
-    straddling = radial_distribution.radial_distribution(2000.0, angles + np.pi / 14, 8e-6, law)
+    straddling = radial_load.radial_distribution(2000.0, angles + np.pi / 14, 8e-6, law)
     assert straddling.loads.max() == pytest.approx(691.72, rel=1e-5)
 
 
 def test_radial_distribution_without_load_or_support():
-    law = radial_distribution.iso_law(11e-3)
-    found = radial_distribution.radial_distribution(0.0, [0.0, 2.0, 4.0], 8e-6, law)
+    law = radial_load.iso_law(11e-3)
+    found = radial_load.radial_distribution(0.0, [0.0, 2.0, 4.0], 8e-6, law)
     assert (found.loads == 0).all()
     with pytest.raises(SolverError, match="side"):
-        radial_distribution.radial_distribution(1.0, [2.0, 3.0], 8e-6, law)
+        radial_load.radial_distribution(1.0, [2.0, 3.0], 8e-6, law)
     with pytest.raises(InputError, match="clearance"):
-        radial_distribution.radial_distribution(1.0, [0.0], -1e-6, law)
+        radial_load.radial_distribution(1.0, [0.0], -1e-6, law)
 
 
 def test_raceways_of_the_main_bearing_leave_room_for_the_rollers():

@@ -225,3 +225,33 @@ def test_roller_forces_are_the_sums_of_their_slices():
     )  # fmt: skip
     result = pair.equilibrium(force=[(0, -4e5, 1e5), (1e5, 2e5, 0)], moment=(2e4, -1e4))
     assert result.roller_forces == pytest.approx(result.slice_forces.sum(axis=-2), rel=1e-12)
+
+
+def test_losses_of_a_bearing_are_the_power_of_its_shaft():
+    """Torques from the forces on every surface, against the sum of all components."""
+    speed, drag = 150.0, 2e-6
+    options = dataclasses.replace(OPTIONS, roller_drag=drag)
+    result = MAIN_BEARING.equilibrium(force=(3000.0, 1000.0, 0.0))
+    found = roller_friction(result, speed, options)
+    cage, spin = ideal_speeds(speed, 0.0, *MAIN_RACES)
+    force = result.roller_forces[0]
+    oil, u = OPTIONS.oil, spin * 5.5e-3
+    rolling = []
+    for radius in (4.5e-3, 6.5e-3):
+        film = friction.line_film(force, 11e-3, radius, MODULUS, np.array(u), options)
+        moment = rolling_resistance.hysteresis_moment(force, film.half_width, options.hysteresis)
+        inlet = rolling_resistance.hydrodynamic_force(
+            force, 11e-3, radius, u, float(oil.viscosity(363.15)),
+            float(oil.pressure_viscosity(363.15)), MODULUS,
+        )  # fmt: skip
+        rolling.append(moment / (2 * radius) + film.share * inlet)
+    pull = (sum(rolling) + drag * spin / 5.5e-3) / 2  # each raceway pulls half of what is needed
+    state = RollerState(
+        inner_speed=speed, outer_speed=0.0, cage_speed=cage, spin=spin, traction=(pull, pull),
+        rolling=tuple(rolling), drag=drag * spin,
+    )  # fmt: skip
+    torques = [np.sum(t) for t in friction.roller_torques(state, *MAIN_RACES)]
+    assert sum(torques) == pytest.approx(0.0, abs=1e-12)
+    shaft = torques[0] * speed + torques[2] * cage
+    assert shaft == pytest.approx(float(found.power), rel=1e-12)
+    assert energy_audit(state, *MAIN_RACES, INERTIA).error < 1e-12

@@ -13,6 +13,7 @@ from loadflow.rolling import (
     BallBearing,
     FrictionOptions,
     RollerBearing,
+    SlewingBearing,
     _kernels,
     film_dynamics,
     rotor_coefficients,
@@ -230,3 +231,15 @@ def test_rigid_films_at_standstill():
 def test_bad_requests_are_refused(frequency, kwargs, word):
     with pytest.raises(InputError, match=word):
         rotor_coefficients(BALL.equilibrium(force=(3e3, 0, 1e3)), frequency, **kwargs)
+
+
+def test_slewing_bearings_too():
+    slewing = SlewingBearing(
+        balls=45, ball_diameter=0.015, pitch_diameter=0.25, groove_radius=0.0078,
+        contact_angle=0.7853981634,
+    )  # fmt: skip
+    result = slewing.equilibrium(force=(1e3, 0, 2e4), moment=(500, 0))
+    dry = rotor_coefficients(result, [10.0], model="dry", loss=0.0)
+    assert dry.stiffness.values[0, 0, :5, :5] == pytest.approx(result.stiffness, rel=1e-12)
+    wet = rotor_coefficients(result, [10.0], speed=1.0, options=OIL)
+    assert 0.5 < wet.stiffness.values[0, 0, 2, 2] / dry.stiffness.values[0, 0, 2, 2] < 1

@@ -103,6 +103,7 @@ def hydrodynamic_force(
     The smaller of `elastic_force` and `rigid_force`, rounded where they meet: the regression of
     the elastic film is far too large for rollers that hardly touch. Arguments as `elastic_force`.
     """
+    # both written out: a compiled caller needs one function without calls
     carry = (pressure_viscosity * viscosity * speed / radius) ** 0.648
     weight = (load / (modulus * length * radius)) ** 0.246
     elastic = 29.2 * radius / pressure_viscosity * length * carry * weight
