@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 
-from loadflow.cli import cubes, points, processing, scenes  # noqa: F401  they register their commands
+from loadflow.cli import cubes, lifetimes, points, processing, scenes  # noqa: F401  they register their commands
 from loadflow.cli.base import app, err
 from loadflow.errors import InputError, LoadflowError
 

@@ -147,11 +147,11 @@ def duration(revolutions: xr.Dataset) -> Figure:
     return drawing
 
 
-def markov(matrix: xr.DataArray) -> Figure:
-    """Draw a Markov matrix: from class (down) to class (right), counts in colour."""
+def markov(matrix: xr.Dataset) -> Figure:
+    """Draw a Markov matrix, `counts` (from, to) between classes of `edges`, in colour."""
     drawing, axis = figure(height=3.4)
     edges, unit = readable(matrix["edges"])
-    counts = np.where(matrix.values > 0, matrix.values, np.nan)
+    counts = matrix["counts"].where(matrix["counts"] > 0).values
     mesh = axis.pcolormesh(edges, edges, np.log10(counts), cmap="viridis")
     axis.set(aspect="equal", xlabel=f"to, {unit}", ylabel=f"from, {unit}")
     drawing.colorbar(mesh, ax=axis, label="log10 of turning points")

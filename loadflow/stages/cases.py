@@ -135,10 +135,10 @@ def _hash(path: Path) -> str:
         return hashlib.file_digest(stream, "sha256").hexdigest()
 
 
-def weighted(cases: list[Case], wind_class: str) -> list[Case]:
-    """Share the lifetime over the wind speeds of each DLC (Rayleigh, (2.2)), and their seeds."""
+def weighted(cases: list[Case], wind_class: str, shape: float = 2.0) -> list[Case]:
+    """Share the lifetime over the wind speeds of each DLC, and their seeds; see `speed_shares`."""
     share = {
-        dlc: _speed_shares({case.wind_speed for case in cases if case.dlc == dlc}, wind_class)
+        dlc: speed_shares((c.wind_speed for c in cases if c.dlc == dlc), wind_class, shape)
         for dlc in {case.dlc for case in cases}
     }
     count = Counter((case.dlc, case.wind_speed) for case in cases)
@@ -147,15 +147,32 @@ def weighted(cases: list[Case], wind_class: str) -> list[Case]:
     ]
 
 
-def _speed_shares(wind_speeds: set[float], wind_class: str) -> dict[float, float]:
-    """Return the share of each wind speed: its bin reaches half way to its neighbours."""
+def speed_shares(
+    wind_speeds: Iterable[float], wind_class: str, shape: float = 2.0
+) -> dict[float, float]:
+    """Return the share of the lifetime of each wind speed: its bin reaches half way to the next.
+
+    Parameters
+    ----------
+    wind_speeds : iterable of float
+        m/s.
+    wind_class : str
+        I, II or III, which sets the annual mean (2.3).
+    shape : float
+        Of the Weibull distribution; 2 is the Rayleigh distribution (2.2).
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        Unknown class, or a shape that is not positive.
+    """
     from loadflow.wind import iec
 
-    speeds = sorted(wind_speeds)
+    speeds = sorted(set(wind_speeds))
     if len(speeds) == 1:
         return {speeds[0]: 1.0}
     middles = [(low + high) / 2 for low, high in pairwise(speeds)]
     first, last = 2 * speeds[0] - middles[0], 2 * speeds[-1] - middles[-1]
     edges = [max(0.0, first), *middles, last]
-    below = iec.weibull_cdf(edges, iec.class_speeds(wind_class).v_ave)
+    below = iec.weibull_cdf(edges, iec.class_speeds(wind_class).v_ave, shape)
     return dict(zip(speeds, (np.diff(below) / (below[-1] - below[0])).tolist()))

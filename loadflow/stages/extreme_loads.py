@@ -61,7 +61,11 @@ def contemporaneous_extremes(
                     best[which, of] = rank, moment, values[:, at]
     if not best:
         raise InputError(f"{source}: the load cube is empty, it holds no case")
-    ordered = [(key, best[key]) for of in units for key in (("max", of), ("min", of))]
+    ordered = [
+        ((which, of), best[which, of])
+        for of in units
+        for which in (("max",) if of.endswith(".yz") else ("max", "min"))
+    ]
     return _dataset(ordered, units)
 
 

@@ -32,8 +32,8 @@ def describe(series: xr.Dataset) -> xr.Dataset:
     0 for a constant). The damage-equivalent load is a range at 1 Hz with the exponent `SLOPE`. The
     azimuth, an angle that only runs round, is left out.
     """
-    wanted = [name for name in series.data_vars if "time" in series[name].dims]
-    wanted = [name for name in wanted if name != "azimuth"]
+    over_time = (name for name in series.data_vars if "time" in series[name].dims)
+    wanted = [name for name in over_time if name != "azimuth"]
     time = series["time"].values
     duration = float(time[-1] - time[0])
     found = {name: _describe(series[name], duration) for name in wanted}
