@@ -9,6 +9,8 @@ import typer
 
 from loadflow.cli.base import AsJson, TurbineName, app, open_checked, out, print_json, progress
 
+CUBES = (".h5", ".nc")
+
 
 @app.command()
 def convert(
@@ -27,15 +29,15 @@ def convert(
     What the name of the output ends with decides: a load cube (.h5, .nc), or tables for other
     programs (.csv, .parquet) or for MATLAB (.mat).
     """
-    from loadflow.cube import EXPORTS, export_cube, iter_cases, resample, save_cube
+    from loadflow.cube import export_cube, iter_cases, resample, save_cube
     from loadflow.readers import read_loads
 
     first = Path(files[0])
-    one_cube = len(files) == 1 and (first.suffix in (".h5", ".nc") or first.is_dir())
+    one_cube = len(files) == 1 and (first.suffix in CUBES or first.is_dir())
     cube = open_checked(first) if one_cube else read_loads(files, turbine=turbine)
     if step is not None:
         cube = resample(cube, step)
-    write = export_cube if output.suffix in EXPORTS else save_cube
+    write = save_cube if output.suffix in CUBES else export_cube
     write(cube, output)
     out.print(f"{output}: {sum(1 for _ in iter_cases(cube))} load cases", soft_wrap=True)
 

@@ -84,10 +84,19 @@ def open_cube(path: str | os.PathLike[str], chunks: Any = None) -> Cube:
                 raise InputError(f"{file}: a whole cube among the files of single cases")
             cases.append(case)
         cube = make_cube(sorted(cases, key=_order))
-        return cube.chunk(chunks) if chunks is not None else cube
+        if chunks is None:
+            return cube
+        if isinstance(cube, xr.DataTree):
+            return cube.map_over_datasets(_in_chunks, chunks)
+        return _in_chunks(cube, chunks)
     if not path.is_file():
         raise InputError(f"{path}: no such load cube, neither file nor folder")
     return _open(path, chunks)
+
+
+def _in_chunks(dataset: xr.Dataset, chunks: Any) -> xr.Dataset:
+    """Chunk the series; the labels of the cases stay in memory."""
+    return dataset.chunk(chunks).assign_coords(dataset.coords)
 
 
 def _need_dask() -> None:
@@ -105,8 +114,8 @@ def _open(path: Path, chunks: Any) -> Cube:
             f"{path}: cannot be read as HDF5; empty, truncated or of another kind ({error})"
         ) from error
     if tree.children:
-        return tree.map_over_datasets(_plain_strings)
-    return _plain_strings(tree.to_dataset())
+        return tree.map_over_datasets(_labels_loaded)
+    return _labels_loaded(tree.to_dataset())
 
 
 def _order(case: xr.Dataset) -> tuple[str, float, int]:
@@ -114,10 +123,11 @@ def _order(case: xr.Dataset) -> tuple[str, float, int]:
     return tuple(case[c].item() if c in case.coords else 0 for c in ("dlc", "wind_speed", "seed"))  # type: ignore[return-value]
 
 
-def _plain_strings(dataset: xr.Dataset) -> xr.Dataset:
-    """Turn strings read as objects into fixed-width ones, as they were saved."""
-    strings = {n: c.astype(str) for n, c in dataset.coords.items() if c.dtype.kind in "OT"}
-    return dataset.assign_coords(strings)
+def _labels_loaded(dataset: xr.Dataset) -> xr.Dataset:
+    """Load what labels the cases; turn strings read as objects into fixed-width ones, as saved."""
+    labels = {n: c.compute() for n, c in dataset.coords.items()}
+    strings = {n: c.astype(str) for n, c in labels.items() if c.dtype.kind in "OT"}
+    return dataset.assign_coords(labels | strings)
 
 
 def _encoding(dataset: xr.Dataset) -> dict[str, dict[str, Any]]:

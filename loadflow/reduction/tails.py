@@ -22,7 +22,7 @@ from loadflow.reduction.extremes import block_maxima, gumbel_parameters
 YEAR = 365.25 * 86_400.0
 LEAST = 10  # values that a fit needs
 RESAMPLES = 500
-STEPS = 200  # halvings of the interval that holds the level: beyond double precision
+STEPS = 80  # halvings of the interval that holds the level: to double precision
 
 
 @dataclass(frozen=True)

@@ -21,7 +21,7 @@ def test_printed_rules(check):
     st.integers(1, 400),
     st.sampled_from([0.1, 0.33, 1.0, 1, 7]),
     st.sampled_from(["random", "extremes"]),
-    st.sampled_from(["up", "nearest"]),
+    st.sampled_from(["up", "nearest", "total"]),
     st.integers(0, 5),
 )
 def test_laws_of_the_reduction(n, size, pick, rounding, seed):
@@ -40,8 +40,10 @@ def test_laws_of_the_reduction(n, size, pick, rounding, seed):
         got.speed, np.hypot(*got.force.T), bins=got.edges, weights=got.weight
     )
     np.testing.assert_allclose(counts, got.counts_full)
+    q = size if isinstance(size, int) else int(np.ceil(round(size * n, 6)))
+    if rounding == "total":
+        assert got.index.size <= max(q, (got.counts_full > 0).sum())
     if rounding == "up":
-        q = size if isinstance(size, int) else int(np.ceil(round(size * n, 6)))
         expected = -(-got.counts_full * q // n)
         np.testing.assert_array_equal(got.counts_reduced, expected)
         assert q <= got.index.size <= q + (got.counts_full > 0).sum()

@@ -12,6 +12,7 @@ from loadflow.seeds import (
     effective_size,
     equivalence,
     group_seeds,
+    group_seeds_jointly,
     holm,
     seeds_needed,
 )
@@ -64,6 +65,42 @@ def test_order_of_the_dims_and_a_single_seed():
     assert one.reasons == ("one seed, nothing to test",)
     assert one.groups == [(0,)]
     assert one.representatives.tolist() == [0]
+
+
+def test_seeds_are_joined_only_if_every_component_agrees():
+    rng = np.random.default_rng(21)
+    speed, force = ar1(rng, (4, N), DT, 2.0) + 10, ar1(rng, (4, N), DT, 2.0)
+    force[3] += 4.0
+    got = group_seeds_jointly({"speed": speed, "force": force}, DT)
+    assert got.groups == [(0, 1, 2), (3,)]
+    assert "force: location differs" in got.reasons[0]
+    assert "speed" not in got.reasons[0]
+    alone = group_seeds_jointly({"speed": speed}, DT)
+    assert alone.groups == [(0, 1, 2, 3)]
+    assert alone.verdict.pvalue == group_seeds(speed, dt=DT).verdict.pvalue
+    with pytest.raises(InputError, match="the same for every component"):
+        group_seeds_jointly({"speed": speed, "force": force[:3]}, DT)
+
+
+def test_false_alarms_of_all_components_together():
+    """Twelve components of equal seeds, α = 5 %: more than 8 of 60 sets has a chance of 0.3 %."""
+    rng = np.random.default_rng(30)
+    rejected = 0
+    for _ in range(60):
+        parts = {str(k): ar1(rng, (3, 4000), DT, 1.0) for k in range(12)}
+        rejected += len(group_seeds_jointly(parts, DT).groups) > 1
+    assert rejected <= 8
+
+
+def test_a_margin_asks_for_equivalence_within_each_group():
+    x = ar1(np.random.default_rng(4), (3, N), DT, 0.5) + 100
+    x[2] += 50
+    got = group_seeds(x, dt=DT, margin=0.05)
+    assert got.groups == [(0, 1), (2,)]
+    assert got.equivalence[0].margin == 0.05
+    assert got.equivalence[0].location < 0.05
+    assert got.equivalence[1].equivalent  # one seed is equivalent to itself
+    assert group_seeds(x, dt=DT).equivalence == ()
 
 
 def test_bad_input_is_named():
