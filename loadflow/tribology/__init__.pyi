@@ -1,6 +1,8 @@
+from .asperities import asperity_pressure as asperity_pressure
 from .asperities import asperity_share as asperity_share
 from .asperities import combined_roughness as combined_roughness
 from .asperities import film_parameter as film_parameter
+from .asperities import greenwood_tripp as greenwood_tripp
 from .contact_film import POWER_LAWS as POWER_LAWS
 from .contact_film import film_ratio as film_ratio
 from .contact_film import hamrock_dowson_central as hamrock_dowson_central

@@ -2,13 +2,14 @@
 
 References
 ----------
-Zhou, Hoeprich: Torque of Tapered Roller Bearings. J. Tribology 113 (1991) 590.
+Zhou, Hoeprich: Torque of Tapered Roller Bearings. J. Tribology 113 (1991) 590. Greenwood, Tripp:
+The contact of two nominally flat rough surfaces. Proc. IMechE 185 (1970) 625.
 """
 
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 Value = float | NDArray[np.float64]
 
@@ -40,3 +41,57 @@ def asperity_share(parameter: Value, rate: float = 1.8, power: float = 1.2) -> V
         B and C.
     """
     return np.exp(-rate * np.minimum(parameter, 1e3) ** power)
+
+
+def greenwood_tripp(order: float, separation: ArrayLike) -> NDArray[np.float64]:
+    """Integral F_n(u) = ∫ (s - u)^n φ(s) ds of Gaussian heights φ above u, exact.
+
+    By the parabolic cylinder function, Γ(n+1)/√(2π) exp(-u²/4) D_{-n-1}(u). The power law
+    4.4086e-5 (4 - u)^6.804 in common use is off by 11 % below u = 2 and by 74 % at u = 3.
+
+    Parameters
+    ----------
+    order : float
+        n > -1; 5/2 for the pressure, 2 for the area of contact.
+    separation : array_like
+        u = h/σ of the mean planes.
+
+    Examples
+    --------
+    >>> greenwood_tripp(2.5, [0.0, 2.0]).round(6).tolist()
+    [0.616634, 0.005424]
+    """
+    from scipy.special import gamma, pbdv
+
+    u = np.asarray(separation, float)
+    cylinder, _ = pbdv(-order - 1.0, u)
+    return np.asarray(gamma(order + 1.0) / np.sqrt(2 * np.pi) * np.exp(-u * u / 4) * cylinder)
+
+
+def asperity_pressure(
+    separation: ArrayLike,
+    contact_modulus: float,
+    roughness: float,
+    tip_radius: float,
+    density: float,
+) -> NDArray[np.float64]:
+    """Pressure that touching asperities carry after Greenwood and Tripp, Pa.
+
+    p = 16√2 π/15 (σ β η)² √(σ/β) E* F_5/2(h/σ).
+
+    Parameters
+    ----------
+    separation : array_like
+        h/σ.
+    contact_modulus : float
+        E*, Pa (`loadflow.tribology.hertz.effective_modulus`).
+    roughness : float
+        Combined roughness σ of the heights of the asperities, m.
+    tip_radius : float
+        Radius β of an asperity, m.
+    density : float
+        Asperities of one surface in an area, η, 1/m².
+    """
+    crowd = (roughness * tip_radius * density) ** 2 * np.sqrt(roughness / tip_radius)
+    scale = 16 * np.sqrt(2) * np.pi / 15 * crowd * contact_modulus
+    return np.asarray(scale * greenwood_tripp(2.5, separation))

@@ -24,7 +24,7 @@ from loadflow.rolling.radial_load import LineLaw, behw_law, radial_distribution
 from loadflow.tribology import contact_film as film
 from loadflow.tribology import lubricant, traction
 from loadflow.tribology import lubricant_laws as laws
-from loadflow.tribology.asperities import combined_roughness, film_parameter
+from loadflow.tribology.asperities import combined_roughness, film_parameter, greenwood_tripp
 from loadflow.tribology.hertz import effective_modulus, hertz_line
 from loadflow.validation.check import Check
 
@@ -68,6 +68,8 @@ def checks() -> Iterator[Check]:
     yield from _lubricant()
     yield from _contact()
     yield from _instruments()
+    yield from _asperities()
+    yield from _harris_film()
     yield from _film_dynamics()
     yield from _tangent()
 
@@ -286,6 +288,29 @@ def _instruments() -> Iterator[Check]:
         yield Check(
             f"drift in 100 s, {axis}", "Tab. 6.1", expected, float(got), 0.01, "absolute", "N"
         )
+
+
+def _asperities() -> Iterator[Check]:
+    """Integrals of Gaussian heights against an independent quadrature."""
+    table = {
+        2.5: (0.61663421900, 0.080562335571, 5.4237051975e-3, 1.7087299621e-4, 2.3533810526e-6),
+        2.0: (0.5, 0.075339783344, 5.7687267145e-3, 2.0343508049e-4, 3.0902081035e-6),
+    }
+    for order, values in table.items():
+        for u, expected in enumerate(values):
+            got = float(greenwood_tripp(order, float(u)))
+            yield Check(f"F_{order}({u})", "Greenwood and Tripp 1970", expected, got, 1e-10)
+
+
+def _harris_film() -> Iterator[Check]:
+    """Film of the inner contact of a 209 ball bearing at 400 rad/s."""
+    groups = (5227.0, 2.154e-10, 7.63e-4, 9.285)  # with E₀, k = a/b exact
+    for name, law, expected in (
+        ("h_min", film.hamrock_dowson_minimum, 0.554),
+        ("h_c", film.hamrock_dowson_central, 0.693),
+    ):
+        got = float(law(*groups)) * 5.1093e3
+        yield Check(f"{name}, 209", "Harris, rebuilt", expected, got, 1e-3, unit="μm")
 
 
 def _film_dynamics() -> Iterator[Check]:

@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.integrate import quad
 
 from loadflow.errors import InputError
-from loadflow.tribology import Oil, lubricant, lubricant_names, traction
+from loadflow.tribology import Oil, asperities, lubricant, lubricant_names, traction
 from loadflow.tribology import lubricant_laws as laws
 
 MODULES = ["lubricant_laws", "lubricants", "contact_film", "asperities", "traction"]
@@ -96,6 +97,21 @@ def test_stress_never_passes_its_limit(newtonian, limit):
         f(newtonian, limit) for f in (traction.clipped_stress, traction.smooth_stress)
     )
     assert abs(clipped - smooth) <= 0.2385 * limit  # 1 - tanh 1
+
+
+def test_asperity_integrals_by_quadrature():
+    for order in (2.0, 2.5):
+        for u in (-1.5, 0.3, 2.7, 5.0):
+            exact = quad(lambda s, n=order, g=u: (s - g) ** n * np.exp(-s * s / 2), u, 12)[0]
+            ours = asperities.greenwood_tripp(order, u)
+            assert ours == pytest.approx(exact / np.sqrt(2 * np.pi), rel=1e-8)
+
+
+def test_asperities_carry_less_the_wider_the_gap():
+    p = asperities.asperity_pressure(np.linspace(0, 6, 13), 115e9, 0.5e-6, 20e-6, 4e9)
+    assert (np.diff(p) < 0).all()
+    # σβη = 0.04, √(σ/β) = 0.158: 3.0e-4 × 115 GPa × 4.739 × 0.6166
+    assert p[0] == pytest.approx(4.7391 * 0.04**2 * 0.15811 * 115e9 * 0.61663, rel=1e-3)
 
 
 def test_limiting_stress_is_continuous_at_the_critical_pressure():
