@@ -8,7 +8,8 @@ from hypothesis import settings
 
 # the first draw may compile a kernel, so no deadline; derandomised, so that CI is repeatable
 settings.register_profile("loadflow", deadline=None, derandomize=True)
-settings.load_profile("loadflow")
+settings.register_profile("long", deadline=None, max_examples=10_000)
+settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "loadflow"))
 
 
 @pytest.fixture(scope="session")

@@ -43,6 +43,7 @@ _STARVED = (
     "GasMixture follow a groove that is not full"
 )
 _AFLOAT = 0.5  # eccentricity ratio at which a shaft is sought that its supply carries
+_CELLS = 0.6  # of the width of the narrowest gap, the widest cell around that resolves it
 _NEAR = 0.3  # share of the narrowest gap that the estimate may move for a warm start
 
 
@@ -145,14 +146,15 @@ class JournalBearing:
             gas mixture, (120, 40) else.
         grading : {"auto", "uniform", "graded"}
             Uniform cells, or cells that crowd at the narrowest gap and the rims. "auto": uniform
-            for the gas mixture and with a supply, graded else. A load so heavy that the uniform
-            cells cannot resolve the gap is then solved on a graded mesh.
+            for the gas mixture and with a supply, graded else. A load so heavy that a few uniform
+            cells span the narrowest gap is then solved on a graded mesh.
         rung : {"grid"}
             Model: finite volumes.
         tolerance : float
             On the scaled residual.
         max_iterations : int
-            Newton steps per load.
+            Newton steps per load; with the law of Reynolds at least one for each cell around, as
+            its rupture moves by a cell in a step.
         strict : bool
             Raise for the first load without an answer; else its results are NaN and `converged`
             is False.
@@ -272,7 +274,8 @@ strict, tilt, bend
         rows = []
         for index, (place, moving, omega) in enumerate(zip(places, velocities, speeds.tolist())):
             film.set_speed(omega)
-            solution = solve_film(film, film.start(), place, moving, tolerance, max_iterations)
+            steps = _steps(film, max_iterations)
+            solution = solve_film(film, film.start(), place, moving, tolerance, steps)
             if strict and film.dry(solution.u):
                 raise SolverError(f"film {index} at ε = {np.hypot(*place):.6g}: {_STARVED}")
             if strict and not solution.converged:
@@ -463,12 +466,14 @@ strict, tilt, bend
             finer.set_speed(speed)
             attempts.append((finer, finer.start(), position))
         for used, u, start in attempts:
-            solution = solve_equilibrium(used, load, u, start, tolerance, max_iterations)
-            if solution.converged:
+            steps = _steps(used, max_iterations)
+            solution = solve_equilibrium(used, load, u, start, tolerance, steps)
+            if solution.converged and (finer in (None, used) or _resolved(used, solution)):
                 dry = used.dry(solution.u)
                 return used, replace(solution, estimate=position, converged=not dry)
-        solution = solve_patiently(film, load, position, tolerance, max_iterations)
-        return film, replace(solution, estimate=position)
+        used = finer or film
+        solution = solve_patiently(used, load, position, tolerance, max_iterations)
+        return used, replace(solution, estimate=position)
 
     def _starts(
         self, film: Film, position: Array, last: Solution | None
@@ -501,6 +506,21 @@ strict, tilt, bend
             )
         ratio = float(np.hypot(*solution.position))
         return refusal(load, film.speed, solution.residual, solution.iterations, ratio)
+
+
+def _steps(film: Film, max_iterations: int) -> int:
+    """Newton steps that a load may take; the rupture of Reynolds moves by one cell in each."""
+    return max(max_iterations, film.mesh.shape[0] if film.creeps else 0)
+
+
+def _resolved(film: Film, solution: Solution) -> bool:
+    """Whether the cells resolve the narrowest gap, which is about √(2 (1 − ε)) rad wide.
+
+    Where they do not, Newton may well converge, to an ε that depends on where the cells lie.
+    """
+    cell = 2 * np.pi / film.gap.mesh.shape[0]
+    ratio = min(float(np.hypot(*solution.position)), 1.0)
+    return cell <= _CELLS * np.sqrt(2 * (1 - ratio))
 
 
 def _floating(film: Film, load: Array, position: Array) -> tuple[Film, Array, Array]:

@@ -106,6 +106,7 @@ class Film:
         self.mesh = mesh = gap.mesh
         self.kind = _KIND[type(law)]
         self.ruptures = self.kind != kernel.FULL
+        self.creeps = self.kind == kernel.REYNOLDS  # its rupture moves by a cell a step
         self.mixing = law.mixing_constant if isinstance(law, GasMixture) else 0.0
         self.p_cav = getattr(law, "cavitation_pressure", 0.0)
         self.p_edge = edge_pressure

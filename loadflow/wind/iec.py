@@ -302,7 +302,9 @@ def eog_amplitude(
     speed = _speed(v)
     extreme = float(ewm_speed(hub_height, wind_class, hub_height, return_period=1))
     if np.any(speed > extreme):
-        raise InputError(f"wind speed = {speed.max()} m/s is above V_e1 = {extreme} m/s: no gust")
+        raise InputError(
+            f"wind speed = {speed.max():g} m/s is above V_e1 = {extreme:g} m/s: no gust"
+        )
     limit = 3.3 * ntm_sigma(speed, category) / _lateral_spread(rotor_diameter, hub_height)
     return np.minimum(1.35 * (extreme - speed), limit)
 
@@ -333,7 +335,9 @@ def ecd_angle(v: ArrayLike, wind_class: str | WindClass) -> Floats:
     speed = _speed(v)
     v_ref = class_speeds(wind_class).v_ref
     if np.any(speed > v_ref):
-        raise InputError(f"wind speed = {speed.max()} m/s is above V_ref = {v_ref} m/s: no gust")
+        raise InputError(
+            f"wind speed = {speed.max():g} m/s is above V_ref = {v_ref:g} m/s: no gust"
+        )
     return np.deg2rad(720.0 / np.maximum(speed, 4.0))
 
 

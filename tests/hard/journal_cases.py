@@ -1,0 +1,198 @@
+"""Hard cases of the film of a journal bearing."""
+
+from __future__ import annotations
+
+import numpy as np
+from hard_case import Outcome, hard, refused, solved
+
+from loadflow.journal import (
+    GasMixture,
+    Groove,
+    Guembel,
+    JournalBearing,
+    Lubricant,
+    MassConserving,
+    Reynolds,
+    Supply,
+)
+
+MAIN = JournalBearing(diameter=3.0, width=2.25, relative_clearance=0.5e-3)
+OIL = Lubricant(0.05)
+MIXED = {"lubricant": OIL, "cavitation": GasMixture(0.05e6), "edge_pressure": 0.5e6}
+LOAD = (2.0587e6, 0.4428e6)
+
+
+@hard(
+    "journal",
+    "ε = 0.999, position given",
+    why="the gap falls to a thousandth of the clearance within a degree; uniform cells miss it",
+    what="cells crowd at the narrowest gap; the scaled residual is that of the fluxes",
+    tolerance=1e-9,
+)
+def almost_touching():
+    film = MAIN.pressure((0.999 * MAIN.clearance, 0.0), 1.2, OIL, cavitation=Reynolds())
+    assert np.isfinite(film.force).all()
+    assert film.maximum_pressure > 1e8
+    return solved(film, f"p_max = {float(film.maximum_pressure) / 1e6:.0f} MPa")
+
+
+@hard(
+    "journal",
+    "load for ε > 0.99",
+    why="stiffness grows without bound, a Newton step leaves the clearance",
+    what="damped steps that stay inside; a graded mesh where uniform cells do not resolve the gap",
+)
+def extreme_load():
+    state = MAIN.equilibrium((2e9, 0.0), 1.2, **MIXED)
+    assert 0.99 < state.eccentricity_ratio < 1
+    return solved(state, f"ε = {float(state.eccentricity_ratio):.4f}")
+
+
+@hard(
+    "journal",
+    "ε → 0: no load, and 1 µN",
+    why="attitude angle without a direction; Sommerfeld number 0",
+    what="Cartesian unknowns; the attitude of the unloaded film is its limit π/2",
+)
+def no_load():
+    state = MAIN.equilibrium([(0.0, 0.0), (1e-6, 0.0)], 1.2, lubricant=OIL, edge_pressure=1e5)
+    assert np.all(state.eccentricity_ratio < 1e-9)
+    assert np.isfinite(state.attitude_angle).all()
+    return solved(state, f"ε ≤ {float(np.max(state.eccentricity_ratio)):.1e}")
+
+
+@hard(
+    "journal",
+    "ω → 0 under load: 1e-6 rad/s",
+    why="So grows as 1/ω, the film becomes some nanometres thin",
+    what="start from the closed form, graded mesh, then load steps",
+)
+def creeping():
+    speeds = np.array([1e-3, 1e-6])
+    state = MAIN.equilibrium((1e5, 0.0), speeds, **MIXED)
+    assert np.all(np.diff(state.eccentricity_ratio) > 0)
+    assert np.all(state.eccentricity_ratio < 1)
+    return solved(state, f"ε = {', '.join(f'{e:.6f}' for e in state.eccentricity_ratio)}")
+
+
+@hard(
+    "journal",
+    "ω = 0 under load",
+    why="without rotation and squeeze no film carries",
+    what="a named error, or a flagged sample in a series",
+)
+def at_rest():
+    return refused(lambda: MAIN.equilibrium(LOAD, 0.0, **MIXED), "without rotation", "N")
+
+
+@hard(
+    "journal",
+    "load reversed within one step of 0.1 s",
+    why="the film must empty on one side and fill on the other; Newton starts far off",
+    what="implicit steps that are cut, the load interpolated, until Newton holds",
+    tolerance=1e-6,
+)
+def reversal():
+    time = np.arange(20) * 0.1
+    force = np.where(time[:, None] < 1.0, 1.0, -1.0) * np.array([2e6, 0.0])
+    orbit = MAIN.orbit(time, force, 1.2, grid=(48, 12), **MIXED)
+    assert float(orbit["eccentricity_ratio"].max()) < 1
+    assert np.isfinite(orbit["maximum_pressure"]).all()
+    largest = float(orbit["eccentricity_ratio"].max())
+    return Outcome(
+        f"ε ≤ {largest:.3f}", float(orbit["residual"].max()), int(orbit["iterations"].max())
+    )
+
+
+@hard(
+    "journal",
+    "axial groove in the loaded zone",
+    why="the pressure is cut where it carries",
+    what="the groove's cells hold its pressure; ε is larger than without",
+)
+def loaded_groove():
+    groove = Supply([Groove(angle=0.1, arc=0.1, length=1.5, pressure=0.5e6)])
+    plain = MAIN.equilibrium(LOAD, 1.2, **MIXED)
+    state = MAIN.equilibrium(LOAD, 1.2, supply=groove, **MIXED)
+    assert state.eccentricity_ratio > plain.eccentricity_ratio + 0.01
+    text = (
+        f"ε = {float(state.eccentricity_ratio):.3f}, {float(plain.eccentricity_ratio):.3f} without"
+    )
+    return solved(state, text)
+
+
+@hard(
+    "journal",
+    "mixing constant from 10 % of ambient to 1e-8 of it",
+    why="the law tends to one that is not differentiable",
+    what="fill as the unknown in the cavity; the answer meets the mass-conserving law",
+)
+def hardening():
+    states = [
+        MAIN.equilibrium(LOAD, 1.2, OIL, cavitation=GasMixture(c * 0.5e6), edge_pressure=0.5e6)
+        for c in (1e-1, 1e-3, 1e-5, 1e-8)
+    ]
+    sharp = MAIN.equilibrium(
+        LOAD,
+        1.2,
+        OIL,
+        cavitation=MassConserving(),
+        edge_pressure=0.5e6,
+        grid=(60, 20),
+        grading="uniform",
+    )
+    off = abs(float(states[-1].eccentricity_ratio) - float(sharp.eccentricity_ratio))
+    assert off < 1e-5
+    assert all(state.converged for state in states)
+    worst = max(states, key=lambda state: float(state.residual))
+    most = max(int(state.iterations) for state in states)
+    return Outcome(f"ε of c → 0 within {off:.0e} of the limit", float(worst.residual), most)
+
+
+@hard(
+    "journal",
+    "width to diameter 1e-3 and 50",
+    why="cells a ten-thousandth as long as wide; one direction of the flow dominates",
+    what="direct band factors do not feel the aspect; closed forms of short and long bearing hold",
+)
+def slender():
+    short = JournalBearing(1.0, 1e-3, 1e-3).pressure(
+        (0.25e-3, 0.0), 10.0, OIL, cavitation=Guembel(), inlet=None
+    )
+    long = JournalBearing(1.0, 50.0, 1e-3).pressure(
+        (0.25e-3, 0.0), 10.0, OIL, cavitation=Guembel(), inlet=None
+    )
+    ocvirk = short_bearing_force(1.0, 1e-3, 1e-3, 0.5, OIL.viscosity, 10.0)
+    got = float(np.hypot(*short.force))
+    assert abs(got / ocvirk - 1) < 5e-3
+    assert long.converged
+    return solved(short, f"short bearing within {abs(got / ocvirk - 1):.1e} of Ocvirk")
+
+
+def short_bearing_force(d, b, psi, ratio, viscosity, speed):
+    """Ocvirk's closed form with a half film."""
+    unit = viscosity * speed * (d / 2) * b**3 / (4 * (psi * d / 2) ** 2)
+    tail = 1 - ratio**2
+    return unit * ratio / tail**2 * np.sqrt(16 * ratio**2 + np.pi**2 * tail)
+
+
+@hard(
+    "journal",
+    "cells 10⁴ times longer than wide",
+    why="iterative solvers stall on stretched cells; the rupture moves by a cell in a Newton step",
+    what="direct factors; one step more for each cell around",
+)
+def stretched():
+    disc = JournalBearing(1.0, 50.0, 1e-3)
+    film = disc.pressure((0.4e-3, 0.0), 10.0, OIL, cavitation=Reynolds(), grid=(2880, 4))
+    return solved(film, f"cells {50.0 / 4 / (np.pi / 2880):.0f} : 1")
+
+
+@hard(
+    "journal",
+    "shaft outside the clearance",
+    why="the gap is negative",
+    what="a named error with ε and the clearance",
+)
+def outside():
+    return refused(lambda: MAIN.pressure((1.1 * MAIN.clearance, 0.0), 1.0, OIL), "ε = 1.1", "< 1")

@@ -1,0 +1,148 @@
+"""Hard cases of the tests of seeds, of the reduction and of the wind."""
+
+from __future__ import annotations
+
+import numpy as np
+from hard_case import Outcome, hard, refused
+
+from loadflow.reduction import histogram
+from loadflow.rotor import steady_state
+from loadflow.seeds import equality, kruskal_wallis, meyer_bahlburg
+from loadflow.wind import iec
+from loadflow.wind.gusts import direction_change
+
+RNG = np.random.default_rng
+
+
+@hard(
+    "seeds",
+    "all samples tied",
+    why="the tie correction divides by zero",
+    what="a constant record has nothing to test: statistic 0, p = 1",
+    peer="scipy 1.17 kruskal raises ValueError or gives NaN",
+)
+def constant():
+    test = kruskal_wallis([np.ones(50), np.ones(40)])
+    assert test.statistic == 0
+    assert test.pvalue == 1
+    return Outcome(f"H = {test.statistic:g}, p = {test.pvalue:g}")
+
+
+@hard(
+    "seeds",
+    "N = 3 mod 4, many ties",
+    why="alternating ranks depend on how the tail is dealt",
+    what="Siegel–Tukey ranks for any N, ties by mid-ranks, and a note that says so",
+    peer="the known R implementation is wrong for both",
+)
+def ties():
+    rng = RNG(1)
+    x, y = rng.integers(0, 6, 40).astype(float), rng.integers(0, 6, 43).astype(float)
+    test = meyer_bahlburg([x, y])
+    turned = meyer_bahlburg([-x, -y])
+    assert abs(test.statistic - turned.statistic) < 0.5
+    assert 0 <= test.pvalue <= 1
+    return Outcome(f"H = {test.statistic:.3f}, mirrored {turned.statistic:.3f}")
+
+
+@hard(
+    "seeds",
+    "one seed",
+    why="nothing to compare",
+    what="a valid verdict: nothing to test",
+)
+def single():
+    verdict = equality(RNG(2).normal(size=(1, 4000)), dt=0.025)
+    assert "one seed" in verdict.text
+    return Outcome(verdict.text)
+
+
+@hard(
+    "seeds",
+    "10⁷ samples",
+    why="the sum of squared ranks passes 2⁶³, float sums lose digits",
+    what="ranks in double precision, sums of group means; equal to the small test repeated",
+)
+def many():
+    rng = RNG(3)
+    test = kruskal_wallis([rng.normal(size=5_000_000), rng.normal(size=5_000_000)])
+    assert np.isfinite(test.statistic)
+    assert test.pvalue > 1e-3
+    return Outcome(f"H = {test.statistic:.3f}, p = {test.pvalue:.2f}")
+
+
+@hard(
+    "reduction",
+    "a constant series",
+    why="classes of width zero",
+    what="one class; weights still sum to the full length",
+)
+def one_class():
+    n = 1000
+    reduced = histogram(np.ones(n), np.full((n, 2), 5.0), np.arange(n) * 0.1, size=0.1, seed=1)
+    assert reduced.weight.sum() == n
+    return Outcome(f"{reduced.index.size} of {n} kept, weights sum to {reduced.weight.sum():g}")
+
+
+@hard(
+    "reduction",
+    "one isolated extreme in 24,000 steps",
+    why="a random pick of a tenth misses it nine times in ten",
+    what="every class that is not empty keeps at least one sample; the severest is kept",
+)
+def isolated():
+    rng = RNG(4)
+    force = rng.normal(1e6, 1e5, (24_000, 2))
+    force[12_345] = (9e6, 0.0)
+    reduced = histogram(
+        rng.normal(1.2, 0.05, 24_000),
+        force,
+        np.arange(24_000) * 0.025,
+        size=0.1,
+        seed=1,
+        pick="extremes",
+    )
+    assert 12_345 in reduced.index
+    return Outcome(f"kept among {reduced.index.size}")
+
+
+@hard(
+    "wind",
+    "gust at the extreme wind speed itself",
+    why="the amplitude of the operating gust passes zero and would turn negative",
+    what="a named error above V_e1",
+)
+def above_the_gust():
+    return refused(
+        lambda: iec.eog_amplitude(80.0, "I", "A", rotor_diameter=126, hub_height=90), "V_e1"
+    )
+
+
+@hard(
+    "wind",
+    "change of direction by 0° and by 180°",
+    why="sign and start of the ramp; a half turn has two ways round",
+    what="a smooth ramp from 0 to the angle asked for, monotonic",
+)
+def turning():
+    time = np.linspace(0, 10, 500)
+    none, half = (direction_change(time, angle) for angle in (0.0, np.pi))
+    assert not none.any()
+    assert np.all(np.diff(half) >= -1e-12)
+    assert abs(half[-1] - np.pi) < 1e-9
+    return Outcome(f"0 and {np.degrees(half[-1]):.0f}°")
+
+
+@hard(
+    "rotor",
+    "zero shear, cut-in and cut-out",
+    why="control changes its region; divisions by the shear exponent",
+    what="the steady state over the whole range, edges included",
+)
+def edges():
+    state = steady_state("nrel-5mw", wind_speed=[3.0, 25.0], shear=0.0)
+    assert np.isfinite(state["power"]).all()
+    assert (state["power"] >= 0).all()
+    return Outcome(
+        f"{float(state['power'][0]) / 1e3:.0f} kW and {float(state['power'][1]) / 1e6:.2f} MW"
+    )
