@@ -121,6 +121,7 @@ class JournalBearing:
         moment: ArrayLike | None = None,
         tilt: ArrayLike | None = None,
         bend: ArrayLike | None = None,
+        whirl: float = 0.0,
     ) -> Equilibrium:
         """Position of the shaft in which the film carries `force` at rest.
 
@@ -167,6 +168,9 @@ class JournalBearing:
             (tilt[1] z, −tilt[0] z).
         bend : array_like (…, 2), optional
             Curvature of the shaft, 1/m: at z it is displaced by bend z²/2.
+        whirl : float
+            Frequency, rad/s, at which tilting pads are condensed out of stiffness and damping: the
+            speed for synchronous coefficients, 0 for slow changes.
 
         Returns
         -------
@@ -186,7 +190,7 @@ class JournalBearing:
         line = Line.of(shape, moment=moment, tilt=tilt, bend=bend)
         if not self._plain(line, rung):
             control = Control(tolerance, max_iterations, strict)
-            found = equilibrium_rows(self, options, loads, speeds, line, control)
+            found = equilibrium_rows(self, options, loads, speeds, line, control, whirl)
             return Equilibrium(**stack(found, shape))
         if rung != "grid":
             control = Control(tolerance, max_iterations, strict)

@@ -65,7 +65,7 @@ class Equilibrium:
         Whether Re is below Re_cr.
     stiffness, damping : array (…, 2, 2) or (…, 4, 4)
         −∂F_film/∂e (N/m) and −∂F_film/∂ė (N s/m), [i, j]. On the full width also the moments (rows
-        2, 3) and tilts (columns 2, 3) about both axes. Pads follow without moment, slowly.
+        2, 3) and tilts (columns 2, 3) about both axes. Pads follow without moment.
     converged : array of bool (…)
         Whether `residual` fell below the tolerance.
     iterations : array of int (…)
@@ -170,13 +170,18 @@ def shaped(columns: dict[str, Any], shape: tuple[int, ...]) -> dict[str, Any]:
 
 
 def static_row(
-    bearing: JournalBearing, film: Film, load: Array, lubricant: Lubricant, solution: Solution
+    bearing: JournalBearing,
+    film: Film,
+    load: Array,
+    lubricant: Lubricant,
+    solution: Solution,
+    whirl: float = 0.0,
 ) -> dict[str, Any]:
-    """One row of `Equilibrium`."""
+    """One row of `Equilibrium`; pads are condensed at the frequency `whirl`, rad/s."""
     position = solution.position[:2] if solution.converged else np.full(2, np.nan)
     return {
         **operating_columns(bearing, load, film.speed, lubricant, position),
-        **_common_row(film, solution),
+        **_common_row(film, solution, whirl),
     }
 
 
@@ -233,13 +238,13 @@ def field_row(film: Film, solution: Solution) -> dict[str, Any]:
     }
 
 
-def _common_row(film: Film, solution: Solution) -> dict[str, Any]:
+def _common_row(film: Film, solution: Solution, whirl: float = 0.0) -> dict[str, Any]:
     clearance = film.relative_clearance * film.radius
     row: dict[str, Any] = film.summary(solution.u, solution.position)
     shaft, lengths = film.gap.shaft, np.ones(film.gap.shaft)
     lengths[2:] = film.radius  # of the degrees of freedom: those of tilts are arms
     pads = np.intersect1d(np.arange(film.gap.size)[solution.free], np.arange(shaft, film.gap.size))
-    stiffness, damping = without_pads(solution.linear, shaft, pads)
+    stiffness, damping = without_pads(solution.linear, shaft, pads, whirl)
     both = np.outer(lengths, lengths) / clearance
     row["eccentricity_ratio"] = float(np.hypot(*solution.position[:2]))
     row["stiffness"] = stiffness * both
@@ -257,23 +262,29 @@ def _common_row(film: Film, solution: Solution) -> dict[str, Any]:
     return row
 
 
-def without_pads(linear: Linear, shaft: int, pads: NDArray[np.int64]) -> tuple[Array, Array]:
-    """Stiffness and damping of the shaft alone: `pads` follow it without moment, slowly.
+def without_pads(
+    linear: Linear, shaft: int, pads: NDArray[np.int64], whirl: float
+) -> tuple[Array, Array]:
+    """Stiffness and damping of the shaft alone while `pads` follow it without moment.
 
-    With the pads' tilt −N q, N = K_pp⁻¹ K_ps, and the same for its rate, what is left of K + C d/dt
-    to first order in d/dt is exact (static condensation).
+    The shaft vibrates at the frequency `whirl`, rad/s, and K + i ν C is condensed; at 0 what is
+    left of it to first order in ν. Both are exact: the pads have no inertia.
     """
     k, c = linear.stiffness, linear.damping
     if not pads.size:
         return k[:shaft, :shaft], c[:shaft, :shaft]
     every = np.append(np.arange(shaft), pads)
     k, c = k[np.ix_(every, every)], c[np.ix_(every, every)]
-    follow = np.vstack([np.eye(shaft), -following(k, shaft)])
-    lead = np.vstack([np.eye(shaft), -following(k.T, shaft)])
-    return lead.T @ k @ follow, lead.T @ c @ follow
+    if whirl == 0.0:
+        follow = np.vstack([np.eye(shaft), -following(k, shaft)])
+        lead = np.vstack([np.eye(shaft), -following(k.T, shaft)])
+        return lead.T @ k @ follow, lead.T @ c @ follow
+    z = k + 1j * whirl * c
+    left = z[:shaft, :shaft] - z[:shaft, shaft:] @ following(z, shaft)
+    return left.real, left.imag / whirl
 
 
-def following(stiffness: Array, shaft: int) -> Array:
+def following(stiffness: NDArray[Any], shaft: int) -> NDArray[Any]:
     """How far pads tilt with the shaft, (pads, shaft)."""
     return np.asarray(np.linalg.solve(stiffness[shaft:, shaft:], stiffness[shaft:, :shaft]))
 

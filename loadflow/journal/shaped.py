@@ -105,6 +105,7 @@ def equilibrium_rows(
     speeds: Array,
     line: Line,
     control: Control,
+    whirl: float,
 ) -> list[dict[str, Any]]:
     """Rows of `Equilibrium`."""
     statics = _Statics(bearing, options, line, float(np.abs(speeds).max()))
@@ -115,7 +116,7 @@ def equilibrium_rows(
         if not solution.converged and control.strict:
             raise SolverError(f"load {index}: {statics.refusal(load, solution)}")
         last = solution if solution.converged else last
-        rows.append(static_row(bearing, statics.film, load, options.lubricant, solution))
+        rows.append(static_row(bearing, statics.film, load, options.lubricant, solution, whirl))
     return rows
 
 

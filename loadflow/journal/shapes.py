@@ -243,14 +243,14 @@ class Recess:
     """
 
     angle: float
-    arc: Annotated[float, Gt(0), Lt(6.28)]
+    arc: Annotated[float, Gt(0), Le(_TURN)]
     depth: Annotated[float, Gt(0)]
     length: Annotated[float, Gt(0)] | None = None
     z: float = 0.0
     kind: Literal["recess"] = "recess"
 
     def __post_init__(self) -> None:
-        require(0 < self.arc < 6.28, "arc", self.arc, "rad, 0 < arc < 6.28")
+        require(0 < self.arc <= _TURN, "arc", self.arc, "rad, 0 < arc ≤ 2π")
         require(self.depth > 0, "depth", self.depth, "m, > 0")
         require(self.length is None or self.length > 0, "length", self.length, "m, > 0")
 

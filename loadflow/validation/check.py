@@ -55,7 +55,8 @@ def names() -> list[str]:
     """Names of the validation tables, in alphabetical order."""
     import loadflow.validation as package
 
-    return sorted(m.name for m in pkgutil.iter_modules(package.__path__) if m.name != "check")
+    modules = (module.name for module in pkgutil.iter_modules(package.__path__))
+    return sorted(name for name in modules if name != "check" and not name.startswith("_"))
 
 
 def all_checks(name: str) -> Iterator[Check]:

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from loadflow.validation import _journal_shapes
 from loadflow.validation.check import Check
 
 
@@ -224,41 +225,6 @@ def squeeze_checks() -> Iterator[Check]:
             yield Check(name, "converged squeeze table", numbers[i, j], got, 0.003)
 
 
-# Lund & Thomsen 1978, two grooves of 20°: L/D, S, ε, φ°, c K/W (xx, xy, yy), c ω C/W (xx)
-LUND_THOMSEN = (
-    (0.5, 1.656, 0.244, 65.85, 1.69, 5.06, 1.95, 9.93),
-    (0.5, 0.379, 0.570, 45.43, 3.33, 3.64, 1.68, 6.76),
-    (0.5, 0.244, 0.655, 40.25, 4.21, 3.74, 1.64, 6.87),
-    (1.0, 0.991, 0.150, 70.58, 1.56, 7.29, 1.52, 14.66),
-    (1.0, 0.635, 0.224, 63.54, 1.62, 5.33, 1.56, 10.80),
-    (1.0, 0.235, 0.460, 49.27, 2.19, 3.57, 1.55, 7.36),
-)
-
-
-def coefficient_checks() -> Iterator[Check]:
-    """Stiffness and damping of Lund & Thomsen 1978 (their last digit is worth about 1 %)."""
-    from loadflow.journal import Groove, JournalBearing, Lubricant, Supply
-
-    supply = Supply(tuple(Groove(angle, arc=np.radians(20)) for angle in (np.pi / 2, -np.pi / 2)))
-    for width, number, ratio, attitude, k_xx, k_xy, k_yy, c_xx in LUND_THOMSEN:
-        bearing = JournalBearing(diameter=1.0, width=width, relative_clearance=1e-3)
-        load = 0.05 * width / (2 * np.pi * number) * 1e6
-        state = bearing.equilibrium(
-            (load, 0.0), 1.0, Lubricant(0.05), supply=supply, grid=(180, 40)
-        )
-        stiffness = state.stiffness * bearing.clearance / load
-        damping = state.damping * bearing.clearance / load
-        name, source = f"L/D = {width}, S = {number}", "Lund & Thomsen"
-        got = float(state.eccentricity_ratio)
-        yield Check(f"ε, {name}", source, ratio, got, 0.0015, "absolute")
-        got = float(np.degrees(state.attitude_angle))
-        yield Check(f"φ, {name}", source, attitude, got, 0.15, "absolute", "°")
-        yield Check(f"K_xx, {name}", source, k_xx, float(stiffness[0, 0]), 0.015)
-        yield Check(f"K_xy, {name}", source, k_xy, float(stiffness[0, 1]), 0.015)
-        yield Check(f"K_yy, {name}", source, k_yy, float(stiffness[1, 1]), 0.015)
-        yield Check(f"C_xx, {name}", source, c_xx, float(damping[0, 0]), 0.015)
-
-
 def checks() -> Iterator[Check]:
     """All printed numbers of the journal bearing."""
     yield from base_load_checks()
@@ -268,4 +234,4 @@ def checks() -> Iterator[Check]:
     yield from converged_table_checks()
     yield from side_flow_checks()
     yield from squeeze_checks()
-    yield from coefficient_checks()
+    yield from _journal_shapes.checks()

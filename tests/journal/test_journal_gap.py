@@ -243,6 +243,21 @@ def test_pads_have_no_moment_about_their_pivots_and_no_cross_stiffness():
         assert abs(torque) < 0.01 * force  # cells at the ends are halved here
 
 
+def test_pads_are_condensed_at_the_frequency_of_the_whirl():
+    bearing = JournalBearing(**SIZE, shape=SHAPES[5])
+    options = film(Reynolds(), 0.0)
+    slow, slower, fast = (
+        bearing.equilibrium(LOAD, 10.0, whirl=whirl, **options) for whirl in (0.0, 1e-3, 10.0)
+    )
+    np.testing.assert_allclose(slower.stiffness, slow.stiffness, atol=1e-6 * slow.stiffness.max())
+    np.testing.assert_allclose(slower.damping, slow.damping, atol=1e-6 * slow.damping.max())
+    # a pad that cannot follow a fast whirl in phase takes stiffness away and damps instead
+    assert abs(np.trace(fast.stiffness) / np.trace(slow.stiffness) - 1) > 0.02
+    rigid = JournalBearing(**SIZE, shape=Lobes(3)).equilibrium(LOAD, 10.0, whirl=10.0, **options)
+    same = JournalBearing(**SIZE, shape=Lobes(3)).equilibrium(LOAD, 10.0, **options)
+    np.testing.assert_array_equal(rigid.stiffness, same.stiffness)
+
+
 def test_supply_gives_what_leaves_through_the_rims():
     """Mass balance of an open film: at rims at cavitation pressure nothing is sucked in."""
     bearing = JournalBearing(**SIZE, shape=Lobes(3, preload=0.3, groove_pressure=3e5))

@@ -2,6 +2,7 @@
 
 import pytest
 
+from loadflow.validation import _journal_shapes as shapes
 from loadflow.validation import journal
 
 TABLES = [
@@ -12,7 +13,10 @@ TABLES = [
     journal.converged_table_checks,
     journal.side_flow_checks,
     journal.squeeze_checks,
-    journal.coefficient_checks,
+    shapes.coefficient_checks,
+    shapes.pad_checks,
+    shapes.comsol_checks,
+    shapes.slider_checks,
 ]
 
 
