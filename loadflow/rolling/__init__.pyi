@@ -4,6 +4,7 @@ from .expansion import ExpansionResult as ExpansionResult
 from .expansion import RingSections as RingSections
 from .expansion import axial_expansion as axial_expansion
 from .friction import FrictionOptions as FrictionOptions
+from .friction import ball_friction as ball_friction
 from .friction import friction_torque_forces as friction_torque_forces
 from .friction import friction_torque_loads as friction_torque_loads
 from .friction import roller_friction as roller_friction

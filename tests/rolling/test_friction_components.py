@@ -23,7 +23,8 @@ MODULES = [
     "radial_load",
     "friction.guides",
     "friction.energy",
-    "friction.bearing_losses",
+    "friction.roller_losses",
+    "friction.ball_losses",
 ]
 
 

@@ -10,7 +10,8 @@ guides              cage sides and rim, thrust washers, lip seals
 churning            churning with two constants, fitted to a run without load
 energy              audit: shaft power = losses + stored energy
 contact_films       film of every roller and ball contact; `options`: lubricant, surfaces, ribs
-bearing_losses      film, Λ and losses of a whole roller bearing in ideal rolling
+roller_losses       film, Λ and losses of a whole roller bearing in ideal rolling
+ball_losses         the same of ball and slewing bearings; `bearing`: what both share
 heat                temperature at which losses and cooling balance
 catalogue           Stribeck, Palmgren, SKF
 slewing_torque      slewing bearings, from loads and from ball forces

@@ -1,5 +1,5 @@
-from .bearing_losses import BearingFriction as BearingFriction
-from .bearing_losses import roller_friction as roller_friction
+from .ball_losses import ball_friction as ball_friction
+from .bearing import BearingFriction as BearingFriction
 from .catalogue import SkfConstants as SkfConstants
 from .catalogue import catalogue_torques as catalogue_torques
 from .catalogue import palmgren_idle_torque as palmgren_idle_torque
@@ -37,6 +37,7 @@ from .roller_drag import RollerGaps as RollerGaps
 from .roller_drag import coulomb_drag_constants as coulomb_drag_constants
 from .roller_drag import drag_constants as drag_constants
 from .roller_drag import rib_shear as rib_shear
+from .roller_losses import roller_friction as roller_friction
 from .rolling_resistance import elastic_force as elastic_force
 from .rolling_resistance import hydrodynamic_force as hydrodynamic_force
 from .rolling_resistance import hydrodynamic_torque as hydrodynamic_torque

@@ -9,8 +9,9 @@ from numpy.typing import ArrayLike
 
 from loadflow.errors import InputError, SolverError
 from loadflow.numerics.convergence import Convergence
-from loadflow.rolling.friction.bearing_losses import BearingFriction, roller_friction
+from loadflow.rolling.friction.bearing import BearingFriction
 from loadflow.rolling.friction.options import FrictionOptions
+from loadflow.rolling.friction.roller_losses import roller_friction
 from loadflow.rolling.roller_result import RollerResult
 
 _HOTTEST = 200.0  # K above the surroundings that are searched

@@ -52,7 +52,7 @@ def rolling_coefficient(half_width: Value, roller_radius: float, loss: float) ->
 
 def elastic_force(
     load: Value,
-    length: float,
+    length: Value,
     radius: float,
     speed: Value,
     viscosity: Value,
@@ -81,7 +81,7 @@ def elastic_force(
     return 29.2 * radius / pressure_viscosity * length * carry * weight
 
 
-def rigid_force(load: Value, length: float, speed: Value, viscosity: Value) -> Value:
+def rigid_force(load: Value, length: Value, speed: Value, viscosity: Value) -> Value:
     """Hydrodynamic rolling force between rigid cylinders, 2.080 l √(η u Q/l), N.
 
     Exact for an isoviscous film; the lighter the load, the nearer.
@@ -91,7 +91,7 @@ def rigid_force(load: Value, length: float, speed: Value, viscosity: Value) -> V
 
 def hydrodynamic_force(
     load: Value,
-    length: float,
+    length: Value,
     radius: float,
     speed: Value,
     viscosity: Value,
