@@ -13,3 +13,7 @@ class InputError(LoadflowError, ValueError):
 
 class SolverError(LoadflowError, RuntimeError):
     """A model has no answer for sound input, or did not converge. Exit code 1."""
+
+
+class ValidityWarning(UserWarning):
+    """A model is used outside the range in which it holds; the message names the numbers."""

@@ -18,6 +18,8 @@
 `orbit`                   implicit steps of film and shaft in time
 `mapped`                  the rung "map": `mobility` tabulated from `moving` films
 `periodic`                the closed orbit under a load that repeats
+`energy`                  losses against the power of the shaft
+`laminar`, `two_grids`    limits of the model: turbulence, error of the cells
 `result`                  what comes back
 `_kernels`                compiled loops
 ========================  ==========================================================

@@ -1,4 +1,6 @@
 from .bearing import JournalBearing as JournalBearing
+from .energy import EnergyBalance as EnergyBalance
+from .energy import energy_balance as energy_balance
 from .options import GasMixture as GasMixture
 from .options import Guembel as Guembel
 from .options import Lubricant as Lubricant
@@ -20,3 +22,5 @@ from .supply import Groove as Groove
 from .supply import Orifice as Orifice
 from .supply import Pump as Pump
 from .supply import Supply as Supply
+from .two_grids import GridError as GridError
+from .two_grids import grid_error as grid_error

@@ -21,6 +21,7 @@ from loadflow.journal.equilibrium import (
 )
 from loadflow.journal.estimate import closed_form_position
 from loadflow.journal.film import Film
+from loadflow.journal.laminar import warn_if_turbulent
 from loadflow.journal.options import Cavitation, Lubricant, require
 from loadflow.journal.orbit import Marcher, march, mass_balance, orbit_dataset, orbit_row
 from loadflow.journal.periodic import Method, check_period, close_orbit, refuse_half_speed_whirl
@@ -187,6 +188,7 @@ class JournalBearing:
         check_rung(rung)
         options = FilmOptions(lubricant, cavitation, edge_pressure, supply, inlet, grid, grading)
         loads, speeds, shape = operating_points(force, speed, "force")
+        warn_if_turbulent(self, speeds, lubricant)
         line = Line.of(shape, moment=moment, tilt=tilt, bend=bend)
         if not self._plain(line, rung):
             control = Control(tolerance, max_iterations, strict)
@@ -373,6 +375,7 @@ strict, tilt, bend
         check_rung(rung)
         options = FilmOptions(lubricant, cavitation, edge_pressure, supply, inlet, grid, grading)
         loads, speeds, shape = operating_points(force, speed, "force")
+        warn_if_turbulent(self, speeds, lubricant)
         times = np.asarray(time, dtype=float)
         if times.shape != shape:
             raise InputError(f"time {times.shape} and force, speed {shape} differ in shape")

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from loadflow.journal.laminar import critical_reynolds_number, reynolds_number
+
 if TYPE_CHECKING:
     from loadflow.journal.bearing import JournalBearing
     from loadflow.journal.equilibrium import Solution
@@ -194,9 +196,8 @@ def operating_columns(
 ) -> dict[str, Any]:
     """What `Equilibrium` says of loads (…, 2), speeds (…) and positions (…, 2), in clearances."""
     number = np.vectorize(bearing.sommerfeld_number, otypes=[float])
-    surface = np.abs(speed) * bearing.radius
-    critical = np.full(np.shape(speed), 41.3 * bearing.relative_clearance**-0.5)
-    reynolds = lubricant.density * surface * bearing.clearance / lubricant.viscosity
+    critical = np.full(np.shape(speed), critical_reynolds_number(bearing.relative_clearance))
+    reynolds = reynolds_number(bearing, speed, lubricant)
     return {
         "force": force,
         "speed": speed,

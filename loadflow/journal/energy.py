@@ -1,0 +1,69 @@
+"""What a bearing costs: friction, supply, and what is left of the power of the shaft."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from loadflow.journal.options import require
+from loadflow.journal.result import Equilibrium
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class EnergyBalance:
+    """Energy balance of a bearing, as Table 5-23 of the source [Jonuschies 2015] draws it up.
+
+    Attributes
+    ----------
+    friction_power : array (…)
+        (3.34): shear and pressure flow of the film, W.
+    supply_power : array (…)
+        Q p of the pump, W.
+    loss : array (…)
+        Their sum, W. What the pump presses through the film is in both: the table counts it twice,
+        which makes it an upper bound.
+    shaft_power : array (…)
+        Power that the shaft passes on behind the bearing, W.
+    efficiency : array (…)
+        shaft_power/(shaft_power + loss).
+    """
+
+    friction_power: Array
+    supply_power: Array
+    loss: Array
+    shaft_power: Array
+    efficiency: Array
+
+
+def energy_balance(state: Equilibrium, shaft_power: ArrayLike) -> EnergyBalance:
+    """Set the losses of a bearing against the power of its shaft.
+
+    Parameters
+    ----------
+    state : Equilibrium
+        Any number of loads.
+    shaft_power : array_like (…)
+        Power behind the bearing, W, ≥ 0; broadcasts with the loads.
+
+    Returns
+    -------
+    EnergyBalance
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        A power below zero or not finite.
+    """
+    power = np.asarray(shaft_power, dtype=float)
+    require(bool(np.all(power >= 0) and np.all(np.isfinite(power))), "shaft_power", power, "W, ≥ 0")
+    loss = state.friction_power + state.supply_power
+    power, loss = np.broadcast_arrays(power, loss)
+    total = power + loss
+    efficiency = np.divide(power, total, out=np.zeros(total.shape), where=total > 0)
+    return EnergyBalance(
+        state.friction_power, state.supply_power, loss[()], power[()], efficiency[()]
+    )

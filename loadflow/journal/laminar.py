@@ -1,0 +1,53 @@
+"""Whether the flow in the gap is laminar, as every film here supposes."""
+
+from __future__ import annotations
+
+import warnings
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from loadflow.errors import ValidityWarning
+
+if TYPE_CHECKING:
+    from loadflow.journal.bearing import JournalBearing
+    from loadflow.journal.options import Lubricant
+
+Array = NDArray[np.float64]
+
+
+def reynolds_number(bearing: JournalBearing, speed: ArrayLike, lubricant: Lubricant) -> Array:
+    """Re = ρ |ω| R c/η of a concentric gap."""
+    surface = np.abs(speed) * bearing.radius
+    return np.asarray(lubricant.density * surface * bearing.clearance / lubricant.viscosity)
+
+
+def critical_reynolds_number(relative_clearance: float) -> float:
+    """Re_cr = 41.3 √(D/s), (3.14) of the source [Jonuschies 2015]; D/s = 1/ψ.
+
+    Examples
+    --------
+    >>> round(critical_reynolds_number(0.5e-3))
+    1847
+    """
+    return float(41.3 * relative_clearance**-0.5)
+
+
+def warn_if_turbulent(bearing: JournalBearing, speed: ArrayLike, lubricant: Lubricant) -> None:
+    """Warn of speeds at which the flow is not laminar.
+
+    Warns
+    -----
+    loadflow.errors.ValidityWarning
+        Re reaches Re_cr; names both.
+    """
+    largest = float(np.max(reynolds_number(bearing, speed, lubricant)))
+    critical = critical_reynolds_number(bearing.relative_clearance)
+    if largest >= critical:
+        warnings.warn(
+            f"Re = {largest:.4g} reaches Re_cr = {critical:.4g} (3.14) at ω = "
+            f"{np.max(np.abs(speed)):.4g} rad/s: the laminar film underestimates friction and load",
+            ValidityWarning,
+            stacklevel=3,
+        )
