@@ -205,7 +205,11 @@ def finer(scene: Scene, stage: str) -> Scene | None:
             update = {"grid": (2 * around, 2 * across)}
         else:
             return None
-    elif stage == "loads" and scene.loads.source == "simulate" and scene.loads.rung != "flap":
+    elif (
+        stage == "loads"
+        and scene.loads.source == "simulate"
+        and scene.loads.rung in ("tables", "bem")
+    ):
         update = {"rung": "flap"}
     elif stage == "reduction" and scene.reduction.size < 1.0:
         update = {"size": min(1.0, 2 * scene.reduction.size)}

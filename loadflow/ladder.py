@@ -38,7 +38,7 @@ def _data(name: str) -> dict[str, Any]:
 def rung_of(scene: Scene, stage: str) -> str:
     """Return the model that the scene chooses for a stage, by its name in the ladder."""
     if stage == "loads":
-        return scene.loads.rung if scene.loads.source == "simulate" else "files"
+        return (scene.loads.rung or "flap") if scene.loads.source == "simulate" else "files"
     return {
         "shaft": "+".join(name for name, _ in scene.shaft if getattr(scene.shaft, name)),
         "seeds": "+".join(sorted(set(scene.seeds.methods))),

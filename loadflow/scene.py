@@ -50,6 +50,13 @@ class Loads(_Section):
     that a cube or a case list states; otherwise they follow from the wind speed (2.2).
     ``mass_imbalance`` (share of its mass) and ``pitch_imbalance`` (rad) are those of blade 1;
     without them the rotor is perfect and the fixed-frame loads have no 1p line.
+
+    ``dlc`` is one design load case of IEC 61400-1 or several; wind speeds, realisations and length
+    are those of each load case unless they are given here. ``seeds`` and ``first_seed`` concern
+    turbulent winds; a gust has its own variants (sign, time of the event), and may meet the rotor
+    at several ``azimuths`` (rad). ``yaw_errors`` are in rad. ``steady`` takes the steady extreme
+    wind of 6.1 … 6.3 and 7.1. A ``rung`` that is not named is "flap", and "tables" for a parked
+    turbine.
     """
 
     source: Literal["simulate", "files"] = "simulate"
@@ -57,17 +64,26 @@ class Loads(_Section):
     case_list: str | None = None
     pattern: str | None = None
     weights: Literal["rayleigh", "given"] = "rayleigh"
-    dlc: str = "1.1"
-    wind_speeds: Annotated[list[Positive], Field(min_length=1)] = [4.0, 8.0, 12.0, 16.0, 20.0, 24.0]
-    seeds: Annotated[int, Field(ge=1, le=1000)] = 6
+    dlc: str | Annotated[list[str], Field(min_length=1)] = "1.1"
+    wind_speeds: Annotated[list[Positive], Field(min_length=1)] | None = None
+    seeds: Annotated[int, Field(ge=1, le=1000)] | None = None
     first_seed: Annotated[int, Field(ge=0)] = 1
-    duration: Positive = 600.0
+    yaw_errors: Annotated[list[float], Field(min_length=1)] | None = None
+    azimuths: Annotated[list[float], Field(min_length=1)] = [0.0]
+    steady: bool = False
+    duration: Positive | None = None
     step: Annotated[float, Field(gt=0, le=0.5)] = 0.025
     wind_class: Literal["I", "II", "III"] = "I"
     category: Literal["A+", "A", "B", "C"] = "B"
-    rung: Literal["tables", "bem", "flap"] = "flap"
+    rung: Literal["tables", "bem", "flap"] | None = None
+    individual_pitch: bool = False
     mass_imbalance: Annotated[float, Field(ge=-0.2, le=0.2)] = 0.0
     pitch_imbalance: Annotated[float, Field(ge=-0.2, le=0.2)] = 0.0
+
+    @property
+    def dlcs(self) -> tuple[str, ...]:
+        """The design load cases, each once."""
+        return tuple(dict.fromkeys([self.dlc] if isinstance(self.dlc, str) else self.dlc))
 
     @model_validator(mode="before")
     @classmethod

@@ -7,14 +7,16 @@ import pytest
 
 from loadflow.ladder import STEPS_PER_CASE, gains, ladder
 from loadflow.plan import make_plan
-from loadflow.scene import Journal, Loads, Reduction, Rolling, Scene, Seeds, make_scene
+from loadflow.scene import Journal, Loads, Reduction, Rolling, Seeds, make_scene
+from loadflow.wind import LOAD_CASES
 
 BENCHMARKS = Path(__file__).parents[1] / "benchmarks"
 
 
 def choices(section, name):
-    """The values that a Literal of the scene allows."""
-    return get_args(section.model_fields[name].annotation)
+    """The values that a Literal of the scene allows, None aside."""
+    values = get_args(section.model_fields[name].annotation)
+    return get_args(values[0]) if type(None) in values else values
 
 
 def plan_of(**sections):
@@ -65,7 +67,7 @@ def test_expected_time_grows_with_length_and_cases():
 
 def test_one_case_of_the_plan_is_one_case_of_the_ladder():
     steps = plan_of(loads={"wind_speeds": [12.0], "seeds": 1}).steps
-    assert Scene(name="defaults").loads.duration / 0.025 == STEPS_PER_CASE
+    assert LOAD_CASES["1.1"].duration / 0.025 == STEPS_PER_CASE
     assert steps[0].seconds == pytest.approx(ladder()["loads"]["flap"]["seconds_per_case"])
 
 

@@ -3,7 +3,7 @@
 import pytest
 
 from loadflow.errors import InputError
-from loadflow.scene import Scene, make_scene, read_scene
+from loadflow.scene import make_scene, read_scene
 
 
 def refused(text, tmp_path):
@@ -78,12 +78,6 @@ def test_files_are_meant_relative_to_the_scene(tmp_path):
     path = tmp_path / "s.toml"
     path.write_text('[loads]\nsource = "files"\nfiles = ["a.outb"]\n', encoding="utf-8")
     assert read_scene(path).loads.files == [str(tmp_path / "a.outb")]
-
-
-@pytest.mark.parametrize("name", ["dlc_1_1", "openfast", "quick_look"])
-def test_every_pipeline_is_a_valid_scene(name, request):
-    path = request.config.rootpath / "pipelines" / f"{name}.toml"
-    assert isinstance(read_scene(path), Scene)
 
 
 def test_a_scene_cannot_be_changed():

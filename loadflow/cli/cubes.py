@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -44,38 +44,51 @@ def convert(
 
 @app.command()
 def loads(
-    wind_speed: Annotated[
-        list[float], typer.Option(help="Mean at the hub, m/s; may be repeated.", show_default=False)
-    ],
     output: Annotated[Path, typer.Option("-o", "--output", help="Load cube to write, .h5.")],
+    wind_speed: Annotated[
+        list[float] | None,
+        typer.Option(help="Mean at the hub, m/s; repeatable; default: those of the load case."),
+    ] = None,
     turbine: TurbineName = "nrel-5mw",
-    dlc: Annotated[str, typer.Option(help="Design load case.")] = "1.1",
-    seed: Annotated[list[int] | None, typer.Option(help="Of the turbulence; repeatable.")] = None,
-    duration: Annotated[float, typer.Option(help="Length of each series, s.")] = 600.0,
+    dlc: Annotated[
+        list[str] | None, typer.Option(help="Design load case; repeatable; default: 1.1.")
+    ] = None,
+    seed: Annotated[
+        list[int] | None,
+        typer.Option(help="Of the turbulence, or variant of a gust; repeatable; default: 1."),
+    ] = None,
+    duration: Annotated[
+        float | None, typer.Option(help="Length of each series, s; default: of the load case.")
+    ] = None,
     step: Annotated[float, typer.Option(help="Time step, s.")] = 0.025,
     category: Annotated[str, typer.Option(help="Turbulence: A+, A, B or C.")] = "B",
     wind_class: Annotated[str, typer.Option("--class", help="Wind class: I, II or III.")] = "I",
-    rung: Annotated[str, typer.Option(help="Model: tables, bem or flap.")] = "flap",
+    rung: Annotated[
+        str | None, typer.Option(help="Model: tables, bem or flap; default: by load case.")
+    ] = None,
+    steady: Annotated[bool, typer.Option("--steady", help="Steady extreme wind.")] = False,
     as_json: AsJson = False,
 ) -> None:
-    """Simulate the hub loads of a turbine in turbulent wind; every wind speed with every seed."""
-    from loadflow.cube import save_cube
+    """Simulate the hub loads of a turbine in its design load cases, from power to standstill."""
+    from loadflow.cube import iter_cases, save_cube
     from loadflow.stages.simulated import simulate_cube
 
-    settings = {
-        "dlc": dlc,
-        "duration": duration,
+    settings: dict[str, Any] = {
+        "dlc": dlc or ["1.1"],
         "step": step,
         "category": category,
         "wind_class": wind_class,
-        "rung": rung,
+        "steady": steady,
     }
+    settings |= {} if duration is None else {"duration": duration}
+    settings |= {} if rung is None else {"rung": rung}
     with progress(quiet=as_json) as show:
         cube = simulate_cube(turbine, wind_speed, seed or [1], settings, progress=show)
     save_cube(cube, output)
-    cases = cube["case"].values.tolist()
+    lengths = {name: case.sizes["time"] * step for name, case in iter_cases(cube)}
     if as_json:
+        cases = list(lengths)
         print_json({"path": str(output), "cases": cases, "turbine": turbine, **settings})
     else:
-        each = f"{duration:g} s each, in steps of {step:g} s"
-        out.print(f"{output}: {', '.join(cases)}; {each}", soft_wrap=True)
+        listed = ", ".join(f"{name} ({length:g} s)" for name, length in lengths.items())
+        out.print(f"{output}: {listed}; in steps of {step:g} s", soft_wrap=True)

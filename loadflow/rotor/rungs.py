@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import lru_cache
+from typing import Any
 
 from loadflow.errors import InputError
 from loadflow.turbines import Turbine
@@ -22,7 +23,7 @@ def prepare(turbine: Turbine, rung: str, options: RotorOptions) -> tuple[Machine
     if rung not in RUNGS:
         raise InputError(f"rung = {rung!r} is not a rung of the rotor; known: {', '.join(RUNGS)}")
     chosen = replace(options, modes=_MODES[rung], tabulated=rung != "bem")
-    return _prepare(_Key(turbine), chosen)
+    return _prepare(Same(turbine), chosen)
 
 
 def default_rung(event: Event) -> Rung:
@@ -30,22 +31,22 @@ def default_rung(event: Event) -> Rung:
     return "tables" if event.startswith("parked") else "flap"
 
 
-class _Key:
-    """A turbine as a key of the cache: the same object is the same turbine."""
+class Same:
+    """A thing as a key of a cache: the same object is the same thing."""
 
-    def __init__(self, turbine: Turbine) -> None:
-        self.turbine = turbine
+    def __init__(self, thing: Any) -> None:
+        self.thing = thing
 
     def __hash__(self) -> int:
-        return id(self.turbine)
+        return id(self.thing)
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, _Key) and self.turbine is other.turbine
+        return isinstance(other, Same) and self.thing is other.thing
 
 
 @lru_cache(maxsize=8)
-def _prepare(key: _Key, options: RotorOptions) -> tuple[Machine, Controller]:
-    built = machine(key.turbine, options)
+def _prepare(key: Same, options: RotorOptions) -> tuple[Machine, Controller]:
+    built = machine(key.thing, options)
     return (with_table(built) if options.tabulated else built), controller(
-        key.turbine, options.individual_pitch
+        key.thing, options.individual_pitch
     )

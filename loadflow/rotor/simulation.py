@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -18,12 +19,12 @@ from .options import RotorOptions
 if TYPE_CHECKING:
     import xarray as xr
 
-    from .control.constants import Controller, Schedule
+    from .control.constants import Schedule
     from .loop import State
-    from .machine import Machine
+    from .rungs import Same
 
 _MARGIN = 10.0  # s of wind before and after, because the sections meet it early and late
-_FASTEST = 100.0  # m/s
+_CALM, _FASTEST = 0.1, 100.0  # m/s, of the wind on a turbine that stands
 
 
 def simulate(
@@ -177,13 +178,14 @@ def simulate_condition(
     """
     from .inflow import case_inflow, wind_machine
     from .loop import run
-    from .rungs import default_rung, prepare
+    from .rungs import Same, default_rung, prepare
 
     plant = load_turbine(turbine)
     _check(plant, case, dt, run_in)
     rung = rung or default_rung(case.event)
-    m, c = prepare(plant, rung, options or RotorOptions())
-    state = _first_state(m, c, case)
+    prepared = prepare(plant, rung, options or RotorOptions())
+    m, c = prepared
+    state = _first_state(Same(prepared), case)
     run_in += _wait(state, case, run_in)
     start = 0.0
     if field is None and case.sigma > 0:
@@ -229,7 +231,7 @@ def _check(turbine: Turbine, case: Condition, dt: float, run_in: float) -> None:
         raise InputError(f"event = {case.event!r} is unknown; known: {', '.join(EVENTS)}")
     low, high = turbine.cut_in, turbine.cut_out
     if case.event in STANDING:
-        low, high = 0.0, _FASTEST
+        low, high = _CALM, _FASTEST
     if not low <= case.wind_speed <= high:
         raise InputError(
             f"wind_speed = {case.wind_speed} m/s is not allowed; {turbine.name} "
@@ -243,12 +245,12 @@ def _check(turbine: Turbine, case: Condition, dt: float, run_in: float) -> None:
         )
 
 
-def _first_state(m: Machine, c: Controller, case: Condition) -> State:
+def _first_state(prepared: Same, case: Condition) -> State:
     """State before the run-in: at rest, idling, or running in a wind without its changes."""
     from .loop import standing_state
-    from .steady import operating_point
 
     if case.event in STANDING or case.event == "start":
+        m, c = prepared.thing
         return standing_state(
             m,
             c,
@@ -257,7 +259,16 @@ def _first_state(m: Machine, c: Controller, case: Condition) -> State:
             idle=case.event == "idling",
             stuck=case.event == "parked, blade stuck",
         )
-    return operating_point(m, c, case.wind_speed, case.shear_exponent)[1].copy()
+    return _running_state(prepared, case.wind_speed, case.shear_exponent).copy()
+
+
+@lru_cache(maxsize=64)
+def _running_state(prepared: Same, wind_speed: float, shear: float) -> State:
+    """State at the operating point, found once for all realisations of a wind speed."""
+    from .steady import operating_point
+
+    m, c = prepared.thing
+    return operating_point(m, c, wind_speed, shear)[1]
 
 
 def _wait(state: State, case: Condition, run_in: float) -> float:

@@ -9,6 +9,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -17,6 +18,9 @@ from loadflow.errors import InputError
 from loadflow.readers import read_loads
 from loadflow.readers.loads import find_files
 from loadflow.scene import Loads, Scene
+
+if TYPE_CHECKING:
+    from loadflow.wind import Condition, Machine, WindOptions
 
 CUBES = (".h5", ".nc")
 
@@ -32,7 +36,7 @@ class Case:
     wind_speed : float
         Mean wind speed at hub height, m/s.
     seed : int
-        Index of the turbulence seed.
+        Index of the turbulence seed, or of the variant of a wind without turbulence.
     weight : float
         Share of the lifetime.
     file : str
@@ -70,20 +74,72 @@ def list_cases(scene: Scene) -> list[Case]:
     """
     loads = scene.loads
     if loads.source == "simulate":
-        seeds = range(loads.first_seed, loads.first_seed + loads.seeds)
-        steps = round(loads.duration / loads.step)
-        cases = [
-            Case(loads.dlc, speed, seed, steps=steps)
-            for speed in loads.wind_speeds
-            for seed in seeds
-        ]
-        return weighted(_distinct(cases), loads.wind_class)
+        simulated = [case for dlc in loads.dlcs for case in _simulated(scene, dlc)]
+        return weighted(_distinct(simulated), loads.wind_class)
     if not loads.files:
         raise InputError('loads.files: source = "files" needs load files; none is given')
     files = [path for pattern in loads.files for path in _matching(pattern)]
     cases = [case for path in files for case in _cases_of(path, loads)]
     distinct = _distinct(cases)
     return distinct if loads.weights == "given" else weighted(distinct, loads.wind_class)
+
+
+def wind_options(scene: Scene) -> WindOptions:
+    """What the scene says about the wind."""
+    from loadflow.wind import WindOptions
+
+    loads = scene.loads
+    return WindOptions(wind_class=loads.wind_class, category=loads.category, seeds=loads.seeds)
+
+
+def simulated_case(scene: Scene, dlc: str, wind_speed: float, index: int) -> Case:
+    """Return a case to simulate, with the length that the scene or the load case gives it."""
+    wind = wind_of(scene, Case(dlc, wind_speed, index))
+    return Case(dlc, wind_speed, index, steps=round(wind.duration / scene.loads.step))
+
+
+def wind_of(scene: Scene, case: Case) -> Condition:
+    """Wind, event and length of a simulated case."""
+    from loadflow.wind import condition
+
+    return condition(
+        case.dlc,
+        _machine(scene),
+        wind_options(scene),
+        wind_speed=case.wind_speed,
+        index=case.seed,
+        **_choice(scene),
+    )
+
+
+def _simulated(scene: Scene, dlc: str) -> Iterator[Case]:
+    """Yield the cases of one design load case."""
+    from loadflow.wind import conditions
+
+    loads = scene.loads
+    winds = conditions(
+        dlc, _machine(scene), wind_options(scene), wind_speeds=loads.wind_speeds, **_choice(scene)
+    )
+    for wind in winds:
+        later = loads.first_seed - 1 if wind.sigma > 0 else 0
+        yield simulated_case(scene, dlc, wind.wind_speed, wind.index + later)
+
+
+def _choice(scene: Scene) -> dict[str, Any]:
+    loads = scene.loads
+    return {
+        "yaw_errors": loads.yaw_errors,
+        "azimuths": loads.azimuths,
+        "duration": loads.duration,
+        "steady": loads.steady,
+    }
+
+
+def _machine(scene: Scene) -> Machine:
+    from loadflow.rotor.inflow import wind_machine
+    from loadflow.turbines import load_turbine
+
+    return wind_machine(load_turbine(scene.turbine.name))
 
 
 def _matching(pattern: str) -> list[Path]:

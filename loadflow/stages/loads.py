@@ -8,7 +8,7 @@ import xarray as xr
 
 from loadflow.cube import iter_cases, open_cube
 from loadflow.scene import Scene
-from loadflow.stages.cases import CUBES, Case
+from loadflow.stages.cases import CUBES, Case, wind_of, wind_options
 
 
 def hub_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
@@ -23,24 +23,24 @@ def hub_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
 
 
 def _simulate(scene: Scene, case: Case) -> xr.Dataset:
-    from loadflow.rotor import RotorOptions, simulate
+    from loadflow.rotor import RotorOptions
+    from loadflow.rotor.simulation import simulate_condition
 
     loads = scene.loads
-    series = simulate(
+    series = simulate_condition(
         scene.turbine.name,
-        dlc=case.dlc,
-        wind_speed=case.wind_speed,
-        seed=case.seed,
-        duration=loads.duration,
+        wind_of(scene, case),
+        wind_options(scene),
         dt=loads.step,
-        wind_class=loads.wind_class,
-        category=loads.category,
         rung=loads.rung,
         options=RotorOptions(
-            mass_imbalance=loads.mass_imbalance, pitch_imbalance=loads.pitch_imbalance
+            individual_pitch=loads.individual_pitch,
+            mass_imbalance=loads.mass_imbalance,
+            pitch_imbalance=loads.pitch_imbalance,
         ),
     )
-    return series.assign(wind=series["wind"].sel(axis="x", drop=True))
+    # a cube has the pitch of blade 1 and the wind along the mean
+    return series.drop_dims("blade").assign(wind=series["wind"].sel(axis="x", drop=True))
 
 
 def _read(scene: Scene, case: Case) -> xr.Dataset:

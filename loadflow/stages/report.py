@@ -52,7 +52,7 @@ def write_report(folder: Path) -> Path:
 def _facts(scene: Scene, manifest: dict[str, Any]) -> dict[str, str]:
     loads = scene.loads
     source = (
-        f"simulated, DLC {loads.dlc}, category {loads.category}, {scene.turbine.name}"
+        f"simulated, DLC {', '.join(loads.dlcs)}, category {loads.category}, {scene.turbine.name}"
         if loads.source == "simulate"
         else f"{len(manifest['inputs'])} files"
     )

@@ -5,31 +5,30 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-import xarray as xr
-
-from loadflow.cube import make_cube
+from loadflow.cube import Cube, make_cube
 from loadflow.scene import make_scene
-from loadflow.stages.cases import Case, weighted
+from loadflow.stages.cases import list_cases, simulated_case, weighted
 from loadflow.stages.loads import hub_loads
 
 
 def simulate_cube(
     turbine: str,
-    wind_speeds: Sequence[float],
-    seeds: Sequence[int],
+    wind_speeds: Sequence[float] | None,
+    seeds: Sequence[int] | None,
     settings: Mapping[str, Any],
     progress: Callable[[str, int, int], None] = lambda stage, done, total: None,
-) -> xr.Dataset:
-    """Simulate every wind speed with every seed.
+) -> Cube:
+    """Simulate every wind speed of a design load case with every seed.
 
     Parameters
     ----------
     turbine : str
         Name or file of the turbine.
-    wind_speeds : sequence of float
-        Means at the hub, m/s.
-    seeds : sequence of int
-        Of the turbulence.
+    wind_speeds : sequence of float, optional
+        Means at the hub, m/s; by default those of the load case.
+    seeds : sequence of int, optional
+        Of the turbulence, or numbers of the variants of a gust; by default all that the load case
+        asks for.
     settings : mapping
         What else the section ``loads`` of a scene takes, such as `duration` and `rung`.
     progress : callable
@@ -37,7 +36,7 @@ def simulate_cube(
 
     Returns
     -------
-    xarray.Dataset
+    xarray.Dataset or xarray.DataTree
         Load cube; the cases share the lifetime as their wind speeds do (Rayleigh, (2.2)).
 
     Raises
@@ -45,16 +44,18 @@ def simulate_cube(
     loadflow.errors.InputError
         A setting out of its range.
     """
-    loads = {"source": "simulate", "wind_speeds": list(wind_speeds), **settings}
+    loads = {"source": "simulate", **settings}
+    if wind_speeds:
+        loads["wind_speeds"] = list(wind_speeds)
     data = {"results": ["loads.statistics"], "turbine": {"name": turbine}, "loads": loads}
     scene = make_scene(data, source="simulation")
-    wanted = dict.fromkeys((speed, seed) for speed in wind_speeds for seed in seeds)
-    plain = [Case(scene.loads.dlc, speed, seed) for speed, seed in wanted]
-    cases = weighted(plain, scene.loads.wind_class)
+    cases = list_cases(scene)
+    if seeds:
+        wanted = dict.fromkeys((c.dlc, c.wind_speed, seed) for c in cases for seed in seeds)
+        chosen = [simulated_case(scene, *what) for what in wanted]
+        cases = weighted(chosen, scene.loads.wind_class)
     done = []
     for case in cases:
         done.append(hub_loads(scene, case, {}))
         progress("loads", len(done), len(cases))
-    cube = make_cube(done)
-    assert isinstance(cube, xr.Dataset)  # all cases have one length and step
-    return cube
+    return make_cube(done)

@@ -30,10 +30,10 @@ def describe(series: xr.Dataset) -> xr.Dataset:
 
     Skewness and kurtosis are those of the distribution of the values (0 and 3 if it is normal; both
     0 for a constant). The damage-equivalent load is a range at 1 Hz with the exponent `SLOPE`. The
-    azimuth, an angle that only runs round, is left out.
+    azimuth, an angle that only runs round, and the number of the supervisory state are left out.
     """
     over_time = (name for name in series.data_vars if "time" in series[name].dims)
-    wanted = [name for name in over_time if name != "azimuth"]
+    wanted = [name for name in over_time if name not in ("azimuth", "state")]
     time = series["time"].values
     duration = float(time[-1] - time[0])
     found = {name: _describe(series[name], duration) for name in wanted}

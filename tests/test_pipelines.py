@@ -1,0 +1,95 @@
+"""Every scene that comes with the project is valid, and runs in a short form."""
+
+from collections import Counter
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import loadflow as lf
+from loadflow.cli import main
+from loadflow.cube import iter_cases, open_cube
+from loadflow.plan import make_plan
+from loadflow.scene import Scene, read_scene
+from loadflow.stages.cases import list_cases
+from loadflow.wind import LOAD_CASES
+
+PIPELINES = sorted((Path(__file__).parents[1] / "pipelines").glob("*.toml"))
+LOAD_CASE_SCENES = [path for path in PIPELINES if path.stem.startswith("dlc_")]
+
+
+def changed(scene, name, **changes):
+    section = getattr(scene, name)
+    part = type(section).model_validate(section.model_dump(exclude_unset=True) | changes)
+    return scene.model_copy(update={name: part})
+
+
+@pytest.mark.parametrize("path", PIPELINES, ids=lambda path: path.stem)
+def test_every_pipeline_is_a_valid_scene(path):
+    scene = read_scene(path)
+    assert isinstance(scene, Scene)
+    assert scene.name == path.stem
+
+
+def test_the_scenes_cover_all_groups_of_load_cases():
+    groups = {dlc[0] for path in LOAD_CASE_SCENES for dlc in read_scene(path).loads.dlcs}
+    assert groups == {dlc[0] for dlc in LOAD_CASES}
+
+
+@pytest.mark.parametrize("path", LOAD_CASE_SCENES, ids=lambda path: path.stem)
+def test_every_load_case_scene_runs_in_a_short_form(path, tmp_path):
+    scene = read_scene(path).model_copy(update={"results": ["loads.statistics"]})
+    assert make_plan(scene).cases
+    speed = 40.0 if scene.loads.dlcs[0] in ("6.1", "7.1") else 12.0
+    short = changed(
+        scene, "loads", wind_speeds=[speed], seeds=1, azimuths=[0.0], yaw_errors=[0.1],
+        duration=6.0, step=0.05, rung="tables",
+    )  # fmt: skip
+    run = lf.run(short, out=tmp_path, report=False)
+    assert run.failures == {}
+    table = run.tree["statistics"].to_dataset()
+    assert set(table["dlc"].values) == set(scene.loads.dlcs)
+    assert table["weight"].groupby("dlc").sum().values == pytest.approx(1.0)
+    assert np.isfinite(table["hub_moment"].values).all()
+    assert "state" not in table
+
+
+def test_cases_follow_the_table_of_load_cases():
+    scene = read_scene(PIPELINES[0]).model_copy()
+    both = changed(scene, "loads", dlc=["2.1", "3.2"], wind_speeds=None, seeds=None, duration=None)
+    count = Counter(case.dlc for case in list_cases(both))
+    assert count == {"2.1": 11 * 12, "3.2": 5 * 4}
+    assert {case.steps for case in list_cases(both) if case.dlc == "3.2"} == {12000}
+    few = changed(both, "loads", seeds=2, first_seed=3, wind_speeds=[8.0])
+    assert [c.seed for c in list_cases(few) if c.dlc == "2.1"] == [3, 4]
+    assert [c.seed for c in list_cases(few) if c.dlc == "3.2"] == [1, 2, 3, 4]
+
+
+def test_a_start_up_goes_through_to_the_film_and_flags_standstill(tmp_path):
+    path = next(path for path in PIPELINES if path.stem == "dlc_3_1_startup")
+    scene = read_scene(path).model_copy(update={"results": ["journal.film"]})
+    scene = changed(
+        scene, "loads", wind_speeds=[12.0], duration=100.0, step=0.05, rung="tables"
+    )  # the start begins after 50 s
+    scene = changed(scene, "reduction", size=0.02)
+    scene = changed(scene, "journal", bearings=["N"], rung="grid", grid=[24, 8])
+    run = lf.run(scene, out=tmp_path, report=False)
+    film = open_cube(run.path / "journal" / "dlc3.1_v12_s1.h5")["N"].to_dataset().load()
+    speed, carried = np.abs(film["speed"].values), film["converged"].values.astype(bool)
+    assert not carried[speed == 0.0].any()
+    assert carried[speed > 0.3].all()
+    assert run.flagged == {"dlc3.1_v12_s1, journal": int(np.count_nonzero(~carried))}
+    assert np.isfinite(film["eccentricity_ratio"].values[carried]).all()
+
+
+def test_loads_command_takes_any_load_case(tmp_path):
+    out = tmp_path / "loads.h5"
+    with pytest.raises(SystemExit) as stop:
+        main(
+            [
+                *("loads", "-o", str(out), "--dlc", "3.1", "--dlc", "6.1"),
+                *("--wind-speed", "12", "--duration", "5", "--step", "0.05", "--rung", "tables"),
+            ]
+        )
+    assert not stop.value.code
+    assert [name for name, _ in iter_cases(open_cube(out))] == ["dlc3.1_v12_s1", "dlc6.1_v12_s1"]
