@@ -112,18 +112,24 @@ def entrainment_speed(
     return np.abs(inner_speed - outer_speed) * pitch_diameter * (1.0 - gamma * gamma) / 4.0
 
 
-def common_period(inner_diameter: float, outer_diameter: float) -> tuple[int, int]:
+def common_period(
+    inner_diameter: float, outer_diameter: float, four_stroke: bool = False
+) -> tuple[int, int]:
     """Turns of the inner ring and of the cage until both stand as before, (5.9), outer at rest.
 
-    Diameters are taken as whole micrometres. For a driving outer ring exchange the diameters.
+    Diameters are taken as whole micrometres. For a driving outer ring exchange the diameters. The
+    gas force of a four-stroke engine repeats after two turns, so that their number must be even.
 
     Examples
     --------
     >>> common_period(49.5e-3, 71.5e-3), common_period(63e-3, 48e-3)
     ((22, 9), (37, 21))
+    >>> common_period(63e-3, 48e-3, four_stroke=True)
+    (74, 42)
     """
     from fractions import Fraction
 
     small, big = round(inner_diameter * 1e6), round(outer_diameter * 1e6)
     ratio = Fraction(small, small + big)
-    return ratio.denominator, ratio.numerator
+    times = 2 if four_stroke and ratio.denominator % 2 else 1
+    return times * ratio.denominator, times * ratio.numerator

@@ -47,6 +47,30 @@ def eyring_stress(newtonian: Value, eyring: Value) -> Value:
     return eyring * np.arcsinh(newtonian / eyring)
 
 
+def inlet_force(
+    sliding: Value, viscosity: Value, length: float, radius: float, film: Value
+) -> Value:
+    """Traction of the wedge around a contact, 3.154 η Δv l √(R/h), N; exact for rigid cylinders.
+
+    All there is where a roller hardly touches and its Hertzian strip vanishes; negligible beside
+    the strip's traction under load. To be added to `mixed_force`.
+
+    Parameters
+    ----------
+    sliding : float or ndarray
+        Δv, m/s.
+    viscosity : float or ndarray
+        At ambient pressure, Pa s.
+    length : float
+        m.
+    radius : float
+        Reduced radius, m.
+    film : float or ndarray
+        Central film of the regime (`loadflow.tribology.moes_line`), m.
+    """
+    return 3.1540 * viscosity * sliding * length * np.sqrt(radius / film)
+
+
 def boundary_coefficient(sliding: Value, coefficient: float, reference: float = 1e-3) -> Value:
     """Friction coefficient of touching asperities, μ tanh(Δv/v_ref), which stands still at rest.
 

@@ -104,6 +104,9 @@ def test_torque_is_the_sum_of_rolling_powers_at_both_rings():
         sums.append(rolling_resistance.hysteresis_moment(forces, half, 0.01).sum() / (2 * radius))
     torque = friction.hydrodynamic_torque(*sums, *MAIN_RACES)
     assert found.torques["hysteresis"] == pytest.approx(float(torque), rel=1e-12)
+    oblique = friction.hydrodynamic_torque(*sums, 45e-3, 60e-3, contact_angle=0.3)
+    pitch, gamma = 52.5e-3, 15 / 105  # D_w cos α/D_pw
+    assert oblique == pytest.approx(sum(sums) * pitch / 2 * (1 - gamma**2), rel=1e-12)
     assert found.torque == pytest.approx(float(found.power) / omega, rel=1e-14)
     assert found.torques["rolling"] > 0
 

@@ -9,6 +9,7 @@ from scipy.optimize import brentq
 
 from loadflow.errors import InputError
 from loadflow.tribology import contact_film as film
+from loadflow.tribology import traction
 
 G = 4615.38
 
@@ -72,6 +73,13 @@ def _martin_film(speed: float, load: float) -> float:
 def test_a_light_contact_has_the_rigid_film_of_martin():
     speed, load = 1e-11, 1e-8
     assert film.moes_line(1.0, speed, load) == pytest.approx(_martin_film(speed, load), rel=3e-3)
+
+
+def test_the_wedge_pulls_as_the_integral_of_its_shear():
+    h0, ratio = 1e-6, 1.225748440967634  # least film over the radius, and that where p' = 0
+    stop = np.arctan(np.sqrt(ratio - 1))
+    exact = np.sqrt(2 / h0) * (np.pi / 2 + stop)  # ∫ dx/h up to the rupture
+    assert traction.inlet_force(1.0, 1.0, 1.0, 1.0, ratio * h0) == pytest.approx(exact, rel=1e-4)
 
 
 def test_rigid_piezoviscous_limit_is_bloks():

@@ -117,8 +117,9 @@ def hydrodynamic_torque(
     inner_diameter: float,
     outer_diameter: float,
     variant: Literal["physics", "printed"] = "physics",
+    contact_angle: float = 0.0,
 ) -> Value:
-    """Torque on the driving ring of a cylindrical bearing from rolling forces, N m, (4.49).
+    """Torque on the driving ring of a roller bearing from rolling forces, N m, (4.48), (4.49).
 
     Parameters
     ----------
@@ -129,11 +130,16 @@ def hydrodynamic_torque(
     variant : {"physics", "printed"}
         The source prints R - R_eff for the lever at the inner ring; R + R_eff makes both levers
         D d/(D + d), so that torque times speed is the power 2 u F.
+    contact_angle : float
+        Of both rings, rad.
     """
-    inner, outer = inner_diameter / 2, outer_diameter / 2
-    roller = (outer - inner) / 2
-    shift = inner * roller / (inner + roller)
+    inner, outer, cos = inner_diameter / 2, outer_diameter / 2, np.cos(contact_angle)
+    roller = (outer - inner) / (2 * cos)
+    # R_eff cos α with R/cos α, the raceways' radii of curvature
+    shift = inner * roller * cos / (inner + roller * cos)
     if variant not in ("physics", "printed"):
         raise InputError(f"variant: must be 'physics' or 'printed', got {variant!r}")
     lever = inner + shift if variant == "physics" else inner - shift
-    return inner_force * lever + outer_force * (outer - outer * roller / (outer - roller))
+    return inner_force * lever + outer_force * (
+        outer - outer * roller * cos / (outer - roller * cos)
+    )
