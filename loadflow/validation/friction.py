@@ -86,7 +86,7 @@ def _kinematics() -> Iterator[Check]:
         ("period, cage turns", 9, cages),
     ]
     cage, spin = ideal_speeds(0.0, 1.0, *PIN_RACES)
-    turns, cages = common_period(*reversed(PIN_RACES))
+    turns, cages = common_period(PIN_RACES[1], PIN_RACES[0])
     rows += [
         ("cage, pin bearing", 21 / 37, cage),
         ("roller, pin bearing", 4.2, -(spin - cage)),
