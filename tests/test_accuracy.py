@@ -136,3 +136,10 @@ def test_plan_prints_choice_error_and_what_is_on_disk(cube, tmp_path, capsys):
     assert all(step["finished"] == step["runs"] for step in found["steps"])
     assert found["accurate"]
     assert found["errors"]["journal.film"]["eccentricity ratio"] > 0
+
+
+def test_bench_shows_every_rung_of_a_stage(capsys):
+    with pytest.raises(SystemExit) as ended:
+        main(["bench", "journal", "--json"])
+    assert ended.value.code == 0
+    assert set(json.loads(capsys.readouterr().out)["journal"]) == set(ladder()["journal"])

@@ -12,6 +12,7 @@ from loadflow.cube import open_cube
 from loadflow.errors import InputError
 from loadflow.plan import GIVEN_BY, STAGES, make_plan
 from loadflow.scene import Scene, make_scene
+from loadflow.stages.journal import equilibria
 
 
 def scene_of(cube, **keys):
@@ -105,6 +106,27 @@ def test_a_run_that_was_killed_goes_on_and_gives_identical_results(cube, finishe
 
 def test_two_processes_give_the_numbers_of_one(cube, finished, tmp_path):
     assert_same(lf.run(scene_of(cube), out=tmp_path, workers=2, report=False).tree, finished.tree)
+
+
+def test_a_dask_cluster_gives_the_numbers_of_one_process(cube, finished, tmp_path):
+    distributed = pytest.importorskip("dask.distributed")
+    with distributed.LocalCluster(
+        n_workers=1, threads_per_worker=2, processes=False, dashboard_address=None
+    ) as cluster:
+        address = cluster.scheduler_address
+        run = lf.run(scene_of(cube), out=tmp_path, scheduler=address, report=False)
+    assert_same(finished.tree, run.tree)
+
+
+def test_single_precision_of_stored_loads_moves_the_film_by_less_than_a_millionth(cube):
+    options = scene_of(cube).journal
+    force = np.random.default_rng(0).normal(0, 1e6, (50, 3))
+    speed = np.full(50, 1.2)
+    exact = equilibria(options, force, speed)
+    stored = equilibria(options, force.astype("f4"), speed.astype("f4"))
+    for name in ("eccentricity_ratio", "maximum_pressure", "friction_power"):
+        off = np.abs(getattr(stored, name) / getattr(exact, name) - 1)
+        assert 0 < off.max() < 1e-6, name
 
 
 def test_parts_of_other_settings_are_refused_unless_overwritten(cube, tmp_path):

@@ -140,6 +140,29 @@ def report(run_folder: Annotated[Path, typer.Argument(help="Folder of a run.")])
 
 
 @app.command()
+def bench(
+    stages: Annotated[list[str] | None, typer.Argument(help="Stages; default: all.")] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Show the measured speed and error of every model; `benchmarks/run` measures them anew."""
+    from loadflow.ladder import ladder
+
+    known = ladder()
+    if unknown := set(stages or []) - set(known):
+        raise InputError(f"no stage {', '.join(sorted(unknown))}; there are {', '.join(known)}")
+    chosen = {stage: known[stage] for stage in stages or known}
+    if as_json:
+        print_json(chosen)
+        return
+    table = Table("stage", "model", "relative time", "error", "against", box=None)
+    for stage, rungs in chosen.items():
+        for rung, entry in rungs.items():
+            time = f"{entry['relative_time']:.2g}"
+            table.add_row(stage, rung, time, entry["error"], entry["reference"])
+    out.print(table)
+
+
+@app.command()
 def validate(
     names: Annotated[list[str] | None, typer.Argument(help="Tables; default: all.")] = None,
     as_json: AsJson = False,
