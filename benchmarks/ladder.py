@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from ladder_bearings import measure_gains, measure_journal, measure_reduction, measure_rolling
+from ladder_figures import draw
 from ladder_loads import measure_loads, measure_seeds, measure_shaft, measure_statistics
 from measuring import QUICK, Bench, Entry, Rungs, Setting, percent
 
@@ -82,7 +83,20 @@ def _section(stage: str, rungs: Rungs) -> Iterator[str]:
     measured = {name: entry for name, entry in rungs.items() if entry["errors"]}
     if measured:
         yield from _errors(measured)
+    if len(measured) > 1:
+        yield f"\n![error over time of the rungs of the stage {stage}]({_figure(stage)})"
     yield ""
+
+
+def _figure(stage: str) -> str:
+    """Path of a stage's picture, from the page."""
+    return f"figures/speed-vs-error-{stage}.svg"
+
+
+def _draw(ladder: dict[str, Rungs]) -> None:
+    for stage, rungs in ladder.items():
+        if sum(bool(entry["errors"]) for entry in rungs.values()) > 1:
+            draw(stage, rungs, DOC.parent / _figure(stage))
 
 
 def _seconds(entry: Entry) -> str:
@@ -126,6 +140,7 @@ def main() -> None:
     ordered = {name: found[name] for name in STAGES if name in found}
     _write(LADDER, ordered)
     _write(GAINS, gains)
+    _draw(ordered)
     DOC.write_text(page(ordered, gains), encoding="utf-8")
 
 
