@@ -230,14 +230,17 @@ def measure_journal(bench: Bench) -> Rungs:
     models: dict[str, Entry] = {
         f"grid, {a}x{b}": {"grid": (a, b), "rung": "grid"} for a, b in GRIDS
     }
-    models["grid, 60x20, graded"] = {"grid": (60, 20), "grading": "graded", "rung": "grid"}
+    models |= {
+        f"grid, {a}x{b}, graded": {"grid": (a, b), "grading": "graded", "rung": "grid"}
+        for a, b in GRIDS[1:3]
+    }
     others = get_args(Journal.model_fields["rung"].annotation)
     models |= {rung: {"rung": rung} for rung in others if rung != "grid"}
     rungs: Rungs = {}
     for name, keys in models.items():
         errors = film_errors(options, setting, reference, **keys).summary()
-        named = {} if "grading" in keys else {"settings": keys}
-        rungs[name] = named | {
+        rungs[name] = {
+            "settings": keys,
             "includes": ["gas mixture, mass conserving", "aligned, rigid, isothermal"],
             "seconds_per_sample": rounded(_film_seconds(bench, keys)),
             "reference": about,

@@ -11,7 +11,7 @@ LEAST = 1e-6  # errors below this are drawn here
 
 
 def draw(stage: str, rungs: Rungs, path: Path) -> None:
-    """Draw largest error over relative time, one panel for each quantity; dominated rungs hollow."""
+    """Draw largest error over relative time, a panel for each quantity; dominated rungs hollow."""
     measured = {name: entry for name, entry in rungs.items() if entry["errors"]}
     quantities = list(dict.fromkeys(q for entry in measured.values() for q in entry["errors"]))
     columns = min(3, len(quantities))

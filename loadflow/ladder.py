@@ -51,7 +51,8 @@ def rung_of(scene: Scene, stage: str) -> str:
 def _film_rung(scene: Scene) -> str:
     around, across = scene.journal.grid
     rung = scene.journal.rung
-    return f"grid, {around}x{across}" if rung == "grid" else rung
+    graded = ", graded" if scene.journal.grading == "graded" else ""
+    return f"grid, {around}x{across}{graded}" if rung == "grid" else rung
 
 
 def _reduction_rung(scene: Scene) -> str:

@@ -143,6 +143,7 @@ class Journal(_Section):
         60,
         20,
     )
+    grading: Literal["auto", "uniform", "graded"] = "auto"
     rung: Literal["grid"] = "grid"
 
 

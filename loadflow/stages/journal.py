@@ -83,6 +83,7 @@ def equilibria(options: Journal, force: np.ndarray, speed: np.ndarray) -> Equili
         cavitation=options.cavitation,
         edge_pressure=options.edge_pressure,
         grid=options.grid,
+        grading=options.grading,
         rung=options.rung,
         strict=False,
     )
