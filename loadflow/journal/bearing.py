@@ -20,7 +20,7 @@ from loadflow.journal.equilibrium import (
     solve_patiently,
 )
 from loadflow.journal.estimate import closed_form_position
-from loadflow.journal.film import Film
+from loadflow.journal.film import EVERY, Film
 from loadflow.journal.laminar import warn_if_turbulent
 from loadflow.journal.options import Cavitation, Lubricant, require
 from loadflow.journal.orbit import Marcher, march, mass_balance, orbit_dataset, orbit_row
@@ -28,7 +28,7 @@ from loadflow.journal.periodic import Method, check_period, close_orbit, refuse_
 from loadflow.journal.result import Equilibrium, FilmField, field_row, shaped, stack, static_row
 from loadflow.journal.rungs import Control, Rung, check_rung, model
 from loadflow.journal.setup import FilmOptions, Grading, Inlet, build_film, operating_points
-from loadflow.journal.shaped import Line, equilibrium_rows, field_rows, plain
+from loadflow.journal.shaped import Line, equilibrium_rows, field_rows, orbit_start, plain
 from loadflow.journal.shapes import CYLINDER, Relief, Shape
 from loadflow.journal.supply import Supply
 
@@ -314,6 +314,7 @@ strict, tilt, bend
         periodic: bool | Literal["direct", "marching"] = False,
         closure: float = 1e-6,
         max_periods: int = 100,
+        moment: ArrayLike | None = None,
     ) -> xr.Dataset:
         """Path of the shaft under a load that changes with time, or repeats.
 
@@ -353,6 +354,9 @@ strict, tilt, bend
             period to the next.
         max_periods : int
             Periods to go through at most.
+        moment : array_like (n, 2), optional
+            What the shaft applies to the bearing about its middle, N m; the shaft then tilts, and
+            the result has its `tilt`. Without it the shaft stays aligned.
 
         Returns
         -------
@@ -383,7 +387,9 @@ strict, tilt, bend
         if bad.size:
             raise InputError(f"time[{bad[0] + 1}] = {times[bad[0] + 1]} does not increase")
         place = None if start is None else np.asarray(start, dtype=float) / self.clearance
-        if place is not None:
+        line = Line.of(shape, moment=moment)
+        aligned = self._plain(line, rung)
+        if place is not None and aligned:
             require(bool(np.hypot(*place) < 1), "start", start, f"|start| < c = {self.clearance} m")
         require(step in ("given", "adaptive"), "step", step, '"given" or "adaptive"')
         require(step_tolerance > 0, "step_tolerance", step_tolerance, "> 0")
@@ -393,32 +399,29 @@ strict, tilt, bend
             require(not periodic, "periodic", periodic, f'False for rung = "{rung}"')
             control = Control(tolerance, max_iterations)
             return model(rung).orbit(self, options, times, loads, speeds, place, control)
-        film = self._film(options.for_history(), speeds)
         if periodic:
             check_period(times, loads, speeds)
-            if not film.pockets.lifts(film.p_edge):
+        control = Control(tolerance, 2 * max_iterations)
+        free: slice | NDArray[np.int64] = EVERY
+        if aligned:
+            film = self._film(options.for_history(), speeds)
+            if periodic and not film.pockets.lifts(film.p_edge):
                 refuse_half_speed_whirl(times, loads, speeds)
-        film.raise_scale(float(np.hypot(*loads.T).max()) / (self.width * self.diameter))
-        omega = float(speeds[0])
-        film.set_speed(omega)
-        if place is None:
-            _, first = self._static(
-                film, None, loads[0], omega, None, tolerance, 2 * max_iterations
-            )
+            first, forces = self._orbit_start(film, loads, speeds, place, control), loads
         else:
-            first = solve_film(film, film.start(), place, np.zeros(2), tolerance, 100)
-        if not first.converged:
-            raise SolverError(f"orbit cannot start: {self._refusal(film, loads[0], first)}")
+            film, first, forces, free = orbit_start(
+                self, options, loads, speeds, line, place, control
+            )
         accuracy = step_tolerance if step == "adaptive" else np.inf
-        marcher = Marcher(film, tolerance, max_iterations, accuracy)
+        marcher = Marcher(film, tolerance, max_iterations, accuracy, free)
         if periodic:
             way: Method = "marching" if periodic == "marching" else "direct"
             rows, ends, about = close_orbit(
-                marcher, first, times, loads, speeds, way, closure, max_periods
+                marcher, first, times, forces, speeds, way, closure, max_periods
             )
         else:
             past = marcher.begin(float(times[0]), first)
-            rows, end = march(marcher, past, times, loads, speeds)
+            rows, end = march(marcher, past, times, forces, speeds)
             rows, ends, about = [orbit_row(film, first, 0), *rows], (past[-1], end[-1]), {}
         values = {name: np.array([row[name] for row in rows]) for name in rows[0]}
         if step == "given":
@@ -435,6 +438,22 @@ strict, tilt, bend
         allowed = '"grid" for a shaped bore or a shaft that tilts or bends'
         require(rung == "grid", "rung", rung, allowed)
         return False
+
+    def _orbit_start(
+        self, film: Film, loads: Array, speeds: Array, place: Array | None, control: Control
+    ) -> Solution:
+        """First state of an orbit in a plain bearing."""
+        film.raise_scale(float(np.hypot(*loads.T).max()) / (self.width * self.diameter))
+        omega = float(speeds[0])
+        film.set_speed(omega)
+        if place is None:
+            limits = (control.tolerance, control.max_iterations)
+            _, first = self._static(film, None, loads[0], omega, None, *limits)
+        else:
+            first = solve_film(film, film.start(), place, np.zeros(2), control.tolerance, 100)
+        if not first.converged:
+            raise SolverError(f"orbit cannot start: {self._refusal(film, loads[0], first)}")
+        return first
 
     def _film(self, options: FilmOptions, rates: Array) -> Film:
         film = build_film(self.diameter, self.width, self.relative_clearance, options)

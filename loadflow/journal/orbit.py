@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from loadflow.errors import SolverError
 from loadflow.journal.equilibrium import Motion, Solution, solve_equilibrium
-from loadflow.journal.film import Film
+from loadflow.journal.film import EVERY, Film
 from loadflow.journal.result import attitude_angle
 
 if TYPE_CHECKING:
@@ -48,13 +48,15 @@ class Marcher:
 
     A mesh fixed to the shell keeps the liquid of each cell as history; a mesh that turns with the
     shaft serves the laws without fill, whose only history is the path of the shaft. With an
-    `accuracy`, steps are cut until their error is below that share of the narrowest gap.
+    `accuracy`, steps are cut until their error is below that share of the narrowest gap. Only the
+    degrees of freedom `free` move.
     """
 
     film: Film
     tolerance: float
     max_iterations: int
     accuracy: float = math.inf
+    free: slice | NDArray[np.int64] = field(default_factory=lambda: EVERY)
 
     def begin(self, time: float, solution: Solution) -> list[Past]:
         """History that starts at `solution`."""
@@ -132,7 +134,8 @@ class Marcher:
             rate = (1 + 2 * ratio) / (1 + ratio) / step
             kept = [((1 + ratio) / step, last), (-(ratio**2) / (1 + ratio) / step, before)]
             ahead = last.position + ratio * (last.position - before.position)
-            if math.hypot(*ahead) < 0.5 + 0.5 * math.hypot(*last.position):
+            gap = self.film.gap
+            if gap.narrowest(ahead) > 0.5 * gap.narrowest(last.position):
                 u, position = last.u + ratio * (last.u - before.u), ahead
         if self.film.mesh.polar:
             offset = sum((w * p.position for w, p in kept), np.zeros(2))
@@ -141,7 +144,7 @@ class Marcher:
             volume = sum((w * p.liquid for w, p in kept), np.zeros(self.film.mesh.shape))
             motion = Motion(volume_rate=rate, volume=volume)
         return solve_equilibrium(
-            self.film, force, u, position, self.tolerance, self.max_iterations, motion
+            self.film, force, u, position, self.tolerance, self.max_iterations, motion, self.free
         )
 
     def _next(self, last: Past, time: float, solution: Solution, ahead: float) -> Past:
@@ -184,7 +187,9 @@ def march(
 def orbit_row(film: Film, solution: Solution, steps: int) -> dict[str, Any]:
     """What an orbit says of one time, after `steps` implicit steps."""
     row = film.summary(solution.u, solution.position)
-    x, y = solution.position.tolist()
+    x, y, *tilt = solution.position.tolist()
+    if tilt:
+        row["tilt"] = np.array(tilt) * film.relative_clearance
     return row | {
         "x": x,
         "y": y,
@@ -220,6 +225,9 @@ _GROOVES = {
 }
 
 
+_TILTS = {"tilt": ("rad", "rotation of the shaft about both axes")}
+
+
 def orbit_dataset(
     values: dict[str, Array], time: Array, force: Array, speed: Array, clearance: float
 ) -> xr.Dataset:
@@ -230,7 +238,11 @@ def orbit_dataset(
     values = values | {"eccentricity_ratio": np.hypot(path[:, 0], path[:, 1])}
     data = {
         name: (dims, values[name], {"units": units, "long_name": text})
-        for dims, names in (("time", _VARIABLES), (("time", "groove"), _GROOVES))
+        for dims, names in (
+            ("time", _VARIABLES),
+            (("time", "groove"), _GROOVES),
+            (("time", "axis"), _TILTS),
+        )
         for name, (units, text) in names.items()
         if name in values
     }

@@ -20,6 +20,7 @@ from loadflow.journal.equilibrium import (
     solve_patiently,
 )
 from loadflow.journal.estimate import closed_form_position
+from loadflow.journal.film import Film
 from loadflow.journal.gap_shaped import Bore
 from loadflow.journal.options import require
 from loadflow.journal.result import field_row, following, static_row
@@ -140,6 +141,38 @@ def field_rows(
             raise SolverError(f"film {index}: {statics.refusal(np.zeros(2), solution)}")
         rows.append(field_row(statics.film, solution))
     return rows, statics.film.mesh.z * bearing.radius
+
+
+def orbit_start(
+    bearing: JournalBearing,
+    options: FilmOptions,
+    loads: Array,
+    speeds: Array,
+    line: Line,
+    start: Array | None,
+    control: Control,
+) -> tuple[Film, Solution, Array, NDArray[np.int64]]:
+    """Film, first state, generalised loads (n, m) and moving degrees of freedom of an orbit.
+
+    It begins at `start`, in clearances, or at the equilibrium of the first load.
+    """
+    require(not bore_of(bearing).pads, "shape", bearing.shape.kind, "a fixed bore for an orbit")
+    statics = _Statics(bearing, options, line, float(np.abs(speeds).max()))
+    gap, omega = statics.gap, float(speeds[0])
+    forces = np.zeros((len(loads), gap.size))
+    forces[:, :2] = loads
+    if line.moment is not None:
+        forces[:, 2:] = line.moment / bearing.radius
+    size = float(np.linalg.norm(forces, axis=1).max())
+    statics.film.raise_scale(size / (bearing.width * bearing.diameter))
+    if start is None:
+        first = statics.solve(0, loads[0], omega, None, control)
+    else:
+        first = statics.hold(0, start, np.zeros(2), omega, control)
+    if not first.converged:
+        raise SolverError(f"orbit cannot start: {statics.refusal(loads[0], first)}")
+    free = np.arange(gap.size if line.moment is not None else 2)
+    return statics.film, first, forces, free
 
 
 class _Statics:

@@ -314,6 +314,53 @@ def test_a_recess_off_the_middle_makes_a_moment():
     np.testing.assert_allclose(mirrored.moment, -state.moment, rtol=1e-6)
 
 
+TIME = np.linspace(0.0, 0.4, 17)
+PATH = np.stack([3e5 + 1e5 * np.sin(8 * TIME), 5e4 * np.cos(8 * TIME)], axis=-1)
+
+
+@pytest.mark.parametrize(("law", "edge"), RUPTURING, ids=lambda v: str(v))
+def test_orbits_without_moment_do_not_tilt(law, edge):
+    options = film(law, edge, (36, 8)) | {"grading": "uniform", "inlet": None}
+    aligned = PLAIN.orbit(TIME, PATH, 10.0, **options)
+    free = PLAIN.orbit(TIME, PATH, 10.0, moment=np.zeros_like(PATH), **options)
+    np.testing.assert_allclose(free.eccentricity, aligned.eccentricity, atol=1e-7 * CLEARANCE)
+    np.testing.assert_allclose(free.tilt, 0.0, atol=1e-12)
+
+
+def test_slow_moments_tilt_the_orbit_as_if_it_stood_still():
+    options = film(GasMixture(5e4), 2e5, (36, 8))
+    moment = np.stack([3e3 * np.cos(8 * TIME), 6e3 * np.sin(8 * TIME)], axis=-1)
+    orbit = PLAIN.orbit(1e4 * TIME, PATH, 10.0, moment=moment, **options)
+    static = PLAIN.equilibrium(PATH, 10.0, moment=moment, **options)
+    np.testing.assert_allclose(orbit.tilt, static.tilt, atol=1e-3 * np.abs(static.tilt).max())
+    np.testing.assert_allclose(orbit.eccentricity, static.eccentricity, atol=2e-3 * CLEARANCE)
+
+
+@pytest.mark.parametrize("shape", SHAPES[1:3], ids=lambda s: s.kind)
+def test_orbits_of_shaped_bores_follow_slow_loads(shape):
+    bearing = JournalBearing(**SIZE, shape=shape)
+    options = film(MassConserving(), 2e5, (36, 8))
+    orbit = bearing.orbit(1000 * TIME, PATH, 10.0, **options)
+    static = bearing.equilibrium(PATH, 10.0, **options)
+    np.testing.assert_allclose(orbit.eccentricity, static.eccentricity, atol=2e-3 * CLEARANCE)
+    fast = bearing.orbit(TIME, PATH, 10.0, **options)
+    assert np.abs(fast.eccentricity - static.eccentricity).max() > 0.02 * CLEARANCE
+
+
+def test_what_is_not_modelled_is_refused():
+    lobes = JournalBearing(**SIZE, shape=Lobes(2))
+    for call in (
+        lambda: lobes.equilibrium(LOAD, 10.0, OIL, rung="reduced"),
+        lambda: lobes.orbit(TIME, PATH, 10.0, OIL, rung="map"),
+        lambda: PLAIN.equilibrium(LOAD, 10.0, OIL, moment=(0.0, 0.0), rung="map"),
+    ):
+        with pytest.raises(InputError, match=r'rung = .* "grid" for a shaped bore'):
+            call()
+    pads = JournalBearing(**SIZE, shape=SHAPES[4])
+    with pytest.raises(InputError, match="shape = 'tilting pads'"):
+        pads.orbit(TIME, PATH, 10.0, OIL)
+
+
 @pytest.mark.parametrize("share", [0.02, 0.3, 1.0, 5.0, 20.0])
 @pytest.mark.parametrize("shape", [None, *SHAPES], ids=lambda s: "tilted" if s is None else s.kind)
 def test_newton_finds_light_and_heavy_loads(shape, share):
