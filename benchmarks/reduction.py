@@ -10,14 +10,14 @@ for the transient orbit); `--keep` stores these films, so that a second call onl
 from __future__ import annotations
 
 import argparse
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
 from loadflow.cube import open_cube, select
 from loadflow.journal import GasMixture, JournalBearing, Lubricant
-from loadflow.reduction import Reduced, histogram
+from loadflow.reduction import Reduced, histogram, phases
 from loadflow.stages.simulated import simulate_cube
 from loadflow.stages.suspended import BearingSeries, iter_bearings
 
@@ -77,6 +77,14 @@ def solve(series: BearingSeries, transient: bool, keep: Path | None) -> Films:
         file.parent.mkdir(parents=True, exist_ok=True)
         np.savez(file, **stored)
     return Films(**stored)
+
+
+def turning(series: BearingSeries) -> BearingSeries:
+    """Cut off standstill, in which no film carries the load."""
+    parts = [p for p in phases(series.speed) if p.name != "standstill"]
+    rows = np.concatenate([np.arange(p.start, p.stop) for p in parts])
+    cut = {name: getattr(series, name)[rows] for name in ("time", "speed", "force", "moment")}
+    return replace(series, **cut)
 
 
 def report(solved: list[tuple[BearingSeries, Films]], size: float) -> str:
@@ -141,7 +149,7 @@ def main() -> None:
         else simulate_cube("nrel-5mw", SPEEDS, [given.seed], {"dlc": "1.1"})
     )
     solved = []
-    for series in iter_bearings(cube, [given.bearing]):
+    for series in map(turning, iter_bearings(cube, [given.bearing])):
         solved.append((series, solve(series, given.transient, given.keep)))
         print(series.source, flush=True)
     text = report(solved, given.size)

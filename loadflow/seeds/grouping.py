@@ -73,6 +73,14 @@ class Grouping:
         labels = np.asarray(self.labels)
         return [tuple(np.flatnonzero(labels == g).tolist()) for g in range(labels.max() + 1)]
 
+    def in_words(self, names: Sequence[str]) -> str:
+        """Groups by the `names` of their seeds, the representative of each marked, and reasons."""
+        marked = [
+            "{" + ", ".join(names[i] + ("*" if i == chief else "") for i in members) + "}"
+            for members, chief in zip(self.groups, self.representatives)
+        ]
+        return f"{' '.join(marked)} (* represents its group). {'. '.join(self.reasons)}"
+
 
 def group_seeds(
     x: xr.DataArray | np.ndarray | Sequence[np.ndarray],

@@ -256,10 +256,12 @@ def _merge_table(seeds: xr.Dataset) -> Table:
             f"{seeds['wind_speed'].values[g]:g}",
             str(seeds["seeds"].values[g]),
             *("yes" if merge else "no" for merge in seeds["may_merge"].isel(group=g).values),
+            str(seeds["together"].values[g]),
         ]
         for g in range(seeds.sizes["group"])
     ]
-    heads = ["DLC", "wind, m/s", "seeds", *(str(variant) for variant in seeds["variant"].values)]
+    variants = [str(variant) for variant in seeds["variant"].values]
+    heads = ["DLC", "wind, m/s", "seeds", *variants, "which belong together (calibrated)"]
     return Table("May the seeds be merged?", heads, rows)
 
 

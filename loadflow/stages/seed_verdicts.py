@@ -14,7 +14,6 @@ from loadflow.errors import InputError
 from loadflow.reduction import damage_equivalent_load
 from loadflow.seeds import (
     Equivalence,
-    Grouping,
     Method,
     SeedEquality,
     SeedsNeeded,
@@ -300,15 +299,6 @@ def groupings(cube: Cube, verdicts: Sequence[Verdict]) -> dict[tuple[str, float,
         if len(group) > 1:
             series = {n: [channel(c, n).values.astype(float) for c in group] for n in names}
             grouping = group_seeds_jointly(series, key[2], alpha, method)  # type: ignore[arg-type]
-            found[key] = f"DLC {key[0]}, {key[1]:g} m/s: {_in_words(grouping, group)}"
+            seeds = [str(case["seed"].item()) for case in group]
+            found[key] = f"DLC {key[0]}, {key[1]:g} m/s: {grouping.in_words(seeds)}"
     return found
-
-
-def _in_words(grouping: Grouping, group: Group) -> str:
-    """Groups by the names of their seeds, the representative of each marked, and the reasons."""
-    seeds = [str(case["seed"].item()) for case in group]
-    marked = [
-        "{" + ", ".join(seeds[i] + ("*" if i == chief else "") for i in members) + "}"
-        for members, chief in zip(grouping.groups, grouping.representatives)
-    ]
-    return f"{' '.join(marked)} (* represents its group). {'. '.join(grouping.reasons)}"

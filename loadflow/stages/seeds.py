@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 
 from loadflow.scene import Scene
-from loadflow.seeds import Method, equality, holm
+from loadflow.seeds import Method, equality, group_seeds_jointly, holm
 from loadflow.stages.cases import Case
 
 TESTS = ("location", "spread", "spectrum")
@@ -29,7 +29,8 @@ def equality_of_seeds(
         `statistic`, `pvalue`, `equal` (variant, group, component, test), `verdict` in words
         (variant, group, component), and `may_merge` (variant, group): whether all components are
         equal, with Holm's correction for their number and that of the groups where the tests hold
-        their level. A group is one wind speed of one load case, sampled at one step.
+        their level. `together` (group) says in words which seeds the calibrated tests let merge. A
+        group is one wind speed of one load case, sampled at one step.
     """
 
     def group_of(case: Case) -> tuple[str, float, float]:
@@ -40,11 +41,22 @@ def equality_of_seeds(
     for method in scene.seeds.methods:
         found = xr.concat([_one_group(scene, method, group, inputs) for group in groups], "group")
         per_method.append(found.assign(may_merge=_may_merge(found, method, scene.seeds.alpha)))
+    together = [_together(scene, group, inputs) for group in groups]
     return (
         xr.concat(per_method, "variant")
+        .assign(together=("group", together, {"long_name": "which seeds belong together"}))
         .assign_coords(variant=list(scene.seeds.methods))
         .assign_attrs(alpha=scene.seeds.alpha, band=scene.seeds.band)
     )
+
+
+def _together(scene: Scene, group: list[Case], inputs: Mapping[str, dict[str, Any]]) -> str:
+    """Say which seeds of one wind speed belong together, all components at once, and why."""
+    found = components(group, inputs)
+    step = next(iter(found.values()))[1]
+    series = {name: values for name, (values, _) in found.items()}
+    grouping = group_seeds_jointly(series, step, scene.seeds.alpha)
+    return grouping.in_words([str(case.seed) for case in group])
 
 
 def _step(loads: xr.Dataset) -> float:
