@@ -10,8 +10,9 @@ from synthetic import case, cube_file
 from loadflow.cli import main
 from loadflow.cube import make_cube, open_cube, save_cube
 from loadflow.reduction import damage_equivalent_load, read_parameter_file, stationary
+from loadflow.scene import Journal
 from loadflow.seeds import group_seeds_jointly
-from loadflow.stages import film_response
+from loadflow.stages.film_response import film_response
 from loadflow.stages.frames import to_film
 from loadflow.stages.suspended import with_bearings
 
@@ -135,7 +136,7 @@ def test_periodic_loads_with_given_bounds(loadflow, hub_cube, tmp_path):
 def test_the_film_is_asked_once_for_each_wind_speed(loadflow, hub_cube, tmp_path, monkeypatch):
     asked = []
 
-    def film(journal, speed, rung="reduced"):
+    def film(journal, speed):
         asked.append(speed)
         return lambda mean, amplitude, frequency: 0.6 + 0.3 / (1 + (frequency / 0.3) ** 2)
 
@@ -306,35 +307,25 @@ def test_chunked_and_loaded_cubes_give_the_same_numbers(hub_cube):
         np.testing.assert_array_equal(a.equivalent, b.equivalent)
 
 
-class Whirl:
-    """A bearing whose orbit swings about its mean and settles from period to period, or never."""
-
-    def __init__(self, decay):
-        self.decay = decay
-
-    def orbit(self, time, force, speed, lubricant, **options):
-        import xarray as xr
-
-        assert force.shape == (time.size, 2)
-        ratio = 0.5 + 0.1 * np.sin(2 * np.pi * time) * (1 + 0.5 * np.exp(-self.decay * time))
-        return xr.Dataset({"eccentricity_ratio": ("time", ratio)})
+# -- the film and the bounds ------------------------------------------------------------------
 
 
-class Bearing:
-    lubricant = cavitation = edge_pressure = grid = None
-
-    def __init__(self, decay):
-        self.geometry = Whirl(decay)
-
-
-def test_the_response_of_the_film_is_that_of_a_settled_period():
-    response = film_response.film_response(Bearing(0.2), speed=2 * np.pi)
-    assert response(np.ones(2), np.ones(2), 1.0) == pytest.approx(0.6, rel=0.01)
-
-
-def test_an_orbit_that_never_settles_is_an_error():
-    from loadflow.errors import SolverError
-
-    response = film_response.film_response(Bearing(-0.05), speed=2 * np.pi)
-    with pytest.raises(SolverError, match="does not settle"):
-        response(np.ones(2), np.ones(2), 1.0)
+def test_the_response_is_the_largest_ratio_of_the_closed_orbit():
+    """A slow load is quasi-static; what the shaft cannot follow leaves it at the mean load."""
+    journal = Journal(grid=(36, 8))
+    omega, mean, swing = 12.1 * np.pi / 30, np.array([2.0e6, 0.0]), np.array([4e5, 0.0])
+    response = film_response(journal, omega)
+    forces = [mean, mean + swing]
+    still, worst = journal.geometry.equilibrium(
+        forces,
+        omega,
+        journal.lubricant,
+        cavitation=journal.cavitation,
+        edge_pressure=journal.edge_pressure,
+        grid=journal.grid,
+    ).eccentricity_ratio
+    assert response(mean, swing, 1 / 400) == pytest.approx(worst, abs=2e-3)
+    fast = response(mean, swing, 5.0)
+    assert still < fast < still + 0.1 * (worst - still)
+    # at half the speed of the shaft the load drives its whirl
+    assert response(mean, swing, omega / (4 * np.pi)) > worst

@@ -117,7 +117,7 @@ def bounds(found: xr.Dataset) -> Figure:
         axis.plot(found["frequency"], found["eccentricity_ratio"].sel(bearing=name), "o-", ms=3,
                   label=str(name))  # fmt: skip
     axis.set(xscale="log", xlabel="frequency, Hz", ylabel="largest ε in a period")
-    axis.legend()
+    axis.legend(ncols=3, fontsize="x-small", loc="upper right")
     return drawing
 
 
