@@ -171,6 +171,26 @@ def dietl_film_stiffness(load: ArrayLike, film: ArrayLike, exponent: float = 0.1
     return np.asarray(np.asarray(load, float) / (exponent * np.asarray(film, float)))
 
 
+def dietl_roller(
+    inner: ArrayLike, outer: ArrayLike, variant: Literal["physics", "printed"] = "physics"
+) -> Complex:
+    """Complex stiffness k + iωc of a roller between its two contacts, N/m, (2.16).
+
+    Parameters
+    ----------
+    inner, outer : array_like of complex
+        Contacts with both rings. A law of both contacts together, as (5.14) of von Hollen, is
+        already the series.
+    variant : {"physics", "printed"}
+        Springs in series, or a quarter of their sum: too stiff by ((k₁ - k₂)/(k₁ + k₂))².
+    """
+    if variant == "physics":
+        return in_series(inner, outer)
+    if variant != "printed":
+        raise InputError(f"variant: must be 'physics' or 'printed', got {variant!r}")
+    return (np.asarray(inner, complex) + np.asarray(outer, complex)) / 4
+
+
 def dietl_material_damping(stiffness: ArrayLike, loss: float, frequency: ArrayLike) -> Array:
     """Damping ψ k/ω of the steel, N s/m, (2.12).
 

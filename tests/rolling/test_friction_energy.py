@@ -165,6 +165,11 @@ def test_speed_may_stand_still_or_turn_back():
         roller_friction(result, np.nan, OPTIONS)
 
 
+def test_film_laws_of_points_are_refused():
+    with pytest.raises(InputError, match="film"):
+        dataclasses.replace(OPTIONS, film="archard")
+
+
 def test_components_add_what_they_say():
     result = MAIN_BEARING.equilibrium(force=(2000.0, 0.0, 0.0))
     plain = roller_friction(result, 100.0, OPTIONS)

@@ -7,8 +7,9 @@ from typing import Annotated
 
 from annotated_types import Ge, Gt, Le
 
-from loadflow.numerics.fields import check_fields
+from loadflow.numerics.fields import check_choice, check_fields
 from loadflow.rolling.friction.churning import Churning
+from loadflow.tribology.contact_film import POWER_LAWS
 from loadflow.tribology.lubricants import Oil
 
 
@@ -27,7 +28,7 @@ class FrictionOptions:
     hysteresis : float
         Loss factor α of the steel.
     film : str
-        Film law, see `loadflow.tribology.film_ratio`; ``"moes"`` holds in all regimes.
+        Film law of lines, see `loadflow.tribology.film_ratio`; ``"moes"`` holds in all regimes.
     starvation : float
         Share of the flooded film and rolling force that is left; grease 0.5 … 0.7, oil 1.
     boundary_friction : float
@@ -49,6 +50,11 @@ class FrictionOptions:
         Torque of churning.
     seal_torque : float
         Torque of the seals, N m.
+
+    Raises
+    ------
+    InputError
+        If a field is out of its range or the film law is not one of lines.
     """
 
     oil: Oil
@@ -68,3 +74,5 @@ class FrictionOptions:
 
     def __post_init__(self) -> None:
         check_fields(self)
+        lines = [name for name, law in POWER_LAWS.items() if law.contact == "line"]
+        check_choice(self, "film", ("moes", *lines))
