@@ -9,6 +9,7 @@ from pathlib import Path
 ROOT = Path(__file__).parents[1]
 sys.path.insert(0, str(ROOT / "tests" / "hard"))
 
+import friction_cases  # noqa: E402, F401
 import journal_cases  # noqa: E402, F401
 import record_cases  # noqa: E402, F401
 import rolling_cases  # noqa: E402, F401
