@@ -78,6 +78,24 @@ def interpolate(coef, axes, gap, chi, size, out):
 
 
 @njit(cache=True, nogil=True)
+def _added(motion, axes, units, gap, fr, ft, raw):
+    """Velocity where the vectors of rotation and squeeze are added, `motion` (n_ξ, 1, 1, 4).
+
+    Only rotation carries the tangential load; what it does not carry of the radial one, squeeze
+    does. Rows: cot β, and the logarithms of 6 ε/(So sin β), 12/So_V(ε), 12/So_V(−ε).
+    """
+    weights = np.empty(4)
+    first = _weights(min(-math.log(gap), axes[XI_MAX]) / axes[D_XI], motion.shape[0], weights)
+    for row in range(4):
+        raw[row] = 0.0
+        for i in range(4):
+            raw[row] += weights[i] * motion[first + i, 0, 0, row]
+    scale = units[VELOCITY] / units[LOAD]
+    left = fr - abs(ft) * raw[0]
+    return scale * left * math.exp(raw[2 if left > 0.0 else 3]), scale * ft * math.exp(raw[1])
+
+
+@njit(cache=True, nogil=True)
 def _velocity(motion, axes, units, x, y, fx, fy, omega, raw):
     """Velocity of the shaft at (x, y) under the load (fx, fy), clearances per second."""
     ratio = math.hypot(x, y)
@@ -86,28 +104,35 @@ def _velocity(motion, axes, units, x, y, fx, fy, omega, raw):
     if size > 0.0:
         c, s = (x / ratio, y / ratio) if ratio > 0.0 else (1.0, 0.0)
         gap = max(1.0 - ratio, _CLOSEST)
-        chi = direction(gap, c * fx + s * fy, c * fy - s * fx)
-        interpolate(motion, axes, gap, chi, size, raw)
-        scale = size * units[VELOCITY]
-        ur = scale * gap**RADIAL_POWER * math.sinh(raw[0])
-        ut = math.copysign(scale * gap**TANGENTIAL_POWER, chi) * math.sinh(raw[1])
+        fr, ft = c * fx + s * fy, c * fy - s * fx
+        if motion.shape[1] == 1:
+            ur, ut = _added(motion, axes, units, gap, fr, ft, raw)
+        else:
+            chi = direction(gap, fr, ft)
+            interpolate(motion, axes, gap, chi, size, raw)
+            scale = size * units[VELOCITY]
+            ur = scale * gap**RADIAL_POWER * math.sinh(raw[0])
+            ut = math.copysign(scale * gap**TANGENTIAL_POWER, chi) * math.sinh(raw[1])
         vx += c * ur - s * ut
         vy += s * ur + c * ut
     return vx, vy
 
 
 @njit(cache=True, nogil=True)
-def march(motion, axes, units, time, load, speed, start, tolerance, most, path, steps, error):
+def march(motion, axes, units, time, load, speed, start, tolerance, most, path, slip, steps, error):
     """Path (n, 2) of the shaft from `start`, load and speed linear between the times.
 
     Rosenbrock's linearly implicit formula of second order with an estimate of third order
     [Shampine & Reichelt 1997], L-stable, its Jacobian by differences; the step is cut until its
-    error is below `tolerance` of the narrowest gap. Fills `steps` and the largest `error` of each
-    interval; returns the interval that needs more than `most` steps, or −1.
+    error is below `tolerance` of the narrowest gap. Fills `slip` (n, 2), the velocity against the
+    oil, and `steps` and the largest `error` of each interval; returns the interval that needs
+    more than `most` steps, or −1.
     """
-    raw = np.empty(2)
+    raw = np.empty(4)
     x, y = start[0], start[1]
     path[0, 0], path[0, 1] = x, y
+    vx, vy = _velocity(motion, axes, units, x, y, load[0, 0], load[0, 1], 0.0, raw)
+    slip[0, 0], slip[0, 1] = vx, vy
     length = time[1] - time[0] if time.size > 1 else 0.0
     for n in range(1, time.size):
         whole = time[n] - time[n - 1]
@@ -172,6 +197,7 @@ def march(motion, axes, units, time, load, speed, start, tolerance, most, path, 
                 share = 0.9 * (tolerance / max(wrong, 1e-12)) ** (1.0 / 3.0)
                 length = h * min(0.5, max(0.1, share))
         path[n, 0], path[n, 1] = x, y
+        slip[n, 0], slip[n, 1] = f0x + 0.5 * speed[n] * y, f0y - 0.5 * speed[n] * x
         steps[n], error[n] = count, worst
     return -1
 

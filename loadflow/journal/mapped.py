@@ -182,19 +182,41 @@ def orbit(
     if start is None:
         first = equilibrium(bearing, film.options, force[:1], speed[:1], control)
         start = first["eccentricity"][0] / bearing.clearance
-    path, error = np.empty((time.size, 2)), np.zeros(time.size)
+    path, _, values = advance(
+        film.table.motion, film.table.axes, film.units, time, force, speed, start, control
+    )
+    values |= film.results(path, force, speed)
+    data = orbit_dataset(values, time, force, speed, bearing.clearance)
+    flag = {"units": "1", "long_name": "whether the map covers position and load"}
+    return data.assign(in_range=("time", values["in_range"], flag))
+
+
+def advance(
+    motion: Array,
+    axes: Array,
+    units: Array,
+    time: Array,
+    force: Array,
+    speed: Array,
+    start: Array,
+    control: Control,
+) -> tuple[Array, Array, dict[str, Any]]:
+    """Path of the shaft and its velocity u against the oil, (n, 2), and values for the orbit.
+
+    Raises
+    ------
+    SolverError
+        Too many steps between two times.
+    """
+    path, slip, error = np.empty((time.size, 2)), np.empty((time.size, 2)), np.zeros(time.size)
     steps = np.zeros(time.size, dtype=np.int64)
     stop = kernel.march(
-        film.table.motion, film.table.axes, film.units, time, np.ascontiguousarray(force),
-        np.ascontiguousarray(speed), start, math.sqrt(control.tolerance), _MOST, path, steps, error,
+        motion, axes, units, time, np.ascontiguousarray(force), np.ascontiguousarray(speed),
+        start, math.sqrt(control.tolerance), _MOST, path, slip, steps, error,
     )  # fmt: skip
     if stop >= 0:
         raise SolverError(
             f"orbit stops before t = {time[stop]:.6g} s: F = ({force[stop, 0]:.6g}, "
             f"{force[stop, 1]:.6g}) N, ω = {speed[stop]:.6g} rad/s need more than {_MOST} steps"
         )
-    values = film.results(path, force, speed)
-    values |= {"x": path[:, 0], "y": path[:, 1], "residual": error, "iterations": steps}
-    data = orbit_dataset(values, time, force, speed, bearing.clearance)
-    flag = {"units": "1", "long_name": "whether the map covers position and load"}
-    return data.assign(in_range=("time", values["in_range"], flag))
+    return path, slip, {"x": path[:, 0], "y": path[:, 1], "residual": error, "iterations": steps}

@@ -167,8 +167,11 @@ def stack(rows: list[dict[str, Any]], shape: tuple[int, ...]) -> dict[str, Any]:
 
 
 def shaped(columns: dict[str, Any], shape: tuple[int, ...]) -> dict[str, Any]:
-    """Give the leading axis of `columns` the `shape` of the input; () makes scalars."""
-    return {name: values.reshape(shape + values.shape[1:])[()] for name, values in columns.items()}
+    """Give the leading axis of `columns` the `shape` of the input; () makes scalars, None stays."""
+    return {
+        name: None if values is None else values.reshape(shape + values.shape[1:])[()]
+        for name, values in columns.items()
+    }
 
 
 def static_row(

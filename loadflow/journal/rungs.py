@@ -1,7 +1,7 @@
 """Models of the film behind one signature: the table of rungs, and what each must offer.
 
-The finite volumes ("grid") are `JournalBearing`'s own; every other rung is a module with the two
-functions of `Model`, imported when it is used.
+The finite volumes ("grid") are `JournalBearing`'s own; every other rung is a module, or an object,
+with the two functions of `Model`, imported when it is used.
 """
 
 from __future__ import annotations
@@ -23,10 +23,15 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-Rung = Literal["map", "reduced", "grid"]
+Rung = Literal["chart", "table", "butenschoen", "holland", "hahn", "map", "reduced", "grid"]
 """Names of the rungs, from the cheapest to the dearest."""
 
-_MODULES = {
+_PLACES = {
+    "chart": "loadflow.journal.chart:CLOSED",
+    "table": "loadflow.journal.chart:TABLE",
+    "butenschoen": "loadflow.journal.superposed:BUTENSCHOEN",
+    "holland": "loadflow.journal.superposed:HOLLAND",
+    "hahn": "loadflow.journal.superposed:HAHN",
     "map": "loadflow.journal.mapped",
     "reduced": "loadflow.journal.reduced",
 }
@@ -45,7 +50,7 @@ class Control:
 
 
 class Model(Protocol):
-    """What the module of a rung offers."""
+    """What a rung offers."""
 
     def equilibrium(
         self,
@@ -83,5 +88,7 @@ def check_rung(rung: str) -> None:
 
 
 def model(rung: str) -> Model:
-    """The module of a rung other than "grid"."""
-    return cast("Model", import_module(_MODULES[rung]))
+    """The model of a rung other than "grid": a module, or an object of one."""
+    module, _, name = _PLACES[rung].partition(":")
+    found = import_module(module)
+    return cast("Model", getattr(found, name) if name else found)

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from loadflow.tribology.film_tables import reference_table
 from loadflow.validation import _journal_shapes
 from loadflow.validation.check import Check
 
@@ -163,16 +164,6 @@ def rotation(width_ratio: float, ratio: float, law: Any, **film: Any) -> tuple[f
     force = bearing.pressure(place, 1.0, Lubricant(0.05), cavitation=law, **film).force
     so = bearing.sommerfeld_number(float(np.hypot(*force)), 1.0, 0.05)
     return so, float(np.degrees(np.arctan2(-force[1], force[0])))
-
-
-def reference_table(name: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """B/D, ε and values (ε, B/D) of a table in ``loadflow/data/reference``."""
-    from importlib.resources import files
-
-    text = (files("loadflow") / "data" / "reference" / name).read_text().splitlines()
-    widths = np.array([float(head.split("=")[1]) for head in text[0].split(",")[1:]])
-    values = np.array([line.split(",") for line in text[1:]], dtype=float)
-    return widths, values[:, 0], values[:, 1:]
 
 
 def converged_table_checks() -> Iterator[Check]:
