@@ -16,6 +16,7 @@
 `equilibrium`             Newton for film, and for film and shaft together
 `shaped`                  statics of shaped bores, tilted shafts and tilting pads
 `orbit`                   implicit steps of film and shaft in time
+`chart`, `superposed`     charts of ISO 7902, historical methods
 `mapped`                  the rung "map": `mobility` tabulated from `moving` films
 `periodic`                the closed orbit under a load that repeats
 `energy`                  losses against the power of the shaft

@@ -150,8 +150,10 @@ class JournalBearing:
             Uniform cells, or cells that crowd at the narrowest gap and the rims. "auto": uniform
             for the gas mixture and with a supply, graded else. A load so heavy that a few uniform
             cells span the narrowest gap is then solved on a graded mesh.
-        rung : {"grid"}
-            Model: finite volumes.
+        rung : {"grid", "reduced", "map", "chart", "table", "butenschoen", "holland", "hahn"}
+            Model: finite volumes; few unknowns across the width; the map of `mobility`; closed
+            forms and tables of ISO 7902, which leave total_fill, stiffness and damping None; the
+            historical methods of `superposed`.
         tolerance : float
             On the scaled residual.
         max_iterations : int
@@ -332,8 +334,9 @@ strict, tilt, bend
         lubricant, cavitation, edge_pressure, supply, inlet, grid, grading
             As in `equilibrium`; laws with fill keep it in cells fixed to the shell, so that their
             mesh is uniform and without an inlet line.
-        rung : {"grid"}
-            Model: finite volumes.
+        rung : {"grid", "reduced", "map", "butenschoen", "holland", "hahn"}
+            Model, as in `equilibrium`. "map" and the historical methods add ``in_range``, whether
+            they cover the path; "butenschoen" and "holland" know no pressure, flow or fill.
         start : array_like (2,), optional
             First eccentricity, m; default the static equilibrium of the first load.
         tolerance : float
