@@ -132,7 +132,11 @@ class Reduction(_Section):
 
 
 class Journal(_Section):
-    """Journal bearings: which ones of the shaft, and one set of data for all of them."""
+    """Journal bearings: which ones of the shaft, and one set of data for all of them.
+
+    With ``tilt`` the shaft tilts in them under the moment that the shaft stage gives; the film is
+    then solved over its full width.
+    """
 
     bearings: Annotated[list[str], Field(min_length=1)] = ["N", "N2"]
     geometry: JournalBearing = JournalBearing(diameter=3.0, width=2.25, relative_clearance=0.5e-3)
@@ -145,6 +149,7 @@ class Journal(_Section):
     )
     grading: Literal["auto", "uniform", "graded"] = "auto"
     rung: Literal["grid"] = "grid"
+    tilt: bool = False
 
 
 class Rolling(_Section):
@@ -286,7 +291,7 @@ def _anchor_files(data: dict[str, Any], folder: Path) -> dict[str, Any]:
 def _message(error: ValidationError, source: str) -> str:
     """One line per bad key: file, key, value, what is allowed."""
     lines = []
-    for item in error.errors():
+    for item in _of_stated_kind(error.errors()):
         key = ".".join(str(part) for part in item["loc"]) or "scene"
         reason = item["msg"].removeprefix("Value error, ").replace("Input should be", "must be")
         if item["type"] in ("extra_forbidden", "unexpected_keyword_argument"):
@@ -298,6 +303,24 @@ def _message(error: ValidationError, source: str) -> str:
         else:
             lines.append(f"{source}: {key} = {item['input']!r}: {reason}")
     return "\n".join(lines)
+
+
+def _of_stated_kind(errors: list[Any]) -> list[Any]:
+    """Drop what is said of alternatives of another ``kind`` than the scene states."""
+    kinds = [e for e in errors if e["type"] == "literal_error" and e["loc"][-1] == "kind"]
+    others = {e["loc"][:-1] for e in kinds}
+
+    def other(location: tuple[Any, ...]) -> tuple[Any, ...] | None:
+        return next((o for o in others if location[: len(o)] == o), None)
+
+    right = {e["loc"] for e in errors if other(e["loc"]) is None}
+    shown = []
+    for item in errors:
+        owner = other(item["loc"])
+        known = owner is not None and any(loc[: len(owner) - 1] == owner[:-1] for loc in right)
+        if owner is None or (not known and item in kinds):
+            shown.append(item)
+    return shown
 
 
 def _neighbours(location: tuple[int | str, ...]) -> str:

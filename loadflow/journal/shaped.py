@@ -219,7 +219,7 @@ class _Statics:
             estimate = self._lifted(estimate)
             free = np.append(free[free < gap.shaft], tilting)
         if not solution.converged:
-            limits = (control.tolerance, control.max_iterations)
+            limits = self._limits(control)
             solution = solve_patiently(film, force, estimate, *limits, free)
         return replace(solution, estimate=estimate)
 
@@ -232,7 +232,7 @@ class _Statics:
         control: Control,
     ) -> Solution:
         """Newton from the last solution, if that is near, and from the estimate."""
-        limits = (control.tolerance, control.max_iterations)
+        limits = self._limits(control)
         for start in self._starts(estimate, last, free, control):
             solution = solve_equilibrium(self.film, force, *start, *limits, free=free)
             if solution.converged:
@@ -241,7 +241,7 @@ class _Statics:
 
     def _balanced(self, position: Array, pads: NDArray[np.int64], control: Control) -> Solution:
         """Film at a given position of the shaft at rest, `pads` without moment."""
-        limits = (control.tolerance, control.max_iterations)
+        limits = self._limits(control)
         film = self.film
         first = solve_film(film, film.start(), position, 0.0 * position, *limits)
         if not pads.size:
@@ -279,7 +279,7 @@ class _Statics:
         self._check_room(index, position)
         pads = self._tilting(position)
         self._idle(pads)
-        limits = (control.tolerance, control.max_iterations)
+        limits = self._limits(control)
         if not pads.size:
             return solve_film(film, film.start(), position, moving, *limits)
         first = self._balanced(position, pads, control)
@@ -300,6 +300,11 @@ class _Statics:
             f"{head}: no equilibrium found; residual {solution.residual:.3g} after "
             f"{solution.iterations} steps, {self._where(solution.position)}"
         )
+
+    def _limits(self, control: Control) -> tuple[float, int]:
+        """Tolerance and Newton steps; the rupture of Reynolds moves by one cell in each."""
+        cells = self.film.mesh.shape[0] if self.film.creeps else 0
+        return control.tolerance, max(control.max_iterations, cells)
 
     # --- inside ----------------------------------------------------------------------------------
     def _straighten(self, index: int, held: Array) -> None:

@@ -50,7 +50,8 @@ def film(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
 
 
 def _bearing(scene: Scene, case: Case, bearing: str, reduced: xr.Dataset) -> xr.Dataset:
-    answer = equilibria(scene.journal, reduced["force"].values, reduced["speed"].values)
+    moment = reduced["moment"].values if scene.journal.tilt else None
+    answer = equilibria(scene.journal, reduced["force"].values, reduced["speed"].values, moment)
     if not np.any(answer.converged):
         speed = np.abs(reduced["speed"].values)
         raise SolverError(
@@ -63,6 +64,9 @@ def _bearing(scene: Scene, case: Case, bearing: str, reduced: xr.Dataset) -> xr.
         answer.eccentricity,
         {"units": "m", "long_name": "shaft centre: down, then left"},
     )
+    if scene.journal.tilt:
+        meaning = {"units": "rad", "long_name": "rotation of the shaft: about down, about left"}
+        samples["tilt"] = ("sample", "component"), answer.tilt, meaning
     return (
         reduced[["time", "speed", "weight"]]
         .assign(samples)
@@ -74,8 +78,13 @@ def _bearing(scene: Scene, case: Case, bearing: str, reduced: xr.Dataset) -> xr.
     )
 
 
-def equilibria(options: Journal, force: np.ndarray, speed: np.ndarray) -> Equilibrium:
-    """Solve the film of a scene's bearing for `force` (n, 3) in the cube's frame, N."""
+def equilibria(
+    options: Journal, force: np.ndarray, speed: np.ndarray, moment: np.ndarray | None = None
+) -> Equilibrium:
+    """Solve the film of a scene's bearing for `force` (n, 3) in the cube's frame, N.
+
+    With a `moment` (n, 3), N m, the shaft tilts under it; without, it stays aligned.
+    """
     return options.geometry.equilibrium(
         force=to_film(force),
         speed=speed,
@@ -86,6 +95,7 @@ def equilibria(options: Journal, force: np.ndarray, speed: np.ndarray) -> Equili
         grading=options.grading,
         rung=options.rung,
         strict=False,
+        moment=None if moment is None else to_film(moment),
     )
 
 
