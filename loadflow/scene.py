@@ -14,7 +14,7 @@ from typing import Annotated, Any, Literal, Self, get_args
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from loadflow.errors import InputError
-from loadflow.journal import GasMixture, JournalBearing, Lubricant
+from loadflow.journal import GasMixture, JournalBearing, Lubricant, Supply
 from loadflow.rolling import SlewingBearing
 from loadflow.shaft.options import MomentBearing, TwoPoint
 
@@ -143,6 +143,7 @@ class Journal(_Section):
     lubricant: Lubricant = Lubricant(viscosity=0.050)
     cavitation: GasMixture = GasMixture(0.05e6)
     edge_pressure: Annotated[float, Field(ge=0)] = 0.5e6
+    supply: Supply | None = None
     grid: tuple[Annotated[int, Field(ge=12, le=720)], Annotated[int, Field(ge=4, le=240)]] = (
         60,
         20,

@@ -62,24 +62,44 @@ def journal(
     grid: Annotated[
         tuple[int, int] | None, typer.Option(help="Cells around and across the full width.")
     ] = None,
+    groove_angle_deg: Annotated[
+        list[float] | None,
+        typer.Option(help="Middle of an axial groove, from the first axis, °; once for each."),
+    ] = None,
+    groove_arc_deg: Annotated[float, typer.Option(help="Arc of a groove, °; 0: a line.")] = 0.0,
+    groove_length: Annotated[
+        float | None, typer.Option(help="Of a groove, m; default the full width.")
+    ] = None,
+    supply_pressure: Annotated[
+        float | None, typer.Option(help="In the grooves, absolute, Pa; default that at the rims.")
+    ] = None,
     as_json: AsJson = False,
 ) -> None:
     """Solve the film of a plain journal bearing for one load, or for a reduced series."""
-    from loadflow.journal import GasMixture, JournalBearing, Lubricant
+    from loadflow.journal import GasMixture, Groove, JournalBearing, Lubricant, Supply
     from loadflow.stages.points import journal_point, journal_series
 
     bearing = JournalBearing(diameter, width, relative_clearance)
     lubricant = Lubricant(viscosity)
     cavitation = None if mixing_constant is None else GasMixture(mixing_constant)
+    supply = None
+    if groove_angle_deg:
+        pressure = edge_pressure if supply_pressure is None else supply_pressure
+        arc = math.radians(groove_arc_deg)
+        angles = map(math.radians, groove_angle_deg)
+        supply = Supply(tuple(Groove(angle, arc, groove_length, pressure) for angle in angles))
+    elif supply_pressure is not None or groove_length is not None or groove_arc_deg:
+        raise InputError("say where the grooves are: --groove-angle-deg, once for each")
+    film = (bearing, lubricant, cavitation, edge_pressure, grid, supply)
     if series is not None:
         if force_x is not None or force_y or speed_rpm is not None:
             raise InputError("--series brings its own loads: leave out --force-… and --speed-rpm")
-        answer = journal_series(series, bearing, lubricant, cavitation, edge_pressure, grid)
+        answer = journal_series(series, *film)
     elif force_x is None or speed_rpm is None:
         raise InputError("give --force-x and --speed-rpm, or a parameter file with --series")
     else:
         force, speed = (force_x, force_y), speed_rpm * math.pi / 30
-        answer = journal_point(force, speed, bearing, lubricant, cavitation, edge_pressure, grid)
+        answer = journal_point(force, speed, *film)
     print_quantities(answer, as_json)
 
 

@@ -24,6 +24,8 @@ KEPT = {
     "sommerfeld_number": ("1", "Sommerfeld number"),
     "friction_power": ("W", "friction power"),
     "side_flow": ("m3/s", "side flow"),
+    "supply_flow": ("m3/s", "flow of the grooves into the film"),
+    "supply_power": ("W", "power that lifts the oil to supply pressure"),
     "converged": ("1", "whether the equilibrium was found"),
     "residual": ("1", "scaled residual of film and load"),
     "iterations": ("1", "iterations"),
@@ -91,6 +93,7 @@ def equilibria(
         lubricant=options.lubricant,
         cavitation=options.cavitation,
         edge_pressure=options.edge_pressure,
+        supply=options.supply,
         grid=options.grid,
         grading=options.grading,
         rung=options.rung,
@@ -135,6 +138,8 @@ def extremes(samples: xr.Dataset) -> xr.Dataset:
         "mean_sommerfeld_number": (mean("sommerfeld_number"), "mean So"),
         "mean_friction_power": (mean("friction_power"), "mean friction power"),
         "mean_side_flow": (mean("side_flow"), "mean side flow"),
+        "mean_supply_flow": (mean("supply_flow"), "mean flow of the grooves"),
+        "mean_supply_power": (mean("supply_power"), "mean supply power"),
         "largest_residual": (samples["residual"].max(), "largest residual"),
         "not_converged": ((~samples["converged"].astype(bool)).sum(), "samples without a film"),
     }
@@ -143,6 +148,8 @@ def extremes(samples: xr.Dataset) -> xr.Dataset:
         "largest_pressure": "Pa",
         "mean_friction_power": "W",
         "mean_side_flow": "m3/s",
+        "mean_supply_flow": "m3/s",
+        "mean_supply_power": "W",
     }
     return xr.Dataset(
         {

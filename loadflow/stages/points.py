@@ -12,7 +12,7 @@ import xarray as xr
 from loadflow.errors import SolverError
 
 if TYPE_CHECKING:
-    from loadflow.journal import GasMixture, JournalBearing, Lubricant
+    from loadflow.journal import GasMixture, JournalBearing, Lubricant, Supply
     from loadflow.rolling import SlewingBearing
 
 Load = Sequence[float]
@@ -77,6 +77,7 @@ def journal_point(
     cavitation: GasMixture | None,
     edge_pressure: float,
     grid: Grid,
+    supply: Supply | None = None,
 ) -> xr.Dataset:
     """Return the static equilibrium of a journal bearing under one `force` (N) and `speed` (rad/s).
 
@@ -90,7 +91,13 @@ def journal_point(
     from loadflow.stages.journal import KEPT
 
     s = bearing.equilibrium(
-        force, speed, lubricant, cavitation=cavitation, edge_pressure=edge_pressure, grid=grid
+        force,
+        speed,
+        lubricant,
+        cavitation=cavitation,
+        edge_pressure=edge_pressure,
+        supply=supply,
+        grid=grid,
     )
     rows = {name: (getattr(s, name), units, meaning) for name, (units, meaning) in KEPT.items()}
     more = {
@@ -98,11 +105,18 @@ def journal_point(
         "stiffness": (s.stiffness, "N/m", "−∂F/∂e: 11, 12, 21, 22"),
         "damping": (s.damping, "N s/m", "−∂F/∂ė: 11, 12, 21, 22"),
         "reynolds_number": (s.reynolds_number, "1", "Reynolds number of the gap"),
+        "critical_reynolds_number": (
+            s.critical_reynolds_number,
+            "1",
+            "Re at which the flow turns turbulent",
+        ),
         "laminar": (s.laminar, "1", "whether the flow is laminar"),
     }
+    if supply:
+        more["groove_flow"] = (s.groove_flow, "m3/s", "flow of each groove into the film")
     solver = ("converged", "residual", "iterations")
     last = {name: rows.pop(name) for name in solver}
-    return _quantities(rows | more | last, model=_film(cavitation, edge_pressure, grid))
+    return _quantities(rows | more | last, model=_film(cavitation, edge_pressure, grid, supply))
 
 
 def journal_series(
@@ -112,6 +126,7 @@ def journal_series(
     cavitation: GasMixture | None,
     edge_pressure: float,
     grid: Grid,
+    supply: Supply | None = None,
 ) -> xr.Dataset:
     """Return extremes and weighted means of the film over the series of a parameter file.
 
@@ -134,6 +149,7 @@ def journal_series(
         lubricant,
         cavitation=cavitation,
         edge_pressure=edge_pressure,
+        supply=supply,
         grid=grid,
         strict=False,
     )
@@ -142,16 +158,19 @@ def journal_series(
     samples = xr.Dataset({**film_samples(answer), "weight": ("sample", reduced.weight)})
     return extremes(samples).assign_attrs(
         series=f"{path}: {reduced.source}, {reduced.weight.size} of {reduced.total} samples",
-        model=_film(cavitation, edge_pressure, grid),
+        model=_film(cavitation, edge_pressure, grid, supply),
     )
 
 
-def _film(cavitation: GasMixture | None, edge_pressure: float, grid: Grid) -> str:
+def _film(
+    cavitation: GasMixture | None, edge_pressure: float, grid: Grid, supply: Supply | None
+) -> str:
     law = "Reynolds' condition"
     if cavitation is not None:
         law = f"gas mixture, constant {cavitation.mixing_constant:g} Pa"
     cells = f"{grid[0]} × {grid[1]} cells" if grid else "default grid of the law"
-    return f"finite volumes, {cells}; {law}; edge pressure {edge_pressure:g} Pa"
+    grooves = f"; {len(supply.grooves)} grooves" if supply else ""
+    return f"finite volumes, {cells}; {law}; edge pressure {edge_pressure:g} Pa{grooves}"
 
 
 def rolling_point(bearing: SlewingBearing, force: Load, moment: Load) -> xr.Dataset:
