@@ -171,7 +171,8 @@ def _condense(factor: Array, contacts: Contacts, modes: int | None) -> tuple[Arr
     scale = np.ones(kept.shape[1])
     local = 0.0
     if len(order) > modes:
-        local = _local_compliance(along)
+        left = float(np.square(along @ vectors[:, order[modes:]]).sum()) / len(along)
+        local = min(_local_compliance(along), left)
         # the spring at the contacts takes its part of what the kept modes carry
         carried = np.square(along @ kept).sum(axis=0)
         scale = np.sqrt(np.where(carried > local, 1 - local / np.maximum(carried, 1e-300), 1.0))
