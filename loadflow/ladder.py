@@ -12,6 +12,8 @@ from functools import cache
 from importlib.resources import files
 from typing import Any
 
+from pydantic import ValidationError
+
 from loadflow.scene import Scene
 from loadflow.stages.cases import Case
 
@@ -90,7 +92,8 @@ def choices(scene: Scene, stage: str) -> list[Scene]:
     entries = ladder().get(stage, {}).values()
     useful = [e["settings"] for e in entries if "settings" in e and "dominated_by" not in e]
     opened = [settings for settings in useful if not section.model_fields_set & set(settings)]
-    return [_with(scene, stage, settings) for settings in opened] or [scene]
+    found = [_with(scene, stage, settings) for settings in opened]
+    return [one for one in found if one is not None] or [scene]
 
 
 def is_open(scene: Scene, stage: str) -> bool:
@@ -98,7 +101,11 @@ def is_open(scene: Scene, stage: str) -> bool:
     return len(choices(scene, stage)) > 1
 
 
-def _with(scene: Scene, stage: str, settings: dict[str, Any]) -> Scene:
+def _with(scene: Scene, stage: str, settings: dict[str, Any]) -> Scene | None:
+    """Return the scene with other settings, None where it lacks the data that they need."""
     section = getattr(scene, stage)
-    changed = type(section).model_validate(section.model_dump(exclude_unset=True) | settings)
+    try:
+        changed = type(section).model_validate(section.model_dump(exclude_unset=True) | settings)
+    except ValidationError:
+        return None
     return scene.model_copy(update={stage: changed})

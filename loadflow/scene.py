@@ -15,7 +15,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_valida
 
 from loadflow.errors import InputError
 from loadflow.journal import GasMixture, JournalBearing, Lubricant, Supply
-from loadflow.rolling import SlewingBearing
+from loadflow.rolling import FlexibleRings, RingBeam, RingSection, SlewingBearing, Support
 from loadflow.shaft.options import MomentBearing, TwoPoint
 
 Result = Literal[
@@ -154,7 +154,12 @@ class Journal(_Section):
 
 
 class Rolling(_Section):
-    """Rolling bearing: which one of the shaft, its geometry, material and limits."""
+    """Rolling bearing: which one of the shaft, its geometry, material and limits.
+
+    ``rings = "flexible"`` takes `inner_ring` and `outer_ring`; one that is left out is rigid. The
+    rings of the default bearing have the diameters of [Ritzer 2018] App. B; their height, and the
+    walls of 60 mm and 1 m that they stand on, are assumed.
+    """
 
     bearing: str = "M"
     geometry: SlewingBearing = SlewingBearing(
@@ -166,7 +171,36 @@ class Rolling(_Section):
         contact_angle=0.7853981633974483,
         hardness=600.0,
     )
-    rings: Literal["rigid"] = "rigid"
+    rings: Literal["rigid", "flexible"] = "rigid"
+    inner_ring: RingBeam | None = RingBeam(
+        section=RingSection.rectangle(0.094, 0.12),
+        radius=0.897,
+        supports=(Support.wall(radius=0.897, height=0.06, thickness=0.06, length=1.0),),
+    )
+    outer_ring: RingBeam | None = RingBeam(
+        section=RingSection.rectangle(0.099, 0.12),
+        radius=1.0005,
+        supports=(Support.wall(radius=1.0005, height=-0.06, thickness=0.06, length=1.0),),
+    )
+
+    @model_validator(mode="after")
+    def _rings_of_the_bearing(self) -> Self:
+        given = self.model_fields_set
+        if self.rings == "flexible":
+            if "geometry" in given and not {"inner_ring", "outer_ring"} & given:
+                raise ValueError(
+                    'rings = "flexible": a geometry of your own needs inner_ring or outer_ring'
+                )
+            if self.inner_ring is None and self.outer_ring is None:
+                raise ValueError('rings = "flexible": give inner_ring or outer_ring')
+        return self
+
+    @property
+    def ring_model(self) -> Literal["rigid"] | FlexibleRings:
+        """What `SlewingBearing.equilibrium` takes as its rings."""
+        if self.rings == "rigid":
+            return "rigid"
+        return FlexibleRings(inner=self.inner_ring, outer=self.outer_ring)
 
 
 class Scene(_Section):

@@ -50,8 +50,6 @@ class RingBeam:
         Pa and 1.
     harmonics : int
         Highest Fourier harmonic around the ring.
-    density : float
-        kg/m³; only for transients.
 
     Raises
     ------
@@ -66,7 +64,6 @@ class RingBeam:
     elastic_modulus: Annotated[float, Gt(0)] = STEEL_MODULUS
     poisson_ratio: Annotated[float, Ge(0), Le(0.5)] = STEEL_POISSON
     harmonics: Annotated[int, Ge(1), Le(400)] = 32
-    density: Annotated[float, Gt(0)] = 7850.0
 
     def __post_init__(self) -> None:
         check_fields(self)

@@ -125,8 +125,8 @@ class FiniteElementRing(SolidSection):
             compliance /= math.pi * (2 if n == 0 else 1)
             factor = np.linalg.cholesky(_regular(compliance)).reshape(kinds, 1, 3, -1)
             cos, sin = np.cos(n * points.azimuth), np.sin(n * points.azimuth)
-            for family in ((cos, sin, cos), (sin, -cos, sin)):
-                columns.append(factor * np.stack(family, axis=-1)[None, :, :, None])
+            waves = np.stack([[cos, sin, cos], [sin, -cos, sin]], axis=-1)  # both families
+            columns += [factor * waves[:, :, f].T[None, :, :, None] for f in range(2)]
         return np.concatenate(columns, axis=-1).reshape(kinds, balls, 3, -1)
 
     def _basis(self) -> Any:

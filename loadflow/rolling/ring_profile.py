@@ -94,7 +94,7 @@ class RingProfile:
         )
         lower = upper[:0:-1] * [1, -1]
         both = np.concatenate([lower, upper])
-        return [both + [0, height] for height in bearing.row_heights()]
+        return [both + np.array([0, height]) for height in bearing.row_heights()]
 
     def grid(self, across: int = 4) -> tuple[Array, Array]:
         """Radius and height of a grid, each (along the raceway side, across the ring).

@@ -10,6 +10,7 @@ from annotated_types import Ge, Gt, Le
 
 from loadflow.errors import InputError
 from loadflow.rolling.options import check_fields
+from loadflow.tribology.hertz import STEEL_MODULUS, STEEL_POISSON
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -119,6 +120,41 @@ class Support:
                 raise InputError(f"sectors: widths must be in (0, 2π], got {(centre, width)}")
         if self.sectors == ():
             raise InputError("sectors: must name at least one sector, or be None for all round")
+
+    @classmethod
+    def wall(
+        cls,
+        radius: float,
+        height: float,
+        thickness: float,
+        length: float,
+        elastic_modulus: float = STEEL_MODULUS,
+        poisson_ratio: float = STEEL_POISSON,
+    ) -> Support:
+        """Cylindrical wall that a ring stands on, built in at its far end.
+
+        Radially and against tilt as the edge of a long thin shell (2 D β³ and 2 D β, with
+        β⁴ = 3 (1 - ν²)/(R t)²; their coupling is left out), axially E t/L and tangentially G t/L.
+
+        Parameters
+        ----------
+        radius, height : float
+            Middle of the wall, and its upper or lower edge where the ring stands, m.
+        thickness, length : float
+            Of the wall, m.
+        elastic_modulus, poisson_ratio : float
+            Pa and 1.
+        """
+        bending = elastic_modulus * thickness**3 / (12 * (1 - poisson_ratio**2))
+        beta = (3 * (1 - poisson_ratio**2)) ** 0.25 / math.sqrt(radius * thickness)
+        return cls(
+            radius=radius,
+            height=height,
+            radial=2 * bending * beta**3,
+            tangential=elastic_modulus / (2 * (1 + poisson_ratio)) * thickness / length,
+            axial=elastic_modulus * thickness / length,
+            tilt=2 * bending * beta,
+        )
 
 
 def legs(count: int, width: float, first: float = 0.0) -> tuple[tuple[float, float], ...]:

@@ -88,7 +88,7 @@ def _sections(
     if "rolling" in tables:
         yield Section(
             "Rolling bearing",
-            "Rigid rings: flexible rings raise the largest ball force.",
+            "Rings as the scene says; flexible rings share the load differently from rigid ones.",
             tables=[_case_table(tables["rolling"])],
             pictures=[
                 Picture(figures.ball_ring(_open(folder, "rolling", name)), _caption(name), k > 0)

@@ -36,7 +36,7 @@ def balls(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
     loadflow.errors.SolverError
         A sample has no equilibrium.
     """
-    bearing, rings = scene.rolling.geometry, scene.rolling.rings
+    bearing, rings = scene.rolling.geometry, scene.rolling.ring_model
     reduced = inputs["reduction"][scene.rolling.bearing].to_dataset()
     force = to_rolling(reduced["force"].values)
     moment = to_rolling(reduced["moment"].values)[:, :2]
