@@ -12,6 +12,8 @@ contact          table of contacts that the solver takes
 equilibrium      rigid rings in five degrees of freedom, for arrays of load cases
 rings            flexible rings, condensed to few modes; `slewing_flexible`: their equilibrium
 ring_beam        ring as a curved beam on its supports; `ring_section`: their constants
+ring_fem         rings of finite elements, in harmonics; `ring_solid`: meshed all round
+ring_profile     sections with raceway grooves, as grids
 ring_given       ring by a given compliance or stiffness; Guyan condensation
 expansion        rings that widen under axial load, closed form
 _kernels         the compiled loops of the solver; `_forces`: of all contact forces

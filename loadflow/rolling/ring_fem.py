@@ -147,7 +147,7 @@ class FiniteElementRing(SolidSection):
         lam, mu = self.lame
 
         def strains(u: Any, r: Array) -> tuple[Array, ...]:
-            value, slope = u.value, u.grad
+            value, slope = u, u.grad
             return (
                 slope[0, 0],
                 (value[0] + n * value[1]) / r,
@@ -167,7 +167,7 @@ class FiniteElementRing(SolidSection):
         @BilinearForm
         def bedding(u: Any, v: Any, w: Any) -> Any:
             springs = enumerate(self.springs)
-            return w.x[0] * sum(k * u.value[c] * v.value[c] for c, k in springs)
+            return w.x[0] * sum(k * u[c] * v[c] for c, k in springs)
 
         face = FacetBasis(basis.mesh, basis.elem, facets=basis.mesh.facets_satisfying(self.on_face))
         return asm(elastic, basis) + asm(bedding, face)
@@ -189,10 +189,8 @@ class FiniteElementRing(SolidSection):
                     f"profile: no raceway at radius {radius:g}, height {height:g} m of the patch"
                 )
             patch = FacetBasis(basis.mesh, basis.elem, facets=facets)
-            length = asm(LinearForm(lambda v, w: v.value[0]), patch).sum()
-            loads += [
-                asm(LinearForm(lambda v, w, c=c: v.value[c]), patch) / length for c in range(3)
-            ]
+            length = asm(LinearForm(lambda v, w: v[0]), patch).sum()
+            loads += [asm(LinearForm(lambda v, w, c=c: v[c]), patch) / length for c in range(3)]
         return np.stack(loads, axis=1)
 
 

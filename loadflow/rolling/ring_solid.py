@@ -100,7 +100,7 @@ class SolidRing(SolidSection):
         def bedding(u: Any, v: Any, w: Any) -> Any:
             r = np.hypot(w.x[0], w.x[1])
             cos, sin = w.x[0] / r, w.x[1] / r
-            a, b = u.value, v.value
+            a, b = u, v
             outward = (a[0] * cos + a[1] * sin) * (b[0] * cos + b[1] * sin)
             sideways = (a[1] * cos - a[0] * sin) * (b[1] * cos - b[0] * sin)
             return radial * outward + along * sideways + axial * a[2] * b[2]

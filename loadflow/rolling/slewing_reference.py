@@ -1,9 +1,9 @@
 """Equilibrium with ball centres and every patch as unknowns: reference of the condensed solver.
 
 The static state of § 3 of [Ritzer 2018] written down as it stands: rigid motion of the inner ring's
-structure, two coordinates of each ball centre, three of each patch; four contacts at each ball,
+structure, two coordinates of each ball centre, all modes of each ring; four contacts at each ball,
 each with the stiffness of its own raceway; F = K ⟨|b - c| - (r - R_w)⟩^1.5 between ball centre b
-and groove centre c. No ring modes are left out. Slow and dense, for small bearings.
+and groove centre c. Slow and dense, for small bearings.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike
 from loadflow.errors import SolverError
 from loadflow.rolling.contact import Array
 from loadflow.rolling.patches import patch_points
+from loadflow.rolling.raceway import Raceway
 from loadflow.rolling.rings import FlexibleRings, rigid_basis
 
 if TYPE_CHECKING:
@@ -65,8 +66,7 @@ def reference_equilibrium(
     )
     rigid = bearing.equilibrium(force, moment).displacement / contacts.scale
     x[:5] = rigid
-    soft = np.zeros((size, size))
-    soft[5:, 5:] = stiffness
+    soft = np.diag(stiffness)
 
     def state(x: Array) -> tuple[float, Array, Array, Array]:
         vector = start + shift @ x  # (2 count, 3), from ball centre to groove centre
@@ -105,41 +105,36 @@ def reference_equilibrium(
 
 
 def _geometry(bearing: SlewingBearing, rings: FlexibleRings) -> tuple[Array, Array, Array]:
-    """Shift of all contact vectors by the unknowns, their start, stiffness of the patches.
+    """Shift of all contact vectors by the unknowns, their start, stiffness of the unknowns.
 
-    Unknowns: five rigid, (r, z) of each ball centre, then the patches of each flexible ring.
+    Unknowns: five rigid, (r, z) of each ball centre, then the modes of each flexible ring.
     Contacts: all of the inner ring, then all of the outer one. In the frame (r, θ, z) of each ball.
     """
     contacts = bearing.contacts()
     kinds, balls = len(contacts.table), bearing.balls
     rows, count = kinds // 2, kinds * balls
     parts = []
-    for name in ("inner", "outer"):
+    names: tuple[Raceway, Raceway] = ("inner", "outer")
+    for side, name in enumerate(names):
         ring = getattr(rings, name)
         if ring is not None:
             points = patch_points(bearing, name, contacts.azimuth, rings.shell)
-            factor = ring.flexibility(points).reshape(3 * count, -1)
-            compliance = factor @ factor.T
-            lift = 1e-9 * np.trace(compliance) / len(compliance)
-            inverse = np.linalg.inv(compliance + lift * np.eye(len(compliance)))
-            parts.append((name, (inverse + inverse.T) / 2))
-    centres, patches = 5, 5 + 2 * rows * balls
-    size = patches + 3 * count * len(parts)
+            parts.append((side, ring.flexibility(points)))
+    first = 5 + 2 * rows * balls
+    size = first + sum(factor.shape[-1] for _, factor in parts)
     shift = np.zeros((2, kinds, balls, 3, size))
     basis = rigid_basis(contacts).reshape(3, kinds, balls, 5)
     shift[0, ..., :5] = np.moveaxis(basis, 0, 2)
     for kind in range(kinds):
         for ball in range(balls):
-            centre = centres + 2 * (kind // 2 * balls + ball)
+            centre = 5 + 2 * (kind // 2 * balls + ball)
             shift[:, kind, ball, 0, centre] = -1
             shift[:, kind, ball, 2, centre + 1] = -1
-    stiffness = np.zeros((size - 5, size - 5))
-    for place, (name, matrix) in enumerate(parts):
-        first = patches + 3 * count * place
-        view = shift[0 if name == "inner" else 1].reshape(3 * count, size)
-        view[:, first : first + 3 * count] = np.eye(3 * count)
-        own = slice(first - 5, first - 5 + 3 * count)
-        stiffness[own, own] = matrix
+    stiffness = np.zeros(size)
+    stiffness[first:] = 1
+    for side, factor in parts:
+        shift[side, ..., first : first + factor.shape[-1]] = factor
+        first += factor.shape[-1]
     # the ball starts midway between both groove centres of each diagonal
     half = contacts.table[:, [2, 3]] / 2
     start = np.zeros((2, kinds, balls, 3))
