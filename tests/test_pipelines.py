@@ -82,6 +82,26 @@ def test_a_start_up_goes_through_to_the_film_and_flags_standstill(tmp_path):
     assert np.isfinite(film["eccentricity_ratio"].values[carried]).all()
 
 
+def test_the_report_ranks_ultimate_loads_with_their_safety_factors(tmp_path):
+    scene = read_scene(next(path for path in PIPELINES if path.stem == "dlc_4_2_shutdown"))
+    scene = scene.model_copy(update={"results": ["loads.statistics"]})
+    scene = changed(
+        scene, "loads", dlc=["4.1", "4.2"], wind_speeds=[12.0], duration=20.0, step=0.05,
+        rung="tables",
+    )  # fmt: skip
+    run = lf.run(scene, out=tmp_path)
+    table = run.tree["statistics"].to_dataset().sel(axis="x")["hub_force"]
+    design = {
+        case: (1.35 if "dlc4.2" in case else 1.0) * float(abs(table.sel(case=case)).max())
+        for case in table["case"].values
+    }
+    page = run.report.read_text(encoding="utf-8")
+    assert "Ultimate loads" in page
+    row = page.split("Ultimate loads")[1].split("hub force x")[1].split("</tr>")[0]
+    assert max(design, key=design.get) in row
+    assert f"{max(design.values()) / 1e3:.4g}" in row
+
+
 def test_loads_command_takes_any_load_case(tmp_path):
     out = tmp_path / "loads.h5"
     with pytest.raises(SystemExit) as stop:

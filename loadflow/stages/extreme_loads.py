@@ -50,7 +50,7 @@ def contemporaneous_extremes(
     for name, case in iter_cases(cube):
         series = dict(_loads(case.load(), variables, f"{source}: {name}", units))
         values = np.stack(list(series.values()))
-        factor = _safety_factor(str(case["dlc"].item()))
+        factor = safety_factor(str(case["dlc"].item()))
         where = {"case": name, "safety_factor": factor, "wind_speed": float(case["wind_speed"])}
         for row, of in enumerate(series):
             for which, sign in (("max", 1.0), ("min", -1.0)):
@@ -93,7 +93,8 @@ def _loads(
 LOADS = ("hub_force", "hub_moment", "force", "moment")
 
 
-def _safety_factor(dlc: str) -> float:
+def safety_factor(dlc: str) -> float:
+    """Partial safety factor for loads of a design load case; 1 for one not of the standard."""
     from loadflow.wind.cases import LOAD_CASES
 
     return LOAD_CASES[dlc].safety_factor if dlc in LOAD_CASES else 1.0

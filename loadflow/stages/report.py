@@ -16,6 +16,7 @@ from loadflow.report import Picture, Section, Table, figures, write_page
 from loadflow.report.style import readable
 from loadflow.scene import Scene, read_scene
 from loadflow.stages.check import WARN
+from loadflow.stages.extreme_loads import safety_factor
 
 CRITICAL_RATIO = 0.95  # eccentricity ratio E_krit at which mixed friction begins (5.2)
 MIXED_FRICTION = 10.0  # Sommerfeld number above which friction is mixed (1.13)
@@ -70,7 +71,9 @@ def _sections(
 ) -> Iterator[Section]:
     yield _overview(tables, manifest)
     shown = _shown_cases(tables, manifest)
-    yield Section("Loads", tables=[*_load_table(tables)], pictures=[*_load_pictures(folder, shown)])
+    yield Section(
+        "Loads", tables=[*_load_tables(tables)], pictures=[*_load_pictures(folder, shown)]
+    )
     if "seeds" in tables:
         yield _seed_section(folder, tables["seeds"], manifest)
     if (folder / "reduction").is_dir() and "reduction" in manifest["stages"]:
@@ -165,12 +168,13 @@ def _caption(case: str, more: str = "") -> str:
     return f"{case}{', ' + more if more else ''}"
 
 
-def _load_table(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
-    """Mean, spread and extremes of the radial loads over the cases of a wind speed."""
+def _load_tables(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
+    """Mean, spread and extremes of all loads; the largest with the safety factor of its case."""
     if "statistics" not in tables:
         return
     data = tables["statistics"]
-    rows = []
+    factors = np.array([safety_factor(str(dlc)) for dlc in data["dlc"].values])
+    rows, ultimate = [], []
     for name, title in LOAD_ROWS:
         if name not in data:
             continue
@@ -185,8 +189,22 @@ def _load_table(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
                     f"{table['max'].max():.4g}",
                 ]
             )
+            if name != "speed":
+                largest = np.maximum(np.abs(table["min"]), np.abs(table["max"]))
+                k = int(np.argmax(factors * largest))
+                ultimate.append(
+                    [
+                        f"{label}, {unit}",
+                        f"{largest[k]:.4g}",
+                        f"{factors[k]:g}",
+                        f"{factors[k] * largest[k]:.4g}",
+                        str(data["case"].values[k]),
+                    ]
+                )
     heads = ["over all cases", "mean", "mean std", "mean DEL (m = 4)", "smallest", "largest"]
     yield Table("Loads", heads, rows)
+    heads = ["largest magnitude", "characteristic", "γ_f", "design value", "load case"]
+    yield Table("Ultimate loads", heads, ultimate)
 
 
 def _axis(part: xr.DataArray) -> int:

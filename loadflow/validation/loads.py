@@ -1,4 +1,4 @@
-"""NREL 5 MW in steady wind beside OpenFAST.
+"""NREL 5 MW in steady wind, and starting in it, beside OpenFAST.
 
 Source: OpenFAST v5, quasi-steady wake, two flap and one edge mode, tower dam, shear 0.2, tilt 5°,
 cone 2.5°; means over the settled part. The aims are 2 % of power, 3 % of thrust, 0.4° of pitch, 1 %
@@ -23,6 +23,9 @@ _ROWS = {
     16.0: (12.100, 11.67, 5296.0, 482.1, 1617.0, 469.0),
     24.0: (12.100, 21.78, 5296.0, 369.9, 2466.0, 104.0),
 }
+# start at 12 m/s, blades from feather to fine pitch at 2°/s: s after its begin, speed in 1/min
+_START = ((10, 0.835), (20, 2.124), (30, 4.052), (40, 8.221), (45, 10.61), (50, 12.16), (60, 11.87))
+_AIM_START = 0.05
 _AIM_MOMENT = (0.08, 60.0)  # share, kN m
 # what misses its aim: tolerance that holds instead
 _MISSED = {
@@ -52,6 +55,26 @@ def checks() -> Iterator[Check]:
         ):
             allowed = max(_AIM_MOMENT[0] * abs(expected), _AIM_MOMENT[1])
             yield _row(wind, name, expected, float(got), allowed, "kN m")
+    yield from _start()
+
+
+def _start() -> Iterator[Check]:
+    """Yield the speed of the NREL 5 MW turbine in a start."""
+    from loadflow.rotor import simulate
+
+    begin = 5.0
+    series = simulate(dlc="3.1", wind_speed=12, event_time=begin, duration=70.0, run_in=5.0)
+    for time, expected in _START:
+        got = float(series["speed"].sel(time=begin + time, method="nearest")) * 30 / np.pi
+        yield Check(
+            name=f"speed {time} s after the begin of a start, V = 12 m/s",
+            source=_SOURCE,
+            expected=expected,
+            got=got,
+            tolerance=_AIM_START,
+            kind="relative",
+            unit="1/min",
+        )
 
 
 def _row(wind: float, name: str, expected: float, got: float, aim: float, unit: str) -> Check:
