@@ -17,7 +17,7 @@ from loadflow.journal.mobility import MobilityMap, scaled, tabulate
 from loadflow.journal.options import require
 from loadflow.journal.orbit import orbit_dataset
 from loadflow.journal.result import operating_columns, without_supply
-from loadflow.journal.setup import FilmOptions
+from loadflow.journal.setup import FilmOptions, build_film
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -90,6 +90,8 @@ def mapped(bearing: JournalBearing, options: FilmOptions, force: Array) -> Mappe
     require(options.supply is None, "supply", options.supply, 'None with rung = "map"')
     if options.grading == "auto":
         options = replace(options, grading="graded")
+    # refuses, in the user's units, what no film can have
+    build_film(bearing.diameter, bearing.width, bearing.relative_clearance, options)
     plain, unit = scaled(options)
     area = bearing.width * bearing.diameter
     largest = 0.0

@@ -187,6 +187,10 @@ def test_no_load_and_no_speed():
 def test_what_a_map_cannot_have_is_named():
     with pytest.raises(InputError, match="supply"):
         BEARING.equilibrium((2e6, 0.0), 1.0, rung="map", supply=Supply([Groove(1.0)]), **SCALE_FREE)
+    with pytest.raises(InputError, match=r"edge_pressure = 0\.0 .* no oil enters"):
+        BEARING.equilibrium((2e6, 0.0), 1.0, rung="map", **MIXTURE | {"edge_pressure": 0.0})
+    with pytest.raises(InputError, match=r"grid\[1\] = 7"):
+        BEARING.equilibrium((2e6, 0.0), 1.0, rung="map", **MIXTURE | {"grid": (36, 7)})
     with pytest.raises(SolverError, match="the map ends there"):
         BEARING.equilibrium((3e6, 0.0), 1e-4, rung="map", **MIXTURE)
 
