@@ -1,4 +1,4 @@
-"""Speed of the rigid-ring equilibrium: ratio to batched NumPy, and a 24,000-step series.
+"""Speed of the equilibrium: ratio to batched NumPy, 24,000 steps, flexible rings.
 
 Run with ``python benchmarks/rolling.py [--json]``. One core; ratios come from one run.
 """
@@ -9,10 +9,13 @@ import argparse
 import json
 import math
 import time
+from dataclasses import replace
 
 import numpy as np
 
-from loadflow.rolling import RollerBearing, SlewingBearing
+from loadflow.rolling import FlexibleRings, RollerBearing, SlewingBearing, legs
+from loadflow.scene import Rolling
+from loadflow.validation.rolling import SPECTRUM
 
 PITCH = SlewingBearing(
     balls=147,
@@ -154,6 +157,58 @@ def measure() -> list[dict]:
                 "seconds_for_pressure_and_life": post,
                 "mean_iterations": float(result.iterations.mean()),
                 "largest_residual": float(result.residual.max()),
+            }
+        )
+    return rows + flexible()
+
+
+def flexible() -> list[dict]:
+    """Both rings of the blade bearing as beams on walls, and its outer ring on four legs."""
+    default = Rolling()
+    inner, outer = default.inner_ring, default.outer_ring
+    wall = replace(outer.supports[0], sectors=legs(4, 0.8))
+    loads = series(1200)
+    rows = []
+    for name, rings in (
+        ("both rings on walls", FlexibleRings(inner=inner, outer=outer)),
+        (
+            "outer ring on four legs",
+            FlexibleRings(inner=inner, outer=replace(outer, supports=(wall,))),
+        ),
+    ):
+        start = time.perf_counter()
+        BLADE.equilibrium(loads[:2, :3], loads[:2, 3:], rings=rings)
+        first = time.perf_counter() - start
+        seconds, result = timed(
+            lambda r=rings: BLADE.equilibrium(loads[:, :3], loads[:, 3:], rings=r, tolerance=1e-8),
+            2,
+        )
+        rows.append(
+            {
+                "what": f"2 x 129 four-point, flexible: {name}, {len(loads)} steps, 1e-8",
+                "cases_per_s": len(loads) / seconds,
+                "modes": result.modes.size - 5,
+                "mean_iterations": float(result.iterations.mean()),
+                "largest_residual": float(result.residual.max()),
+                "seconds_to_condense": first,
+            }
+        )
+        radial, axial, tilt = SPECTRUM[:, :3].T
+        zero = np.zeros_like(radial)
+        force, moment = np.stack([radial, zero, axial], 1), np.stack([zero, -tilt], 1)
+        seconds, result = timed(
+            lambda r=rings, f=force, m=moment: BLADE.equilibrium(f, m, rings=r, strict=False)
+        )
+        rows.append(
+            {
+                "what": f"spectrum of six cases, {name}",
+                "seconds": seconds,
+                "converged": int(result.converged.sum()),
+                "largest_residual": float(result.residual.max()),
+                "largest_force": float(result.maximum_force.max()),
+                "largest_force_rigid": float(
+                    BLADE.equilibrium(result.force, result.moment).maximum_force.max()
+                ),
             }
         )
     return rows
