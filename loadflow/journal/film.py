@@ -21,7 +21,7 @@ from loadflow.journal.options import (
     Reynolds,
     Sommerfeld,
 )
-from loadflow.journal.pockets import Pockets
+from loadflow.journal.pockets import UNSUPPLIED, Pockets
 
 Array = NDArray[np.float64]
 
@@ -390,6 +390,8 @@ class Film:
     def _supplied(self, u: Array) -> dict[str, Any]:
         """Flow and pressure of the grooves at the state last placed, named as in `Equilibrium`."""
         pockets = self.pockets
+        if not self.ends_supply and not self.fixed.any():
+            return UNSUPPLIED
         mass = np.zeros((self.mesh.shape[0], self.gap.across.shape[1]))
         outflow = self._balance(self.gap.coef, mass)
         flows = pockets.flows(outflow)

@@ -12,6 +12,14 @@ from loadflow.journal.feed import Feed
 
 Array = NDArray[np.float64]
 
+UNSUPPLIED = {
+    "supply_flow": 0.0,
+    "supply_power": 0.0,
+    "groove_flow": np.zeros(0),
+    "groove_pressure": np.zeros(0),
+    "starved": False,
+}  # what `Equilibrium` says of the supply of a film that has none
+
 
 @dataclass(frozen=True, eq=False)
 class Pockets:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.journal.laminar import critical_reynolds_number, reynolds_number
+from loadflow.journal.pockets import UNSUPPLIED
 
 if TYPE_CHECKING:
     from loadflow.journal.bearing import JournalBearing
@@ -217,13 +218,7 @@ def operating_columns(
 
 def without_supply(count: int) -> dict[str, Any]:
     """What `Equilibrium` says of the supply of `count` films that have none."""
-    return {
-        "supply_flow": np.zeros(count),
-        "supply_power": np.zeros(count),
-        "groove_flow": np.zeros((count, 0)),
-        "groove_pressure": np.zeros((count, 0)),
-        "starved": np.zeros(count, dtype=bool),
-    }
+    return {name: np.array([value] * count) for name, value in UNSUPPLIED.items()}
 
 
 def field_row(film: Film, solution: Solution) -> dict[str, Any]:
