@@ -127,7 +127,7 @@ class Reduction(_Section):
     """Quasi-static histogram reduction: share of the samples kept, and how they are picked."""
 
     size: Annotated[float, Field(gt=0, le=1)] = 0.1
-    pick: Literal["random", "extremes"] = "extremes"
+    pick: Literal["random", "extremes", "envelope"] = "extremes"
     seed: Annotated[int, Field(ge=0)] = 0
 
 

@@ -14,7 +14,8 @@ from loadflow.scene import Journal
 from loadflow.seeds import group_seeds_jointly
 from loadflow.stages.film_response import film_response
 from loadflow.stages.frames import to_film
-from loadflow.stages.suspended import with_bearings
+from loadflow.stages.reduction_error import solve_films
+from loadflow.stages.suspended import iter_bearings, with_bearings
 
 
 @pytest.fixture
@@ -294,7 +295,6 @@ def test_chunked_and_loaded_cubes_give_the_same_numbers(hub_cube):
     from loadflow.stages.cube_statistics import statistic_records
     from loadflow.stages.lifetime import lifetimes
     from loadflow.stages.seed_verdicts import seed_verdicts
-    from loadflow.stages.suspended import iter_bearings
 
     forms = [open_cube(hub_cube, chunks={"time": 150}), open_cube(hub_cube).load()]
     chunked, loaded = ([v.as_dict() for v in seed_verdicts(cube)] for cube in forms)
@@ -329,3 +329,38 @@ def test_the_response_is_the_largest_ratio_of_the_closed_orbit():
     assert still < fast < still + 0.1 * (worst - still)
     # at half the speed of the shaft the load drives its whirl
     assert response(mean, swing, omega / (4 * np.pi)) > worst
+
+
+def test_a_tenth_of_the_samples_keeps_the_film(loadflow, tmp_path):
+    """Aims: |ΔE_max| ≤ 0.5 %, E_mean ≤ 0.3 %, So_mean ≤ 1 %, friction energy ≤ 0.5 %."""
+    cube = cube_file(tmp_path / "one.h5", wind_speeds=(10.0,), seeds=(1,), steps=12_000, dt=0.05)
+    code, out, _ = loadflow(
+        *("reduce", cube, "-o", tmp_path / "out", "--bearing", "N", "--rounding", "total"),
+        *("--pick", "envelope", "--film", "--json"),
+    )
+    (part,) = json.loads(out)["series"]
+    assert code == 0
+    assert part["kept"] <= 0.1 * part["samples"]
+    full, reduced = part["film"]["full"], part["film"]["reduced"]
+    aims = {"E_max": 0.005, "E_mean": 0.003, "So_mean": 0.01, "energy": 0.005}
+    for name, aim in aims.items():
+        assert reduced[name] == pytest.approx(full[name], rel=aim), name
+    assert part["film"]["true_error"] == pytest.approx(
+        reduced["E_max"] / part["film"]["orbit_E_max"] - 1, rel=1e-12
+    )
+    page = (tmp_path / "out" / "reduction.html").read_text(encoding="utf-8")
+    assert "standard deviation" in page
+
+
+def test_samples_at_standstill_have_no_film_and_no_orbit(start_up):
+    """They count in no mean; all of the others do."""
+    series = next(iter_bearings(open_cube(start_up), ["N"]))
+    films = solve_films(series, Journal(grid=(36, 8)))
+    stands = series.speed == 0
+    assert np.isnan(films.ratio[stands]).all()
+    assert np.isfinite(films.ratio[~stands]).all()
+    assert films.orbit.size == 0
+    measures = films.measures()
+    assert measures[0] == films.ratio[~stands].max()
+    assert measures[4] == pytest.approx(films.power[~stands].mean())
+    assert np.isnan(films.part(slice(0, 50)).measures()).all()  # it stands all the time

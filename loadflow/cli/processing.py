@@ -22,6 +22,7 @@ from loadflow.errors import InputError
 
 if TYPE_CHECKING:
     from loadflow.cube import Cube
+    from loadflow.scene import Journal
 
 
 class Test(StrEnum):
@@ -44,6 +45,7 @@ class Pick(StrEnum):
 
     random = "random"
     extremes = "extremes"
+    envelope = "envelope"
 
 
 class Rounding(StrEnum):
@@ -144,8 +146,12 @@ def reduce_series(
         typer.Option(help="Periodic: take this multiple of the rotor's frequency; repeatable."),
     ] = None,
     scene: Annotated[
-        Path | None, typer.Option(help="Periodic: scene whose journal bearing is asked.")
+        Path | None,
+        typer.Option(help="Scene whose journal bearing is asked; default: a reference bearing."),
     ] = None,
+    film: Annotated[
+        bool, typer.Option("--film", help="Histogram: compare the films of full and reduced.")
+    ] = False,
     bearing: Annotated[
         list[str] | None, typer.Option(help="Which bearing; repeatable; default: all.")
     ] = None,
@@ -168,7 +174,15 @@ def reduce_series(
     else:
         histogram: dict[str, Any] = {"size": size, "pick": pick.value, "rounding": rounding.value}
         histogram |= {"classes": classes, "seed": seed}
-        _histogram(source, output, where, histogram, phase, as_json)
+        asked = {"phase": phase, "journal": _journal(scene) if film or scene else None}
+        _histogram(source, output, where | asked, histogram, as_json)
+
+
+def _journal(scene: Path | None) -> Journal:
+    """The journal bearing of a scene, or the reference bearing."""
+    from loadflow.scene import Journal, read_scene
+
+    return Journal() if scene is None else read_scene(scene).journal
 
 
 def _histogram(
@@ -176,12 +190,18 @@ def _histogram(
     folder: Path,
     where: dict[str, Any],
     options: dict[str, Any],
-    phase: str,
     as_json: bool,
 ) -> None:
-    from loadflow.stages.reduced_files import HEADS, as_row, reduce_cube, write_reduction_page
+    from loadflow.stages.reduced_files import (
+        FILM_HEADS,
+        HEADS,
+        as_row,
+        film_rows,
+        reduce_cube,
+        write_reduction_page,
+    )
 
-    made = reduce_cube(cube, folder, options=options, phase=phase, **where)
+    made = reduce_cube(cube, folder, options=options, **where)
     page = write_reduction_page(folder / "reduction.html", made, source=Path(where["source"]).name)
     if as_json:
         parts = [part.as_dict() for part in made.parts]
@@ -189,6 +209,8 @@ def _histogram(
         return
     out.print(f"bearing forces: {made.suspension}", soft_wrap=True, highlight=False)
     print_rows(HEADS, [as_row(part) for part in made.parts])
+    if rows := film_rows(made.parts):
+        print_rows(FILM_HEADS, rows)
     out.print(f"page     {page}", soft_wrap=True)
 
 
@@ -218,14 +240,13 @@ def _periodic(
     scene: Path | None,
     as_json: bool,
 ) -> None:
-    from loadflow.scene import read_scene
     from loadflow.stages.design_loads import PERIODIC_HEADS, periodic_parts, write_periodic
     from loadflow.stages.suspended import iter_bearings
     from loadflow.turbines import load_turbine
 
     if scene is not None and options["bounds"]:
         raise InputError("give either --bounds or --scene, whose bearing would find them")
-    journal = None if scene is None else read_scene(scene).journal
+    journal = None if options["bounds"] else _journal(scene)
     named = load_turbine(where["turbine"]).frequencies
     series = iter_bearings(cube, **where)
     parts = list(periodic_parts(series, journal=journal, named=named, **options))

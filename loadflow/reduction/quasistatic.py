@@ -19,7 +19,7 @@ from loadflow.errors import InputError
 from loadflow.reduction._series import Floats, check_series, finite
 
 Ints = NDArray[np.int64]
-Pick = Literal["random", "extremes"]
+Pick = Literal["random", "extremes", "envelope"]
 Rounding = Literal["up", "nearest", "total"]
 Edges = tuple[Floats, Floats]
 Grid = int | tuple[int, int] | Sequence[ArrayLike]
@@ -147,10 +147,13 @@ def histogram(
         Wanted size q: a number of pairs (int) or a share of the series (float, 0 < size <= 1).
     classes : int, (int, int) or (edges, edges), optional
         Classes of speed and of force; by default (4.30), the same number for both.
-    pick : {"random", "extremes"}
+    pick : {"random", "extremes", "envelope"}
         ``"random"`` is the source's pick; it loses the extremes of a class. ``"extremes"`` keeps
         the pair with the largest force over speed of each class and spreads the others evenly
-        over the rest of the class in the order of force over speed.
+        over the rest of the class in the order of force over speed. ``"envelope"`` does so, too,
+        but a class that keeps one pair only keeps the severest if no other class has as much force
+        at as little speed, else any: the extremes of the series stay, and means are not biased
+        towards severe pairs.
     rounding : {"up", "nearest", "total"}
         Of q_x; ``"nearest"`` keeps at least one, too. ``"total"`` rounds up, but from a smaller q,
         so that no more than the wanted size remain in all (or one of each class, if these are
@@ -189,10 +192,11 @@ def histogram(
     rng = np.random.default_rng(seed)
     if pick == "random":
         index, weight = _pick_random(cell, counts, kept, rng)
-    elif pick == "extremes":
-        index, weight = _pick_extremes(cell, counts, kept, _severity(resultant, n), rng)
+    elif pick in ("extremes", "envelope"):
+        severest = (kept > 1) | (pick == "extremes") | _envelope(counts.reshape(shape))
+        index, weight = _pick_extremes(cell, counts, kept, severest, _severity(resultant, n), rng)
     else:
-        raise InputError(f'pick = {pick!r}; allowed: "random", "extremes"')
+        raise InputError(f'pick = {pick!r}; allowed: "random", "extremes", "envelope"')
     order = np.argsort(index)
     index, weight = index[order], weight[order]
     return Reduced(
@@ -288,10 +292,22 @@ def _pick_random(
     return order[taken], counts[home] / kept[home]
 
 
+def _envelope(counts: Ints) -> NDArray[np.bool_]:
+    """Classes that no other class with a pair in it surpasses in force at no more speed; flat."""
+    there = (counts > 0).astype(int)
+    as_severe = np.cumsum(np.cumsum(there, axis=0)[:, ::-1], axis=1)[:, ::-1]
+    return (as_severe == 1).ravel()
+
+
 def _pick_extremes(
-    cell: Ints, counts: Ints, kept: Ints, severity: Floats, rng: np.random.Generator
+    cell: Ints,
+    counts: Ints,
+    kept: Ints,
+    severest: NDArray[np.bool_],
+    severity: Floats,
+    rng: np.random.Generator,
 ) -> tuple[Ints, Floats]:
-    """Pick the severest of each class and one of each equal layer of the others."""
+    """Pick the severest of each class that wants it, and one of each equal layer of the others."""
     order = np.lexsort((-severity, cell))
     ordered = cell[order]
     place, size, q = _places(ordered, counts), counts[ordered], kept[ordered]
@@ -301,6 +317,6 @@ def _pick_extremes(
     lengths = np.bincount(group)
     first = np.cumsum(lengths) - lengths
     lucky = first + (rng.random(lengths.size) * lengths).astype(int)
-    severest = layer[first] == 0
-    lucky[severest] = first[severest]
+    top = (layer[first] == 0) & severest[ordered[first]]
+    lucky[top] = first[top]
     return order[lucky], lengths.astype(float)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
@@ -15,7 +15,10 @@ from loadflow.cube import Cube
 from loadflow.errors import InputError
 from loadflow.reduction import histogram, phases, write_parameter_file
 from loadflow.report import Picture, Section, Table, figures, write_page
+from loadflow.scene import Journal
 from loadflow.stages.reduction import reduced_dataset
+from loadflow.stages.reduction_error import HEADS as FILM_HEADS
+from loadflow.stages.reduction_error import FilmError, solve_films, summary_rows
 from loadflow.stages.suspended import BearingSeries, iter_bearings, suspension
 
 HEADS = (
@@ -56,6 +59,8 @@ class Part:
         Radial force of the full and of the reduced series (weighted), N.
     series : xarray.Dataset
         The reduced series with its histograms.
+    film : FilmError or None
+        What the reduction does to the film, if a bearing was asked.
     """
 
     case: str
@@ -69,6 +74,7 @@ class Part:
     largest: tuple[float, float]
     mean: tuple[float, float]
     series: xr.Dataset
+    film: FilmError | None = None
 
     def as_dict(self) -> dict[str, Any]:
         """The part in plain values and SI units, for JSON."""
@@ -83,6 +89,7 @@ class Part:
             "kept": self.kept,
             "largest_force": {"full": self.largest[0], "reduced": self.largest[1], "units": "N"},
             "mean_force": {"full": self.mean[0], "reduced": self.mean[1], "units": "N"},
+            "film": None if self.film is None else self.film.as_dict(),
         }
 
 
@@ -102,12 +109,25 @@ def as_row(part: Part) -> list[str]:
     return [part.case, part.bearing, phase, *counts, *forces, part.file.name]
 
 
+def film_rows(parts: Sequence[Part]) -> list[list[str]]:
+    """Film of the parts under `FILM_HEADS`, with mean and standard deviation below."""
+    asked = [(part, part.film) for part in parts if part.film is not None]
+    if not asked:
+        return []
+    rows = [
+        film.as_row(f"{part.case} {part.phase}", part.bearing, part.kept / part.samples)
+        for part, film in asked
+    ]
+    return rows + summary_rows(film for _, film in asked)
+
+
 def reduce_cube(
     cube: Cube,
     folder: Path,
     *,
     options: Mapping[str, Any] = MappingProxyType({}),
     phase: str = "",
+    journal: Journal | None = None,
     bearings: Sequence[str] = (),
     turbine: str = "nrel-5mw",
     source: str = "load cube",
@@ -126,6 +146,8 @@ def reduce_cube(
     phase : str
         Reduce only phases of this name (`loadflow.reduction.phases`), or ``"each"`` phase by
         itself; empty: the series as a whole.
+    journal : Journal, optional
+        Solve the film of this bearing for every sample, and say what the reduction does to it.
     bearings : sequence of str
         Which bearings; default: all.
     turbine : str
@@ -145,8 +167,11 @@ def reduce_cube(
     parts = []
     for series in iter_bearings(cube, bearings, turbine, source):
         try:
+            films = solve_films(series, journal) if journal else None
             for name, places in _stretches(series, phase):
-                parts.append(_reduce(series, name, places, folder, options))
+                part = _reduce(series, name, places, folder, options)
+                film = FilmError.of(films.part(places), part.series) if films else None
+                parts.append(replace(part, film=film))
         except InputError as error:
             raise InputError(f"{source}: {series.case}: {error}") from error
     if not parts:
@@ -222,4 +247,13 @@ def write_reduction_page(path: Path, made: ReducedCube, source: str = "load cube
         for k, part in enumerate(made.parts)
     ]
     sections = [Section("Series", tables=[table]), Section("Histograms", pictures=pictures)]
+    if rows := film_rows(made.parts):
+        sections.insert(1, Section("Film", FILM_TEXT, [Table("", list(FILM_HEADS), rows)]))
     return write_page(path, f"Reduction of {source}", facts, sections)
+
+
+FILM_TEXT = (
+    "Deviation of the reduced series from the full one, films at static equilibrium, as in Tables "
+    "5-17 and 5-18 of the source (So of the largest pressure); and the reduced, quasi-static E_max "
+    "against that of the orbit under the full series, which is the true error."
+)

@@ -242,3 +242,17 @@ def test_bad_periodic_input_is_named(change, message):
     }
     with pytest.raises(InputError, match=message):
         periodic(**(arguments | change))
+
+
+def test_another_step_gives_the_same_harmonics():
+    t = 0.05 * np.arange(12_000)
+    force = table_5_14(t, 1.2)
+    fine, coarse = (
+        periodic(np.full(s.size, SPEED), f, s, bounds=(0.1, 1.0))
+        for s, f in ((t, force), (t[::2], force[::2]))
+    )
+    for a, b in zip(fine.harmonics, coarse.harmonics):
+        for one, other in zip(a, b):
+            assert other.label == one.label
+            assert other.frequency == pytest.approx(one.frequency, rel=1e-6)
+            assert other.amplitude == pytest.approx(one.amplitude, rel=1e-4)

@@ -20,7 +20,7 @@ def test_printed_rules(check):
 @given(
     st.integers(1, 400),
     st.sampled_from([0.1, 0.33, 1.0, 1, 7]),
-    st.sampled_from(["random", "extremes"]),
+    st.sampled_from(["random", "extremes", "envelope"]),
     st.sampled_from(["up", "nearest", "total"]),
     st.integers(0, 5),
 )
@@ -86,6 +86,21 @@ def test_extremes_keep_the_severest_pair_of_every_class_and_random_loses_some():
         assert severity[members].max() == severity[kept.index[cell[kept.index] == c]].max()
     lost = histogram(speed, force, pick="random", classes=5)
     assert severity[lost.index].max() < severity.max()
+
+
+def test_the_envelope_keeps_the_extremes_and_does_not_lean_to_severe_pairs():
+    speed, force, time = record(4000)
+    severity = np.hypot(*force.T) / speed
+    bias = {}
+    for pick in ("extremes", "envelope"):
+        means = []
+        for seed in range(40):
+            got = histogram(speed, force, time, classes=30, pick=pick, seed=seed)
+            assert severity[got.index].max() == severity.max()
+            means.append(got.mean(severity[got.index]))
+        bias[pick] = np.mean(means) / severity.mean() - 1
+    assert bias["extremes"] > 0
+    assert abs(bias["envelope"]) < 0.2 * bias["extremes"]
 
 
 def test_weighted_means_of_the_reduced_series_are_those_of_the_full_one():

@@ -132,3 +132,16 @@ def test_bad_input_is_named(change, message):
     arguments = {"x": np.zeros((2, 200)), "dt": DT}
     with pytest.raises(InputError, match=message):
         equality(**(arguments | change))
+
+
+def test_another_step_gives_the_calibrated_verdict_but_half_the_printed_statistic():
+    """The same records sampled half as often hold the same information; H counts the samples."""
+    x = ar1(np.random.default_rng(17), (4, 2 * N), DT / 2, 3.0)
+    fine, coarse = equality(x, DT / 2), equality(x[:, ::2], DT)
+    assert coarse.location.statistic == pytest.approx(fine.location.statistic, rel=0.02)
+    assert coarse.spread.statistic == pytest.approx(fine.spread.statistic, rel=0.02)
+    assert coarse.pvalue == pytest.approx(fine.pvalue, rel=0.1)
+    fine, coarse = (
+        equality(y, dt, method="as-printed") for y, dt in ((x, DT / 2), (x[:, ::2], DT))
+    )
+    assert coarse.location.statistic == pytest.approx(0.5 * fine.location.statistic, rel=0.02)
