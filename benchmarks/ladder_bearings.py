@@ -32,6 +32,7 @@ from loadflow.stages.frames import to_film, to_rolling
 
 FILM = ("eccentricity_ratio", "minimum_film", "maximum_pressure", "friction_power", "side_flow")
 LIFE_EXPONENT = 3.0  # of point contacts, (4.2)
+AROUND = (60, 120)  # cells of the rung "reduced"
 GRIDS = ((30, 10), (60, 20), (120, 40), (240, 80))
 
 
@@ -236,7 +237,8 @@ def measure_journal(bench: Bench) -> Rungs:
         for a, b in GRIDS[1:3]
     }
     others = get_args(Journal.model_fields["rung"].annotation)
-    models |= {rung: {"rung": rung} for rung in others if rung != "grid"}
+    models |= {f"reduced, {n}": {"grid": (n, 20), "rung": "reduced"} for n in AROUND}
+    models |= {rung: {"rung": rung} for rung in others if rung not in ("grid", "reduced")}
     rungs: Rungs = {}
     for name, keys in models.items():
         errors = film_errors(options, setting, reference, **keys).summary()

@@ -121,6 +121,8 @@ def _total(scene: Scene, answer: tuple[str, str], links: tuple[Link, ...]) -> fl
 
 
 def _added(scene: Scene, answer: tuple[str, str], link: Link) -> float | None:
+    if link.stage == "reduction" and answer[0] == "journal" and scene.journal.motion == "transient":
+        return 0.0  # a film in motion reads the whole series
     known = measured(scene, link.stage)
     if known is None:
         return None
@@ -194,15 +196,13 @@ def _seconds(scene: Scene, stages: tuple[str, ...], cases: tuple[Case, ...]) -> 
 def finer(scene: Scene, stage: str) -> Scene | None:
     """Return the scene with the next more accurate model of a stage; None at the top.
 
-    A film on a grid has no top: its grid is doubled, up to what a scene may ask for.
+    A film has no top: its grid is doubled, up to what a scene may ask for.
     """
     update: dict[str, Any]
     if stage == "journal":
         around, across = scene.journal.grid
-        if scene.journal.rung != "grid":
-            update = {"rung": "grid"}
-        elif 2 * around <= 480:
-            update = {"grid": (2 * around, 2 * across)}
+        if 2 * around <= 480:
+            update = {"rung": "grid", "grid": (2 * around, 2 * across)}
         else:
             return None
     elif (

@@ -54,7 +54,8 @@ def _film_rung(scene: Scene) -> str:
     around, across = scene.journal.grid
     rung = scene.journal.rung
     graded = ", graded" if scene.journal.grading == "graded" else ""
-    return f"grid, {around}x{across}{graded}" if rung == "grid" else rung
+    names = {"grid": f"grid, {around}x{across}{graded}", "reduced": f"reduced, {around}"}
+    return names.get(rung, rung)
 
 
 def _reduction_rung(scene: Scene) -> str:
@@ -64,7 +65,13 @@ def _reduction_rung(scene: Scene) -> str:
 
 def measured(scene: Scene, stage: str) -> dict[str, Any] | None:
     """Return what the ladder holds of the scene's rung of a stage, None if it was not measured."""
-    return ladder().get(stage, {}).get(rung_of(scene, stage))
+    return _rungs(scene, stage).get(rung_of(scene, stage))
+
+
+def _rungs(scene: Scene, stage: str) -> dict[str, Any]:
+    """All rungs of a stage; a film in motion has its own."""
+    moving = stage == "journal" and scene.journal.motion == "transient"
+    return ladder().get("journal, transient" if moving else stage, {})
 
 
 def expected_seconds(scene: Scene, stage: str, cases: Iterable[Case]) -> float | None:
@@ -74,10 +81,17 @@ def expected_seconds(scene: Scene, stage: str, cases: Iterable[Case]) -> float |
         return None
     if "seconds_per_case" in known:
         return known["seconds_per_case"] * sum(case.steps for case in cases) / STEPS_PER_CASE
-    reduction = measured(scene, "reduction") or {}
-    share = min(1.0, scene.reduction.size * reduction.get("samples_over_wanted", 1.0))
     bearings = len(scene.journal.bearings) if stage == "journal" else 1
-    return known["seconds_per_sample"] * share * bearings * sum(case.steps for case in cases)
+    samples = _share(scene, stage) * bearings * sum(case.steps for case in cases)
+    return known["seconds_per_sample"] * samples
+
+
+def _share(scene: Scene, stage: str) -> float:
+    """Share of the series that a bearing is solved for."""
+    if stage == "journal" and scene.journal.motion == "transient":
+        return 1.0
+    reduction = measured(scene, "reduction") or {}
+    return min(1.0, scene.reduction.size * reduction.get("samples_over_wanted", 1.0))
 
 
 def choices(scene: Scene, stage: str) -> list[Scene]:
@@ -89,7 +103,7 @@ def choices(scene: Scene, stage: str) -> list[Scene]:
     section = getattr(scene, stage)
     if stage == "loads" and scene.loads.source == "files":
         return [scene]
-    entries = ladder().get(stage, {}).values()
+    entries = _rungs(scene, stage).values()
     useful = [e["settings"] for e in entries if "settings" in e and "dominated_by" not in e]
     opened = [settings for settings in useful if not section.model_fields_set & set(settings)]
     found = [_with(scene, stage, settings) for settings in opened]

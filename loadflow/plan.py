@@ -62,6 +62,11 @@ STAGES = {
     )
 }
 
+_FILM_IN_MOTION = replace(
+    STAGES["journal"], needs=("loads", "shaft"), function=f"{_S}.journal:orbit"
+)
+"""It reads the whole series, not the reduced one."""
+
 GIVEN_BY = {
     "loads.statistics": "statistics",
     "seeds.equality": "seeds",
@@ -145,11 +150,13 @@ def make_plan(scene: Scene, climbed: Iterable[str] = ()) -> Plan:
         The scene's load files do not exist or cannot be told apart.
     """
     wanted = {GIVEN_BY[result] for result in scene.results}
-    needed = set().union(*(_with_needs(name) for name in wanted))
+    moving = scene.journal.motion == "transient"
+    stages = STAGES | {"journal": _FILM_IN_MOTION} if moving else STAGES
+    needed = set().union(*(_with_needs(name, stages) for name in wanted))
     cases = tuple(list_cases(scene))
     choice = climb(choose(scene, needed, cases), climbed)
     steps: dict[str, Step] = {}
-    for name, stage in STAGES.items():
+    for name, stage in stages.items():
         if name in needed:
             steps[name] = _step(choice.scene, stage, cases, steps)
     left_out = {
@@ -171,8 +178,8 @@ def make_plan(scene: Scene, climbed: Iterable[str] = ()) -> Plan:
     )
 
 
-def _with_needs(name: str) -> set[str]:
-    return {name}.union(*(_with_needs(need) for need in STAGES[name].needs))
+def _with_needs(name: str, stages: dict[str, Stage]) -> set[str]:
+    return {name}.union(*(_with_needs(need, stages) for need in stages[name].needs))
 
 
 def _step(scene: Scene, stage: Stage, cases: tuple[Case, ...], done: dict[str, Step]) -> Step:

@@ -134,6 +134,9 @@ class Reduction(_Section):
 class Journal(_Section):
     """Journal bearings: which ones of the shaft, and one set of data for all of them.
 
+    ``motion = "quasi-static"`` solves the equilibrium of every sample of the reduced series;
+    ``"transient"`` follows the shaft through the whole series, step by step.
+
     With ``tilt`` the shaft tilts in them under the moment that the shaft stage gives; the film is
     then solved over its full width.
     """
@@ -149,7 +152,8 @@ class Journal(_Section):
         20,
     )
     grading: Literal["auto", "uniform", "graded"] = "auto"
-    rung: Literal["grid"] = "grid"
+    rung: Literal["reduced", "grid"] = "grid"
+    motion: Literal["quasi-static", "transient"] = "quasi-static"
     tilt: bool = False
 
 

@@ -109,10 +109,10 @@ def test_a_run_reports_how_far_better_models_move_it(cube, tmp_path):
 
 
 def test_a_run_climbs_where_its_own_cases_need_it_and_gives_the_same_when_taken_up(cube, tmp_path):
-    """A bearing far from that of the ladder: its coarse grid does not hold what the ladder says."""
-    hard = {"geometry": {"diameter": 1.0, "width": 0.5, "relative_clearance": 1e-3}}
+    """A bearing far from that of the ladder: its coarse film does not hold what the ladder says."""
+    hard = {"geometry": {"diameter": 1.0, "width": 0.4, "relative_clearance": 1e-3}}
     scene = given(cube, accuracy=0.06, journal=hard | {"bearings": ["N2"]})
-    assert make_plan(scene).scene.journal.grid == (30, 10)
+    assert rung_of(make_plan(scene).scene, "journal") == "reduced, 60"
     run = lf.run(scene, out=tmp_path, report=False)
     manifest = json.loads((run.path / "manifest.json").read_text(encoding="utf-8"))
     assert manifest["climbed"][0] == "journal"

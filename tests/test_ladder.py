@@ -3,6 +3,7 @@
 from pathlib import Path
 from typing import get_args
 
+import numpy as np
 import pytest
 
 from loadflow.ladder import STEPS_PER_CASE, gains, ladder
@@ -26,7 +27,11 @@ def plan_of(**sections):
 SCENES = [
     *({"loads": {"rung": rung}} for rung in choices(Loads, "rung")),
     *({"reduction": {"pick": pick}} for pick in choices(Reduction, "pick")),
-    *({"journal": {"rung": rung}} for rung in choices(Journal, "rung")),
+    *(
+        {"journal": {"rung": rung, "motion": motion}}
+        for rung in choices(Journal, "rung")
+        for motion in choices(Journal, "motion")
+    ),
     *({"rolling": {"rings": rings}} for rings in choices(Rolling, "rings")),
     *({"seeds": {"methods": [m]}} for m in get_args(choices(Seeds, "methods")[0])),
     {"seeds": {"methods": ["calibrated", "as-printed"]}},
@@ -105,6 +110,24 @@ def test_stored_film_errors_still_hold(monkeypatch):
     for quantity, stored in ladder()["journal"]["grid, 60x20"]["errors"].items():
         assert errors[quantity]["max"] < 1.5 * stored["max"], quantity
         assert errors[quantity]["max"] > stored["max"] / 10, quantity
+
+
+def test_stored_errors_of_the_film_in_motion_still_hold(monkeypatch):
+    """Measured again on sines of the turbine's size; the cases of the ladder are other ones."""
+    monkeypatch.syspath_prepend(BENCHMARKS)
+    from ladder_orbit import MODELS, REFERENCE, compare, solve
+    from measuring import Errors
+
+    options, time = Journal(), 0.025 * np.arange(120)
+    force = np.stack([1.8e6 + 4e5 * np.sin(3.8 * time), 3e5 * np.cos(1.3 * time)], axis=-1)
+    series = (time, force, np.full(time.size, 1.2))
+    reference = solve(options, *series, **REFERENCE | {"grid": (240, 20)})
+    for name in ("reduced, 60", "grid, 60x20"):
+        errors = Errors()
+        compare(errors, "sines", solve(options, *series, **MODELS[name]), reference)
+        for quantity, stored in ladder()["journal, transient"][name]["errors"].items():
+            found = errors.summary()[quantity]["max"]
+            assert stored["max"] / 10 < found < 1.5 * stored["max"], (name, quantity)
 
 
 def test_the_page_shows_what_is_stored(monkeypatch):

@@ -1,6 +1,7 @@
-"""Compiled loops of the rung "reduced": Newton, a sweep over loads, a march through time.
+"""Compiled loops of the rung "reduced": Newton, and a march through time.
 
-No step of a loop returns to Python or allocates.
+No step of a loop returns to Python or allocates. Compiling takes most of its time once for each
+function that calls `newton`, so there is one.
 """
 
 from __future__ import annotations
@@ -22,7 +23,6 @@ from loadflow.journal.ring import CONVERGED, ITERATIONS, RESIDUAL, X, Y
 
 _CALM = 0.5  # change of the film over its pressure, up to which the shaft goes all the way
 _SMALLEST = 1.0 / 256  # of a given step, to which a step that fails may be cut
-_NEAR = 0.3  # share of the narrowest gap that the estimate may move for a warm start
 
 
 @njit(cache=True, nogil=True)
@@ -69,10 +69,10 @@ def shaft_step(ring, work, x, y, gx, gy):
 
 
 @njit(cache=True, nogil=True)
-def newton(ring, work, free, x, y, fx, fy, speed, rate, tolerance, max_iterations):
+def newton(ring, work, x, y, fx, fy, speed, rate, tolerance, max_iterations):
     """Film and shaft at which the load (fx, fy) is carried; one implicit step if rate > 0.
 
-    Starts from `work.u` and (x, y), where the shaft stays unless it is `free`. Returns position,
+    Starts from `work.u` and (x, y), where the shaft stays unless `ring.free`. Returns position,
     residual, Newton steps and whether the residual fell below the tolerance.
     """
     nx, m = work.u.shape
@@ -84,7 +84,7 @@ def newton(ring, work, free, x, y, fx, fy, speed, rate, tolerance, max_iteration
         place(ring, work, x, y)
         worst, lx, ly = balance(ring, work, wedge, rate)
         residual = worst / flux
-        if free:
+        if ring.free:
             residual = max(residual, np.hypot(fx - lx, fy - ly) / force_scale)
         if residual < tolerance or spent == max_iterations or not residual < np.inf:
             return x, y, residual, spent, residual < tolerance
@@ -94,7 +94,7 @@ def newton(ring, work, free, x, y, fx, fy, speed, rate, tolerance, max_iteration
             return x, y, residual, spent, False
         substitute(work.band, work.columns)
         dx, dy = 0.0, 0.0
-        if free:
+        if ring.free:
             x_new, y_new = shaft_step(ring, work, x, y, fx - lx, fy - ly)
             dx, dy = x_new - x, y_new - y
             x, y = x_new, y_new
@@ -108,10 +108,15 @@ def newton(ring, work, free, x, y, fx, fy, speed, rate, tolerance, max_iteration
 
 
 @njit(cache=True, nogil=True)
-def slopes(ring, work, x, y, speed, stiffness, damping):
-    """Derivatives of the load by position (per clearance) and velocity (clearances per second)."""
+def finish(ring, work, x, y, speed, row, stiffness, damping):
+    """Results of a film at rest at (x, y): integrals into `row`, and the slopes of the load.
+
+    `stiffness` and `damping` (2, 2) are by position (per clearance) and by velocity (clearances
+    per second).
+    """
     nx, m = work.u.shape
     place(ring, work, x, y)
+    summarise(ring, work, x, y, row)
     wedge = 0.5 * ring.slope * speed
     balance(ring, work, wedge, 0.0)
     matrix(ring, work, wedge, 0.0)
@@ -128,53 +133,9 @@ def slopes(ring, work, x, y, speed, stiffness, damping):
             work.columns[base + k, 2] = held * ring.sin[i]
     substitute(work.band, work.columns)
     _, by_vx, by_vy = carried(ring, work)
-    for row in range(2):
-        stiffness[row, 0], stiffness[row, 1] = -by_x[row], -by_y[row]
-        damping[row, 0], damping[row, 1] = -by_vx[row], -by_vy[row]
-
-
-@njit(cache=True, nogil=True)
-def sweep(
-    ring, work, cold, estimate, force, speed, tolerance, max_iterations, rows, stiffness, damping
-):
-    """Static equilibrium of every load: from the last one where the estimate has moved little.
-
-    `cold` are the unknowns of a film at edge pressure; a load that fails from both starts has
-    0 in column CONVERGED of `rows` (n, RESULTS). Fills `stiffness` and `damping` (n, 2, 2).
-    """
-    work.liquid[0] = 0.0
-    last = -1
-    for n in range(speed.size):
-        x, y = estimate[n, 0], estimate[n, 1]
-        spent = 0
-        converged = False
-        for warm in (True, False):
-            if warm:
-                if last < 0:
-                    continue
-                moved = np.hypot(x - estimate[last, 0], y - estimate[last, 1])
-                if moved > _NEAR * (1.0 - np.hypot(rows[last, X], rows[last, Y])):
-                    continue
-                x, y = rows[last, X], rows[last, Y]
-                work.u[:] = work.last
-            else:
-                x, y = estimate[n, 0], estimate[n, 1]
-                work.u[:] = cold
-            x, y, residual, iterations, converged = newton(
-                ring, work, True, x, y, force[n, 0], force[n, 1], speed[n], 0.0,
-                tolerance, max_iterations,
-            )  # fmt: skip
-            spent += iterations
-            if converged:
-                break
-        rows[n, RESIDUAL] = residual
-        rows[n, ITERATIONS] = spent
-        rows[n, CONVERGED] = converged
-        if converged:
-            last = n
-            work.last[:] = work.u
-            slopes(ring, work, x, y, speed[n], stiffness[n], damping[n])
-            summarise(ring, work, x, y, rows[n])
+    for axis in range(2):
+        stiffness[axis, 0], stiffness[axis, 1] = -by_x[axis], -by_y[axis]
+        damping[axis, 0], damping[axis, 1] = -by_vx[axis], -by_vy[axis]
 
 
 @njit(cache=True, nogil=True)
@@ -237,7 +198,6 @@ def march(ring, work, x, y, time, force, speed, tolerance, max_iterations, rows)
             x_new, y_new, residual, iterations, converged = newton(
                 ring,
                 work,
-                True,
                 x_new,
                 y_new,
                 force[n - 1, 0] + at * (force[n, 0] - force[n - 1, 0]),

@@ -19,7 +19,7 @@ from loadflow.journal.equilibrium import (
     solve_film,
     solve_patiently,
 )
-from loadflow.journal.estimate import closed_form_position
+from loadflow.journal.estimate import NEAR, closed_form_position
 from loadflow.journal.film import EVERY, Film
 from loadflow.journal.laminar import warn_if_turbulent
 from loadflow.journal.options import Cavitation, Lubricant, require
@@ -44,8 +44,6 @@ _STARVED = (
     "GasMixture follow a groove that is not full"
 )
 _AFLOAT = 0.5  # eccentricity ratio at which a shaft is sought that its supply carries
-_CELLS = 0.6  # of the width of the narrowest gap, the widest cell around that resolves it
-_NEAR = 0.3  # share of the narrowest gap that the estimate may move for a warm start
 
 
 @dataclass(frozen=True)
@@ -497,7 +495,7 @@ strict, tilt, bend
         for used, u, start in attempts:
             steps = _steps(used, max_iterations)
             solution = solve_equilibrium(used, load, u, start, tolerance, steps)
-            if solution.converged and (finer in (None, used) or _resolved(used, solution)):
+            if solution.converged and (finer in (None, used) or used.resolves(solution.position)):
                 dry = used.dry(solution.u)
                 return used, replace(solution, estimate=position, converged=not dry)
         used = finer or film
@@ -510,7 +508,7 @@ strict, tilt, bend
         """Where Newton may start: from the last solution if the closed form has moved little."""
         if last is not None and last.estimate is not None:
             moved = position - last.estimate
-            if np.hypot(*moved) < _NEAR * (1 - np.hypot(*last.position)):
+            if np.hypot(*moved) < NEAR * (1 - np.hypot(*last.position)):
                 yield last.u, last.position
         yield film.start(), position
 
@@ -540,16 +538,6 @@ strict, tilt, bend
 def _steps(film: Film, max_iterations: int) -> int:
     """Newton steps that a load may take; the rupture of Reynolds moves by one cell in each."""
     return max(max_iterations, film.mesh.shape[0] if film.creeps else 0)
-
-
-def _resolved(film: Film, solution: Solution) -> bool:
-    """Whether the cells resolve the narrowest gap, which is about √(2 (1 − ε)) rad wide.
-
-    Where they do not, Newton may well converge, to an ε that depends on where the cells lie.
-    """
-    cell = 2 * np.pi / film.gap.mesh.shape[0]
-    ratio = min(float(np.hypot(*solution.position)), 1.0)
-    return cell <= _CELLS * np.sqrt(2 * (1 - ratio))
 
 
 def _floating(film: Film, load: Array, position: Array) -> tuple[Film, Array, Array]:

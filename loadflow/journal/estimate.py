@@ -11,6 +11,8 @@ from loadflow.tribology.film import butenschoen
 
 Array = NDArray[np.float64]
 
+NEAR = 0.3  # share of the narrowest gap that the estimate may move for a warm start
+
 _RATIOS = np.concatenate([np.linspace(0.0, 0.9, 91)[1:], 1.0 - np.geomspace(0.099, 1e-4, 60)])
 
 

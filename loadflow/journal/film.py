@@ -25,6 +25,8 @@ from loadflow.journal.pockets import UNSUPPLIED, Pockets
 
 Array = NDArray[np.float64]
 
+_CELLS = 0.6  # of the width of the narrowest gap, the widest cell around that resolves it
+
 _KIND = {
     Sommerfeld: kernel.FULL,
     Guembel: kernel.GUEMBEL,
@@ -358,6 +360,15 @@ class Film:
         free = ~self.fixed
         unit = self.pockets.flow_unit
         return unit * float(self.liquid()[free].sum()), -unit * float(outflow[free].sum())
+
+    def resolves(self, position: Array) -> bool:
+        """Whether the cells resolve the narrowest gap, which is about √(2 (1 − ε)) rad wide.
+
+        Where they do not, Newton may well converge, to an ε that depends on where the cells lie.
+        """
+        cell = 2 * np.pi / self.mesh.shape[0]
+        ratio = min(math.hypot(*position), 1.0)
+        return bool(cell <= _CELLS * math.sqrt(2 * (1 - ratio)))
 
     # --- results ---------------------------------------------------------------------------------
     def summary(self, u: Array, position: Array) -> dict[str, Any]:

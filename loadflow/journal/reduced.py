@@ -7,6 +7,7 @@ the shell: there is no inlet line, and no groove.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -16,10 +17,10 @@ from numpy.typing import NDArray
 from loadflow.errors import SolverError
 from loadflow.journal import ring as at
 from loadflow.journal._reduced_kernels import summarise
-from loadflow.journal._reduced_loops import march, newton, sweep
+from loadflow.journal._reduced_loops import finish, march, newton
 from loadflow.journal.axial import lobatto
 from loadflow.journal.equilibrium import refusal
-from loadflow.journal.estimate import closed_form_position
+from loadflow.journal.estimate import NEAR, closed_form_position
 from loadflow.journal.film import Film, Integrals
 from loadflow.journal.options import Guembel, Reynolds, require
 from loadflow.journal.orbit import orbit_dataset
@@ -41,21 +42,32 @@ POINTS = 3  # across the half width; the largest pressure moves by 0.4 % at most
 def equilibrium(
     bearing: JournalBearing, options: FilmOptions, force: Array, speed: Array, control: Control
 ) -> dict[str, Any]:
-    """Static equilibria; a load that fails here is solved on the grid."""
+    """Static equilibria; a load that fails or is not resolved here is solved on the grid."""
+    force, speed = np.array(force), np.array(speed)  # of the layout that the kernels know
     film = _film(bearing, options, speed)
     ring, work = _discrete(film)
     count = speed.size
     rows = np.zeros((count, at.RESULTS))
     stiffness, damping = np.zeros((count, 2, 2)), np.zeros((count, 2, 2))
-    estimate = _estimate(bearing, film, force, speed)
-    cold = film.unknown_of(np.full(work.u.shape, film.p_edge))
-    sweep(
-        ring, work, cold, estimate, force, speed, control.tolerance, control.max_iterations,
-        rows, stiffness, damping,
-    )  # fmt: skip
+    starts = _Starts(film, work, _estimate(bearing, film, force, speed))
+    for n in range(count):
+        spent, converged = 0, False
+        for x, y in starts.of(n):
+            x, y, residual, iterations, converged = newton(
+                ring, work, x, y, force[n, 0], force[n, 1], speed[n], 0.0,
+                control.tolerance, control.max_iterations,
+            )  # fmt: skip
+            spent += iterations
+            if converged and options.may_grade:
+                converged = film.resolves(np.array([x, y]))
+            if converged:
+                finish(ring, work, x, y, speed[n], rows[n], stiffness[n], damping[n])
+                starts.keep(n, (x, y))
+                break
+        rows[n, at.RESIDUAL :] = residual, spent, converged
     position = rows[:, [at.X, at.Y]]
     answer = {
-        **operating_columns(bearing, force.copy(), speed.copy(), options.lubricant, position),
+        **operating_columns(bearing, force, speed, options.lubricant, position),
         **_results(film, rows, speed),
         "eccentricity_ratio": np.hypot(*position.T),
         "stiffness": stiffness / bearing.clearance,
@@ -83,15 +95,16 @@ def orbit(
     SolverError
         No equilibrium to start from, or a step that fails even when cut to 1/256.
     """
+    time, force, speed = (np.array(values) for values in (time, force, speed))
     film = _film(bearing, options, speed)
     film.raise_scale(float(np.hypot(*force.T).max()) / (bearing.width * bearing.diameter))
     ring, work = _discrete(film)
     work.u[:] = film.unknown_of(np.full(work.u.shape, film.p_edge))
-    free = start is None
     first = _estimate(bearing, film, force[:1], speed[:1])[0] if start is None else start
     rows = np.zeros((time.size, at.RESULTS))
+    begin = ring._replace(free=start is None)
     x, y, residual, iterations, converged = newton(
-        ring, work, free, first[0], first[1], force[0, 0], force[0, 1], speed[0], 0.0,
+        begin, work, first[0], first[1], force[0, 0], force[0, 1], speed[0], 0.0,
         control.tolerance, 2 * control.max_iterations,
     )  # fmt: skip
     if not converged:
@@ -113,6 +126,32 @@ def orbit(
         )
     values = _results(film, rows, speed) | {"x": rows[:, at.X], "y": rows[:, at.Y]}
     return orbit_dataset(values, time, force, speed, bearing.clearance)
+
+
+class _Starts:
+    """Where Newton may start: from the last film if the closed form has moved little."""
+
+    def __init__(self, film: Film, work: Work, estimate: Array) -> None:
+        self.work = work
+        self.estimate = estimate
+        self.cold = film.unknown_of(np.full(work.u.shape, film.p_edge))
+        self.last: tuple[int, tuple[float, float]] | None = None
+
+    def of(self, n: int) -> Iterator[tuple[float, float]]:
+        """Positions to start load `n` from; sets the unknowns that belong to each."""
+        if self.last is not None:
+            before, position = self.last
+            moved = np.hypot(*(self.estimate[n] - self.estimate[before]))
+            if moved < NEAR * (1.0 - np.hypot(*position)):
+                self.work.u[:] = self.work.last
+                yield position
+        self.work.u[:] = self.cold
+        yield self.estimate[n, 0], self.estimate[n, 1]
+
+    def keep(self, n: int, position: tuple[float, float]) -> None:
+        """Remember the solved film of load `n`."""
+        self.work.last[:] = self.work.u
+        self.last = n, position
 
 
 def _film(bearing: JournalBearing, options: FilmOptions, speed: Array) -> Film:
@@ -137,7 +176,7 @@ def _discrete(film: Film) -> tuple[Ring, Work]:
     ring = Ring(
         np.cos(angle), np.sin(angle), np.cos(face), np.sin(face), film.mesh.order, axial,
         film.kind, film.mixing, film.p_cav, film.scale, film.p_edge, film.slope,
-        2.0 * film.radius**2,
+        2.0 * film.radius**2, True,
     )  # fmt: skip
     return ring, make_work(angle.size, POINTS)
 

@@ -194,7 +194,7 @@ def static_row(
 def operating_columns(
     bearing: JournalBearing,
     force: Array,
-    speed: ArrayLike,
+    speed: Any,
     lubricant: Lubricant,
     position: Array,
 ) -> dict[str, Any]:

@@ -33,6 +33,8 @@ class Ring(NamedTuple):
         12 η/ψ², Pa s.
     area : float
         Load over ∫ p over the half film, 2 R², m².
+    free : bool
+        Whether the shaft moves to where its load is carried.
     """
 
     cos: Array
@@ -48,6 +50,7 @@ class Ring(NamedTuple):
     p_edge: float
     slope: float
     area: float
+    free: bool
 
 
 class Work(NamedTuple):

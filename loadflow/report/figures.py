@@ -138,7 +138,8 @@ def film(samples: xr.Dataset) -> Figure:
         values, shown = readable(samples[name], unit)
         axis.plot(samples["time"], values, lw=0.7)
         axis.set_ylabel(f"{samples[name].attrs['long_name']},\n{shown}")
-    axes[2].set_xlabel("time, s (reduced series)")
+    whole = samples.attrs.get("motion") == "transient"
+    axes[2].set_xlabel("time, s" if whole else "time, s (reduced series)")
     return drawing
 
 

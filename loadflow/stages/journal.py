@@ -1,4 +1,4 @@
-"""Reduced loads of one case → film of each journal bearing, at static equilibrium."""
+"""Loads of one case → film of each journal bearing, at static equilibrium or in motion."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ import xarray as xr
 
 from loadflow.errors import SolverError
 from loadflow.journal import Equilibrium
+from loadflow.journal.laminar import critical_reynolds_number, reynolds_number
 from loadflow.scene import Journal, Scene
 from loadflow.stages.cases import Case
 from loadflow.stages.frames import to_film
@@ -45,39 +46,71 @@ def film(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
     """
     return xr.DataTree.from_dict(
         {
-            bearing: _bearing(scene, case, bearing, inputs["reduction"][bearing].to_dataset())
+            bearing: _resting(scene.journal, bearing, inputs["reduction"][bearing].to_dataset())
             for bearing in scene.journal.bearings
         }
     )
 
 
-def _bearing(scene: Scene, case: Case, bearing: str, reduced: xr.Dataset) -> xr.Dataset:
-    moment = reduced["moment"].values if scene.journal.tilt else None
-    answer = equilibria(scene.journal, reduced["force"].values, reduced["speed"].values, moment)
+def orbit(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
+    """Follow the shaft through every step of the series; one group per bearing.
+
+    Raises
+    ------
+    loadflow.errors.SolverError
+        No equilibrium to start from, or a step without an answer.
+    """
+    loads, shaft = inputs["loads"].load(), inputs["shaft"].load()
+    return xr.DataTree.from_dict(
+        {
+            bearing: _moving(scene.journal, bearing, loads, shaft.sel(bearing=bearing))
+            for bearing in scene.journal.bearings
+        }
+    )
+
+
+def _resting(options: Journal, bearing: str, reduced: xr.Dataset) -> xr.Dataset:
+    speed = reduced["speed"].values
+    moment = reduced["moment"].values if options.tilt else None
+    answer = equilibria(options, reduced["force"].values, speed, moment)
     if not np.any(answer.converged):
-        speed = np.abs(reduced["speed"].values)
         raise SolverError(
             f"bearing {bearing}: no film carries any of the {speed.size} samples; speed "
-            f"{speed.min():.4g} … {speed.max():.4g} rad/s"
+            f"{np.abs(speed).min():.4g} … {np.abs(speed).max():.4g} rad/s"
         )
-    samples = film_samples(answer)
-    samples["eccentricity"] = (
-        ("sample", "component"),
-        answer.eccentricity,
-        {"units": "m", "long_name": "shaft centre: down, then left"},
-    )
-    if scene.journal.tilt:
+    samples = film_samples(vars(answer))
+    if options.tilt:
         meaning = {"units": "rad", "long_name": "rotation of the shaft: about down, about left"}
         samples["tilt"] = ("sample", "component"), answer.tilt, meaning
-    return (
-        reduced[["time", "speed", "weight"]]
-        .assign(samples)
-        .assign_attrs(
-            radial_clearance=scene.journal.geometry.clearance,
-            laminar=int(np.all(answer.laminar)),
-            largest_reynolds_number=float(np.max(answer.reynolds_number)),
-        )
+    given = reduced[["time", "speed", "weight"]]
+    return _placed(options, given.assign(samples), answer.eccentricity)
+
+
+def _moving(options: Journal, bearing: str, loads: xr.Dataset, reactions: xr.Dataset) -> xr.Dataset:
+    force, moment = (
+        to_film(reactions[name].transpose("time", "axis").values.astype(float))
+        for name in ("force", "moment")
     )
+    time, speed = (loads[name].values.astype(float) for name in ("time", "speed"))
+    freeing = moment if options.tilt else None
+    try:
+        path = options.geometry.orbit(time, force, speed, moment=freeing, **_film(options))
+    except SolverError as error:
+        raise SolverError(f"bearing {bearing}: {error}") from error
+    numbers = [
+        options.geometry.sommerfeld_number(*point, options.lubricant.viscosity)
+        for point in zip(np.hypot(*force.T).tolist(), speed.tolist())
+    ]
+    found: dict[str, Any] = {name: path[name].values for name in KEPT if name in path}
+    found |= {"sommerfeld_number": numbers, "converged": np.ones(time.size, dtype=bool)}
+    samples = xr.Dataset(
+        {
+            "time": ("sample", time, {"units": "s", "long_name": "time"}),
+            "speed": ("sample", speed, {"units": "rad/s", "long_name": "rotor speed"}),
+            "weight": ("sample", np.ones(time.size), {"units": "1", "long_name": "samples"}),
+        }
+    )
+    return _placed(options, samples.assign(film_samples(found)), path["eccentricity"].values)
 
 
 def equilibria(
@@ -90,22 +123,44 @@ def equilibria(
     return options.geometry.equilibrium(
         force=to_film(force),
         speed=speed,
-        lubricant=options.lubricant,
-        cavitation=options.cavitation,
-        edge_pressure=options.edge_pressure,
-        supply=options.supply,
-        grid=options.grid,
-        grading=options.grading,
-        rung=options.rung,
         strict=False,
         moment=None if moment is None else to_film(moment),
+        **_film(options),
     )
 
 
-def film_samples(answer: Equilibrium) -> dict[str, Any]:
-    """Label what is kept of a series of equilibria; dimension ``sample``."""
+def _film(options: Journal) -> dict[str, Any]:
+    """Keywords of the film, the same at rest and in motion."""
     return {
-        name: ("sample", np.asarray(getattr(answer, name)), {"units": units, "long_name": meaning})
+        "lubricant": options.lubricant,
+        "cavitation": options.cavitation,
+        "edge_pressure": options.edge_pressure,
+        "supply": options.supply,
+        "grid": options.grid,
+        "grading": options.grading,
+        "rung": options.rung,
+    }
+
+
+def _placed(options: Journal, samples: xr.Dataset, eccentricity: np.ndarray) -> xr.Dataset:
+    meaning = {"units": "m", "long_name": "shaft centre: down, then left"}
+    bearing = options.geometry
+    fastest = float(np.abs(samples["speed"]).max())
+    reynolds = float(reynolds_number(bearing, fastest, options.lubricant))
+    return samples.assign(
+        eccentricity=(("sample", "component"), eccentricity, meaning)
+    ).assign_attrs(
+        motion=options.motion,
+        radial_clearance=bearing.clearance,
+        laminar=int(reynolds < critical_reynolds_number(bearing.relative_clearance)),
+        largest_reynolds_number=reynolds,
+    )
+
+
+def film_samples(found: Mapping[str, Any]) -> dict[str, Any]:
+    """Label what is kept of a series of films; dimension ``sample``."""
+    return {
+        name: ("sample", np.asarray(found[name]), {"units": units, "long_name": meaning})
         for name, (units, meaning) in KEPT.items()
     }
 

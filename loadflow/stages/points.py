@@ -155,7 +155,7 @@ def journal_series(
     )
     if not np.any(answer.converged):
         raise SolverError(f"{path}: no film carries any of the {reduced.weight.size} samples")
-    samples = xr.Dataset({**film_samples(answer), "weight": ("sample", reduced.weight)})
+    samples = xr.Dataset({**film_samples(vars(answer)), "weight": ("sample", reduced.weight)})
     return extremes(samples).assign_attrs(
         series=f"{path}: {reduced.source}, {reduced.weight.size} of {reduced.total} samples",
         model=_film(cavitation, edge_pressure, grid, supply),

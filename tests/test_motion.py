@@ -1,0 +1,81 @@
+"""Scenes that ask for the film in motion: the whole series, step by step."""
+
+import numpy as np
+import pytest
+import xarray as xr
+from synthetic import case, cube_file
+
+import loadflow as lf
+from loadflow.accuracy import expected_errors, finer
+from loadflow.cube import make_cube, save_cube
+from loadflow.ladder import expected_seconds, ladder, measured
+from loadflow.plan import make_plan
+from loadflow.scene import make_scene
+
+FILM = {"grid": [24, 8], "bearings": ["N2"], "rung": "reduced"}
+
+
+def scene_of(cube, **keys):
+    data = {"name": "small", "loads": {"files": [str(cube)]}, "results": ["journal.film"]}
+    return make_scene(data | keys)
+
+
+def test_a_film_in_motion_reads_the_whole_series(tmp_path):
+    cube = cube_file(tmp_path / "loads.h5", wind_speeds=(8.0,), seeds=(1,), steps=200)
+    scene = scene_of(cube, name="moving", journal=FILM | {"motion": "transient"})
+    plan = make_plan(scene)
+    assert [step.stage.name for step in plan.steps] == ["loads", "shaft", "journal"]
+    result = lf.run(scene, out=tmp_path)
+    (one,) = plan.cases
+    with xr.open_datatree(result.path / "journal" / f"{one.name}.h5", engine="h5netcdf") as tree:
+        samples = tree["N2"].to_dataset().load()
+    assert samples.sizes["sample"] == one.steps
+    assert samples.attrs["motion"] == "transient"
+    assert (samples["residual"] < 1e-8).all()
+    still = scene_of(cube, reduction={"size": 1.0}, journal=FILM)
+    rest = lf.run(still, out=tmp_path, report=False).tree["journal"]
+    # the shaft is elsewhere than at rest, but the film is the same
+    power = result.tree["journal"]["mean_friction_power"]
+    np.testing.assert_allclose(power, rest["mean_friction_power"], rtol=0.05)
+
+
+def test_a_film_that_cannot_start_is_a_failure_of_its_case(tmp_path):
+    standing = case(8.0, 1)
+    standing["speed"][:] = 0.0
+    file = save_cube(make_cube([standing, case(8.0, 2)]), tmp_path / "loads.h5")
+    scene = scene_of(file, journal=FILM | {"motion": "transient"})
+    result = lf.run(scene, out=tmp_path, report=False)
+    (reason,) = result.failures.values()
+    assert "bearing N2: orbit cannot start" in reason
+
+
+def test_a_film_in_motion_is_planned_by_its_own_rungs():
+    loads = {"wind_speeds": [12.0], "seeds": 1}
+    still, moving = (
+        make_scene({"name": "m", "loads": loads, "journal": {"rung": "reduced", "motion": motion}})
+        for motion in ("quasi-static", "transient")
+    )
+    assert measured(moving, "journal") is ladder()["journal, transient"]["reduced, 60"]
+    assert measured(still, "journal") is ladder()["journal"]["reduced, 60"]
+    cases = make_plan(moving).cases
+    rung = measured(moving, "journal")
+    expected = 24_000 * 2 * rung["seconds_per_sample"]
+    assert expected_seconds(moving, "journal", cases) == pytest.approx(expected)
+
+
+def test_the_reduction_adds_no_error_to_a_film_in_motion():
+    def error(size):
+        film = {"rung": "reduced", "motion": "transient"}
+        scene = {"name": "m", "journal": film, "results": ["journal.film"]}
+        scene |= {"reduction": {"pick": "random", "size": size}, "loads": {"rung": "flap"}}
+        return expected_errors(make_scene(scene))["journal.film"]["eccentricity ratio"]
+
+    assert error(0.05) == error(0.2)
+    stored = ladder()["journal, transient"]["reduced, 60"]["errors"]["eccentricity ratio"]["max"]
+    assert error(0.1) == pytest.approx(stored)
+
+
+def test_the_next_better_film_is_a_finer_grid():
+    scene = make_scene({"name": "m", "journal": {"rung": "reduced"}})
+    better = finer(scene, "journal").journal
+    assert (better.rung, better.grid) == ("grid", (120, 40))
