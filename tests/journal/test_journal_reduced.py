@@ -221,7 +221,7 @@ def test_stiffness_is_the_slope_of_the_load():
 @given(
     so=st.floats(0.01, 20.0),
     direction=st.floats(-3.1, 3.1),
-    speed=st.floats(0.01, 200.0),
+    speed=st.floats(0.01, 90.0),
 )
 def test_turning_backwards_is_a_mirror(so, direction, speed):
     size = so / BEARING.sommerfeld_number(1.0, speed, 0.05)
