@@ -188,6 +188,16 @@ def test_two_pockets_off_mid_plane_are_one_fed_pair():
     assert np.all(field.pressure[at_groove[:, 0]][:, np.abs(field.z) < 0.02] < 1e6)
 
 
+def test_pockets_carry_a_moment_at_rest():
+    film = options(pockets(Capillary(1e-3, 0.1)), GasMixture(1e4))
+    upright = BEARING.equilibrium((8e3, 0.0), 0.0, moment=(0.0, 0.0), **film)
+    tilted = BEARING.equilibrium((8e3, 0.0), 0.0, moment=(5.0, 0.0), **film)
+    np.testing.assert_allclose(upright.tilt, 0.0, atol=1e-10)
+    # as the four degrees of freedom of the stiffness say
+    moved = np.linalg.solve(upright.stiffness, [0.0, 0.0, 5.0, 0.0])
+    np.testing.assert_allclose(tilted.tilt, moved[2:], rtol=1e-3, atol=1e-10)
+
+
 @pytest.mark.parametrize(
     ("make", "message"),
     [
