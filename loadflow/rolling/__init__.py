@@ -10,7 +10,8 @@ raceway, result  what all ball bearings share
 patches          points where raceways ride on the rings
 contact          table of contacts that the solver takes
 equilibrium      rigid rings in five degrees of freedom, for arrays of load cases
-rings            flexible rings, condensed to few modes; `slewing_flexible`: their equilibrium
+rings            flexible rings, condensed to few modes; `slewing_flexible`: their equilibrium,
+                 `slewing_transient`: their way to it, `slewing_reference`: without condensation
 ring_beam        ring as a curved beam on its supports; `ring_section`: their constants
 ring_fem         rings of finite elements, in harmonics; `ring_solid`: meshed all round
 ring_profile     sections with raceway grooves, as grids

@@ -33,3 +33,6 @@ from .slewing import SlewingBearing as SlewingBearing
 from .slewing_flexible import FlexibleResult as FlexibleResult
 from .slewing_reference import reference_equilibrium as reference_equilibrium
 from .slewing_result import SlewingResult as SlewingResult
+from .slewing_transient import Inertia as Inertia
+from .slewing_transient import Transient as Transient
+from .slewing_transient import settle as settle
