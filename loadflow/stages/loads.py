@@ -23,8 +23,7 @@ def hub_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
 
 
 def _simulate(scene: Scene, case: Case) -> xr.Dataset:
-    from loadflow.rotor import RotorOptions
-    from loadflow.rotor.simulation import simulate_condition
+    from loadflow.rotor import RotorOptions, simulate_condition
 
     loads = scene.loads
     series = simulate_condition(
