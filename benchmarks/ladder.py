@@ -92,7 +92,7 @@ def _section(stage: str, rungs: Rungs) -> Iterator[str]:
 
 def _figure(stage: str) -> str:
     """Path of a stage's picture, from the page."""
-    return f"figures/speed-vs-error-{stage}.svg"
+    return f"figures/speed-vs-error-{stage.replace(', ', '-')}.svg"
 
 
 def _draw(ladder: dict[str, Rungs]) -> None:

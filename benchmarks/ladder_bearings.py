@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any, get_args
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -32,6 +32,12 @@ from loadflow.stages.frames import to_film, to_rolling
 
 FILM = ("eccentricity_ratio", "minimum_film", "maximum_pressure", "friction_power", "side_flow")
 LIFE_EXPONENT = 3.0  # of point contacts, (4.2)
+BY_NAME = {
+    "map": "gas mixture, mass conserving; table made once for a film; ε ≤ 0.995",
+    "table": "film of ISO 7902: no gas, no ambient pressure; interpolated tables",
+    "chart": "film of ISO 7902: no gas, no ambient pressure; closed forms",
+}  # never chosen by a plan: a scene or script must name them
+ALIGNED = "aligned, rigid, isothermal"
 AROUND = (60, 120)  # cells of the rung "reduced"
 GRIDS = ((30, 10), (60, 20), (120, 40), (240, 80))
 
@@ -236,15 +242,14 @@ def measure_journal(bench: Bench) -> Rungs:
         f"grid, {a}x{b}, graded": {"grid": (a, b), "grading": "graded", "rung": "grid"}
         for a, b in GRIDS[1:3]
     }
-    others = get_args(Journal.model_fields["rung"].annotation)
     models |= {f"reduced, {n}": {"grid": (n, 20), "rung": "reduced"} for n in AROUND}
-    models |= {rung: {"rung": rung} for rung in others if rung not in ("grid", "reduced")}
+    models |= {rung: {"rung": rung} for rung in BY_NAME}
     rungs: Rungs = {}
     for name, keys in models.items():
         errors = film_errors(options, setting, reference, **keys).summary()
         rungs[name] = {
-            "settings": keys,
-            "includes": ["gas mixture, mass conserving", "aligned, rigid, isothermal"],
+            **({} if name in BY_NAME else {"settings": keys}),
+            "includes": [BY_NAME.get(name, "gas mixture, mass conserving"), ALIGNED],
             "seconds_per_sample": rounded(_film_seconds(bench, keys)),
             "reference": about,
             "cases": cases,

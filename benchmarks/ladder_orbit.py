@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+from ladder_bearings import ALIGNED, BY_NAME
 from measuring import (
     Bench,
     Errors,
@@ -27,9 +28,11 @@ MODELS: dict[str, dict[str, Any]] = {
     "reduced, 120": {"rung": "reduced", "grid": (120, 20)},
     "grid, 60x20": {"rung": "grid", "grid": (60, 20)},
     "grid, 120x40": {"rung": "grid", "grid": (120, 40)},
+    "map": {"rung": "map", "grid": (60, 20)},
 }
+INCLUDES = {"map": "squeeze; fill steady in the frame that turns with the eccentricity"}
 REFERENCE = {"rung": "reduced"}
-STEPS = {"reduced": 4000, "grid": 40}  # to take times on
+STEPS = {"map": 4000, "reduced": 4000, "grid": 40}  # to take times on
 
 
 def measure_orbit(bench: Bench) -> Rungs:
@@ -55,8 +58,8 @@ def measure_orbit(bench: Bench) -> Rungs:
             compare(errors, where, solve(options, *series, **keys), reference[where])
         found = errors.summary()
         rungs[name] = {
-            "settings": keys,
-            "includes": ["squeeze and history of the fill", "aligned, rigid, isothermal"],
+            **({} if name in BY_NAME else {"settings": keys}),
+            "includes": [INCLUDES.get(name, "squeeze and history of the fill"), ALIGNED],
             "seconds_per_sample": rounded(_seconds(bench, keys)),
             "reference": about,
             "cases": (

@@ -109,13 +109,17 @@ def with_ratios(rungs: Rungs, top: str) -> Rungs:
 
 
 def with_dominated(rungs: Rungs) -> Rungs:
-    """Mark a rung that is dearer than another one and nowhere more accurate."""
+    """Mark a rung that is dearer than another one and nowhere more accurate.
+
+    One that a plan may choose is measured against its like only.
+    """
     measured = {name: entry for name, entry in rungs.items() if entry["errors"]}
     for entry in measured.values():
         better = [
             name
             for name, other in measured.items()
             if other["relative_time"] < entry["relative_time"]
+            and ("settings" in other or "settings" not in entry)
             and all(other["errors"][q]["max"] <= e["max"] for q, e in entry["errors"].items())
         ]
         if better:

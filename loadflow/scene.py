@@ -136,6 +136,7 @@ class Journal(_Section):
 
     ``motion = "quasi-static"`` solves the equilibrium of every sample of the reduced series;
     ``"transient"`` follows the shaft through the whole series, step by step.
+    ``rung = "map"`` tabulates the film once, for long series (docs/journal-map.md).
 
     With ``tilt`` the shaft tilts in them under the moment that the shaft stage gives; the film is
     then solved over its full width.
@@ -152,7 +153,7 @@ class Journal(_Section):
         20,
     )
     grading: Literal["auto", "uniform", "graded"] = "auto"
-    rung: Literal["reduced", "grid"] = "grid"
+    rung: Literal["map", "reduced", "grid"] = "grid"
     motion: Literal["quasi-static", "transient"] = "quasi-static"
     tilt: bool = False
 
