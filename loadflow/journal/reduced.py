@@ -24,7 +24,7 @@ from loadflow.journal.estimate import NEAR, closed_form_position
 from loadflow.journal.film import Film, Integrals
 from loadflow.journal.options import Guembel, Reynolds, require
 from loadflow.journal.orbit import orbit_dataset
-from loadflow.journal.result import operating_columns
+from loadflow.journal.result import operating_columns, without_supply
 from loadflow.journal.ring import Ring, Work, make_work
 from loadflow.journal.setup import FilmOptions, build_film
 
@@ -200,15 +200,10 @@ def _results(film: Film, rows: Array, speed: Array) -> dict[str, Any]:
         fill=rows[:, at.FILLED],
     )
     values = film.in_units(found, speed, 1.0 - np.hypot(rows[:, at.X], rows[:, at.Y]))
-    count = len(rows)
     return values | {
         "residual": rows[:, at.RESIDUAL],
         "iterations": rows[:, at.ITERATIONS].astype(int),
-        "supply_flow": np.zeros(count),
-        "supply_power": np.zeros(count),
-        "groove_flow": np.zeros((count, 0)),
-        "groove_pressure": np.zeros((count, 0)),
-        "starved": np.zeros(count, dtype=bool),
+        **without_supply(len(rows)),
     }
 
 
