@@ -24,6 +24,9 @@ crank            crank drive: motion, loads, inertia of the pin bearing's roller
 kinematics       speeds of cage, rollers and surfaces; `radial_load`: one row, one plane
 friction         components of friction with an energy audit, catalogues, slewing bearings
 lim_singh        6 × 6 stiffness in closed form; `film_dynamics`: films and damping of a contact
+roller_history   loads, speeds, inertia and weight of all rollers over time
+roller_motion    their spin and slip over such histories; `_motion_kernels`: its compiled steps
+cage_rim         cage guided by a ring, as a dynamically loaded journal bearing
 rotor_dynamics   stiffness and damping of a bearing over load and frequency
 ===============  ==============================================================================
 """

@@ -96,7 +96,8 @@ def radial_distribution(
         stiffness = power * (slope * cos * cos).sum(axis=-1)
         step = np.divide(excess, stiffness, out=np.zeros_like(shift), where=stiffness > 0)
         shift = shift - step
-        if (np.abs(excess) <= 1e-12 * np.maximum(load, 1e-9)).all():
+        # rounding of the shift against the slack leaves up to 1e-12 N
+        if (np.abs(excess) <= np.maximum(1e-12 * load, 1e-11)).all():
             break
     else:
         worst = float(np.max(np.abs(excess)))

@@ -26,6 +26,7 @@ from loadflow.tribology import lubricant, traction
 from loadflow.tribology import lubricant_laws as laws
 from loadflow.tribology.asperities import combined_roughness, film_parameter, greenwood_tripp
 from loadflow.tribology.hertz import effective_modulus, hertz_line
+from loadflow.validation import _friction_motion
 from loadflow.validation.check import Check
 
 RPM = math.pi / 30
@@ -72,6 +73,7 @@ def checks() -> Iterator[Check]:
     yield from _harris_film()
     yield from _film_dynamics()
     yield from _tangent()
+    yield from _friction_motion.checks(MAIN)
 
 
 def _kinematics() -> Iterator[Check]:

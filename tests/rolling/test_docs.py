@@ -7,7 +7,14 @@ import pytest
 
 
 @pytest.mark.parametrize(
-    "module", ["rolling.slewing", "rolling.ball", "rolling.roller", "tribology.hertz"]
+    "module",
+    [
+        "rolling.slewing",
+        "rolling.ball",
+        "rolling.roller",
+        "rolling.roller_motion",
+        "tribology.hertz",
+    ],
 )
 def test_examples_of_the_docstrings(module):
     outcome = doctest.testmod(importlib.import_module(f"loadflow.{module}"))
