@@ -21,6 +21,7 @@ from loadflow.rolling.contact import (
     RADIUS,
     STIFFNESS,
     Array,
+    Spans,
 )
 
 # Sums may be reordered (so that they use vector units); nothing else of fast mathematics.
@@ -40,19 +41,30 @@ def _approach(line: Array, law: int, dr: float, dt: float, dz: float) -> float:
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def contact_state(
-    displacement: Array, cos: Array, sin: Array, table: Array, law: int, spatial: float
+    displacement: Array,
+    cos: Array,
+    sin: Array,
+    spans: Spans,
+    table: Array,
+    law: int,
+    spatial: float,
 ) -> tuple[Array, Array]:
-    """Force and signed angle (from the radial plane) of each contact, (n, kind, element)."""
-    n, kinds, count = displacement.shape[0], table.shape[0], cos.shape[0]
+    """Force and signed angle (from the radial plane) of each contact, (n, kind, element).
+
+    A kind with fewer elements than another is filled up with zeros.
+    """
+    n, kinds, count = displacement.shape[0], table.shape[0], 0
+    for k in range(kinds):
+        count = max(count, spans[k, 1] - spans[k, 0])
     force, angle = np.zeros((n, kinds, count)), np.zeros((n, kinds, count))
     for j in range(n):
         q = displacement[j]
-        for i in range(count):
-            c, s = cos[i], sin[i]
-            ur, ut = q[0] * c + q[1] * s, q[1] * c - q[0] * s
-            om, ro = q[4] * c - q[3] * s, q[3] * c + q[4] * s
-            for k in range(kinds):
-                line = table[k]
+        for k in range(kinds):
+            line, first = table[k], spans[k, 0]
+            for i in range(spans[k, 1] - first):
+                c, s = cos[first + i], sin[first + i]
+                ur, ut = q[0] * c + q[1] * s, q[1] * c - q[0] * s
+                om, ro = q[4] * c - q[3] * s, q[3] * c + q[4] * s
                 dr, dz = ur + line[HEIGHT] * om, q[2] - line[RADIUS] * om
                 dt = spatial * (ut - line[HEIGHT] * ro)
                 delta = _approach(line, law, dr, dt, dz)
@@ -108,25 +120,28 @@ def _line_sums(q: Array, cos: Array, sin: Array, line: Array) -> tuple[float, fl
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def row_forces(displacement: Array, cos: Array, sin: Array, table: Array, rows: int) -> Array:
+def row_forces(
+    displacement: Array, cos: Array, sin: Array, spans: Spans, table: Array, rows: int
+) -> Array:
     """Sums of the forces of each row's kinds of line contact, (n, row, element).
 
     Loops over kinds outside, so that the inner loop runs along the ring.
     """
-    n, count, kinds = displacement.shape[0], cos.shape[0], table.shape[0] // rows
+    n, kinds = displacement.shape[0], table.shape[0] // rows
+    count = spans[0, 1] - spans[0, 0]
     force = np.zeros((n, rows, count))
     for j in range(n):
         q = displacement[j]
         for row in range(rows):
             total = force[j, row]
             for k in range(row * kinds, (row + 1) * kinds):
-                line = table[k]
+                line, first = table[k], spans[k, 0]
                 lever = line[HEIGHT] * line[NORMAL_R] - line[RADIUS] * line[NORMAL_Z]
                 fixed = line[NORMAL_Z] * q[2] - line[GAP]
                 x = line[NORMAL_R] * q[0] + lever * q[4]
                 y = line[NORMAL_R] * q[1] - lever * q[3]
                 for i in range(count):
-                    delta = x * cos[i] + y * sin[i] + fixed
+                    delta = x * cos[first + i] + y * sin[first + i] + fixed
                     if delta > 0.0:
                         total[i] += line[STIFFNESS] * delta ** (10.0 / 9.0)
     return force
@@ -134,7 +149,13 @@ def row_forces(displacement: Array, cos: Array, sin: Array, table: Array, rows: 
 
 @njit(cache=True, nogil=True)
 def force_sums(
-    displacement: Array, cos: Array, sin: Array, table: Array, law: int, spatial: float
+    displacement: Array,
+    cos: Array,
+    sin: Array,
+    spans: Spans,
+    table: Array,
+    law: int,
+    spatial: float,
 ) -> tuple[Array, Array]:
     """Largest force (n, kind) and sums of powers of the forces (n, kind, 3).
 
@@ -144,10 +165,11 @@ def force_sums(
     largest, sums = np.zeros((n, kinds)), np.zeros((n, kinds, 3))
     for j in range(n):
         for k in range(kinds):
+            c, s = cos[spans[k, 0] : spans[k, 1]], sin[spans[k, 0] : spans[k, 1]]
             if law == POINT:
-                part = _point_sums(displacement[j], cos, sin, table[k], spatial)
+                part = _point_sums(displacement[j], c, s, table[k], spatial)
             else:
-                part = _line_sums(displacement[j], cos, sin, table[k])
+                part = _line_sums(displacement[j], c, s, table[k])
             largest[j, k] = part[0]
             sums[j, k, 0], sums[j, k, 1], sums[j, k, 2] = part[1], part[2], part[3]
     return largest, sums

@@ -186,7 +186,7 @@ def _add_lines(q, cos, sin, line, gradient, hessian):
 
 
 @njit(cache=True, nogil=True)
-def evaluate(q, cos, sin, table, law, spatial, gradient, hessian):
+def evaluate(q, cos, sin, spans, table, law, spatial, gradient, hessian):
     """Energy of all contacts at `q`; fills its gradient (5,) and Hessian (5, 5).
 
     Returns the energy and the sum of all contact forces.
@@ -196,10 +196,11 @@ def evaluate(q, cos, sin, table, law, spatial, gradient, hessian):
     energy = 0.0
     total = 0.0
     for k in range(table.shape[0]):
+        c, s = cos[spans[k, 0] : spans[k, 1]], sin[spans[k, 0] : spans[k, 1]]
         if law == POINT:
-            part, forces = _add_points(q, cos, sin, table[k], spatial, gradient, hessian)
+            part, forces = _add_points(q, c, s, table[k], spatial, gradient, hessian)
         else:
-            part, forces = _add_lines(q, cos, sin, table[k], gradient, hessian)
+            part, forces = _add_lines(q, c, s, table[k], gradient, hessian)
         energy += part
         total += forces
     for a in range(5):
@@ -249,7 +250,7 @@ def cholesky_solve(matrix, shift, rhs, factor, out):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _start(load, cos, sin, table, law, compliance, scale, cap, q):
+def _start(load, cos, sin, spans, table, law, compliance, scale, cap, q):
     """Cold start: the displacement along `compliance · load` whose energy balances its work."""
     exponent = 1.5 if law == POINT else 10.0 / 9.0
     work = 0.0
@@ -265,11 +266,11 @@ def _start(load, cos, sin, table, law, compliance, scale, cap, q):
         return
     resistance = 0.0
     slack = 0.0
-    for i in range(cos.shape[0]):
-        c, s = cos[i], sin[i]
-        ur, om = q[0] * c + q[1] * s, q[4] * c - q[3] * s
-        for k in range(table.shape[0]):
-            line = table[k]
+    for k in range(table.shape[0]):
+        line = table[k]
+        for i in range(spans[k, 0], spans[k, 1]):
+            c, s = cos[i], sin[i]
+            ur, om = q[0] * c + q[1] * s, q[4] * c - q[3] * s
             dr, dz = ur + line[HEIGHT] * om, q[2] - line[RADIUS] * om
             approach = line[NORMAL_R] * dr + line[NORMAL_Z] * dz
             gap = line[GAP]
@@ -290,7 +291,21 @@ def _start(load, cos, sin, table, law, compliance, scale, cap, q):
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _newton(
-    q, load, cos, sin, table, law, spatial, scale, cap, tolerance, limit, compliance, cold, hessian
+    q,
+    load,
+    cos,
+    sin,
+    spans,
+    table,
+    law,
+    spatial,
+    scale,
+    cap,
+    tolerance,
+    limit,
+    compliance,
+    cold,
+    hessian,
 ):
     """Minimise energy - load·q from `q`; returns converged, residual, iterations, singular.
 
@@ -307,8 +322,8 @@ def _newton(
     for a in range(5):
         external = max(external, abs(load[a] * scale[a]))
     if cold:
-        _start(load, cos, sin, table, law, compliance, scale, cap, q)
-    energy, total = evaluate(q, cos, sin, table, law, spatial, gradient, hessian)
+        _start(load, cos, sin, spans, table, law, compliance, scale, cap, q)
+    energy, total = evaluate(q, cos, sin, spans, table, law, spatial, gradient, hessian)
     iterations = 0
     residual = 0.0
     pivot = 0.0
@@ -358,7 +373,7 @@ def _newton(
             for a in range(5):
                 q_new[a] = q[a] + damping * step[a] * scale[a]
                 trial_potential -= load[a] * q_new[a]
-            new_energy, total = evaluate(q_new, cos, sin, table, law, spatial, trial, h_new)
+            new_energy, total = evaluate(q_new, cos, sin, spans, table, law, spatial, trial, h_new)
             trial_potential += new_energy
             new_norm = 0.0
             for a in range(5):
@@ -381,7 +396,7 @@ def _newton(
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def solve_series(
-    loads, cos, sin, table, law, spatial, scale, cap, tolerance, limit, compliance, chunk
+    loads, cos, sin, spans, table, law, spatial, scale, cap, tolerance, limit, compliance, chunk
 ):
     """Equilibrium for each load (n, 5); warm start inside chunks of `chunk` cases.
 
@@ -402,8 +417,8 @@ def solve_series(
                 continue
             factor = 1.0 if attempt < 2 else 10.0 ** (12 - attempt)
             ok, res, more, free = _newton(
-                q, factor * loads[i], cos, sin, table, law, spatial, scale, cap, tolerance, limit,
-                compliance, attempt == 1 or attempt == 2, stiffness[i],
+                q, factor * loads[i], cos, sin, spans, table, law, spatial, scale, cap, tolerance,
+                limit, compliance, attempt == 1 or attempt == 2, stiffness[i],
             )  # fmt: skip
             count += more
             if ok and (attempt == 1 or (attempt == 0 and not free)):

@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+Spans = NDArray[np.int64]
 
 POINT, LINE = 0, 1  # laws of contact
 RADIUS, HEIGHT, NORMAL_R, NORMAL_Z, FREE, GAP, STIFFNESS = range(7)
@@ -41,6 +42,8 @@ class Contacts:
         Longest step of one iteration, m.
     lever : float
         Length that turns rotations into displacements in residuals, m.
+    spans : ndarray of int, shape (kind, 2), optional
+        First and last + 1 of the elements that each kind has; all of them if not given.
     """
 
     table: Array
@@ -49,13 +52,31 @@ class Contacts:
     spatial: bool
     cap: float
     lever: float
+    spans: Spans | None = None
 
     @property
-    def arguments(self) -> tuple[Array, Array, Array, int, float]:
+    def elements(self) -> Spans:
+        """First and last + 1 of the elements of each kind, (kind, 2)."""
+        if self.spans is not None:
+            return self.spans
+        return np.tile(np.array([0, len(self.azimuth)]), (len(self.table), 1))
+
+    @property
+    def kind_azimuth(self) -> Array:
+        """Azimuths of each kind's elements, (kind, element), rad; a short kind ends with zeros."""
+        spans = self.elements
+        azimuth = np.zeros((len(spans), int(np.max(spans[:, 1] - spans[:, 0]))))
+        for row, (first, last) in zip(azimuth, spans):
+            row[: last - first] = self.azimuth[first:last]
+        return azimuth
+
+    @property
+    def arguments(self) -> tuple[Array, Array, Spans, Array, int, float]:
         """Arguments common to all kernels."""
         return (
             np.cos(self.azimuth),
             np.sin(self.azimuth),
+            self.elements,
             self.table,
             self.law,
             float(self.spatial),
@@ -63,10 +84,12 @@ class Contacts:
 
     def unit_compliance(self) -> Array:
         """Inverse of the Hessian if each contact had unit stiffness: shape of a cold start."""
-        cos, sin = np.cos(self.azimuth), np.sin(self.azimuth)
-        zero = np.zeros_like(cos)
         matrix = np.zeros((5, 5))
-        for radius, height, normal_r, normal_z, *_ in self.table:
+        for (first, last), (radius, height, normal_r, normal_z, *_) in zip(
+            self.elements, self.table
+        ):
+            azimuth = self.azimuth[first:last]
+            cos, sin, zero = np.cos(azimuth), np.sin(azimuth), np.zeros(last - first)
             radial = np.stack([cos, sin, zero, -height * sin, height * cos])
             axial = np.stack([zero, zero, zero + 1, radius * sin, -radius * cos])
             along = (normal_r * radial + normal_z * axial) / np.hypot(normal_r, normal_z)

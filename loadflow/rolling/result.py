@@ -73,7 +73,8 @@ class ContactResult(RingEquilibrium):
         """
         table, angle = self.contacts.table, self._state[1]
         radius, height = table[:, RADIUS, None], table[:, HEIGHT, None]
-        cos, sin = np.cos(self.contacts.azimuth), np.sin(self.contacts.azimuth)
+        azimuth = self.contacts.kind_azimuth
+        cos, sin = np.cos(azimuth), np.sin(azimuth)
         out, along = np.cos(angle), np.sin(angle)
         lever = height * out - radius * along
         return np.stack([out * cos, out * sin, along, -lever * sin, lever * cos], axis=-1)

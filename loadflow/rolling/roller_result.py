@@ -12,7 +12,7 @@ from loadflow.rolling.contact import Array
 from loadflow.rolling.result import ContactResult
 
 if TYPE_CHECKING:
-    from loadflow.rolling.roller import RollerBearing
+    from loadflow.rolling.roller_raceway import RollerRaceways
 
 
 @dataclass(frozen=True)
@@ -21,26 +21,26 @@ class RollerResult(ContactResult):
 
     Attributes
     ----------
-    bearing : RollerBearing
+    bearing : RollerRaceways
         The bearing.
     """
 
-    bearing: RollerBearing
+    bearing: RollerRaceways
 
     @property
     def slice_forces(self) -> Array:
         """Forces on the slices, N, (..., row, slice, roller)."""
-        bearing = self.bearing
-        return self._state[0].reshape(*self.cases, bearing.rows, bearing.slices, bearing.rollers)
+        shape = (self.bearing.tracks, self.bearing.slices, self.bearing.track_rollers)
+        return self._state[0].reshape(*self.cases, *shape)
 
     @property
     def roller_forces(self) -> Array:
         """Forces on the rollers, N, (..., row, roller); needs no array of all slices."""
         from loadflow.rolling import _forces
 
-        cos, sin, table, *_ = self.contacts.arguments
+        cos, sin, spans, table, *_ = self.contacts.arguments
         q = np.ascontiguousarray(self.displacement.reshape(-1, 5))
-        forces = _forces.row_forces(q, cos, sin, table, self.bearing.rows)
+        forces = _forces.row_forces(q, cos, sin, spans, table, self.bearing.tracks)
         return forces.reshape(*self.cases, *forces.shape[1:])
 
     @property
@@ -74,17 +74,10 @@ class RollerResult(ContactResult):
         """
         bearing = self.bearing
         _, sums = self._statistics
-        concentration = np.tile(capacity.edge_stress(bearing.slices), bearing.rows)
-        inner, outer = capacity.slice_capacity(
-            bearing.rated_capacity,
-            bearing.rollers,
-            bearing.rows,
-            bearing.slices,
-            bearing.contact_angle,
-            bearing.gamma,
-        )
-        rotating = (sums[..., 1] / bearing.rollers) ** (1 / 4) * concentration / inner
-        stationary = (sums[..., 2] / bearing.rollers) ** (2 / 9) * concentration / outer
+        concentration = np.tile(capacity.edge_stress(bearing.slices), bearing.tracks)
+        inner, outer = bearing.slice_capacity
+        rotating = (sums[..., 1] / bearing.track_rollers) ** (1 / 4) * concentration / inner
+        stationary = (sums[..., 2] / bearing.track_rollers) ** (2 / 9) * concentration / outer
         damage = (rotating**4.5 + stationary**4.5).sum(axis=-1)
         return safety.ratio(1.0, damage) ** (8 / 9)
 

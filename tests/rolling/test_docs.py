@@ -13,6 +13,10 @@ import pytest
         "rolling.ball",
         "rolling.roller",
         "rolling.roller_motion",
+        "rolling.spherical",
+        "rolling.slewing_rollers",
+        "rolling.three_row",
+        "rolling.lubricated_life",
         "tribology.hertz",
     ],
 )
