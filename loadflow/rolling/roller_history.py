@@ -288,8 +288,8 @@ def bearing_histories(
     for i, j in ((0, 1), (3, 4)):  # as the cage sees it
         x, y = shift[:, i].copy(), shift[:, j].copy()
         shift[:, i], shift[:, j] = cos * x + sin * y, cos * y - sin * x
-    around_cos, around_sin, table, *_ = result.contacts.arguments
-    forces = _forces.row_forces(shift, around_cos, around_sin, table, bearing.rows)
+    around_cos, around_sin, spans, table, *_ = result.contacts.arguments
+    forces = _forces.row_forces(shift, around_cos, around_sin, spans, table, bearing.rows)
     outward, tangential = _carried(row, t, cage, angle[:, None] + row.places - down, gravity)
     return [
         RollerHistory(
