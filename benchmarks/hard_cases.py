@@ -11,6 +11,7 @@ sys.path.insert(0, str(ROOT / "tests" / "hard"))
 
 import friction_cases  # noqa: E402, F401
 import journal_cases  # noqa: E402, F401
+import motion_cases  # noqa: E402, F401
 import record_cases  # noqa: E402, F401
 import rolling_cases  # noqa: E402, F401
 from hard_case import CASES, HardCase  # noqa: E402

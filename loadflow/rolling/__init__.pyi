@@ -34,6 +34,7 @@ from .roller import RollerBearing as RollerBearing
 from .roller_raceway import RollerRaceways as RollerRaceways
 from .roller_result import RollerResult as RollerResult
 from .rotor_dynamics import rotor_coefficients as rotor_coefficients
+from .skidding import roller_slip as roller_slip
 from .slewing import SlewingBearing as SlewingBearing
 from .slewing_flexible import FlexibleResult as FlexibleResult
 from .slewing_reference import reference_equilibrium as reference_equilibrium

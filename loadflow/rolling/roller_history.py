@@ -21,6 +21,7 @@ from loadflow.rolling.radial_load import LineLaw, radial_distribution
 
 if TYPE_CHECKING:
     from loadflow.rolling.roller import RollerBearing
+    from loadflow.rolling.roller_result import RollerResult
 
 Array = NDArray[np.float64]
 
@@ -241,13 +242,11 @@ def radial_history(
 
 
 def bearing_histories(
-    bearing: RollerBearing,
+    result: RollerResult,
     time: ArrayLike,
-    force: ArrayLike,
-    moment: ArrayLike,
     speed: ArrayLike,
     *,
-    down: float = 0.0,
+    down: float = -math.pi / 2,
     gravity: float = GRAVITY,
 ) -> list[RollerHistory]:
     """Rollers of each row of a bearing under a load series, outer ring at rest.
@@ -257,12 +256,10 @@ def bearing_histories(
 
     Parameters
     ----------
-    bearing : RollerBearing
-        Bearing.
+    result : RollerResult
+        Load distribution, cases (n,).
     time : array_like, shape (n,)
         s.
-    force, moment : array_like, shapes (n, 3), (n, 2)
-        As `RollerBearing.equilibrium` takes them.
     speed : array_like, shape (n,) or ()
         Of the inner ring, rad/s.
     down : float
@@ -272,21 +269,22 @@ def bearing_histories(
 
     Raises
     ------
-    SolverError
-        If a sample has no equilibrium.
+    InputError
+        If the times do not fit the cases, or do not rise.
     """
     from loadflow.rolling import _forces
 
-    t, row = np.asarray(time, float), RollerRow.of(bearing)
+    bearing, t = result.bearing, np.asarray(time, float)
+    if result.cases != t.shape:
+        raise InputError(f"time: shape {result.cases} of the load cases is needed, got {t.shape}")
+    row = RollerRow.of(bearing)
     omega = np.broadcast_to(np.asarray(speed, float), t.shape)
     rest = np.zeros_like(t)
     cage = np.asarray(row.cage_speed(omega, rest))
     angle = turned(t, cage)
-    result = bearing.equilibrium(force=force, moment=moment)
-    shift = np.array(np.broadcast_to(result.displacement, (*t.shape, 5)))
-    cos, sin = np.cos(angle), np.sin(angle)
+    shift, cos, sin = result.displacement.copy(), np.cos(angle), np.sin(angle)
     for i, j in ((0, 1), (3, 4)):  # as the cage sees it
-        x, y = shift[:, i].copy(), shift[:, j].copy()
+        x, y = result.displacement[:, i], result.displacement[:, j]
         shift[:, i], shift[:, j] = cos * x + sin * y, cos * y - sin * x
     around_cos, around_sin, spans, table, *_ = result.contacts.arguments
     forces = _forces.row_forces(shift, around_cos, around_sin, spans, table, bearing.rows)

@@ -169,6 +169,10 @@ def summary_rows(errors: Iterable[FilmError]) -> list[list[str]]:
         return [name, "", "", "", *(f"{v:.3f}" for v in values.tolist()), "", errors_of]
 
     return [
-        row("mean of absolute values", np.abs(deviation).mean(axis=0), np.abs(true).mean() if true.size else 0),
+        row(
+            "mean of absolute values",
+            np.abs(deviation).mean(axis=0),
+            np.abs(true).mean() if true.size else 0,
+        ),
         row("standard deviation", deviation.std(axis=0), true.std() if true.size else 0),
     ]

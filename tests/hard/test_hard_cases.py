@@ -4,6 +4,7 @@ from pathlib import Path
 
 import friction_cases  # noqa: F401
 import journal_cases  # noqa: F401
+import motion_cases  # noqa: F401
 import pytest
 import record_cases  # noqa: F401
 import rolling_cases  # noqa: F401
