@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import tempfile
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import xarray as xr
 from measuring import (
     Bench,
     Entry,
@@ -16,6 +18,7 @@ from measuring import (
     inputs,
     label,
     on_cases,
+    percent,
     radial_loads,
     rounded,
     sentence,
@@ -26,6 +29,15 @@ from measuring import (
 from loadflow.cube import make_cube, save_cube
 from loadflow.reduction import damage_equivalent_load
 from loadflow.scene import Scene, Shaft, with_loads
+from loadflow.shaft import (
+    Beam,
+    BearingSeat,
+    DirectDrive,
+    Integrated,
+    MomentBearing,
+    ThreePoint,
+    TwoPoint,
+)
 from loadflow.stages import loads, seeds, shaft, statistics
 from loadflow.stages.cases import list_cases
 
@@ -123,26 +135,56 @@ def _files(bench: Bench) -> Entry:
     }
 
 
+RIGID = "rigid shaft, weights, statically determinate"
+BEAM = "shaft as a Timoshenko beam, tilt and curvature in the bearings"
+TILTING = 5e8
+"""N m/rad, of bearings that resist tilting, such as paired tapered rollers; assumed."""
+
+
 def measure_shaft(bench: Bench) -> Rungs:
-    full, parts = bench.scene.shaft, bench.series[bench.middle]
-    concepts = {
-        "two_point": Shaft(two_point=full.two_point),
-        "moment": Shaft(moment=full.moment),
-        "two_point+moment": full,
+    parts = bench.series[bench.middle]
+    two, one = TwoPoint(), MomentBearing()
+    bent, stiff = replace(two, beam=Beam()), replace(one, beam=Beam())
+    rungs = {
+        "two_point": Shaft(two_point=two),
+        "three_point": Shaft(three_point=ThreePoint()),
+        "integrated": Shaft(integrated=Integrated()),
+        "direct_drive": Shaft(direct_drive=DirectDrive()),
+        "moment": Shaft(moment=one),
+        "two_point+moment": Shaft(two_point=two, moment=one),
+        "two_point, beam": Shaft(two_point=bent),
+        "moment, beam": Shaft(moment=stiff),
+        "two_point, beam+moment": Shaft(two_point=bent, moment=one),
+        "two_point, beam+moment, beam": Shaft(two_point=bent, moment=stiff),
     }
 
-    def seconds(concept: Shaft) -> float:
-        scene = bench.scene.model_copy(update={"shaft": concept})
-        return timed(lambda: shaft.bearing_loads(scene, bench.middle, parts), bench.setting.repeat)
+    def loaded(section: Shaft) -> xr.Dataset:
+        scene = bench.scene.model_copy(update={"shaft": section})
+        return shaft.bearing_loads(scene, bench.middle, parts)
 
-    return with_ratios(
-        {
-            name: _exact(bench, seconds(concept), "rigid shaft, weights, statically determinate")
-            | {"error": "exact (statically determinate)"}
-            for name, concept in concepts.items()
-        },
-        "two_point+moment",
+    def entry(name: str, section: Shaft) -> Entry:
+        seconds = timed(lambda: loaded(section), bench.setting.repeat)
+        includes = BEAM if "beam" in name else RIGID
+        return _exact(bench, seconds, includes) | {"error": "exact (statically determinate)"}
+
+    found = {name: entry(name, section) for name, section in rungs.items()}
+    seat = BearingSeat(radial=5e9, takes_moment=True, tilt=TILTING)
+    tough = loaded(Shaft(two_point=replace(two, beam=Beam(seats=(seat, seat)))))
+    loads = {"rigid": loaded(rungs["two_point"]), "tough": tough}
+    peaks = {
+        kind: {n: np.hypot(*_across(data["force"].sel(bearing=n))).max() for n in ("N", "N2")}
+        for kind, data in loads.items()
+    }
+    off = max(abs(peaks["rigid"][n] / peaks["tough"][n] - 1) for n in ("N", "N2"))
+    found["two_point"]["error"] += (
+        f"; if both bearings resist tilting with {TILTING:.0e} N m/rad, bearing load max ≤ "
+        f"{percent(off)} against the beam"
     )
+    return with_ratios(found, "two_point+moment")
+
+
+def _across(force: xr.DataArray) -> np.ndarray:
+    return force.sel(axis=["y", "z"]).transpose("axis", "time").values
 
 
 def _exact(bench: Bench, seconds: float, includes: str) -> Entry:

@@ -7,7 +7,7 @@ processor time per unit of work, and the error of what users read against a stat
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from functools import cache
 from importlib.resources import files
 from typing import Any
@@ -42,12 +42,18 @@ def rung_of(scene: Scene, stage: str) -> str:
     if stage == "loads":
         return (scene.loads.rung or "flap") if scene.loads.source == "simulate" else "files"
     return {
-        "shaft": "+".join(name for name, _ in scene.shaft if getattr(scene.shaft, name)),
+        "shaft": "+".join(_shaft_rungs(scene)),
         "seeds": "+".join(sorted(set(scene.seeds.methods))),
         "reduction": _reduction_rung(scene),
         "journal": _film_rung(scene),
         "rolling": scene.rolling.rings,
     }.get(stage, "-")
+
+
+def _shaft_rungs(scene: Scene) -> Iterator[str]:
+    for name, concept in scene.shaft:
+        if concept:
+            yield f"{name}, beam" if concept.beam else name
 
 
 def _film_rung(scene: Scene) -> str:

@@ -16,7 +16,14 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_valida
 from loadflow.errors import InputError
 from loadflow.journal import GasMixture, JournalBearing, Lubricant, Supply
 from loadflow.rolling import FlexibleRings, RingBeam, RingSection, SlewingBearing, Support
-from loadflow.shaft.options import MomentBearing, TwoPoint
+from loadflow.shaft.options import (
+    Concept,
+    DirectDrive,
+    Integrated,
+    MomentBearing,
+    ThreePoint,
+    TwoPoint,
+)
 
 Result = Literal[
     "loads.statistics",
@@ -103,16 +110,38 @@ class Loads(_Section):
 class Shaft(_Section):
     """Suspensions to compute; a table that is left out costs nothing.
 
-    ``two_point`` gives the bearings N (floating) and N2 (locating), ``moment`` the bearing M.
+    ``two_point``, ``integrated`` and ``direct_drive`` have the bearings N (floating) and N2
+    (locating), ``three_point`` the bearing N and the gearbox's torque arms G; one of these at most.
+    ``moment`` has the bearing M. With a ``beam`` in its table the shaft bends, and tilts in its
+    bearings; an empty one takes the defaults.
     """
 
     two_point: TwoPoint | None = None
+    three_point: ThreePoint | None = None
+    integrated: Integrated | None = None
+    direct_drive: DirectDrive | None = None
     moment: MomentBearing | None = None
+
+    @property
+    def concepts(self) -> tuple[Concept, ...]:
+        """The suspensions that the scene has."""
+        return tuple(concept for _, concept in self if concept)
 
     @property
     def bearings(self) -> tuple[str, ...]:
         """Names of the bearings that these suspensions have."""
-        return (("N", "N2") if self.two_point else ()) + (("M",) if self.moment else ())
+        return tuple(name for concept in self.concepts for name in concept.bearings)
+
+    @model_validator(mode="after")
+    def _each_bearing_once(self) -> Self:
+        with_first = [name for name, concept in self if concept and "N" in concept.bearings]
+        if len(with_first) > 1:
+            raise ValueError(f"{' and '.join(with_first)} all have a bearing N; keep one of them")
+        return self
+
+    def leans(self, bearing: str) -> bool:
+        """Whether the shaft is a beam there, so that its tilt in the bearing is known."""
+        return any(c.beam is not None and bearing in c.bearings for c in self.concepts)
 
 
 class Seeds(_Section):
@@ -138,8 +167,9 @@ class Journal(_Section):
     ``"transient"`` follows the shaft through the whole series, step by step.
     ``rung = "map"`` tabulates the film once, for long series (docs/journal-map.md).
 
-    With ``tilt`` the shaft tilts in them under the moment that the shaft stage gives; the film is
-    then solved over its full width.
+    With ``tilt`` the shaft leans in them as the beam of its suspension does, tilted and bent; if it
+    has none, it tilts freely under the moment that the shaft stage gives. The film is then solved
+    over its full width.
     """
 
     bearings: Annotated[list[str], Field(min_length=1)] = ["N", "N2"]
@@ -244,6 +274,17 @@ class Scene(_Section):
                 if bearing not in self.shaft.bearings:
                     have = ", ".join(self.shaft.bearings) or "none"
                     raise ValueError(f"{key} = {bearing!r}: the shaft has the bearings {have}")
+        return self
+
+    @model_validator(mode="after")
+    def _leaning_at_rest(self) -> Self:
+        journal = self.journal
+        leaning = journal.tilt and any(map(self.shaft.leans, journal.bearings))
+        if leaning and journal.motion == "transient":
+            raise ValueError(
+                'journal.motion = "transient" does not know the tilt of a shaft with a beam; set '
+                '"quasi-static", or leave out journal.tilt or the beam'
+            )
         return self
 
     def wants(self, room: str) -> bool:

@@ -8,7 +8,7 @@ import pytest
 
 from loadflow.ladder import STEPS_PER_CASE, gains, ladder
 from loadflow.plan import make_plan
-from loadflow.scene import Journal, Loads, Reduction, Rolling, Seeds, make_scene
+from loadflow.scene import Journal, Loads, Reduction, Rolling, Seeds, Shaft, make_scene
 from loadflow.wind import LOAD_CASES
 
 BENCHMARKS = Path(__file__).parents[1] / "benchmarks"
@@ -48,9 +48,18 @@ def test_every_rung_that_a_scene_can_choose_has_cost_and_error(sections):
         assert step.error
 
 
-@pytest.mark.parametrize("concept", ["two_point", "moment"])
-def test_each_suspension_alone_is_measured(concept):
-    plan = plan_of(shaft={concept: {}}, results=["loads.statistics"])
+SHAFTS = [
+    *({concept: {}} for concept in Shaft.model_fields),
+    {"two_point": {"beam": {}}},
+    {"moment": {"beam": {}}},
+    {"two_point": {"beam": {}}, "moment": {}},
+    {"two_point": {"beam": {}}, "moment": {"beam": {}}},
+]
+
+
+@pytest.mark.parametrize("shaft", SHAFTS, ids=str)
+def test_each_suspension_is_measured(shaft):
+    plan = plan_of(shaft=shaft, results=["loads.statistics"])
     assert all(step.seconds for step in plan.steps)
 
 

@@ -1,4 +1,10 @@
+from .beam import Beam as Beam
+from .beam import BearingSeat as BearingSeat
+from .beam import ShaftSection as ShaftSection
+from .elastic import BearingModel as BearingModel
 from .options import Concept as Concept
+from .options import DirectDrive as DirectDrive
+from .options import Integrated as Integrated
 from .options import MomentBearing as MomentBearing
 from .options import ThreePoint as ThreePoint
 from .options import TwoPoint as TwoPoint

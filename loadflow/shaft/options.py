@@ -1,6 +1,8 @@
 """Suspension concepts of Table 2-4 of the source [Jonuschies 2015]; data only.
 
-Distances are measured along the shaft, downwind from the hub centre (the rotor apex).
+Distances are measured along the shaft, downwind from the hub centre (the rotor apex). Every concept
+tells its `bearings`, their `positions` (m), the number of the `locating` one, the `masses` on the
+shaft as pairs of position (m) and mass (kg), and its `beam`: None for a rigid shaft.
 """
 
 from __future__ import annotations
@@ -12,6 +14,9 @@ from typing import Annotated, ClassVar
 from annotated_types import Ge, Gt
 
 from loadflow.errors import InputError
+from loadflow.shaft.beam import Beam
+
+Masses = tuple[tuple[float, float], ...]
 
 
 @dataclass(frozen=True)
@@ -39,6 +44,8 @@ class TwoPoint:
         Lateral distance of a one-sided torque support of the gearbox, m, left of the shaft if
         positive; its reaction to the torque loads the shaft. 0: supports on both sides, whose
         forces cancel.
+    beam : Beam, optional
+        The shaft as an elastic beam; without, rigid.
     """
 
     hub_to_first: Annotated[float, Gt(0)] = 1.912
@@ -48,15 +55,17 @@ class TwoPoint:
     shaft_mass: Annotated[float, Ge(0)] = 0.0
     hub_to_shaft_centre: Annotated[float, Ge(0)] = 3.5
     torque_arm: float = 0.0
+    beam: Beam | None = None
 
-    bearings: ClassVar[tuple[str, str]] = ("N", "N2")
+    bearings: ClassVar[tuple[str, ...]] = ("N", "N2")
+    locating: ClassVar[int] = 1
 
     def __post_init__(self) -> None:
         _check(self, positive=("hub_to_first", "span"))
 
     @property
-    def positions(self) -> tuple[float, float]:
-        """Positions of the two supports, m."""
+    def positions(self) -> tuple[float, ...]:
+        """Positions of the two bearings, m."""
         return self.hub_to_first, self.hub_to_first + self.span
 
     @property
@@ -64,10 +73,23 @@ class TwoPoint:
         """Position of the centre of mass of the gearbox, m."""
         return self.hub_to_first + self.span + self.second_to_gearbox
 
+    @property
+    def masses(self) -> Masses:
+        """Shaft and gearbox."""
+        shaft = (self.hub_to_shaft_centre, self.shaft_mass)
+        return shaft, (self.gearbox_position, self.gearbox_mass)
+
+    @property
+    def torque_support(self) -> tuple[float, float] | None:
+        """Position and lateral arm of a one-sided support, m."""
+        return (self.gearbox_position, self.torque_arm) if self.torque_arm else None
+
 
 @dataclass(frozen=True)
 class ThreePoint:
     """One main bearing N, which locates, and the torque arms of the gearbox as second support G.
+
+    The arms stand on both sides; their pair of forces against the torque cancels on the shaft.
 
     Attributes
     ----------
@@ -77,7 +99,7 @@ class ThreePoint:
         N to the plane of the torque arms G, m.
     gearbox_offset : float
         Torque arms to the centre of mass of the gearbox, downwind, m.
-    gearbox_mass, shaft_mass, hub_to_shaft_centre
+    gearbox_mass, shaft_mass, hub_to_shaft_centre, beam
         As in `TwoPoint`.
     """
 
@@ -87,22 +109,113 @@ class ThreePoint:
     gearbox_mass: Annotated[float, Ge(0)] = 60e3
     shaft_mass: Annotated[float, Ge(0)] = 0.0
     hub_to_shaft_centre: Annotated[float, Ge(0)] = 3.5
+    beam: Beam | None = None
 
-    bearings: ClassVar[tuple[str, str]] = ("N", "G")
-    torque_arm: ClassVar[float] = 0.0
+    bearings: ClassVar[tuple[str, ...]] = ("N", "G")
+    locating: ClassVar[int] = 0
+    torque_support: ClassVar[None] = None
 
     def __post_init__(self) -> None:
         _check(self, positive=("hub_to_first", "span"))
 
     @property
-    def positions(self) -> tuple[float, float]:
-        """Positions of the two supports, m."""
+    def positions(self) -> tuple[float, ...]:
+        """Positions of the main bearing and of the torque arms, m."""
         return self.hub_to_first, self.hub_to_first + self.span
 
     @property
-    def gearbox_position(self) -> float:
-        """Position of the centre of mass of the gearbox, m."""
-        return self.hub_to_first + self.span + self.gearbox_offset
+    def masses(self) -> Masses:
+        """Shaft and gearbox."""
+        shaft = (self.hub_to_shaft_centre, self.shaft_mass)
+        return shaft, (self.positions[1] + self.gearbox_offset, self.gearbox_mass)
+
+
+@dataclass(frozen=True)
+class Integrated:
+    """Two bearings N, N2 close together in the housing of the gearbox, which the frame carries.
+
+    Its torque reaction stays in the frame. The default distances are assumed.
+
+    Attributes
+    ----------
+    hub_to_first : float
+        Hub centre to the floating bearing N, m.
+    span : float
+        N to the locating bearing N2, m.
+    shaft_mass, hub_to_shaft_centre, beam
+        As in `TwoPoint`; the mass is that of the planet carrier as well, where it turns along.
+    """
+
+    hub_to_first: Annotated[float, Gt(0)] = 1.912
+    span: Annotated[float, Gt(0)] = 1.2
+    shaft_mass: Annotated[float, Ge(0)] = 0.0
+    hub_to_shaft_centre: Annotated[float, Ge(0)] = 2.5
+    beam: Beam | None = None
+
+    bearings: ClassVar[tuple[str, ...]] = ("N", "N2")
+    locating: ClassVar[int] = 1
+    torque_support: ClassVar[None] = None
+
+    def __post_init__(self) -> None:
+        _check(self, positive=("hub_to_first", "span"))
+
+    @property
+    def positions(self) -> tuple[float, ...]:
+        """Positions of the two bearings, m."""
+        return self.hub_to_first, self.hub_to_first + self.span
+
+    @property
+    def masses(self) -> Masses:
+        """The shaft."""
+        return ((self.hub_to_shaft_centre, self.shaft_mass),)
+
+
+@dataclass(frozen=True)
+class DirectDrive:
+    """Two bearings N, N2 and the generator's rotor on the shaft, no gearbox.
+
+    The default distances are those of the IEA 15 MW turbine. The air gap hands its torque to the
+    frame; the pull of an eccentric air gap is left out.
+
+    Attributes
+    ----------
+    hub_to_first : float
+        Hub centre to the floating bearing N, m.
+    span : float
+        N to the locating bearing N2, m.
+    generator_mass : float
+        Mass of the generator's rotor, kg.
+    hub_to_generator : float
+        Hub centre to the centre of that mass, m.
+    shaft_mass, hub_to_shaft_centre, beam
+        As in `TwoPoint`.
+    """
+
+    hub_to_first: Annotated[float, Gt(0)] = 1.0
+    span: Annotated[float, Gt(0)] = 1.2
+    generator_mass: Annotated[float, Ge(0)] = 0.0
+    hub_to_generator: Annotated[float, Ge(0)] = 1.6
+    shaft_mass: Annotated[float, Ge(0)] = 0.0
+    hub_to_shaft_centre: Annotated[float, Ge(0)] = 1.6
+    beam: Beam | None = None
+
+    bearings: ClassVar[tuple[str, ...]] = ("N", "N2")
+    locating: ClassVar[int] = 1
+    torque_support: ClassVar[None] = None
+
+    def __post_init__(self) -> None:
+        _check(self, positive=("hub_to_first", "span"))
+
+    @property
+    def positions(self) -> tuple[float, ...]:
+        """Positions of the two bearings, m."""
+        return self.hub_to_first, self.hub_to_first + self.span
+
+    @property
+    def masses(self) -> Masses:
+        """Shaft and generator."""
+        shaft = (self.hub_to_shaft_centre, self.shaft_mass)
+        return shaft, (self.hub_to_generator, self.generator_mass)
 
 
 @dataclass(frozen=True)
@@ -117,23 +230,42 @@ class MomentBearing:
         Mass of what turns with the rotor behind the hub, kg.
     hub_to_shaft_centre : float
         Hub centre to the centre of that mass, m.
+    beam : Beam, optional
+        As in `TwoPoint`.
     """
 
     hub_to_bearing: Annotated[float, Gt(0)] = 1.912
     shaft_mass: Annotated[float, Ge(0)] = 0.0
     hub_to_shaft_centre: Annotated[float, Ge(0)] = 1.912
+    beam: Beam | None = None
 
-    bearings: ClassVar[tuple[str]] = ("M",)
+    bearings: ClassVar[tuple[str, ...]] = ("M",)
+    locating: ClassVar[int] = 0
+    torque_support: ClassVar[None] = None
 
     def __post_init__(self) -> None:
         _check(self, positive=("hub_to_bearing",))
 
+    @property
+    def positions(self) -> tuple[float, ...]:
+        """Position of the bearing, m."""
+        return (self.hub_to_bearing,)
 
-Concept = TwoPoint | ThreePoint | MomentBearing
+    @property
+    def masses(self) -> Masses:
+        """What turns with the rotor."""
+        return ((self.hub_to_shaft_centre, self.shaft_mass),)
+
+
+Concept = TwoPoint | ThreePoint | Integrated | DirectDrive | MomentBearing
 
 
 def _check(concept: Concept, positive: tuple[str, ...]) -> None:
+    if concept.beam is not None:
+        concept.beam.seats_of(len(concept.bearings))
     for name, value in vars(concept).items():
+        if name == "beam":
+            continue
         if not math.isfinite(value):
             raise InputError(f"{name} = {value}: must be finite")
         if name in positive and value <= 0:

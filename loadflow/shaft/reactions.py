@@ -1,4 +1,4 @@
-"""Equilibrium of the shaft: statically determinate reactions of its supports.
+"""Loads on the bearings: of a rigid shaft from equilibrium, of an elastic one as it bends.
 
 Frame of the load cube: x along the shaft, downwind; z up; y completes it. A force F at position x
 on the shaft has the moment x e_x × F = (0, −x Fz, x Fy) about the hub centre.
@@ -6,14 +6,15 @@ on the shaft has the moment x e_x × F = (0, −x Fz, x Fy) about the hub centre
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError
-from loadflow.shaft.options import Concept, MomentBearing, ThreePoint, TwoPoint
+from loadflow.shaft.elastic import BearingModel, Leaning, lean
+from loadflow.shaft.options import Concept
 
 GRAVITY = 9.80665
 
@@ -27,6 +28,7 @@ def bearing_loads(
     *,
     tilt: float = 0.0,
     time: ArrayLike | None = None,
+    models: Mapping[str, BearingModel] | None = None,
 ) -> xr.Dataset:
     """Loads that the shaft applies to its bearings, from equilibrium at every instant.
 
@@ -34,8 +36,9 @@ def bearing_loads(
 
     Parameters
     ----------
-    concept : TwoPoint, ThreePoint or MomentBearing
-        The suspension.
+    concept : TwoPoint, ThreePoint, Integrated, DirectDrive or MomentBearing
+        The suspension. With a `beam` the shaft bends: bearings that resist tilting then share the
+        load according to their stiffness, and all tell how the shaft leans in them.
     hub_force : array_like, shape (3, n) or (3,)
         What the rotor applies to the shaft at the hub centre, weight included, N.
     hub_moment : array_like, shape (3, n) or (3,)
@@ -45,17 +48,26 @@ def bearing_loads(
         weight along the shaft, downwind.
     time : array_like, shape (n,), optional
         Time, s.
+    models : mapping, optional
+        What bearings do under load, by name: functions of force and moment (n, 3) that return
+        displacement (n, 4) and stiffness (n, 4, 4) in y, z, θy, θz. They replace the constant
+        stiffness in the beam's seats; shaft and bearings are iterated until they agree.
 
     Returns
     -------
     xarray.Dataset
         `force` (N) and `moment` (N m) over (bearing, axis, time), with the coordinate
-        `position` (bearing), m from the hub centre. The torque passes by all bearings.
+        `position` (bearing), m from the hub centre. The torque passes by all bearings. With a beam
+        also `displacement` (m), `tilt` (rad) and `curvature` (1/m) of the shaft in each bearing,
+        and the attributes `converged`, `residual` and `iterations`.
 
     Raises
     ------
     loadflow.errors.InputError
-        Shapes do not match, a load is not finite, or |tilt| is not below 90°.
+        Shapes do not match, a load is not finite, or |tilt| is not below 90°; models without a
+        beam, or of a bearing that is not there.
+    loadflow.errors.SolverError
+        Shaft and bearing models do not settle.
 
     Examples
     --------
@@ -70,13 +82,23 @@ def bearing_loads(
     if not abs(tilt) < np.pi / 2:
         raise InputError(f"tilt = {tilt} rad: must be between -π/2 and π/2")
     down = np.array([np.sin(tilt), 0.0, -np.cos(tilt)])
+    own = list(_own_loads(concept, moment[0], down))
     total, about_hub = force.copy(), moment.copy()
-    for position, extra in _own_loads(concept, moment[0], down):
+    for position, extra in own:
         total += extra
         about_hub += _moment_of(position, extra)
-    if isinstance(concept, MomentBearing):
-        return _one_support(concept, total, about_hub, time)
-    return _two_supports(concept, total, about_hub, time)
+    numbered = _numbered(concept, models or {})
+    if concept.beam is None:
+        across = _one_support if len(concept.bearings) == 1 else _two_supports
+        forces, moments = across(concept, total, about_hub)
+        leaning = None
+    else:
+        places = np.array([0.0, *(position for position, _ in own)])
+        pushes = np.stack(np.broadcast_arrays(force, *(extra for _, extra in own)))
+        leaning = lean(concept.beam, concept.positions, places, pushes, moment, numbered)
+        forces, moments = leaning.force, leaning.moment
+    forces[concept.locating, 0] = total[0]
+    return _dataset(concept, forces, moments, leaning, time)
 
 
 def _checked(load: ArrayLike, name: str) -> Floats:
@@ -91,16 +113,24 @@ def _checked(load: ArrayLike, name: str) -> Floats:
     return values
 
 
+def _numbered(concept: Concept, models: Mapping[str, BearingModel]) -> dict[int, BearingModel]:
+    for name in models:
+        if name not in concept.bearings:
+            raise InputError(f"models: no bearing {name!r}; there are {concept.bearings}")
+    if models and concept.beam is None:
+        raise InputError("models: a rigid shaft does not feel its bearings; give it a beam")
+    return {concept.bearings.index(name): model for name, model in models.items()}
+
+
 def _own_loads(concept: Concept, torque: Floats, down: Floats) -> Iterator[tuple[float, Floats]]:
     """Yield position and force of the weights and of the torque support."""
-    yield concept.hub_to_shaft_centre, (concept.shaft_mass * GRAVITY * down)[:, None]
-    if isinstance(concept, MomentBearing):
-        return
-    yield concept.gearbox_position, (concept.gearbox_mass * GRAVITY * down)[:, None]
-    if concept.torque_arm:
+    for position, mass in concept.masses:
+        yield position, (mass * GRAVITY * down)[:, None]
+    if concept.torque_support:
+        position, arm = concept.torque_support
         support = np.zeros((3, torque.size))
-        support[2] = -torque / concept.torque_arm
-        yield concept.gearbox_position, support
+        support[2] = -torque / arm
+        yield position, support
 
 
 def _moment_of(position: float, force: Floats) -> Floats:
@@ -108,60 +138,57 @@ def _moment_of(position: float, force: Floats) -> Floats:
     return position * np.stack([np.zeros_like(force[0]), -force[2], force[1]])
 
 
-def _one_support(
-    concept: MomentBearing, total: Floats, about_hub: Floats, time: ArrayLike | None
-) -> xr.Dataset:
-    moment = about_hub - _moment_of(concept.hub_to_bearing, total)
+def _one_support(concept: Concept, total: Floats, about_hub: Floats) -> tuple[Floats, Floats]:
+    moment = about_hub - _moment_of(concept.positions[0], total)
     moment[0] = 0.0
-    return _dataset(concept.bearings, (concept.hub_to_bearing,), total[None], moment[None], time)
+    return total[None].copy(), moment[None]
 
 
-def _two_supports(
-    concept: TwoPoint | ThreePoint, total: Floats, about_hub: Floats, time: ArrayLike | None
-) -> xr.Dataset:
-    """Share the radial load between two supports without moment; the locating one takes thrust."""
+def _two_supports(concept: Concept, total: Floats, about_hub: Floats) -> tuple[Floats, Floats]:
+    """Share the radial load between two supports without moment."""
     first, second = concept.positions
     about_first = about_hub - _moment_of(first, total)
-    far = np.zeros_like(total)
-    far[1] = about_first[2] / (second - first)
-    far[2] = -about_first[1] / (second - first)
-    near = total - far
-    if isinstance(concept, TwoPoint):
-        far[0], near[0] = total[0], 0.0
-    forces = np.stack([near, far])
-    return _dataset(concept.bearings, concept.positions, forces, np.zeros_like(forces), time)
+    forces = np.zeros((2, *total.shape))
+    forces[1, 1] = about_first[2] / (second - first)
+    forces[1, 2] = -about_first[1] / (second - first)
+    forces[0, 1:] = total[1:] - forces[1, 1:]
+    return forces, np.zeros_like(forces)
 
 
 def _dataset(
-    bearings: tuple[str, ...],
-    positions: tuple[float, ...],
+    concept: Concept,
     force: Floats,
     moment: Floats,
+    leaning: Leaning | None,
     time: ArrayLike | None,
 ) -> xr.Dataset:
-    dims = ("bearing", "axis", "time")
+    found = {
+        "force": (force, "N", "force of the shaft on the bearing"),
+        "moment": (moment, "N m", "moment of the shaft on the bearing"),
+    }
+    attrs: dict[str, float] = {}
+    if leaning:
+        found |= {
+            "displacement": (leaning.displacement, "m", "displacement of the shaft at the bearing"),
+            "tilt": (leaning.tilt, "rad", "rotation of the shaft at the bearing"),
+            "curvature": (leaning.curvature, "1/m", "curvature of the shaft at the bearing"),
+        }
+        attrs = vars(leaning.convergence) | {"converged": int(leaning.convergence.converged)}
     place = {
         "units": "m",
         "long_name": "position of the bearing along the shaft from the hub centre",
     }
     dataset = xr.Dataset(
         {
-            "force": (
-                dims,
-                force,
-                {"units": "N", "long_name": "force of the shaft on the bearing"},
-            ),
-            "moment": (
-                dims,
-                moment,
-                {"units": "N m", "long_name": "moment of the shaft on the bearing"},
-            ),
+            name: (("bearing", "axis", "time"), values, {"units": units, "long_name": meaning})
+            for name, (values, units, meaning) in found.items()
         },
         {
-            "bearing": list(bearings),
+            "bearing": list(concept.bearings),
             "axis": ["x", "y", "z"],
-            "position": ("bearing", list(positions), place),
+            "position": ("bearing", list(concept.positions), place),
         },
+        attrs,
     )
     if time is None:
         return dataset

@@ -18,7 +18,7 @@ from loadflow.reduction import damage_equivalent_load
 from loadflow.scene import Journal, Scene
 from loadflow.stages.cases import Case
 from loadflow.stages.frames import to_film
-from loadflow.stages.journal import equilibria
+from loadflow.stages.journal import equilibria, shaft_line
 from loadflow.stages.loads import hub_loads
 from loadflow.stages.shaft import bearing_loads
 from loadflow.stages.statistics import SLOPE
@@ -181,9 +181,10 @@ def _severest(
     speed = parts["loads"]["speed"].values.astype(float)
     turning = np.abs(speed) >= np.abs(film["speed"].values[film["converged"].values > 0]).min()
     worst = int(np.argmax(np.where(turning, load / np.maximum(np.abs(speed), 1e-12), 0.0)))
-    at = parts["shaft"]["force"].sel(bearing=bearing).isel(time=worst)
-    force = at.transpose("axis").values.astype(float)
-    answer = equilibria(options, force[None], speed[worst : worst + 1])
+    at = parts["shaft"].sel(bearing=bearing).isel(time=[worst])
+    force = at["force"].transpose("time", "axis").values.astype(float)
+    line = shaft_line(options, at)
+    answer = equilibria(options, force, speed[worst : worst + 1], **line)
     return _relative(
         float(film["eccentricity_ratio"].max()), float(np.max(answer.eccentricity_ratio))
     )
@@ -195,12 +196,13 @@ def _film(scene: Scene, case: Case, parts: Mapping[str, Any]) -> Iterator[Differ
         film = parts["journal"][bearing].to_dataset().load()
         places = _spread(film["eccentricity_ratio"].values)
         some = film.isel(sample=places)
-        force = parts["reduction"][bearing]["force"].values[places]
+        loads = parts["reduction"][bearing].to_dataset().isel(sample=places)
+        line = shaft_line(scene.journal, loads)
         against = {"oil warmed by its friction": _warmer(scene.journal, some)}
         if better is not None:
             against[f"the film {rung_of(better, 'journal')}"] = better.journal
         for name, options in against.items():
-            answer = equilibria(options, force, some["speed"].values)
+            answer = equilibria(options, loads["force"].values, some["speed"].values, **line)
             stage = "heat" if name == "oil warmed by its friction" else "journal"
             for quantity in FILM:
                 ours, theirs = some[quantity].values, getattr(answer, quantity)

@@ -71,8 +71,7 @@ def orbit(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
 
 def _resting(options: Journal, bearing: str, reduced: xr.Dataset) -> xr.Dataset:
     speed = reduced["speed"].values
-    moment = reduced["moment"].values if options.tilt else None
-    answer = equilibria(options, reduced["force"].values, speed, moment)
+    answer = equilibria(options, reduced["force"].values, speed, **shaft_line(options, reduced))
     if not np.any(answer.converged):
         raise SolverError(
             f"bearing {bearing}: no film carries any of the {speed.size} samples; speed "
@@ -113,19 +112,35 @@ def _moving(options: Journal, bearing: str, loads: xr.Dataset, reactions: xr.Dat
     return _placed(options, samples.assign(film_samples(found)), path["eccentricity"].values)
 
 
+def shaft_line(options: Journal, bearing: xr.Dataset) -> dict[str, np.ndarray]:
+    """How the shaft lies in the bearing: as its beam says, or free under a moment, or aligned.
+
+    Keywords of `equilibria`, each (n, 3), from a series of loads with a last dimension ``axis``.
+    """
+    if not options.tilt:
+        return {}
+    names = {"moment": "moment"}
+    if "tilt" in bearing and bool(bearing["tilt"].notnull().all()):
+        names = {"tilt": "tilt", "bend": "curvature"}
+    return {
+        key: bearing[name].transpose(..., "axis").values.astype(float)
+        for key, name in names.items()
+    }
+
+
 def equilibria(
-    options: Journal, force: np.ndarray, speed: np.ndarray, moment: np.ndarray | None = None
+    options: Journal, force: np.ndarray, speed: np.ndarray, **line: np.ndarray
 ) -> Equilibrium:
     """Solve the film of a scene's bearing for `force` (n, 3) in the cube's frame, N.
 
-    With a `moment` (n, 3), N m, the shaft tilts under it; without, it stays aligned.
+    With a `moment` (n, 3), N m, the shaft tilts under it; with a `tilt` (n, 3), rad, and a `bend`,
+    1/m, it lies as they say; without, it stays aligned.
     """
     return options.geometry.equilibrium(
         force=to_film(force),
         speed=speed,
         strict=False,
-        moment=None if moment is None else to_film(moment),
-        **_film(options),
+        **_film(options) | {name: to_film(vectors) for name, vectors in line.items()},
     )
 
 

@@ -36,8 +36,18 @@ def reduced_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTr
             seed=scene.reduction.seed,
             source=f"{case.name}, bearing {bearing}",
         )
-        groups[str(bearing)] = reduced_dataset(reduced, force, moment, by_moment)
+        dataset = reduced_dataset(reduced, force, moment, by_moment)
+        groups[str(bearing)] = dataset.assign(_leaning(shaft.sel(bearing=bearing), reduced))
     return xr.DataTree.from_dict(groups)
+
+
+def _leaning(bearing: xr.Dataset, reduced: Reduced) -> dict[str, Any]:
+    """How the shaft leans in the bearing at the samples kept, where it is a beam."""
+    return {
+        name: (("sample", "axis"), _vectors(bearing[name])[reduced.index], bearing[name].attrs)
+        for name in ("tilt", "curvature")
+        if name in bearing and bool(bearing[name].notnull().all())
+    }
 
 
 def _vectors(data: xr.DataArray) -> np.ndarray:

@@ -11,7 +11,11 @@ from loadflow.stages.cases import Case
 
 
 def bearing_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
-    """Return `force` and `moment` (bearing, axis, time) of all suspensions of the scene."""
+    """Return `force` and `moment` (bearing, axis, time) of all suspensions of the scene.
+
+    Where a shaft is a beam, also its `displacement`, `tilt` and `curvature` in each bearing; they
+    are NaN in bearings of a rigid shaft beside it.
+    """
     from loadflow.shaft import bearing_loads as reactions
     from loadflow.turbines import load_turbine
 
@@ -19,7 +23,6 @@ def bearing_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Datase
     tilt = load_turbine(scene.turbine.name).rotor.tilt
     force = series["hub_force"].transpose("axis", "time").values.astype(float)
     moment = series["hub_moment"].transpose("axis", "time").values.astype(float)
-    concepts = [getattr(scene.shaft, name) for name, _ in scene.shaft]
-    parts = [reactions(concept, force, moment, tilt=tilt) for concept in concepts if concept]
-    joined = xr.concat(parts, "bearing", combine_attrs="override")
+    parts = [reactions(concept, force, moment, tilt=tilt) for concept in scene.shaft.concepts]
+    joined = xr.concat(parts, "bearing", combine_attrs="drop_conflicts")
     return joined.assign_coords(time=series["time"]).astype("float32")

@@ -69,7 +69,7 @@ def test_the_moment_of_the_shaft_tilts_it_in_the_frame_of_the_cube():
     force = np.array([[0.0, 0.0, -1.5e6]])
     moment = np.array([[0.0, 2e5, 0.0]])
     straight = equilibria(options, force, np.array([1.2]))
-    tilted = equilibria(options, force, np.array([1.2]), moment)
+    tilted = equilibria(options, force, np.array([1.2]), moment=moment)
     np.testing.assert_allclose(straight.tilt, 0.0)
     # x downwind is the film's third axis: a rotation about y > 0 lowers the shaft at x > 0
     at_rim = tilted.eccentricity[0, 0] + 0.5 * 2.25 * tilted.tilt[0, 1]

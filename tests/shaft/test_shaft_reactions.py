@@ -54,7 +54,7 @@ def test_three_point_suspension_is_in_equilibrium(f, m, first, span, gear, tilt)
         bearing_loads(concept, f, m, tilt=tilt),
         f,
         m,
-        [(concept.gearbox_position, weight(gear, tilt))],
+        [(first + span + 0.5, weight(gear, tilt))],
     )
 
 

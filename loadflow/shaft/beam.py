@@ -1,0 +1,157 @@
+"""The shaft as an elastic beam on elastic seats; data only."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Annotated
+
+from annotated_types import Ge, Gt, Lt, MinLen
+
+from loadflow.errors import InputError
+
+
+@dataclass(frozen=True)
+class ShaftSection:
+    """A stretch of the shaft with one hollow circular cross-section.
+
+    Attributes
+    ----------
+    outer_diameter, inner_diameter : float
+        m.
+    length : float, optional
+        m; only the last section may leave it out, and then reaches to the end of the shaft.
+    """
+
+    outer_diameter: Annotated[float, Gt(0)]
+    inner_diameter: Annotated[float, Ge(0)] = 0.0
+    length: Annotated[float, Gt(0)] | None = None
+
+    def __post_init__(self) -> None:
+        if not 0 <= self.inner_diameter < self.outer_diameter < math.inf:
+            raise InputError(
+                f"outer_diameter = {self.outer_diameter} m, inner_diameter = "
+                f"{self.inner_diameter} m: 0 <= inner < outer is needed"
+            )
+        if self.length is not None and not 0 < self.length < math.inf:
+            raise InputError(f"length = {self.length} m: must be greater than 0")
+
+    @property
+    def area(self) -> float:
+        """Cross-section, m²."""
+        return math.pi / 4 * (self.outer_diameter**2 - self.inner_diameter**2)
+
+    @property
+    def inertia(self) -> float:
+        """Second moment of area, m⁴."""
+        return math.pi / 64 * (self.outer_diameter**4 - self.inner_diameter**4)
+
+    def shear_coefficient(self, poisson: float) -> float:
+        """Shear coefficient of a hollow circle after Cowper (1966), J. Appl. Mech. 33, 335."""
+        m2 = (self.inner_diameter / self.outer_diameter) ** 2
+        both = (1 + m2) ** 2
+        return 6 * (1 + poisson) * both / ((7 + 6 * poisson) * both + (20 + 12 * poisson) * m2)
+
+
+@dataclass(frozen=True)
+class BearingSeat:
+    """Stiffness of a bearing and of its housing, in series; one that is left out is rigid.
+
+    Attributes
+    ----------
+    radial, housing_lateral, housing_vertical : float, optional
+        Of the bearing in every direction, of the housing along y and z, N/m.
+    takes_moment : bool
+        Whether the bearing resists tilting.
+    tilt, housing_tilt : float, optional
+        Of a bearing that does, and of its housing, against rotation across the shaft, N m/rad.
+    """
+
+    radial: Annotated[float, Gt(0)] | None = None
+    housing_lateral: Annotated[float, Gt(0)] | None = None
+    housing_vertical: Annotated[float, Gt(0)] | None = None
+    takes_moment: bool = False
+    tilt: Annotated[float, Gt(0)] | None = None
+    housing_tilt: Annotated[float, Gt(0)] | None = None
+
+    def __post_init__(self) -> None:
+        for name, value in vars(self).items():
+            if value is not None and name != "takes_moment" and not 0 < value < math.inf:
+                raise InputError(f"{name} = {value}: must be greater than 0 and finite")
+        if not self.takes_moment and (self.tilt or self.housing_tilt):
+            raise InputError(
+                f"takes_moment = False with tilt = {self.tilt}, housing_tilt = "
+                f"{self.housing_tilt} N m/rad: a bearing that takes no moment has none"
+            )
+
+
+@dataclass(frozen=True)
+class Beam:
+    """Elastic shaft from the hub centre on, and the seats that it rests on.
+
+    The default section is the main shaft of the WindPACT 5 MW turbine (NREL/SR-500-32495).
+
+    Attributes
+    ----------
+    sections : tuple of ShaftSection
+        From the hub centre downwind.
+    seats : tuple of BearingSeat
+        One for each bearing; none: rigid, and free to tilt where there are two bearings.
+    youngs_modulus : float
+        Pa.
+    poisson : float
+        Poisson's ratio.
+    shear : bool
+        Timoshenko's beam; without, that of Euler and Bernoulli.
+    """
+
+    sections: Annotated[tuple[ShaftSection, ...], MinLen(1)] = (ShaftSection(1.04, 0.52),)
+    seats: tuple[BearingSeat, ...] = ()
+    youngs_modulus: Annotated[float, Gt(0)] = 2.1e11
+    poisson: Annotated[float, Ge(0), Lt(0.5)] = 0.3
+    shear: bool = True
+
+    def __post_init__(self) -> None:
+        if not self.sections:
+            raise InputError("sections = (): a beam needs at least one")
+        for number, section in enumerate(self.sections[:-1]):
+            if section.length is None:
+                raise InputError(f"sections[{number}].length: only the last may leave it out")
+        if not 0 < self.youngs_modulus < math.inf or not 0 <= self.poisson < 0.5:
+            raise InputError(
+                f"youngs_modulus = {self.youngs_modulus} Pa must be greater than 0, poisson = "
+                f"{self.poisson} within 0 … 0.5"
+            )
+
+    def seats_of(self, bearings: int) -> tuple[BearingSeat, ...]:
+        """The seats, or rigid ones for that many bearings.
+
+        Raises
+        ------
+        loadflow.errors.InputError
+            Another number of seats than of bearings; a single bearing that takes no moment.
+        """
+        seats = self.seats or (BearingSeat(takes_moment=bearings == 1),) * bearings
+        if len(seats) != bearings:
+            raise InputError(f"seats: {len(seats)} are given, the shaft has {bearings} bearings")
+        if bearings == 1 and not seats[0].takes_moment:
+            raise InputError("seats[0].takes_moment = False: a single bearing must take the moment")
+        return seats
+
+    def stretches(self, end: float) -> list[tuple[float, float, ShaftSection]]:
+        """Start, end (m from the hub centre) and section of each stretch up to `end`.
+
+        Raises
+        ------
+        loadflow.errors.InputError
+            The sections stop short of `end`.
+        """
+        found, start = [], 0.0
+        for section in self.sections:
+            stop = end if section.length is None else min(start + section.length, end)
+            if stop > start:
+                found.append((start, stop, section))
+            start = stop
+        if start < end * (1 - 1e-12):
+            raise InputError(f"sections reach to {start:g} m, the shaft to {end:g} m")
+        return found
