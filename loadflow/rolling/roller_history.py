@@ -20,7 +20,7 @@ from loadflow.rolling.kinematics import Value
 from loadflow.rolling.radial_load import LineLaw, radial_distribution
 
 if TYPE_CHECKING:
-    from loadflow.rolling.roller import RollerBearing
+    from loadflow.rolling.roller_raceway import RollerRaceways
     from loadflow.rolling.roller_result import RollerResult
 
 Array = NDArray[np.float64]
@@ -66,7 +66,7 @@ class RollerRow:
             )
 
     @classmethod
-    def of(cls, bearing: RollerBearing) -> RollerRow:
+    def of(cls, bearing: RollerRaceways) -> RollerRow:
         """Any row of `bearing`."""
         return cls(
             rollers=bearing.rollers,
