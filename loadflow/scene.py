@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import hashlib
 import tomllib
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self, get_args
 
@@ -15,7 +16,15 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_valida
 
 from loadflow.errors import InputError
 from loadflow.journal import GasMixture, JournalBearing, Lubricant, Supply
-from loadflow.rolling import FlexibleRings, RingBeam, RingSection, SlewingBearing, Support
+from loadflow.rolling import (
+    FlexibleRings,
+    RingBeam,
+    RingSection,
+    SlewingBearing,
+    Support,
+    main_bearings,
+)
+from loadflow.scene_bearings import KINDS, Geometry
 from loadflow.shaft.options import (
     Concept,
     DirectDrive,
@@ -188,8 +197,20 @@ class Journal(_Section):
     tilt: bool = False
 
 
+class FurtherBearing(_Section):
+    """Another rolling bearing of the shaft: its name and its geometry; its rings are rigid."""
+
+    bearing: str
+    geometry: Geometry
+
+
 class Rolling(_Section):
     """Rolling bearing: which one of the shaft, its geometry, material and limits.
+
+    A scene may give several, as a list ``[[rolling]]`` or as an ``arrangement`` of
+    `loadflow.rolling.main_bearings`; those after the first are in ``further``. The key ``kind`` of
+    a geometry says which bearing it is: slewing (if nothing is said), ball, roller, spherical,
+    crossed or three-row.
 
     ``rings = "flexible"`` takes `inner_ring` and `outer_ring`; one that is left out is rigid. The
     rings of the default bearing have the diameters of [Ritzer 2018] App. B; their height, and the
@@ -197,7 +218,7 @@ class Rolling(_Section):
     """
 
     bearing: str = "M"
-    geometry: SlewingBearing = SlewingBearing(
+    geometry: Geometry = SlewingBearing(
         balls=129,
         rows=2,
         ball_diameter=0.040,
@@ -218,10 +239,36 @@ class Rolling(_Section):
         supports=(Support.wall(radius=1.0005, height=-0.06, thickness=0.06, length=1.0),),
     )
 
+    further: list[FurtherBearing] = []
+
+    @model_validator(mode="before")
+    @classmethod
+    def _one_of_several(cls, data: Any) -> Any:
+        """Turn a list, or the name of an arrangement, into the first bearing and further ones."""
+        if isinstance(data, dict) and "arrangement" in data:
+            if {"bearing", "geometry", "further"} & set(data):
+                raise ValueError("arrangement: gives bearing and geometry; leave them out")
+            chosen = main_bearings(data["arrangement"])
+            rest = {name: value for name, value in data.items() if name != "arrangement"}
+            first, *others = ({"bearing": b, "geometry": g} for b, g in chosen.items())
+            return rest | first | {"further": others}
+        if isinstance(data, list) and data and all(isinstance(part, dict) for part in data):
+            return data[0] | {"further": data[1:]}
+        return data
+
+    @property
+    def geometries(self) -> dict[str, Geometry]:
+        """Geometry of all bearings by name, the first one first."""
+        return {self.bearing: self.geometry} | {f.bearing: f.geometry for f in self.further}
+
     @model_validator(mode="after")
     def _rings_of_the_bearing(self) -> Self:
         given = self.model_fields_set
+        if len(self.geometries) != 1 + len(self.further):
+            raise ValueError("bearing: each must have a name of its own")
         if self.rings == "flexible":
+            if not isinstance(self.geometry, SlewingBearing):
+                raise ValueError('rings = "flexible": for slewing bearings of balls only')
             if "geometry" in given and not {"inner_ring", "outer_ring"} & given:
                 raise ValueError(
                     'rings = "flexible": a geometry of your own needs inner_ring or outer_ring'
@@ -267,7 +314,7 @@ class Scene(_Section):
     def _bearings_exist(self) -> Self:
         wanted = {
             "journal.bearings": self.journal.bearings if self.wants("journal") else [],
-            "rolling.bearing": [self.rolling.bearing] if self.wants("rolling") else [],
+            "rolling.bearing": [*self.rolling.geometries] if self.wants("rolling") else [],
         }
         for key, bearings in wanted.items():
             for bearing in bearings:
@@ -373,7 +420,7 @@ def _message(error: ValidationError, source: str) -> str:
     """One line per bad key: file, key, value, what is allowed."""
     lines = []
     for item in _of_stated_kind(error.errors()):
-        key = ".".join(str(part) for part in item["loc"]) or "scene"
+        key = ".".join(str(part) for part in _place(item["loc"])) or "scene"
         reason = item["msg"].removeprefix("Value error, ").replace("Input should be", "must be")
         if item["type"] in ("extra_forbidden", "unexpected_keyword_argument"):
             lines.append(f"{source}: {key}: unknown key{_neighbours(item['loc'])}")
@@ -384,6 +431,13 @@ def _message(error: ValidationError, source: str) -> str:
         else:
             lines.append(f"{source}: {key} = {item['input']!r}: {reason}")
     return "\n".join(lines)
+
+
+def _place(location: tuple[int | str, ...]) -> Iterator[int | str]:
+    """Keys down to a value, without the tag that pydantic puts after a geometry."""
+    for before, part in zip(("", *location), location):
+        if not (before == "geometry" and part in KINDS):
+            yield part
 
 
 def _of_stated_kind(errors: list[Any]) -> list[Any]:
@@ -407,6 +461,6 @@ def _of_stated_kind(errors: list[Any]) -> list[Any]:
 def _neighbours(location: tuple[int | str, ...]) -> str:
     """Name the keys that are known where an unknown one stands."""
     data: Any = Scene(name="defaults").model_dump()
-    for part in location[:-1]:
+    for part in [*_place(location)][:-1]:
         data = data.get(part) if isinstance(data, dict) else None
     return f"; known here: {', '.join(sorted(data))}" if isinstance(data, dict) else ""

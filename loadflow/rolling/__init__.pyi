@@ -1,5 +1,11 @@
+from .arrangements import ARRANGEMENTS as ARRANGEMENTS
+from .arrangements import BearingLife as BearingLife
+from .arrangements import MainBearing as MainBearing
+from .arrangements import arrangement_lives as arrangement_lives
+from .arrangements import main_bearings as main_bearings
 from .ball import BallBearing as BallBearing
 from .ball import BallBearingResult as BallBearingResult
+from .binning import bin_loads as bin_loads
 from .expansion import ExpansionResult as ExpansionResult
 from .expansion import RingSections as RingSections
 from .expansion import axial_expansion as axial_expansion

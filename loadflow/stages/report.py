@@ -92,10 +92,11 @@ def _sections(
         yield Section(
             "Rolling bearing",
             "Rings as the scene says; flexible rings share the load differently from rigid ones.",
-            tables=[_case_table(tables["rolling"])],
+            tables=_rolling_tables(tables["rolling"]),
             pictures=[
-                Picture(figures.ball_ring(_open(folder, "rolling", name)), _caption(name), k > 0)
+                Picture(figures.ball_ring(case), _caption(name), k > 0)
                 for k, name in enumerate(_there(folder, "rolling", shown))
+                if "ball_forces" in (case := _open(folder, "rolling", name))
             ],
         )
     if "check" in tables:
@@ -135,10 +136,16 @@ def _verdicts(tables: dict[str, xr.Dataset]) -> Iterator[list[str]]:
             yield row(f"journal {bearing}: Sommerfeld number", number, MIXED_FRICTION, True)
     if "rolling" in tables:
         data = tables["rolling"]
-        safety = float(data["smallest_static_safety"].min())
-        yield row("rolling: static safety over the design load", safety, 1.0, False)
-        for dlc, hours in zip(data["load_case"].values, data["life_hours"].values):
-            yield row(f"rolling: rating life under DLC {dlc}", float(hours), LIFETIME, False, "h")
+        for name, part in data.groupby("bearing"):
+            what = f"rolling {name}: static safety over the design load"
+            yield row(what, float(part["bearing_static_safety"].min()), 1.0, False)
+            for dlc, hours in zip(part["load_case"].values, part["bearing_life_hours"].values.flat):
+                what = f"rolling {name}: rating life under DLC {dlc}"
+                yield row(what, float(hours), LIFETIME, False, "h")
+        if data.sizes["bearing"] > 1:
+            for dlc, hours in zip(data["load_case"].values, data["system_life_hours"].values):
+                what = f"rolling, all as a system: rating life under DLC {dlc}"
+                yield row(what, float(hours), LIFETIME, False, "h")
 
 
 def _shown_cases(tables: dict[str, xr.Dataset], manifest: dict[str, Any]) -> list[str]:
@@ -314,6 +321,15 @@ def _seed_boxes(folder: Path, manifest: dict[str, Any]) -> list[Picture]:
                     samples.setdefault(label, {})[seed] = values
         pictures.append(Picture(figures.seed_boxes(samples, units), f"{group}", bool(pictures)))
     return pictures
+
+
+def _rolling_tables(data: xr.Dataset) -> list[Table]:
+    """Cases of the first bearing, and what is kept of each if there are several."""
+    first = _case_table(data.drop_dims("bearing"))
+    if data.sizes["bearing"] == 1:
+        return [first]
+    each = [name for name in data.data_vars if set(data[name].dims) == {"case", "bearing"}]
+    return [first, _case_table(data[each])]
 
 
 def _case_table(data: xr.Dataset) -> Table:

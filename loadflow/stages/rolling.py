@@ -9,7 +9,8 @@ import numpy as np
 import xarray as xr
 
 from loadflow.errors import SolverError
-from loadflow.rolling import life
+from loadflow.rolling import SlewingBearing, life, safety, system_life
+from loadflow.rolling.arrangements import life_exponent, weibull_slope
 from loadflow.scene import Scene
 from loadflow.stages.cases import Case
 from loadflow.stages.frames import to_rolling
@@ -28,45 +29,103 @@ KEPT = {
 }
 
 
+# what is kept of each bearing of the shaft: units and meaning
+EACH = {
+    "bearing_life": ("1e6 rev", "rating life L10"),
+    "bearing_static_safety": ("1", "smallest static safety, by force"),
+    "bearing_pressure": ("Pa", "largest pressure"),
+    "bearing_force": ("N", "largest force on a rolling element"),
+}
+
+
 def balls(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
-    """Solve the load distribution for every sample; keep every ball force of the worst one.
+    """Solve the load distribution for every sample of every rolling bearing of the scene.
+
+    Of the first bearing all samples are kept, and every ball force of the worst one; of all
+    bearings what `EACH` names.
 
     Raises
     ------
     loadflow.errors.SolverError
         A sample has no equilibrium.
     """
-    bearing, rings = scene.rolling.geometry, scene.rolling.ring_model
-    reduced = inputs["reduction"][scene.rolling.bearing].to_dataset()
-    force = to_rolling(reduced["force"].values)
-    moment = to_rolling(reduced["moment"].values)[:, :2]
-    try:
-        answer = bearing.equilibrium(force=force, moment=moment, rings=rings)
-    except SolverError as error:
-        raise SolverError(f"bearing {scene.rolling.bearing}: {error}") from error
-    worst = int(np.argmax(answer.maximum_force))
-    hardest = bearing.equilibrium(force=force[worst], moment=moment[worst], rings=rings)
+    first, *others = scene.rolling.geometries
+    reduced = inputs["reduction"][first].to_dataset()
+    answer = _solved(scene, first, reduced)
     samples = {
         name: ("sample", np.asarray(getattr(answer, name)), {"units": units, "long_name": meaning})
         for name, (units, meaning) in KEPT.items()
     }
-    around = ("row", "diagonal", "ball")
-    worst_sample = {
-        "ball_forces": (around, hardest.ball_forces, _label("N", "contact force, worst sample")),
-        "contact_angles": (
-            around,
-            hardest.contact_angles,
-            _label("rad", "operating contact angle, worst sample"),
-        ),
+    each = [_of_bearing(answer, reduced)]
+    for name in others:
+        other = inputs["reduction"][name].to_dataset()
+        each.append(_of_bearing(_solved(scene, name, other), other))
+    whole = {
+        name: ("bearing", np.array(values), _label(*EACH[name]))
+        for name, values in zip(EACH, zip(*each))
+    } | {
         "life": ((), _life(answer, reduced), _label("1e6 rev", "rating life L10")),
         "mean_speed": ((), _mean_speed(reduced), _label("rad/s", "mean speed")),
     }
-    angle = 2 * np.pi / bearing.balls * np.arange(bearing.balls)
+    worst = int(np.argmax(answer.maximum_force))
+    slope = min(weibull_slope(bearing) for bearing in scene.rolling.geometries.values())
+    attrs = {
+        "worst_sample": worst,
+        "rated_capacity": answer.bearing.rated_capacity,
+        "weibull_slope": slope,
+    }
     return (
         reduced[["time", "speed", "weight"]]
-        .assign(samples | worst_sample)
-        .assign_coords(ball_angle=("ball", angle, _label("rad", "angle from y toward z")))
-        .assign_attrs(worst_sample=worst, rated_capacity=bearing.rated_capacity)
+        .assign(samples | whole)
+        .assign_coords(bearing=[first, *others])
+        .assign_attrs(attrs)
+        .merge(_worst(scene, reduced, worst), combine_attrs="override")
+    )
+
+
+def _solved(scene: Scene, name: str, reduced: xr.Dataset, sample: int | None = None) -> Any:
+    """Equilibrium of one bearing under all its samples, or one of them."""
+    bearing = scene.rolling.geometries[name]
+    chosen = slice(None) if sample is None else sample
+    force = to_rolling(reduced["force"].values)[chosen]
+    moment = to_rolling(reduced["moment"].values)[..., :2][chosen]
+    try:
+        if isinstance(bearing, SlewingBearing) and name == scene.rolling.bearing:
+            return bearing.equilibrium(force, moment, rings=scene.rolling.ring_model)
+        return bearing.equilibrium(force, moment)
+    except SolverError as error:
+        raise SolverError(f"bearing {name}: {error}") from error
+
+
+def _of_bearing(answer: Any, reduced: xr.Dataset) -> tuple[float, float, float, float]:
+    """Values of `EACH`."""
+    return (
+        _life(answer, reduced),
+        float(np.min(answer.static_safety)),
+        float(np.max(answer.maximum_pressure)),
+        float(np.max(answer.maximum_force)),
+    )
+
+
+def _worst(scene: Scene, reduced: xr.Dataset, worst: int) -> xr.Dataset:
+    """Every ball force of the worst sample of a slewing bearing."""
+    bearing = scene.rolling.geometry
+    if not isinstance(bearing, SlewingBearing):
+        return xr.Dataset()
+    hardest = _solved(scene, scene.rolling.bearing, reduced, worst)
+    around = ("row", "diagonal", "ball")
+    angle = 2 * np.pi / bearing.balls * np.arange(bearing.balls)
+    angles = _label("rad", "operating contact angle, worst sample")
+    return xr.Dataset(
+        {
+            "ball_forces": (
+                around,
+                hardest.ball_forces,
+                _label("N", "contact force, worst sample"),
+            ),
+            "contact_angles": (around, hardest.contact_angles, angles),
+        },
+        {"ball_angle": ("ball", angle, _label("rad", "angle from y toward z"))},
     )
 
 
@@ -79,9 +138,10 @@ def _life(answer: Any, reduced: xr.Dataset) -> float:
     revolutions = np.abs(reduced["speed"].values) * reduced["weight"].values
     if not revolutions.any():
         return np.inf
+    bearing = answer.bearing
     return float(
         life.rating_life_spectrum(
-            answer.bearing.rated_capacity, answer.equivalent_load, revolutions
+            bearing.rated_capacity, answer.equivalent_load, revolutions, life_exponent(bearing)
         )
     )
 
@@ -91,19 +151,32 @@ def _mean_speed(reduced: xr.Dataset) -> float:
 
 
 def summary(parts: Mapping[Case, xr.Dataset]) -> xr.Dataset:
-    """Reduce each case to extremes and life; add the life under all cases of each DLC together."""
+    """Reduce each case to extremes and life; add the lives under all cases of each DLC together.
+
+    ``life_hours`` is that of the first bearing, ``bearing_life_hours`` of each, and
+    ``system_life_hours`` of all of them, with the smallest Weibull slope among them.
+    """
     joined = over_cases({case: _extremes(part) for case, part in parts.items()})
     dlcs = np.unique(joined["dlc"])
-    hours = [_together(joined.isel(case=np.flatnonzero(joined["dlc"] == dlc))) for dlc in dlcs]
-    label = _label("h", "rating life under all cases of the DLC, weighted by their share")
-    return joined.assign(life_hours=("load_case", hours, label)).assign_coords(load_case=dlcs)
+    cases = [joined.isel(case=np.flatnonzero(joined["dlc"] == dlc)) for dlc in dlcs]
+    each = np.stack([_together(part) for part in cases])
+    slope = next(iter(parts.values())).attrs["weibull_slope"]
+    under = "under all cases of the DLC, weighted by their share"
+    first = _label("h", f"rating life {under}")
+    together = _label("h", f"rating life of all bearings as a system {under}")
+    of_all = _label("h", f"rating life of each bearing {under}")
+    return joined.assign(
+        life_hours=("load_case", each[:, 0], first),
+        bearing_life_hours=(("load_case", "bearing"), each, of_all),
+        system_life_hours=("load_case", system_life(each, slope), together),
+    ).assign_coords(load_case=dlcs)
 
 
-def _together(cases: xr.Dataset) -> float:
-    """Life in hours: damages per hour of the cases, weighted by their share of the lifetime."""
-    damage_per_hour = cases["mean_speed"] / (2 * np.pi) * 3600 / (cases["life"] * 1e6)
-    total = float((damage_per_hour * cases["weight"]).sum() / cases["weight"].sum())
-    return 1 / total if total > 0 else np.inf
+def _together(cases: xr.Dataset) -> np.ndarray:
+    """Life of each bearing, h: damages per hour of the cases, weighted by share of the lifetime."""
+    per_hour = cases["mean_speed"] / (2 * np.pi) * 3600 / (cases["bearing_life"] * 1e6)
+    total = (per_hour * cases["weight"]).sum("case") / cases["weight"].sum()
+    return safety.ratio(1.0, total.values)
 
 
 def _extremes(samples: xr.Dataset) -> xr.Dataset:
@@ -117,6 +190,7 @@ def _extremes(samples: xr.Dataset) -> xr.Dataset:
             "smallest pressure safety",
         ),
         "life": (samples["life"], "1e6 rev", "rating life"),
+        **{name: (samples[name], *labels) for name, labels in EACH.items()},
         "mean_speed": (samples["mean_speed"], "rad/s", "mean speed"),
         "largest_residual": (samples["residual"].max(), "1", "largest residual"),
         "not_converged": (
