@@ -1,4 +1,4 @@
-"""Pictures of the ladder: error over time of every rung, Pareto front, what it leaves out."""
+"""Pictures of the ladder: error over time of every rung, and the Pareto front."""
 
 from __future__ import annotations
 
