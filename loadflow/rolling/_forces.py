@@ -76,7 +76,7 @@ def contact_state(
     return force, angle
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=_REORDER)
+@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER)
 def _point_sums(
     q: Array, cos: Array, sin: Array, line: Array, spatial: float
 ) -> tuple[float, float, float, float]:
@@ -99,7 +99,7 @@ def _point_sums(
     return largest, first, cubes, powers
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=_REORDER)
+@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER)
 def _line_sums(q: Array, cos: Array, sin: Array, line: Array) -> tuple[float, float, float, float]:
     """Largest force, and sums of F, F⁴, F^(9/2) of one kind of line contact."""
     lever = line[HEIGHT] * line[NORMAL_R] - line[RADIUS] * line[NORMAL_Z]

@@ -26,11 +26,13 @@ from loadflow.rolling.contact import (
 _EPS = 2.220446049250313e-16
 
 
-# Sums may be reordered (so that they use vector units); nothing else of fast mathematics.
+# Sums may be reordered (so that they use vector units); nothing else of fast mathematics. Loops
+# that do so are inlined by force and have no cache of their own: compiled alone and as part of a
+# caller they would round differently, and a run would depend on what the cache holds.
 _REORDER = {"reassoc", "contract", "nsz"}
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=_REORDER)
+@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER)
 def _add_points(q, cos, sin, line, spatial, gradient, hessian):
     """Add all point contacts of one kind (free of branches); returns energy and sum of forces.
 
@@ -132,7 +134,7 @@ def _add_points(q, cos, sin, line, spatial, gradient, hessian):
     return energy, total
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(forceinline=True, nogil=True, error_model="numpy")
 def _add_lines(q, cos, sin, line, gradient, hessian):
     """Add all line contacts of one kind; returns energy and sum of forces.
 

@@ -40,7 +40,7 @@ def _compress(stretch, stiffness, local):
     return stiffness * root**3, slope / (1.0 + local * slope)
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=_REORDER)
+@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER)
 def _dot(a, b):
     """Sum of products; loops rather than array expressions, which take seconds to compile."""
     total = 0.0
@@ -128,7 +128,7 @@ def _tangent(basis, push, slope, across, rows):
     return hessian
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=_REORDER)
+@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER)
 def _factorise(matrix):
     """Replace the lower half of a positive definite matrix by its Cholesky factor."""
     for a in range(matrix.shape[0]):
@@ -139,7 +139,7 @@ def _factorise(matrix):
             matrix[a, b] = math.sqrt(value) if a == b else value / matrix[b, b]
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=_REORDER)
+@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER)
 def _solve(factor, rhs):
     """Replace `rhs` by the solution with a matrix given by its Cholesky factor."""
     for a in range(rhs.shape[0]):
