@@ -175,7 +175,8 @@ def blade_aerodynamics(
         wind_x, wind_y, wind_z = wind_at(m, inflow, step, time, ground_x, y, ground_z)
         shaft_x = wind_x * tilt_c - wind_z * tilt_s
         shaft_z = wind_x * tilt_s + wind_z * tilt_c
-        radial = -sine * wind_y + cosine * shaft_z
+        # a section bent out of the radius has a speed along it
+        radial = -sine * wind_y + cosine * shaft_z + speed * turn
         # the section leans with the slope of the bent blade
         lean = m.cone - motion[i, 4]
         lean_s, lean_c = np.sin(lean), np.cos(lean)
@@ -215,11 +216,14 @@ def place(m, i, motion, cone_s, cone_c):
 @njit(cache=True, nogil=True)
 def deflection(m, pitch, q, v, motion):
     """Motion of each section, (n, 6): deflection normal and tangential, their rates, slope of the
-    normal deflection, pull towards the root. The modes turn with the pitch.
+    normal deflection, pull towards the root. Modes and prebend turn with the pitch.
     """
     c, s = np.cos(pitch), np.sin(pitch)
     motion[:] = 0.0
     for i in range(m.radius.size):
+        motion[i, 0] = -m.prebend[i] * c
+        motion[i, 1] = -m.prebend[i] * s
+        motion[i, 4] = -m.prebend_slope[i] * c
         for k in range(q.size):
             normal = m.shape[i, k, 0] * c - m.shape[i, k, 1] * s
             tangential = m.shape[i, k, 0] * s + m.shape[i, k, 1] * c
@@ -267,6 +271,10 @@ def blade_motion(m, b, dt, speed, azimuth, pitch, force, motion, q, v, acc):
         m.mass_factor[b] * m.modal_mass + 0.5 * dt * m.modal_damping + 0.25 * dt * dt * stiffness
     )
     for k in range(modes):
+        # the pull on the blade straightens its prebend
+        load[k] += m.mass_factor[b] * (
+            speed**2 * m.prebend_centrifugal[k] + outward * m.prebend_gravity[k]
+        )
         for j in range(modes):
             load[k] -= m.modal_damping[k, j] * v_free[j] + stiffness[k, j] * q_free[j]
     acc[:] = np.linalg.solve(system, load)
@@ -352,7 +360,7 @@ def march(
                 blade_motion(m, b, dt, speed, azimuth, pitch, force[b], motion, q[b], v[b], acc[b])
                 deflection(m, pitch, q[b], v[b], motion)
             if b == 0:
-                out[step, TIP] = motion[sections - 1, 0]
+                out[step, TIP] = motion[sections - 1, 0] + m.prebend[sections - 1] * np.cos(pitch)
             blade_root(m, b, speed, rate, azimuth, pitch, force[b], motion, acc[b], total)
             out[step, COLUMNS + b] = blade_pitch[b]
         state[S_AXIAL], state[S_Y], state[S_Z] = mean[0], mean[1], mean[2]

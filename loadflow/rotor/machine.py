@@ -50,6 +50,10 @@ class Machine(NamedTuple):
     modal_damping: Array  # (k, k)
     centrifugal: Array  # (k, k), stiffness per Ω²
     axial_gravity: Array  # (k, k), stiffness per outward component of gravity
+    prebend: Array  # (n,), upwind of the pitch axis at zero pitch
+    prebend_slope: Array  # (n,)
+    prebend_centrifugal: Array  # (k,), load on the modes per Ω²
+    prebend_gravity: Array  # (k,), load on the modes per outward component of gravity
     mass_factor: Array  # (blades,)
     pitch_offset: Array  # (blades,)
     tower_distance: float  # rotor apex to tower axis, along the shaft
@@ -83,6 +87,10 @@ def machine(turbine: Turbine, options: RotorOptions) -> Machine:
     density *= blade.mass / np.trapezoid(density, span)
     modes = tuple(mode for mode in blade.modes if mode.name in options.modes)
     structure = _Structure(blade, modes, span, density)
+    prebend = blade.prebend if blade.prebend.size else np.zeros(blade.radius.size)
+    bow = np.gradient(np.interp(span, np.append(0.0, stations), np.append(0.0, prebend)), span)
+    outer_weight = _from_tip(density, span)
+    outer_pull = _from_tip(density * (span + rotor.hub_radius), span)
     angle = np.arange(-np.pi, np.pi + _POLAR_STEP / 2, _POLAR_STEP)
     foils = [turbine.airfoils[name] for name in blade.airfoil]
     imbalance = np.zeros(rotor.blades)
@@ -113,8 +121,12 @@ def machine(turbine: Turbine, options: RotorOptions) -> Machine:
         modal_mass=structure.mass(),
         modal_stiffness=structure.stiffness(),
         modal_damping=structure.damping(),
-        centrifugal=structure.tension(_from_tip(density * (span + rotor.hub_radius), span)),
-        axial_gravity=structure.tension(_from_tip(density, span)),
+        centrifugal=structure.tension(outer_pull),
+        axial_gravity=structure.tension(outer_weight),
+        prebend=prebend,
+        prebend_slope=np.interp(stations, span, bow),
+        prebend_centrifugal=np.trapezoid(outer_pull * bow * structure.slope[:, 0], span),
+        prebend_gravity=np.trapezoid(outer_weight * bow * structure.slope[:, 0], span),
         mass_factor=1 + options.mass_imbalance * imbalance,
         pitch_offset=options.pitch_imbalance * imbalance,
         tower_distance=rotor.overhang,

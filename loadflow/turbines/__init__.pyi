@@ -9,3 +9,4 @@ from .schema import RotorGeometry as RotorGeometry
 from .schema import Supervision as Supervision
 from .schema import Tower as Tower
 from .schema import Turbine as Turbine
+from .windio import from_windio as from_windio

@@ -14,6 +14,8 @@ import numpy as np
 
 from loadflow.errors import InputError
 
+from .airfoils import blended
+from .modes import bending_modes
 from .schema import (
     Airfoil,
     Blade,
@@ -113,6 +115,7 @@ def _turbine(document: dict[str, Any], folder: Path) -> Turbine:
         name: _airfoil(name, entry, folder)
         for name, entry in _table(document["airfoils"], "airfoils").items()
     }
+    blade = _blade(document["blade"], airfoils)
     scalars: dict[str, Any] = {
         key: str(document[key]) if key in ("name", "source") else _number(document[key], key)
         for key in _SCALARS
@@ -120,7 +123,7 @@ def _turbine(document: dict[str, Any], folder: Path) -> Turbine:
     return Turbine(
         **scalars,
         **parts,
-        blade=_blade(document["blade"]),
+        blade=blade,
         airfoils=airfoils,
         frequencies={k: _number(v, f"frequencies.{k}") for k, v in frequencies.items()},
     )
@@ -140,10 +143,13 @@ def _part(part: Any, entry: Any, name: str) -> Any:
     return part(**values)
 
 
-def _blade(entry: Any) -> Blade:
+def _blade(entry: Any, airfoils: dict[str, Airfoil]) -> Blade:
+    """The blade; airfoils that it asks for by their thickness are added to `airfoils`."""
     blade = _table(entry, "blade")
-    _check_keys(blade, {"mass", "damping", "sections", "structure", "modes"}, "blade")
+    needed = {"mass", "damping", "sections", "structure"}
+    _check_keys(blade, needed, "blade", {"modes", "prebend"})
     sections = _rows(blade["sections"], 4, "blade.sections")
+    foils = [_section_airfoil(row[3], airfoils) for row in sections]
     structure = np.array(
         [
             [_number(value, "blade.structure") for value in row]
@@ -151,12 +157,13 @@ def _blade(entry: Any) -> Blade:
         ]
     )
     numbers = np.array([[_number(v, "blade.sections") for v in row[:3]] for row in sections])
-    modes = _table(blade["modes"], "blade.modes")
+    shape = tuple(structure[:, k] for k in (0, 2, 3, 4))
+    modes = _modes(blade["modes"]) if "modes" in blade else bending_modes(*shape)
     return Blade(
         radius=numbers[:, 0],
         twist=np.radians(numbers[:, 1]),
         chord=numbers[:, 2],
-        airfoil=tuple(str(row[3]) for row in sections),
+        airfoil=tuple(foils),
         mass=_number(blade["mass"], "blade.mass"),
         damping=_number(blade["damping"], "blade.damping"),
         span=structure[:, 0],
@@ -164,23 +171,40 @@ def _blade(entry: Any) -> Blade:
         mass_density=structure[:, 2],
         flap_stiffness=structure[:, 3],
         edge_stiffness=structure[:, 4],
-        modes=tuple(
-            Mode(name, tuple(_number(c, f"blade.modes.{name}") for c in coefficients))
-            for name, coefficients in modes.items()
-        ),
+        modes=modes,
+        prebend=np.array([_number(v, "blade.prebend") for v in blade.get("prebend", [])]),
     )
+
+
+def _modes(entry: Any) -> tuple[Mode, ...]:
+    return tuple(
+        Mode(name, tuple(_number(c, f"blade.modes.{name}") for c in coefficients))
+        for name, coefficients in _table(entry, "blade.modes").items()
+    )
+
+
+def _section_airfoil(entry: Any, airfoils: dict[str, Airfoil]) -> str:
+    """Name of the airfoil of a section, given by name or by its relative thickness."""
+    if isinstance(entry, str):
+        return entry
+    foil = blended(airfoils, _number(entry, "blade.sections"))
+    airfoils.setdefault(foil.name, foil)
+    return foil.name
 
 
 def _airfoil(name: str, entry: Any, folder: Path) -> Airfoil:
     """Polars of a file, or a constant drag without lift."""
     where = f"airfoils.{name}"
-    table = _table(entry, where)
+    table = dict(_table(entry, where))
+    thickness = table.pop("thickness", None)
+    if thickness is not None:
+        thickness = _number(thickness, where)
     if set(table) == {"drag"}:
         drag = _number(table["drag"], where)
-        return Airfoil(name, np.array([-np.pi, np.pi]), np.zeros(2), np.full(2, drag))
+        return Airfoil(name, np.array([-np.pi, np.pi]), np.zeros(2), np.full(2, drag), thickness)
     _check_keys(table, {"polars", "column"}, where)
     angle, lift, drag_of = _polars(folder, str(table["polars"]), str(table["column"]), where)
-    return Airfoil(name, np.radians(angle), lift, drag_of)
+    return Airfoil(name, np.radians(angle), lift, drag_of, thickness)
 
 
 def _polars(folder: Path, file: str, column: str, where: str) -> list[np.ndarray]:

@@ -46,12 +46,15 @@ class Airfoil:
         Angle of attack, rad, increasing, from −π to π.
     lift, drag : ndarray, shape (n,)
         Coefficients, referred to the chord.
+    thickness : float, optional
+        Over the chord; airfoils that state it can be blended, see `blended`.
     """
 
     name: str
     angle: Array
     lift: Array
     drag: Array
+    thickness: float | None = None
 
     def __post_init__(self) -> None:
         owner = f"airfoil {self.name!r}"
@@ -104,6 +107,8 @@ class Blade:
     span, structural_twist, mass_density, flap_stiffness, edge_stiffness : ndarray, shape (m,)
         Distance from the root, m; rad; kg/m; N m². The mass density is scaled to `mass`.
     modes : tuple of Mode
+    prebend : ndarray, shape (n,) or (0,)
+        Distance of each section upwind of the pitch axis, m; empty: a straight blade.
     """
 
     radius: Array
@@ -118,10 +123,13 @@ class Blade:
     flap_stiffness: Array
     edge_stiffness: Array
     modes: tuple[Mode, ...] = ()
+    prebend: Array = field(default_factory=lambda: np.zeros(0))
 
     def __post_init__(self) -> None:
         _require_positive(self, "mass")
         _require(0 <= self.damping < 1, "Blade", "damping", self.damping, "in [0, 1)")
+        fits = self.prebend.size in (0, self.radius.size) and np.isfinite(self.prebend).all()
+        _require(bool(fits), "Blade", "prebend", self.prebend.tolist(), "one value per section")
         for name in ("radius", "span"):
             values = getattr(self, name)
             _require(

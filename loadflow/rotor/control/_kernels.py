@@ -23,9 +23,9 @@ _REGION_3_PITCH = np.radians(1.0)
 
 @njit(cache=True, nogil=True)
 def control_torque(c, speed, pitch):
-    """Generator torque of the speed, N m (regions 1 to 3; 3 is held above 1° of pitch)."""
-    if speed >= c.rated_speed or pitch >= _REGION_3_PITCH:
-        torque = c.rated_power / max(speed, 1.0)
+    """Generator torque of the speed, N m (regions 1 to 3; 3 is held 1° above fine pitch)."""
+    if speed >= c.rated_speed or pitch >= c.minimum_pitch + _REGION_3_PITCH:
+        torque = c.rated_power / max(speed, 0.01 * c.rated_speed)
     elif speed <= c.region_15_start:
         torque = 0.0
     elif speed < c.region_2_start:
@@ -88,7 +88,7 @@ def generator(c, schedule, state, dt):
         state[k.S_TORQUE] = 0.0
         return
     # only a turbine that runs holds its power: the others pitch for other reasons than power
-    pitch = state[k.S_PITCH] if mode == RUN else 0.0
+    pitch = state[k.S_PITCH] if mode == RUN else c.minimum_pitch
     change = control_torque(c, state[k.S_FILTERED], pitch) - state[k.S_TORQUE]
     state[k.S_TORQUE] += min(max(change, -c.torque_rate * dt), c.torque_rate * dt)
 

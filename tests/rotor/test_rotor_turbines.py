@@ -1,0 +1,75 @@
+"""The other turbines: operating points follow from their files, prebend and fine pitch count."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from loadflow.rotor import RotorOptions, simulate, steady_state
+from loadflow.turbines import load_turbine
+
+CALM = RotorOptions(tower_dam=False, skew_factor=0.0)
+
+
+def test_windpact_turns_at_the_speed_that_its_torque_constant_asks_for():
+    point = steady_state("windpact-1.5mw", wind_speed=[7.0, 14.0], shear=0.0)
+    speed, power = point["speed"].values, point["power"].values
+    # tip speed ratio and power coefficient that a blade of its time is designed for
+    assert 6.5 < speed[0] * 35 / 7.0 < 7.5
+    assert 0.44 < power[0] / (0.5 * 1.225 * np.pi * 35**2 * 7.0**3) < 0.5
+    assert point["pitch"].values[0] == pytest.approx(np.radians(2.6))
+    assert power[1] == pytest.approx(1.57895e6, rel=1e-3)
+    assert speed[1] * 30 / np.pi == pytest.approx(20.463, rel=1e-3)
+
+
+@pytest.mark.parametrize("name", ["windpact-1.5mw", "iea-15mw"])
+def test_a_turbine_runs_in_turbulence_and_stops(name):
+    turbine = load_turbine(name)
+    series = simulate(name, wind_speed=13.0, duration=40.0, run_in=20.0)
+    weight = turbine.rotor_mass * 9.80665 * np.cos(turbine.rotor.tilt)
+    assert series["hub_force"].sel(axis="z").mean() == pytest.approx(-weight, rel=0.02)
+    reference = turbine.control.reference_speed / turbine.drivetrain.gear_ratio
+    assert series["speed"].mean() == pytest.approx(reference, rel=0.08)
+    stop = simulate(
+        name,
+        dlc="5.1",
+        wind_speed=turbine.rated_wind_speed,
+        duration=60.0,
+        event_time=5.0,
+        run_in=10.0,
+        rung="tables",
+    )
+    assert float(stop["speed"][-1]) < 0.2 * reference
+
+
+def test_prebend_moves_the_blades_upwind_as_a_cone_does():
+    # a straight bow is a cone about the root: same loads but for the hub radius and cosines
+    turbine = load_turbine("nrel-5mw")
+    angle = np.radians(1.0)
+    bow = np.tan(angle) * (turbine.blade.radius - turbine.rotor.hub_radius)
+    bent = dataclasses.replace(turbine, blade=dataclasses.replace(turbine.blade, prebend=bow))
+    coned = dataclasses.replace(
+        turbine, rotor=dataclasses.replace(turbine.rotor, cone=turbine.rotor.cone + angle)
+    )
+    plain, a, b = (
+        steady_state(t, wind_speed=14.0, rung="tables", options=CALM).isel(wind_speed=0)
+        for t in (turbine, bent, coned)
+    )
+    change = [
+        (float(p["hub_moment"].sel(axis="y") - plain["hub_moment"].sel(axis="y"))) for p in (a, b)
+    ]
+    assert change[1] < -1e5  # the weight in front tilts the rotor forward
+    assert change[0] == pytest.approx(change[1], rel=0.12)
+
+
+def test_prebent_blades_are_straightened_by_their_own_pull():
+    turbine = load_turbine("nrel-5mw")
+    x = (turbine.blade.radius - 1.5) / 61.5
+    bent = dataclasses.replace(
+        turbine, blade=dataclasses.replace(turbine.blade, prebend=3.0 * x**2)
+    )
+    tips = [
+        float(steady_state(t, wind_speed=20.0, options=CALM)["tip_deflection"][0])
+        for t in (turbine, bent)
+    ]
+    assert 0.1 < tips[1] - tips[0] < 3.0

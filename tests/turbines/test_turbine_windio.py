@@ -1,0 +1,110 @@
+"""Turbines from windIO, blended airfoils, computed modes, and the turbines made from them."""
+
+import importlib.resources
+
+import numpy as np
+import pytest
+
+from loadflow.errors import InputError
+from loadflow.turbines import from_windio, load_turbine
+from loadflow.turbines.airfoils import blended
+from loadflow.turbines.modes import bending_modes
+
+
+@pytest.fixture(scope="module")
+def example():
+    pytest.importorskip("windIO")
+    return importlib.resources.files("windIO") / "examples" / "turbine" / "IEA-15-240-RWT.yaml"
+
+
+@pytest.fixture(scope="module")
+def read(example):
+    return from_windio(example)
+
+
+def test_the_shipped_iea_15mw_is_what_windio_says(read):
+    shipped = load_turbine("iea-15mw")
+    for part, names in {
+        "rotor": ("radius", "hub_radius", "overhang", "tilt", "cone", "hub_mass", "hub_inertia"),
+        "tower": ("base_diameter", "top_diameter", "height"),
+        "drivetrain": ("gear_ratio", "generator_inertia"),
+        "control": ("reference_speed", "speed_filter", "proportional_gain", "gain_halving_pitch"),
+        "blade": ("mass", "radius", "twist", "chord", "prebend", "mass_density", "flap_stiffness"),
+    }.items():
+        for name in names:
+            ours = getattr(getattr(shipped, part), name)
+            theirs = getattr(getattr(read, part), name)
+            assert ours == pytest.approx(theirs, rel=2e-3, abs=5e-4), (part, name)
+    for here, there in zip(shipped.blade.airfoil, read.blade.airfoil):
+        angle = np.radians(np.linspace(-10, 18, 57))
+        a, b = shipped.airfoils[here], read.airfoils[there]
+        for name in ("lift", "drag"):
+            difference = np.interp(angle, a.angle, getattr(a, name)) - np.interp(
+                angle, b.angle, getattr(b, name)
+            )
+            assert np.abs(difference).max() < 0.02  # resampled to whole degrees
+    assert shipped.frequencies == read.frequencies == {}
+
+
+@pytest.mark.parametrize("sections", [10, 40])
+def test_mass_and_length_do_not_depend_on_the_number_of_sections(example, read, sections):
+    other = from_windio(example, sections=sections)
+    assert other.blade.radius.size == sections
+    assert other.blade.mass == read.blade.mass == pytest.approx(66.9e3, rel=1e-3)
+
+
+def test_computed_modes_of_the_nrel_5mw_are_the_published_ones():
+    blade = load_turbine("nrel-5mw").blade
+    found = bending_modes(
+        blade.span, blade.mass_density, blade.flap_stiffness, blade.edge_stiffness
+    )
+    x = np.linspace(0, 1, 101)[:, None] ** np.arange(2, 7)
+    for ours, published in zip(found, blade.modes):
+        assert ours.name == published.name
+        # the published shapes are fits to shapes of a rotating, twisted blade
+        assert np.abs(x @ ours.coefficients - x @ published.coefficients).max() < 0.02
+
+
+def test_modes_of_a_uniform_beam_are_those_of_the_text_book():
+    span, one = np.linspace(0, 30.0, 50), np.ones(50)
+    flap, _, edge = bending_modes(span, 200 * one, 1e8 * one, 4e8 * one)
+    assert flap.coefficients == pytest.approx(edge.coefficients)
+    x = np.array([0.25, 0.5, 0.75])
+    k, ratio = 1.8751041, 0.7340955
+    exact = np.cosh(k * x) - np.cos(k * x) - ratio * (np.sinh(k * x) - np.sin(k * x))
+    assert x[:, None] ** np.arange(2, 7) @ flap.coefficients == pytest.approx(exact / 2, abs=1e-3)
+
+
+def test_a_blend_lies_between_its_neighbours_and_ends_on_them():
+    foils = load_turbine("iea-15mw").airfoils
+    thin, thick = foils["FFA-W3-241"], foils["FFA-W3-270"]
+    assert blended(foils, 0.241).lift == pytest.approx(
+        np.interp(blended(foils, 0.241).angle, thin.angle, thin.lift)
+    )
+    half = blended(foils, 0.5 * (0.241 + 0.27))
+    assert half.lift == pytest.approx(0.5 * (thin.lift + thick.lift))
+    with pytest.raises(InputError, match=r"thickness = 0\.1 is not allowed"):
+        blended(foils, 0.1)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (lambda text: "{", "not a YAML file"),
+        (lambda text: "a: 1", "windIO_version = None"),
+        (lambda text: text.replace("windIO_version: '2.0'", "windIO_version: '1.0'"), "'1.0'"),
+        (lambda text: "windIO_version: '2.0'\n", "missing key 'assembly'"),
+        (lambda text: "windIO_version: '2.0'\nassembly: 3\ncomponents: 4\n", "not of the form"),
+    ],
+)
+def test_bad_windio_files_are_named(tmp_path, example, change, message):
+    path = tmp_path / "own.yaml"
+    head = example.read_text()[:400].replace('"', "'").splitlines()[0] + "\n"
+    path.write_text(change(head))
+    with pytest.raises(InputError, match=message):
+        from_windio(path)
+
+
+def test_a_windio_file_that_does_not_exist_is_refused():
+    with pytest.raises(InputError, match=r"nowhere\.yaml does not exist"):
+        from_windio("nowhere.yaml")
