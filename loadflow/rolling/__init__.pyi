@@ -5,6 +5,7 @@ from .arrangements import arrangement_lives as arrangement_lives
 from .arrangements import main_bearings as main_bearings
 from .ball import BallBearing as BallBearing
 from .ball import BallBearingResult as BallBearingResult
+from .ball import SpinningResult as SpinningResult
 from .binning import bin_loads as bin_loads
 from .expansion import ExpansionResult as ExpansionResult
 from .expansion import RingSections as RingSections
@@ -37,6 +38,8 @@ from .ring_section import legs as legs
 from .ring_solid import SolidRing as SolidRing
 from .rings import FlexibleRings as FlexibleRings
 from .roller import RollerBearing as RollerBearing
+from .roller_edges import EdgeContact as EdgeContact
+from .roller_edges import edge_contact as edge_contact
 from .roller_raceway import RollerRaceways as RollerRaceways
 from .roller_result import RollerResult as RollerResult
 from .rotor_dynamics import rotor_coefficients as rotor_coefficients

@@ -17,6 +17,7 @@ from loadflow.rolling.equilibrium import CHUNK, solve
 from loadflow.rolling.options import check_choice
 from loadflow.rolling.raceway import BallRaceways
 from loadflow.rolling.result import BallResult
+from loadflow.rolling.spinning import Spin, spin_equilibrium
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -126,6 +127,7 @@ class BallBearing(BallRaceways):
         force: ArrayLike,
         moment: ArrayLike = (0.0, 0.0),
         *,
+        speed: ArrayLike | None = None,
         ball_angle: float = 0.0,
         tolerance: float = 1e-10,
         max_iterations: int = 100,
@@ -140,6 +142,8 @@ class BallBearing(BallRaceways):
             (Fx, Fy, Fz) on the inner ring at the bearing centre, N; z is the bearing axis.
         moment : array_like, shape (..., 2)
             (Mx, My) on the inner ring, N m. Broadcasts with `force`.
+        speed : array_like, optional
+            Of the inner ring, rad/s; switches centrifugal and gyroscopic loads of the balls on.
         ball_angle : float
             Azimuth of the first ball of each row, rad.
         tolerance, max_iterations, strict, chunk
@@ -148,8 +152,8 @@ class BallBearing(BallRaceways):
         Returns
         -------
         BallBearingResult
-            Over the shape of the load cases. The axial displacement counts from the centred
-            position of a deep groove bearing.
+            Over the shape of the load cases; a `SpinningResult` at a speed. The axial displacement
+            counts from the centred position of a deep groove bearing.
 
         Raises
         ------
@@ -168,7 +172,18 @@ class BallBearing(BallRaceways):
             strict=strict,
             chunk=chunk,
         )
-        return BallBearingResult(**vars(state), bearing=self, contacts=contacts)
+        if speed is None:
+            return BallBearingResult(**vars(state), bearing=self, contacts=contacts)
+        rings, spin = spin_equilibrium(
+            self,
+            contacts,
+            state,
+            speed,
+            tolerance=max(tolerance, 1e-9),
+            max_iterations=max_iterations,
+        )
+        known = vars(state) | rings
+        return SpinningResult(**known, bearing=self, contacts=contacts, spin=spin)
 
 
 @dataclass(frozen=True)
@@ -221,3 +236,47 @@ class BallBearingResult(BallResult):
     def equivalent_load(self) -> Array:
         """Dynamic equivalent reference load P_ref = C/L10r^(1/3), N."""
         return np.asarray(self.bearing.rated_capacity / np.cbrt(self.reference_life))
+
+
+@dataclass(frozen=True)
+class SpinningResult(BallBearingResult):
+    """Equilibrium of a ball bearing at speed; contact forces and angles are those of the inner.
+
+    Attributes
+    ----------
+    spin : Spin
+        Forces and angles at both raceways, loads of inertia.
+    """
+
+    spin: Spin
+
+    @cached_property
+    def _state(self) -> tuple[Array, Array]:
+        return self.spin.inner_forces, self.spin.inner_angles
+
+    @cached_property
+    def _statistics(self) -> tuple[Array, Array]:
+        force = self.spin.inner_forces
+        sums = [(force**power).sum(axis=-1) for power in (1, 3, 10 / 3)]
+        return force.max(axis=-1), np.stack(sums, axis=-1)
+
+    @property
+    def raceway_pressure(self) -> tuple[Array, Array]:
+        """Largest Hertzian pressure at the inner and at the outer raceway, Pa."""
+        inner, outer = (
+            force.max(axis=(-2, -1)) for force in (self.spin.inner_forces, self.spin.outer_forces)
+        )
+        return (
+            self.bearing.raceway_contact("inner", inner).pressure,
+            self.bearing.raceway_contact("outer", outer).pressure,
+        )
+
+    @property
+    def reference_life(self) -> Array:
+        """Reference life L10r of ISO/TS 16281 with the forces of each raceway, 10⁶ revolutions."""
+        return life.ball_reference_life(
+            (self.spin.inner_forces**3).sum(axis=-1),
+            (self.spin.outer_forces ** (10 / 3)).sum(axis=-1),
+            self.bearing.balls,
+            self.bearing.raceway_capacity,
+        )

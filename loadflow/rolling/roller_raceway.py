@@ -132,7 +132,11 @@ class RollerRaceways:
     @cached_property
     def profile_drop(self) -> Array:
         """Drop P of the roller's surface at each slice, m."""
-        x, d = np.abs(self.slice_positions), self.roller_diameter
+        return self.drop_at(self.slice_positions)
+
+    def drop_at(self, position: ArrayLike) -> Array:
+        """Drop P of the roller's surface at `position` (m) from its middle, m."""
+        x, d = np.abs(np.asarray(position, float)), self.roller_diameter
         if self.profile == "straight":
             return np.zeros_like(x)
         if self.crown_radius is not None:

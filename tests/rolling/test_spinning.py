@@ -1,0 +1,91 @@
+"""Ball bearings at speed: limits, balance of every ball, known trends."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+
+from loadflow.errors import InputError
+from loadflow.rolling import BallBearing
+
+BALL = 22.225e-3
+BEARING = BallBearing(  # a 218 angular contact bearing, as Harris's worked example
+    balls=16,
+    ball_diameter=BALL,
+    pitch_diameter=125.26e-3,
+    groove_radius=0.5232 * BALL,
+    contact_angle=math.radians(40),
+)
+FAST = 10_000 * math.pi / 30
+THRUST = (0.0, 0.0, 17_800.0)
+
+
+def test_slow_balls_are_those_without_inertia():
+    force, moment = (5000.0, 0, 8000), (20.0, 10.0)
+    slow, still = (BEARING.equilibrium(force, moment, speed=s) for s in (1e-3, None))
+    assert slow.displacement == pytest.approx(still.displacement, rel=1e-6)
+    assert slow.ball_forces == pytest.approx(still.ball_forces, rel=1e-6, abs=1e-3)
+    assert slow.reference_life == pytest.approx(still.reference_life, rel=1e-6)
+
+
+def test_every_ball_is_in_balance():
+    result = BEARING.equilibrium((5000.0, 0, 12_000), speed=FAST)
+    spin = result.spin
+    friction = 2 * spin.gyroscopic / BALL
+    radial = spin.inner_forces * np.cos(spin.inner_angles) + spin.centrifugal
+    radial -= spin.outer_forces * np.cos(spin.outer_angles) + friction * np.sin(spin.outer_angles)
+    axial = spin.inner_forces * np.sin(spin.inner_angles)
+    axial -= spin.outer_forces * np.sin(spin.outer_angles)
+    axial += friction * np.cos(spin.outer_angles)
+    assert np.abs(radial).max() < 0.2
+    assert np.abs(axial).max() < 0.2
+    assert result.residual < 1e-8
+
+
+def test_outer_ring_carries_more_and_flatter_at_speed():
+    still = BEARING.equilibrium(THRUST)
+    spins = [BEARING.equilibrium(THRUST, speed=s).spin for s in (0.5 * FAST, FAST, 1.5 * FAST)]
+    angle = still.contact_angles[0, 0]
+    for spin in spins:
+        assert spin.outer_angles[0, 0] < angle < spin.inner_angles[0, 0]
+        assert 16 * spin.inner_forces[0, 0] * np.sin(spin.inner_angles[0, 0]) == pytest.approx(
+            17_800, rel=1e-6
+        )
+    apart = [s.inner_angles[0, 0] - s.outer_angles[0, 0] for s in spins]
+    assert apart == sorted(apart)
+    fast = BEARING.equilibrium(THRUST, speed=FAST)
+    assert fast.displacement[2] < still.displacement[2]
+
+
+def test_centrifugal_force_is_that_of_the_cage_speed():
+    deep = dataclasses.replace(BEARING, contact_angle=0.0)
+    spin = deep.equilibrium((1e4, 0, 0), speed=FAST).spin
+    cage = FAST / 2 * (1 - BALL / 125.26e-3)
+    mass = 7850 * math.pi / 6 * BALL**3
+    assert spin.centrifugal == pytest.approx(mass * 125.26e-3 / 2 * cage**2, rel=1e-6)
+    assert spin.gyroscopic == pytest.approx(0, abs=1e-6)
+    unloaded = spin.inner_forces == 0
+    assert spin.outer_forces[unloaded] == pytest.approx(spin.centrifugal[unloaded], rel=1e-6)
+
+
+def test_stiffness_at_speed_is_the_slope_of_the_force():
+    base = BEARING.equilibrium((3000.0, 0, 12_000), speed=FAST)
+    more = BEARING.equilibrium((3000.0, 0, 12_006), speed=FAST)
+    moved = base.stiffness @ (more.displacement - base.displacement)
+    assert moved[2] == pytest.approx(
+        6.0, rel=0.1
+    )  # loads of inertia move along, which it leaves out
+
+
+def test_series_of_random_loads_comes_to_rest():
+    rng = np.random.default_rng(1)
+    force, moment = rng.normal(size=(50, 3)) * [4e3, 4e3, 6e3], rng.normal(size=(50, 2)) * 50
+    result = BEARING.equilibrium(force, moment, speed=rng.uniform(100, 1200, 50))
+    assert result.residual.max() < 1e-8
+    assert result.reference_life.shape == result.maximum_pressure.shape == (50,)
+
+
+def test_speeds_must_be_finite():
+    with pytest.raises(InputError, match="speed"):
+        BEARING.equilibrium(THRUST, speed=math.nan)
