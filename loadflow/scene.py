@@ -71,7 +71,7 @@ class Loads(_Section):
     are those of each load case unless they are given here. ``seeds`` and ``first_seed`` concern
     turbulent winds; a gust has its own variants (sign, time of the event), and may meet the rotor
     at several ``azimuths`` (rad). ``yaw_errors`` are in rad. ``steady`` takes the steady extreme
-    wind of 6.1 … 6.3 and 7.1. A ``rung`` that is not named is "flap", and "tables" for a parked
+    wind of 6.1 … 6.3 and 7.1. ``spectrum = "mann"`` needs the extra of that name. A ``rung`` that is not named is "flap", and "tables" for a parked
     turbine.
     """
 
@@ -91,6 +91,7 @@ class Loads(_Section):
     step: Annotated[float, Field(gt=0, le=0.5)] = 0.025
     wind_class: Literal["I", "II", "III"] = "I"
     category: Literal["A+", "A", "B", "C"] = "B"
+    spectrum: Literal["kaimal", "mann"] = "kaimal"
     rung: Literal["tables", "bem", "flap"] | None = None
     individual_pitch: bool = False
     mass_imbalance: Annotated[float, Field(ge=-0.2, le=0.2)] = 0.0

@@ -89,7 +89,12 @@ def wind_options(scene: Scene) -> WindOptions:
     from loadflow.wind import WindOptions
 
     loads = scene.loads
-    return WindOptions(wind_class=loads.wind_class, category=loads.category, seeds=loads.seeds)
+    return WindOptions(
+        wind_class=loads.wind_class,
+        category=loads.category,
+        seeds=loads.seeds,
+        spectrum=loads.spectrum,
+    )
 
 
 def simulated_case(scene: Scene, dlc: str, wind_speed: float, index: int) -> Case:

@@ -1,5 +1,6 @@
 from . import gusts as gusts
 from . import iec as iec
+from .bladed_box import read_bladed_box as read_bladed_box
 from .box import Box as Box
 from .bts import read_bts as read_bts
 from .bts import write_bts as write_bts
@@ -15,10 +16,12 @@ from .expansion import conditions as conditions
 from .field import Field as Field
 from .field import polar_angles as polar_angles
 from .gusts import gust_field as gust_field
+from .hawc2_box import read_hawc2_box as read_hawc2_box
 from .inflow import coherence_factors as coherence_factors
 from .inflow import inflow as inflow
 from .inflow import rotor_grid as rotor_grid
 from .inflow import transient as transient
+from .mann import mann_box as mann_box
 from .options import Machine as Machine
 from .options import WindOptions as WindOptions
 from .seeding import case_seed as case_seed

@@ -102,3 +102,24 @@ def _cell(
     index = np.clip(np.searchsorted(line, points, side="right") - 1, 0, len(line) - 2)
     place = (points - line[index]) / (line[index + 1] - line[index])
     return index, np.clip(place, 0, 1).astype(np.float32)
+
+
+def power_law_exponent(height: NDArray[np.float64], speed: NDArray[np.float64]) -> float:
+    """Exponent of the power law nearest to a profile, both relative to the hub."""
+    above = (height > 0) & (speed > 0)
+    log_z = np.log(height[above])
+    return float(log_z @ np.log(speed[above]) / (log_z @ log_z))
+
+
+def spacing_of(name: str, line: NDArray[np.float64]) -> float:
+    """Distance of equidistant grid points, m.
+
+    Raises
+    ------
+    InputError
+        If they are not.
+    """
+    steps = np.diff(line)
+    if not steps.size or np.ptp(steps) > 1e-3 * abs(steps[0]):
+        raise InputError(f"equidistant {name} are needed, got {line}")
+    return float(steps.mean())

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import InputError
-from loadflow.wind.box import Box
+from loadflow.wind.box import Box, power_law_exponent, spacing_of
 
 _HEAD = struct.Struct("<h4i6f6fi")
 _NOT_PERIODIC, _PERIODIC = 7, 8
@@ -27,7 +27,7 @@ def write_bts(path: str | Path, box: Box, description: str = "loadflow") -> None
     InputError
         If the grid lines are not equidistant or the hub is not within the box.
     """
-    dy, dz = _spacing("y", box.y), _spacing("z", box.z)
+    dy, dz = spacing_of("y", box.y), spacing_of("z", box.z)
     if abs(box.y[0] + box.y[-1]) > 1e-3 * dy:
         raise InputError(f"the format wants y symmetric to 0, not {box.y[0]} … {box.y[-1]} m")
     if not box.z[0] <= box.hub_height <= box.z[-1] or box.z[0] <= 0:
@@ -90,7 +90,7 @@ def read_bts(path: str | Path) -> Box:
     )
     z = bottom + dz * np.arange(nz)
     mean = u.mean(axis=(0, 1), dtype=float)
-    exponent = _exponent(z / hub, mean / speed)
+    exponent = power_law_exponent(z / hub, mean / speed)
     u -= (speed * (z / hub) ** exponent).astype(np.float32)
     y = dy * (np.arange(ny) - (ny - 1) / 2)
     return Box(dt * np.arange(nt), y, z, u, v, w, speed, hub, exponent)
@@ -98,17 +98,3 @@ def read_bts(path: str | Path) -> Box:
 
 def _profile(box: Box) -> NDArray[np.float64]:
     return box.wind_speed * (box.z / box.hub_height) ** box.shear_exponent
-
-
-def _exponent(height: NDArray[np.float64], speed: NDArray[np.float64]) -> float:
-    """Exponent of the power law nearest to a profile, both relative to the hub."""
-    above = (height > 0) & (speed > 0)
-    log_z = np.log(height[above])
-    return float(log_z @ np.log(speed[above]) / (log_z @ log_z))
-
-
-def _spacing(name: str, line: NDArray[np.float64]) -> float:
-    steps = np.diff(line)
-    if np.ptp(steps) > 1e-3 * steps[0]:
-        raise InputError(f"the format wants equidistant {name}, got {line}")
-    return float(steps.mean())

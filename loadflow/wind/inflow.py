@@ -5,11 +5,14 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from loadflow.errors import InputError
 from loadflow.wind import gusts
+from loadflow.wind.box import Box
 from loadflow.wind.coherence import CoherenceFactors, PolarGrid
 from loadflow.wind.expansion import Condition
 from loadflow.wind.field import Field, polar_angles
 from loadflow.wind.iec import length_scale
+from loadflow.wind.mann import mann_box
 from loadflow.wind.options import Machine, WindOptions
 from loadflow.wind.seeding import case_seed
 from loadflow.wind.turbulence import Method, kaimal, sample_times
@@ -49,7 +52,7 @@ def inflow(
     factors : CoherenceFactors, optional
         From `coherence_factors`, to save making them anew.
     components, method
-        As for `kaimal`.
+        As for `kaimal`; the Mann model has all three.
 
     Notes
     -----
@@ -58,6 +61,9 @@ def inflow(
     """
     options = options or WindOptions()
     grid = rotor_grid(machine, options)
+    seeds = case_seed(condition.dlc, condition.wind_speed, condition.index, seed)
+    if condition.sigma > 0 and options.spectrum == "mann":
+        return _mann(condition, machine, options, seeds).to_polar(grid.radius, grid.angle)
     if condition.sigma > 0:
         return kaimal(
             condition.wind_speed,
@@ -67,7 +73,7 @@ def inflow(
             hub_height=machine.hub_height,
             duration=condition.duration,
             dt=options.step,
-            seed=case_seed(condition.dlc, condition.wind_speed, condition.index, seed),
+            seed=seeds,
             shear_exponent=condition.shear_exponent,
             components=components,
             scaling=options.scaling,
@@ -84,6 +90,28 @@ def inflow(
         machine.hub_height,
         condition.shear_exponent,
         **transient(condition, machine, time),
+    )
+
+
+def _mann(
+    condition: Condition, machine: Machine, options: WindOptions, seed: np.random.SeedSequence
+) -> Box:
+    """Box as wide as the rotor, with a grid point at the hub."""
+    if options.scaling == "each":
+        raise InputError("scaling = 'each' would break the correlations of spectrum = 'mann'")
+    radius = machine.rotor_diameter / 2
+    lines = np.linspace(-radius, radius, 2 * options.radii - 1)
+    return mann_box(
+        condition.wind_speed,
+        condition.sigma,
+        y=lines,
+        z=machine.hub_height + lines,
+        hub_height=machine.hub_height,
+        duration=condition.duration,
+        dt=options.step,
+        seed=seed,
+        shear_exponent=condition.shear_exponent,
+        scaling=options.scaling,
     )
 
 

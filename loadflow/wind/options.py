@@ -30,6 +30,9 @@ class WindOptions:
         Distance of the mean speeds of a load case, m/s.
     seeds : int, optional
         Realisations per mean speed; by default those of the load case.
+    spectrum : {"kaimal", "mann"}
+        Model of the turbulence; "mann" needs the extra of that name, and is made on a square grid
+        with the spacing of the radii (`mann_box`).
     scaling : {"none", "hub", "each"}
         Whether the turbulence is rescaled to the standard deviation asked for (`kaimal`).
     lateral : {"coherent", "independent"}
@@ -48,6 +51,7 @@ class WindOptions:
     shear_exponent: Annotated[float, Ge(0), Lt(1)] = 0.2
     speed_step: Annotated[float, Gt(0)] = 2.0
     seeds: Annotated[int, Ge(1)] | None = None
+    spectrum: Literal["kaimal", "mann"] = "kaimal"
     scaling: Literal["none", "hub", "each"] = "none"
     lateral: Literal["coherent", "independent"] = "coherent"
     radii: Annotated[int, Ge(2)] = 11
