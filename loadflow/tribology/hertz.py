@@ -19,6 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError
 
+RUNGS = ("exact", "spline", "power", "regression")
 STEEL_MODULUS = 210e9
 STEEL_POISSON = 0.3
 
@@ -153,6 +154,28 @@ def _elliptic(x: Array) -> tuple[Array, Array, Array]:
     return k, d, k + np.expm1(-2 * x) * d
 
 
+def exact_ellipse(ratio: ArrayLike) -> tuple[Array, Array, Array]:
+    """Ellipticity k of the contact and its complete elliptic integrals K and E.
+
+    `ratio` as of `ellipticity`.
+    """
+    k = ellipticity(ratio)
+    k_integral, _, e_integral = _elliptic(np.log(k))
+    return k, k_integral, e_integral
+
+
+def _ellipse(ratio: Array, rung: str) -> tuple[Array, Array, Array]:
+    """Ellipticity k and the integrals K and E by one of the rungs."""
+    if rung == "exact":
+        return exact_ellipse(ratio)
+    from loadflow.tribology import hertz_rungs
+
+    if rung not in RUNGS:
+        raise InputError(f"rung: must be one of {', '.join(RUNGS)}, got {rung!r}")
+    found: tuple[Array, Array, Array] = getattr(hertz_rungs, rung)(ratio)
+    return found
+
+
 def hertz_point(
     r11: ArrayLike,
     r12: ArrayLike,
@@ -164,6 +187,7 @@ def hertz_point(
     poisson: ArrayLike = STEEL_POISSON,
     second_modulus: ArrayLike | None = None,
     second_poisson: ArrayLike | None = None,
+    rung: Literal["exact", "spline", "power", "regression"] = "exact",
 ) -> PointContact:
     """Hertzian point contact with exact elliptic integrals, (2.1)–(2.5) of [Ritzer 2018].
 
@@ -181,6 +205,9 @@ def hertz_point(
         Young's modulus, Pa, and Poisson's ratio of body 1, and of body 2 unless given.
     second_modulus, second_poisson : array_like, optional
         The same of body 2.
+    rung : {"exact", "spline", "power", "regression"}
+        Elliptic integrals: exact; splines (1e-9 off); approximations of Hamrock and Brewe, some per
+        cent off (`loadflow.tribology.hertz_rungs`).
 
     Returns
     -------
@@ -212,8 +239,8 @@ def hertz_point(
             f"the surfaces conform), got {plane1} and {plane2}"
         )
     total = plane1 + plane2
-    k = ellipticity(np.maximum(plane1, plane2) / np.minimum(plane1, plane2))
-    k_integral, _, e_integral = _elliptic(np.log(k))
+    ratio = np.maximum(plane1, plane2) / np.minimum(plane1, plane2)
+    k, k_integral, e_integral = _ellipse(ratio, rung)
     e_star = effective_modulus(modulus, poisson, second_modulus, second_poisson)
 
     minor = np.cbrt(2 * e_integral / (np.pi * k))  # η of the source; ξ = k η, ψ/ξ below

@@ -21,7 +21,12 @@ from loadflow.rolling import BallBearing, SlewingBearing, capacity, friction, li
 from loadflow.rolling.patches import raceway_points
 from loadflow.rolling.raceway import Raceway
 from loadflow.rolling.slewing_result import SlewingResult
-from loadflow.tribology.hertz import curvature_sum, effective_modulus, stiffness_factor
+from loadflow.tribology.hertz import (
+    curvature_sum,
+    effective_modulus,
+    exact_ellipse,
+    stiffness_factor,
+)
 from loadflow.validation.check import Check
 
 MM15 = 1e3**1.5  # N/mm^1.5 in N/m^1.5
@@ -71,8 +76,10 @@ def checks() -> Iterator[Check]:
     yield from _friction()
     yield from _geometry()
     yield from _assumed()
+    yield from _ellipses()
     yield from _iso_16281()
     yield from _harris()
+    yield from _catalogue()
 
 
 def _contacts() -> Iterator[Check]:
@@ -101,6 +108,20 @@ def _contacts() -> Iterator[Check]:
     for side, expected in zip(RINGS, (2232, 2202)):
         pressure = float(BLADE.raceway_contact(side, 28_800.0).pressure) / 1e6
         yield Check(f"p_max at 28 800 N, {side}", "ch. 4.4", expected, pressure, 5e-3, unit="MPa")
+
+
+def _ellipses() -> Iterator[Check]:
+    """Ellipticity and elliptic integrals at ratios of curvature computed to all digits."""
+    for ratio, *values in (
+        (1.5, 1.3101029621, 1.7897650950, 1.3911375419),
+        (5.0, 2.8901810398, 2.4937439947, 1.1205197241),
+        (10.0, 4.4994473032, 2.9142026887, 1.0598843439),
+        (50.0, 12.0711467813, 3.8820667182, 1.0116130397),
+    ):
+        for name, expected, got in zip("kKE", values, exact_ellipse(ratio)):
+            yield Check(
+                f"{name} at R_y/R_x = {ratio:g}", "Hertz, exact", expected, float(got), 1e-9
+            )
 
 
 def _statics() -> Iterator[Check]:
@@ -338,7 +359,29 @@ def _harris() -> Iterator[Check]:
         clearance=15e-6,
         elastic_modulus=206.8e9,
     )
+    for side, total, tau in zip(RINGS, (0.202, 0.138), (0.9399, 0.9120)):
+        groove, ring = -1 / bearing.groove(side), 52.3 if side == "inner" else -77.7
+        ours, cos_ours = curvature_sum(2 / ball, 2 / ball, groove, 2e3 / ring)
+        name = f"{side}, 209"
+        yield Check(f"Σρ, {name}", "Harris", total, float(ours) / 1e3, 3e-3, unit="1/mm")
+        yield Check(f"F(ρ), {name}", "Harris", tau, float(cos_ours), 1e-3)
     result = bearing.equilibrium(force=(8900, 0, 0))
     shift = float(result.displacement[0]) * 1e6
     yield Check("radial shift, 209", "Harris", 60.4, shift, 5e-3, unit="μm")
     yield Check("Q_max, 209", "Harris", 4536, float(result.maximum_force), 5e-3, unit="N")
+
+
+def _catalogue() -> Iterator[Check]:
+    """Dynamic capacities of deep groove bearings from their geometry, beside a catalogue."""
+    for name, balls, ball, pitch, printed in (
+        ("6305", 7, 11.5, 43.5, 23_400),
+        ("6209", 9, 12.7, 65.0, 35_100),
+    ):
+        bearing = BallBearing(
+            balls=balls,
+            ball_diameter=ball * 1e-3,
+            pitch_diameter=pitch * 1e-3,
+            groove_radius=0.52 * ball * 1e-3,
+        )
+        source = "catalogue, assuming grooves of 0.52 D"
+        yield Check(f"C, {name}", source, printed, bearing.rated_capacity, 0.03, unit="N")

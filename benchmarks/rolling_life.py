@@ -1,0 +1,170 @@
+"""Arrangements of main bearings over the wind speeds, and what binning the loads costs.
+
+Run with ``python benchmarks/rolling_life.py [--json]``. Loads: NREL 5 MW, DLC 1.1, class I B, five
+wind speeds weighted by Rayleigh, one seed of 200 s each, samples of 0.1 s. Also the errors of the
+approximate contact formulas, and the edge pressure that independent slices leave out.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import time
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from loadflow.rolling import (
+    ARRANGEMENTS,
+    arrangement_lives,
+    bin_loads,
+    edge_contact,
+    main_bearings,
+    system_life,
+)
+from loadflow.rotor import simulate
+from loadflow.shaft import MomentBearing, TwoPoint, bearing_loads
+from loadflow.stages.frames import to_rolling
+from loadflow.tribology.hertz import RUNGS, hertz_point
+
+WIND_SPEEDS = (6.0, 10.0, 14.0, 18.0, 22.0)
+EVERY = 4  # steps of 0.025 s
+TILT = math.radians(5)
+
+
+def series() -> dict[str, tuple[np.ndarray, ...]]:
+    """Force, moment, speed and weight of each place on the shaft, over all wind speeds."""
+    parts: dict[str, list[tuple[np.ndarray, ...]]] = {}
+    for v in WIND_SPEEDS:
+        hub = simulate("nrel-5mw", dlc="1.1", wind_speed=v, seed=1, duration=200, category="B")
+        share = v * math.exp(-math.pi / 4 * (v / 10) ** 2)
+        force, moment = (
+            hub[n].transpose("axis", "time").values for n in ("hub_force", "hub_moment")
+        )
+        for concept in (TwoPoint(), MomentBearing()):
+            loads = bearing_loads(concept, force, moment, tilt=TILT)
+            for place in loads["bearing"].values:
+                one = loads.sel(bearing=place).transpose("time", "axis")
+                parts.setdefault(str(place), []).append(
+                    (
+                        to_rolling(one["force"].values)[::EVERY],
+                        to_rolling(one["moment"].values)[::EVERY, :2],
+                        hub["speed"].values[::EVERY],
+                        np.full(len(hub["time"][::EVERY]), share),
+                    )
+                )
+    return {place: tuple(map(np.concatenate, zip(*rows))) for place, rows in parts.items()}
+
+
+def arrangements(loads: dict[str, tuple[np.ndarray, ...]]) -> list[dict[str, Any]]:
+    """Life in years and static safety of each arrangement."""
+    rows = []
+    for name in ARRANGEMENTS:
+        bearings = main_bearings(name)
+        force, moment = ({place: loads[place][i] for place in bearings} for i in (0, 1))
+        speed, weight = next(loads[place][2:] for place in bearings)
+        found = arrangement_lives(bearings, force, moment, speed, weight)
+        years = {place: part.life_hours / 8766 for place, part in found.items()}
+        rows.append(
+            {"what": f"arrangement {name}"}
+            | {f"years_{place}": value for place, value in years.items()}
+            | {
+                "years_system": float(system_life(list(years.values()))),
+                "static_safety": min(part.static_safety for part in found.values()),
+            }
+        )
+    return rows
+
+
+def binning(loads: dict[str, tuple[np.ndarray, ...]]) -> list[dict[str, Any]]:
+    """Error of the life from revolution-weighted bins against the full series."""
+    rows = []
+    for name in ("moment", "tapered-pair"):
+        bearing = {"M": main_bearings(name)["M"]}
+        force, moment, speed, weight = loads["M"]
+        arrangement_lives(bearing, {"M": force[:2]}, {"M": moment[:2]}, speed[:2], weight[:2])
+        start = time.perf_counter()
+        full = arrangement_lives(bearing, {"M": force}, {"M": moment}, speed, weight)["M"].life
+        seconds = time.perf_counter() - start
+        for bins in (4, 8, 12, 16, 24):
+            f, m, turns = bin_loads(force, moment, speed * weight, bins)
+            start = time.perf_counter()
+            one = np.ones_like(turns)
+            life = arrangement_lives(bearing, {"M": f}, {"M": m}, one, turns)["M"].life
+            rows.append(
+                {
+                    "what": f"{name}, {bins} bins of each component",
+                    "loads": len(turns),
+                    "of": len(force),
+                    "error_of_life": life / full - 1,
+                    "times_faster": seconds / (time.perf_counter() - start),
+                }
+            )
+    return rows
+
+
+def contact_rungs() -> list[dict[str, Any]]:
+    """Largest errors of the approximate contact formulas over ratios of curvature, and cost."""
+    rows = []
+    for rung in RUNGS[1:]:
+        row: dict[str, Any] = {"what": f"point contact, {rung}"}
+        for low, high in ((1, 5), (5, 60), (1, 200)):
+            ratio = np.geomspace(low, high, 1000)
+            ours, exact = (
+                hertz_point(ratio, 1.0, 0.0, 0.0, force=1e3, rung=r) for r in (rung, "exact")
+            )
+            for name in ("stiffness", "pressure"):
+                error = np.abs(getattr(ours, name) / getattr(exact, name) - 1).max()
+                row[f"{name}_{low}_{high}"] = float(error)
+        ratio = np.geomspace(1, 200, 20_000)
+        start = time.perf_counter()
+        hertz_point(ratio, 1.0, 0.0, 0.0, force=1.0, rung=rung)
+        row["ns_per_contact"] = (time.perf_counter() - start) / len(ratio) * 1e9
+        rows.append(row)
+    return rows
+
+
+def edges() -> list[dict[str, Any]]:
+    """Largest pressure of a tapered main-bearing roller: influence coefficients against slices."""
+    bearing = main_bearings("tapered-pair")["M"]
+    rows = []
+    for profile in ("straight", "iso"):
+        for tilt in (0.0, 0.5e-3):
+            shaped = replace(bearing, profile=profile)
+            start = time.perf_counter()
+            contact = edge_contact(shaped, 1e5, tilt)
+            seconds = time.perf_counter() - start
+            rows.append(
+                {
+                    "what": f"roller under 100 kN, {profile}, tilt {tilt * 1e3:g} mrad",
+                    "MPa": contact.maximum_pressure / 1e6,
+                    "MPa_hertz_line": float(
+                        shaped.slice_contact("inner", 1e5 / shaped.slices).pressure / 1e6
+                    ),
+                    "edge_over_middle": contact.edge_factor(),
+                    "seconds": seconds,
+                }
+            )
+    return rows
+
+
+def main() -> None:
+    """Print the figures."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--json", action="store_true", help="print JSON")
+    as_json = parser.parse_args().json
+    loads = series()
+    rows = arrangements(loads) + binning(loads) + contact_rungs() + edges()
+    if as_json:
+        print(json.dumps(rows, indent=1))
+        return
+    for row in rows:
+        print(row.pop("what"))
+        for key, value in row.items():
+            print(f"  {key:32s} {value:.6g}")
+
+
+if __name__ == "__main__":
+    main()
