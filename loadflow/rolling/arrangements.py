@@ -29,14 +29,14 @@ MainBearing = (
 )
 
 _SPHERICAL = SphericalRollerBearing(
-    rollers=28,
+    rollers=30,
     roller_diameter=0.09,
     roller_length=0.14,
     pitch_diameter=1.0,
     contact_angle=0.21,
     clearance=200e-6,
     profile="crowned",
-    crown_radius=12.0,
+    crown_radius=18.0,
 )
 
 _ARRANGEMENTS: dict[str, dict[str, MainBearing]] = {
