@@ -19,6 +19,7 @@ from loadflow.rolling import (
     system_life,
 )
 from loadflow.scene import make_scene
+from loadflow.stages import report
 from loadflow.stages import rolling as stage
 from loadflow.stages.cases import Case
 
@@ -120,6 +121,11 @@ def test_the_stage_keeps_each_bearing_and_the_life_of_the_system():
     cases = [Case("1.1", 8.0, 1, 0.7), Case("1.1", 12.0, 1, 0.3)]
     parts = {case: stage.balls(scene, case, {"reduction": tree}) for case in cases}
     table = stage.summary(parts)
+    first, each = report._rolling_tables(table)
+    assert [row[0] for row in each.rows] == [f"{c.name} {b}" for c in cases for b in ("N", "N2")]
+    assert len(first.rows) == 2
+    whats = [row[0] for row in report._verdicts({"rolling": table})]
+    assert whats[-1] == "rolling, all as a system: rating life under DLC 1.1"
     assert table["bearing"].values.tolist() == ["N", "N2"]
     assert "ball_forces" not in parts[cases[0]]
     hours = table["bearing_life_hours"].sel(load_case="1.1").values

@@ -100,3 +100,32 @@ def test_friction_from_loads_splits_into_its_parts():
     assert total == pytest.approx(100 + sum(parts))
     assert parts[0] == pytest.approx(0.003 * 0.95 * 1e6)
     assert parts[2] == pytest.approx(0.003 / 2 * 4.4e6)
+
+
+@pytest.mark.parametrize("kind", ["ball", "roller"])
+def test_wide_oscillation_lives_as_long_as_its_turns(kind):
+    exponent = {"ball": 3, "roller": 10 / 3}[kind]
+    keys = {"elements": 129, "gamma": 0.015, "kind": kind}
+    for degrees in (30.0, 180.0, 720.0):  # from end to end; a cycle travels twice as far
+        amplitude = math.radians(2 * degrees)
+        capacity = float(life.oscillating_capacity(1e6, amplitude, **keys))
+        oscillations = float(life.rating_life(capacity, 2e5, exponent))
+        turns = float(life.rating_life(1e6, 2e5, exponent))
+        assert oscillations * amplitude / (2 * math.pi) == pytest.approx(turns)
+    half = life.oscillating_capacity(1e6, math.radians(15), "half", **keys)
+    assert half == pytest.approx(float(life.oscillating_capacity(1e6, math.radians(60), **keys)))
+
+
+def test_narrow_oscillation_of_the_guideline():
+    keys = {"elements": 129, "gamma": 0.015}
+    narrow = life.oscillating_capacity(1.0, math.radians(2), **keys)  # θ = 1°, critical 5.5°
+    assert narrow == pytest.approx(180**0.3 * 129**0.033)
+    below, above = life.oscillating_capacity(1.0, np.radians([10.98, 11.02]), **keys)
+    assert above == pytest.approx(below, rel=0.06)
+    for wrong in ({"amplitude": 0.0}, {"amplitude": 1.0, "kind": "needle"}):
+        with pytest.raises(InputError):
+            life.oscillating_capacity(1.0, **(keys | wrong))
+
+
+def test_load_of_the_guideline():
+    assert life.guideline_load(4.0, -1.0, 10.0, 2.0) == pytest.approx(3 + 1 + 10)
