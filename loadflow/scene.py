@@ -9,6 +9,7 @@ from __future__ import annotations
 import hashlib
 import tomllib
 from collections.abc import Iterator
+from dataclasses import fields
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self, get_args
 
@@ -71,8 +72,8 @@ class Loads(_Section):
     are those of each load case unless they are given here. ``seeds`` and ``first_seed`` concern
     turbulent winds; a gust has its own variants (sign, time of the event), and may meet the rotor
     at several ``azimuths`` (rad). ``yaw_errors`` are in rad. ``steady`` takes the steady extreme
-    wind of 6.1 … 6.3 and 7.1. ``spectrum = "mann"`` needs the extra of that name. A ``rung`` that is not named is "flap", and "tables" for a parked
-    turbine.
+    wind of 6.1 … 6.3 and 7.1. ``spectrum = "mann"`` needs the extra of that name. A ``rung`` that
+    is not named is "flap", and "tables" for a parked turbine.
     """
 
     source: Literal["simulate", "files"] = "simulate"
@@ -461,6 +462,9 @@ def _of_stated_kind(errors: list[Any]) -> list[Any]:
 
 def _neighbours(location: tuple[int | str, ...]) -> str:
     """Name the keys that are known where an unknown one stands."""
+    if len(location) > 2 and location[-3] == "geometry" and location[-2] in KINDS:
+        known = ["kind", *(field.name for field in fields(KINDS[str(location[-2])]))]
+        return f"; known here: {', '.join(sorted(known))}"
     data: Any = Scene(name="defaults").model_dump()
     for part in [*_place(location)][:-1]:
         data = data.get(part) if isinstance(data, dict) else None

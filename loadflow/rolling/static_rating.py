@@ -22,7 +22,7 @@ from loadflow.rolling.three_row import ThreeRowRollerBearing
 
 Array = NDArray[np.float64]
 
-HOURS_20_YEARS = 20 * 8766.0
+HOURS_20_YEARS = 20 * 365.25 * 24  # L10h of IEC 61400-1
 STATIC_RATING = (1.0, 1.5)  # static rating over the extreme load: lowest, and wanted
 
 

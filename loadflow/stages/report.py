@@ -14,6 +14,7 @@ from loadflow.cube import open_cube
 from loadflow.errors import InputError
 from loadflow.report import Picture, Section, Table, figures, write_page
 from loadflow.report.style import readable
+from loadflow.rolling.static_rating import HOURS_20_YEARS, STATIC_RATING
 from loadflow.scene import Scene, read_scene
 from loadflow.stages.check import WARN
 from loadflow.stages.extreme_loads import safety_factor
@@ -26,7 +27,6 @@ LOAD_ROWS = (
     ("hub_moment", "hub moment"),
     ("force", "bearing"),
 )
-LIFETIME = 20 * 365.25 * 24  # h, L10h of IEC 61400-1 (1.10)
 
 
 def write_report(folder: Path) -> Path:
@@ -138,14 +138,15 @@ def _verdicts(tables: dict[str, xr.Dataset]) -> Iterator[list[str]]:
         data = tables["rolling"]
         for name, part in data.groupby("bearing"):
             what = f"rolling {name}: static safety over the design load"
-            yield row(what, float(part["bearing_static_safety"].min()), 1.0, False)
+            for limit in STATIC_RATING:
+                yield row(what, float(part["bearing_static_safety"].min()), limit, False)
             for dlc, hours in zip(part["load_case"].values, part["bearing_life_hours"].values.flat):
                 what = f"rolling {name}: rating life under DLC {dlc}"
-                yield row(what, float(hours), LIFETIME, False, "h")
+                yield row(what, float(hours), HOURS_20_YEARS, False, "h")
         if data.sizes["bearing"] > 1:
             for dlc, hours in zip(data["load_case"].values, data["system_life_hours"].values):
                 what = f"rolling, all as a system: rating life under DLC {dlc}"
-                yield row(what, float(hours), LIFETIME, False, "h")
+                yield row(what, float(hours), HOURS_20_YEARS, False, "h")
 
 
 def _shown_cases(tables: dict[str, xr.Dataset], manifest: dict[str, Any]) -> list[str]:

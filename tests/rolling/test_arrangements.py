@@ -88,7 +88,7 @@ def test_scenes_take_a_list_of_bearings():
         ({"arrangement": "none"}, "arrangement"),
         ({"arrangement": "moment", "bearing": "N"}, "leave them out"),
         ({"geometry": {"kind": "plain"}}, "kind must be one of"),
-        ({"geometry": {"kind": "roller", "balls": 3}}, "rolling.geometry.balls: unknown key"),
+        ({"geometry": {"kind": "roller", "balls": 3}}, "balls: unknown key; known here: .*rollers"),
         ({"further": [{"bearing": "M", "geometry": {}}]}, "rolling.further.0.geometry.balls"),
         ({"arrangement": "tapered-pair", "rings": "flexible"}, "slewing bearings"),
         ({"bearing": "X"}, "the shaft has the bearings"),
