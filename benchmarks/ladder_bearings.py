@@ -47,7 +47,7 @@ def measure_reduction(bench: Bench) -> Rungs:
     top = _full_series(bench, table)
     rungs = {
         f"histogram, {pick}, {size:g}": _reduced(bench, table, pick, size, top)
-        for pick in ("random", "extremes")
+        for pick in _PICKED
         for size in bench.setting.sizes
     }
     return with_dominated(rungs | {"full series": top})
@@ -76,6 +76,7 @@ def _reduced(bench: Bench, table: FilmTable, pick: str, size: float, top: Entry)
 _PICKED = {
     "random": "random members of each class of speed and load",
     "extremes": "the severest and a spread of the others of each class",
+    "envelope": "as extremes, but of inner classes that keep one load a random one",
 }
 
 

@@ -73,10 +73,15 @@ class Mesh:
         """Whether only the half from mid-plane to one rim is solved."""
         return bool(self.z_edges[0] == 0.0)
 
+    @property
+    def rims(self) -> tuple[float, float]:
+        """Distances of the outermost cell centres to the ends of `z_edges`."""
+        return float(self.z[0] - self.z_edges[0]), float(self.z_edges[-1] - self.z[-1])
+
     @cached_property
     def gz(self) -> Array:
         """Inverse distances between cell centres and to the rims (nz + 1,); 0 at mid-plane."""
-        first, last = self.z[0] - self.z_edges[0], self.z_edges[-1] - self.z[-1]
+        first, last = self.rims
         inverse = 1.0 / np.concatenate([[first], np.diff(self.z), [last]])
         if self.half:
             inverse[0] = 0.0
