@@ -17,6 +17,7 @@ from typing import Any
 
 from ladder_bearings import measure_gains, measure_journal, measure_reduction, measure_rolling
 from ladder_figures import draw
+from ladder_friction import measure_friction
 from ladder_loads import measure_loads, measure_seeds, measure_shaft, measure_statistics
 from ladder_orbit import measure_orbit
 from measuring import QUICK, Bench, Entry, Rungs, Setting, percent
@@ -35,6 +36,7 @@ STAGES: dict[str, Callable[[Bench], Rungs]] = {
     "journal": measure_journal,
     "journal, transient": measure_orbit,
     "rolling": measure_rolling,
+    "friction": measure_friction,
 }
 
 HEAD = """# Speed against error

@@ -57,6 +57,7 @@ CHAINS: dict[str, dict[str, tuple[Link, ...]]] = {
         "bearing force DEL": (Link("loads", "bearing force DEL"),),
     },
     "seeds.equality": {},
+    "rolling.friction": {},
     "reduction.histogram": {
         "largest load": (Link("loads", "bearing load max"), Link("reduction", "largest load")),
     },

@@ -14,6 +14,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from loadflow.rolling import BallBearing, SlewingBearing
 from loadflow.scene import Scene
 from loadflow.stages.cases import Case
 
@@ -47,6 +48,7 @@ def rung_of(scene: Scene, stage: str) -> str:
         "reduction": _reduction_rung(scene),
         "journal": _film_rung(scene),
         "rolling": scene.rolling.rings,
+        "friction": _friction_rung(scene),
     }.get(stage, "-")
 
 
@@ -62,6 +64,12 @@ def _film_rung(scene: Scene) -> str:
     graded = ", graded" if scene.journal.grading == "graded" else ""
     names = {"grid": f"grid, {around}x{across}{graded}", "reduced": f"reduced, {around}"}
     return names.get(rung, rung)
+
+
+def _friction_rung(scene: Scene) -> str:
+    balls = BallBearing | SlewingBearing
+    followed = any(not isinstance(b, balls) for b in scene.rolling.geometries.values())
+    return "rollers" if followed else "balls"
 
 
 def _reduction_rung(scene: Scene) -> str:

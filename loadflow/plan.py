@@ -58,6 +58,9 @@ STAGES = {
         ),
         Stage("journal", ("reduction",), "case", ("journal",), f"{_S}.journal:film"),
         Stage("rolling", ("reduction",), "case", ("rolling",), f"{_S}.rolling:balls"),
+        Stage(
+            "friction", ("loads", "shaft"), "case", ("rolling", "friction"), f"{_S}.friction:losses"
+        ),
         Stage("check", CHECKED, "run", (), f"{_S}.check:differences", sample=3),
     )
 }
@@ -74,6 +77,7 @@ GIVEN_BY = {
     "journal.film": "journal",
     "rolling.loads": "rolling",
     "rolling.life": "rolling",
+    "rolling.friction": "friction",
 }
 """Which stage gives a result."""
 

@@ -13,7 +13,7 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self, get_args
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator, model_validator
 
 from loadflow.errors import InputError
 from loadflow.journal import GasMixture, JournalBearing, Lubricant, Supply
@@ -42,6 +42,7 @@ Result = Literal[
     "journal.film",
     "rolling.loads",
     "rolling.life",
+    "rolling.friction",
 ]
 
 Positive = Annotated[float, Field(gt=0)]
@@ -287,6 +288,33 @@ class Rolling(_Section):
         return FlexibleRings(inner=self.inner_ring, outer=self.outer_ring)
 
 
+class Friction(_Section):
+    """Lubricant and surfaces of the rolling bearings, for their friction and slip.
+
+    ``lubricant`` is a name of `loadflow.tribology.lubricant_names`; ``temperature`` (K),
+    ``roughness`` (m), ``starvation``, ``roller_drag`` (N m s) and ``seal_torque`` (N m) are those
+    of `loadflow.rolling.FrictionOptions`. Loads are taken every ``step`` (s); rollers have shorter
+    steps of their own.
+    """
+
+    lubricant: str = "lgep-2"
+    temperature: Annotated[float, Field(gt=200, le=500)] = 313.15
+    roughness: Positive = 0.6e-6
+    starvation: Annotated[float, Field(gt=0, le=1)] = 0.7
+    roller_drag: Annotated[float, Field(ge=0)] = 1e-3
+    seal_torque: Annotated[float, Field(ge=0)] = 0.0
+    step: Positive = 0.1
+
+    @field_validator("lubricant")
+    @classmethod
+    def _known(cls, name: str) -> str:
+        from loadflow.tribology import lubricant_names
+
+        if name not in lubricant_names():
+            raise ValueError(f"must be one of {', '.join(lubricant_names())}")
+        return name
+
+
 class Scene(_Section):
     """What is wanted, and from what; see the modules of the sections for units.
 
@@ -311,6 +339,7 @@ class Scene(_Section):
     reduction: Reduction = Reduction()
     journal: Journal = Journal()
     rolling: Rolling = Rolling()
+    friction: Friction = Friction()
 
     @model_validator(mode="after")
     def _bearings_exist(self) -> Self:

@@ -99,6 +99,13 @@ def _sections(
                 if "ball_forces" in (case := _open(folder, "rolling", name))
             ],
         )
+    if "friction" in tables:
+        yield Section(
+            "Friction of rolling bearings",
+            f"Losses, film and slip over the series, {scene.friction.lubricant}; the friction "
+            "power of journal bearings stands in their own table.",
+            tables=[_case_table(tables["friction"])],
+        )
     if "check" in tables:
         yield _check_section(tables["check"])
     yield _provenance(manifest)
