@@ -12,7 +12,13 @@ import time
 import numpy as np
 from numba import njit
 
-from loadflow.rolling import FrictionOptions, RollerBearing, _motion_kernels, roller_friction
+from loadflow.rolling import (
+    FrictionOptions,
+    RollerBearing,
+    _coulomb_kernels,
+    _motion_kernels,
+    roller_friction,
+)
 from loadflow.rolling import friction as parts
 from loadflow.rolling.roller_motion import (
     coulomb_motion,
@@ -118,7 +124,7 @@ def coulomb_table():
         seconds, spin = timed(lambda p=parts_: euler_coulomb(*args, p))
         error = np.abs(spin - exact.spin).max() / ideal[0]
         rows.append((f"Euler, {1 / parts_:g}°", seconds, error, n * parts_))
-    seconds, _ = timed(lambda: _motion_kernels.coulomb_spins(*args[:4], 0 * grip, *args[4:]))
+    seconds, _ = timed(lambda: _coulomb_kernels.coulomb_spins(*args[:4], 0 * grip, *args[4:]))
     rows.append(("exact, samples every 1°", seconds, 0.0, n))
     show("Stage 1, NU2208, 1000/min, 2 kN", rows)
 

@@ -25,7 +25,8 @@ kinematics       speeds of cage, rollers and surfaces; `radial_load`: one row, o
 friction         components of friction with an energy audit, catalogues, slewing bearings
 lim_singh        6 × 6 stiffness in closed form; `film_dynamics`: films and damping of a contact
 roller_history   loads, speeds, inertia and weight of all rollers over time
-roller_motion    their spin and slip over such histories; `_motion_kernels`: its compiled steps
+roller_motion    their spin and slip over such histories, compiled in `_coulomb_kernels` and
+                 `_motion_kernels`
 skidding         slip of a main bearing's rollers over a load series, and its friction
 cage_rim         cage guided by a ring, as a dynamically loaded journal bearing
 rotor_dynamics   stiffness and damping of a bearing over load and frequency

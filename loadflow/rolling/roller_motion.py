@@ -119,7 +119,7 @@ def coulomb_motion(
     """
     if pocket not in ("source", "braking"):
         raise InputError(f"pocket: must be 'source' or 'braking', got {pocket!r}")
-    from loadflow.rolling import _motion_kernels as kernels
+    from loadflow.rolling import _coulomb_kernels as kernels
 
     row, ideal = history.row, history.ideal_spin
     size, around = np.abs(history.outward), history.tangential

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from loadflow.errors import InputError
-from loadflow.rolling import FrictionOptions, _motion_kernels
+from loadflow.rolling import FrictionOptions, _coulomb_kernels, _motion_kernels
 from loadflow.rolling import friction as parts
 from loadflow.rolling.cage_rim import CageRim, cage_orbit
 from loadflow.rolling.crank import CrankDrive
@@ -69,7 +69,7 @@ def test_closed_form_of_the_largest_slip_agrees_with_the_steps(rpm, force):
 def test_coulomb_run_up_takes_the_time_that_momentum_needs():
     """From rest under a constant grip and no drag: a straight line, then ideal."""
     time, ideal, grip = np.linspace(0, 1, 11), np.full(11, 10.0), np.full((11, 1), 2.0)
-    spin = _motion_kernels.coulomb_spins(
+    spin = _coulomb_kernels.coulomb_spins(
         time, ideal, grip, np.zeros((11, 1)), np.zeros((11, 1)), 0.0, 0.1, np.zeros(1)
     )
     assert np.allclose(spin[:, 0], np.minimum(20 * time, 10), atol=1e-12)
@@ -97,7 +97,7 @@ def implicit(pulled, target, grip, brake):
 )
 def test_coulomb_spin_agrees_with_tiny_steps(grip, push, brake, damping, start, ideal):
     time, inertia = np.arange(4.0), 0.5
-    exact = _motion_kernels.coulomb_spins(
+    exact = _coulomb_kernels.coulomb_spins(
         time, np.array(ideal), *(np.array(m)[:, None] for m in (grip, push, brake)), damping,
         inertia, np.array([start]),
     )[:, 0]  # fmt: skip
