@@ -11,6 +11,7 @@ ISO/TS 16281:2008, load deflection of a roller slice.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Literal
 
@@ -291,14 +292,16 @@ def hertz_line(
     force: ArrayLike,
     modulus: ArrayLike = STEEL_MODULUS,
     poisson: ArrayLike = STEEL_POISSON,
-    law: Literal["iso", "palmgren"] = "iso",
+    law: Literal["iso", "palmgren", "lundberg"] = "iso",
 ) -> LineContact:
     """Hertzian line contact of two cylinders; approach after an empirical law for steel.
 
     Width and pressure are Hertz's. The approach of a finite line is not a local quantity; `law`
     names the formula: ``"iso"`` is one of the two equal contacts of ISO/TS 16281,
     q = 35 948 δ^(10/9) L^(8/9) (N, mm, δ over both); ``"palmgren"`` is
-    δ = 3.84e-5 Q^0.9/L^0.8 (N, mm). Both are scaled to the given modulus as E*^-0.9.
+    δ = 3.84e-5 Q^0.9/L^0.8 (N, mm), both scaled to the given modulus as E*^-0.9; ``"lundberg"`` is
+    that of Lundberg and Sjövall for a roller (body 1) on a longer raceway,
+    δ = Q/(π E* L) ln(2π E* L² Σρ/(Q ρ₁)).
 
     Parameters
     ----------
@@ -310,7 +313,7 @@ def hertz_line(
         Normal force, N, not negative.
     modulus, poisson : array_like
         Young's modulus, Pa, and Poisson's ratio of both bodies.
-    law : {"iso", "palmgren"}
+    law : {"iso", "palmgren", "lundberg"}
         Formula of the approach.
 
     Returns
@@ -339,14 +342,35 @@ def hertz_line(
         raise InputError(f"curvatures: their sum must be > 0 1/m, got {total}")
     e_star = effective_modulus(modulus, poisson)
     semi_width = np.sqrt(4 * load / (np.pi * span * total * e_star))
-    factor = line_factor(span, e_star, law)
-    approach = (load / factor) ** 0.9
+    if law == "lundberg":
+        if not np.all(np.asarray(r1, float) > 0):
+            raise InputError(f"r1: must be > 0 1/m for a roller (law 'lundberg'), got {r1}")
+        approach, stiffness = _lundberg(load, span, total / np.asarray(r1, float), e_star)
+    else:
+        factor = line_factor(span, e_star, law)
+        approach = (load / factor) ** 0.9
+        stiffness = 10 / 9 * factor * approach ** (1 / 9)
     return LineContact(
-        stiffness=10 / 9 * factor * approach ** (1 / 9),
+        stiffness=stiffness,
         approach=approach,
         pressure=np.sqrt(load * total * e_star / (np.pi * span)),
         semi_width=semi_width,
     )
+
+
+def _lundberg(load: Array, span: Array, ratio: Array, e_star: Array) -> tuple[Array, Array]:
+    """Approach and tangent stiffness of a roller on a raceway after Lundberg and Sjövall.
+
+    Both are 0 without load, where the logarithm has no bound.
+    """
+    unit = math.pi * e_star * span
+    load, unit, size = np.broadcast_arrays(load, unit, 2 * unit * span * ratio)
+    at_work = load > 0
+    logarithm = np.log(size / np.where(at_work, load, size))
+    if not np.all(logarithm[at_work] > 1):
+        raise InputError("force: too large for the law of Lundberg, whose approach no longer grows")
+    stiffness = np.divide(unit, logarithm - 1, out=np.zeros(load.shape), where=at_work)
+    return load / unit * logarithm, stiffness
 
 
 def line_factor(

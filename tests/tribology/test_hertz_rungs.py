@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from loadflow.errors import InputError
-from loadflow.tribology import hertz_point
+from loadflow.tribology import hertz_line, hertz_point
 
 
 def errors(rung, low, high):
@@ -43,3 +43,23 @@ def test_power_law_is_exact_for_circles():
 def test_unknown_rungs_are_refused():
     with pytest.raises(InputError, match="rung"):
         hertz_point(1.0, 1.0, 0.0, 0.0, force=1.0, rung="guess")
+
+
+def test_lundbergs_line_contact_is_near_the_other_laws_and_its_stiffness_is_its_slope():
+    forces = np.array([1e3, 1e4, 1e5])
+    keys = {"r1": 200.0, "r2": 20.0, "length": 0.02}
+    ours, palmgren = (hertz_line(**keys, force=forces, law=law) for law in ("lundberg", "palmgren"))
+    assert ours.approach == pytest.approx(palmgren.approach, rel=0.15)
+    more = hertz_line(**keys, force=forces * 1.0001, law="lundberg")
+    slope = 1e-4 * forces / (more.approach - ours.approach)
+    assert ours.stiffness == pytest.approx(slope, rel=1e-3)
+    assert hertz_line(**keys, force=0.0, law="lundberg").approach == 0
+
+
+def test_lundbergs_law_ends_and_unknown_laws_are_refused():
+    with pytest.raises(InputError, match="force"):
+        hertz_line(200.0, 0.0, length=1e-6, force=1e5, law="lundberg")
+    with pytest.raises(InputError, match="r1"):
+        hertz_line(0.0, 200.0, length=0.01, force=1.0, law="lundberg")
+    with pytest.raises(InputError, match="law"):
+        hertz_line(200.0, 0.0, length=0.01, force=1.0, law="hooke")
