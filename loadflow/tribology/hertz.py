@@ -344,7 +344,9 @@ def hertz_line(
     semi_width = np.sqrt(4 * load / (np.pi * span * total * e_star))
     if law == "lundberg":
         if not np.all(np.asarray(r1, float) > 0):
-            raise InputError(f"r1: must be > 0 1/m for a roller (law 'lundberg'), got {r1}")
+            raise InputError(
+                f"r1: must be > 0 1/m for a roller (law 'lundberg'), got {np.asarray(r1, float)}"
+            )
         approach, stiffness = _lundberg(load, span, total / np.asarray(r1, float), e_star)
     else:
         factor = line_factor(span, e_star, law)
