@@ -55,7 +55,7 @@ class WindOptions:
     scaling: Literal["none", "hub", "each"] = "none"
     lateral: Literal["coherent", "independent"] = "coherent"
     radii: Annotated[int, Ge(2)] = 11
-    angles: Annotated[int, Ge(3)] = 36
+    angles: Annotated[int, Ge(3)] = 48
     step: Annotated[float, Gt(0)] = 0.05
 
     def __post_init__(self) -> None:
