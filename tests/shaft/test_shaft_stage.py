@@ -6,7 +6,10 @@ from synthetic import case as synthetic_case
 
 from loadflow.errors import InputError
 from loadflow.scene import make_scene
-from loadflow.stages.journal import film
+from loadflow.shaft import Beam, ShaftSection, TwoPoint
+from loadflow.shaft import bearing_loads as suspended
+from loadflow.stages.film_seat import film_model
+from loadflow.stages.journal import equilibria, film
 from loadflow.stages.reduction import reduced_loads
 from loadflow.stages.shaft import bearing_loads
 
@@ -102,3 +105,24 @@ def test_every_concept_is_an_option_of_a_scene(concept, bearings):
 def test_mistakes_are_named(sections, message):
     with pytest.raises(InputError, match=message):
         scene_of(**sections)
+
+
+def test_the_shaft_rests_on_the_films_of_its_bearings():
+    """Determinate loads; the shaft lies where both films are, and leans from one to the other."""
+    journal = scene_of(journal={"grid": [36, 8]}).journal
+    concept = TwoPoint(beam=Beam((ShaftSection(2.0, 1.6),), youngs_modulus=1e16))
+    speed = np.array([1.2, 1.3])
+    film_of = film_model(journal, speed)
+    force = np.array([[0.0, 0.0], [1e5, -5e4], [-1e6, -1.1e6]])
+    moment = np.array([[0.0, 0.0], [5e5, 8e5], [3e5, 0.0]])
+    found = suspended(concept, force, moment, models={"N": film_of, "N2": film_of})
+    gaps = []
+    for bearing in ("N", "N2"):
+        one = found.sel(bearing=bearing)
+        down_left = equilibria(journal, one["force"].values.T, speed).eccentricity
+        gaps.append(np.stack([down_left[:, 1], -down_left[:, 0]]))
+        np.testing.assert_allclose(one["displacement"].values[1:], gaps[-1], rtol=1e-6, atol=1e-12)
+    turned = (gaps[1] - gaps[0]) / concept.span
+    np.testing.assert_allclose(found["tilt"].values[0, 2], turned[0], rtol=1e-3)
+    np.testing.assert_allclose(found["tilt"].values[0, 1], -turned[1], rtol=1e-3)
+    assert found.attrs["converged"] == 1
