@@ -2,34 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Literal
 
 import numpy as np
 from annotated_types import Gt, Lt
 from numpy.typing import ArrayLike, NDArray
 
-from loadflow.errors import InputError, SolverError
-from loadflow.journal.equilibrium import (
-    Solution,
-    no_film,
-    refusal,
-    solve_equilibrium,
-    solve_film,
-    solve_patiently,
-)
-from loadflow.journal.estimate import NEAR, closed_form_position
-from loadflow.journal.film import EVERY, Film
+from loadflow.errors import InputError
+from loadflow.journal.film import EVERY
 from loadflow.journal.laminar import warn_if_turbulent
 from loadflow.journal.options import Cavitation, Lubricant, require
 from loadflow.journal.orbit import Marcher, march, mass_balance, orbit_dataset, orbit_row
 from loadflow.journal.periodic import Method, check_period, close_orbit, refuse_half_speed_whirl
-from loadflow.journal.result import Equilibrium, FilmField, field_row, shaped, stack, static_row
+from loadflow.journal.result import Equilibrium, FilmField, shaped, stack
 from loadflow.journal.rungs import Control, Rung, check_rung, model
-from loadflow.journal.setup import FilmOptions, Grading, Inlet, build_film, operating_points
+from loadflow.journal.setup import FilmOptions, Grading, Inlet, operating_points
 from loadflow.journal.shaped import Line, equilibrium_rows, field_rows, orbit_start, plain
 from loadflow.journal.shapes import CYLINDER, Relief, Shape
+from loadflow.journal.static import plain_fields, plain_film, plain_rows, plain_start
 from loadflow.journal.supply import Supply
 
 if TYPE_CHECKING:
@@ -37,13 +28,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-_HIGH = 0.99  # eccentricity ratio at which the lift of a supply is stated
 _METHODS = (False, True, "direct", "marching")
-_STARVED = (
-    "the supply is starved, a groove would fall below the cavitation pressure: MassConserving and "
-    "GasMixture follow a groove that is not full"
-)
-_AFLOAT = 0.5  # eccentricity ratio at which a shaft is sought that its supply carries
 
 
 @dataclass(frozen=True)
@@ -198,18 +183,8 @@ class JournalBearing:
             control = Control(tolerance, max_iterations, strict)
             answer = model(rung).equilibrium(self, options, loads, speeds, control)
             return Equilibrium(**shaped(answer, shape))
-        film = self._film(options, speeds)
-        film.raise_scale(self._lifted_pressure(film, loads))
-        finer = self._film(options.graded(), speeds) if options.may_grade else None
-        rows = []
-        last: Solution | None = None
-        for index, (load, omega) in enumerate(zip(loads, speeds.tolist())):
-            used, solution = self._static(film, finer, load, omega, last, tolerance, max_iterations)
-            if not solution.converged and strict:
-                raise SolverError(f"load {index}: {self._refusal(used, load, solution)}")
-            if solution.converged and used is film:
-                last = solution
-            rows.append(static_row(self, used, load, lubricant, solution))
+        control = Control(tolerance, max_iterations, strict)
+        rows = plain_rows(self, options, loads, speeds, control)
         return Equilibrium(**stack(rows, shape))
 
     def pressure(
@@ -269,29 +244,9 @@ strict, tilt, bend
             control = Control(tolerance, max_iterations, strict)
             found, z = field_rows(self, options, places, velocities, speeds, line, control)
             return FilmField(z=z if z[0] < 0 else np.append(-z[::-1], z), **stack(found, shape))
-        ratio = np.hypot(places[:, 0], places[:, 1])
-        if ratio.max(initial=0.0) >= 1.0:
-            raise InputError(
-                f"eccentricity {ratio.argmax()}: ratio ε = {ratio.max():.6g} is not allowed: < 1 "
-                f"(radial clearance {self.clearance:.6g} m)"
-            )
-        rates = np.abs(speeds) + np.hypot(velocities[:, 0], velocities[:, 1])
-        film = self._film(options, rates)
-        rows = []
-        for index, (place, moving, omega) in enumerate(zip(places, velocities, speeds.tolist())):
-            film.set_speed(omega)
-            steps = _steps(film, max_iterations)
-            solution = solve_film(film, film.start(), place, moving, tolerance, steps)
-            if strict and film.dry(solution.u):
-                raise SolverError(f"film {index} at ε = {np.hypot(*place):.6g}: {_STARVED}")
-            if strict and not solution.converged:
-                raise SolverError(
-                    f"film {index} at ε = {np.hypot(*place):.6g}, ω = {omega:.6g} rad/s: residual "
-                    f"{solution.residual:.3g} after {solution.iterations} steps"
-                )
-            rows.append(field_row(film, solution))
-        half = film.mesh.z * self.radius
-        return FilmField(z=np.concatenate([-half[::-1], half]), **stack(rows, shape))
+        control = Control(tolerance, max_iterations, strict)
+        found, z = plain_fields(self, options, places, velocities, speeds, control)
+        return FilmField(z=np.concatenate([-z[::-1], z]), **stack(found, shape))
 
     def orbit(
         self,
@@ -405,10 +360,10 @@ strict, tilt, bend
         control = Control(tolerance, 2 * max_iterations)
         free: slice | NDArray[np.int64] = EVERY
         if aligned:
-            film = self._film(options.for_history(), speeds)
+            film = plain_film(self, options.for_history(), speeds)
             if periodic and not film.pockets.lifts(film.p_edge):
                 refuse_half_speed_whirl(times, loads, speeds)
-            first, forces = self._orbit_start(film, loads, speeds, place, control), loads
+            first, forces = plain_start(self, film, loads, speeds, place, control), loads
         else:
             film, first, forces, free = orbit_start(
                 self, options, loads, speeds, line, place, control
@@ -439,118 +394,3 @@ strict, tilt, bend
         allowed = '"grid" for a shaped bore or a shaft that tilts or bends'
         require(rung == "grid", "rung", rung, allowed)
         return False
-
-    def _orbit_start(
-        self, film: Film, loads: Array, speeds: Array, place: Array | None, control: Control
-    ) -> Solution:
-        """First state of an orbit in a plain bearing."""
-        film.raise_scale(float(np.hypot(*loads.T).max()) / (self.width * self.diameter))
-        omega = float(speeds[0])
-        film.set_speed(omega)
-        if place is None:
-            limits = (control.tolerance, control.max_iterations)
-            _, first = self._static(film, None, loads[0], omega, None, *limits)
-        else:
-            first = solve_film(film, film.start(), place, np.zeros(2), control.tolerance, 100)
-        if not first.converged:
-            raise SolverError(f"orbit cannot start: {self._refusal(film, loads[0], first)}")
-        return first
-
-    def _film(self, options: FilmOptions, rates: Array) -> Film:
-        film = build_film(self.diameter, self.width, self.relative_clearance, options)
-        film.set_scale(float(np.abs(rates).max()))
-        return film
-
-    def _lifted_pressure(self, film: Film, loads: Array) -> float:
-        """Pressure that the supply must raise, Pa; 0 if it raises none."""
-        if not film.pockets.free.size:
-            return 0.0
-        return float(np.hypot(*loads.T).max()) / (self.width * self.diameter)
-
-    def _static(
-        self,
-        film: Film,
-        finer: Film | None,
-        load: Array,
-        speed: float,
-        last: Solution | None,
-        tolerance: float,
-        max_iterations: int,
-    ) -> tuple[Film, Solution]:
-        """Equilibrium from the closed form, robustly; the film it was found on comes with it."""
-        film.set_speed(speed)
-        lifts = film.pockets.lifts(film.p_edge)
-        if speed == 0.0 and not lifts:
-            if load.any():
-                return film, no_film(film)
-            return film, solve_film(film, film.start(), load, load, tolerance, max_iterations)
-        position = self._estimate(load, film)
-        attempts = [(film, *start) for start in self._starts(film, position, last)]
-        if lifts:
-            floating = _floating(film, load, position)
-            attempts.insert(0 if film.pockets.free.size else len(attempts), floating)
-        if finer is not None:
-            finer.set_speed(speed)
-            attempts.append((finer, finer.start(), position))
-        for used, u, start in attempts:
-            steps = _steps(used, max_iterations)
-            solution = solve_equilibrium(used, load, u, start, tolerance, steps)
-            if solution.converged and (finer in (None, used) or used.resolves(solution.position)):
-                dry = used.dry(solution.u)
-                return used, replace(solution, estimate=position, converged=not dry)
-        used = finer or film
-        solution = solve_patiently(used, load, position, tolerance, max_iterations)
-        return used, replace(solution, estimate=position)
-
-    def _starts(
-        self, film: Film, position: Array, last: Solution | None
-    ) -> Iterator[tuple[Array, Array]]:
-        """Where Newton may start: from the last solution if the closed form has moved little."""
-        if last is not None and last.estimate is not None:
-            moved = position - last.estimate
-            if np.hypot(*moved) < NEAR * (1 - np.hypot(*last.position)):
-                yield last.u, last.position
-        yield film.start(), position
-
-    def _estimate(self, load: Array, film: Film) -> Array:
-        """Position by Butenschön's closed form, in clearances."""
-        if film.speed == 0.0:
-            return np.zeros(2)
-        wanted = self.sommerfeld_number(float(np.hypot(*load)), film.speed, film.viscosity)
-        return closed_form_position(
-            self.width / self.diameter, wanted, load, film.speed, film.ruptures
-        )
-
-    def _refusal(self, film: Film, load: Array, solution: Solution) -> str:
-        head = f"F = ({load[0]:.6g}, {load[1]:.6g}) N at ω = {film.speed:.6g} rad/s"
-        if film.dry(solution.u):
-            return f"{head}: {_STARVED}"
-        if film.speed == 0.0:
-            if not film.pockets.lifts(film.p_edge):
-                return f"{head}: without rotation and squeeze the film carries no load"
-            return (
-                f"{head}: the supply carries no more than {_lift(film, load):.6g} N, at ε = {_HIGH}"
-            )
-        ratio = float(np.hypot(*solution.position))
-        return refusal(load, film.speed, solution.residual, solution.iterations, ratio)
-
-
-def _steps(film: Film, max_iterations: int) -> int:
-    """Newton steps that a load may take; the rupture of Reynolds moves by one cell in each."""
-    return max(max_iterations, film.mesh.shape[0] if film.creeps else 0)
-
-
-def _floating(film: Film, load: Array, position: Array) -> tuple[Film, Array, Array]:
-    """Start for a shaft that its supply carries: well off the shell, the film settled."""
-    ratio = float(np.hypot(*position))
-    if film.speed == 0.0 or ratio > _AFLOAT:
-        position = _AFLOAT * load / (float(np.hypot(*load)) or 1.0)
-    state = solve_film(film, film.start(), position, np.zeros(2), 1e-6, 30)
-    return film, state.u, position
-
-
-def _lift(film: Film, load: Array) -> float:
-    """Load that the supply carries against `load` with the shaft nearly on the shell, N."""
-    way = load / (float(np.hypot(*load)) or 1.0)
-    state = solve_film(film, film.start(), _HIGH * way, np.zeros(2), 1e-6, 100)
-    return float(state.linear.load @ way)
