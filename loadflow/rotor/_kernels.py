@@ -33,7 +33,7 @@ from ._slots import (
     WIND_Y,
     WIND_Z,
 )  # fmt: skip
-from .aero._kernels import section_force, solve
+from .aero._kernels import inflow_lag, section_force, solve
 from .control._kernels import brake, control
 
 GRAVITY = 9.80665
@@ -155,12 +155,13 @@ def momentum_share(m, speed, state):
 
 @njit(cache=True, nogil=True)
 def blade_aerodynamics(
-    m, inflow, step, time, azimuth, pitch, speed, motion, state, guess, wake, dt, force
+    m, inflow, step, time, azimuth, pitch, speed, motion, state, guess, wake, induced, dt, force
 ):
     """Aerodynamic force (x, r, t) on each section of one blade, N.
 
     `motion` (n, 6): see `deflection`; `guess` (n,): inflow angles of the step before, replaced.
-    `wake` (n, 2): see `section_force`. Returns the mean wind over the sections (x, y, z).
+    `wake` (n, 2): see `section_force`; `induced` (n, 2, 3): see `inflow_lag`. Returns
+    the mean wind over the sections (x, y, z).
     """
     sine, cosine = np.sin(azimuth), np.cos(azimuth)
     cone_s, cone_c = np.sin(m.cone), np.cos(m.cone)
@@ -191,6 +192,8 @@ def blade_aerodynamics(
             guess[i] = angle
         if momentum < 1.0:
             a, swirl = a * momentum, swirl * momentum
+        if m.dynamic_inflow:
+            a, swirl = inflow_lag(m, i, normal, tangential, a, swirl, state, dt, induced[i])
         a = skewed(m, a, y, z, state)
         f_normal, f_tangential = section_force(
             m, i, pitch, normal, tangential, a, swirl, dt, wake[i]
@@ -326,10 +329,10 @@ def braked_rate(speed, drive, held):
 @njit(cache=True, nogil=True)
 def march(
     m, c, schedule, inflow, dt, steps, start, controlled,
-    state, blade_pitch, q, v, acc, guess, wake, out,
+    state, blade_pitch, q, v, acc, guess, wake, induced, out,
 ):  # fmt: skip
     """March the rotor; `state` (SLOTS,), `blade_pitch` (blades,), `q`, `v`, `acc` (blades, k),
-    `guess` and `wake` go on.
+    `guess`, `wake` and `induced` go on.
 
     Not `controlled`: speed and pitch stay. `out` (steps, COLUMNS + blades) is filled.
     """
@@ -338,7 +341,7 @@ def march(
     force = np.zeros((m.blades, sections, 3))
     total = np.zeros(7)
     old_rate = state[S_RATE]
-    fresh = 1 if np.all(wake == 0.0) else 0
+    fresh = 1 if np.all(wake == 0.0) and np.all(induced == 0.0) else 0
     for step in range(steps):
         time = start + step * dt
         speed, rate = state[S_SPEED], state[S_RATE]
@@ -352,7 +355,7 @@ def march(
             since = dt if fresh == 0 or step > 0 else 0.0
             wind = blade_aerodynamics(
                 m, inflow, step, time, azimuth, pitch, speed, motion, state, guess[b], wake[b],
-                since, force[b],
+                induced[b], since, force[b],
             )  # fmt: skip
             for axis in range(3):
                 mean[axis] += wind[axis] / m.blades

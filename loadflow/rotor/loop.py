@@ -30,6 +30,7 @@ class State:
     mode_acceleration: Array
     inflow_angle: Array  # (blades, n), start of the section solver
     wake: Array  # (blades, n, 2)
+    induced: Array  # (blades, n, 2, 3), see `inflow_lag`; without sections if it is off
 
     @property
     def speed(self) -> float:
@@ -92,6 +93,7 @@ def _state(m: Machine, wind_speed: float, pitch: float) -> State:
         modes.copy(),
         np.zeros(sections),
         np.zeros((*sections, 2)),
+        np.zeros((m.blades, m.radius.size if m.dynamic_inflow else 0, 2, 3)),
     )
 
 
@@ -122,7 +124,8 @@ def run(
     out = np.empty((steps, k.COLUMNS + m.blades))
     kernels.march(
         m, c, schedule, inflow, dt, steps, start, controlled, state.scalars, state.pitch,
-        state.modes, state.mode_speed, state.mode_acceleration, state.inflow_angle, state.wake, out,
+        state.modes, state.mode_speed, state.mode_acceleration, state.inflow_angle, state.wake,
+        state.induced, out,
     )  # fmt: skip
     bad = ~np.isfinite(out).all(axis=1) | (np.abs(out[:, k.SPEED]) > 10)
     if bad.any():

@@ -64,6 +64,7 @@ class Machine(NamedTuple):
     skew_factor: float
     drag_in_induction: bool
     shed_wake: bool
+    dynamic_inflow: bool
     table: Array  # (n, p, q, 2) induced over undisturbed speed; empty: solved at every step
     table_angle: tuple[float, float]  # first inflow angle and step, rad
     table_pitch: tuple[float, float]  # first pitch and step, rad
@@ -137,6 +138,7 @@ def machine(turbine: Turbine, options: RotorOptions) -> Machine:
         skew_factor=options.skew_factor,
         drag_in_induction=options.drag_in_induction,
         shed_wake=options.shed_wake,
+        dynamic_inflow=options.dynamic_inflow,
         table=np.zeros((0, 0, 0, 2)),
         table_angle=(0.0, 1.0),
         table_pitch=(0.0, 1.0),

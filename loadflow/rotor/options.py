@@ -33,6 +33,8 @@ class RotorOptions:
         Whether drag counts in the momentum balance.
     shed_wake : bool
         Whether the lift lags behind the angle of attack (shed wake, attached flow).
+    dynamic_inflow : bool
+        Whether the induced velocity lags behind the load on the rotor (Øye's two time constants).
     tower_dam : bool
         Whether the blades pass through the potential flow around the tower.
     individual_pitch : bool
@@ -49,6 +51,7 @@ class RotorOptions:
     skew_factor: Annotated[float, Ge(0), Le(2)] = 1.4726215563702154
     drag_in_induction: bool = False
     shed_wake: bool = True
+    dynamic_inflow: bool = False
     tower_dam: bool = True
     individual_pitch: bool = False
     mass_imbalance: Annotated[float, Ge(-0.2), Le(0.2)] = 0.0

@@ -73,3 +73,27 @@ def test_prebent_blades_are_straightened_by_their_own_pull():
         for t in (turbine, bent)
     ]
     assert 0.1 < tips[1] - tips[0] < 3.0
+
+
+def test_dynamic_inflow_leaves_the_steady_state_and_overshoots_after_a_pitch_step():
+    from loadflow.rotor.inflow import steady_inflow
+    from loadflow.rotor.loop import run, turning_state
+    from loadflow.rotor.rungs import prepare
+
+    turbine, dt = load_turbine("nrel-5mw"), 0.025
+    thrust = {}
+    for lag in (False, True):
+        calm = dataclasses.replace(CALM, dynamic_inflow=lag, shed_wake=False)
+        m, c = prepare(turbine, "tables", calm)
+        m = m._replace(tilt=0.0, cone=0.0)
+        state = turning_state(m, c, 8.0, 0.95, 0.0)
+        winds = steady_inflow(8.0, 4800, 0.0)
+        before = run(m, c, winds, state, dt, steps=400, controlled=False)
+        state.pitch[:] = np.radians(2.0)
+        after = run(m, c, winds, state, dt, steps=4800, controlled=False)
+        thrust[lag] = before[-1, 3], after[2, 3], after[-1, 3]
+    assert thrust[True][0] == pytest.approx(thrust[False][0], rel=1e-6)
+    assert thrust[True][2] == pytest.approx(thrust[False][2], rel=1e-4)
+    # at first the wake is still that of the higher load: thrust falls below its final value
+    step = thrust[False][0] - thrust[False][2]
+    assert 1.3 * step < thrust[True][0] - thrust[True][1] < 3 * step

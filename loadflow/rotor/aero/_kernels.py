@@ -8,6 +8,8 @@ hub loss, Buhl's correction at high induction.
 import numpy as np
 from numba import njit
 
+from .._slots import S_AXIAL
+
 _SMALL = 1e-6
 _HALF_PI = 0.5 * np.pi
 _BRACKET = 0.02  # rad, around the inflow angle of the step before
@@ -128,6 +130,34 @@ def solve(m, i, pitch, normal, tangential, guess):
             _, a, swirl = induction(m, i, angle, pitch, normal, tangential)
             return angle, a, swirl
     return np.arctan2(normal, tangential), 0.0, 0.0
+
+
+@njit(cache=True, nogil=True)
+def inflow_lag(m, i, normal, tangential, a, swirl, state, dt, induced):
+    """Induction factors that lag behind their quasi-steady values by two time constants.
+
+    Øye's filter, as in Hansen, "Aerodynamics of Wind Turbines" (2008), (9.17) to (9.22). `induced`
+    (2, 3) holds the normal and tangential induced speed: quasi-steady of the step before,
+    intermediate and lagging; dt = 0 sets them to steady.
+    """
+    wind = max(state[S_AXIAL], 1.0)
+    first = 1.1 / (1 - 1.3 * min(max(a, 0.0), 0.5)) * m.tip_radius / wind
+    second = (0.39 - 0.26 * (m.radius[i] / m.tip_radius) ** 2) * first
+    for k in range(2):
+        steady = a * normal if k == 0 else swirl * tangential
+        lag = induced[k]
+        if dt > 0:
+            drive = steady + 0.6 * first * (steady - lag[0]) / dt
+            lag[1] += (drive - lag[1]) * (1 - np.exp(-dt / first))
+            lag[2] += (lag[1] - lag[2]) * (1 - np.exp(-dt / second))
+            lag[0] = steady
+        else:
+            lag[:] = steady
+    if abs(normal) > 1e-3:
+        a = induced[0, 2] / normal
+    if abs(tangential) > 1e-3:
+        swirl = induced[1, 2] / tangential
+    return a, swirl
 
 
 @njit(cache=True, nogil=True)
