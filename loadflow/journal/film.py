@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,7 +20,7 @@ from loadflow.journal.options import (
     Reynolds,
     Sommerfeld,
 )
-from loadflow.journal.pockets import UNSUPPLIED, Pockets
+from loadflow.journal.pockets import Pockets
 
 Array = NDArray[np.float64]
 
@@ -56,19 +55,6 @@ class Linear:
     stiffness: Array
     damping: Array
     columns: Array
-
-
-class Integrals(NamedTuple):
-    """Integrals over the solved film in the units of `_kernels`; numbers, or arrays over states.
-
-    Largest pressure, dissipation, shear, flow over the rims, total fill.
-    """
-
-    peak: Any
-    dissipation: Any
-    shear: Any
-    outflow: Any
-    fill: Any
 
 
 class Film:
@@ -189,7 +175,7 @@ class Film:
         moving = (around.T * velocity) @ across
         return self.slope * (rate * coef[kernel.HM, :-1, : across.shape[1]] - moving)
 
-    def _balance(self, coef: Array, mass: Array, change: Array | None = None) -> Array:
+    def balance(self, coef: Array, mass: Array, change: Array | None = None) -> Array:
         """Outflow of every cell (nx, nz) at the state last placed, or by a `change` of it."""
         mesh = self.mesh
         field = np.zeros(mesh.shape)
@@ -244,9 +230,9 @@ class Film:
         if info:
             raise SolverError(f"film matrix is singular in row {info} at eccentricity {position}")
 
-        outflow = self._balance(gap.coef, mass) - old
+        outflow = self.balance(gap.coef, mass) - old
         fields = [self._residual(outflow)]
-        fields += [self._balance(c, self._storage(c, a, local, rate)) for c, a in slopes]
+        fields += [self.balance(c, self._storage(c, a, local, rate)) for c, a in slopes]
         squeeze = -self.slope * self.state[kernel.FILL] * mesh.dz
         fields += [squeeze * np.outer(a, b) for a, b in zip(around, across)]
         free = self.pockets.free
@@ -288,7 +274,7 @@ class Film:
             field = column.reshape(mesh.shape)[mesh.order]
             change[kernel.P] = self.state[kernel.DP] * field
             change[kernel.FILL] = self.state[kernel.DFILL] * field
-            outflow = self._balance(self.gap.coef, mass, change)
+            outflow = self.balance(self.gap.coef, mass, change)
             row[:] = pockets.flows(outflow)[pockets.free]
         pressure = pockets.of_free(self.state[kernel.P])
         slope = pockets.of_free(self.state[kernel.DP])
@@ -337,7 +323,7 @@ class Film:
         around = self.gap.around
         mass = self._storage(self.gap.coef, around, frame.T @ velocity, rate)
         flux = (abs(self.wedge) + self.scale) * self.mesh.dz.max()
-        outflow = self._balance(self.gap.coef, mass) - old
+        outflow = self.balance(self.gap.coef, mass) - old
         worst = float(np.abs(self._residual(outflow)).max()) / flux
         if self.pockets.free.size:
             worst = max(worst, self.pockets.missing(self.state[kernel.P], outflow, self.scale))
@@ -356,7 +342,7 @@ class Film:
     def stock(self) -> tuple[float, float]:
         """Liquid outside the grooves, m³, and what it gains over rims and grooves, m³/s."""
         mass = np.zeros((self.mesh.shape[0], self.gap.across.shape[1]))
-        outflow = self._balance(self.gap.coef, mass)
+        outflow = self.balance(self.gap.coef, mass)
         free = ~self.fixed
         unit = self.pockets.flow_unit
         return unit * float(self.liquid()[free].sum()), -unit * float(outflow[free].sum())
@@ -371,65 +357,6 @@ class Film:
         return bool(cell <= _CELLS * math.sqrt(2 * (1 - ratio)))
 
     # --- results ---------------------------------------------------------------------------------
-    def summary(self, u: Array, position: Array) -> dict[str, Any]:
-        """Integral results at `u`, in SI units, named as in `Equilibrium`."""
-        self.place(u, position)
-        mesh = self.mesh
-        peak, dissipation, shear, outflow, liquid, volume = kernel.integrals(
-            self.state, self.gap.coef, mesh.dz, mesh.gz, mesh.closed,
-            self.p_edge, self.p_line, self.grooved,
-        )  # fmt: skip
-        found = Integrals(peak, dissipation, shear, outflow, liquid / volume)
-        return {
-            **self.in_units(found, self.speed, self.gap.narrowest(position)),
-            **self._supplied(u),
-        }
-
-    def in_units(self, found: Integrals, speed: Any, narrowest: Any) -> dict[str, Any]:
-        """Name `found` at `speed` and `narrowest` gap as in `Equilibrium`, in SI units."""
-        clearance = self.relative_clearance * self.radius
-        flow = self.pockets.flow_unit
-        drag = self.mirrors * self.viscosity * speed**2 * self.radius**4 / clearance
-        return {
-            "minimum_film": clearance * narrowest,
-            "maximum_pressure": found.peak,
-            "friction_power": flow * found.dissipation + drag * found.shear,
-            "side_flow": flow * found.outflow,
-            "total_fill": found.fill,
-        }
-
-    def _supplied(self, u: Array) -> dict[str, Any]:
-        """Flow and pressure of the grooves at the state last placed, named as in `Equilibrium`."""
-        pockets = self.pockets
-        if not self.ends_supply and not self.fixed.any():
-            return UNSUPPLIED
-        mass = np.zeros((self.mesh.shape[0], self.gap.across.shape[1]))
-        outflow = self._balance(self.gap.coef, mass)
-        flows = pockets.flows(outflow)
-        shaped = float(outflow[self.fixed & ~pockets.fixed].sum()) + self._from_ends()
-        pressure = self.state[kernel.P].ravel()[pockets.samples]
-        lack = self.unknown_of(np.array(self.p_edge)) - pockets.of_free(u)
-        return {
-            "supply_flow": float(flows.sum()) + pockets.flow_unit * shaped,
-            "supply_power": pockets.feed.power(pressure, flows),
-            "groove_flow": flows,
-            "groove_pressure": pressure,
-            "starved": bool(np.any(lack > 1e-9 * self.scale)),
-        }
-
-    def _from_ends(self) -> float:
-        """Flow in at both ends of the film, where these are grooves."""
-        if not self.ends_supply:
-            return 0.0
-        total = 0.0
-        for cell, sign in ((0, 1.0), (-1, -1.0)):
-            pressure, fill = (self.state[row, cell] for row in (kernel.P, kernel.FILL))
-            upstream = self.line_fill if sign * self.wedge > 0 else fill
-            g, e = self.gap.coef[[kernel.G, kernel.E], cell, : self.mesh.z.size]
-            flow = g * (self.p_line - pressure) + sign * self.wedge * e * upstream
-            total += float(self.mesh.dz @ flow)
-        return total
-
     def dry(self, u: Array) -> bool:
         """Whether a fed groove would have to rupture, which only laws with fill can follow."""
         if self.kind in (kernel.MASS_CONSERVING, kernel.GAS_MIXTURE):

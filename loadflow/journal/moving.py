@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from loadflow.journal import _map_kernels as kernel
 from loadflow.journal.film import Linear
+from loadflow.journal.integrals import summary
 from loadflow.journal.options import GasMixture, MassConserving
 from loadflow.journal.setup import FilmOptions, build_film
 
@@ -106,7 +107,7 @@ class MovingFilm:
         film, (u, velocity, linear) = self.film, found
         assert linear is not None
         film.set_speed(0.0)  # without the drag of the shaft, which needs no map
-        state = film.summary(u, np.array([ratio, 0.0]))
+        state = summary(film, u, np.array([ratio, 0.0]))
         rest = -float(velocity[1]) * (1.0 / ratio - _turn(ratio)) if ratio > 0.0 else 0.0
         damping = linear.damping
         stiffness = linear.stiffness + rest * np.stack([-damping[:, 1], damping[:, 0]], axis=1)

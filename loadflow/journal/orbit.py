@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from loadflow.errors import SolverError
 from loadflow.journal.equilibrium import Motion, Solution, solve_equilibrium
 from loadflow.journal.film import EVERY, Film
+from loadflow.journal.integrals import summary
 from loadflow.journal.result import attitude_angle
 
 if TYPE_CHECKING:
@@ -186,7 +187,7 @@ def march(
 
 def orbit_row(film: Film, solution: Solution, steps: int) -> dict[str, Any]:
     """What an orbit says of one time, after `steps` implicit steps."""
-    row = film.summary(solution.u, solution.position)
+    row = summary(film, solution.u, solution.position)
     x, y, *tilt = solution.position.tolist()
     if tilt:
         row["tilt"] = np.array(tilt) * film.relative_clearance

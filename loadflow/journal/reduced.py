@@ -21,7 +21,8 @@ from loadflow.journal._reduced_loops import finish, march, newton
 from loadflow.journal.axial import lobatto
 from loadflow.journal.equilibrium import refusal
 from loadflow.journal.estimate import NEAR, closed_form_position
-from loadflow.journal.film import Film, Integrals
+from loadflow.journal.film import Film
+from loadflow.journal.integrals import Integrals, in_units
 from loadflow.journal.options import Guembel, Reynolds, require
 from loadflow.journal.orbit import orbit_dataset
 from loadflow.journal.result import operating_columns, without_supply
@@ -199,7 +200,7 @@ def _results(film: Film, rows: Array, speed: Array) -> dict[str, Any]:
         outflow=rows[:, at.OUTFLOW],
         fill=rows[:, at.FILLED],
     )
-    values = film.in_units(found, speed, 1.0 - np.hypot(rows[:, at.X], rows[:, at.Y]))
+    values = in_units(film, found, speed, 1.0 - np.hypot(rows[:, at.X], rows[:, at.Y]))
     return values | {
         "residual": rows[:, at.RESIDUAL],
         "iterations": rows[:, at.ITERATIONS].astype(int),

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from loadflow.journal.integrals import summary
 from loadflow.journal.laminar import critical_reynolds_number, reynolds_number
 from loadflow.journal.pockets import UNSUPPLIED
 
@@ -239,7 +240,7 @@ def field_row(film: Film, solution: Solution) -> dict[str, Any]:
 
 def _common_row(film: Film, solution: Solution, whirl: float = 0.0) -> dict[str, Any]:
     clearance = film.relative_clearance * film.radius
-    row: dict[str, Any] = film.summary(solution.u, solution.position)
+    row: dict[str, Any] = summary(film, solution.u, solution.position)
     shaft, lengths = film.gap.shaft, np.ones(film.gap.shaft)
     lengths[2:] = film.radius  # of the degrees of freedom: those of tilts are arms
     pads = np.intersect1d(np.arange(film.gap.size)[solution.free], np.arange(shaft, film.gap.size))
