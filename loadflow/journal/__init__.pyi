@@ -24,3 +24,4 @@ from .supply import Pump as Pump
 from .supply import Supply as Supply
 from .two_grids import GridError as GridError
 from .two_grids import grid_error as grid_error
+from .unit import UnitBearing as UnitBearing

@@ -6,6 +6,7 @@ import numpy as np
 from hard_case import Outcome, hard, refused, solved
 
 from loadflow.journal import (
+    ConstantFlow,
     GasMixture,
     Groove,
     Guembel,
@@ -196,3 +197,49 @@ def stretched():
 )
 def outside():
     return refused(lambda: MAIN.pressure((1.1 * MAIN.clearance, 0.0), 1.0, OIL), "ε = 1.1", "< 1")
+
+
+@hard(
+    "journal",
+    "starved supply: a fortieth of the oil that the film draws",
+    why="the groove itself ruptures; its pressure cannot follow from its flow",
+    what="the fill of the groove becomes its unknown; the flow balances; starved is reported",
+)
+def starved():
+    bearing = JournalBearing(diameter=0.2, width=0.2, relative_clearance=1e-3)
+    film = {"lubricant": Lubricant(0.03), "cavitation": MassConserving(), "edge_pressure": 0.0}
+    supplies = [
+        Supply([Groove(np.pi, arc=0.3, length=0.15, restrictor=ConstantFlow(flow))])
+        for flow in (4e-5, 1e-6)
+    ]
+    full, dry = (bearing.equilibrium((3e4, 0.0), 60.0, supply=s, **film) for s in supplies)
+    assert not full.starved
+    assert dry.starved
+    assert abs(dry.supply_flow / 1e-6 - 1) < 1e-8
+    ratios = float(dry.eccentricity_ratio), float(full.eccentricity_ratio)
+    return solved(dry, f"ε = {ratios[0]:.3f}, {ratios[1]:.3f} when flooded")
+
+
+@hard(
+    "journal",
+    "a shaft so tilted that its edge meets the shell",
+    why="the gap is negative at one rim only",
+    what="a named error with gap, angle and place along the axis",
+)
+def edge_contact():
+    return refused(lambda: MAIN.pressure((0.0, 0.0), 1.2, OIL, tilt=(0.0, 2e-3)), "z =")
+
+
+@hard(
+    "journal",
+    "tilt that leaves a twentieth of the clearance at one rim",
+    why="pressure crowds at one edge; half the width no longer mirrors the other",
+    what="the full width is solved; the moment of the film comes with it",
+)
+def nearly_edge():
+    tilt = 0.95 * MAIN.clearance / (0.5 * MAIN.width)
+    film = MAIN.pressure(
+        (0.0, 0.0), 1.2, OIL, tilt=(0.0, tilt), cavitation=MassConserving(), edge_pressure=0.5e6
+    )
+    assert np.isfinite(film.force).all()
+    return solved(film, f"p_max = {float(film.maximum_pressure) / 1e6:.1f} MPa")

@@ -6,7 +6,7 @@ import numpy as np
 from hard_case import Outcome, hard, refused
 
 from loadflow.reduction import histogram
-from loadflow.rotor import steady_state
+from loadflow.rotor import simulate, steady_state
 from loadflow.seeds import equality, kruskal_wallis, meyer_bahlburg
 from loadflow.wind import iec
 from loadflow.wind.gusts import direction_change
@@ -146,3 +146,30 @@ def edges():
     return Outcome(
         f"{float(state['power'][0]) / 1e3:.0f} kW and {float(state['power'][1]) / 1e6:.2f} MW"
     )
+
+
+@hard(
+    "rotor",
+    "stop in a gust at 13.4 m/s",
+    why="the torque of the generator goes while that of the wind rises",
+    what="pitch at its largest rate; the rotor stays below its overspeed",
+)
+def stop_in_a_gust():
+    series = simulate(dlc="4.2", wind_speed=13.4, seed=4, duration=100, dt=0.05, rung="tables")
+    fastest = float(series["speed"].max())
+    assert 1.267 < fastest < 1.2 * 1.267
+    assert np.isfinite(series["hub_moment"]).all()
+    return Outcome(f"speed up to {fastest / 1.267:.2f} of the rated one")
+
+
+@hard(
+    "rotor",
+    "a parked rotor",
+    why="tip speed ratio zero: induction, azimuth and 1p have no meaning",
+    what="the brake holds ω = 0 exactly; loads are those of the standing blades",
+)
+def parked():
+    series = simulate(dlc="6.4", event="parked", wind_speed=15, duration=10, dt=0.05, rung="tables")
+    assert not series["speed"].any()
+    assert np.isfinite(series["hub_force"]).all()
+    return Outcome("ω = 0, all loads finite")

@@ -5,9 +5,17 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from hard_case import hard, solved
+from hard_case import hard, refused, solved
 
-from loadflow.rolling import BallBearing, SlewingBearing
+from loadflow.rolling import (
+    BallBearing,
+    FlexibleRings,
+    RingBeam,
+    RingSection,
+    SlewingBearing,
+    Support,
+    legs,
+)
 
 BLADE = SlewingBearing(
     balls=129,
@@ -116,3 +124,20 @@ def over_the_shoulder():
     assert list(result.truncated) == [False, True]
     angle = float(np.degrees(result.contact_angles[1].max()))
     return solved(result, f"contact angle {angle:.1f}°, truncated")
+
+
+@hard(
+    "rolling",
+    "thin rings that give way by more than a groove is wide",
+    why="contacts turn far from their nominal angle; linearised distances are off",
+    what="exact distances between the displaced grooves; beyond 90° a named error",
+)
+def soft_rings():
+    section = RingSection(area=4e-3, inertia_axial=2e-8, inertia_radial=2e-8, torsion=2e-8)
+    foot = Support(radius=1.0, radial=1e10, tangential=1e10, axial=1e10, sectors=legs(3, 0.2))
+    rings = FlexibleRings(outer=RingBeam(section=section, radius=1.0, supports=(foot,)))
+    gentle = BLADE.equilibrium(force=(0, 0, 1e6), rings=rings)
+    words = refused(lambda: BLADE.equilibrium(force=(0, 0, 1e7), rings=rings), "90°").result
+    moved = float(np.abs(gentle.ring_displacement("outer")).max())
+    assert moved > 2 * BLADE.groove_radius - BLADE.ball_diameter
+    return solved(gentle, f"1 MN carried, ring moved {1e3 * moved:.1f} mm; 10 MN: {words}")
