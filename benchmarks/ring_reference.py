@@ -22,7 +22,7 @@ from loadflow.rolling import (
     reference_equilibrium,
 )
 from loadflow.validation.rings import SOLID, SOLID_FOUR, drive_rings, four_ball_rings
-from loadflow.validation.rolling import DRIVE, FOUR_BALL
+from loadflow.validation._slewing_cases import DRIVE, FOUR_BALL
 
 
 def main() -> None:

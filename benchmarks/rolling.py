@@ -15,7 +15,7 @@ import numpy as np
 
 from loadflow.rolling import FlexibleRings, RollerBearing, SlewingBearing, legs
 from loadflow.scene import Rolling
-from loadflow.validation.rolling import SPECTRUM
+from loadflow.validation._slewing_cases import SPECTRUM
 
 PITCH = SlewingBearing(
     balls=147,

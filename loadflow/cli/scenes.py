@@ -189,9 +189,12 @@ def validate(
                 f"{check.got:.6g} {check.unit}",
                 f"{check.deviation * scale:+.3g}{sign}",
                 f"{check.tolerance * scale:.3g}{sign}",
-                "ok" if check.ok else "[red]out[/]",
+                check.verdict if check.ok else f"[red]{check.verdict}[/]",
             )
         out.print(table)
-        out.print(f"{len(rows) - bad} of {len(rows)} within their tolerance")
+        compared = [check for _, check in rows if not check.refused]
+        held = f"{sum(c.ok for c in compared)} of {len(compared)} within their tolerance"
+        refused = len(rows) - len(compared)
+        out.print(f"{held}, {refused} printed ones refused" if refused else held)
     if bad:
         raise LoadflowError(f"{bad} numbers are out of their tolerance")

@@ -28,6 +28,9 @@ class Check:
         How `tolerance` is meant.
     unit : str
         Unit of both numbers, ``"-"`` if none.
+    refused : str
+        Why the printed number is not held, if it is not: `got` is then what the source's own data
+        give instead, and the row is in order as long as it contradicts the print, out of tolerance.
     """
 
     name: str
@@ -37,6 +40,7 @@ class Check:
     tolerance: float
     kind: Literal["relative", "absolute", "below"] = "relative"
     unit: str = "-"
+    refused: str = ""
 
     @property
     def deviation(self) -> float:
@@ -46,9 +50,16 @@ class Check:
 
     @property
     def ok(self) -> bool:
-        """Whether the deviation is within the tolerance (a NaN never is)."""
+        """Whether the deviation is within the tolerance, beyond it if refused; never of a NaN."""
         deviation = self.deviation if self.kind == "below" else abs(self.deviation)
-        return bool(deviation <= self.tolerance)
+        return bool(deviation > self.tolerance if self.refused else deviation <= self.tolerance)
+
+    @property
+    def verdict(self) -> str:
+        """``"ok"``, ``"out"``, or ``"refused: "`` and why."""
+        return (
+            f"refused: {self.refused}" if self.ok and self.refused else "ok" if self.ok else "out"
+        )
 
 
 def names() -> list[str]:

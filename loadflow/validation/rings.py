@@ -1,11 +1,9 @@
-"""Flexible rings of slewing bearings: closed forms, the source's cases, our own solid rings.
+"""Flexible rings of slewing bearings: closed forms, trends, our own solid rings.
 
-The source's ring sections are lost, so that every row of it assumes sections and supports, which
-its label states. `SOLID` holds answers of the full model (solid rings all round, every patch and
-ball centre an unknown); ``python benchmarks/ring_reference.py`` forms them again. Rows that need
-scikit-fem are left out without it. Not compared: the deflections 0.35 and 0.38/-0.6 mm of the blade
-bearing (beyond what its rings alone can give; hub and rig are unknown) and Tab. 3.14 (not in
-equilibrium with its load).
+The source's ring sections are lost, so that every row of it (`printed`, shown by the table
+``rolling``) assumes sections and supports, which its label states. `SOLID` holds answers of the
+full model (solid rings all round, every patch and ball centre an unknown); ``python
+benchmarks/ring_reference.py`` forms them again. Rows that need scikit-fem are left out without it.
 """
 
 from __future__ import annotations
@@ -30,8 +28,8 @@ from loadflow.rolling import (
 from loadflow.rolling.patches import PatchPoints
 from loadflow.rolling.ring_fem import FiniteElementRing
 from loadflow.rolling.ring_profile import RingProfile
+from loadflow.validation._slewing_cases import DRIVE, FOUR_BALL
 from loadflow.validation.check import Check
-from loadflow.validation.rolling import DRIVE, FOUR_BALL
 
 Load = tuple[float, ...]
 
@@ -89,6 +87,13 @@ def checks() -> Iterator[Check]:
     if find_spec("skfem"):
         yield from _four_ball()
         yield from _drive()
+
+
+def printed() -> Iterator[Check]:
+    """Yield the source's rows, which the table ``rolling`` shows."""
+    if find_spec("skfem"):
+        yield from _four_ball_printed()
+        yield from _drive_printed()
 
 
 def _closed_forms() -> Iterator[Check]:
@@ -182,7 +187,7 @@ def _trends() -> Iterator[Check]:
                 moved[1] / moved[0], -0.1, "below")  # fmt: skip
 
 
-def _four_ball() -> Iterator[Check]:
+def _four_ball_printed() -> Iterator[Check]:
     """Simplified model of Tab. 3.6 under 30 kN."""
     rings = four_ball_rings()
     note = "assuming an outer ring on its lower, an inner on its upper face, free to slide"
@@ -192,6 +197,10 @@ def _four_ball() -> Iterator[Check]:
                     unit="mm")  # fmt: skip
     yield Check("F_k, four balls", f"Tab. 3.8, {note}", 9500, force, 0.15, unit="N")
 
+
+def _four_ball() -> Iterator[Check]:
+    """Simplified model of Tab. 3.6 beside the full model."""
+    rings = four_ball_rings()
     for load, (size, largest) in SOLID_FOUR.items():
         shift, force = _solve(FOUR_BALL, (0, 0, load, 0, 0), rings)
         name = f"four balls, F_a = {load / 1e3:g} kN"
@@ -201,13 +210,18 @@ def _four_ball() -> Iterator[Check]:
                     unit="N")  # fmt: skip
 
 
-def _drive() -> Iterator[Check]:
-    """45-ball bearing: the source's multibody model, and the full model of our own."""
-    rings, exact = drive_rings(), replace(DRIVE, curvature="exact")
+def _drive_printed() -> Iterator[Check]:
+    """45-ball bearing beside the source's multibody model."""
+    rings = drive_rings()
     for thrust, printed in TABLE_3_13:
         shift = _solve(DRIVE, (0, 0, thrust, 0, 0), rings)[0]
         yield Check(f"u_z, 45 balls, F_a = {thrust / 1e3:g} kN", f"Tab. 3.13, {ASSUMED}",
                     printed * 1e3, shift * 1e3, 0.15, unit="mm")  # fmt: skip
+
+
+def _drive() -> Iterator[Check]:
+    """45-ball bearing beside the full model."""
+    rings, exact = drive_rings(), replace(DRIVE, curvature="exact")
     for load, (size, largest) in SOLID.items():
         shift, force = _solve(exact, load, rings)
         name = "F = ({:g}, {:g}, {:g}) N, M = ({:g}, {:g}) N m".format(*load)
