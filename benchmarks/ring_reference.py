@@ -21,8 +21,8 @@ from loadflow.rolling import (
     patch_points,
     reference_equilibrium,
 )
-from loadflow.validation.rings import SOLID, SOLID_FOUR, drive_rings, four_ball_rings
 from loadflow.validation._slewing_cases import DRIVE, FOUR_BALL
+from loadflow.validation.rings import SOLID, SOLID_FOUR, drive_rings, four_ball_rings
 
 
 def main() -> None:
