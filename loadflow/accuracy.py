@@ -14,12 +14,15 @@ from typing import Any
 
 import numpy as np
 
-from loadflow.ladder import choices, expected_seconds, gains, is_open, measured
+from loadflow.ladder import choices, expected_seconds, gains, is_open, measured, with_settings
 from loadflow.scene import Scene
 from loadflow.stages.cases import Case
 
 OPEN_STAGES = ("loads", "reduction", "journal", "rolling")
 """Stages that offer more than one model of the same thing."""
+
+FINEST_GRID = 480
+"""Cells around that a run goes up to by itself."""
 
 
 @dataclass(frozen=True)
@@ -122,7 +125,7 @@ def _total(scene: Scene, answer: tuple[str, str], links: tuple[Link, ...]) -> fl
 
 
 def _added(scene: Scene, answer: tuple[str, str], link: Link) -> float | None:
-    if link.stage == "reduction" and answer[0] == "journal" and scene.journal.motion == "transient":
+    if link.stage == "reduction" and answer[0] == "journal" and scene.journal.in_motion:
         return 0.0  # a film in motion reads the whole series
     known = measured(scene, link.stage)
     if known is None:
@@ -199,25 +202,18 @@ def finer(scene: Scene, stage: str) -> Scene | None:
 
     A film has no top: its grid is doubled, up to what a scene may ask for.
     """
-    update: dict[str, Any]
-    if stage == "journal":
-        around, across = scene.journal.grid
-        if 2 * around <= 480:
-            update = {"rung": "grid", "grid": (2 * around, 2 * across)}
-        else:
-            return None
-    elif (
-        stage == "loads"
-        and scene.loads.source == "simulate"
-        and scene.loads.rung in ("tables", "bem")
-    ):
-        update = {"rung": "flap"}
+    around, across = scene.journal.grid
+    simulated = scene.loads.source == "simulate"
+    settings: dict[str, Any] = {}
+    if stage == "journal" and 2 * around <= FINEST_GRID:
+        settings = {"rung": "grid", "grid": (2 * around, 2 * across)}
+    elif stage == "loads" and simulated and scene.loads.rung in ("tables", "bem"):
+        settings = {"rung": "flap"}
+    elif stage == "rolling" and scene.rolling.rings == "rigid":
+        settings = {"rings": "flexible"}
     elif stage == "reduction" and scene.reduction.size < 1.0:
-        update = {"size": min(1.0, 2 * scene.reduction.size)}
-    else:
-        return None
-    section = getattr(scene, stage).model_copy(update=update)
-    return scene.model_copy(update={stage: section})
+        settings = {"size": min(1.0, 2 * scene.reduction.size)}
+    return with_settings(scene, stage, settings) if settings else None
 
 
 def climb(choice: Choice, stages: Iterable[str]) -> Choice:

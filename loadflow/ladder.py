@@ -84,7 +84,7 @@ def measured(scene: Scene, stage: str) -> dict[str, Any] | None:
 
 def _rungs(scene: Scene, stage: str) -> dict[str, Any]:
     """All rungs of a stage; a film in motion has its own."""
-    moving = stage == "journal" and scene.journal.motion == "transient"
+    moving = stage == "journal" and scene.journal.in_motion
     return ladder().get("journal, transient" if moving else stage, {})
 
 
@@ -102,7 +102,7 @@ def expected_seconds(scene: Scene, stage: str, cases: Iterable[Case]) -> float |
 
 def _share(scene: Scene, stage: str) -> float:
     """Share of the series that a bearing is solved for."""
-    if stage == "journal" and scene.journal.motion == "transient":
+    if stage == "journal" and scene.journal.in_motion:
         return 1.0
     reduction = measured(scene, "reduction") or {}
     return min(1.0, scene.reduction.size * reduction.get("samples_over_wanted", 1.0))
@@ -120,7 +120,7 @@ def choices(scene: Scene, stage: str) -> list[Scene]:
     entries = _rungs(scene, stage).values()
     useful = [e["settings"] for e in entries if "settings" in e and "dominated_by" not in e]
     opened = [settings for settings in useful if not section.model_fields_set & set(settings)]
-    found = [_with(scene, stage, settings) for settings in opened]
+    found = [with_settings(scene, stage, settings) for settings in opened]
     return [one for one in found if one is not None] or [scene]
 
 
@@ -129,7 +129,7 @@ def is_open(scene: Scene, stage: str) -> bool:
     return len(choices(scene, stage)) > 1
 
 
-def _with(scene: Scene, stage: str, settings: dict[str, Any]) -> Scene | None:
+def with_settings(scene: Scene, stage: str, settings: dict[str, Any]) -> Scene | None:
     """Return the scene with other settings, None where it lacks the data that they need."""
     section = getattr(scene, stage)
     try:

@@ -61,7 +61,7 @@ STAGES = {
         Stage(
             "friction", ("loads", "shaft"), "case", ("rolling", "friction"), f"{_S}.friction:losses"
         ),
-        Stage("check", CHECKED, "run", (), f"{_S}.check:differences", sample=3),
+        Stage("check", CHECKED, "run", ("accuracy",), f"{_S}.check:differences", sample=3),
     )
 }
 
@@ -154,8 +154,7 @@ def make_plan(scene: Scene, climbed: Iterable[str] = ()) -> Plan:
         The scene's load files do not exist or cannot be told apart.
     """
     wanted = {GIVEN_BY[result] for result in scene.results}
-    moving = scene.journal.motion == "transient"
-    stages = STAGES | {"journal": _FILM_IN_MOTION} if moving else STAGES
+    stages = STAGES | {"journal": _FILM_IN_MOTION} if scene.journal.in_motion else STAGES
     needed = set().union(*(_with_needs(name, stages) for name in wanted))
     cases = tuple(list_cases(scene))
     choice = climb(choose(scene, needed, cases), climbed)
@@ -168,8 +167,8 @@ def make_plan(scene: Scene, climbed: Iterable[str] = ()) -> Plan:
     }
     if scene.loads.source == "files":
         left_out["wind, rotor"] = "load series are given, nothing is simulated"
-    if "reduction" in needed:
-        among = tuple(name for name in CHECKED if name in needed)
+    among = tuple(name for name in CHECKED if name in needed)
+    if {"reduction", "journal"} & needed:
         steps["check"] = _step(choice.scene, replace(STAGES["check"], needs=among), cases, steps)
     return Plan(
         choice.scene,

@@ -69,7 +69,7 @@ def prepare(
             part.unlink()
     for rest in folder.rglob(".*.tmp"):
         rest.unlink()
-    (folder / "scene.toml").write_text(plan.scene.to_toml(), encoding="utf-8")
+    replace_text(folder / "scene.toml", plan.scene.to_toml())
     manifest |= {
         "wanted": scene.digest(),
         "climbed": climbed,

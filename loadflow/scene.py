@@ -199,6 +199,17 @@ class Journal(_Section):
     motion: Literal["quasi-static", "transient"] = "quasi-static"
     tilt: bool = False
 
+    @property
+    def in_motion(self) -> bool:
+        """Whether the film follows the whole series; it does not read the reduced one then."""
+        return self.motion == "transient"
+
+    @property
+    def film(self) -> dict[str, Any]:
+        """Keywords of `JournalBearing.equilibrium` and `orbit` that say what the film is."""
+        names = ("lubricant", "cavitation", "edge_pressure", "supply", "grid", "grading", "rung")
+        return {name: getattr(self, name) for name in names}
+
 
 class FurtherBearing(_Section):
     """Another rolling bearing of the shaft: its name and its geometry; its rings are rigid."""
@@ -358,7 +369,7 @@ class Scene(_Section):
     def _leaning_at_rest(self) -> Self:
         journal = self.journal
         leaning = journal.tilt and any(map(self.shaft.leans, journal.bearings))
-        if leaning and journal.motion == "transient":
+        if leaning and journal.in_motion:
             raise ValueError(
                 'journal.motion = "transient" does not know the tilt of a shaft with a beam; set '
                 '"quasi-static", or leave out journal.tilt or the beam'
@@ -434,7 +445,7 @@ def make_scene(data: dict[str, Any], source: str = "scene") -> Scene:
 
 def with_loads(scene: Scene, files: list[str]) -> Scene:
     """Return the scene with its load series read from `files` (names or glob patterns)."""
-    loads = Loads(source="files", files=files, wind_class=scene.loads.wind_class)
+    loads = scene.loads.model_copy(update={"source": "files", "files": files})
     return scene.model_copy(update={"loads": loads})
 
 

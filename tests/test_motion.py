@@ -24,7 +24,7 @@ def test_a_film_in_motion_reads_the_whole_series(tmp_path):
     cube = cube_file(tmp_path / "loads.h5", wind_speeds=(8.0,), seeds=(1,), steps=200)
     scene = scene_of(cube, name="moving", journal=FILM | {"motion": "transient"})
     plan = make_plan(scene)
-    assert [step.stage.name for step in plan.steps] == ["loads", "shaft", "journal"]
+    assert [step.stage.name for step in plan.steps] == ["loads", "shaft", "journal", "check"]
     result = lf.run(scene, out=tmp_path)
     (one,) = plan.cases
     with xr.open_datatree(result.path / "journal" / f"{one.name}.h5", engine="h5netcdf") as tree:

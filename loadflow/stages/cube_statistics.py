@@ -13,7 +13,7 @@ from loadflow.cube import Cube, iter_cases
 from loadflow.report import Section, Table, write_page
 from loadflow.report.style import readable
 from loadflow.stages.channels import channel, choose_channels
-from loadflow.stages.statistics import STATISTICS, describe
+from loadflow.stages.statistics import SLOPE, STATISTICS, describe
 
 HEADS = (
     "case",
@@ -25,7 +25,7 @@ HEADS = (
     "max",
     "skewness",
     "kurtosis",
-    "DEL m = 4",
+    f"DEL m = {SLOPE:g}",
 )
 UNITLESS = ("skewness", "kurtosis")
 

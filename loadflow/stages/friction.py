@@ -21,6 +21,7 @@ from loadflow.rolling import (
 from loadflow.scene import Friction, Scene
 from loadflow.stages.cases import Case
 from loadflow.stages.frames import to_rolling
+from loadflow.stages.labels import label, labelled
 from loadflow.stages.summary import over_cases
 from loadflow.tribology import lubricant
 
@@ -76,11 +77,11 @@ def losses(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
         except SolverError as error:
             raise SolverError(f"bearing {name}: {error}") from error
     kept = {
-        name: (("bearing", "sample"), np.stack([part[name] for part in found]), _label(*about))
+        name: (("bearing", "sample"), np.stack([part[name] for part in found]), label(*about))
         for name, about in KEPT.items()
     }
     return xr.Dataset(
-        kept | {"speed": ("sample", speed, _label("rad/s", "speed"))},
+        kept | {"speed": ("sample", speed, label("rad/s", "speed"))},
         {"sample": time, "bearing": list(scene.rolling.geometries)},
     )
 
@@ -145,33 +146,25 @@ def _least(parameter: np.ndarray, forces: np.ndarray) -> np.ndarray:
     return np.asarray(kept.reshape(len(kept), -1).min(axis=-1))
 
 
-def _label(units: str, long_name: str) -> dict[str, str]:
-    return {"units": units, "long_name": long_name}
-
-
 def summary(parts: Mapping[Case, xr.Dataset]) -> xr.Dataset:
     """Reduce each case to means and extremes; dimensions ``bearing`` and ``case``."""
     return over_cases({case: _extremes(part) for case, part in parts.items()})
 
 
 def _extremes(samples: xr.Dataset) -> xr.Dataset:
-    found = {
-        "mean_friction_power": (samples["friction_power"].mean("sample"), "W"),
-        "mean_friction_torque": (samples["friction_torque"].mean("sample"), "N m"),
-        "mean_slip_power": (samples["slip_power"].mean("sample"), "W"),
-        "median_film_parameter": (samples["film_parameter"].median("sample"), "1"),
-        "mean_slip": (samples["slip"].mean("sample"), "1"),
-        "largest_slip_power_density": (samples["slip_power_density"].max("sample"), "W/m2"),
-    }
-    meaning = {
-        "mean_slip_power": "mean power lost in slip",
-        "median_film_parameter": "median of the least Λ",
-        "mean_slip": "mean slip of the slower row",
-        "largest_slip_power_density": "largest slip power over contact area",
-    }
-    return xr.Dataset(
+    mean, largest = samples.mean("sample"), samples.max("sample")
+    least = samples["film_parameter"].median("sample")
+    return labelled(
         {
-            name: value.assign_attrs(_label(unit, meaning.get(name, name.replace("_", " "))))
-            for name, (value, unit) in found.items()
+            "mean_friction_power": (mean["friction_power"], "W", "mean friction power"),
+            "mean_friction_torque": (mean["friction_torque"], "N m", "mean friction torque"),
+            "mean_slip_power": (mean["slip_power"], "W", "mean power lost in slip"),
+            "median_film_parameter": (least, "1", "median of the least Λ"),
+            "mean_slip": (mean["slip"], "1", "mean slip of the slower row"),
+            "largest_slip_power_density": (
+                largest["slip_power_density"],
+                "W/m2",
+                "largest slip power over contact area",
+            ),
         }
     )

@@ -14,6 +14,7 @@ from loadflow.journal.laminar import critical_reynolds_number, reynolds_number
 from loadflow.scene import Journal, Scene
 from loadflow.stages.cases import Case
 from loadflow.stages.frames import to_film
+from loadflow.stages.labels import label, labelled, of_samples
 from loadflow.stages.summary import over_cases
 
 # what is kept of every sample: units and meaning
@@ -77,39 +78,48 @@ def _resting(options: Journal, bearing: str, reduced: xr.Dataset) -> xr.Dataset:
             f"bearing {bearing}: no film carries any of the {speed.size} samples; speed "
             f"{np.abs(speed).min():.4g} … {np.abs(speed).max():.4g} rad/s"
         )
-    samples = film_samples(vars(answer))
+    samples = of_samples(vars(answer), KEPT)
     if options.tilt:
-        meaning = {"units": "rad", "long_name": "rotation of the shaft: about down, about left"}
+        meaning = label("rad", "rotation of the shaft: about down, about left")
         samples["tilt"] = ("sample", "component"), answer.tilt, meaning
     given = reduced[["time", "speed", "weight"]]
     return _placed(options, given.assign(samples), answer.eccentricity)
 
 
 def _moving(options: Journal, bearing: str, loads: xr.Dataset, reactions: xr.Dataset) -> xr.Dataset:
-    force, moment = (
-        to_film(reactions[name].transpose("time", "axis").values.astype(float))
-        for name in ("force", "moment")
-    )
-    time, speed = (loads[name].values.astype(float) for name in ("time", "speed"))
-    freeing = moment if options.tilt else None
     try:
-        path = options.geometry.orbit(time, force, speed, moment=freeing, **_film(options))
+        path = follow(options, loads, reactions)
     except SolverError as error:
         raise SolverError(f"bearing {bearing}: {error}") from error
+    time, speed = loads["time"].values.astype(float), loads["speed"].values.astype(float)
+    radial = np.hypot(*to_film(reactions["force"].transpose("axis", "time").values.T).T)
     numbers = [
         options.geometry.sommerfeld_number(*point, options.lubricant.viscosity)
-        for point in zip(np.hypot(*force.T).tolist(), speed.tolist())
+        for point in zip(radial.tolist(), speed.tolist())
     ]
     found: dict[str, Any] = {name: path[name].values for name in KEPT if name in path}
     found |= {"sommerfeld_number": numbers, "converged": np.ones(time.size, dtype=bool)}
     samples = xr.Dataset(
         {
-            "time": ("sample", time, {"units": "s", "long_name": "time"}),
-            "speed": ("sample", speed, {"units": "rad/s", "long_name": "rotor speed"}),
-            "weight": ("sample", np.ones(time.size), {"units": "1", "long_name": "samples"}),
+            "time": ("sample", time, label("s", "time")),
+            "speed": ("sample", speed, label("rad/s", "rotor speed")),
+            "weight": ("sample", np.ones(time.size), label("1", "samples")),
         }
     )
-    return _placed(options, samples.assign(film_samples(found)), path["eccentricity"].values)
+    return _placed(options, samples.assign(of_samples(found, KEPT)), path["eccentricity"].values)
+
+
+def follow(
+    options: Journal, loads: xr.Dataset, bearing: xr.Dataset, start: np.ndarray | None = None
+) -> xr.Dataset:
+    """Follow the shaft through a series, from equilibrium or from the place `start` (2,), m."""
+    force, moment = (
+        to_film(bearing[name].transpose("time", "axis").values.astype(float))
+        for name in ("force", "moment")
+    )
+    time, speed = (loads[name].values.astype(float) for name in ("time", "speed"))
+    freeing = moment if options.tilt else None
+    return options.geometry.orbit(time, force, speed, moment=freeing, start=start, **options.film)
 
 
 def shaft_line(options: Journal, bearing: xr.Dataset) -> dict[str, np.ndarray]:
@@ -140,25 +150,12 @@ def equilibria(
         force=to_film(force),
         speed=speed,
         strict=False,
-        **_film(options) | {name: to_film(vectors) for name, vectors in line.items()},
+        **options.film | {name: to_film(vectors) for name, vectors in line.items()},
     )
 
 
-def _film(options: Journal) -> dict[str, Any]:
-    """Keywords of the film, the same at rest and in motion."""
-    return {
-        "lubricant": options.lubricant,
-        "cavitation": options.cavitation,
-        "edge_pressure": options.edge_pressure,
-        "supply": options.supply,
-        "grid": options.grid,
-        "grading": options.grading,
-        "rung": options.rung,
-    }
-
-
 def _placed(options: Journal, samples: xr.Dataset, eccentricity: np.ndarray) -> xr.Dataset:
-    meaning = {"units": "m", "long_name": "shaft centre: down, then left"}
+    meaning = label("m", "shaft centre: down, then left")
     bearing = options.geometry
     fastest = float(np.abs(samples["speed"]).max())
     reynolds = float(reynolds_number(bearing, fastest, options.lubricant))
@@ -170,14 +167,6 @@ def _placed(options: Journal, samples: xr.Dataset, eccentricity: np.ndarray) -> 
         laminar=int(reynolds < critical_reynolds_number(bearing.relative_clearance)),
         largest_reynolds_number=reynolds,
     )
-
-
-def film_samples(found: Mapping[str, Any]) -> dict[str, Any]:
-    """Label what is kept of a series of films; dimension ``sample``."""
-    return {
-        name: ("sample", np.asarray(found[name]), {"units": units, "long_name": meaning})
-        for name, (units, meaning) in KEPT.items()
-    }
 
 
 def summary(parts: Mapping[Case, xr.DataTree]) -> xr.Dataset:
@@ -199,31 +188,23 @@ def extremes(samples: xr.Dataset) -> xr.Dataset:
     def mean(name: str) -> xr.DataArray:
         return samples[name].weighted(weight).mean()
 
-    found = {
-        "largest_eccentricity_ratio": (samples["eccentricity_ratio"].max(), "largest ε"),
-        "mean_eccentricity_ratio": (mean("eccentricity_ratio"), "mean ε"),
-        "smallest_film": (samples["minimum_film"].min(), "smallest film"),
-        "largest_pressure": (samples["maximum_pressure"].max(), "largest pressure"),
-        "largest_sommerfeld_number": (samples["sommerfeld_number"].max(), "largest So"),
-        "mean_sommerfeld_number": (mean("sommerfeld_number"), "mean So"),
-        "mean_friction_power": (mean("friction_power"), "mean friction power"),
-        "mean_side_flow": (mean("side_flow"), "mean side flow"),
-        "mean_supply_flow": (mean("supply_flow"), "mean flow of the grooves"),
-        "mean_supply_power": (mean("supply_power"), "mean supply power"),
-        "largest_residual": (samples["residual"].max(), "largest residual"),
-        "not_converged": ((~samples["converged"].astype(bool)).sum(), "samples without a film"),
-    }
-    units = {
-        "smallest_film": "m",
-        "largest_pressure": "Pa",
-        "mean_friction_power": "W",
-        "mean_side_flow": "m3/s",
-        "mean_supply_flow": "m3/s",
-        "mean_supply_power": "W",
-    }
-    return xr.Dataset(
+    return labelled(
         {
-            name: value.assign_attrs(units=units.get(name, "1"), long_name=meaning)
-            for name, (value, meaning) in found.items()
+            "largest_eccentricity_ratio": (samples["eccentricity_ratio"].max(), "1", "largest ε"),
+            "mean_eccentricity_ratio": (mean("eccentricity_ratio"), "1", "mean ε"),
+            "smallest_film": (samples["minimum_film"].min(), "m", "smallest film"),
+            "largest_pressure": (samples["maximum_pressure"].max(), "Pa", "largest pressure"),
+            "largest_sommerfeld_number": (samples["sommerfeld_number"].max(), "1", "largest So"),
+            "mean_sommerfeld_number": (mean("sommerfeld_number"), "1", "mean So"),
+            "mean_friction_power": (mean("friction_power"), "W", "mean friction power"),
+            "mean_side_flow": (mean("side_flow"), "m3/s", "mean side flow"),
+            "mean_supply_flow": (mean("supply_flow"), "m3/s", "mean flow of the grooves"),
+            "mean_supply_power": (mean("supply_power"), "W", "mean supply power"),
+            "largest_residual": (samples["residual"].max(), "1", "largest residual"),
+            "not_converged": (
+                (~samples["converged"].astype(bool)).sum(),
+                "1",
+                "samples without a film",
+            ),
         }
     )

@@ -140,7 +140,8 @@ def journal_series(
         No load at all has an equilibrium.
     """
     from loadflow.reduction import read_parameter_file
-    from loadflow.stages.journal import extremes, film_samples
+    from loadflow.stages.journal import KEPT, extremes
+    from loadflow.stages.labels import of_samples
 
     reduced = read_parameter_file(path)
     answer = bearing.equilibrium(
@@ -155,7 +156,7 @@ def journal_series(
     )
     if not np.any(answer.converged):
         raise SolverError(f"{path}: no film carries any of the {reduced.weight.size} samples")
-    samples = xr.Dataset({**film_samples(vars(answer)), "weight": ("sample", reduced.weight)})
+    samples = xr.Dataset({**of_samples(vars(answer), KEPT), "weight": ("sample", reduced.weight)})
     return extremes(samples).assign_attrs(
         series=f"{path}: {reduced.source}, {reduced.weight.size} of {reduced.total} samples",
         model=_film(cavitation, edge_pressure, grid, supply),

@@ -11,6 +11,7 @@ from loadflow.reduction import Reduced, histogram
 from loadflow.scene import Scene
 from loadflow.stages.cases import Case
 from loadflow.stages.frames import to_film
+from loadflow.stages.labels import label
 
 
 def reduced_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
@@ -63,7 +64,7 @@ def reduced_dataset(
     index = reduced.index
 
     def labelled(dims: tuple[str, ...], values: np.ndarray, units: str, long_name: str) -> Any:
-        return dims, values, {"units": units, "long_name": long_name}
+        return dims, values, label(units, long_name)
 
     return xr.Dataset(
         {

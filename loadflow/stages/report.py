@@ -18,6 +18,7 @@ from loadflow.rolling.static_rating import HOURS_20_YEARS, STATIC_RATING
 from loadflow.scene import Scene, read_scene
 from loadflow.stages.check import WARN
 from loadflow.stages.extreme_loads import safety_factor
+from loadflow.stages.statistics import SLOPE
 
 CRITICAL_RATIO = 0.95  # eccentricity ratio E_krit at which mixed friction begins (5.2)
 MIXED_FRICTION = 10.0  # Sommerfeld number above which friction is mixed (1.13)
@@ -216,7 +217,14 @@ def _load_tables(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
                         str(data["case"].values[k]),
                     ]
                 )
-    heads = ["over all cases", "mean", "mean std", "mean DEL (m = 4)", "smallest", "largest"]
+    heads = [
+        "over all cases",
+        "mean",
+        "mean std",
+        f"mean DEL (m = {SLOPE:g})",
+        "smallest",
+        "largest",
+    ]
     yield Table("Loads", heads, rows)
     heads = ["largest magnitude", "characteristic", "γ_f", "design value", "load case"]
     yield Table("Ultimate loads", heads, ultimate)

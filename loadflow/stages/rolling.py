@@ -14,6 +14,7 @@ from loadflow.rolling.arrangements import life_exponent, weibull_slope
 from loadflow.scene import Scene
 from loadflow.stages.cases import Case
 from loadflow.stages.frames import to_rolling
+from loadflow.stages.labels import label, labelled, of_samples
 from loadflow.stages.summary import over_cases
 
 # what is kept of every sample: units and meaning
@@ -51,21 +52,18 @@ def balls(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
     """
     first, *others = scene.rolling.geometries
     reduced = inputs["reduction"][first].to_dataset()
-    answer = _solved(scene, first, reduced)
-    samples = {
-        name: ("sample", np.asarray(getattr(answer, name)), {"units": units, "long_name": meaning})
-        for name, (units, meaning) in KEPT.items()
-    }
+    answer = solve_bearing(scene, first, reduced)
+    samples = of_samples({name: getattr(answer, name) for name in KEPT}, KEPT)
     each = [_of_bearing(answer, reduced)]
     for name in others:
         other = inputs["reduction"][name].to_dataset()
-        each.append(_of_bearing(_solved(scene, name, other), other))
+        each.append(_of_bearing(solve_bearing(scene, name, other), other))
     whole = {
-        name: ("bearing", np.array(values), _label(*EACH[name]))
+        name: ("bearing", np.array(values), label(*EACH[name]))
         for name, values in zip(EACH, zip(*each))
     } | {
-        "life": ((), _life(answer, reduced), _label("1e6 rev", "rating life L10")),
-        "mean_speed": ((), _mean_speed(reduced), _label("rad/s", "mean speed")),
+        "life": ((), life_of(answer, reduced), label("1e6 rev", "rating life L10")),
+        "mean_speed": ((), _mean_speed(reduced), label("rad/s", "mean speed")),
     }
     worst = int(np.argmax(answer.maximum_force))
     slope = min(weibull_slope(bearing) for bearing in scene.rolling.geometries.values())
@@ -83,12 +81,11 @@ def balls(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
     )
 
 
-def _solved(scene: Scene, name: str, reduced: xr.Dataset, sample: int | None = None) -> Any:
-    """Equilibrium of one bearing under all its samples, or one of them."""
+def solve_bearing(scene: Scene, name: str, loads: xr.Dataset) -> Any:
+    """Equilibrium of one bearing under all samples of `loads`, or the one that they are."""
     bearing = scene.rolling.geometries[name]
-    chosen = slice(None) if sample is None else sample
-    force = to_rolling(reduced["force"].values)[chosen]
-    moment = to_rolling(reduced["moment"].values)[..., :2][chosen]
+    force = to_rolling(loads["force"].values)
+    moment = to_rolling(loads["moment"].values)[..., :2]
     try:
         if isinstance(bearing, SlewingBearing) and name == scene.rolling.bearing:
             return bearing.equilibrium(force, moment, rings=scene.rolling.ring_model)
@@ -100,7 +97,7 @@ def _solved(scene: Scene, name: str, reduced: xr.Dataset, sample: int | None = N
 def _of_bearing(answer: Any, reduced: xr.Dataset) -> tuple[float, float, float, float]:
     """Values of `EACH`."""
     return (
-        _life(answer, reduced),
+        life_of(answer, reduced),
         float(np.min(answer.static_safety)),
         float(np.max(answer.maximum_pressure)),
         float(np.max(answer.maximum_force)),
@@ -112,28 +109,24 @@ def _worst(scene: Scene, reduced: xr.Dataset, worst: int) -> xr.Dataset:
     bearing = scene.rolling.geometry
     if not isinstance(bearing, SlewingBearing):
         return xr.Dataset()
-    hardest = _solved(scene, scene.rolling.bearing, reduced, worst)
+    hardest = solve_bearing(scene, scene.rolling.bearing, reduced.isel(sample=worst))
     around = ("row", "diagonal", "ball")
     angle = 2 * np.pi / bearing.balls * np.arange(bearing.balls)
-    angles = _label("rad", "operating contact angle, worst sample")
+    angles = label("rad", "operating contact angle, worst sample")
     return xr.Dataset(
         {
             "ball_forces": (
                 around,
                 hardest.ball_forces,
-                _label("N", "contact force, worst sample"),
+                label("N", "contact force, worst sample"),
             ),
             "contact_angles": (around, hardest.contact_angles, angles),
         },
-        {"ball_angle": ("ball", angle, _label("rad", "angle from y toward z"))},
+        {"ball_angle": ("ball", angle, label("rad", "angle from y toward z"))},
     )
 
 
-def _label(units: str, long_name: str) -> dict[str, str]:
-    return {"units": units, "long_name": long_name}
-
-
-def _life(answer: Any, reduced: xr.Dataset) -> float:
+def life_of(answer: Any, reduced: xr.Dataset) -> float:
     """Rating life under the case alone, each sample weighted by its revolutions (4.5)."""
     revolutions = np.abs(reduced["speed"].values) * reduced["weight"].values
     if not revolutions.any():
@@ -162,9 +155,9 @@ def summary(parts: Mapping[Case, xr.Dataset]) -> xr.Dataset:
     each = np.stack([_together(part) for part in cases])
     slope = next(iter(parts.values())).attrs["weibull_slope"]
     under = "under all cases of the DLC, weighted by their share"
-    first = _label("h", f"rating life {under}")
-    together = _label("h", f"rating life of all bearings as a system {under}")
-    of_all = _label("h", f"rating life of each bearing {under}")
+    first = label("h", f"rating life {under}")
+    together = label("h", f"rating life of all bearings as a system {under}")
+    of_all = label("h", f"rating life of each bearing {under}")
     return joined.assign(
         life_hours=("load_case", each[:, 0], first),
         bearing_life_hours=(("load_case", "bearing"), each, of_all),
@@ -199,6 +192,4 @@ def _extremes(samples: xr.Dataset) -> xr.Dataset:
             "samples not converged",
         ),
     }
-    return xr.Dataset(
-        {name: value.assign_attrs(_label(u, text)) for name, (value, u, text) in found.items()}
-    )
+    return labelled(found)

@@ -14,7 +14,7 @@ from loadflow.stages.cases import Case
 from loadflow.stages.summary import over_cases
 
 SLOPE = 4.0
-"""Wöhler exponent of the damage-equivalent loads: steel parts, as in spec tables of shafts."""
+"""Wöhler exponent of the damage-equivalent loads: that of welded and forged steel parts."""
 
 STATISTICS = ("mean", "std", "min", "max", "skewness", "kurtosis", "del")
 

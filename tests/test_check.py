@@ -1,0 +1,97 @@
+"""A run solves some of its own samples again by better models, and says how far they move."""
+
+import numpy as np
+import pytest
+from synthetic import case, cube_file
+
+import loadflow as lf
+from loadflow.accuracy import finer
+from loadflow.cube import make_cube, save_cube
+from loadflow.plan import make_plan
+from loadflow.scene import make_scene
+
+FILM = {"grid": [24, 8], "bearings": ["N2"], "rung": "reduced"}
+
+
+def scene_of(cube, *results, **keys):
+    data = {"name": "checked", "loads": {"files": [str(cube)]}, "results": list(results)}
+    return make_scene(data | keys)
+
+
+@pytest.fixture(scope="module")
+def cube(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("check")
+    return cube_file(folder / "loads.h5", wind_speeds=(8.0,), seeds=(1,), steps=200)
+
+
+def checked(scene, folder):
+    return lf.run(scene, out=folder, report=False).tree["check"].to_dataset()
+
+
+def test_a_film_in_motion_is_followed_again_where_its_eccentricity_is_largest(cube, tmp_path):
+    scene = scene_of(cube, "journal.film", journal=FILM | {"motion": "transient"})
+    check = checked(scene, tmp_path)
+    assert set(check["stage"].values) == {"journal", "heat"}
+    film = check["difference"].values[check["stage"].values == "journal"]
+    assert np.all((film > 0) & (film < 0.2))
+
+
+def test_the_warning_of_a_film_in_motion_shrinks_with_its_grid(cube, tmp_path):
+    """The next better grid of a finer film lies nearer to it."""
+    moved = []
+    for grid in ([24, 8], [48, 16]):
+        journal = FILM | {"motion": "transient", "grid": grid}
+        check = checked(scene_of(cube, "journal.film", journal=journal), tmp_path / str(grid[0]))
+        chosen = (check["stage"] == "journal") & (check["quantity"] == "eccentricity ratio")
+        moved.append(float(check["difference"].values[chosen.values].max()))
+    assert moved[1] < moved[0]
+
+
+def test_rigid_rings_are_compared_with_flexible_ones(cube, tmp_path):
+    scene = scene_of(cube, "rolling.life", shaft={"moment": {}})
+    check = checked(scene, tmp_path)
+    rolling = check.isel(check=check["stage"].values == "rolling")
+    assert set(rolling["quantity"].values) == {"maximum force", "maximum pressure", "life"}
+    assert (rolling["difference"] > 0.05).all()  # thin rings: rigid ones are no answer
+    flexible = finer(scene, "rolling")
+    assert flexible.rolling.rings == "flexible"
+    assert finer(flexible, "rolling") is None
+
+
+def test_bearings_without_flexible_rings_have_no_better_model(cube):
+    scene = scene_of(cube, "rolling.life", rolling={"arrangement": "two-spherical"})
+    assert finer(scene, "rolling") is None
+
+
+def test_an_accuracy_stated_later_is_held_against_the_answers_that_are_there(cube, tmp_path):
+    """The allowed difference is not that of the run before."""
+    same = {"journal": FILM, "reduction": {"pick": "extremes", "size": 0.1}}
+    loose = checked(scene_of(cube, "journal.film", **same), tmp_path)
+    assert np.isnan(loose["allowed"]).all()
+    strict = checked(scene_of(cube, "journal.film", **same, accuracy=0.5), tmp_path)
+    assert (strict["allowed"] == 0.5).all()
+
+
+def test_a_run_whose_films_all_fail_has_nothing_to_check(tmp_path):
+    standing = case(8.0, 1)
+    standing["speed"][:] = 0.0
+    file = save_cube(make_cube([standing]), tmp_path / "loads.h5")
+    result = lf.run(scene_of(file, "journal.film", journal=FILM), out=tmp_path)
+    assert result.failures
+    assert result.tree["check"].sizes["check"] == 0
+    assert result.warnings == []
+
+
+def test_loads_given_to_a_scene_keep_how_it_reads_them(cube):
+    from loadflow.scene import with_loads
+
+    loads = {"files": ["none.h5"], "pattern": r"v(?P<wind_speed>\d+)", "wind_class": "II"}
+    scene = with_loads(scene_of(cube, "journal.film", loads=loads), [str(cube)])
+    assert scene.loads.files == [str(cube)]
+    assert scene.loads.pattern == loads["pattern"]
+    assert scene.loads.wind_class == "II"
+
+
+def test_loads_that_a_better_model_could_move_are_checked_only_where_a_bearing_reads_them(cube):
+    plan = make_plan(scene_of(cube, "loads.statistics"))
+    assert "check" not in [step.stage.name for step in plan.steps]
