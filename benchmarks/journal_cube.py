@@ -69,14 +69,7 @@ def check(run: Path, options: Journal, bearing: str, found: dict[str, Any]) -> d
 
 
 def _orbit(options: Journal, rung: str, *history: np.ndarray) -> Any:
-    return options.geometry.orbit(
-        *history,
-        lubricant=options.lubricant,
-        cavitation=options.cavitation,
-        edge_pressure=options.edge_pressure,
-        grid=options.grid,
-        rung=rung,
-    )
+    return options.geometry.orbit(*history, **options.film | {"rung": rung})
 
 
 def main() -> None:

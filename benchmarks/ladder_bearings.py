@@ -188,10 +188,7 @@ def solve(options: Journal, load: np.ndarray, speed: np.ndarray | float, **keys:
     return options.geometry.equilibrium(
         force=np.stack([load, np.zeros_like(load)], axis=-1),
         speed=speed,
-        lubricant=options.lubricant,
-        cavitation=options.cavitation,
-        edge_pressure=options.edge_pressure,
-        **({"grid": options.grid, "rung": options.rung} | keys),
+        **options.film | keys,
     )
 
 

@@ -94,10 +94,7 @@ def solve(
         time,
         force,
         speed,
-        lubricant=options.lubricant,
-        cavitation=options.cavitation,
-        edge_pressure=options.edge_pressure,
-        **keys,
+        **options.film | keys,
     )
 
 

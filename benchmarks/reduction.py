@@ -92,7 +92,7 @@ def main() -> None:
     )
     solved = []
     for series in iter_bearings(cube, [given.bearing]):
-        solved.append((series, solve_films(series, Journal(), given.rung)))
+        solved.append((series, solve_films(series, Journal(rung=given.rung))))
         print(series.source, flush=True)
     text = report(solved, given.size)
     print(text)

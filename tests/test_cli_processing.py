@@ -1,6 +1,7 @@
 """Commands that process cubes: design loads, statistics, lifetime, export."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pandas as pd
@@ -9,12 +10,13 @@ from synthetic import case, cube_file
 
 from loadflow.cli import main
 from loadflow.cube import make_cube, open_cube, save_cube
+from loadflow.journal import Groove, Supply
 from loadflow.reduction import damage_equivalent_load, read_parameter_file, stationary
 from loadflow.scene import Journal
 from loadflow.seeds import group_seeds_jointly
 from loadflow.stages.film_response import film_response
 from loadflow.stages.frames import to_film
-from loadflow.stages.reduction_error import solve_films
+from loadflow.stages.reduction_error import for_long_series, solve_films
 from loadflow.stages.suspended import iter_bearings, with_bearings
 
 
@@ -355,7 +357,7 @@ def test_a_tenth_of_the_samples_keeps_the_film(loadflow, tmp_path):
 def test_samples_at_standstill_have_no_film_and_no_orbit(start_up):
     """They count in no mean; all of the others do."""
     series = next(iter_bearings(open_cube(start_up), ["N"]))
-    films = solve_films(series, Journal(grid=(36, 8)))
+    films = solve_films(series, Journal(rung="reduced", grid=(36, 8)))
     stands = series.speed == 0
     assert np.isnan(films.ratio[stands]).all()
     assert np.isfinite(films.ratio[~stands]).all()
@@ -364,3 +366,20 @@ def test_samples_at_standstill_have_no_film_and_no_orbit(start_up):
     assert measures[0] == films.ratio[~stands].max()
     assert measures[4] == pytest.approx(films.power[~stands].mean())
     assert np.isnan(films.part(slice(0, 50)).measures()).all()  # it stands all the time
+
+
+def test_the_film_of_a_comparison_is_that_of_the_scene(start_up):
+    """A groove in the loaded zone and a film named by the scene are not left out."""
+    (series,) = iter_bearings(open_cube(start_up), ["N"])
+    some = replace(series, **{k: getattr(series, k)[200:204] for k in ("time", "force", "speed")})
+    plain = Journal(grid=(36, 12))
+    loaded = float(np.arctan2(*some.radial.mean(axis=0)[::-1]))
+    groove = Groove(loaded, arc=0.3, length=1.0, pressure=0.5e6)
+    grooved = plain.model_copy(update={"supply": Supply([groove])})
+    assert for_long_series(plain).rung == "reduced"
+    assert for_long_series(grooved).rung == "grid"
+    assert for_long_series(Journal(rung="grid")).rung == "grid"
+    without, with_groove = (
+        solve_films(some, for_long_series(journal), transient=False) for journal in (plain, grooved)
+    )
+    assert np.all(with_groove.ratio > without.ratio * 1.02)

@@ -43,11 +43,8 @@ def film_response(journal: Journal, speed: float) -> Response:
             phase / (2.0 * np.pi * frequency),
             mean + np.outer(np.sin(phase), amplitude),
             speed,
-            journal.lubricant,
-            cavitation=journal.cavitation,
-            edge_pressure=journal.edge_pressure,
-            grid=journal.grid,
             periodic=True,
+            **journal.film | {"rung": "grid"},  # the only one that closes an orbit
         )
         return float(orbit["eccentricity_ratio"].max())
 

@@ -18,7 +18,7 @@ from loadflow.report import Picture, Section, Table, figures, write_page
 from loadflow.scene import Journal
 from loadflow.stages.reduction import reduced_dataset
 from loadflow.stages.reduction_error import HEADS as FILM_HEADS
-from loadflow.stages.reduction_error import FilmError, solve_films, summary_rows
+from loadflow.stages.reduction_error import FilmError, for_long_series, solve_films, summary_rows
 from loadflow.stages.suspended import BearingSeries, iter_bearings, suspension
 
 HEADS = (
@@ -165,6 +165,7 @@ def reduce_cube(
         No such loads, bearing or phase in the cube; an option out of its range.
     """
     parts = []
+    journal = journal and for_long_series(journal)
     for series in iter_bearings(cube, bearings, turbine, source):
         try:
             films = solve_films(series, journal) if journal else None

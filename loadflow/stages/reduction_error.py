@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 
 from loadflow.errors import SolverError
-from loadflow.journal.rungs import Rung
+from loadflow.journal.shapes import CYLINDER
 from loadflow.scene import Journal
 from loadflow.stages.suspended import BearingSeries
 
@@ -65,9 +65,7 @@ class Films:
         return np.array([ratio[there].max(), e, number[there].max(), so, p])
 
 
-def solve_films(
-    series: BearingSeries, journal: Journal, rung: Rung = "reduced", transient: bool = True
-) -> Films:
+def solve_films(series: BearingSeries, journal: Journal, transient: bool = True) -> Films:
     """Solve the film of every sample of a series, and follow its orbit.
 
     Parameters
@@ -75,27 +73,18 @@ def solve_films(
     series : BearingSeries
         Bearing in a case.
     journal : Journal
-        Bearing, oil, cavitation and grid: the section of a scene.
-    rung : {"reduced", "grid"}
-        Model of the film.
+        Bearing, oil and model of the film: the section of a scene.
     transient : bool
         Whether to follow the orbit. A series in which the shaft stands has none.
     """
-    options: dict[str, Any] = {
-        "lubricant": journal.lubricant,
-        "cavitation": journal.cavitation,
-        "edge_pressure": journal.edge_pressure,
-        "grid": journal.grid,
-        "rung": rung,
-    }
     bearing, force, speed = journal.geometry, series.radial, series.speed
-    film = bearing.equilibrium(force, speed, strict=False, **options)
+    film = bearing.equilibrium(force, speed, strict=False, **journal.film)
     found = np.asarray(film.converged, dtype=bool)
     drag = journal.lubricant.viscosity * np.where(found, np.abs(speed), np.nan)
     orbit = np.empty(0)
     if transient and found.all():
         try:
-            path = bearing.orbit(series.time, force, speed, **options)
+            path = bearing.orbit(series.time, force, speed, **journal.film)
             orbit = path["eccentricity_ratio"].values
         except SolverError:  # the static films stand for themselves; the table says "-"
             orbit = np.empty(0)
@@ -105,6 +94,16 @@ def solve_films(
         np.where(found, film.friction_power, np.nan),
         orbit,
     )
+
+
+def for_long_series(journal: Journal) -> Journal:
+    """Take the film that is quick over a long series, where none is named and it knows the film."""
+    bearing = journal.geometry
+    cylinder = bearing.shape == CYLINDER and not bearing.relief
+    known = cylinder and journal.supply is None and journal.grading != "graded"
+    if "rung" in journal.model_fields_set or not known:
+        return journal
+    return journal.model_copy(update={"rung": "reduced"})
 
 
 @dataclass(frozen=True)
