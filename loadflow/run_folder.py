@@ -79,7 +79,7 @@ def prepare(
             | {"reason": plan.reasons.get(step.stage.name, "")}
             for step in plan.steps
         },
-        "inputs": {case.file: case.fingerprint for case in plan.cases if case.file},
+        "inputs": {c.file or c.wind: c.fingerprint for c in plan.cases if c.fingerprint},
         "cases": [case.name for case in plan.cases],
         "versions": {"python": platform.python_version(), "loadflow": loadflow.__version__}
         | {name: metadata.version(name) for name in ("numpy", "scipy", "numba", "xarray")},

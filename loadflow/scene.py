@@ -69,6 +69,11 @@ class Loads(_Section):
     ``mass_imbalance`` (share of its mass) and ``pitch_imbalance`` (rad) are those of blade 1;
     without them the rotor is perfect and the fixed-frame loads have no 1p line.
 
+    ``winds`` are turbulent fields of your own (names or patterns of ``.bts`` and ``.wnd`` files).
+    The rotor is simulated in each, from its 60th second on, as in the load case ``dlc``. Their
+    names tell wind speed and seed as those of load series do, or by ``pattern``; else the speed is
+    the mean of the field.
+
     ``dlc`` is one design load case of IEC 61400-1 or several; wind speeds, realisations and length
     are those of each load case unless they are given here. ``seeds`` and ``first_seed`` concern
     turbulent winds; a gust has its own variants (sign, time of the event), and may meet the rotor
@@ -81,6 +86,7 @@ class Loads(_Section):
     files: list[str] = []
     case_list: str | None = None
     pattern: str | None = None
+    winds: list[str] = []
     weights: Literal["rayleigh", "given"] = "rayleigh"
     dlc: str | Annotated[list[str], Field(min_length=1)] = "1.1"
     wind_speeds: Annotated[list[Positive], Field(min_length=1)] | None = None
@@ -116,6 +122,12 @@ class Loads(_Section):
     def _files_for_files(self) -> Self:
         if self.source == "simulate" and self.files:
             raise ValueError('files are given, but source = "simulate"; set source = "files"')
+        own = {"wind_speeds", "seeds", "first_seed", "steady"} & self.model_fields_set
+        if self.winds and (own or self.source == "files" or len(self.dlcs) > 1):
+            raise ValueError(
+                "winds: each field is a simulated case of one dlc; leave out "
+                f"{', '.join(sorted(own)) or 'files, or all load cases but one'}"
+            )
         return self
 
 

@@ -18,6 +18,7 @@ from loadflow.errors import InputError
 from loadflow.readers import read_loads
 from loadflow.readers.loads import find_files
 from loadflow.scene import Loads, Scene
+from loadflow.stages.given_winds import wind_files
 
 if TYPE_CHECKING:
     from loadflow.wind import Condition, Machine, WindOptions
@@ -43,8 +44,10 @@ class Case:
         File the series is read from; empty if it is simulated.
     entry : str
         Name of the case inside a load cube; empty otherwise.
+    wind : str
+        File of the wind field that it is simulated in; empty if the wind is made too.
     fingerprint : str
-        Hash of the file's content; empty if simulated (the scene says it all).
+        Hash of the content of the file; empty without one (the scene says it all).
     steps : int
         Length of the series.
     """
@@ -55,6 +58,7 @@ class Case:
     weight: float = 1.0
     file: str = ""
     entry: str = ""
+    wind: str = ""
     fingerprint: str = ""
     steps: int = 0
 
@@ -73,6 +77,8 @@ def list_cases(scene: Scene) -> list[Case]:
         No file, a missing file, or two series that cannot be told apart.
     """
     loads = scene.loads
+    if loads.winds:
+        return weighted(_distinct(_in_given_winds(scene)), loads.wind_class)
     if loads.source == "simulate":
         simulated = [case for dlc in loads.dlcs for case in _simulated(scene, dlc)]
         return weighted(_distinct(simulated), loads.wind_class)
@@ -130,6 +136,18 @@ def _simulated(scene: Scene, dlc: str) -> Iterator[Case]:
         yield simulated_case(scene, dlc, wind.wind_speed, wind.index + later)
 
 
+def _in_given_winds(scene: Scene) -> Iterator[Case]:
+    """Yield a case for each wind field; those whose names do not tell a seed are counted."""
+    (dlc,), count = scene.loads.dlcs, Counter[float]()
+    for path, wind_speed, seed in wind_files(scene):
+        count[wind_speed] += 1
+        yield replace(
+            simulated_case(scene, dlc, wind_speed, seed or count[wind_speed]),
+            wind=str(path),
+            fingerprint=_hash(path),
+        )
+
+
 def _choice(scene: Scene) -> dict[str, Any]:
     loads = scene.loads
     return {
@@ -184,11 +202,15 @@ def _distinct(cases: Iterable[Case]) -> list[Case]:
     for case in cases:
         while case.name in taken:
             if case.dlc != "unknown":
-                first = taken[case.name].file or "the scene"
-                raise InputError(f"{case.file or 'the scene'}: {case.name} is already in {first}")
+                first = _source(taken[case.name])
+                raise InputError(f"{_source(case)}: {case.name} is already in {first}")
             case = replace(case, seed=case.seed + 1)
         taken[case.name] = case
     return list(taken.values())
+
+
+def _source(case: Case) -> str:
+    return case.file or case.wind or "the scene"
 
 
 def _hash(path: Path) -> str:

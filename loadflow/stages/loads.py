@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import xarray as xr
@@ -9,6 +10,7 @@ import xarray as xr
 from loadflow.cube import iter_cases, open_cube
 from loadflow.scene import Scene
 from loadflow.stages.cases import CUBES, Case, wind_of, wind_options
+from loadflow.stages.given_winds import RUN_IN, given_field
 
 
 def hub_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
@@ -24,12 +26,19 @@ def hub_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
 
 def _simulate(scene: Scene, case: Case) -> xr.Dataset:
     from loadflow.rotor import RotorOptions, simulate_condition
+    from loadflow.rotor.inflow import wind_machine
+    from loadflow.turbines import load_turbine
 
-    loads = scene.loads
+    loads, wind, winds, field = scene.loads, wind_of(scene, case), wind_options(scene), None
+    if case.wind:
+        plant = wind_machine(load_turbine(scene.turbine.name))
+        wind, field = given_field(Path(case.wind), wind, winds, plant, loads.duration)
     series = simulate_condition(
         scene.turbine.name,
-        wind_of(scene, case),
-        wind_options(scene),
+        wind,
+        winds,
+        run_in=RUN_IN,
+        field=field,
         dt=loads.step,
         rung=loads.rung,
         options=RotorOptions(
@@ -43,8 +52,6 @@ def _simulate(scene: Scene, case: Case) -> xr.Dataset:
 
 
 def _read(scene: Scene, case: Case) -> xr.Dataset:
-    from pathlib import Path
-
     from loadflow.readers import read_loads
 
     path = Path(case.file)
