@@ -47,7 +47,7 @@ def rung_of(scene: Scene, stage: str) -> str:
         "seeds": "+".join(sorted(set(scene.seeds.methods))),
         "reduction": _reduction_rung(scene),
         "journal": _film_rung(scene),
-        "rolling": scene.rolling.rings,
+        "rolling": scene.rolling.rung,
         "friction": _friction_rung(scene),
     }.get(stage, "-")
 

@@ -13,19 +13,11 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self, get_args
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator, model_validator
+from pydantic import BaseModel, Field, ValidationError, field_validator, model_validator
 
 from loadflow.errors import InputError
 from loadflow.journal import GasMixture, JournalBearing, Lubricant, Supply
-from loadflow.rolling import (
-    FlexibleRings,
-    RingBeam,
-    RingSection,
-    SlewingBearing,
-    Support,
-    main_bearings,
-)
-from loadflow.scene_bearings import KINDS, Geometry
+from loadflow.scene_bearings import KINDS, SECTION, Rolling
 from loadflow.shaft.options import (
     Concept,
     DirectDrive,
@@ -51,7 +43,7 @@ Positive = Annotated[float, Field(gt=0)]
 class _Section(BaseModel):
     """Part of a scene: frozen, and an unknown key is an error."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+    model_config = SECTION
 
 
 class Turbine(_Section):
@@ -221,94 +213,6 @@ class Journal(_Section):
         """Keywords of `JournalBearing.equilibrium` and `orbit` that say what the film is."""
         names = ("lubricant", "cavitation", "edge_pressure", "supply", "grid", "grading", "rung")
         return {name: getattr(self, name) for name in names}
-
-
-class FurtherBearing(_Section):
-    """Another rolling bearing of the shaft: its name and its geometry; its rings are rigid."""
-
-    bearing: str
-    geometry: Geometry
-
-
-class Rolling(_Section):
-    """Rolling bearing: which one of the shaft, its geometry, material and limits.
-
-    A scene may give several, as a list ``[[rolling]]`` or as an ``arrangement`` of
-    `loadflow.rolling.main_bearings`; those after the first are in ``further``. The key ``kind`` of
-    a geometry says which bearing it is: slewing (if nothing is said), ball, roller, spherical,
-    crossed or three-row.
-
-    ``rings = "flexible"`` takes `inner_ring` and `outer_ring`; one that is left out is rigid. The
-    rings of the default bearing have the diameters of [Ritzer 2018] App. B; their height, and the
-    walls of 60 mm and 1 m that they stand on, are assumed.
-    """
-
-    bearing: str = "M"
-    geometry: Geometry = SlewingBearing(
-        balls=129,
-        rows=2,
-        ball_diameter=0.040,
-        pitch_diameter=1.9,
-        groove_radius=0.0205,
-        contact_angle=0.7853981633974483,
-        hardness=600.0,
-    )
-    rings: Literal["rigid", "flexible"] = "rigid"
-    inner_ring: RingBeam | None = RingBeam(
-        section=RingSection.rectangle(0.094, 0.12),
-        radius=0.897,
-        supports=(Support.wall(radius=0.897, height=0.06, thickness=0.06, length=1.0),),
-    )
-    outer_ring: RingBeam | None = RingBeam(
-        section=RingSection.rectangle(0.099, 0.12),
-        radius=1.0005,
-        supports=(Support.wall(radius=1.0005, height=-0.06, thickness=0.06, length=1.0),),
-    )
-
-    further: list[FurtherBearing] = []
-
-    @model_validator(mode="before")
-    @classmethod
-    def _one_of_several(cls, data: Any) -> Any:
-        """Turn a list, or the name of an arrangement, into the first bearing and further ones."""
-        if isinstance(data, dict) and "arrangement" in data:
-            if {"bearing", "geometry", "further"} & set(data):
-                raise ValueError("arrangement: gives bearing and geometry; leave them out")
-            chosen = main_bearings(data["arrangement"])
-            rest = {name: value for name, value in data.items() if name != "arrangement"}
-            first, *others = ({"bearing": b, "geometry": g} for b, g in chosen.items())
-            return rest | first | {"further": others}
-        if isinstance(data, list) and data and all(isinstance(part, dict) for part in data):
-            return data[0] | {"further": data[1:]}
-        return data
-
-    @property
-    def geometries(self) -> dict[str, Geometry]:
-        """Geometry of all bearings by name, the first one first."""
-        return {self.bearing: self.geometry} | {f.bearing: f.geometry for f in self.further}
-
-    @model_validator(mode="after")
-    def _rings_of_the_bearing(self) -> Self:
-        given = self.model_fields_set
-        if len(self.geometries) != 1 + len(self.further):
-            raise ValueError("bearing: each must have a name of its own")
-        if self.rings == "flexible":
-            if not isinstance(self.geometry, SlewingBearing):
-                raise ValueError('rings = "flexible": for slewing bearings of balls only')
-            if "geometry" in given and not {"inner_ring", "outer_ring"} & given:
-                raise ValueError(
-                    'rings = "flexible": a geometry of your own needs inner_ring or outer_ring'
-                )
-            if self.inner_ring is None and self.outer_ring is None:
-                raise ValueError('rings = "flexible": give inner_ring or outer_ring')
-        return self
-
-    @property
-    def ring_model(self) -> Literal["rigid"] | FlexibleRings:
-        """What `SlewingBearing.equilibrium` takes as its rings."""
-        if self.rings == "rigid":
-            return "rigid"
-        return FlexibleRings(inner=self.inner_ring, outer=self.outer_ring)
 
 
 class Friction(_Section):

@@ -268,6 +268,57 @@ def test_rolling_prints_the_load_of_the_hardest_loaded_ball(loadflow):
     assert "converged" in out
 
 
+FLEXIBLE = [
+    *("--outer-ring", 0.1, 0.12, 1.0005, "--inner-ring", 0.094, 0.12, 0.897),
+    *("--wall", 0.06, 1.0),
+]
+
+
+def test_rolling_takes_flexible_rings_by_their_measures(loadflow):
+    load = ["--groove-radius", 0.0205, "--force-x", 9e4, "--force-z", 4e4, "--moment-y", -4e5]
+    answer, rigid = (
+        json.loads(loadflow("rolling", *ROLLING, *load, *rings, "--json")[1])
+        for rings in (FLEXIBLE, [])
+    )
+    assert answer["model"].startswith("flexible inner and outer ring")
+    assert rigid["model"].startswith("rigid rings")
+    tilt = [case["tilt"]["value"][1] for case in (answer, rigid)]
+    assert tilt[0] < 1.2 * tilt[1] < 0
+    assert answer["outer_ring_displacement"]["value"] > 1e-6
+    assert answer["residual"]["value"] <= 1e-10
+
+
+def test_rolling_takes_a_bearing_and_its_rings_from_a_scene(loadflow, tmp_path):
+    scene = tmp_path / "scene.toml"
+    scene.write_text(
+        """
+        [[rolling]]
+        bearing = "N"
+        geometry = {kind = "spherical", rollers = 30, roller_diameter = 0.09, roller_length = 0.14,
+                    pitch_diameter = 1.0, contact_angle = 0.21}
+        [[rolling]]
+        bearing = "N2"
+        rings = "flexible"
+        geometry = {balls = 100, ball_diameter = 0.04, pitch_diameter = 2.5, groove_radius = 0.021,
+                    contact_angle = 0.7854}
+        outer_ring = {section = {width = 0.1, height = 0.12}, radius = 1.33}
+        """.replace("\n                    ", " ")
+    )
+    load = ["--force-y", 1e5, "--force-z", 1e5, "--speed-rpm", 12, "--json"]
+    first = json.loads(loadflow("rolling", "--scene", scene, *load)[1])
+    assert np.shape(first["roller_forces"]["value"]) == (2, 30)
+    assert first["life_hours"]["value"] > 20 * 8766
+    assert first["life_holds"]["value"] is True
+    assert first["static_rating_holds"]["value"] == [True, True]
+    second = json.loads(loadflow("rolling", "--scene", scene, "--bearing", "N2", *load)[1])
+    assert second["model"].startswith("flexible outer ring")
+    assert second["life_holds"]["value"] is False
+    code, _, err = loadflow("rolling", "--scene", scene, "--bearing", "M", *load)
+    assert (code, "no rolling bearing 'M'; there are N, N2" in err) == (2, True)
+    code, _, err = loadflow("rolling", "--scene", scene, *ROLLING)
+    assert (code, "leave out --balls" in " ".join(err.split())) == (2, True)
+
+
 # -- what is refused --------------------------------------------------------------------------
 
 
@@ -301,6 +352,17 @@ def test_rolling_prints_the_load_of_the_hardest_loaded_ball(loadflow):
         ),
         (["rolling", *ROLLING, "--groove-radius", 0.01], "groove_radius"),
         (["rolling", *ROLLING, "--groove-radius", 0.0205, "--force-z", "nan"], "nan"),
+        (["rolling", *ROLLING], "give --groove-radius, or a scene with --scene"),
+        (["rolling", "--bearing", "N"], "give --scene"),
+        (["rolling", *ROLLING, "--groove-radius", 0.0205, "--wall", 0.1, 1], "give --inner-ring"),
+        (
+            ["rolling", *ROLLING, "--groove-radius", 0.0205, "--outer-ring", 0.1, 0.1, 0.9],
+            "outer_ring: radius must be > 0.95 m, got 0.9",
+        ),
+        (
+            ["rolling", *ROLLING, "--groove-radius", 0.0205, *FLEXIBLE, "--wall", 0, 1],
+            "thickness of the wall: must be > 0 m, got 0",
+        ),
     ],
 )
 def test_bad_input_gives_one_message_and_code_2(loadflow, hub_cube, tmp_path, arguments, says):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -105,36 +105,70 @@ def journal(
 
 @app.command()
 def rolling(
-    balls: Annotated[int, typer.Option(help="Balls in each row.", show_default=False)],
-    ball_diameter: Annotated[float, typer.Option(help="m.", show_default=False)],
-    pitch_diameter: Annotated[float, typer.Option(help="m.", show_default=False)],
-    groove_radius: Annotated[float, typer.Option(help="Of both rings, m.", show_default=False)],
-    contact_angle_deg: Annotated[float, typer.Option(help="Nominal, °.")] = 45.0,
-    rows: Annotated[int, typer.Option(help="Rows of balls.")] = 1,
-    row_spacing: Annotated[float, typer.Option(help="Of neighbouring rows, m.")] = 0.0,
-    clearance: Annotated[float, typer.Option(help="Axial, < 0 for preload, m.")] = 0.0,
-    hardness: Annotated[float, typer.Option(help="Of the raceways, HV.")] = 700.0,
+    balls: Annotated[int | None, typer.Option(help="Balls in each row.")] = None,
+    ball_diameter: Annotated[float | None, typer.Option(help="m.")] = None,
+    pitch_diameter: Annotated[float | None, typer.Option(help="m.")] = None,
+    groove_radius: Annotated[float | None, typer.Option(help="Of both rings, m.")] = None,
+    contact_angle_deg: Annotated[float | None, typer.Option(help="Nominal, °; default 45.")] = None,
+    rows: Annotated[int | None, typer.Option(help="Rows of balls; default 1.")] = None,
+    row_spacing: Annotated[float | None, typer.Option(help="Of neighbouring rows, m.")] = None,
+    clearance: Annotated[float | None, typer.Option(help="Axial, < 0 for preload, m.")] = None,
+    hardness: Annotated[float | None, typer.Option(help="Of raceways, HV; default 700.")] = None,
+    inner_ring: Annotated[
+        tuple[float, float, float] | None,
+        typer.Option(help="Flexible: width, height of its section, radius of the centroid, m."),
+    ] = None,
+    outer_ring: Annotated[
+        tuple[float, float, float] | None, typer.Option(help="The same of the outer ring.")
+    ] = None,
+    wall: Annotated[
+        tuple[float, float] | None,
+        typer.Option(
+            help="Thickness and length of the walls that flexible rings stand on, the outer one "
+            "below, the inner one above, m; without it they float."
+        ),
+    ] = None,
+    scene: Annotated[
+        Path | None, typer.Option(help="Take bearing and rings from this scene instead.")
+    ] = None,
+    bearing: Annotated[
+        str | None, typer.Option(help="Which one of the scene; default its first.")
+    ] = None,
     force_x: Annotated[float, typer.Option(help="On the inner ring, radial, N.")] = 0.0,
     force_y: Annotated[float, typer.Option(help="Radial, N.")] = 0.0,
     force_z: Annotated[float, typer.Option(help="Along the axis, N.")] = 0.0,
     moment_x: Annotated[float, typer.Option(help="Tilting, N m.")] = 0.0,
     moment_y: Annotated[float, typer.Option(help="Tilting, N m.")] = 0.0,
+    speed_rpm: Annotated[
+        float | None, typer.Option(help="Speed, 1/min; gives the life in hours.")
+    ] = None,
     as_json: AsJson = False,
 ) -> None:
-    """Share a load between the balls of a four-point slewing bearing."""
-    from loadflow.rolling import SlewingBearing
-    from loadflow.stages.points import rolling_point
+    """Share a load between the balls of a four-point slewing bearing, or a bearing of a scene."""
+    from loadflow.stages.rolling_point import bearing_of_scene, rolling_point, slewing_bearing
 
-    bearing = SlewingBearing(
-        balls=balls,
-        ball_diameter=ball_diameter,
-        pitch_diameter=pitch_diameter,
-        groove_radius=groove_radius,
-        contact_angle=math.radians(contact_angle_deg),
-        rows=rows,
-        row_spacing=row_spacing,
-        clearance=clearance,
-        hardness=hardness,
-    )
+    measures: dict[str, Any] = {
+        "balls": balls,
+        "ball_diameter": ball_diameter,
+        "pitch_diameter": pitch_diameter,
+        "groove_radius": groove_radius,
+        "contact_angle_deg": contact_angle_deg,
+        "rows": rows,
+        "row_spacing": row_spacing,
+        "clearance": clearance,
+        "hardness": hardness,
+    }
+    rings = {"inner_ring": inner_ring, "outer_ring": outer_ring, "wall": wall}
+    given = {name: value for name, value in (measures | rings).items() if value is not None}
+    options = ", ".join(f"--{name.replace('_', '-')}" for name in given)
+    if scene is not None:
+        if given:
+            raise InputError(f"--scene brings bearing and rings: leave out {options}")
+        found = bearing_of_scene(scene, bearing)
+    elif bearing is not None:
+        raise InputError("--bearing names a bearing of a scene: give --scene")
+    else:
+        found = slewing_bearing(**given)
     force, moment = (force_x, force_y, force_z), (moment_x, moment_y)
-    print_quantities(rolling_point(bearing, force, moment), as_json)
+    speed = None if speed_rpm is None else speed_rpm * math.pi / 30
+    print_quantities(rolling_point(*found, force, moment, speed), as_json)

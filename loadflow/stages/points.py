@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,13 +13,12 @@ from loadflow.errors import SolverError
 
 if TYPE_CHECKING:
     from loadflow.journal import GasMixture, JournalBearing, Lubricant, Supply
-    from loadflow.rolling import SlewingBearing
 
 Load = Sequence[float]
 Grid = tuple[int, int] | None
 
 
-def _quantities(rows: dict[str, tuple[Any, str, str]], **attrs: str) -> xr.Dataset:
+def quantities(rows: Mapping[str, tuple[Any, str, str]], **attrs: str) -> xr.Dataset:
     """Label values of any shape: name → value, units, meaning."""
     variables = {
         name: (
@@ -66,7 +65,7 @@ def iec_conditions(
         f"v = {v:g} m/s, class {wind_class}, category {category}, "
         f"D = {rotor_diameter:g} m, hub at {hub_height:g} m"
     )
-    return _quantities(rows, conditions=conditions)
+    return quantities(rows, conditions=conditions)
 
 
 def journal_point(
@@ -116,7 +115,7 @@ def journal_point(
         more["groove_flow"] = (s.groove_flow, "m3/s", "flow of each groove into the film")
     solver = ("converged", "residual", "iterations")
     last = {name: rows.pop(name) for name in solver}
-    return _quantities(rows | more | last, model=_film(cavitation, edge_pressure, grid, supply))
+    return quantities(rows | more | last, model=_film(cavitation, edge_pressure, grid, supply))
 
 
 def journal_series(
@@ -172,35 +171,3 @@ def _film(
     cells = f"{grid[0]} × {grid[1]} cells" if grid else "default grid of the law"
     grooves = f"; {len(supply.grooves)} grooves" if supply else ""
     return f"finite volumes, {cells}; {law}; edge pressure {edge_pressure:g} Pa{grooves}"
-
-
-def rolling_point(bearing: SlewingBearing, force: Load, moment: Load) -> xr.Dataset:
-    """Return the load distribution of a slewing bearing under one `force` (N), `moment` (N m).
-
-    Raises
-    ------
-    loadflow.errors.InputError
-        A load that is not finite.
-    loadflow.errors.SolverError
-        No equilibrium.
-    """
-    from loadflow.stages.rolling import KEPT
-
-    r = bearing.equilibrium(force=force, moment=moment)
-    rows = {name: (getattr(r, name), units, meaning) for name, (units, meaning) in KEPT.items()}
-    stiffness = np.diag(r.stiffness)
-    more = {
-        "rating_life": (r.rating_life, "1e6 rev", "basic rating life L10"),
-        "friction_torque": (r.friction_torque(), "N m", "friction torque, from the ball forces"),
-        "displacement": (r.displacement[:3], "m", "of the inner ring: x, y, z"),
-        "tilt": (r.displacement[3:], "rad", "of the inner ring: about x, about y"),
-        "radial_stiffness": (stiffness[:2], "N/m", "tangent: x, y"),
-        "axial_stiffness": (stiffness[2], "N/m", "tangent: z"),
-        "tilting_stiffness": (stiffness[3:], "N m/rad", "tangent: about x, about y"),
-        "ball_forces": (r.ball_forces, "N", "contact forces (row, diagonal, ball)"),
-        "contact_angles": (r.contact_angles, "rad", "contact angles (row, diagonal, ball)"),
-    }
-    solver = ("converged", "residual", "iterations")
-    last = {name: rows.pop(name) for name in solver}
-    model = f"rigid rings, Hertzian contacts, {bearing.rows} × {bearing.balls} balls"
-    return _quantities(rows | more | last, model=model)

@@ -87,8 +87,9 @@ def solve_bearing(scene: Scene, name: str, loads: xr.Dataset) -> Any:
     force = to_rolling(loads["force"].values)
     moment = to_rolling(loads["moment"].values)[..., :2]
     try:
-        if isinstance(bearing, SlewingBearing) and name == scene.rolling.bearing:
-            return bearing.equilibrium(force, moment, rings=scene.rolling.ring_model)
+        if isinstance(bearing, SlewingBearing):
+            rings = scene.rolling.bearings[name].ring_model
+            return bearing.equilibrium(force, moment, rings=rings)
         return bearing.equilibrium(force, moment)
     except SolverError as error:
         raise SolverError(f"bearing {name}: {error}") from error

@@ -1,15 +1,24 @@
 """Flexible rings as a scene asks for them."""
 
+import tomllib
+
 import pytest
 from synthetic import cube_file
 
 import loadflow as lf
 from loadflow.errors import InputError
+from loadflow.ladder import rung_of
+from loadflow.rolling import RingSection
 from loadflow.scene import make_scene
+from loadflow.scene_bearings import standing_ring
 
 GEOMETRY = {
     "balls": 100, "ball_diameter": 0.04, "pitch_diameter": 2.5, "groove_radius": 0.021,
     "contact_angle": 0.7854,
+}  # fmt: skip
+SPHERICAL = {
+    "rollers": 30, "roller_diameter": 0.09, "roller_length": 0.14, "pitch_diameter": 1.0,
+    "contact_angle": 0.21,
 }  # fmt: skip
 
 
@@ -30,6 +39,9 @@ def test_a_run_with_flexible_rings_keeps_every_sample_and_shifts_the_forces(tmp_
     assert largest["flexible"] != pytest.approx(largest["rigid"], rel=0.01)
 
 
+RING = {"section": {"width": 0.099, "height": 0.12}, "radius": 1.35}
+
+
 @pytest.mark.parametrize(
     "rolling",
     [{"geometry": GEOMETRY}, {"inner_ring": None, "outer_ring": None}],
@@ -38,3 +50,66 @@ def test_a_run_with_flexible_rings_keeps_every_sample_and_shifts_the_forces(tmp_
 def test_flexible_rings_without_data_are_refused(rolling):
     with pytest.raises(InputError, match="inner_ring or outer_ring"):
         make_scene({"name": "x", "rolling": {"rings": "flexible"} | rolling})
+
+
+def test_a_ring_left_out_is_rigid_and_not_that_of_the_default_bearing():
+    for given in ({"geometry": GEOMETRY}, {}):
+        rolling = {"rings": "flexible", "outer_ring": RING} | given
+        model = make_scene({"name": "x", "rolling": rolling}).rolling.ring_model
+        assert model.inner is None
+        assert model.outer.radius == 1.35
+    default = make_scene({"name": "x", "rolling": {"rings": "flexible"}}).rolling.ring_model
+    assert None not in (default.inner, default.outer)
+
+
+def test_a_ring_may_be_stated_by_the_measures_of_rectangle_and_wall():
+    wall = {"radius": 1.35, "height": -0.06, "thickness": 0.06, "length": 1.0}
+    rolling = {"rings": "flexible", "geometry": GEOMETRY, "outer_ring": RING | {"supports": [wall]}}
+    scene = make_scene({"name": "x", "rolling": rolling})
+    ring = scene.rolling.ring_model.outer
+    assert ring == standing_ring(0.099, 0.12, 1.35, wall=(0.06, 1.0))
+    assert ring.section == RingSection.rectangle(0.099, 0.12)
+    # what is written down is what was read
+    again = make_scene(tomllib.loads(scene.to_toml()))
+    assert again.rolling == scene.rolling
+
+
+@pytest.mark.parametrize(
+    ("ring", "says"),
+    [
+        ({"section": {"width": -1.0, "height": 0.1}}, "width: must be > 0"),
+        ({"section": {"width": "wide", "height": 0.1}}, "section"),
+        ({"supports": [{"radius": 1.2, "height": 0, "thickness": 0, "length": 1}]}, "thickness of"),
+        ({"supports": [{"radius": 1.2, "thickness": 0.1}]}, "thickness"),
+        ({"radius": -1.0}, "radius"),
+        ({"radius": 1.2}, "outer_ring: radius must be > 1.25 m, got 1.2"),
+    ],
+)
+def test_bad_measures_of_a_ring_are_named(ring, says):
+    rolling = {"rings": "flexible", "geometry": GEOMETRY, "outer_ring": RING | ring}
+    with pytest.raises(InputError, match=says):
+        make_scene({"name": "x", "rolling": rolling})
+
+
+def test_every_slewing_bearing_of_a_scene_may_have_flexible_rings(tmp_path):
+    cube = cube_file(tmp_path / "loads.h5", wind_speeds=(12.0,), seeds=(1,))
+    largest = {}
+    for rings in ({}, {"rings": "flexible", "outer_ring": RING}):
+        second = {"bearing": "N2", "geometry": GEOMETRY} | rings
+        first = {"bearing": "N", "geometry": {"kind": "spherical"} | SPHERICAL}
+        scene = make_scene(
+            {
+                "name": f"with{len(rings)}", "results": ["rolling.life"],
+                "loads": {"source": "files", "files": [str(cube)]}, "rolling": [first, second],
+            }
+        )  # fmt: skip
+        assert rung_of(scene, "rolling") == ("flexible" if rings else "rigid")
+        table = lf.run(scene, out=tmp_path, report=False).tree["rolling"]
+        largest[bool(rings)] = float(table["bearing_force"].sel(bearing="N2").max())
+    assert largest[True] != pytest.approx(largest[False], rel=0.01)
+
+
+def test_flexible_rings_of_other_bearings_are_refused():
+    first = {"geometry": {"kind": "spherical"} | SPHERICAL, "rings": "flexible", "outer_ring": RING}
+    with pytest.raises(InputError, match="slewing bearings of balls only"):
+        make_scene({"name": "x", "rolling": [first]})
