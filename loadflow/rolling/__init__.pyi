@@ -21,8 +21,10 @@ from .hertz import hertz_line as hertz_line
 from .hertz import hertz_point as hertz_point
 from .life import rating_life_spectrum as rating_life_spectrum
 from .life import spectrum_load as spectrum_load
+from .lubricated_life import LifeModification as LifeModification
 from .lubricated_life import Lubrication as Lubrication
 from .lubricated_life import life_factor as life_factor
+from .lubricated_life import life_modification as life_modification
 from .lubricated_life import modified_life as modified_life
 from .lubricated_life import system_life as system_life
 from .patches import patch_points as patch_points

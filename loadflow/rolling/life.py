@@ -171,7 +171,10 @@ def overrollings(balls: int, gamma: float) -> float:
 
 
 def critical_amplitude(balls: int, gamma: float) -> float:
-    """Critical amplitude O_crit, rad, (4.6) as printed (twice the usual 720°/[Z(1 ∓ γ)])."""
+    """Critical amplitude O_crit, rad, (4.6): the path there and back.
+
+    Twice the usual 720°/[Z(1 ∓ γ)], which counts from end to end.
+    """
     return 4 * np.pi / overrollings(balls, gamma) / (1 - gamma)
 
 
@@ -184,11 +187,11 @@ def oscillation_load(
     exponent: float = POINT_EXPONENT,
     critical: float | None = None,
     rule: Literal["as-printed", "rumbarger"] = "as-printed",
+    definition: Amplitude = "travel",
 ) -> float:
     """Equivalent load of an oscillation spectrum, N, (4.5).
 
-    Weights are N t O^x. Amplitudes that differ from each other only by the definition (travel or
-    half) give the same load, except beside `critical`.
+    Weights are N t O^x with O as the whole path of one oscillation.
 
     Parameters
     ----------
@@ -197,12 +200,22 @@ def oscillation_load(
     exponent : float
         Life exponent.
     critical : float, optional
-        Critical amplitude, rad (`critical_amplitude`); without it x = 1 throughout.
+        Critical amplitude, rad, as a whole path (`critical_amplitude`); without it x = 1
+        throughout.
     rule : {"as-printed", "rumbarger"}
         Where x = 9/10: above the critical amplitude as the source prints, or below it as in
         Rumbarger's and Harris's rule, of which the print is probably a swap.
+    definition : {"travel", "half"}
+        Of `amplitude`, see `oscillation_speed`.
+
+    Raises
+    ------
+    InputError
+        If `rule` or `definition` is unknown, or weights make no sense.
     """
-    o = np.asarray(amplitude, float)
+    if rule not in ("as-printed", "rumbarger"):
+        raise InputError(f"rule: must be 'as-printed' or 'rumbarger', got {rule!r}")
+    o = _travel(amplitude, definition)
     x = np.ones_like(o)
     if critical is not None:
         above = o > critical

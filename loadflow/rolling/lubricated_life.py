@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
 from annotated_types import Gt
@@ -17,6 +17,9 @@ from loadflow.tribology.lubricants import Oil
 
 Array = NDArray[np.float64]
 Kind = Literal["radial-ball", "radial-roller", "thrust-ball", "thrust-roller"]
+
+LARGEST_FACTOR = 50.0  # of a_ISO
+KAPPA_RANGE = (0.1, 4.0)  # below: no factor; above: counts as the upper end
 
 WEIBULL = {"ball": 10 / 9, "roller": 9 / 8}
 
@@ -145,7 +148,9 @@ def fatigue_limit(static_capacity: float, kind: Kind, pitch_diameter: float) -> 
     return static_capacity / (22 if ball else 8.2) * large ** (-0.5 if ball else -0.3)
 
 
-def life_factor(kappa: ArrayLike, load_ratio: ArrayLike, kind: Kind) -> Array:
+def life_factor(
+    kappa: ArrayLike, load_ratio: ArrayLike, kind: Kind, limit: float = LARGEST_FACTOR
+) -> Array:
     """Life modification factor a_ISO, ISO 281 (31)–(42), at most 50.
 
     Parameters
@@ -156,11 +161,14 @@ def life_factor(kappa: ArrayLike, load_ratio: ArrayLike, kind: Kind) -> Array:
         e_C C_u/P.
     kind : {"radial-ball", "radial-roller", "thrust-ball", "thrust-roller"}
         Kind of bearing.
+    limit : float
+        Largest factor allowed, up to 50; IEC 61400-4 allows 3.8 in gearboxes.
 
     Raises
     ------
     InputError
-        If `kind` is unknown, or κ is below 0.1, where the standard gives no factor.
+        If `kind` is unknown, κ is below 0.1, where the standard gives no factor, or `limit` is not
+        within 0.1 … 50.
 
     Examples
     --------
@@ -169,12 +177,15 @@ def life_factor(kappa: ArrayLike, load_ratio: ArrayLike, kind: Kind) -> Array:
     """
     if kind not in _SHAPE:
         raise InputError(f"kind: must be one of {', '.join(_SHAPE)}, got {kind!r}")
-    k = np.minimum(np.asarray(kappa, float), 4.0)
-    if not np.all(k >= 0.1):
+    thinnest, thickest = KAPPA_RANGE
+    k = np.minimum(np.asarray(kappa, float), thickest)
+    if not np.all(k >= thinnest):
         raise InputError(
             f"kappa: ISO 281 holds for κ ≥ 0.1, got {np.min(k):.3g}: the film is too thin; take "
             "a thicker oil or the basic rating life"
         )
+    if not 0.1 <= limit <= LARGEST_FACTOR:
+        raise InputError(f"limit: must lie in 0.1 … {LARGEST_FACTOR:g}, got {limit}")
     inner, power, outer, share = _SHAPE[kind]
     low, middle, high = (
         np.maximum(top - slope / k**exponent, 0.0) ** inner  # below 0 only out of its range
@@ -182,8 +193,8 @@ def life_factor(kappa: ArrayLike, load_ratio: ArrayLike, kind: Kind) -> Array:
     )
     bracket = np.where(k < 0.4, low, np.where(k < 1, middle, high))
     rest = 1 - bracket * (np.asarray(load_ratio, float) / share) ** power
-    limit = 500 ** (1 / outer)  # where 0.1 rest^outer reaches 50
-    return np.asarray(0.1 * np.maximum(rest, limit) ** outer)
+    least = (10 * limit) ** (1 / outer)  # where 0.1 rest^outer reaches the limit
+    return np.asarray(0.1 * np.maximum(rest, least) ** outer)
 
 
 def reliability_factor(reliability: float = 0.90) -> float:
@@ -199,8 +210,38 @@ def reliability_factor(reliability: float = 0.90) -> float:
     return _A1[reliability]
 
 
-def modified_life(
-    life: ArrayLike,
+@dataclass(frozen=True)
+class LifeModification:
+    """Life modification factor of ISO 281 with what leads to it; arrays over load and speed.
+
+    Attributes
+    ----------
+    viscosity_ratio : ndarray
+        κ.
+    contamination : ndarray
+        e_C.
+    fatigue_limit : float
+        C_u, N.
+    load_ratio : ndarray
+        e_C C_u/P.
+    factor : ndarray
+        a_ISO.
+    thick : ndarray of bool
+        Whether κ is above 4, where it counts as 4.
+    capped : ndarray of bool
+        Whether a_ISO would be larger than its limit.
+    """
+
+    viscosity_ratio: Array
+    contamination: Array
+    fatigue_limit: float
+    load_ratio: Array
+    factor: Array
+    thick: NDArray[np.bool_]
+    capped: NDArray[np.bool_]
+
+
+def life_modification(
     load: ArrayLike,
     speed: ArrayLike,
     *,
@@ -208,14 +249,12 @@ def modified_life(
     kind: Kind,
     pitch_diameter: float,
     static_capacity: float,
-    reliability: float = 0.90,
-) -> Array:
-    """Modified (reference) rating life L_nm = a₁ a_ISO L10, of the unit of `life`.
+    limit: float = LARGEST_FACTOR,
+) -> LifeModification:
+    """Life modification factor a_ISO of a bearing at work, and which limits of it act.
 
     Parameters
     ----------
-    life : array_like
-        Basic rating or reference life.
     load : array_like
         Dynamic equivalent (reference) load, N.
     speed : array_like
@@ -226,18 +265,52 @@ def modified_life(
         Kind of bearing, see `life_factor`.
     pitch_diameter, static_capacity : float
         m, N.
+    limit : float
+        See `life_factor`.
+
+    Raises
+    ------
+    InputError
+        As `life_factor`.
+    """
+    kappa = viscosity_ratio(lubrication, speed, pitch_diameter)
+    clean = contamination_factor(lubrication.cleanliness, kappa, pitch_diameter)
+    fatigue = fatigue_limit(static_capacity, kind, pitch_diameter)
+    ratio = clean * safety.ratio(fatigue, load)
+    factor = life_factor(kappa, ratio, kind, limit)
+    return LifeModification(
+        viscosity_ratio=kappa,
+        contamination=clean,
+        fatigue_limit=fatigue,
+        load_ratio=ratio,
+        factor=factor,
+        thick=np.broadcast_to(kappa > KAPPA_RANGE[1], factor.shape),
+        capped=factor >= limit * (1 - 1e-12),
+    )
+
+
+def modified_life(
+    life: ArrayLike, load: ArrayLike, speed: ArrayLike, *, reliability: float = 0.90, **work: Any
+) -> Array:
+    """Modified (reference) rating life L_nm = a₁ a_ISO L10, of the unit of `life`.
+
+    Parameters
+    ----------
+    life : array_like
+        Basic rating or reference life.
+    load, speed : array_like
+        Dynamic equivalent (reference) load, N, and rad/s.
     reliability : float
         0.90 … 0.99.
+    **work
+        The further arguments of `life_modification`, which also tells κ and which limits act.
 
     Raises
     ------
     InputError
         As `life_factor` and `reliability_factor`.
     """
-    kappa = viscosity_ratio(lubrication, speed, pitch_diameter)
-    clean = contamination_factor(lubrication.cleanliness, kappa, pitch_diameter)
-    limit = fatigue_limit(static_capacity, kind, pitch_diameter)
-    factor = life_factor(kappa, clean * safety.ratio(limit, load), kind)
+    factor = life_modification(load, speed, **work).factor
     return np.asarray(reliability_factor(reliability) * factor * np.asarray(life, float))
 
 

@@ -6,10 +6,12 @@ import math
 from collections.abc import Iterator
 from dataclasses import replace
 
-from loadflow.rolling import BallBearing
+from loadflow.rolling import BallBearing, lubricated_life
 from loadflow.tribology.hertz import curvature_sum, exact_ellipse
 from loadflow.validation._slewing_cases import RINGS
 from loadflow.validation.check import Check
+
+Numbers = tuple[float, ...]
 
 
 def checks() -> Iterator[Check]:
@@ -18,6 +20,7 @@ def checks() -> Iterator[Check]:
     yield from _iso_16281()
     yield from _harris()
     yield from _catalogue()
+    yield from _modified_life()
 
 
 def _ellipses() -> Iterator[Check]:
@@ -119,3 +122,50 @@ def _catalogue() -> Iterator[Check]:
         )
         source = "catalogue, assuming grooves of 0.52 D"
         yield Check(f"C, {name}", source, printed, bearing.rated_capacity, 0.03, unit="N")
+
+
+def _modified_life() -> Iterator[Check]:
+    """a_ISO by hand, from the printed formulas: one bearing of each kind, one branch of κ each.
+
+    Speed (1/min), D_pw (mm), viscosity (mm²/s), C₀ and P (N) lead to ν₁, κ, e_C, C_u, e_C C_u/P and
+    a_ISO; the last bearing has κ = 4, the end of the range.
+    """
+    cases: tuple[tuple[lubricated_life.Kind, str, Numbers, Numbers], ...] = (
+        (
+            "radial-ball",
+            "oil, filtered, -/15/12",
+            (3000, 72.5, 20, 31.5e3, 4000),
+            (9.64901, 2.07275, 0.568873, 1431.82, 0.203631, 16.38746),
+        ),
+        (
+            "radial-roller",
+            "grease, normal cleanliness",
+            (12, 1000, 150, 20e6, 1.5e6),
+            (180.9223, 0.829085, 0.885900, 1.222408e6, 0.721954, 1.771742),
+        ),
+        (
+            "thrust-ball",
+            "grease, slight to typical contamination",
+            (5, 1900, 200, 29e6, 3e5),
+            (271.4505, 0.736783, 0.790486, 302_411.6, 0.796841, 4.164786),
+        ),
+        (
+            "thrust-roller",
+            "oil, filtered, -/17/14",
+            (1200, 300, 30, 3e6, 4e5),
+            (7.5, 4.0, 0.756077, 263_130.4, 0.497367, 1.326642),
+        ),
+    )
+    for kind, cleanliness, (n, pitch, nu, c0, p), by_hand in cases:
+        speed, size = n * math.pi / 30, pitch * 1e-3
+        nu_1 = float(lubricated_life.reference_viscosity(speed, size)) * 1e6
+        kappa = nu / nu_1
+        clean = float(lubricated_life.contamination_factor(cleanliness, kappa, size))
+        limit = lubricated_life.fatigue_limit(c0, kind, size)
+        ratio = clean * limit / p
+        factor = float(lubricated_life.life_factor(kappa, ratio, kind))
+        names = ("ν₁", "κ", "e_C", "C_u", "e_C C_u/P", "a_ISO")
+        units = ("mm²/s", "-", "-", "N", "-", "-")
+        ours = (nu_1, kappa, clean, limit, ratio, factor)
+        for name, unit, printed, got in zip(names, units, by_hand, ours):
+            yield Check(f"{name}, {kind}", "ISO 281, by hand", printed, got, 2e-6, unit=unit)

@@ -79,6 +79,37 @@ def test_both_rules_of_the_amplitude_exponent():
     assert swapped < plain < printed
 
 
+def test_the_critical_amplitude_is_compared_with_the_whole_path():
+    rows = {"load": [1e6, 2e6], "frequency": [1, 1], "time": [0.5, 0.5]}
+    path = np.array([0.1, 0.4])
+    for rule in ("as-printed", "rumbarger"):
+        travel = life.oscillation_load(**rows, amplitude=path, critical=0.2, rule=rule)
+        half = life.oscillation_load(
+            **rows, amplitude=path / 4, critical=0.2, rule=rule, definition="half"
+        )
+        assert half == pytest.approx(travel, rel=1e-14)
+    with pytest.raises(InputError, match="rule"):
+        life.oscillation_load(**rows, amplitude=path, rule="harris")  # type: ignore[arg-type]
+
+
+def test_critical_path_is_twice_the_angle_between_two_balls_seen_from_the_ring():
+    # neighbouring rolled zones meet once the ring turns by 2π/u_j from end to end
+    ends = 2 * math.pi / life.overrollings(129, 0.0149)
+    assert life.critical_amplitude(129, 0.0149) == pytest.approx(2 * ends / (1 - 0.0149))
+
+
+def test_oscillating_spectrum_of_the_source_both_rules():
+    from loadflow.validation._slewing_cases import SPECTRUM
+
+    load, share, rate = SPECTRUM[:, 4], SPECTRUM[:, 5] / 100, SPECTRUM[:, 6] / 60
+    path = np.radians(SPECTRUM[:, 7])
+    critical = life.critical_amplitude(129, 0.014886)
+    printed = life.oscillation_load(load, rate, share, path, critical=critical)
+    swapped = life.oscillation_load(load, rate, share, path, critical=critical, rule="rumbarger")
+    assert printed == pytest.approx(2_238_533, rel=1e-6)  # every path is below the critical one
+    assert swapped == pytest.approx(2_216_904, rel=1e-6)
+
+
 def test_life_in_hours():
     assert life.life_hours(0.11, 0.015 * math.pi / 30) == pytest.approx(122_222, rel=1e-5)
 

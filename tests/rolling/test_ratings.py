@@ -15,6 +15,7 @@ from loadflow.rolling import (
     Lubrication,
     RollerBearing,
     SlewingBearing,
+    life_modification,
     lubricated_life,
     modified_life,
     static_capacity,
@@ -34,7 +35,7 @@ GREASE = Lubrication(oil=lubricant("mineral-vg-320"), temperature=323.15)
 @pytest.mark.parametrize("seam", [0.4, 1.0])
 def test_life_factor_meets_itself_where_its_branches_join(kind, seam):
     below, above = life_factor([seam * (1 - 1e-9), seam], 0.2, kind)
-    assert below == pytest.approx(above, rel=2e-2)
+    assert below == pytest.approx(above, rel=5e-4)  # the constants have five digits
 
 
 @given(st.sampled_from(KINDS), st.floats(0.1, 5), st.floats(0, 5))
@@ -50,6 +51,35 @@ def test_life_factor_refuses_dry_contacts_and_unknown_kinds():
         life_factor(0.05, 1.0, "radial-ball")
     with pytest.raises(InputError, match="kind"):
         life_factor(1.0, 1.0, "ball")
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_life_factor_stops_at_its_limits(kind):
+    assert life_factor(4.0, 5.0, kind) == pytest.approx(50)
+    assert life_factor(9.0, 0.1, kind) == life_factor(4.0, 0.1, kind)
+    assert life_factor(2.0, 5.0, kind, limit=3.8) == pytest.approx(3.8)
+    small = 0.01
+    assert life_factor(2.0, small, kind, limit=3.8) == life_factor(2.0, small, kind)
+    for wrong in (60.0, 0.05, math.nan):
+        with pytest.raises(InputError, match="limit"):
+            life_factor(1.0, 0.5, kind, limit=wrong)
+
+
+def test_which_limits_of_the_life_factor_act_is_told():
+    keys = {"kind": "radial-ball", "pitch_diameter": 0.95, "static_capacity": 2e6}
+    oil = dataclasses.replace(GREASE, cleanliness="oil, filtered, -/13/10")
+    found = life_modification([1e3, 1e5, 1e3], [SLOW, SLOW, 50 * SLOW], lubrication=oil, **keys)
+    assert found.thick.tolist() == [False, False, True]
+    assert found.capped.tolist() == [True, False, True]
+    assert found.factor[found.capped] == pytest.approx(50)
+    assert found.load_ratio == pytest.approx(
+        found.contamination * found.fatigue_limit / np.array([1e3, 1e5, 1e3])
+    )
+    low = life_modification(1e5, SLOW, lubrication=oil, limit=0.2, **keys)
+    assert low.capped
+    assert low.factor == pytest.approx(0.2)
+    with pytest.raises(InputError, match=r"κ ≥ 0\.1"):
+        life_modification(1e5, 1e-3 * SLOW, lubrication=oil, **keys)
 
 
 def test_reference_viscosity_of_both_ranges_of_speed():
