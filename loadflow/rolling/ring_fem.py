@@ -1,8 +1,9 @@
 """Finite-element rings, condensed to their raceway patches; needs scikit-fem (``loadflow[fem]``).
 
 `FiniteElementRing` meshes the section and takes the ring in Fourier harmonics; a force on a patch
-is spread evenly over the width of the patch across the groove, and its displacement is the mean
-over the same width, so that the compliance is symmetric.
+is spread evenly over a square of the groove, and its displacement is the mean over the same square,
+so that the compliance is symmetric. What a half-space yields under the square is taken off (see
+`loadflow.rolling.ring_local`).
 """
 
 from __future__ import annotations
@@ -18,6 +19,8 @@ from loadflow.errors import InputError
 from loadflow.rolling.contact import Array
 from loadflow.rolling.options import check_choice, check_fields
 from loadflow.rolling.patches import PatchPoints
+from loadflow.rolling.ring_harmonics import Patches, SectionSystem, fold, harmonic_compliances
+from loadflow.rolling.ring_local import half_space, local_block, semidefinite_factor
 from loadflow.rolling.ring_profile import RingProfile
 from loadflow.tribology.hertz import STEEL_MODULUS, STEEL_POISSON
 
@@ -41,6 +44,8 @@ class SolidSection:
         Elements across the ring (quadratic); 3 to 5 suffice.
     elastic_modulus, poisson_ratio : float
         Pa and 1.
+    density : float
+        kg/m³; for the motion of the ring only.
 
     Raises
     ------
@@ -55,6 +60,7 @@ class SolidSection:
     across: Annotated[int, Ge(1), Le(40)] = 4
     elastic_modulus: Annotated[float, Gt(0)] = STEEL_MODULUS
     poisson_ratio: Annotated[float, Ge(0), Le(0.49)] = STEEL_POISSON
+    density: Annotated[float, Gt(0)] = 7850.0
 
     def __post_init__(self) -> None:
         check_fields(self)
@@ -93,11 +99,11 @@ class FiniteElementRing(SolidSection):
 
     Attributes
     ----------
-    harmonics : int
-        Highest harmonic around the ring.
+    resolution : float
+        Highest harmonic around the ring times half the angle of a patch.
     """
 
-    harmonics: Annotated[int, Ge(1), Le(400)] = 48
+    resolution: Annotated[float, Ge(1), Le(100)] = 8.0
 
     def flexibility(self, points: PatchPoints) -> Array:
         """Factor Q, (kind, ball, 3, mode), of C = Q Qᵀ; see `RingBeam.flexibility`.
@@ -105,96 +111,39 @@ class FiniteElementRing(SolidSection):
         Raises
         ------
         InputError
-            If a patch is not on the raceway side of the section.
+            If a patch is not on the raceway side of the section, or balls are not equally spaced.
         ImportError
             Without scikit-fem.
         """
-        from scipy.sparse.linalg import splu
+        from scipy.linalg import block_diag
 
-        basis = self._basis()
-        stiffness = [self._stiffness(basis, n) for n in (0, 1, -1)]
-        constant = stiffness[0]
-        linear = (stiffness[1] - stiffness[2]) / 2
-        square = (stiffness[1] + stiffness[2]) / 2 - constant
-        loads = self._patch_loads(basis, points)
         kinds, balls = len(points.radius), len(points.azimuth)
+        turn = np.exp(1j * (points.azimuth - points.azimuth[0]))
+        if np.abs(turn - np.exp(2j * np.pi * np.arange(balls) / balls)).max() > 1e-9:
+            raise InputError("points: balls must be equally spaced around a FiniteElementRing")
+        system = SectionSystem(self)
+        patches = Patches.on(system, points)
+        compliance = self._harmonics(system, patches, float(points.radius.mean()))
+        side = patches.length
+        half = half_space(side, side, self.elastic_modulus, self.poisson_ratio)
+        local = block_diag(*(local_block(normal, half) for normal in patches.normals))
+        around = 2 * np.pi * np.arange(balls) / balls
         columns = []
-        for n in range(self.harmonics + 1):
-            matrix = constant + n * linear + n**2 * square
-            compliance = loads.T @ splu(matrix.tocsc()).solve(loads)
-            compliance /= math.pi * (2 if n == 0 else 1)
-            factor = np.linalg.cholesky(_regular(compliance)).reshape(kinds, 1, 3, -1)
-            cos, sin = np.cos(n * points.azimuth), np.sin(n * points.azimuth)
+        for m, share, folded in fold(compliance, balls):
+            factor = semidefinite_factor(folded - share * local).reshape(kinds, 1, 3, -1)
+            cos, sin = np.cos(m * around), np.sin(m * around)
             waves = np.stack([[cos, sin, cos], [sin, -cos, sin]], axis=-1)  # both families
             columns += [factor * waves[:, :, f].T[None, :, :, None] for f in range(2)]
-        return np.concatenate(columns, axis=-1).reshape(kinds, balls, 3, -1)
+        factor = np.concatenate(columns, axis=-1).reshape(kinds, balls, 3, -1)
+        size = np.abs(factor).max(axis=(0, 1, 2))
+        return factor[..., size > 1e-9 * size.max()]
 
-    def _basis(self) -> Any:
-        """Quadratic elements with three components over the section."""
-        from skfem import Basis, ElementQuad2, ElementVector, MeshQuad
-
-        radius, height = self.profile.grid(self.across)
-        rows, cols = radius.shape
-        mesh = MeshQuad.init_tensor(np.arange(rows, dtype=float), np.arange(cols, dtype=float))
-        i, j = mesh.p.round().astype(int)
-        mesh = MeshQuad(np.stack([radius[i, j], height[i, j]]), mesh.t)
-        return Basis(mesh, ElementVector(ElementQuad2(), 3), intorder=5)
-
-    def _stiffness(self, basis: Any, n: int) -> Any:
-        """Stiffness of harmonic n per unit of ∫cos² nθ dθ, with the bed."""
-        from skfem import BilinearForm, FacetBasis, asm
-
-        lam, mu = self.lame
-
-        def strains(u: Any, r: Array) -> tuple[Array, ...]:
-            value, slope = u, u.grad
-            return (
-                slope[0, 0],
-                (value[0] + n * value[1]) / r,
-                slope[2, 1],
-                slope[0, 1] + slope[2, 0],
-                slope[1, 0] - (n * value[0] + value[1]) / r,
-                slope[1, 1] - n * value[2] / r,
-            )
-
-        @BilinearForm
-        def elastic(u: Any, v: Any, w: Any) -> Any:
-            a, b = strains(u, w.x[0]), strains(v, w.x[0])
-            volume = lam * (a[0] + a[1] + a[2]) * (b[0] + b[1] + b[2])
-            normal = 2 * mu * (a[0] * b[0] + a[1] * b[1] + a[2] * b[2])
-            return (volume + normal + mu * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5])) * w.x[0]
-
-        @BilinearForm
-        def bedding(u: Any, v: Any, w: Any) -> Any:
-            springs = enumerate(self.springs)
-            return w.x[0] * sum(k * u[c] * v[c] for c, k in springs)
-
-        face = FacetBasis(basis.mesh, basis.elem, facets=basis.mesh.facets_satisfying(self.on_face))
-        return asm(elastic, basis) + asm(bedding, face)
-
-    def _patch_loads(self, basis: Any, points: PatchPoints) -> Array:
-        """Unit loads on each kind of patch, (unknown, 3 kind), one for each component."""
-        from skfem import FacetBasis, LinearForm, asm
-
-        reach = self.profile.bearing.groove(self.profile.ring) * math.radians(10)
-        loads = []
-        for radius, height in zip(points.radius, points.height):
-
-            def near(x: Array, r: float = radius, z: float = height) -> Any:
-                return np.hypot(x[0] - r, x[1] - z) < 1.05 * reach
-
-            facets = basis.mesh.facets_satisfying(near, boundaries_only=True)
-            if not len(facets):
-                raise InputError(
-                    f"profile: no raceway at radius {radius:g}, height {height:g} m of the patch"
-                )
-            patch = FacetBasis(basis.mesh, basis.elem, facets=facets)
-            length = asm(LinearForm(lambda v, w: v[0]), patch).sum()
-            loads += [asm(LinearForm(lambda v, w, c=c: v[c]), patch) / length for c in range(3)]
-        return np.stack(loads, axis=1)
-
-
-def _regular(compliance: Array) -> Array:
-    """Symmetric part, lifted off zero by rounding, so that it has a Cholesky factor."""
-    lift = 1e-12 * np.trace(compliance) / len(compliance)
-    return (compliance + compliance.T) / 2 + lift * np.eye(len(compliance))
+    def _harmonics(self, system: SectionSystem, patches: Patches, radius: float) -> Array:
+        """Displacement of square patches under unit loads spread over them, (n, 3 kind, 3 kind)."""
+        width = patches.length / radius
+        highest = math.ceil(self.resolution * 2 / width)
+        compliance = harmonic_compliances(system, patches, highest)
+        n = np.arange(highest + 1)
+        spread = np.sinc(n * width / (2 * np.pi)) ** 2
+        compliance *= (spread / np.where(n == 0, 2 * math.pi, math.pi))[:, None, None]
+        return compliance

@@ -8,11 +8,14 @@ from typing import Annotated, Literal
 
 import numpy as np
 from annotated_types import Gt
+from scipy.optimize import brentq
 
 from loadflow.errors import InputError
 from loadflow.rolling.contact import Array
 from loadflow.rolling.options import check_choice, check_fields
 from loadflow.rolling.raceway import BallRaceways
+
+PATCH = math.radians(10)  # of a groove, to both sides of the nominal contact angle
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -65,7 +68,12 @@ class RingProfile:
         """Radius of the opposite side."""
         return (self.outside if self.ring == "outer" else self.inside) / 2
 
-    def _grooves(self, patch: float = math.radians(10)) -> list[Array]:
+    @property
+    def patch_half(self) -> float:
+        """Half the width of a raceway patch in the section, along the groove, m."""
+        return self.bearing.groove(self.ring) * PATCH
+
+    def _grooves(self, patch: float = PATCH) -> list[Array]:
         """Points (r, z) on the groove of each row from below, with grid lines at each patch."""
         bearing, side = self.bearing, 1.0 if self.ring == "outer" else -1.0
         alpha, radius = bearing.contact_angle, bearing.groove(self.ring)
@@ -116,7 +124,15 @@ class RingProfile:
             )
         # behind a groove the lines spread to an even spacing
         even = np.linspace(self.bottom, self.top, len(line))
-        share = np.linspace(0, 1, across + 1)
+        share = _graded(across, 0.7 * self.patch_half / abs(self._back - land))
         radius = line[:, :1] + share * (self._back - line[:, :1])
         height = line[:, 1:] + share * (even - line[:, 1])[:, None]
         return radius, height
+
+
+def _graded(count: int, first: float) -> Array:
+    """Ends of `count` intervals of [0, 1], growing by a constant factor from `first`."""
+    if count * first >= 1:
+        return np.linspace(0, 1, count + 1)
+    factor = brentq(lambda g: first * (g**count - 1) / (g - 1) - 1, 1 + 1e-9, 1 / first + 1)
+    return np.append(first * (factor ** np.arange(count) - 1) / (factor - 1), 1.0)

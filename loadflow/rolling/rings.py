@@ -14,12 +14,13 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, Annotated, Protocol, runtime_checkable
 
 import numpy as np
-from annotated_types import Ge
+from annotated_types import Ge, Gt
 
 from loadflow.errors import InputError
 from loadflow.rolling.contact import NORMAL_R, NORMAL_Z, Array, Contacts
 from loadflow.rolling.options import check_fields
 from loadflow.rolling.patches import PatchPoints, patch_points
+from loadflow.rolling.ring_local import half_space
 
 if TYPE_CHECKING:
     from loadflow.rolling.slewing import SlewingBearing
@@ -32,7 +33,10 @@ _FALL = 2.0  # harmonic n of the forces is taken to fall as 1/(1 + n)²
 
 @runtime_checkable
 class Ring(Protocol):
-    """Anything that gives the compliance of a ring with its structure at the raceway patches."""
+    """Anything that gives the compliance of a ring with its structure at the raceway patches.
+
+    Without what Hertz's law counts: see `loadflow.rolling.ring_local`.
+    """
 
     def flexibility(self, points: PatchPoints) -> Array:
         """Return Q, (kind, ball, 3, mode), with the compliance C = Q Qᵀ; m/√(N m)."""
@@ -48,8 +52,8 @@ class FlexibleRings:
         `RingBeam`, `FiniteElementRing`, `CompliantRing` or anything with their method
         ``flexibility``; rigid if None.
     modes : int, optional
-        Ring modes kept for both rings together; by default all but 1e-5 of what smooth loads
-        store in the rings, and not more than 100.
+        Ring modes kept for both rings together; by default all of up to 100, else all but 1e-5 of
+        what smooth loads store in the rings.
     inner_angle, outer_angle : float
         How far each ring has turned with its structure, rad; matters for structures that are not
         rotationally symmetric. Loads and displacements stay in the fixed frame.
@@ -58,6 +62,10 @@ class FlexibleRings:
         source's.
     shell : float
         Thickness T_S of the patches, m.
+    master_width : float, optional
+        Side of the square over which a force enters a ring at a master node, m: the size of the
+        elements there. The rings of the source yield under it although Hertz's approach holds that
+        already. By default it is counted once.
 
     Raises
     ------
@@ -72,6 +80,7 @@ class FlexibleRings:
     outer_angle: float = 0.0
     turning_patches: bool = False
     shell: Annotated[float, Ge(0)] = 0.5e-3
+    master_width: Annotated[float, Gt(0)] | None = None
 
     def __post_init__(self) -> None:
         check_fields(self)
@@ -128,7 +137,16 @@ def ring_modes(bearing: SlewingBearing, rings: FlexibleRings, ball_angle: float)
     shapes, local, share = _condense(factor, contacts, rings.modes)
     basis = np.concatenate([rigid_basis(contacts), shapes], axis=-1)
     basis[1] *= contacts.spatial
-    return RingModes(np.ascontiguousarray(basis), local, share)
+    return RingModes(np.ascontiguousarray(basis), local + _master_compliance(bearing, rings), share)
+
+
+def _master_compliance(bearing: SlewingBearing, rings: FlexibleRings) -> float:
+    """What both rings yield at a master node on top of Hertz's approach, m/N."""
+    if rings.master_width is None:
+        return 0.0
+    side = rings.master_width
+    flexible = (rings.inner is not None) + (rings.outer is not None)
+    return flexible * half_space(side, side, bearing.elastic_modulus, bearing.poisson_ratio)[0]
 
 
 def _joint_factor(bearing: SlewingBearing, rings: FlexibleRings, contacts: Contacts) -> Array:
@@ -166,7 +184,8 @@ def _condense(factor: Array, contacts: Contacts, modes: int | None) -> tuple[Arr
     order = [i for i in np.argsort(values)[::-1] if values[i] > 1e-13 * values[-1]]
     if modes is None:
         held = np.cumsum(values[order]) / values[order].sum()
-        modes = min(int(np.searchsorted(held, 1 - _LEFT_OUT)) + 1, _MOST)
+        enough = int(np.searchsorted(held, 1 - _LEFT_OUT)) + 1
+        modes = len(order) if len(order) <= _MOST else min(enough, _MOST)
     kept = vectors[:, order[:modes]]
     scale = np.ones(kept.shape[1])
     local = 0.0
