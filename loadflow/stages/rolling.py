@@ -11,6 +11,7 @@ import xarray as xr
 from loadflow.errors import SolverError
 from loadflow.rolling import SlewingBearing, life, safety, system_life
 from loadflow.rolling.arrangements import life_exponent, weibull_slope
+from loadflow.rolling.static_rating import HOURS_20_YEARS, STATIC_RATING
 from loadflow.scene import Scene
 from loadflow.stages.cases import Case
 from loadflow.stages.frames import to_rolling
@@ -148,7 +149,8 @@ def summary(parts: Mapping[Case, xr.Dataset]) -> xr.Dataset:
     """Reduce each case to extremes and life; add the lives under all cases of each DLC together.
 
     ``life_hours`` is that of the first bearing, ``bearing_life_hours`` of each, and
-    ``system_life_hours`` of all of them, with the smallest Weibull slope among them.
+    ``system_life_hours`` of all of them, with the smallest Weibull slope among them. What ends in
+    ``_holds`` is the verdict of IEC 61400-1: lives of 20 years, static ratings over the load.
     """
     joined = over_cases({case: _extremes(part) for case, part in parts.items()})
     dlcs = np.unique(joined["dlc"])
@@ -159,11 +161,18 @@ def summary(parts: Mapping[Case, xr.Dataset]) -> xr.Dataset:
     first = label("h", f"rating life {under}")
     together = label("h", f"rating life of all bearings as a system {under}")
     of_all = label("h", f"rating life of each bearing {under}")
+    system = system_life(each, slope)
+    static = joined["bearing_static_safety"].min("case").values[:, None] >= STATIC_RATING
+    years = label("1", "whether it reaches 20 years")
+    rating = label("1", "whether the static safety reaches the limit in all cases")
     return joined.assign(
         life_hours=("load_case", each[:, 0], first),
         bearing_life_hours=(("load_case", "bearing"), each, of_all),
-        system_life_hours=("load_case", system_life(each, slope), together),
-    ).assign_coords(load_case=dlcs)
+        system_life_hours=("load_case", system, together),
+        bearing_life_holds=(("load_case", "bearing"), each >= HOURS_20_YEARS, years),
+        system_life_holds=("load_case", system >= HOURS_20_YEARS, years),
+        static_rating_holds=(("bearing", "static_limit"), static, rating),
+    ).assign_coords(load_case=dlcs, static_limit=("static_limit", list(STATIC_RATING)))
 
 
 def _together(cases: xr.Dataset) -> np.ndarray:

@@ -131,6 +131,12 @@ def test_the_stage_keeps_each_bearing_and_the_life_of_the_system():
     hours = table["bearing_life_hours"].sel(load_case="1.1").values
     assert table["life_hours"].item() == hours[0]
     assert table["system_life_hours"].item() == pytest.approx(float(system_life(hours, 9 / 8)))
+    assert (table["bearing_life_holds"].values == (hours >= 20 * 8766)).all()
+    assert not table["system_life_holds"].item() or table["bearing_life_holds"].all()
+    safety = table["bearing_static_safety"].min("case")
+    for limit in (1.0, 1.5):
+        verdict = table["static_rating_holds"].sel(static_limit=limit)
+        assert (verdict == (safety >= limit)).all()
     # the same loads in both cases: together they are as one
     one = stage.summary({cases[0]: parts[cases[0]]})
     assert one["bearing_life_hours"].values[0] == pytest.approx(hours)
