@@ -6,7 +6,7 @@ import math
 from abc import abstractmethod
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 from annotated_types import Ge, Gt, Le
@@ -69,6 +69,8 @@ class RollerRaceways:
     InputError
         If a field is out of its range.
     """
+
+    _answer: ClassVar[type[RollerResult]] = RollerResult
 
     rollers: Annotated[int, Ge(3)]
     roller_diameter: Annotated[float, Gt(0)]
@@ -237,4 +239,4 @@ class RollerRaceways:
             strict=strict,
             chunk=chunk,
         )
-        return RollerResult(**vars(state), bearing=self, contacts=contacts)
+        return self._answer(**vars(state), bearing=self, contacts=contacts)

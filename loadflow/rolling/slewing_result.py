@@ -104,9 +104,8 @@ class SlewingResult(BallResult):
         if model == "forces":
             return friction.friction_torque_forces(self.force_sum, pitch, idle=idle)
         if model == "loads":
-            radial = np.hypot(self.force[..., 0], self.force[..., 1])
-            tilt = np.hypot(self.moment[..., 0], self.moment[..., 1])
-            return friction.friction_torque_loads(
-                self.force[..., 2], radial, tilt, pitch, idle=idle
+            factor = friction.FRICTION_FACTORS["balls with cage"]
+            return friction.friction_torque_components(
+                self.force, self.moment, pitch, friction=factor, idle=idle
             )
         raise InputError(f"model: must be 'forces' or 'loads', got {model!r}")

@@ -5,13 +5,35 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
+from typing import ClassVar
 
 import numpy as np
 
 from loadflow.errors import InputError
-from loadflow.rolling import capacity
-from loadflow.rolling.contact import LINE, Contacts, azimuths
+from loadflow.rolling import capacity, friction
+from loadflow.rolling.contact import LINE, Array, Contacts, azimuths
 from loadflow.rolling.roller_raceway import RollerRaceways
+from loadflow.rolling.roller_result import RollerResult
+
+
+@dataclass(frozen=True)
+class CrossedRollerResult(RollerResult):
+    """Equilibrium of a crossed roller bearing; see `RollerResult`."""
+
+    def friction_torque(self, idle: float = 0.0) -> Array:
+        """Friction torque, N m, from the loads (2.25) with μ = 0.004 of Tab. 2.3.
+
+        A rule of thumb; its error is in `loadflow.rolling.friction.slewing_torque`.
+
+        Parameters
+        ----------
+        idle : float
+            Torque without load, N m.
+        """
+        factor = friction.FRICTION_FACTORS["crossed rollers"]
+        return friction.friction_torque_components(
+            self.force, self.moment, self.bearing.pitch_diameter, friction=factor, idle=idle
+        )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,6 +56,8 @@ class CrossedRollerBearing(RollerRaceways):
     >>> ring.equilibrium(force=(1e5, 0, 5e5), moment=(0, 4e5)).roller_forces.shape
     (2, 90)
     """
+
+    _answer: ClassVar[type[RollerResult]] = CrossedRollerResult
 
     contact_angle: float = math.pi / 4
 

@@ -73,7 +73,10 @@ def losses(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
             elif isinstance(bearing, BallBearing | SlewingBearing):
                 found.append(_balls(bearing, load, moment[:, :2], speed, options))
             else:
-                raise SolverError(f"no model of friction for a {type(bearing).__name__}")
+                raise SolverError(
+                    f"no model of friction for the contacts of a {type(bearing).__name__}; "
+                    "rolling.friction_torque_loads estimates its torque from the loads"
+                )
         except SolverError as error:
             raise SolverError(f"bearing {name}: {error}") from error
     kept = {

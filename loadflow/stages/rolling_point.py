@@ -134,8 +134,9 @@ def _life(r: Any, speed: float | None) -> dict[str, tuple[Any, str, str]]:
     if speed is not None:
         rows["life_hours"] = (hours, "h", "basic rating life L10h at this load and speed")
         rows["life_holds"] = (life.holds, "1", "whether it reaches 20 years")
-    if isinstance(r.bearing, SlewingBearing):
-        about = "friction torque, from the ball forces"
+    if hasattr(r, "friction_torque"):
+        slewing = isinstance(r.bearing, SlewingBearing)
+        about = f"friction torque, from the {'ball forces' if slewing else 'loads'}"
         rows["friction_torque"] = (r.friction_torque(), "N m", about)
     return rows
 

@@ -116,3 +116,10 @@ def test_thrust_roller_factor_is_that_of_iso_281(gamma, f_c):
 def test_impossible_roller_bearings_are_refused(bearing, field, value):
     with pytest.raises(InputError, match=field):
         dataclasses.replace(bearing, **{field: value})
+
+
+def test_friction_of_crossed_rollers_follows_the_loads():
+    result = CROSSED.equilibrium([(3e4, 4e4, -2e5), (0, 0, 0)], [(3e4, -4e4), (0, 0)])
+    expected = 0.004 / 2 * (4.4 * 5e4 + (2.2 * 5e4 + 2e5) * CROSSED.pitch_diameter)
+    assert result.friction_torque() == pytest.approx([expected, 0])
+    assert result.friction_torque(idle=100.0) == pytest.approx([expected + 100, 100])
