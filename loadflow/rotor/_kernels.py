@@ -160,7 +160,7 @@ def blade_aerodynamics(
     """Aerodynamic force (x, r, t) on each section of one blade, N.
 
     `motion` (n, 6): see `deflection`; `guess` (n,): inflow angles of the step before, replaced.
-    `wake` (n, 2): see `section_force`; `induced` (n, 2, 3): see `inflow_lag`. Returns
+    `wake` (n, SECTION_STATES): see `coefficients`; `induced` (n, 2, 3): see `inflow_lag`. Returns
     the mean wind over the sections (x, y, z).
     """
     sine, cosine = np.sin(azimuth), np.cos(azimuth)

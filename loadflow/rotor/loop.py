@@ -11,6 +11,7 @@ from loadflow.errors import SolverError
 
 from . import _kernels as kernels
 from . import _slots as k
+from .aero._airfoil import SECTION_STATES
 from .control._kernels import control_torque
 from .control.constants import IDLE, PARK, UNEVENTFUL, Controller, Schedule
 from .inflow import Inflow
@@ -29,7 +30,7 @@ class State:
     mode_speed: Array
     mode_acceleration: Array
     inflow_angle: Array  # (blades, n), start of the section solver
-    wake: Array  # (blades, n, 2)
+    wake: Array  # (blades, n, SECTION_STATES)
     induced: Array  # (blades, n, 2, 3), see `inflow_lag`; without sections if it is off
 
     @property
@@ -92,7 +93,7 @@ def _state(m: Machine, wind_speed: float, pitch: float) -> State:
         modes.copy(),
         modes.copy(),
         np.zeros(sections),
-        np.zeros((*sections, 2)),
+        np.zeros((*sections, SECTION_STATES)),
         np.zeros((m.blades, m.radius.size if m.dynamic_inflow else 0, 2, 3)),
     )
 

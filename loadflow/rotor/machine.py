@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from loadflow.turbines import Blade, Mode, Turbine
 
+from .airfoils import attached_flow
 from .options import RotorOptions
 
 Array = NDArray[np.float64]
@@ -41,6 +42,9 @@ class Machine(NamedTuple):
     twist: Array  # (n,)
     lift: Array  # (n, p), over −π … π in equal steps
     drag: Array  # (n, p)
+    zero_lift: Array  # (n,), angle of attack without lift
+    lift_slope: Array  # (n,), of potential flow, 1/rad; 0: a section without lift
+    friction: Array  # (n,), drag at zero lift
     mass: Array  # (n,), kg
     shape: Array  # (n, k, 2)
     slope: Array  # (n, k, 2)
@@ -94,6 +98,7 @@ def machine(turbine: Turbine, options: RotorOptions) -> Machine:
     outer_pull = _from_tip(density * (span + rotor.hub_radius), span)
     angle = np.arange(-np.pi, np.pi + _POLAR_STEP / 2, _POLAR_STEP)
     foils = [turbine.airfoils[name] for name in blade.airfoil]
+    attached = np.array([attached_flow(foil) for foil in foils])
     imbalance = np.zeros(rotor.blades)
     imbalance[0] = 1.0
     tower = turbine.tower
@@ -115,6 +120,9 @@ def machine(turbine: Turbine, options: RotorOptions) -> Machine:
         twist=blade.twist,
         lift=np.array([np.interp(angle, f.angle, f.lift) for f in foils]),
         drag=np.array([np.interp(angle, f.angle, f.drag) for f in foils]),
+        zero_lift=attached[:, 0],
+        lift_slope=attached[:, 1],
+        friction=attached[:, 2],
         mass=_lumps(span, density, edges - rotor.hub_radius),
         shape=structure.at(structure.shape, stations),
         slope=structure.at(structure.slope, stations),
@@ -231,9 +239,13 @@ def _section_edges(radius: Array, root: float, tip: float) -> Array:
 
 
 def _widths(radius: Array, root: float, tip: float) -> Array:
-    """Length that each section stands for: linear load between sections, none at the tip."""
+    """Length that each section stands for: linear load between sections and to the root; from the
+    last one on the load falls with the square root of the distance to the tip, as Prandtl's loss.
+    """
     stations = np.concatenate([[root], radius, [tip]])
-    return 0.5 * (stations[2:] - stations[:-2])
+    widths = 0.5 * (stations[2:] - stations[:-2])
+    widths[-1] += (2 / 3 - 1 / 2) * (tip - radius[-1])
+    return widths
 
 
 def _lumps(span: Array, density: Array, edges: Array) -> Array:

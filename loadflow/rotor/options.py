@@ -32,7 +32,8 @@ class RotorOptions:
     drag_in_induction : bool
         Whether drag counts in the momentum balance.
     shed_wake : bool
-        Whether the lift lags behind the angle of attack (shed wake, attached flow).
+        Whether lift and drag follow the angle of attack as in unsteady attached flow (shed wake,
+        inertia of the air, suction of potential flow); otherwise the polars hold at once.
     dynamic_inflow : bool
         Whether the induced velocity lags behind the load on the rotor (Øye's two time constants).
     tower_dam : bool

@@ -9,24 +9,13 @@ import numpy as np
 from numba import njit
 
 from .._slots import S_AXIAL
+from ._airfoil import coefficients, polar
 
 _SMALL = 1e-6
 _HALF_PI = 0.5 * np.pi
 _BRACKET = 0.02  # rad, around the inflow angle of the step before
 _TOLERANCE = 1e-7  # rad
 _MOMENTUM_LIMIT = 2.0 / 3.0
-_JONES = ((0.165, 0.0455), (0.335, 0.3))  # share and decay of the shed wake
-
-
-@njit(cache=True, nogil=True)
-def polar(table, angle):
-    """Linear interpolation in a table over −π … π in equal steps."""
-    count = table.size - 1
-    wrapped = (angle + np.pi) % (2 * np.pi)
-    position = wrapped * (count / (2 * np.pi))
-    i = min(int(position), count - 1)
-    share = position - i
-    return table[i] * (1 - share) + table[i + 1] * share
 
 
 @njit(cache=True, nogil=True)
@@ -161,27 +150,16 @@ def inflow_lag(m, i, normal, tangential, a, swirl, state, dt, induced):
 
 
 @njit(cache=True, nogil=True)
-def section_force(m, i, pitch, normal, tangential, a, swirl, dt, wake):
+def section_force(m, i, pitch, normal, tangential, a, swirl, dt, states):
     """Force per length (normal, tangential), N/m, for given induction factors.
 
-    `wake` (2,) holds the states of the shed wake (Jones' approximation of Wagner's function); they
-    are moved on by `dt` and delay the lift behind the angle of attack. dt = 0 sets them to steady.
+    `states`: see `coefficients`; they are moved on by `dt`, dt = 0 sets them to steady.
     """
     w_normal = normal * (1 - a)
     w_tangential = tangential * (1 + swirl)
     angle = np.arctan2(w_normal, w_tangential)
-    attack = angle - m.twist[i] - pitch
     speed = np.sqrt(w_normal**2 + w_tangential**2)
-    delayed = attack
-    if m.shed_wake:
-        rate = 2 * speed / m.chord[i]
-        for k, (share, decay) in enumerate(_JONES):
-            steady = share * attack
-            keep = np.exp(-decay * rate * dt) if dt > 0 else 0.0
-            wake[k] = steady + (wake[k] - steady) * keep
-            delayed += wake[k] - steady
-    lift = polar(m.lift[i], delayed)
-    drag = polar(m.drag[i], delayed)
+    lift, drag = coefficients(m, i, angle - m.twist[i] - pitch, speed, dt, states)
     pressure = 0.5 * m.air_density * m.chord[i] * speed**2
     sine, cosine = np.sin(angle), np.cos(angle)
     return pressure * (lift * cosine + drag * sine), pressure * (lift * sine - drag * cosine)
