@@ -75,13 +75,12 @@ def test_oscillating_lift_has_the_phase_of_theory(reduced):
     got = 2j * np.mean((lift[last] - lift[last].mean()) * wave) / amplitude
     mach, slope = SPEED / 340, np.degrees(0.114)  # slope of the polar between 0° and 4°
     square = 1 - mach * mach
-    wake = sum(
-        a * 1j * reduced / (1j * reduced + b * square) for a, b in ((0.3, 0.14), (0.7, 0.53))
-    )
+    k = 1j * reduced
+    wake = 0.3 * k / (k + 0.14 * square) + 0.7 * k / (k + 0.53 * square)
     fading = 0.3 * 0.14 + 0.7 * 0.53
     curve = MACHINE.lift_slope[OUTER]
     stiffening = 1 - mach + 0.5 * curve * mach**2 * np.sqrt(square) * fading
-    theory = slope * (1 - wake) + 6j * reduced / stiffening
+    theory = slope * (1 - wake) + 6 * k / stiffening
     assert abs(got) == pytest.approx(abs(theory), rel=0.02)
     assert np.degrees(np.angle(got / theory)) == pytest.approx(0, abs=0.5)
 
