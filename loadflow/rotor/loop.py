@@ -11,7 +11,7 @@ from loadflow.errors import SolverError
 
 from . import _kernels as kernels
 from . import _slots as k
-from .aero._airfoil import SECTION_STATES
+from .aero._airfoil_kernels import SECTION_STATES
 from .control._kernels import control_torque
 from .control.constants import IDLE, PARK, UNEVENTFUL, Controller, Schedule
 from .inflow import Inflow

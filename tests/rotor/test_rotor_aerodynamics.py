@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from loadflow.rotor._kernels import tabulated_induction, turbulence
-from loadflow.rotor.aero._airfoil import SECTION_STATES
+from loadflow.rotor.aero._airfoil_kernels import SECTION_STATES
 from loadflow.rotor.aero._kernels import induction, section_force, solve
 from loadflow.rotor.inflow import steady_inflow
 from loadflow.rotor.machine import machine

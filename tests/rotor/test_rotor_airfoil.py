@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from loadflow.rotor.aero._airfoil import SECTION_STATES, coefficients, polar
+from loadflow.rotor.aero._airfoil_kernels import SECTION_STATES, coefficients, polar
 from loadflow.rotor.airfoils import attached_flow
 from loadflow.rotor.machine import machine
 from loadflow.rotor.options import RotorOptions

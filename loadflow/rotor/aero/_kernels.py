@@ -9,7 +9,7 @@ import numpy as np
 from numba import njit
 
 from .._slots import S_AXIAL
-from ._airfoil import coefficients, polar
+from ._airfoil_kernels import coefficients, polar
 
 _SMALL = 1e-6
 _HALF_PI = 0.5 * np.pi
