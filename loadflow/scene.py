@@ -16,7 +16,7 @@ from typing import Annotated, Any, Literal, Self, get_args
 from pydantic import BaseModel, Field, ValidationError, field_validator, model_validator
 
 from loadflow.errors import InputError
-from loadflow.journal import GasMixture, JournalBearing, Lubricant, Supply
+from loadflow.journal import GasMixture, Heat, JournalBearing, Lubricant, Supply
 from loadflow.scene_bearings import KINDS, SECTION, Rolling
 from loadflow.shaft.options import (
     Concept,
@@ -44,6 +44,12 @@ class _Section(BaseModel):
     """Part of a scene: frozen, and an unknown key is an error."""
 
     model_config = SECTION
+
+    @property
+    def changed(self) -> set[str]:
+        """Keys whose value is not the default, also of a scene written with all its defaults."""
+        known = type(self).model_fields
+        return {name for name in known if getattr(self, name) != known[name].default}
 
 
 class Turbine(_Section):
@@ -114,7 +120,7 @@ class Loads(_Section):
     def _files_for_files(self) -> Self:
         if self.source == "simulate" and self.files:
             raise ValueError('files are given, but source = "simulate"; set source = "files"')
-        own = {"wind_speeds", "seeds", "first_seed", "steady"} & self.model_fields_set
+        own = {"wind_speeds", "seeds", "first_seed", "steady"} & self.changed
         if self.winds and (own or self.source == "files" or len(self.dlcs) > 1):
             raise ValueError(
                 "winds: each field is a simulated case of one dlc; leave out "
@@ -183,6 +189,10 @@ class Journal(_Section):
     ``"transient"`` follows the shaft through the whole series, step by step.
     ``rung = "map"`` tabulates the film once, for long series (docs/journal-map.md).
 
+    With a table ``heat`` the friction of the film warms its oil, which takes the place of
+    ``lubricant``: each equilibrium for itself, a film in motion to one temperature for the whole
+    series, as its loads change faster than a bearing warms.
+
     With ``tilt`` the shaft leans in them as the beam of its suspension does, tilted and bent; if it
     has none, it tilts freely under the moment that the shaft stage gives. The film is then solved
     over its full width.
@@ -200,6 +210,7 @@ class Journal(_Section):
     )
     grading: Literal["auto", "uniform", "graded"] = "auto"
     rung: Literal["map", "reduced", "grid"] = "grid"
+    heat: Heat | None = None
     motion: Literal["quasi-static", "transient"] = "quasi-static"
     tilt: bool = False
 
@@ -213,6 +224,18 @@ class Journal(_Section):
         """Keywords of `JournalBearing.equilibrium` and `orbit` that say what the film is."""
         names = ("lubricant", "cavitation", "edge_pressure", "supply", "grid", "grading", "rung")
         return {name: getattr(self, name) for name in names}
+
+    def at_temperature(self, temperature: float) -> Journal:
+        """The bearing with its oil held at `temperature`, K."""
+        if self.heat is None:
+            return self
+        return self.model_copy(update={"lubricant": self.heat.lubricant(temperature), "heat": None})
+
+    @model_validator(mode="after")
+    def _one_oil(self) -> Self:
+        if self.heat is not None and "lubricant" in self.changed:
+            raise ValueError("lubricant: follows from heat.oil and its temperature; leave it out")
+        return self
 
 
 class Friction(_Section):

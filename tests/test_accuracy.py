@@ -106,7 +106,7 @@ def test_a_run_reports_how_far_better_models_move_it(cube, tmp_path):
     journal = {"grid": [24, 8], "bearings": ["N2"]}
     run = lf.run(given(cube, journal=journal, accuracy=1e-4), out=tmp_path)
     check = run.tree["check"].to_dataset()
-    assert {"journal", "reduction", "heat"} == set(check["stage"].values)
+    assert {"journal", "reduction", "heat", "motion"} == set(check["stage"].values)
     film = check["difference"].values[check["stage"].values == "journal"]
     assert np.all((film > 0) & (film < 0.2))
     assert "solved again by better models" in run.report.read_text(encoding="utf-8")

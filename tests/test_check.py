@@ -95,3 +95,17 @@ def test_loads_given_to_a_scene_keep_how_it_reads_them(cube):
 def test_loads_that_a_better_model_could_move_are_checked_only_where_a_bearing_reads_them(cube):
     plan = make_plan(scene_of(cube, "loads.statistics"))
     assert "check" not in [step.stage.name for step in plan.steps]
+
+
+def test_a_film_at_rest_is_compared_with_the_orbit_of_the_whole_series(cube, tmp_path):
+    journal = FILM | {"motion": "transient"}
+    orbit = lf.run(scene_of(cube, "journal.film", journal=journal), out=tmp_path / "moving")
+    still = scene_of(cube, "journal.film", journal=FILM)
+    run = lf.run(still, out=tmp_path / "still", report=False)
+    check = run.tree["check"].to_dataset()
+    found = check.isel(check=check["stage"].values == "motion")
+    ratio = found["difference"].values[(found["quantity"] == "eccentricity ratio").values]
+    ours, theirs = (
+        part.tree["journal"]["largest_eccentricity_ratio"].item() for part in (run, orbit)
+    )
+    assert ratio == pytest.approx(abs(ours / theirs - 1), rel=1e-9)

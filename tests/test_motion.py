@@ -8,6 +8,7 @@ from synthetic import case, cube_file
 import loadflow as lf
 from loadflow.accuracy import expected_errors, finer
 from loadflow.cube import make_cube, save_cube
+from loadflow.errors import InputError
 from loadflow.ladder import expected_seconds, ladder, measured
 from loadflow.plan import make_plan
 from loadflow.scene import make_scene
@@ -79,3 +80,46 @@ def test_the_next_better_film_is_a_finer_grid():
     scene = make_scene({"name": "m", "journal": {"rung": "reduced"}})
     better = finer(scene, "journal").journal
     assert (better.rung, better.grid) == ("grid", (120, 40))
+
+
+HEAT = {"oil": "mineral-vg-320", "inlet_temperature": 318.15}
+
+
+def test_a_film_in_motion_has_one_temperature_that_of_its_mean_friction(tmp_path):
+    cube = cube_file(tmp_path / "loads.h5", wind_speeds=(8.0,), seeds=(1,), steps=200)
+    scene = scene_of(cube, journal=FILM | {"motion": "transient", "heat": HEAT})
+    result = lf.run(scene, out=tmp_path, report=False)
+    film = result.tree["journal"]
+    (one,) = make_plan(scene).cases
+    with xr.open_datatree(result.path / "journal" / f"{one.name}.h5", engine="h5netcdf") as tree:
+        samples = tree["N2"].to_dataset().load()
+    assert np.ptp(samples["temperature"].values) == 0.0
+    heat = scene.journal.heat
+    power, flow = (float(samples[n].mean()) for n in ("friction_power", "side_flow"))
+    warm = float(samples["temperature"][0])
+    asked = float(heat.temperature(power, flow, warm))
+    assert asked == pytest.approx(warm, abs=0.05 * (warm - heat.inlet_temperature))
+    assert film["largest_temperature"].item() == pytest.approx(warm)
+    check = result.tree["check"].to_dataset()
+    assert set(check["stage"].values) == {"journal"}  # its heat is in the film already
+    assert (check["difference"] < 0.2).all()
+
+
+def test_a_film_at_rest_settles_at_a_temperature_for_each_load(tmp_path):
+    cube = cube_file(tmp_path / "loads.h5", wind_speeds=(8.0,), seeds=(1,), steps=200)
+    scene = scene_of(cube, journal=FILM | {"heat": HEAT})
+    result = lf.run(scene, out=tmp_path)
+    (one,) = make_plan(scene).cases
+    with xr.open_datatree(result.path / "journal" / f"{one.name}.h5", engine="h5netcdf") as tree:
+        samples = tree["N2"].to_dataset().load()
+    assert samples["converged"].all()
+    temperature = samples["temperature"].values
+    assert np.all(temperature > 318.15)
+    assert np.ptp(temperature) > 0.01
+    assert set(result.tree["check"]["stage"].values) == {"journal", "reduction", "motion"}
+    assert not any(warning.startswith("heat") for warning in result.warnings)
+
+
+def test_a_warm_film_has_no_other_lubricant(tmp_path):
+    with pytest.raises(InputError, match="lubricant: follows from heat"):
+        make_scene({"name": "x", "journal": {"heat": HEAT, "lubricant": {"viscosity": 0.06}}})

@@ -1,6 +1,9 @@
 from .bearing import JournalBearing as JournalBearing
 from .energy import EnergyBalance as EnergyBalance
 from .energy import energy_balance as energy_balance
+from .heat import Heat as Heat
+from .heat import WarmFilm as WarmFilm
+from .heat import warm_equilibrium as warm_equilibrium
 from .options import GasMixture as GasMixture
 from .options import Guembel as Guembel
 from .options import Lubricant as Lubricant

@@ -81,6 +81,8 @@ class Equilibrium:
         rad; 0 where the film is symmetric.
     pad_tilt : array (…, pads)
         Rotation of the pads about their pivots, rad, from the first axis toward the second.
+    temperature : array (…), optional
+        Effective temperature of the film, K; None without a heat balance.
     """
 
     force: Array
@@ -110,6 +112,7 @@ class Equilibrium:
     moment: Array = field(default_factory=lambda: np.zeros(2))
     tilt: Array = field(default_factory=lambda: np.zeros(2))
     pad_tilt: Array = field(default_factory=lambda: np.zeros(0))
+    temperature: Array | None = None
 
 
 @dataclass(frozen=True)

@@ -18,6 +18,7 @@ from loadflow.stages.cases import Case
 from loadflow.stages.frames import to_film
 from loadflow.stages.journal import equilibria, follow, shaft_line
 from loadflow.stages.loads import hub_loads
+from loadflow.stages.reduction_error import quick
 from loadflow.stages.rolling import life_of, solve_bearing
 from loadflow.stages.shaft import bearing_loads
 from loadflow.stages.statistics import SLOPE
@@ -26,6 +27,7 @@ Parts = Mapping[str, Any]
 """What each stage gave for a case, by the name of the stage."""
 
 FILM = ("eccentricity_ratio", "minimum_film", "maximum_pressure", "friction_power")
+EXTREMES = ("eccentricity_ratio", "minimum_film", "maximum_pressure")
 CONTACT = ("maximum_force", "maximum_pressure")
 
 SAMPLES = 5
@@ -62,6 +64,8 @@ def compare(scene: Scene, case: Case, parts: Parts) -> Iterator[Difference]:
         again = _orbits if scene.journal.in_motion else _films
         for stage, against, options in _better_films(scene, parts):
             yield from again(scene, case, parts, stage, against, options)
+        if not (scene.journal.in_motion or scene.journal.tilt):
+            yield from _motion(scene, case, parts)
     if "rolling" in parts:
         yield from _contacts(scene, case, parts)
 
@@ -146,13 +150,19 @@ def _severest(
 
 def _better_films(scene: Scene, parts: Parts) -> Iterator[tuple[str, str, dict[str, Journal]]]:
     """Stage, name and, by bearing, journal bearing of each model that the film is compared with."""
-    bearings = scene.journal.bearings
-    warmer = {b: _warmer(scene.journal, parts["journal"][b].to_dataset()) for b in bearings}
-    yield "heat", "oil warmed by its friction", warmer
+    films = {b: parts["journal"][b].to_dataset() for b in scene.journal.bearings}
+    if scene.journal.heat is None:
+        warmer = {bearing: _warmer(scene.journal, film) for bearing, film in films.items()}
+        yield "heat", "oil warmed by its friction", warmer
     better = finer(scene, "journal")
     if better is not None:
-        against = f"the film {rung_of(better, 'journal')}"
-        yield "journal", against, dict.fromkeys(bearings, better.journal)
+        options = dict.fromkeys(films, better.journal)
+        if better.journal.in_motion and better.journal.heat is not None:
+            options = {
+                bearing: better.journal.at_temperature(float(film["temperature"][0]))
+                for bearing, film in films.items()
+            }
+        yield "journal", f"the film {rung_of(better, 'journal')}", options
 
 
 def _warmer(options: Journal, film: xr.Dataset) -> Journal:
@@ -214,6 +224,29 @@ def _orbits(
                 f"{case.name}, {bearing}",
                 against,
                 _relative(_of_orbit(quantity, ours), theirs),
+            )
+
+
+def _motion(scene: Scene, case: Case, parts: Parts) -> Iterator[Difference]:
+    """The whole series with the film in motion, where that is quick; a shaft at rest has none."""
+    journal = quick(scene.journal)
+    if journal is None:
+        return
+    for bearing in scene.journal.bearings:
+        film = parts["journal"][bearing].to_dataset().load()
+        loads, shaft = parts["loads"].load(), parts["shaft"].sel(bearing=bearing).load()
+        try:
+            path = follow(journal, loads, shaft)
+        except SolverError:
+            continue
+        for quantity in EXTREMES:
+            yield Difference(
+                "motion",
+                "journal.film",
+                quantity.replace("_", " "),
+                f"{case.name}, {bearing}",
+                "the film in motion",
+                _relative(_of_orbit(quantity, film), _of_orbit(quantity, path)),
             )
 
 

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.scene import Journal
+from loadflow.stages.journal import mean_temperature
 
 Floats = NDArray[np.float64]
 Response = Callable[[Floats, Floats, float], float]
@@ -38,13 +39,15 @@ def film_response(journal: Journal, speed: float) -> Response:
     """
 
     def response(mean: Floats, amplitude: Floats, frequency: float) -> float:
+        warm = mean_temperature(journal, mean[None], np.array([speed]))
+        held = journal if warm is None else journal.at_temperature(warm)
         phase = np.linspace(0.0, 2.0 * np.pi, SAMPLES + 1)
-        orbit = journal.geometry.orbit(
+        orbit = held.geometry.orbit(
             phase / (2.0 * np.pi * frequency),
             mean + np.outer(np.sin(phase), amplitude),
             speed,
             periodic=True,
-            **journal.film | {"rung": "grid"},  # the only one that closes an orbit
+            **held.film | {"rung": "grid"},  # the only one that closes an orbit
         )
         return float(orbit["eccentricity_ratio"].max())
 

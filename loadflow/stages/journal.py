@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from loadflow.errors import SolverError
-from loadflow.journal import Equilibrium
+from loadflow.journal import Equilibrium, warm_equilibrium
 from loadflow.journal.laminar import critical_reynolds_number, reynolds_number
 from loadflow.scene import Journal, Scene
 from loadflow.stages.cases import Case
@@ -32,6 +32,11 @@ KEPT = {
     "residual": ("1", "scaled residual of film and load"),
     "iterations": ("1", "iterations"),
 }
+WARM = {"temperature": ("K", "effective temperature of the film")}
+"""What is kept too where there is a heat balance."""
+
+TEMPERED = 64
+"""Samples of a series whose mean friction and flow give the temperature of a film in motion."""
 
 
 def film(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
@@ -78,7 +83,7 @@ def _resting(options: Journal, bearing: str, reduced: xr.Dataset) -> xr.Dataset:
             f"bearing {bearing}: no film carries any of the {speed.size} samples; speed "
             f"{np.abs(speed).min():.4g} … {np.abs(speed).max():.4g} rad/s"
         )
-    samples = of_samples(vars(answer), KEPT)
+    samples = of_samples(vars(answer), KEPT | WARM if options.heat else KEPT)
     if options.tilt:
         meaning = label("rad", "rotation of the shaft: about down, about left")
         samples["tilt"] = ("sample", "component"), answer.tilt, meaning
@@ -87,15 +92,19 @@ def _resting(options: Journal, bearing: str, reduced: xr.Dataset) -> xr.Dataset:
 
 
 def _moving(options: Journal, bearing: str, loads: xr.Dataset, reactions: xr.Dataset) -> xr.Dataset:
+    force = to_film(reactions["force"].transpose("time", "axis").values.astype(float))
+    time, speed = (loads[name].values.astype(float) for name in ("time", "speed"))
     try:
         path = follow(options, loads, reactions)
     except SolverError as error:
         raise SolverError(f"bearing {bearing}: {error}") from error
-    time, speed = loads["time"].values.astype(float), loads["speed"].values.astype(float)
-    radial = np.hypot(*to_film(reactions["force"].transpose("axis", "time").values.T).T)
+    held, warm = options, {}
+    if options.heat is not None:
+        held = options.at_temperature(path["temperature"].item())
+        warm = of_samples({"temperature": np.full(time.size, path["temperature"])}, WARM)
     numbers = [
-        options.geometry.sommerfeld_number(*point, options.lubricant.viscosity)
-        for point in zip(radial.tolist(), speed.tolist())
+        options.geometry.sommerfeld_number(*point, held.lubricant.viscosity)
+        for point in zip(np.hypot(*force.T).tolist(), speed.tolist())
     ]
     found: dict[str, Any] = {name: path[name].values for name in KEPT if name in path}
     found |= {"sommerfeld_number": numbers, "converged": np.ones(time.size, dtype=bool)}
@@ -106,20 +115,55 @@ def _moving(options: Journal, bearing: str, loads: xr.Dataset, reactions: xr.Dat
             "weight": ("sample", np.ones(time.size), label("1", "samples")),
         }
     )
-    return _placed(options, samples.assign(of_samples(found, KEPT)), path["eccentricity"].values)
+    kept = of_samples(found, KEPT) | warm
+    return _placed(held, samples.assign(kept), path["eccentricity"].values)
+
+
+def mean_temperature(options: Journal, force: np.ndarray, speed: np.ndarray) -> float | None:
+    """Temperature (K) of a film in motion under `force` (n, 2) in its frame; None without heat.
+
+    It is that of the mean friction and flow of `TEMPERED` equilibria spread over the series.
+
+    Raises
+    ------
+    loadflow.errors.SolverError
+        No heat balance below the largest temperature.
+    """
+    if options.heat is None:
+        return None
+    some = np.unique(np.linspace(0, speed.size - 1, TEMPERED).round().astype(int))
+    film = {name: value for name, value in options.film.items() if name != "lubricant"}
+    warm = warm_equilibrium(
+        options.geometry,
+        force[some],
+        speed[some],
+        options.heat,
+        weights=np.ones(some.size),
+        strict=False,
+        **film,
+    )
+    if not np.any(warm.film.converged):
+        raise SolverError("orbit cannot start: no heat balance of its mean friction and flow")
+    return float(warm.temperature[0])
 
 
 def follow(
     options: Journal, loads: xr.Dataset, bearing: xr.Dataset, start: np.ndarray | None = None
 ) -> xr.Dataset:
-    """Follow the shaft through a series, from equilibrium or from the place `start` (2,), m."""
+    """Follow the shaft through a series, from equilibrium or from the place `start` (2,), m.
+
+    A heat balance gives the whole series one `temperature`, which the result has then.
+    """
     force, moment = (
         to_film(bearing[name].transpose("time", "axis").values.astype(float))
         for name in ("force", "moment")
     )
     time, speed = (loads[name].values.astype(float) for name in ("time", "speed"))
     freeing = moment if options.tilt else None
-    return options.geometry.orbit(time, force, speed, moment=freeing, start=start, **options.film)
+    temperature = mean_temperature(options, force, speed)
+    film = (options if temperature is None else options.at_temperature(temperature)).film
+    path = options.geometry.orbit(time, force, speed, moment=freeing, start=start, **film)
+    return path if temperature is None else path.assign(temperature=temperature)
 
 
 def shaft_line(options: Journal, bearing: xr.Dataset) -> dict[str, np.ndarray]:
@@ -146,19 +190,23 @@ def equilibria(
     With a `moment` (n, 3), N m, the shaft tilts under it; with a `tilt` (n, 3), rad, and a `bend`,
     1/m, it lies as they say; without, it stays aligned.
     """
-    return options.geometry.equilibrium(
-        force=to_film(force),
-        speed=speed,
-        strict=False,
-        **options.film | {name: to_film(vectors) for name, vectors in line.items()},
+    film = options.film | {name: to_film(vectors) for name, vectors in line.items()}
+    if options.heat is None:
+        return options.geometry.equilibrium(to_film(force), speed, strict=False, **film)
+    del film["lubricant"]
+    warm = warm_equilibrium(
+        options.geometry, to_film(force), speed, options.heat, strict=False, **film
     )
+    return warm.film
 
 
 def _placed(options: Journal, samples: xr.Dataset, eccentricity: np.ndarray) -> xr.Dataset:
     meaning = label("m", "shaft centre: down, then left")
     bearing = options.geometry
-    fastest = float(np.abs(samples["speed"]).max())
-    reynolds = float(reynolds_number(bearing, fastest, options.lubricant))
+    fastest, oil = float(np.abs(samples["speed"]).max()), options.lubricant
+    if options.heat is not None:
+        oil = options.heat.lubricant(float(samples["temperature"].max()))
+    reynolds = float(reynolds_number(bearing, fastest, oil))
     return samples.assign(
         eccentricity=(("sample", "component"), eccentricity, meaning)
     ).assign_attrs(
@@ -188,23 +236,25 @@ def extremes(samples: xr.Dataset) -> xr.Dataset:
     def mean(name: str) -> xr.DataArray:
         return samples[name].weighted(weight).mean()
 
-    return labelled(
-        {
-            "largest_eccentricity_ratio": (samples["eccentricity_ratio"].max(), "1", "largest ε"),
-            "mean_eccentricity_ratio": (mean("eccentricity_ratio"), "1", "mean ε"),
-            "smallest_film": (samples["minimum_film"].min(), "m", "smallest film"),
-            "largest_pressure": (samples["maximum_pressure"].max(), "Pa", "largest pressure"),
-            "largest_sommerfeld_number": (samples["sommerfeld_number"].max(), "1", "largest So"),
-            "mean_sommerfeld_number": (mean("sommerfeld_number"), "1", "mean So"),
-            "mean_friction_power": (mean("friction_power"), "W", "mean friction power"),
-            "mean_side_flow": (mean("side_flow"), "m3/s", "mean side flow"),
-            "mean_supply_flow": (mean("supply_flow"), "m3/s", "mean flow of the grooves"),
-            "mean_supply_power": (mean("supply_power"), "W", "mean supply power"),
-            "largest_residual": (samples["residual"].max(), "1", "largest residual"),
-            "not_converged": (
-                (~samples["converged"].astype(bool)).sum(),
-                "1",
-                "samples without a film",
-            ),
-        }
-    )
+    found = {
+        "largest_eccentricity_ratio": (samples["eccentricity_ratio"].max(), "1", "largest ε"),
+        "mean_eccentricity_ratio": (mean("eccentricity_ratio"), "1", "mean ε"),
+        "smallest_film": (samples["minimum_film"].min(), "m", "smallest film"),
+        "largest_pressure": (samples["maximum_pressure"].max(), "Pa", "largest pressure"),
+        "largest_sommerfeld_number": (samples["sommerfeld_number"].max(), "1", "largest So"),
+        "mean_sommerfeld_number": (mean("sommerfeld_number"), "1", "mean So"),
+        "mean_friction_power": (mean("friction_power"), "W", "mean friction power"),
+        "mean_side_flow": (mean("side_flow"), "m3/s", "mean side flow"),
+        "mean_supply_flow": (mean("supply_flow"), "m3/s", "mean flow of the grooves"),
+        "mean_supply_power": (mean("supply_power"), "W", "mean supply power"),
+        "largest_residual": (samples["residual"].max(), "1", "largest residual"),
+        "not_converged": (
+            (~samples["converged"].astype(bool)).sum(),
+            "1",
+            "samples without a film",
+        ),
+    }
+    if "temperature" in samples:
+        largest = samples["temperature"].max()
+        found["largest_temperature"] = (largest, "K", "largest effective temperature")
+    return labelled(found)

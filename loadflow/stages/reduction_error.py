@@ -12,6 +12,7 @@ import xarray as xr
 from loadflow.errors import SolverError
 from loadflow.journal.shapes import CYLINDER
 from loadflow.scene import Journal
+from loadflow.stages.journal import mean_temperature
 from loadflow.stages.suspended import BearingSeries
 
 Floats = np.ndarray
@@ -74,10 +75,13 @@ def solve_films(series: BearingSeries, journal: Journal, transient: bool = True)
         Bearing in a case.
     journal : Journal
         Bearing, oil and model of the film: the section of a scene.
+        A heat balance gives all films of the series one temperature.
     transient : bool
         Whether to follow the orbit. A series in which the shaft stands has none.
     """
     bearing, force, speed = journal.geometry, series.radial, series.speed
+    temperature = mean_temperature(journal, force, speed)
+    journal = journal if temperature is None else journal.at_temperature(temperature)
     film = bearing.equilibrium(force, speed, strict=False, **journal.film)
     found = np.asarray(film.converged, dtype=bool)
     drag = journal.lubricant.viscosity * np.where(found, np.abs(speed), np.nan)
@@ -98,12 +102,16 @@ def solve_films(series: BearingSeries, journal: Journal, transient: bool = True)
 
 def for_long_series(journal: Journal) -> Journal:
     """Take the film that is quick over a long series, where none is named and it knows the film."""
+    return journal if "rung" in journal.model_fields_set else quick(journal) or journal
+
+
+def quick(journal: Journal) -> Journal | None:
+    """The bearing with the film that is quick over a long series; None where it does not fit."""
     bearing = journal.geometry
     cylinder = bearing.shape == CYLINDER and not bearing.relief
-    known = cylinder and journal.supply is None and journal.grading != "graded"
-    if "rung" in journal.model_fields_set or not known:
-        return journal
-    return journal.model_copy(update={"rung": "reduced"})
+    if cylinder and journal.supply is None and journal.grading != "graded":
+        return journal.model_copy(update={"rung": "reduced"})
+    return None
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,164 @@
+"""The heat balance of the film: temperature and viscosity that its own friction leaves."""
+
+from dataclasses import fields
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.optimize import brentq
+
+from loadflow.errors import InputError, SolverError
+from loadflow.journal import (
+    Capillary,
+    GasMixture,
+    Groove,
+    Heat,
+    JournalBearing,
+    Orifice,
+    Sommerfeld,
+    Supply,
+    warm_equilibrium,
+)
+
+BEARING = JournalBearing(diameter=3.0, width=2.25, relative_clearance=0.5e-3)
+FILM = {"cavitation": GasMixture(0.05e6), "edge_pressure": 0.5e6, "grid": (36, 12)}
+QUICK = FILM | {"rung": "reduced"}
+LOADS = np.stack([np.linspace(3e5, 3e6, 6), np.full(6, 2e5)], axis=-1)
+
+
+@pytest.mark.parametrize("supply", [None, Supply([Groove(2.0, arc=0.3, pressure=0.6e6)])])
+def test_a_film_at_its_temperature_is_that_of_oil_so_viscous(supply):
+    """All answers, friction, flow, stiffness and damping among them, scale exactly."""
+    heat = Heat(inlet_temperature=320.0)
+    options = FILM | {"supply": supply}
+    warm = warm_equilibrium(BEARING, (1e6, 3e5), 1.3, heat, **options)
+    oil = heat.lubricant(warm.temperature)
+    alone = BEARING.equilibrium((1e6, 3e5), 1.3, oil, **options)
+    assert warm.temperature > 320.5
+    for field in fields(alone):
+        if field.name not in ("temperature", "residual", "iterations"):
+            expected = getattr(alone, field.name)
+            scale = np.max(np.abs(expected), initial=0.0)
+            np.testing.assert_allclose(
+                getattr(warm.film, field.name),
+                expected,
+                rtol=1e-8,
+                atol=1e-9 * scale,
+                err_msg=field.name,
+            )
+
+
+def test_the_heat_that_leaves_is_the_friction():
+    """Each load for itself, through oil and housing."""
+    heat = Heat(inlet_temperature=315.0, transfer=150.0, ambient_temperature=290.0)
+    warm = warm_equilibrium(BEARING, LOADS, 1.3, heat, **QUICK)
+    assert warm.film.converged.all()
+    density = heat.liquid.density(warm.temperature)
+    carried = density * heat.heat_capacity * warm.film.side_flow
+    by_oil = carried * (warm.outlet_temperature - heat.inlet_temperature)
+    by_housing = heat.transfer * (warm.temperature - heat.ambient_temperature)
+    np.testing.assert_allclose(by_oil + by_housing, warm.film.friction_power, rtol=1e-5)
+    np.testing.assert_allclose(
+        warm.temperature, 0.5 * (warm.outlet_temperature + heat.inlet_temperature)
+    )
+
+
+def test_one_temperature_for_all_loads_carries_their_mean_friction():
+    heat, share = Heat(), np.arange(1.0, 7.0)
+    warm = warm_equilibrium(BEARING, LOADS, 1.3, heat, weights=share, **QUICK)
+    assert np.ptp(warm.temperature) == 0.0
+    power, flow = (
+        np.average(values, weights=share)
+        for values in (warm.film.friction_power, warm.film.side_flow)
+    )
+    asked = heat.temperature(power, flow, warm.temperature[0])
+    assert asked == pytest.approx(warm.temperature[0], abs=1e-5)
+    each = warm_equilibrium(BEARING, LOADS, 1.3, heat, **QUICK).temperature
+    assert each.min() < warm.temperature[0] < each.max()
+
+
+def test_an_unloaded_film_cooled_by_its_housing_is_as_warm_as_petroff_says():
+    """2π η ω² R³ B/c = K (T − T_ambient); no oil leaves a centred shaft."""
+    heat = Heat(transfer=400.0, ambient_temperature=300.0)
+    radius, speed = BEARING.radius, 2.0
+    warm = warm_equilibrium(
+        BEARING, (1.0, 0.0), speed, heat, cavitation=Sommerfeld(), grid=(36, 12)
+    )
+
+    def missing(temperature):
+        viscosity = float(heat.liquid.viscosity(temperature))
+        drag = 2 * np.pi * viscosity * speed**2 * radius**3 * BEARING.width / BEARING.clearance
+        return drag - 400.0 * (temperature - 300.0)
+
+    assert warm.temperature == pytest.approx(brentq(missing, 300.0, 420.0), abs=0.02)
+
+
+@settings(max_examples=15, deadline=None)
+@given(
+    load=st.floats(1e5, 5e6),
+    speed=st.floats(0.2, 4.0),
+    inlet=st.floats(290.0, 330.0),
+    transfer=st.sampled_from([0.0, 100.0, 3000.0]),
+)
+def test_a_film_is_warmer_than_what_cools_it_and_warmer_still_when_it_turns_faster(
+    load, speed, inlet, transfer
+):
+    heat = Heat(inlet_temperature=inlet, transfer=transfer, ambient_temperature=inlet)
+    warm = warm_equilibrium(BEARING, (load, 0.0), [speed, 1.5 * speed], heat, **QUICK)
+    assert warm.film.converged.all()
+    assert inlet < warm.temperature[0] < warm.temperature[1]
+
+
+def test_what_gets_too_hot_is_told_with_its_load():
+    heat = Heat(transfer=1.0)
+    with pytest.raises(SolverError, match=r"load 1, 0 N at 9 rad/s: no heat balance below 423"):
+        warm_equilibrium(BEARING, [(1e6, 0.0), (0.0, 0.0)], [1.0, 9.0], heat, **QUICK)
+    loose = warm_equilibrium(
+        BEARING, [(1e6, 0.0), (0.0, 0.0)], [1.0, 9.0], heat, strict=False, **QUICK
+    )
+    assert loose.film.converged.tolist() == [True, False]
+
+
+def test_a_standing_shaft_has_no_heat_balance():
+    loose = warm_equilibrium(BEARING, LOADS[:2], [1.0, 0.0], Heat(), strict=False, **QUICK)
+    assert loose.film.converged.tolist() == [True, False]
+    with pytest.raises(SolverError, match="at 0 rad/s"):
+        warm_equilibrium(BEARING, LOADS[:2], [1.0, 0.0], Heat(), **QUICK)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"supply": Supply([Groove(1.0, restrictor=Orifice(1e-3))])}, "or a capillary"),
+        ({"lubricant": Heat().lubricant(300.0)}, "lubricant: not given here"),
+        ({"weights": [0.0]}, "do not broadcast"),
+        ({"weights": 0.0}, "weights"),
+    ],
+)
+def test_what_cannot_be_balanced_is_refused(change, message):
+    with pytest.raises(InputError, match=message):
+        warm_equilibrium(BEARING, (1e6, 0.0), 1.0, Heat(), **FILM | change)
+
+
+def test_a_capillary_feeds_a_warm_film():
+    """Its flow falls with viscosity as that of the film does."""
+    groove = Groove(2.0, arc=0.3, pressure=1e6, restrictor=Capillary(diameter=8e-3, length=1.0))
+    options = FILM | {"supply": Supply([groove])}
+    heat = Heat()
+    warm = warm_equilibrium(BEARING, (1e6, 0.0), 1.3, heat, **options)
+    alone = BEARING.equilibrium((1e6, 0.0), 1.3, heat.lubricant(warm.temperature), **options)
+    assert warm.film.groove_flow == pytest.approx(alone.groove_flow, rel=1e-7)
+
+
+@pytest.mark.parametrize(
+    ("keys", "message"),
+    [
+        ({"oil": "olive"}, "lubricant: must be one of"),
+        ({"inlet_temperature": 500.0}, "inlet_temperature"),
+        ({"transfer": -1.0}, "transfer: must be ≥ 0"),
+    ],
+)
+def test_bad_cooling_is_refused(keys, message):
+    with pytest.raises(InputError, match=message):
+        Heat(**keys)
