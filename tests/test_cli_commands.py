@@ -16,6 +16,7 @@ from loadflow.reduction import read_parameter_file
 from loadflow.rolling import SlewingBearing
 from loadflow.seeds import equality, holm
 from loadflow.shaft import TwoPoint, bearing_loads
+from loadflow.tribology import lubricant
 from loadflow.wind import iec
 
 JOURNAL = [
@@ -247,6 +248,20 @@ def test_journal_prints_one_operating_point_with_units_and_convergence(loadflow)
     assert {"converged", "residual"} <= lines.keys()
 
 
+def test_journal_warms_a_named_oil(loadflow):
+    point = ["--force-x", 2.0586e6, "--speed-rpm", 12, "--grid", 36, 8]
+    warm = [*JOURNAL[:6], *JOURNAL[8:], "--oil", "mineral-vg-320", "--inlet-temperature-c", 45]
+    answer = json.loads(loadflow("journal", *warm, *point, "--json")[1])
+    temperature = answer["temperature"]["value"]
+    assert answer["temperature"]["units"] == "K"
+    assert 318.15 < temperature < 350
+    oil = lubricant("mineral-vg-320")
+    held = [*JOURNAL[:6], *JOURNAL[8:], "--viscosity", float(oil.viscosity(temperature))]
+    alone = json.loads(loadflow("journal", *held, *point, "--json")[1])
+    for name in ("eccentricity_ratio", "friction_power"):
+        assert answer[name]["value"] == pytest.approx(alone[name]["value"], rel=1e-8)
+
+
 def test_rolling_prints_the_load_of_the_hardest_loaded_ball(loadflow):
     arguments = [*ROLLING, "--groove-radius", 0.0205, "--force-z", 2e6, "--moment-y", 1e5]
     bearing = SlewingBearing(
@@ -341,6 +356,8 @@ def test_rolling_takes_a_bearing_and_its_rings_from_a_scene(loadflow, tmp_path):
         (["wind", 90], "no gust"),
         (["wind", 12, "--category", "Q"], "turbulence category 'Q' is unknown"),
         (["journal", *JOURNAL], "give --force-x and --speed-rpm"),
+        (["journal", *JOURNAL, "--oil", "mineral-vg-320"], "give either --viscosity or --oil"),
+        (["journal", *JOURNAL[:6], "--oil", "olive"], "lubricant: must be one of"),
         (["journal", *JOURNAL, "--series", "gone.txt"], "gone.txt"),
         (
             ["journal", *JOURNAL, "--series", "gone.txt", "--speed-rpm", 12],

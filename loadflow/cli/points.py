@@ -43,7 +43,17 @@ def journal(
     relative_clearance: Annotated[
         float, typer.Option(help="ψ: clearance over diameter.", show_default=False)
     ],
-    viscosity: Annotated[float, typer.Option(help="Dynamic, Pa s.", show_default=False)],
+    viscosity: Annotated[float | None, typer.Option(help="Dynamic, Pa s.")] = None,
+    oil: Annotated[
+        str | None,
+        typer.Option(help="Oil that its own friction warms, in place of a viscosity: a name."),
+    ] = None,
+    inlet_temperature_c: Annotated[
+        float, typer.Option(help="Of the oil that enters the film, °C; with --oil.")
+    ] = 40.0,
+    transfer: Annotated[
+        float, typer.Option(help="Heat through the housing, W/K, into air of 20 °C; with --oil.")
+    ] = 0.0,
     force_x: Annotated[
         float | None, typer.Option(help="Of the shaft on the bearing, first axis (down), N.")
     ] = None,
@@ -76,11 +86,17 @@ def journal(
     as_json: AsJson = False,
 ) -> None:
     """Solve the film of a plain journal bearing for one load, or for a reduced series."""
-    from loadflow.journal import GasMixture, Groove, JournalBearing, Lubricant, Supply
+    from loadflow.journal import GasMixture, Groove, Heat, JournalBearing, Lubricant, Supply
     from loadflow.stages.points import journal_point, journal_series
 
     bearing = JournalBearing(diameter, width, relative_clearance)
-    lubricant = Lubricant(viscosity)
+    if (viscosity is None) == (oil is None):
+        raise InputError("give either --viscosity or --oil")
+    lubricant: Lubricant | Heat
+    if oil is not None:
+        lubricant = Heat(oil, inlet_temperature_c + 273.15, transfer=transfer)
+    elif viscosity is not None:
+        lubricant = Lubricant(viscosity)
     cavitation = None if mixing_constant is None else GasMixture(mixing_constant)
     supply = None
     if groove_angle_deg:
@@ -90,16 +106,21 @@ def journal(
         supply = Supply(tuple(Groove(angle, arc, groove_length, pressure) for angle in angles))
     elif supply_pressure is not None or groove_length is not None or groove_arc_deg:
         raise InputError("say where the grooves are: --groove-angle-deg, once for each")
-    film = (bearing, lubricant, cavitation, edge_pressure, grid, supply)
+    film = {
+        "cavitation": cavitation,
+        "edge_pressure": edge_pressure,
+        "supply": supply,
+        "grid": grid,
+    }
     if series is not None:
         if force_x is not None or force_y or speed_rpm is not None:
             raise InputError("--series brings its own loads: leave out --force-… and --speed-rpm")
-        answer = journal_series(series, *film)
+        answer = journal_series(series, bearing, lubricant, film)
     elif force_x is None or speed_rpm is None:
         raise InputError("give --force-x and --speed-rpm, or a parameter file with --series")
     else:
         force, speed = (force_x, force_y), speed_rpm * math.pi / 30
-        answer = journal_point(force, speed, *film)
+        answer = journal_point(force, speed, bearing, lubricant, film)
     print_quantities(answer, as_json)
 
 

@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from loadflow.errors import SolverError
-from loadflow.journal import Equilibrium, warm_equilibrium
+from loadflow.journal import Equilibrium, Heat, JournalBearing, Lubricant, warm_equilibrium
 from loadflow.journal.laminar import critical_reynolds_number, reynolds_number
 from loadflow.scene import Journal, Scene
 from loadflow.stages.cases import Case
@@ -191,13 +191,21 @@ def equilibria(
     1/m, it lies as they say; without, it stays aligned.
     """
     film = options.film | {name: to_film(vectors) for name, vectors in line.items()}
-    if options.heat is None:
-        return options.geometry.equilibrium(to_film(force), speed, strict=False, **film)
-    del film["lubricant"]
-    warm = warm_equilibrium(
-        options.geometry, to_film(force), speed, options.heat, strict=False, **film
-    )
-    return warm.film
+    oil = film.pop("lubricant")
+    return rest(options.geometry, to_film(force), speed, options.heat or oil, strict=False, **film)
+
+
+def rest(
+    bearing: JournalBearing,
+    force: np.ndarray,
+    speed: np.ndarray | float,
+    oil: Lubricant | Heat,
+    **film: Any,
+) -> Equilibrium:
+    """Equilibrium with oil of one viscosity, or with that which its heat balance leaves."""
+    if isinstance(oil, Heat):
+        return warm_equilibrium(bearing, force, speed, oil, **film).film
+    return bearing.equilibrium(force, speed, oil, **film)
 
 
 def _placed(options: Journal, samples: xr.Dataset, eccentricity: np.ndarray) -> xr.Dataset:

@@ -10,6 +10,7 @@ import numpy as np
 import xarray as xr
 
 from loadflow.errors import SolverError
+from loadflow.journal import Heat
 
 if TYPE_CHECKING:
     from loadflow.journal import GasMixture, JournalBearing, Lubricant, Supply
@@ -72,11 +73,8 @@ def journal_point(
     force: Load,
     speed: float,
     bearing: JournalBearing,
-    lubricant: Lubricant,
-    cavitation: GasMixture | None,
-    edge_pressure: float,
-    grid: Grid,
-    supply: Supply | None = None,
+    oil: Lubricant | Heat,
+    film: dict[str, Any],
 ) -> xr.Dataset:
     """Return the static equilibrium of a journal bearing under one `force` (N) and `speed` (rad/s).
 
@@ -87,18 +85,11 @@ def journal_point(
     loadflow.errors.SolverError
         No equilibrium.
     """
-    from loadflow.stages.journal import KEPT
+    from loadflow.stages.journal import KEPT, WARM, rest
 
-    s = bearing.equilibrium(
-        force,
-        speed,
-        lubricant,
-        cavitation=cavitation,
-        edge_pressure=edge_pressure,
-        supply=supply,
-        grid=grid,
-    )
-    rows = {name: (getattr(s, name), units, meaning) for name, (units, meaning) in KEPT.items()}
+    s = rest(bearing, np.array(force), speed, oil, **film)
+    kept = KEPT | WARM if isinstance(oil, Heat) else KEPT
+    rows = {name: (getattr(s, name), units, meaning) for name, (units, meaning) in kept.items()}
     more = {
         "eccentricity": (s.eccentricity, "m", "shaft centre: first axis, second axis"),
         "stiffness": (s.stiffness, "N/m", "−∂F/∂e: 11, 12, 21, 22"),
@@ -111,21 +102,18 @@ def journal_point(
         ),
         "laminar": (s.laminar, "1", "whether the flow is laminar"),
     }
-    if supply:
+    if film["supply"]:
         more["groove_flow"] = (s.groove_flow, "m3/s", "flow of each groove into the film")
     solver = ("converged", "residual", "iterations")
     last = {name: rows.pop(name) for name in solver}
-    return quantities(rows | more | last, model=_film(cavitation, edge_pressure, grid, supply))
+    return quantities(rows | more | last, model=_model(oil, **film))
 
 
 def journal_series(
     path: Path,
     bearing: JournalBearing,
-    lubricant: Lubricant,
-    cavitation: GasMixture | None,
-    edge_pressure: float,
-    grid: Grid,
-    supply: Supply | None = None,
+    oil: Lubricant | Heat,
+    film: dict[str, Any],
 ) -> xr.Dataset:
     """Return extremes and weighted means of the film over the series of a parameter file.
 
@@ -139,35 +127,35 @@ def journal_series(
         No load at all has an equilibrium.
     """
     from loadflow.reduction import read_parameter_file
-    from loadflow.stages.journal import KEPT, extremes
+    from loadflow.stages.journal import KEPT, WARM, extremes, rest
     from loadflow.stages.labels import of_samples
 
     reduced = read_parameter_file(path)
-    answer = bearing.equilibrium(
-        reduced.force,
-        reduced.speed,
-        lubricant,
-        cavitation=cavitation,
-        edge_pressure=edge_pressure,
-        supply=supply,
-        grid=grid,
-        strict=False,
-    )
+    answer = rest(bearing, reduced.force, reduced.speed, oil, strict=False, **film)
     if not np.any(answer.converged):
         raise SolverError(f"{path}: no film carries any of the {reduced.weight.size} samples")
-    samples = xr.Dataset({**of_samples(vars(answer), KEPT), "weight": ("sample", reduced.weight)})
+    kept = KEPT | WARM if isinstance(oil, Heat) else KEPT
+    samples = xr.Dataset({**of_samples(vars(answer), kept), "weight": ("sample", reduced.weight)})
     return extremes(samples).assign_attrs(
         series=f"{path}: {reduced.source}, {reduced.weight.size} of {reduced.total} samples",
-        model=_film(cavitation, edge_pressure, grid, supply),
+        model=_model(oil, **film),
     )
 
 
-def _film(
-    cavitation: GasMixture | None, edge_pressure: float, grid: Grid, supply: Supply | None
+def _model(
+    oil: Lubricant | Heat,
+    *,
+    cavitation: GasMixture | None,
+    edge_pressure: float,
+    grid: Grid,
+    supply: Supply | None,
 ) -> str:
     law = "Reynolds' condition"
     if cavitation is not None:
         law = f"gas mixture, constant {cavitation.mixing_constant:g} Pa"
     cells = f"{grid[0]} × {grid[1]} cells" if grid else "default grid of the law"
     grooves = f"; {len(supply.grooves)} grooves" if supply else ""
-    return f"finite volumes, {cells}; {law}; edge pressure {edge_pressure:g} Pa{grooves}"
+    heat = ""
+    if isinstance(oil, Heat):
+        heat = f"; {oil.oil} enters at {oil.inlet_temperature - 273.15:g} °C, heat balance"
+    return f"finite volumes, {cells}; {law}; edge pressure {edge_pressure:g} Pa{grooves}{heat}"
