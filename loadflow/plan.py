@@ -111,7 +111,7 @@ class Plan:
     cases : tuple of Case
         Load cases.
     left_out : dict
-        Why a stage does not run, by stage.
+        Why a stage does not run, by stage, and why an effect is not modelled, by effect.
     reasons : dict
         Why a model was taken, by stage.
     errors : dict
@@ -162,11 +162,6 @@ def make_plan(scene: Scene, climbed: Iterable[str] = ()) -> Plan:
     for name, stage in stages.items():
         if name in needed:
             steps[name] = _step(choice.scene, stage, cases, steps)
-    left_out = {
-        name: "no wanted result needs it" for name in STAGES if name not in {*needed, "check"}
-    }
-    if scene.loads.source == "files":
-        left_out["wind, rotor"] = "load series are given, nothing is simulated"
     among = tuple(name for name in CHECKED if name in needed)
     if {"reduction", "journal"} & needed:
         steps["check"] = _step(choice.scene, replace(STAGES["check"], needs=among), cases, steps)
@@ -174,11 +169,30 @@ def make_plan(scene: Scene, climbed: Iterable[str] = ()) -> Plan:
         choice.scene,
         tuple(steps.values()),
         cases,
-        left_out,
+        _left_out(choice.scene, needed),
         choice.reasons,
         choice.errors,
         choice.met,
     )
+
+
+def _left_out(scene: Scene, needed: set[str]) -> dict[str, str]:
+    """Why stages, and effects of those that run, are left out."""
+    why = {name: "no wanted result needs it" for name in STAGES if name not in {*needed, "check"}}
+    if scene.loads.source == "files":
+        why["wind, rotor"] = "load series are given, nothing is simulated"
+    if "journal" in needed:
+        if scene.journal.heat is None:
+            why["heat of the film"] = "no journal.heat; the run warns where it would matter"
+        if not scene.journal.in_motion:
+            why["motion of the film"] = (
+                'journal.motion = "quasi-static"; the run warns where the orbit differs'
+            )
+        if not scene.journal.tilt:
+            why["tilt of the shaft"] = "no journal.tilt: half the width of the film is solved"
+    if "rolling" in needed and scene.rolling.rings == "rigid":
+        why["elastic rings"] = 'rolling.rings = "rigid"'
+    return why
 
 
 def _with_needs(name: str, stages: dict[str, Stage]) -> set[str]:

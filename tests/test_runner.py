@@ -62,6 +62,15 @@ def test_given_loads_never_touch_wind(cube):
     assert "wind, rotor" in make_plan(scene_of(cube)).left_out
 
 
+def test_the_plan_says_which_effects_are_off(cube):
+    effects = {"heat of the film", "motion of the film", "tilt of the shaft"}
+    assert effects <= make_plan(scene_of(cube, results=["journal.film"])).left_out.keys()
+    full = {"heat": {}, "motion": "transient", "tilt": True}
+    told = make_plan(scene_of(cube, results=["journal.film"], journal=full)).left_out
+    assert not effects & told.keys()
+    assert not effects & make_plan(scene_of(cube, results=["rolling.life"])).left_out.keys()
+
+
 def test_the_shares_of_the_lifetime_add_up(cube):
     assert sum(case.weight for case in make_plan(scene_of(cube)).cases) == pytest.approx(1.0)
 
