@@ -80,6 +80,29 @@ class ContactResult(RingEquilibrium):
         return np.stack([out * cos, out * sin, along, -lever * sin, lever * cos], axis=-1)
 
     @property
+    def secant_stiffness(self) -> Array:
+        """Secant stiffness, (..., 5, 5), units as `stiffness`; (2.9)–(2.11) in one matrix.
+
+        Of all symmetric matrices that lead from the centred, unloaded ring to this load,
+        ``secant_stiffness @ displacement = load``, the one nearest to the tangent (rotations times
+        the pitch radius). So it is load over displacement along the displacement, and the tangent
+        in directions without any, or without load.
+        """
+        scale = self.contacts.scale
+        moved = self.displacement / scale
+        load = np.concatenate([self.force, self.moment], axis=-1) * scale
+        tangent = self.stiffness * np.outer(scale, scale)
+        missing = load - np.einsum("...ab,...b->...a", tangent, moved)
+        size = np.square(moved).sum(axis=-1, keepdims=True)
+        loaded = (np.abs(load).max(axis=-1, keepdims=True) > 0) & (size > 0)
+        along = np.divide(moved, size, out=np.zeros_like(moved), where=loaded)
+        work = (missing * moved).sum(axis=-1)[..., None, None]
+        across = missing[..., :, None] * along[..., None, :]
+        update = across + np.swapaxes(across, -1, -2)
+        update -= work * along[..., :, None] * along[..., None, :]
+        return np.asarray((tangent + update) / np.outer(scale, scale))
+
+    @property
     def force_sum(self) -> Array:
         """Sum ΣF_k of all contact forces, N."""
         return np.asarray(self._statistics[1][..., 0].sum(axis=-1))

@@ -84,13 +84,13 @@ class SlewingResult(BallResult):
         )
 
     def friction_torque(
-        self, model: Literal["forces", "loads"] = "forces", idle: float = 0.0
+        self, model: Literal["forces", "loads", "equivalent"] = "forces", idle: float = 0.0
     ) -> Array:
-        """Friction torque, N m, by the ball forces (2.37) or the loads (2.25); see `friction`.
+        """Friction torque, N m, by ball forces (2.37), loads (2.25) or equivalent load (2.23).
 
         Parameters
         ----------
-        model : {"forces", "loads"}
+        model : {"forces", "loads", "equivalent"}
             Which formula, each with its own friction factor.
         idle : float
             Torque without load, N m.
@@ -108,4 +108,6 @@ class SlewingResult(BallResult):
             return friction.friction_torque_components(
                 self.force, self.moment, pitch, friction=factor, idle=idle
             )
-        raise InputError(f"model: must be 'forces' or 'loads', got {model!r}")
+        if model == "equivalent":
+            return friction.friction_torque_equivalent(self.equivalent_load, pitch, idle=idle)
+        raise InputError(f"model: must be 'forces', 'loads' or 'equivalent', got {model!r}")

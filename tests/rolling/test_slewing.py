@@ -9,7 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from loadflow.errors import InputError
-from loadflow.rolling import SlewingBearing
+from loadflow.rolling import RollerBearing, SlewingBearing
+from loadflow.rolling import friction as rolling_friction
 
 BLADE = SlewingBearing(
     balls=129,
@@ -187,6 +188,29 @@ def test_rigid_stiffness_exceeds_the_printed_flexible_one():
     assert tilt.stiffness[3, 3] * per_degree > 76_900
 
 
+def test_secant_stiffness_leads_to_the_load_and_is_the_tangent_elsewhere():
+    thrust = PRINTED.equilibrium(force=(0, 0, 94e3))
+    assert thrust.secant_stiffness[2, 2] == pytest.approx(8873e6, rel=2e-3)
+    others = [0, 1, 3, 4]
+    assert thrust.secant_stiffness[others][:, others] == pytest.approx(
+        thrust.stiffness[others][:, others], rel=1e-9, abs=1.0
+    )
+    tapered = RollerBearing(
+        rollers=48, roller_diameter=0.04, roller_length=0.06, pitch_diameter=0.8,
+        contact_angle=0.35, rows=2, row_spacing=0.12, clearance=-20e-6,
+    )  # fmt: skip
+    load = np.array([[2e5, 1e5, 3e5, 2e4, -3e4], [0, 1e5, -1e4, 0, 1e4]])
+    loose = dataclasses.replace(BLADE, row_spacing=0.06, clearance=50e-6)
+    for bearing in (BLADE, loose, tapered):
+        result = bearing.equilibrium(load[:, :3], load[:, 3:])
+        secant = result.secant_stiffness
+        assert secant == pytest.approx(np.swapaxes(secant, -1, -2), rel=1e-9, abs=1.0)
+        carried = np.einsum("nab,nb->na", secant, result.displacement)
+        assert carried == pytest.approx(load, abs=1e-6 * 3e5)
+    rest = dataclasses.replace(BLADE, clearance=-1e-5).equilibrium((0, 0, 0))
+    assert rest.secant_stiffness == pytest.approx(rest.stiffness, rel=1e-6, abs=1e3)
+
+
 def test_switch_from_two_to_four_point_contact_of_the_drive_bearing():
     result = dataclasses.replace(DRIVE, contact_stiffness=1.152e6 * 1e3**1.5).equilibrium(
         force=(0, -6500, 8000), moment=(2000, 0), ball_angle=math.pi / 2
@@ -229,6 +253,12 @@ def test_safety_life_and_friction_follow_from_the_forces():
     expected = 0.005 * 0.7 * 258 * force * 0.95
     assert result.friction_torque() == pytest.approx(expected, rel=1e-9)
     assert result.friction_torque("loads", idle=10) == pytest.approx(10 + 0.003 * 0.95 * 2e6)
+    assert result.friction_torque("equivalent") == pytest.approx(0.0024 * 0.95 * load)
+    torque = result.friction_torque(idle=8000)
+    factor = rolling_friction.friction_factor(torque, result.force_sum, 1.9, idle=8000)
+    assert factor == pytest.approx(0.005)
+    with pytest.raises(InputError, match="model"):
+        result.friction_torque("palmgren")  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize(

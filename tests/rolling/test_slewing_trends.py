@@ -200,10 +200,11 @@ def test_radial_stiffness_rises_with_load(radial, factor, direction, balls):
 def test_flexible_rings_never_give_way_less_than_rigid_ones(thrust, sign, lever, direction):
     force = (0, 0, sign * thrust)
     moment = lever * thrust * np.array([math.cos(direction), math.sin(direction)])
-    work = {
-        name: float(np.r_[force, moment] @ result.displacement)
-        for name, result in with_rings(force, moment).items()
-    }
+    load, found = np.r_[force, moment], with_rings(force, moment)
+    work = {name: float(load @ result.displacement) for name, result in found.items()}
+    for result in found.values():
+        carried = result.secant_stiffness @ result.displacement
+        assert carried == pytest.approx(load, abs=1e-6 * thrust)
     assert work["rigid"] < min(work["inner"], work["outer"])
     assert max(work["inner"], work["outer"]) < work["both"]
 

@@ -45,6 +45,8 @@ from .rolling_resistance import hysteresis_moment as hysteresis_moment
 from .rolling_resistance import rigid_force as rigid_force
 from .rolling_resistance import rolling_coefficient as rolling_coefficient
 from .slewing_torque import FRICTION_FACTORS as FRICTION_FACTORS
+from .slewing_torque import friction_factor as friction_factor
 from .slewing_torque import friction_torque_components as friction_torque_components
+from .slewing_torque import friction_torque_equivalent as friction_torque_equivalent
 from .slewing_torque import friction_torque_forces as friction_torque_forces
 from .slewing_torque import friction_torque_loads as friction_torque_loads

@@ -1,8 +1,9 @@
 """Friction torque of slewing bearings, [Ritzer 2018] ch. 2.6: from loads and from ball forces.
 
-On the source's blade bearing the first gives 25 … 54 % less than was measured and the second
-40 … 61 % less; both are rules of thumb. Makers allow ±25 % for the first, which for roller slewing
-rings has 4.1 and 2.05 in place of 4.4 and 2.2. Friction factors belong to their formula and must
+(2.23) takes the equivalent load, (2.25) the loads, (2.37) the ball forces.
+On the source's blade bearing (2.25) gives 25 … 54 % less than was measured and (2.37) 40 … 61 %
+less: rules of thumb. Makers allow ±25 % for (2.25), which for roller slewing rings has 4.1 and 2.05
+in place of 4.4 and 2.2. Friction factors belong to their formula and must
 not be exchanged; the source has none for three-row bearings.
 """
 
@@ -69,3 +70,38 @@ def friction_torque_forces(
         Torque M_R0 without load and without preload (which is in `force_sum`), N m.
     """
     return np.asarray(idle + friction * 0.7 * np.asarray(force_sum, float) * pitch_diameter / 2)
+
+
+def friction_factor(
+    torque: ArrayLike, force_sum: ArrayLike, pitch_diameter: float, *, idle: float = 0.0
+) -> Array:
+    """Friction factor μ of `friction_torque_forces` from a measured torque (N m), (2.38).
+
+    Parameters
+    ----------
+    torque : array_like
+        Measured friction torque, N m.
+    force_sum, pitch_diameter, idle
+        See `friction_torque_forces`.
+    """
+    per_factor = friction_torque_forces(force_sum, pitch_diameter, friction=1.0)
+    return np.asarray((np.asarray(torque, float) - idle) / per_factor)
+
+
+def friction_torque_equivalent(
+    load: ArrayLike, pitch_diameter: float, *, friction: float = 0.0024, idle: float = 0.0
+) -> Array:
+    """Friction torque from the equivalent axial load P_ea, N m, (2.23), (2.29).
+
+    Parameters
+    ----------
+    load : array_like
+        `equivalent_load` of a result, N.
+    pitch_diameter : float
+        m.
+    friction : float
+        Factor μ; 0.0024 of four-point bearings.
+    idle : float
+        Torque without load, N m.
+    """
+    return np.asarray(idle + friction * np.asarray(load, float) * pitch_diameter / 2)
