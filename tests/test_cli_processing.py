@@ -247,6 +247,30 @@ def test_short_records_have_no_extrapolated_extreme(loadflow, hub_cube, tmp_path
 # -- convert ----------------------------------------------------------------------------------
 
 
+def test_parts_of_a_run_are_joined(loadflow, tmp_path):
+    parts = [
+        save_cube(make_cube([case(8.0, seed)]), tmp_path / f"part{seed}.h5") for seed in (1, 2)
+    ]
+    code, out, _ = loadflow("convert", *parts, "-o", tmp_path / "all.h5")
+    assert code == 0
+    assert "2 load cases" in out
+    joined = open_cube(tmp_path / "all.h5")
+    assert joined["seed"].values.tolist() == [1, 2]
+    first = open_cube(parts[0]).load()
+    assert np.array_equal(joined["hub_force"].isel(case=0), first["hub_force"].isel(case=0))
+
+
+def test_a_file_is_replaced_only_when_asked(loadflow, one_speed, tmp_path):
+    target = tmp_path / "loads.csv"
+    target.write_text("mine", encoding="utf-8")
+    code, _, err = loadflow("convert", one_speed, "-o", target)
+    assert code == 2
+    assert "exists already" in err
+    assert target.read_text(encoding="utf-8") == "mine"
+    assert loadflow("convert", one_speed, "-o", target, "--overwrite")[0] == 0
+    assert target.read_text(encoding="utf-8") != "mine"
+
+
 def test_a_cube_is_handed_to_other_programs_at_another_step(loadflow, hub_cube, tmp_path):
     code, out, _ = loadflow("convert", hub_cube, "-o", tmp_path / "loads.csv", "--step", 0.5)
     assert code == 0

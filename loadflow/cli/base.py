@@ -13,6 +13,8 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
+from loadflow.errors import InputError
+
 if TYPE_CHECKING:
     import xarray as xr
 
@@ -33,6 +35,8 @@ CubeFile = Annotated[
 TurbineName = Annotated[str, typer.Option(help="Turbine: a name, or a file.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON, for a machine to read.")]
 
+Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace a file that is there.")]
+
 WIDEST = 4  # values of one quantity that fit a line of a table; more are for --json
 
 
@@ -43,6 +47,12 @@ def open_checked(path: Path) -> Cube:
     cube = open_cube(path)
     check_cube(cube, source=str(path))
     return cube
+
+
+def check_free(path: Path, overwrite: bool) -> None:
+    """Refuse to write over a file unless asked to."""
+    if path.exists() and not overwrite:
+        raise InputError(f"{path} exists already; give another name, or --overwrite")
 
 
 def print_json(data: Any) -> None:

@@ -7,14 +7,24 @@ from typing import Annotated, Any
 
 import typer
 
-from loadflow.cli.base import AsJson, TurbineName, app, open_checked, out, print_json, progress
+from loadflow.cli.base import (
+    AsJson,
+    Overwrite,
+    TurbineName,
+    app,
+    check_free,
+    open_checked,
+    out,
+    print_json,
+    progress,
+)
 
 CUBES = (".h5", ".nc")
 
 
 @app.command()
 def convert(
-    files: Annotated[list[str], typer.Argument(help="Load files or patterns, or one load cube.")],
+    files: Annotated[list[str], typer.Argument(help="Load files or patterns, or load cubes.")],
     output: Annotated[
         Path,
         typer.Option("-o", "--output", help="File to write: .h5, or .csv, .parquet, .mat."),
@@ -23,18 +33,26 @@ def convert(
     step: Annotated[
         float | None, typer.Option(help="Bring all series to this time step, s.")
     ] = None,
+    overwrite: Overwrite = False,
 ) -> None:
     """Read load files of OpenFAST and others into one load cube, or hand a cube to other programs.
+
+    Several load cubes, such as the parts of a run, are joined.
 
     What the name of the output ends with decides: a load cube (.h5, .nc), or tables for other
     programs (.csv, .parquet) or for MATLAB (.mat).
     """
-    from loadflow.cube import export_cube, iter_cases, resample, save_cube
+    from loadflow.cube import export_cube, iter_cases, make_cube, resample, save_cube
     from loadflow.readers import read_loads
 
-    first = Path(files[0])
-    one_cube = len(files) == 1 and (first.suffix in CUBES or first.is_dir())
-    cube = open_checked(first) if one_cube else read_loads(files, turbine=turbine)
+    check_free(output, overwrite)
+    paths = [Path(name) for name in files]
+    if all(path.suffix in CUBES for path in paths) or (len(paths) == 1 and paths[0].is_dir()):
+        cubes = [open_checked(path) for path in paths]
+        parts = [case for cube in cubes for _, case in iter_cases(cube)]
+        cube = cubes[0] if len(cubes) == 1 else make_cube(parts)
+    else:
+        cube = read_loads(files, turbine=turbine)
     if step is not None:
         cube = resample(cube, step)
     write = save_cube if output.suffix in CUBES else export_cube
@@ -67,12 +85,14 @@ def loads(
         str | None, typer.Option(help="Model: tables, bem or flap; default: by load case.")
     ] = None,
     steady: Annotated[bool, typer.Option("--steady", help="Steady extreme wind.")] = False,
+    overwrite: Overwrite = False,
     as_json: AsJson = False,
 ) -> None:
     """Simulate the hub loads of a turbine in its design load cases, from power to standstill."""
     from loadflow.cube import iter_cases, save_cube
     from loadflow.stages.simulated import simulate_cube
 
+    check_free(output, overwrite)
     settings: dict[str, Any] = {
         "dlc": dlc or ["1.1"],
         "step": step,
