@@ -30,6 +30,8 @@ from .lubricated_life import system_life as system_life
 from .patches import patch_points as patch_points
 from .patches import raceway_points as raceway_points
 from .ring_beam import RingBeam as RingBeam
+from .ring_dynamics import craig_bampton as craig_bampton
+from .ring_dynamics import natural_frequencies as natural_frequencies
 from .ring_fem import FiniteElementRing as FiniteElementRing
 from .ring_given import CompliantRing as CompliantRing
 from .ring_given import guyan as guyan

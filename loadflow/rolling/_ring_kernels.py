@@ -102,7 +102,7 @@ def evaluate(x, basis, table, local, push, slope, across, angle, pull):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _tangent(basis, push, slope, across, rows):
+def tangent(basis, push, slope, across, rows):
     """Exact Hessian of the potential; `rows` (3 · contact, unknown) is room to work in."""
     count, size = basis.shape[1], basis.shape[2]
     k = 0
@@ -160,7 +160,7 @@ def _condense(basis, push, slope, across, room, factor, solved, condensed):
     Fills the Cholesky `factor` of the modes, the modes `solved` (5, mode) that follow each rigid
     unknown, and the 5 × 5 tangent that is left.
     """
-    hessian = _tangent(basis, push, slope, across, room)
+    hessian = tangent(basis, push, slope, across, room)
     modes = factor.shape[0]
     for a in range(modes):
         for b in range(modes):

@@ -9,7 +9,7 @@ so that the compliance is symmetric. What a half-space yields under the square i
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated, Any, Literal
 
 import numpy as np
@@ -19,7 +19,13 @@ from loadflow.errors import InputError
 from loadflow.rolling.contact import Array
 from loadflow.rolling.options import check_choice, check_fields
 from loadflow.rolling.patches import PatchPoints
-from loadflow.rolling.ring_harmonics import Patches, SectionSystem, fold, harmonic_compliances
+from loadflow.rolling.ring_harmonics import (
+    Patches,
+    RingWave,
+    SectionSystem,
+    fold,
+    harmonic_compliances,
+)
 from loadflow.rolling.ring_local import half_space, local_block, semidefinite_factor
 from loadflow.rolling.ring_profile import RingProfile
 from loadflow.tribology.hertz import STEEL_MODULUS, STEEL_POISSON
@@ -115,28 +121,37 @@ class FiniteElementRing(SolidSection):
         ImportError
             Without scikit-fem.
         """
+        kinds, balls = len(points.radius), len(points.azimuth)
+        waves = self.waves(SectionSystem(self), points)
+        columns = [
+            w.factor.reshape(kinds, 1, 3, -1) * w.values(balls)[None, :, :, None] for w in waves
+        ]
+        return np.concatenate(columns, axis=-1).reshape(kinds, balls, 3, -1)
+
+    def waves(self, system: SectionSystem, points: PatchPoints) -> list[RingWave]:
+        """All waves that equally spaced balls tell apart; see `flexibility`."""
         from scipy.linalg import block_diag
 
-        kinds, balls = len(points.radius), len(points.azimuth)
+        balls = len(points.azimuth)
         turn = np.exp(1j * (points.azimuth - points.azimuth[0]))
         if np.abs(turn - np.exp(2j * np.pi * np.arange(balls) / balls)).max() > 1e-9:
             raise InputError("points: balls must be equally spaced around a FiniteElementRing")
-        system = SectionSystem(self)
         patches = Patches.on(system, points)
         compliance = self._harmonics(system, patches, float(points.radius.mean()))
         side = patches.length
         half = half_space(side, side, self.elastic_modulus, self.poisson_ratio)
         local = block_diag(*(local_block(normal, half) for normal in patches.normals))
-        around = 2 * np.pi * np.arange(balls) / balls
-        columns = []
+        waves = []
         for m, share, folded in fold(compliance, balls):
-            factor = semidefinite_factor(folded - share * local).reshape(kinds, 1, 3, -1)
-            cos, sin = np.cos(m * around), np.sin(m * around)
-            waves = np.stack([[cos, sin, cos], [sin, -cos, sin]], axis=-1)  # both families
-            columns += [factor * waves[:, :, f].T[None, :, :, None] for f in range(2)]
-        factor = np.concatenate(columns, axis=-1).reshape(kinds, balls, 3, -1)
-        size = np.abs(factor).max(axis=(0, 1, 2))
-        return factor[..., size > 1e-9 * size.max()]
+            matrix = folded - share * local
+            for family in (0, 1):
+                wave = RingWave(m, family, patches.loads, matrix)
+                seen = wave.components(balls)  # where the wave vanishes at all balls, nothing moves
+                factor = np.zeros((len(matrix), int(seen.sum())))
+                part = semidefinite_factor(matrix[np.ix_(seen, seen)])
+                factor[seen, : part.shape[1]] = part
+                waves.append(replace(wave, factor=factor[:, : part.shape[1]]))
+        return waves
 
     def _harmonics(self, system: SectionSystem, patches: Patches, radius: float) -> Array:
         """Displacement of square patches under unit loads spread over them, (n, 3 kind, 3 kind)."""

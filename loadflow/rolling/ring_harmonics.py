@@ -6,6 +6,7 @@ wave, u, v, w over the section from quadratic elements. Matrices are per unit of
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -153,6 +154,43 @@ class Patches:
             normals.append([Functional(lambda w, c=c: w.n[c]).assemble(patch) for c in range(2)])
             lengths.append(length)
         return cls(np.stack(loads, axis=1), np.array(normals), float(np.mean(lengths)))
+
+
+@dataclass(frozen=True, eq=False)
+class RingWave:
+    """A wave around the ring as equally spaced balls see it.
+
+    Attributes
+    ----------
+    order, family : int
+        Harmonic, and which of its two families: 0 is (cos, sin, cos), 1 is (sin, -cos, sin).
+    loads : ndarray, shape (unknown, 3 kind)
+        Unit loads on the patches.
+    factor : ndarray, shape (3 kind, mode)
+        Amplitudes of the patches in modes of unit stiffness.
+    """
+
+    order: int
+    family: int
+    loads: Array
+    factor: Array
+
+    def values(self, balls: int) -> Array:
+        """Of r, θ and z at the balls, (ball, 3), the first ball at azimuth 0."""
+        angle = self.order * 2 * np.pi * np.arange(balls) / balls
+        cos, sin = np.cos(angle), np.sin(angle)
+        return np.stack([cos, sin, cos] if self.family == 0 else [sin, -cos, sin], axis=-1)
+
+    def components(self, balls: int) -> Any:
+        """Which of the 3 kind components the balls see at all."""
+        alone = 2 * self.order % balls == 0
+        tangential = np.arange(self.loads.shape[1]) % 3 == 1
+        return (tangential == (self.family == 1)) | (not alone)
+
+    @property
+    def weight(self) -> float:
+        """∫cos² around the ring, π or 2π."""
+        return 2 * math.pi if self.order == 0 else math.pi
 
 
 def harmonic_compliances(system: SectionSystem, patches: Patches, highest: int) -> Array:

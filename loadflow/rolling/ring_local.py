@@ -65,4 +65,5 @@ def local_block(normal: Array, compliance: tuple[float, float, float]) -> Array:
 def semidefinite_factor(matrix: Array) -> Array:
     """Q with Q Qᵀ nearest to a symmetric matrix; what is stiffer than a half-space counts rigid."""
     values, vectors = np.linalg.eigh((matrix + matrix.T) / 2)
-    return vectors * np.sqrt(np.clip(values, 0, None))
+    kept = values > 1e-12 * np.abs(values).max()
+    return vectors[:, kept] * np.sqrt(values[kept])

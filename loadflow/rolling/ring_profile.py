@@ -132,7 +132,7 @@ class RingProfile:
 
 def _graded(count: int, first: float) -> Array:
     """Ends of `count` intervals of [0, 1], growing by a constant factor from `first`."""
-    if count * first >= 1:
+    if count == 1 or count * first >= 1:
         return np.linspace(0, 1, count + 1)
     factor = brentq(lambda g: first * (g**count - 1) / (g - 1) - 1, 1 + 1e-9, 1 / first + 1)
     return np.append(first * (factor ** np.arange(count) - 1) / (factor - 1), 1.0)

@@ -60,7 +60,6 @@ class SolidRing(SolidSection):
         compliance = loads.T @ inverse.solve(loads)
         compliance -= block_diag(*np.repeat(blocks, len(points.azimuth), axis=0))
         factor = semidefinite_factor(compliance)
-        factor = factor[:, np.any(factor, axis=0)]
         return factor.reshape(len(points.radius), len(points.azimuth), 3, -1)
 
     def _stations(self, points: PatchPoints) -> Array:

@@ -105,11 +105,14 @@ class RingModes:
         Compliance of both rings right at a contact, m/N.
     share : float
         Share of the modes' compliance in the whole, along the nominal contact lines.
+    mixing : ndarray, shape (ring mode, mode)
+        The modes in those that the rings give, all of the inner ring before all of the outer one.
     """
 
     basis: Array
     local: float
     share: float
+    mixing: Array
 
     @property
     def size(self) -> int:
@@ -134,10 +137,13 @@ def ring_modes(bearing: SlewingBearing, rings: FlexibleRings, ball_angle: float)
     """
     contacts = bearing.contacts(ball_angle)
     factor = _joint_factor(bearing, rings, contacts)
-    shapes, local, share = _condense(factor, contacts, rings.modes)
+    mixing, local, share = _condense(factor, contacts, rings.modes)
+    shapes = np.moveaxis(factor @ mixing, 1, 0)
     basis = np.concatenate([rigid_basis(contacts), shapes], axis=-1)
     basis[1] *= contacts.spatial
-    return RingModes(np.ascontiguousarray(basis), local + _master_compliance(bearing, rings), share)
+    return RingModes(
+        np.ascontiguousarray(basis), local + _master_compliance(bearing, rings), share, mixing
+    )
 
 
 def _master_compliance(bearing: SlewingBearing, rings: FlexibleRings) -> float:
@@ -169,7 +175,7 @@ def _joint_factor(bearing: SlewingBearing, rings: FlexibleRings, contacts: Conta
 
 
 def _condense(factor: Array, contacts: Contacts, modes: int | None) -> tuple[Array, float, float]:
-    """Largest modes (3, contact, mode) under smooth contact forces, local compliance, share."""
+    """Largest modes under smooth contact forces (ring mode, mode), local compliance, share."""
     table, balls = contacts.table, len(contacts.azimuth)
     normal = table[:, [NORMAL_R, NORMAL_Z]]
     nr, nz = np.repeat(normal / np.linalg.norm(normal, axis=1)[:, None], balls, axis=0).T
@@ -196,7 +202,7 @@ def _condense(factor: Array, contacts: Contacts, modes: int | None) -> tuple[Arr
         carried = np.square(along @ kept).sum(axis=0)
         scale = np.sqrt(np.where(carried > local, 1 - local / np.maximum(carried, 1e-300), 1.0))
     share = np.einsum("am,ab,bm->", kept, energy, kept) / np.trace(energy)
-    return np.moveaxis(factor @ (kept * scale), 1, 0), local, float(share)
+    return kept * scale, local, float(share)
 
 
 def _smooth_gram(shift: Array, balls: int) -> Array:

@@ -32,6 +32,8 @@ PROFILE = RingProfile(
     bearing=BEARING, ring="outer", inside=0.256, outside=0.32, bottom=-0.02, top=0.02
 )
 BED = 1e11  # N/m³, soft enough that beams hold
+SIDE = 2 * PROFILE.patch_half
+YIELD = half_space(SIDE, SIDE, STEEL_MODULUS, STEEL_POISSON)[0]  # of a half-space under a patch
 POINTS = patch_points(BEARING, "outer", BEARING.contacts().azimuth)
 
 
@@ -65,12 +67,10 @@ def test_uniform_load_on_a_soft_bed_moves_the_ring_as_it_does_a_beam(held):
 def test_compliance_depends_neither_on_harmonics_nor_on_elements():
     base = ring("bottom").flexibility(POINTS)
     diagonal = np.einsum("kbcm,kbcm->kbc", base, base)[:, 0]
-    side = 2 * PROFILE.patch_half
-    taken_off = half_space(side, side, STEEL_MODULUS, STEEL_POISSON)[0]
     for change in ({"resolution": 16.0}, {"across": 8}):
         other = ring("bottom", **change).flexibility(POINTS)
         found = np.einsum("kbcm,kbcm->kbc", other, other)[:, 0]
-        assert found == pytest.approx(diagonal, abs=0.02 * taken_off)
+        assert found == pytest.approx(diagonal, abs=0.02 * YIELD)
 
 
 @pytest.mark.slow
@@ -136,7 +136,8 @@ def test_master_nodes_of_coarse_elements_add_what_a_half_space_yields():
 
 def test_clamped_face_is_the_limit_of_a_stiff_bed():
     stiff, stiffer = (uniform(ring("bottom", bed=b, grip=b)) for b in (1e15, 1e16))
-    assert stiff[:, 0] == pytest.approx(stiffer[:, 0], rel=2e-2)
+    # beside what a half-space would yield, which the ring's compliance lacks
+    assert stiff[:, 0] == pytest.approx(stiffer[:, 0], abs=0.005 * YIELD)
 
 
 def test_a_face_that_slides_is_softer():
