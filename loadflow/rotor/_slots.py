@@ -13,4 +13,6 @@ S_AZIMUTH, S_SPEED, S_RATE, S_AXIAL, S_Y, S_Z = range(6)
 S_FILTERED, S_INTEGRAL, S_PITCH, S_TORQUE, S_TILT, S_YAW = range(6, 12)
 # supervision: state, whether the event has happened, lowest pitch allowed, closing of the brake
 S_STATE, S_HAPPENED, S_FLOOR, S_BRAKE = range(12, 16)
-SLOTS = 16
+# schedule of the lowest pitch: power that it sees, what it asks for
+S_POWER, S_LOWEST = range(16, 18)
+SLOTS = 18

@@ -130,14 +130,19 @@ def _turbine(document: dict[str, Any], folder: Path) -> Turbine:
 
 
 def _part(part: Any, entry: Any, name: str) -> Any:
-    """One table of numbers; a key that ends in ``_deg`` is turned into radians."""
+    """One table of numbers and lists of them; a key that ends in ``_deg`` is turned to radians."""
     values: dict[str, Any] = {}
     for key, value in _table(entry, name).items():
-        number = _number(value, f"{name}.{key}")
-        if key.endswith("_deg"):
-            values[key[:-4]] = np.radians(number).item()
-        else:
-            values[key] = int(number) if key == "blades" else number
+        degrees, where = key.endswith("_deg"), f"{name}.{key}"
+        kept = key[:-4] if degrees else key
+        if isinstance(value, list):
+            numbers = [_number(v, where) for v in value]
+            values[kept] = tuple(np.radians(numbers).tolist() if degrees else numbers)
+            continue
+        number = _number(value, where)
+        if degrees:
+            number = np.radians(number).item()
+        values[kept] = int(number) if key == "blades" else number
     needed = {f.name for f in fields(part) if f.default is MISSING}
     _check_keys(values, needed, name, {f.name for f in fields(part)} - needed)
     return part(**values)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from itertools import pairwise
 from math import pi
 from typing import Annotated
 
@@ -251,6 +252,11 @@ class Control:
         rad/s.
     pitch_rate, minimum_pitch, maximum_pitch : float
         rad/s; rad.
+    scheduled_power, scheduled_pitch : tuple of float
+        Lowest pitch over the mechanical power: W, increasing, and rad; linear between the points,
+        constant outside. Empty: `minimum_pitch` throughout.
+    schedule_filter : float
+        Corner of the low-pass on the power that the schedule sees, Hz.
     individual_gain, individual_limit : float
         Of the individual pitch control: integral gain on the tilt and yaw moment, rad/(N m s), and
         largest deviation from the collective pitch, rad.
@@ -272,6 +278,9 @@ class Control:
     pitch_rate: Positive
     minimum_pitch: float
     maximum_pitch: float
+    scheduled_power: tuple[float, ...] = ()
+    scheduled_pitch: tuple[float, ...] = ()
+    schedule_filter: Positive = 0.033
     individual_gain: NotNegative = 0.0
     individual_limit: NotNegative = 5.0 * _DEGREE
 
@@ -303,6 +312,22 @@ class Control:
             "minimum_pitch",
             self.minimum_pitch,
             f"below maximum_pitch = {self.maximum_pitch}",
+        )
+        power, pitch = self.scheduled_power, self.scheduled_pitch
+        _require(
+            all(a < b for a, b in pairwise(power)),
+            "Control",
+            "scheduled_power",
+            power,
+            "increasing",
+        )
+        within = all(self.minimum_pitch <= p <= self.maximum_pitch for p in pitch)
+        _require(
+            len(pitch) == len(power) and within,
+            "Control",
+            "scheduled_pitch",
+            pitch,
+            "one value for each scheduled_power, from minimum_pitch to maximum_pitch",
         )
 
 

@@ -53,14 +53,23 @@ _TURBULENT = {
 }
 _AIM_START = 0.05
 # IEA 15 MW without shear, from the power and thrust coefficients that OpenFAST gives for it (windIO
-# 2.1, IEA37_15MW_turbine), over the area that makes their power above rated 15.665 MW. Below 7 m/s
-# the source pitches its blades, which ours does not. m/s: power MW, thrust without weight MN
-_IEA = {8.0: (6.774, 1.392), 10.0: (13.231, 2.173), 13.0: (15.667, 1.468), 20.0: (15.661, 0.920)}
+# 2.1, IEA37_15MW_turbine), over the area that makes their power above rated 15.665 MW; its
+# blades twist under load, ours do not. m/s: power MW, thrust without weight MN
+_IEA = {
+    5.0: (1.493, 0.5565),
+    6.0: (2.776, 0.8127),
+    8.0: (6.774, 1.392),
+    10.0: (13.231, 2.173),
+    13.0: (15.667, 1.468),
+    20.0: (15.661, 0.920),
+}
 _AIM_MOMENT = (0.08, 60.0)  # share, kN m
 # what misses its aim: tolerance that holds instead
 _MISSED = {
     (24.0, "tilt moment"): 275.0,
     (24.0, "yaw moment"): 170.0,
+    (5.0, "IEA power"): 0.03,
+    (6.0, "IEA power"): 0.03,
 }
 
 
@@ -125,12 +134,14 @@ def _iea() -> Iterator[Check]:
             ("power", power, got[0], 0.02, "MW"),
             ("thrust", thrust, got[1], 0.03, "MN"),
         ):
+            tolerance = _MISSED.get((wind, f"IEA {name}"), aim)
+            note = f" (aim: {aim:.0%})" if tolerance != aim else ""
             yield Check(
-                name=f"IEA 15 MW: {name}, V = {wind:g} m/s",
+                name=f"IEA 15 MW: {name}, V = {wind:g} m/s{note}",
                 source="OpenFAST, IEA Wind Task 37",
                 expected=expected,
                 got=value,
-                tolerance=aim,
+                tolerance=tolerance,
                 kind="relative",
                 unit=unit,
             )

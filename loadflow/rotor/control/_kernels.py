@@ -22,9 +22,11 @@ _REGION_3_PITCH = np.radians(1.0)
 
 
 @njit(cache=True, nogil=True)
-def control_torque(c, speed, pitch):
-    """Generator torque of the speed, N m (regions 1 to 3; 3 is held 1° above fine pitch)."""
-    if speed >= c.rated_speed or pitch >= c.minimum_pitch + _REGION_3_PITCH:
+def control_torque(c, speed, surplus):
+    """Generator torque of the speed, N m (regions 1 to 3; 3 is held while the `surplus` of the
+    pitch above the lowest one exceeds 1°).
+    """
+    if speed >= c.rated_speed or surplus >= _REGION_3_PITCH:
         torque = c.rated_power / max(speed, 0.01 * c.rated_speed)
     elif speed <= c.region_15_start:
         torque = 0.0
@@ -80,6 +82,17 @@ def supervise(c, schedule, state, generator_speed, time, dt):
 
 
 @njit(cache=True, nogil=True)
+def schedule_pitch(c, state, dt):
+    """Move the lowest pitch of power production on: by the schedule over the power."""
+    share = 1 - np.exp(-dt * c.schedule_rate)
+    power = state[k.S_FILTERED] * state[k.S_TORQUE]
+    state[k.S_POWER] += share * (power - state[k.S_POWER])
+    state[k.S_LOWEST] = c.minimum_pitch
+    if state[k.S_STATE] == RUN:
+        state[k.S_LOWEST] = np.interp(state[k.S_POWER], c.scheduled_power, c.scheduled_pitch)
+
+
+@njit(cache=True, nogil=True)
 def generator(c, schedule, state, dt):
     """Generator torque of the next step."""
     mode = state[k.S_STATE]
@@ -88,15 +101,15 @@ def generator(c, schedule, state, dt):
         state[k.S_TORQUE] = 0.0
         return
     # only a turbine that runs holds its power: the others pitch for other reasons than power
-    pitch = state[k.S_PITCH] if mode == RUN else c.minimum_pitch
-    change = control_torque(c, state[k.S_FILTERED], pitch) - state[k.S_TORQUE]
+    surplus = state[k.S_PITCH] - state[k.S_LOWEST] if mode == RUN else 0.0
+    change = control_torque(c, state[k.S_FILTERED], surplus) - state[k.S_TORQUE]
     state[k.S_TORQUE] += min(max(change, -c.torque_rate * dt), c.torque_rate * dt)
 
 
 @njit(cache=True, nogil=True)
 def collective_pitch(c, schedule, state, dt):
     """Collective pitch of the next step: proportional and integral on speed, above the floor."""
-    pitch, floor = state[k.S_PITCH], state[k.S_FLOOR]
+    pitch, floor = state[k.S_PITCH], max(state[k.S_FLOOR], state[k.S_LOWEST])
     gain = 1 / (1 + pitch / c.gain_halving_pitch)
     error = state[k.S_FILTERED] - c.reference_speed
     span = gain * c.integral_gain
@@ -117,7 +130,7 @@ def individual_pitch(c, state, moment_y, moment_z, dt):
     state[k.S_TILT] += c.individual_gain * moment_y * dt
     state[k.S_YAW] += c.individual_gain * moment_z * dt
     # no deviation at fine pitch, where it would cost power
-    room = max(state[k.S_PITCH] - c.minimum_pitch, 0.0)
+    room = max(state[k.S_PITCH] - state[k.S_LOWEST], 0.0)
     limit = min(c.individual_limit, room) if state[k.S_STATE] == RUN else 0.0
     size = np.sqrt(state[k.S_TILT] ** 2 + state[k.S_YAW] ** 2)
     if size > limit:
@@ -162,6 +175,7 @@ def control(c, schedule, state, pitch, generator_speed, moment_y, moment_z, time
     share = 1 - np.exp(-dt * c.filter_rate)
     state[k.S_FILTERED] += share * (generator_speed - state[k.S_FILTERED])
     supervise(c, schedule, state, generator_speed, time, dt)
+    schedule_pitch(c, state, dt)
     generator(c, schedule, state, dt)
     collective_pitch(c, schedule, state, dt)
     if c.individual_gain > 0:

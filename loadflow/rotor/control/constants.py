@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple, get_args
 
 import numpy as np
+from numpy.typing import NDArray
 
 from loadflow.errors import InputError
 from loadflow.turbines import Turbine
@@ -37,6 +38,9 @@ class Controller(NamedTuple):
     pitch_rate: float
     minimum_pitch: float
     maximum_pitch: float
+    scheduled_power: NDArray[np.float64]
+    scheduled_pitch: NDArray[np.float64]
+    schedule_rate: float
     start_rate: float
     stop_rate: float
     stopped_pitch: float
@@ -88,6 +92,9 @@ def controller(turbine: Turbine, individual_pitch: bool = False) -> Controller:
         pitch_rate=c.pitch_rate,
         minimum_pitch=c.minimum_pitch,
         maximum_pitch=c.maximum_pitch,
+        scheduled_power=np.array(c.scheduled_power or (0.0,)),
+        scheduled_pitch=np.array(c.scheduled_pitch or (c.minimum_pitch,)),
+        schedule_rate=2 * np.pi * c.schedule_filter,
         start_rate=s.start_rate,
         stop_rate=s.stop_rate,
         stopped_pitch=s.stopped_pitch,
