@@ -328,6 +328,14 @@ def test_rolling_takes_a_bearing_and_its_rings_from_a_scene(loadflow, tmp_path):
     second = json.loads(loadflow("rolling", "--scene", scene, "--bearing", "N2", *load)[1])
     assert second["model"].startswith("flexible outer ring")
     assert second["life_holds"]["value"] is False
+    oil = ["--oil", "mineral-vg-320", "--cleanliness", "oil, filtered, -/13/10"]
+    lubricated = json.loads(loadflow("rolling", "--scene", scene, *load, *oil)[1])
+    factor = lubricated["life_factor"]["value"]
+    hours = lubricated["modified_life_hours"]["value"]
+    assert hours == pytest.approx(factor * first["life_hours"]["value"])
+    assert lubricated["limits_of_life_factor"]["value"] == [False, factor >= 50]
+    code, _, err = loadflow("rolling", "--scene", scene, *load[:4], *oil)
+    assert (code, "--speed-rpm" in err) == (2, True)
     code, _, err = loadflow("rolling", "--scene", scene, "--bearing", "M", *load)
     assert (code, "no rolling bearing 'M'; there are N, N2" in err) == (2, True)
     code, _, err = loadflow("rolling", "--scene", scene, *ROLLING)

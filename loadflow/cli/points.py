@@ -163,10 +163,19 @@ def rolling(
     speed_rpm: Annotated[
         float | None, typer.Option(help="Speed, 1/min; gives the life in hours.")
     ] = None,
+    oil: Annotated[
+        str | None, typer.Option(help="A lubricant by name; gives the modified life of ISO 281.")
+    ] = None,
+    temperature_c: Annotated[float, typer.Option(help="Of the bearing, °C; with --oil.")] = 50.0,
+    cleanliness: Annotated[
+        str, typer.Option(help="System and class of ISO 281 annex A; with --oil.")
+    ] = "grease, normal cleanliness",
     as_json: AsJson = False,
 ) -> None:
     """Share a load between the balls of a four-point slewing bearing, or a bearing of a scene."""
+    from loadflow.rolling import Lubrication
     from loadflow.stages.rolling_point import bearing_of_scene, rolling_point, slewing_bearing
+    from loadflow.tribology import lubricant
 
     measures: dict[str, Any] = {
         "balls": balls,
@@ -192,4 +201,10 @@ def rolling(
         found = slewing_bearing(**given)
     force, moment = (force_x, force_y, force_z), (moment_x, moment_y)
     speed = None if speed_rpm is None else speed_rpm * math.pi / 30
-    print_quantities(rolling_point(*found, force, moment, speed), as_json)
+    lubrication = None
+    if oil is not None:
+        lubrication = Lubrication(
+            oil=lubricant(oil), temperature=temperature_c + 273.15, cleanliness=cleanliness
+        )
+    answer = rolling_point(*found, force, moment, speed=speed, lubrication=lubrication)
+    print_quantities(answer, as_json)

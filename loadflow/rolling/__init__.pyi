@@ -2,6 +2,7 @@ from .arrangements import ARRANGEMENTS as ARRANGEMENTS
 from .arrangements import BearingLife as BearingLife
 from .arrangements import MainBearing as MainBearing
 from .arrangements import arrangement_lives as arrangement_lives
+from .arrangements import bearing_modification as bearing_modification
 from .arrangements import main_bearings as main_bearings
 from .ball import BallBearing as BallBearing
 from .ball import BallBearingResult as BallBearingResult

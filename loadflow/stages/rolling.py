@@ -22,7 +22,7 @@ from loadflow.stages.summary import over_cases
 KEPT = {
     "maximum_force": ("N", "largest contact force"),
     "maximum_pressure": ("Pa", "largest contact pressure"),
-    "equivalent_load": ("N", "equivalent axial load"),
+    "equivalent_load": ("N", "dynamic equivalent load"),
     "pressure_safety": ("1", "static safety, by pressure"),
     "static_safety": ("1", "static safety, by force"),
     "converged": ("1", "whether the equilibrium was found"),

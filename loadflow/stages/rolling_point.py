@@ -10,9 +10,16 @@ import numpy as np
 import xarray as xr
 
 from loadflow.errors import InputError
-from loadflow.rolling import FlexibleRings, SlewingBearing, verdicts
+from loadflow.rolling import (
+    FlexibleRings,
+    Lubrication,
+    SlewingBearing,
+    bearing_modification,
+    verdicts,
+)
 from loadflow.rolling.arrangements import MainBearing
 from loadflow.rolling.life import life_hours
+from loadflow.rolling.static_rating import HOURS_20_YEARS
 from loadflow.scene import read_scene
 from loadflow.scene_bearings import around, standing_ring
 from loadflow.stages.points import Load, quantities
@@ -84,14 +91,19 @@ def rolling_point(
     rings: Rings,
     force: Load,
     moment: Load,
+    *,
     speed: float | None = None,
+    lubrication: Lubrication | None = None,
 ) -> xr.Dataset:
     """Return what a bearing does under one `force` (N), `moment` (N m), turning at `speed` (rad/s).
+
+    With a `lubrication`, the modified life of ISO 281 at that speed too.
 
     Raises
     ------
     loadflow.errors.InputError
-        A load that is not finite or that the bearing cannot take.
+        A load that is not finite or that the bearing cannot take; a lubrication without a speed, or
+        with a film too thin for ISO 281.
     loadflow.errors.SolverError
         No equilibrium.
     """
@@ -102,7 +114,8 @@ def rolling_point(
     rows = {name: (getattr(r, name), units, meaning) for name, (units, meaning) in KEPT.items()}
     solver = {name: rows.pop(name) for name in ("converged", "residual", "iterations")}
     stiffness = np.diag(r.stiffness)
-    rows |= _life(r, speed) | {
+    rows |= _life(r, speed) | _modified(r, speed, lubrication)
+    rows |= {
         "displacement": (r.displacement[:3], "m", "of the inner ring: x, y, z"),
         "tilt": (r.displacement[3:], "rad", "of the inner ring: about x, about y"),
         "radial_stiffness": (stiffness[:2], "N/m", "tangent: x, y"),
@@ -139,6 +152,31 @@ def _life(r: Any, speed: float | None) -> dict[str, tuple[Any, str, str]]:
         about = f"friction torque, from the {'ball forces' if slewing else 'loads'}"
         rows["friction_torque"] = (r.friction_torque(), "N m", about)
     return rows
+
+
+def _modified(
+    r: Any, speed: float | None, lubrication: Lubrication | None
+) -> dict[str, tuple[Any, str, str]]:
+    """Modified life with what leads to it, and which limits act."""
+    if lubrication is None:
+        return {}
+    if speed is None:
+        raise InputError("the modified life needs a speed: give --speed-rpm")
+    found = bearing_modification(r.bearing, r.equivalent_load, speed, lubrication)
+    hours = found.factor * life_hours(r.rating_life, speed)
+    return {
+        "viscosity_ratio": (found.viscosity_ratio, "1", "viscosity ratio κ"),
+        "contamination_factor": (found.contamination, "1", "contamination factor e_C"),
+        "fatigue_limit": (found.fatigue_limit, "N", "fatigue load limit C_u"),
+        "life_factor": (found.factor, "1", "life modification factor a_ISO"),
+        "modified_life_hours": (hours, "h", "modified rating life, 90 % reliability"),
+        "modified_life_holds": (hours >= HOURS_20_YEARS, "1", "whether it reaches 20 years"),
+        "limits_of_life_factor": (
+            [found.thick, found.capped],
+            "1",
+            "whether κ > 4 counts as 4, whether a_ISO stops at 50",
+        ),
+    }
 
 
 def _elements(r: Any) -> dict[str, tuple[Any, str, str]]:

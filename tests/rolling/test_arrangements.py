@@ -1,6 +1,7 @@
 """Arrangements of main bearings: in the library, in scenes, through the stage, and binned."""
 
 import tomllib
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,17 +12,21 @@ from hypothesis import strategies as st
 from loadflow.errors import InputError
 from loadflow.rolling import (
     ARRANGEMENTS,
+    Lubrication,
     RollerBearing,
     SphericalRollerBearing,
     arrangement_lives,
+    bearing_modification,
     bin_loads,
     main_bearings,
     system_life,
 )
+from loadflow.rolling.arrangements import life_kind
 from loadflow.scene import make_scene
 from loadflow.stages import report
 from loadflow.stages import rolling as stage
 from loadflow.stages.cases import Case
+from loadflow.tribology import lubricant
 
 RNG = np.random.default_rng(7)
 COUNT = 400
@@ -51,6 +56,35 @@ def test_every_arrangement_carries_the_loads_of_its_turbine(arrangement):
     assert together <= min(part.life_hours for part in found.values()) * (1 + 1e-12)
     with pytest.raises(InputError, match="no loads"):
         arrangement_lives(bearings, {}, {}, SPEED)
+
+
+@pytest.mark.parametrize("arrangement", ARRANGEMENTS)
+def test_modified_life_of_a_series_adds_the_damage_of_its_steps(arrangement):
+    bearings = main_bearings(arrangement)
+    series = {place: loads(place) for place in bearings}
+    force, moment = ({k: v[i] for k, v in series.items()} for i in (0, 1))
+    speed = np.where(np.arange(COUNT) % 10, SPEED, 0.0)  # now and then it stands
+    oil = Lubrication(oil=lubricant("mineral-vg-320"), temperature=323.15)
+    found = arrangement_lives(bearings, force, moment, speed, lubrication=oil)
+    for place, bearing in bearings.items():
+        turning = speed > 0
+        result = bearing.equilibrium(force[place][turning], moment[place][turning])
+        work = bearing_modification(bearing, result.equivalent_load, speed[turning], oil)
+        exponent = 3 if arrangement == "moment" else 10 / 3
+        lives = (bearing.rated_capacity / result.equivalent_load) ** exponent * work.factor
+        damage = (speed[turning] / lives).sum() / speed.sum()
+        hours = 1e6 / damage / (speed.mean() / (2 * np.pi) * 3600)
+        assert found[place].modified_life_hours == pytest.approx(hours, rel=1e-9)
+    plain = arrangement_lives(bearings, force, moment, speed)
+    assert all(part.modified_life_hours is None for part in plain.values())
+    thin = replace(oil, oil=lubricant("mineral-vg-320"), temperature=423.15)
+    with pytest.raises(InputError, match="kappa"):
+        arrangement_lives(bearings, force, moment, 1e-3 * speed, lubrication=thin)
+
+
+def test_every_kind_of_bearing_has_its_row_in_iso_281():
+    kinds = {life_kind(b) for name in ARRANGEMENTS for b in main_bearings(name).values()}
+    assert kinds == {"radial-roller", "thrust-ball"}
 
 
 def test_unknown_arrangements_are_refused():
