@@ -37,6 +37,7 @@ def checks() -> Iterator[Check]:
 def _refused(
     name: str, source: str, printed: float, got: float, allowed: float, why: str, **more: Any
 ) -> Check:
+    """A printed number, what the source's own data give instead, and why they differ."""
     return Check(name, source, printed, got, allowed, refused=why, **more)
 
 
@@ -111,6 +112,23 @@ def _appendix_b() -> Iterator[Check]:
         kind="absolute",
         unit="°",
     )
+    for ring, printed, degrees in (
+        ("outer", 0.1383, 49.95),
+        ("inner", 0.1104, 49.08),
+        ("both", 0.1902, 51.33),
+    ):
+        sin = math.sin(math.radians(degrees))
+        approach = (ONE_ROW / sin / BLADE.series_stiffness) ** (2 / 3) * 1e3
+        shift = (free + approach) * sin - free * math.sin(nominal)
+        yield _refused(
+            f"u_z, flexible: {ring}",
+            "App. B",
+            printed,
+            shift,
+            0.1,
+            f"not the shift that belongs to the α = {degrees}° beside it",
+            unit="mm",
+        )
 
 
 def _table_3_14() -> Iterator[Check]:
