@@ -82,7 +82,7 @@ class Wedge:
     def _line(self, fine: Refinement) -> tuple[np.ndarray, np.ndarray]:
         """Points of both grooves (r, z) from one land to the other, and cells in the contact."""
         profile, alpha = self.ring.profile, self.bearing.contact_angle
-        edge = math.acos(self.side * (profile._land - self.centre[0]) / self.groove)
+        edge = math.acos(self.side * (profile.land - self.centre[0]) / self.groove)
         arm = self.groove - self.bearing.ball_diameter / 2
         bottom = math.asin(arm * math.sin(alpha) / self.groove)
         low, high = math.radians(28), min(math.radians(72), edge - math.radians(2))
@@ -110,18 +110,18 @@ class Wedge:
         """Ends of the mesh lines on the section's other sides, on rays from mid groove."""
         profile = self.ring.profile
         assert math.isclose(profile.bottom, -profile.top)
-        depth, top = abs(profile._back - self.centre[0]), profile.top
+        depth, top = abs(profile.back - self.centre[0]), profile.top
         angle = np.arctan2(line[:, 1], self.side * (line[:, 0] - self.centre[0]))
         corner = math.atan2(top, depth)
         far = np.empty_like(line)
         for k, a in enumerate(angle):
             if abs(a) <= corner:
-                far[k] = profile._back, depth * math.tan(a)
+                far[k] = profile.back, depth * math.tan(a)
             else:
                 far[k] = self.centre[0] + self.side * top / math.tan(abs(a)), math.copysign(top, a)
-        far[0], far[-1] = (profile._land, -self.up * top), (profile._land, self.up * top)
+        far[0], far[-1] = (profile.land, -self.up * top), (profile.land, self.up * top)
         for sign in (1, -1):
-            far[np.abs(angle - sign * corner).argmin()] = profile._back, sign * top
+            far[np.abs(angle - sign * corner).argmin()] = profile.back, sign * top
         return far
 
     def _mesh(self, points: np.ndarray) -> Any:

@@ -19,6 +19,7 @@ from loadflow.errors import InputError
 from loadflow.rolling.contact import Array
 from loadflow.rolling.options import check_choice, check_fields
 from loadflow.rolling.patches import PatchPoints
+from loadflow.rolling.ring_beam import RingBeam
 from loadflow.rolling.ring_harmonics import (
     Patches,
     RingWave,
@@ -28,6 +29,7 @@ from loadflow.rolling.ring_harmonics import (
 )
 from loadflow.rolling.ring_local import half_space, local_block, semidefinite_factor
 from loadflow.rolling.ring_profile import RingProfile
+from loadflow.rolling.ring_section import Support
 from loadflow.tribology.hertz import STEEL_MODULUS, STEEL_POISSON
 
 FACES = ("bottom", "top", "back")
@@ -85,6 +87,34 @@ class SolidSection:
             return self.bed, self.grip, self.grip
         return self.grip, self.grip, self.bed
 
+    def as_beam(self, harmonics: int = 32) -> RingBeam:
+        """The same ring as a beam with rigid sections, on the springs of its held face."""
+        section, radius, height = self.profile.section()
+        inner, outer = self.profile.inside / 2, self.profile.outside / 2
+        middle, place = (inner + outer) / 2, (self.profile.bottom + self.profile.top) / 2
+        face = {"bottom": self.profile.bottom, "top": self.profile.top, "back": self.profile.back}
+        at, radial = face[self.held], self.held == "back"
+        support = Support.face(
+            radius=(at + radius) / 2 if radial else middle,
+            height=place if radial else (at + height) / 2,
+            width=self.profile.top - self.profile.bottom if radial else outer - inner,
+            depth=abs(at - (radius if radial else height)),
+            bed=self.bed,
+            grip=self.grip,
+            radial=radial,
+            elastic_modulus=self.elastic_modulus,
+            poisson_ratio=self.poisson_ratio,
+        )
+        return RingBeam(
+            section=section,
+            radius=radius,
+            height=height,
+            supports=(support,),
+            elastic_modulus=self.elastic_modulus,
+            poisson_ratio=self.poisson_ratio,
+            harmonics=harmonics,
+        )
+
     def on_face(self, x: Array) -> Any:
         """Whether places (r, z, …) lie on the held face."""
         profile = self.profile
@@ -92,7 +122,7 @@ class SolidSection:
         place, face = {
             "bottom": (x[1], profile.bottom),
             "top": (x[1], profile.top),
-            "back": (x[0], profile._back),
+            "back": (x[0], profile.back),
         }[self.held]
         return np.abs(place - face) < 1e-9 * size
 

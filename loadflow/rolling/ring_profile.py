@@ -14,6 +14,7 @@ from loadflow.errors import InputError
 from loadflow.rolling.contact import Array
 from loadflow.rolling.options import check_choice, check_fields
 from loadflow.rolling.raceway import BallRaceways
+from loadflow.rolling.ring_section import RingSection
 
 PATCH = math.radians(10)  # of a groove, to both sides of the nominal contact angle
 
@@ -59,12 +60,12 @@ class RingProfile:
             )
 
     @property
-    def _land(self) -> float:
+    def land(self) -> float:
         """Radius of the cylinder that the grooves are cut into."""
         return (self.inside if self.ring == "outer" else self.outside) / 2
 
     @property
-    def _back(self) -> float:
+    def back(self) -> float:
         """Radius of the opposite side."""
         return (self.outside if self.ring == "outer" else self.inside) / 2
 
@@ -79,11 +80,11 @@ class RingProfile:
         alpha, radius = bearing.contact_angle, bearing.groove(self.ring)
         arm = radius - bearing.ball_diameter / 2
         centre = bearing.pitch_diameter / 2 - side * arm * math.cos(alpha)
-        depth = side * (self._land - centre) / radius
+        depth = side * (self.land - centre) / radius
         if not math.sin(0.05) < depth < math.cos(alpha + patch):
             raise InputError(
                 f"{'inside' if self.ring == 'outer' else 'outside'}: the raceway must reach from "
-                f"the groove's bottom beyond its contact angle, got {2 * self._land:g} m"
+                f"the groove's bottom beyond its contact angle, got {2 * self.land:g} m"
             )
         bottom = math.asin(arm * math.sin(alpha) / radius)  # both arcs meet at mid groove
         angles = [
@@ -112,7 +113,7 @@ class RingProfile:
         across : int
             Elements across the ring, from the raceway side to its back.
         """
-        land = self._land
+        land = self.land
         size = self.bearing.ball_diameter / 2  # about the size of the elements beside the grooves
         line = np.array([[land, self.bottom]])
         for points in [*self._grooves(), np.array([[land, self.top]])]:
@@ -124,13 +125,51 @@ class RingProfile:
             )
         # behind a groove the lines spread to an even spacing
         even = np.linspace(self.bottom, self.top, len(line))
-        share = _graded(across, 0.7 * self.patch_half / abs(self._back - land))
-        radius = line[:, :1] + share * (self._back - line[:, :1])
+        share = graded(across, 0.7 * self.patch_half / abs(self.back - land))
+        radius = line[:, :1] + share * (self.back - line[:, :1])
         height = line[:, 1:] + share * (even - line[:, 1])[:, None]
         return radius, height
 
+    def section(self) -> tuple[RingSection, float, float]:
+        """Constants of the section with its grooves, and radius and height of its centroid, m.
 
-def _graded(count: int, first: float) -> Array:
+        Torsion after Saint-Venant's A⁴/(k I_p) for compact sections, k = 42.7 that of a square.
+        """
+        r, z = self.grid(across=1)
+        x, y = (np.append(c[:, 0], c[::-1, 1]) for c in (r, z))  # once around the section
+        whole, radius, height = _centroid(x, y)
+        x, y = x - radius, y - height
+        x_next, y_next = np.roll(x, -1), np.roll(y, -1)
+        cross = (x * y_next - x_next * y) * math.copysign(1, whole)
+        moments = [
+            float((cross * term).sum())
+            for term in (
+                (x * x + x * x_next + x_next * x_next) / 12,
+                (y * y + y * y_next + y_next * y_next) / 12,
+                (x * y_next + 2 * x * y + 2 * x_next * y_next + x_next * y) / 24,
+            )
+        ]
+        area = abs(whole)
+        section = RingSection(
+            area=area,
+            inertia_axial=moments[0],
+            inertia_radial=moments[1],
+            inertia_product=moments[2],
+            torsion=area**4 / (42.7 * (moments[0] + moments[1])),
+        )
+        return section, radius, height
+
+
+def _centroid(x: Array, y: Array) -> tuple[float, float, float]:
+    """Signed area of a polygon and its centroid."""
+    x_next, y_next = np.roll(x, -1), np.roll(y, -1)
+    cross = x * y_next - x_next * y
+    area = float(cross.sum() / 2)
+    place = [float((cross * c).sum() / (6 * area)) for c in (x + x_next, y + y_next)]
+    return area, place[0], place[1]
+
+
+def graded(count: int, first: float) -> Array:
     """Ends of `count` intervals of [0, 1], growing by a constant factor from `first`."""
     if count == 1 or count * first >= 1:
         return np.linspace(0, 1, count + 1)

@@ -156,6 +156,53 @@ class Support:
             tilt=2 * bending * beta,
         )
 
+    @classmethod
+    def face(
+        cls,
+        radius: float,
+        height: float,
+        width: float,
+        depth: float,
+        *,
+        bed: float = 1e15,
+        grip: float = 1e15,
+        radial: bool = False,
+        elastic_modulus: float = STEEL_MODULUS,
+        poisson_ratio: float = STEEL_POISSON,
+    ) -> Support:
+        """Flat face that holds a ring, and what the section yields between face and centroid.
+
+        A beam's section is rigid; the real one is pressed together (E/(1 - ν²) w/h), sheared
+        (5/6 G w/h) and bent (E/(1 - ν²) w³/12 h) over the depth h to its centroid. These springs
+        stand in series with the bed and act at half that depth.
+
+        Parameters
+        ----------
+        radius, height : float
+            Middle of that part of the section, m.
+        width, depth : float
+            Of the part: along the face, and from the face to the centroid, m.
+        bed, grip : float
+            Stiffness across and along the face, N/m³.
+        radial : bool
+            Whether the face looks along the radius (a cylinder) rather than along the axis.
+        elastic_modulus, poisson_ratio : float
+            Pa and 1.
+        """
+        plane = elastic_modulus / (1 - poisson_ratio**2) * width / depth
+        shear = 5 / 12 * elastic_modulus / (1 + poisson_ratio) * width / depth
+        across = 1 / (1 / (bed * width) + 1 / plane)
+        along = 1 / (1 / (grip * width) + 1 / shear)
+        tilt = across * width**2 / 12
+        return cls(
+            radius=radius,
+            height=height,
+            radial=across if radial else along,
+            tangential=along,
+            axial=along if radial else across,
+            tilt=tilt,
+        )
+
 
 def legs(count: int, width: float, first: float = 0.0) -> tuple[tuple[float, float], ...]:
     """Sectors of `count` equally spaced legs, each `width` rad wide, the first centred at `first`.

@@ -16,6 +16,7 @@ from loadflow.rolling.options import check_fields
 from loadflow.rolling.patches import PatchPoints
 from loadflow.rolling.ring_fem import SolidSection
 from loadflow.rolling.ring_local import half_space, local_block, semidefinite_factor
+from loadflow.rolling.ring_profile import graded
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -68,11 +69,11 @@ class SolidRing(SolidSection):
         balls = np.sort(points.azimuth % (2 * math.pi))
         gaps = np.diff(np.append(balls, balls[0] + 2 * math.pi))
         half = min(side / 2 / float(points.radius.mean()), gaps.min() / 3)
-        between = max(1, math.ceil(self.around / len(balls)) - 2)
-        share = np.linspace(0, 1, between + 1)
-        planes = [
-            [ball, *(ball + half + share * (gap - 2 * half))] for ball, gap in zip(balls, gaps)
-        ]
+        steps = max(1, math.ceil((self.around / len(balls) - 2) / 2))
+        planes = []
+        for ball, gap in zip(balls, gaps):
+            ends = (gap / 2 - half) * graded(steps, 1.5 * half / (gap / 2 - half))
+            planes.append([ball, *(ball + half + ends), *(ball + gap - half - ends[-2::-1])])
         return np.concatenate(planes)
 
     def _patches(self, points: PatchPoints) -> list[tuple[Array, float, Array]]:

@@ -21,6 +21,7 @@ from loadflow.rolling import (
 )
 from loadflow.rolling.ring_local import half_space
 from loadflow.tribology.hertz import STEEL_MODULUS, STEEL_POISSON
+from loadflow.validation.rings import four_ball_rings
 
 pytest.importorskip("skfem")
 
@@ -64,6 +65,38 @@ def test_uniform_load_on_a_soft_bed_moves_the_ring_as_it_does_a_beam(held):
     assert ours[:, 0] == pytest.approx(thin[:, 0], rel=0.2)
 
 
+def test_profile_without_its_grooves_has_the_constants_of_a_rectangle():
+    tiny = dataclasses.replace(BEARING, ball_diameter=0.0005, groove_radius=0.00026)
+    profile = RingProfile(
+        bearing=tiny, ring="outer", inside=0.2502, outside=0.3142, bottom=-0.02, top=0.02
+    )
+    section, radius, height = profile.section()
+    plain = RingSection.rectangle(0.032, 0.040)
+    for name in ("area", "inertia_axial", "inertia_radial"):
+        assert getattr(section, name) == pytest.approx(getattr(plain, name), rel=2e-3)
+    assert section.torsion == pytest.approx(plain.torsion, rel=0.03)
+    assert (radius, height) == pytest.approx((0.1411, 0), rel=1e-3, abs=1e-9)
+
+
+@pytest.mark.parametrize("held", ["bottom", "top", "back"])
+def test_ring_as_beam_on_its_held_face(held):
+    soft = ring(held, bed=1e9, grip=1e9)
+    (support,) = soft.as_beam().supports
+    width = 0.04 if held == "back" else 0.032
+    springs = [support.radial, support.tangential, support.axial]
+    # a bed that is soft beside the section keeps its springs, a hard one leaves the section's
+    assert springs == pytest.approx([1e9 * width] * 3, rel=1e-3)
+    (support,) = ring(held, bed=1e18, grip=1e18).as_beam().supports
+    shear = 5 / 6 * STEEL_MODULUS / 2.6
+    depth = {"bottom": 0.02, "top": 0.02, "back": 0.0155}[held]
+    assert support.tangential == pytest.approx(shear * width / depth, rel=0.01)
+    ours, thin = (
+        BEARING.equilibrium((0, 0, 2e4), rings=FlexibleRings(outer=model)).displacement[2]
+        for model in (ring(held), ring(held).as_beam())
+    )
+    assert thin == pytest.approx(ours, rel=0.1)
+
+
 def test_compliance_depends_neither_on_harmonics_nor_on_elements():
     base = ring("bottom").flexibility(POINTS)
     diagonal = np.einsum("kbcm,kbcm->kbc", base, base)[:, 0]
@@ -75,17 +108,18 @@ def test_compliance_depends_neither_on_harmonics_nor_on_elements():
 
 @pytest.mark.slow
 def test_solid_ring_is_the_section_in_harmonics():
-    few = dataclasses.replace(BEARING, balls=4)
-    profile = dataclasses.replace(PROFILE, bearing=few)
-    points = patch_points(few, "outer", few.contacts().azimuth)
-    matrices = []
-    for model, mesh in ((SolidRing, {"around": 24, "across": 2}), (FiniteElementRing, {})):
-        factor = model(profile=profile, held="bottom", **mesh).flexibility(points)
-        matrices.append(np.einsum("kbcm,KBCm->kbcKBC", factor, factor).reshape(24, 24))
-    solid, harmonics = matrices
-    # chords instead of arcs, and what elements of a tenth of a turn resolve
-    assert np.diag(solid) == pytest.approx(np.diag(harmonics), rel=0.03)
-    assert solid == pytest.approx(harmonics, abs=0.02 * harmonics.max())
+    thin = four_ball_rings().outer
+    bearing = thin.profile.bearing
+    points = patch_points(bearing, "outer", bearing.contacts().azimuth)
+    solid = SolidRing(
+        profile=thin.profile, held=thin.held, bed=thin.bed, grip=1e12, around=32, across=3
+    )
+    factors = [model.flexibility(points) for model in (solid, dataclasses.replace(thin, grip=1e12))]
+    ours, harmonics = (np.einsum("kbcm,KBCm->kbcKBC", f, f).reshape(24, 24) for f in factors)
+    side = 2 * thin.profile.patch_half
+    # two elements across a patch and three in depth leave its own displacement 5 % short
+    dent = half_space(side, side, STEEL_MODULUS, STEEL_POISSON)[0]
+    assert ours == pytest.approx(harmonics, rel=0.07, abs=0.1 * dent)
 
 
 @pytest.mark.parametrize("direction", [None, 0, 1])
