@@ -14,7 +14,16 @@ from typing import Any
 
 import numpy as np
 
-from loadflow.ladder import choices, expected_seconds, gains, is_open, measured, with_settings
+from loadflow.ladder import (
+    choices,
+    expected_seconds,
+    finest,
+    gains,
+    is_open,
+    measured,
+    rung_of,
+    with_settings,
+)
 from loadflow.scene import Scene
 from loadflow.stages.cases import Case
 
@@ -203,12 +212,11 @@ def finer(scene: Scene, stage: str) -> Scene | None:
     A film has no top: its grid is doubled, up to what a scene may ask for.
     """
     around, across = scene.journal.grid
-    simulated = scene.loads.source == "simulate"
     settings: dict[str, Any] = {}
     if stage == "journal" and 2 * around <= FINEST_GRID:
         settings = {"rung": "grid", "grid": (2 * around, 2 * across)}
-    elif stage == "loads" and simulated and scene.loads.rung in ("tables", "bem"):
-        settings = {"rung": "flap"}
+    elif stage == "loads" and rung_of(scene, "loads") not in ("files", finest(scene)):
+        settings = {"rung": finest(scene)}
     elif stage == "rolling" and scene.rolling.rings == "rigid":
         settings = {"rings": "flexible"}
     elif stage == "reduction" and scene.reduction.size < 1.0:

@@ -41,7 +41,7 @@ def _data(name: str) -> dict[str, Any]:
 def rung_of(scene: Scene, stage: str) -> str:
     """Return the model that the scene chooses for a stage, by its name in the ladder."""
     if stage == "loads":
-        return (scene.loads.rung or "flap") if scene.loads.source == "simulate" else "files"
+        return (scene.loads.rung or finest(scene)) if scene.loads.source == "simulate" else "files"
     return {
         "shaft": "+".join(_shaft_rungs(scene)),
         "seeds": "+".join(sorted(set(scene.seeds.methods))),
@@ -50,6 +50,14 @@ def rung_of(scene: Scene, stage: str) -> str:
         "rolling": scene.rolling.rung,
         "friction": _friction_rung(scene),
     }.get(stage, "-")
+
+
+def finest(scene: Scene) -> str:
+    """Return the finest model of the loads that the scene's turbine allows."""
+    from loadflow.rotor.rungs import finest_rung
+    from loadflow.turbines import load_turbine
+
+    return finest_rung(load_turbine(scene.turbine.name))
 
 
 def _shaft_rungs(scene: Scene) -> Iterator[str]:
@@ -132,6 +140,8 @@ def is_open(scene: Scene, stage: str) -> bool:
 def with_settings(scene: Scene, stage: str, settings: dict[str, Any]) -> Scene | None:
     """Return the scene with other settings, None where it lacks the data that they need."""
     section = getattr(scene, stage)
+    if settings.get("rung") == "tower" and finest(scene) != "tower":
+        return None
     try:
         changed = type(section).model_validate(section.model_dump(exclude_unset=True) | settings)
     except ValidationError:

@@ -77,7 +77,8 @@ class Loads(_Section):
     turbulent winds; a gust has its own variants (sign, time of the event), and may meet the rotor
     at several ``azimuths`` (rad). ``yaw_errors`` are in rad. ``steady`` takes the steady extreme
     wind of 6.1 … 6.3 and 7.1. ``spectrum = "mann"`` needs the extra of that name. A ``rung`` that
-    is not named is "flap", and "tables" for a parked turbine.
+    is not named is "tower" ("flap" where the turbine does not say how its tower bends), and
+    "tables" for a parked turbine.
     """
 
     source: Literal["simulate", "files"] = "simulate"
@@ -98,7 +99,7 @@ class Loads(_Section):
     wind_class: Literal["I", "II", "III"] = "I"
     category: Literal["A+", "A", "B", "C"] = "B"
     spectrum: Literal["kaimal", "mann"] = "kaimal"
-    rung: Literal["tables", "bem", "flap"] | None = None
+    rung: Literal["tables", "bem", "flap", "tower"] | None = None
     individual_pitch: bool = False
     mass_imbalance: Annotated[float, Field(ge=-0.2, le=0.2)] = 0.0
     pitch_imbalance: Annotated[float, Field(ge=-0.2, le=0.2)] = 0.0

@@ -80,7 +80,7 @@ def test_only_the_named_result_must_be_accurate():
 
 def test_an_error_of_the_load_reaches_the_film_through_its_gain():
     scene = scene_of(loads={"rung": "tables"}, results=["journal.film"])
-    top = scene_of(loads={"rung": "flap"}, results=["journal.film"])
+    top = scene_of(loads={"rung": "tower"}, results=["journal.film"])
     added = {
         name: expected_errors(scene)["journal.film"][name] - error
         for name, error in expected_errors(top)["journal.film"].items()

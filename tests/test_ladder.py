@@ -82,7 +82,7 @@ def test_expected_time_grows_with_length_and_cases():
 def test_one_case_of_the_plan_is_one_case_of_the_ladder():
     steps = plan_of(loads={"wind_speeds": [12.0], "seeds": 1}).steps
     assert LOAD_CASES["1.1"].duration / 0.025 == STEPS_PER_CASE
-    assert steps[0].seconds == pytest.approx(ladder()["loads"]["flap"]["seconds_per_case"])
+    assert steps[0].seconds == pytest.approx(ladder()["loads"]["tower"]["seconds_per_case"])
 
 
 def test_errors_are_ordered_and_name_their_worst_case():

@@ -68,7 +68,7 @@ def test_the_reduction_adds_no_error_to_a_film_in_motion():
     def error(size):
         film = {"rung": "reduced", "motion": "transient"}
         scene = {"name": "m", "journal": film, "results": ["journal.film"]}
-        scene |= {"reduction": {"pick": "random", "size": size}, "loads": {"rung": "flap"}}
+        scene |= {"reduction": {"pick": "random", "size": size}, "loads": {"rung": "tower"}}
         return expected_errors(make_scene(scene))["journal.film"]["eccentricity ratio"]
 
     assert error(0.05) == error(0.2)

@@ -82,7 +82,7 @@ def loads(
     category: Annotated[str, typer.Option(help="Turbulence: A+, A, B or C.")] = "B",
     wind_class: Annotated[str, typer.Option("--class", help="Wind class: I, II or III.")] = "I",
     rung: Annotated[
-        str | None, typer.Option(help="Model: tables, bem or flap; default: by load case.")
+        str | None, typer.Option(help="Model: tables, bem, flap or tower; default: by load case.")
     ] = None,
     steady: Annotated[bool, typer.Option("--steady", help="Steady extreme wind.")] = False,
     overwrite: Overwrite = False,

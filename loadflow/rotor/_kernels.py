@@ -1,7 +1,7 @@
 """Compiled time loop of the rotor: wind at each section, blade loads, modes, speed and control.
 
-Axes of one blade: x along the shaft (downwind), r outward, t in the sense of rotation; (x, r, t) is
-right-handed. Shaft frame: e_r = −sin ψ y + cos ψ z, e_t = −cos ψ y − sin ψ z.
+Shaft frame: x along the shaft (downwind), z up, y left looking downwind; outward along a blade is
+e_r = −sin ψ y + cos ψ z, in the sense of rotation e_t = −cos ψ y − sin ψ z.
 """
 
 import numpy as np
@@ -10,12 +10,10 @@ from numba import njit
 from ._slots import (
     AZIMUTH,
     COLUMNS,
+    FORE_AFT,
     FX,
-    FY,
-    FZ,
+    GENERATOR,
     MX,
-    MY,
-    MZ,
     PITCH,
     S_AXIAL,
     S_AZIMUTH,
@@ -25,6 +23,7 @@ from ._slots import (
     S_TORQUE,
     S_Y,
     S_Z,
+    SIDE_SIDE,
     SPEED,
     STATE,
     TIP,
@@ -35,8 +34,17 @@ from ._slots import (
 )  # fmt: skip
 from .aero._kernels import inflow_lag, section_force, solve
 from .control._kernels import brake, control
-
-GRAVITY = 9.80665
+from .structure._kernels import (
+    blade_equations,
+    blade_root,
+    carried,
+    deflection,
+    frame_acceleration,
+    nacelle_motion,
+    place,
+    step_on,
+    turned_shapes,
+)
 
 
 @njit(cache=True, nogil=True)
@@ -155,17 +163,18 @@ def momentum_share(m, speed, state):
 
 @njit(cache=True, nogil=True)
 def blade_aerodynamics(
-    m, inflow, step, time, azimuth, pitch, speed, motion, state, guess, wake, induced, dt, force
-):
+    m, inflow, step, time, azimuth, pitch, speed, tilt, drift, motion, state, guess, wake, induced,
+    dt, force,
+):  # fmt: skip
     """Aerodynamic force (x, r, t) on each section of one blade, N.
 
-    `motion` (n, 6): see `deflection`; `guess` (n,): inflow angles of the step before, replaced.
-    `wake` (n, SECTION_STATES): see `coefficients`; `induced` (n, 2, 3): see `inflow_lag`. Returns
-    the mean wind over the sections (x, y, z).
+    `tilt` and `drift` (6,): see `nacelle_motion`; `motion` (n, 6): see `deflection`; `guess` (n,):
+    inflow angles of the step before, replaced; `wake` (n, SECTION_STATES): see `coefficients`;
+    `induced` (n, 2, 3): see `inflow_lag`. Returns the mean wind over the sections (x, y, z).
     """
     sine, cosine = np.sin(azimuth), np.cos(azimuth)
     cone_s, cone_c = np.sin(m.cone), np.cos(m.cone)
-    tilt_s, tilt_c = np.sin(m.tilt), np.cos(m.tilt)
+    tilt_s, tilt_c = np.sin(tilt), np.cos(tilt)
     count = m.radius.size
     momentum = momentum_share(m, speed, state)
     mean_x = mean_y = mean_z = 0.0
@@ -176,6 +185,11 @@ def blade_aerodynamics(
         wind_x, wind_y, wind_z = wind_at(m, inflow, step, time, ground_x, y, ground_z)
         shaft_x = wind_x * tilt_c - wind_z * tilt_s
         shaft_z = wind_x * tilt_s + wind_z * tilt_c
+        # as the moving nacelle meets it
+        moved = carried(drift, along, y, z)
+        shaft_x -= moved[0]
+        wind_y -= moved[1]
+        shaft_z -= moved[2]
         # a section bent out of the radius has a speed along it
         radial = -sine * wind_y + cosine * shaft_z + speed * turn
         # the section leans with the slope of the bent blade
@@ -208,199 +222,107 @@ def blade_aerodynamics(
 
 
 @njit(cache=True, nogil=True)
-def place(m, i, motion, cone_s, cone_c):
-    """Section i in the axes (x, r, t) of its blade."""
-    radius = m.radius[i] - motion[i, 5]
-    along = -radius * cone_s + motion[i, 0] * cone_c
-    out = radius * cone_c + motion[i, 0] * cone_s
-    return along, out, motion[i, 1]
-
-
-@njit(cache=True, nogil=True)
-def deflection(m, pitch, q, v, motion):
-    """Motion of each section, (n, 6): deflection normal and tangential, their rates, slope of the
-    normal deflection, pull towards the root. Modes and prebend turn with the pitch.
-    """
-    c, s = np.cos(pitch), np.sin(pitch)
-    motion[:] = 0.0
-    for i in range(m.radius.size):
-        motion[i, 0] = -m.prebend[i] * c
-        motion[i, 1] = -m.prebend[i] * s
-        motion[i, 4] = -m.prebend_slope[i] * c
-        for k in range(q.size):
-            normal = m.shape[i, k, 0] * c - m.shape[i, k, 1] * s
-            tangential = m.shape[i, k, 0] * s + m.shape[i, k, 1] * c
-            motion[i, 0] += normal * q[k]
-            motion[i, 1] += tangential * q[k]
-            motion[i, 2] += normal * v[k]
-            motion[i, 3] += tangential * v[k]
-            motion[i, 4] += (m.slope[i, k, 0] * c - m.slope[i, k, 1] * s) * q[k]
-            for j in range(q.size):
-                motion[i, 5] += m.shortening[i, k, j] * q[k] * q[j]
-
-
-@njit(cache=True, nogil=True)
-def blade_motion(m, b, dt, speed, azimuth, pitch, force, motion, q, v, acc):
-    """Newmark step of the modes of one blade (constant mean acceleration), in place.
-
-    `force` (n, 3) holds the aerodynamic force, found at the predicted motion. The change of rotor
-    speed is left out: it matters to the torque only, and would have to be solved with it.
-    """
-    modes = q.size
-    cone_s, cone_c = np.sin(m.cone), np.cos(m.cone)
-    c, s = np.cos(pitch), np.sin(pitch)
-    gravity_x, gravity_z = GRAVITY * np.sin(m.tilt), -GRAVITY * np.cos(m.tilt)
-    gravity_r, gravity_t = np.cos(azimuth) * gravity_z, -np.sin(azimuth) * gravity_z
-    gravity_n = gravity_x * cone_c + gravity_r * cone_s
-    load = np.zeros(modes)
-    for i in range(m.radius.size):
-        _, out, turn = place(m, i, motion, cone_s, cone_c)
-        inertia_r = -(speed**2) * out - 2 * speed * motion[i, 3]
-        inertia_t = 2 * speed * motion[i, 2] * cone_s - speed**2 * turn
-        mass = m.mass[i] * m.mass_factor[b]
-        normal = force[i, 0] * cone_c + force[i, 1] * cone_s
-        normal += mass * (gravity_n - inertia_r * cone_s)
-        tangential = force[i, 2] + mass * (gravity_t - inertia_t)
-        for k in range(modes):
-            load[k] += (m.shape[i, k, 0] * c - m.shape[i, k, 1] * s) * normal
-            load[k] += (m.shape[i, k, 0] * s + m.shape[i, k, 1] * c) * tangential
-    outward = gravity_r * cone_c - gravity_x * cone_s
-    stiffness = m.modal_stiffness + m.mass_factor[b] * (
-        speed**2 * m.centrifugal + outward * m.axial_gravity
-    )
-    q_free = q + dt * v + 0.25 * dt * dt * acc
-    v_free = v + 0.5 * dt * acc
-    system = (
-        m.mass_factor[b] * m.modal_mass + 0.5 * dt * m.modal_damping + 0.25 * dt * dt * stiffness
-    )
-    for k in range(modes):
-        # the pull on the blade straightens its prebend
-        load[k] += m.mass_factor[b] * (
-            speed**2 * m.prebend_centrifugal[k] + outward * m.prebend_gravity[k]
-        )
-        for j in range(modes):
-            load[k] -= m.modal_damping[k, j] * v_free[j] + stiffness[k, j] * q_free[j]
-    acc[:] = np.linalg.solve(system, load)
-    q[:] = q_free + 0.25 * dt * dt * acc
-    v[:] = v_free + 0.5 * dt * acc
-
-
-@njit(cache=True, nogil=True)
-def blade_root(m, b, speed, rate, azimuth, pitch, force, motion, acc, total):
-    """Add what one blade applies to the hub at the apex: aerodynamics, weight and inertia.
-
-    `total` (7,): force and moment in the shaft frame, then the moment of inertia about the shaft.
-    """
-    cone_s, cone_c = np.sin(m.cone), np.cos(m.cone)
-    c, s = np.cos(pitch), np.sin(pitch)
-    sine, cosine = np.sin(azimuth), np.cos(azimuth)
-    gravity_x, gravity_z = GRAVITY * np.sin(m.tilt), -GRAVITY * np.cos(m.tilt)
-    for i in range(m.radius.size):
-        along, out, turn = place(m, i, motion, cone_s, cone_c)
-        bend_n = bend_t = 0.0
-        for k in range(acc.size):
-            bend_n += (m.shape[i, k, 0] * c - m.shape[i, k, 1] * s) * acc[k]
-            bend_t += (m.shape[i, k, 0] * s + m.shape[i, k, 1] * c) * acc[k]
-        mass = m.mass[i] * m.mass_factor[b]
-        a_x = bend_n * cone_c
-        a_r = bend_n * cone_s - speed**2 * out - 2 * speed * motion[i, 3] - rate * turn
-        a_t = bend_t + 2 * speed * motion[i, 2] * cone_s + rate * out - speed**2 * turn
-        f_x = force[i, 0] + mass * (gravity_x - a_x)
-        f_r = force[i, 1] + mass * (cosine * gravity_z - a_r)
-        f_t = force[i, 2] + mass * (-sine * gravity_z - a_t)
-        m_r, m_t = turn * f_x - along * f_t, along * f_r - out * f_x
-        total[0] += f_x
-        total[1] += -sine * f_r - cosine * f_t
-        total[2] += cosine * f_r - sine * f_t
-        total[3] += out * f_t - turn * f_r
-        total[4] += -sine * m_r - cosine * m_t
-        total[5] += cosine * m_r - sine * m_t
-        total[6] += mass * (out * out + turn * turn)
-
-
-@njit(cache=True, nogil=True)
-def braked_rate(speed, drive, held):
-    """Angular acceleration under a drive and a friction `held`, both over the inertia, rad/s²."""
-    if speed == 0.0:
-        return 0.0 if abs(drive) <= held else drive - np.sign(drive) * held
-    return drive - np.sign(speed) * held
-
-
-@njit(cache=True, nogil=True)
 def march(
-    m, c, schedule, inflow, dt, steps, start, controlled,
-    state, blade_pitch, q, v, acc, guess, wake, induced, out,
+    m, c, schedule, inflow, dt, steps, start, controlled, state, blade_pitch, q, v, acc,
+    h, h_rate, h_acc, guess, wake, induced, out,
 ):  # fmt: skip
-    """March the rotor; `state` (SLOTS,), `blade_pitch` (blades,), `q`, `v`, `acc` (blades, k),
-    `guess`, `wake` and `induced` go on.
+    """March the rotor; `state` (SLOTS,), `blade_pitch` (blades,), `q`, `v`, `acc` (blades, k), `h`,
+    `h_rate`, `h_acc` (h,; place 0, the generator, is in `state`), `guess`, `wake`, `induced` go on.
 
     Not `controlled`: speed and pitch stay. `out` (steps, COLUMNS + blades) is filled.
     """
-    sections = m.radius.size
+    sections, modes, count, twist = m.radius.size, q.shape[1], h.size, m.frame.twist
+    shape = np.zeros((m.blades, sections, modes, 3))
     motion = np.zeros((sections, 6))
     force = np.zeros((m.blades, sections, 3))
-    total = np.zeros(7)
-    old_rate = state[S_RATE]
+    answer = np.zeros((m.blades, modes, 1 + count))
+    inertia, load = np.zeros((count, count)), np.zeros(count)
+    drift, gravity, jerk, total = np.zeros(6), np.zeros(3), np.zeros(6), np.zeros(6)
     fresh = 1 if np.all(wake == 0.0) and np.all(induced == 0.0) else 0
     for step in range(steps):
         time = start + step * dt
-        speed, rate = state[S_SPEED], state[S_RATE]
-        total[:] = 0.0
+        since = dt if fresh == 0 or step > 0 else 0.0
+        ahead, rate_ahead = h + dt * h_rate + 0.5 * dt * dt * h_acc, h_rate + dt * h_acc
+        tilt = nacelle_motion(m, ahead, rate_ahead, drift, gravity)
+        speed = state[S_SPEED] + rate_ahead[twist]
+        turned = state[S_AZIMUTH] + ahead[twist]
         mean = np.zeros(3)
+        inertia[:], load[:] = 0.0, 0.0
         for b in range(m.blades):
-            azimuth = state[S_AZIMUTH] + 2 * np.pi * b / m.blades
+            azimuth = turned + 2 * np.pi * b / m.blades
             pitch = blade_pitch[b] + m.pitch_offset[b]
-            ahead = q[b] + dt * v[b] + 0.5 * dt * dt * acc[b]
-            deflection(m, pitch, ahead, v[b] + dt * acc[b], motion)
-            since = dt if fresh == 0 or step > 0 else 0.0
+            turned_shapes(m, pitch, shape[b])
+            q_ahead = q[b] + dt * v[b] + 0.5 * dt * dt * acc[b]
+            deflection(m, pitch, shape[b], q_ahead, v[b] + dt * acc[b], motion)
             wind = blade_aerodynamics(
-                m, inflow, step, time, azimuth, pitch, speed, motion, state, guess[b], wake[b],
-                induced[b], since, force[b],
+                m, inflow, step, time, azimuth, pitch, speed, tilt, drift, motion, state, guess[b],
+                wake[b], induced[b], since, force[b],
             )  # fmt: skip
             for axis in range(3):
                 mean[axis] += wind[axis] / m.blades
-            if q.shape[1] > 0:
-                blade_motion(m, b, dt, speed, azimuth, pitch, force[b], motion, q[b], v[b], acc[b])
-                deflection(m, pitch, q[b], v[b], motion)
-            if b == 0:
-                out[step, TIP] = motion[sections - 1, 0] + m.prebend[sections - 1] * np.cos(pitch)
-            blade_root(m, b, speed, rate, azimuth, pitch, force[b], motion, acc[b], total)
-            out[step, COLUMNS + b] = blade_pitch[b]
+            blade_equations(
+                m, b, dt, speed, azimuth, shape[b], drift, gravity, force[b], motion, q[b], v[b],
+                acc[b], answer[b], inertia, load,
+            )  # fmt: skip
         state[S_AXIAL], state[S_Y], state[S_Z] = mean[0], mean[1], mean[2]
 
-        inertia = total[6] + m.hub_inertia
-        whole = inertia + m.generator_inertia
-        torque = total[3] + total[6] * rate  # without the inertia of the changing speed
         held = 0.0
         if controlled:
-            held = brake(c, state, dt) / whole
-            rate = (torque - m.gear_ratio * state[S_TORQUE]) / whole
-            if held > 0.0:
-                rate = braked_rate(speed, rate, held)
-        out[step, SPEED] = speed
+            held = brake(c, state, dt)
+            load[0] -= m.gear_ratio * state[S_TORQUE]
+        h_rate[0] = state[S_SPEED]
+        new = frame_acceleration(m, dt, controlled, held, inertia, load, gravity, h, h_rate, h_acc)
+        rate = new[0]
+        jerk[:] = 0.0
+        for j in range(count):
+            for axis in range(6):
+                jerk[axis] += m.frame.reach[j, axis] * new[j]
+        new[0] = h_rate[0] = 0.0
+        step_on(dt, new, h, h_rate, h_acc)
+
+        total[:] = 0.0
+        for b in range(m.blades):
+            azimuth = turned + 2 * np.pi * b / m.blades
+            pitch = blade_pitch[b] + m.pitch_offset[b]
+            bend = answer[b, :, 0].copy()
+            for j in range(count):
+                bend += answer[b, :, 1 + j] * (rate if j == 0 else new[j])
+            step_on(dt, bend, q[b], v[b], acc[b])
+            deflection(m, pitch, shape[b], q[b], v[b], motion)
+            if b == 0:
+                out[step, TIP] = motion[sections - 1, 0] + m.prebend[sections - 1] * np.cos(pitch)
+            blade_root(
+                m, b, speed, azimuth, shape[b], drift, gravity, jerk, force[b], motion, acc[b],
+                total,
+            )  # fmt: skip
+            out[step, COLUMNS + b] = blade_pitch[b]
+
+        out[step, SPEED] = state[S_SPEED] + h_rate[twist]
         out[step, PITCH] = blade_pitch[0]
-        out[step, AZIMUTH] = state[S_AZIMUTH] % (2 * np.pi)
-        out[step, FX] = total[0] + m.hub_mass * GRAVITY * np.sin(m.tilt)
-        out[step, FY] = total[1]
-        out[step, FZ] = total[2] - m.hub_mass * GRAVITY * np.cos(m.tilt)
-        out[step, MX] = torque - inertia * rate
-        out[step, MY] = total[4]
-        out[step, MZ] = total[5]
+        out[step, AZIMUTH] = (state[S_AZIMUTH] + h[twist]) % (2 * np.pi)
+        for axis in range(3):
+            out[step, FX + axis] = total[axis] + m.hub_mass * (gravity[axis] - jerk[axis])
+            out[step, MX + axis] = total[3 + axis]
+        out[step, MX] -= m.hub_inertia * jerk[3]
         hub = wind_at(m, inflow, step, time, 0.0, 0.0, 0.0)
         out[step, WIND_X], out[step, WIND_Y], out[step, WIND_Z] = hub[0], hub[1], hub[2]
         out[step, TORQUE] = state[S_TORQUE]
         out[step, STATE] = state[S_STATE]
+        out[step, GENERATOR] = m.gear_ratio * state[S_SPEED]
+        moves = m.frame.carries[min(1, count - 1)] > 0.0
+        out[step, FORE_AFT] = h[1] if moves else 0.0
+        out[step, SIDE_SIDE] = h[2] if moves else 0.0
 
+        old = state[S_SPEED]
         if controlled:
             control(
-                c, schedule, state, blade_pitch, m.gear_ratio * speed, total[4], total[5], time, dt
+                c, schedule, state, blade_pitch, m.gear_ratio * old, total[4], total[5], time, dt
             )
-            new = speed + dt * (1.5 * rate - 0.5 * old_rate)
-            if held > 0.0 and new * speed <= 0.0 and speed != 0.0:
-                new = rate = 0.0  # friction stops the rotor, it does not turn it back
-            state[S_SPEED] = new
-            state[S_RATE] = old_rate = rate
-        state[S_AZIMUTH] += 0.5 * dt * (speed + state[S_SPEED])
+            next_speed = old + dt * (1.5 * rate - 0.5 * state[S_RATE])
+            if held > 0.0 and next_speed * old <= 0.0 and old != 0.0:
+                next_speed = rate = 0.0  # friction stops the rotor, it does not turn it back
+            state[S_SPEED], state[S_RATE] = next_speed, rate
+        state[S_AZIMUTH] += 0.5 * dt * (old + state[S_SPEED])
 
 
 @njit(cache=True, nogil=True)

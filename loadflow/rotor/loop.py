@@ -29,6 +29,9 @@ class State:
     modes: Array  # (blades, k), deflection of each mode, m
     mode_speed: Array
     mode_acceleration: Array
+    frame: Array  # (h,), see `Frame`; place 0, the generator, is in the scalars
+    frame_speed: Array
+    frame_acceleration: Array
     inflow_angle: Array  # (blades, n), start of the section solver
     wake: Array  # (blades, n, SECTION_STATES)
     induced: Array  # (blades, n, 2, 3), see `inflow_lag`; without sections if it is off
@@ -85,7 +88,7 @@ def _state(m: Machine, wind_speed: float, pitch: float) -> State:
     scalars[k.S_PITCH] = pitch
     scalars[k.S_AXIAL] = wind_speed * np.cos(m.tilt)
     scalars[k.S_Z] = wind_speed * np.sin(m.tilt)
-    modes = np.zeros((m.blades, m.shape.shape[1]))
+    modes, frame = np.zeros((m.blades, m.shape.shape[1])), np.zeros(m.frame.carries.size)
     sections = (m.blades, m.radius.size)
     return State(
         scalars,
@@ -93,6 +96,9 @@ def _state(m: Machine, wind_speed: float, pitch: float) -> State:
         modes,
         modes.copy(),
         modes.copy(),
+        frame,
+        frame.copy(),
+        frame.copy(),
         np.zeros(sections),
         np.zeros((*sections, SECTION_STATES)),
         np.zeros((m.blades, m.radius.size if m.dynamic_inflow else 0, 2, 3)),
@@ -126,8 +132,8 @@ def run(
     out = np.empty((steps, k.COLUMNS + m.blades))
     kernels.march(
         m, c, schedule, inflow, dt, steps, start, controlled, state.scalars, state.pitch,
-        state.modes, state.mode_speed, state.mode_acceleration, state.inflow_angle, state.wake,
-        state.induced, out,
+        state.modes, state.mode_speed, state.mode_acceleration, state.frame, state.frame_speed,
+        state.frame_acceleration, state.inflow_angle, state.wake, state.induced, out,
     )  # fmt: skip
     bad = ~np.isfinite(out).all(axis=1) | (np.abs(out[:, k.SPEED]) > 10)
     if bad.any():

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from loadflow.turbines import Blade, Mode, Turbine
 
 from .airfoils import attached_flow
+from .frame import Frame, frame
 from .options import RotorOptions
 
 Array = NDArray[np.float64]
@@ -34,8 +35,8 @@ class Machine(NamedTuple):
     cone: float
     hub_mass: float
     hub_inertia: float
-    generator_inertia: float  # referred to the rotor
     gear_ratio: float
+    frame: Frame
     radius: Array  # (n,)
     width: Array  # (n,)
     chord: Array  # (n,)
@@ -112,8 +113,8 @@ def machine(turbine: Turbine, options: RotorOptions) -> Machine:
         cone=rotor.cone,
         hub_mass=rotor.hub_mass,
         hub_inertia=rotor.hub_inertia,
-        generator_inertia=turbine.drivetrain.generator_inertia * turbine.drivetrain.gear_ratio**2,
         gear_ratio=turbine.drivetrain.gear_ratio,
+        frame=frame(turbine, options),
         radius=blade.radius,
         width=_widths(blade.radius, rotor.hub_radius, rotor.radius),
         chord=blade.chord,

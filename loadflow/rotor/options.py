@@ -9,9 +9,11 @@ from annotated_types import Ge, Gt, Le
 
 from loadflow.errors import InputError
 
-Rung = Literal["tables", "bem", "flap"]
-RUNGS: tuple[Rung, ...] = ("tables", "bem", "flap")
-"""Rigid blades with tabulated induction; with induction solved at every step; bending blades."""
+Rung = Literal["tables", "bem", "flap", "tower"]
+RUNGS: tuple[Rung, ...] = ("tables", "bem", "flap", "tower")
+"""Rigid blades with tabulated induction; with induction solved at every step; bending blades; those
+on a tower that bends and a drivetrain that twists.
+"""
 
 
 @dataclass(frozen=True)
@@ -24,6 +26,8 @@ class RotorOptions:
         Blade modes of the turbine file that may move; empty: rigid blades. The rung sets it.
     tabulated : bool
         Induction from a table instead of solving it at every section and step. The rung sets it.
+    tower_motion, drivetrain_torsion : bool
+        Whether the tower bends and the drivetrain twists; on the rung "tower" only.
     air_density : float
         kg/m³.
     skew_factor : float
@@ -48,6 +52,8 @@ class RotorOptions:
 
     modes: tuple[str, ...] = ("flap1", "flap2", "edge1")
     tabulated: bool = False
+    tower_motion: bool = True
+    drivetrain_torsion: bool = True
     air_density: Annotated[float, Gt(0)] = 1.225
     skew_factor: Annotated[float, Ge(0), Le(2)] = 1.4726215563702154
     drag_in_induction: bool = False

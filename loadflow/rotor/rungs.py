@@ -15,20 +15,32 @@ from .machine import Machine, machine
 from .options import RUNGS, RotorOptions, Rung
 from .tables import with_table
 
-_MODES = {"tables": (), "bem": (), "flap": ("flap1", "flap2", "edge1")}
+_MODES = ("flap1", "flap2", "edge1")
 
 
 def prepare(turbine: Turbine, rung: str, options: RotorOptions) -> tuple[Machine, Controller]:
     """Machine and control for a rung; a table of induction is made once per turbine."""
     if rung not in RUNGS:
         raise InputError(f"rung = {rung!r} is not a rung of the rotor; known: {', '.join(RUNGS)}")
-    chosen = replace(options, modes=_MODES[rung], tabulated=rung != "bem")
+    yields = rung == "tower"
+    chosen = replace(
+        options,
+        modes=_MODES if rung in ("flap", "tower") else (),
+        tabulated=rung != "bem",
+        tower_motion=options.tower_motion and yields,
+        drivetrain_torsion=options.drivetrain_torsion and yields,
+    )
     return _prepare(Same(turbine), chosen)
 
 
-def default_rung(event: Event) -> Rung:
-    """Rung where none is named: bending blades, but rigid ones for a turbine that is parked."""
-    return "tables" if event.startswith("parked") else "flap"
+def finest_rung(turbine: Turbine) -> Rung:
+    """Rung with all that the file of the turbine describes."""
+    return "flap" if turbine.tower.bending is None else "tower"
+
+
+def default_rung(turbine: Turbine, event: Event) -> Rung:
+    """Rung where none is named: the finest, but rigid blades for a turbine that is parked."""
+    return "tables" if event.startswith("parked") else finest_rung(turbine)
 
 
 class Same:

@@ -86,11 +86,13 @@ def simulate(
         Simulated before t = 0 and thrown away, s.
     base_seed : int
         Seed of the whole study; see `loadflow.wind.case_seed`.
-    rung : {"tables", "bem", "flap"}, optional
+    rung : {"tables", "bem", "flap", "tower"}, optional
         Rigid blades with the induction from a table; rigid blades with the induction solved at
-        every section and step; blades with two flap and one edge mode, induction from the table.
-        By default "flap", and "tables" where the turbine is parked: without dynamic stall, bending
-        blades that stand in an oblique storm shake themselves far beyond what is real.
+        every section and step; blades with two flap and one edge mode, induction from the table;
+        these on a tower that bends fore-aft and side-side, with a drivetrain that twists. By
+        default "tower" ("flap" where the file of the turbine does not say how its tower bends), and
+        "tables" where the turbine is parked: without dynamic stall, bending blades that stand in an
+        oblique storm shake themselves far beyond what is real.
     options : RotorOptions, optional
         Effects and imbalance, individual pitch control.
     wind_options : WindOptions, optional
@@ -106,7 +108,8 @@ def simulate(
         from upwind), ``hub_force`` (axis, time; N) and ``hub_moment`` (axis, time; N m): what the
         rotor applies to the shaft at its apex, weight included, in the shaft frame that does not
         rotate (x along the shaft downwind, z up, y left looking downwind); ``wind`` (axis, time;
-        m/s, ground frame) at the hub, ``generator_torque`` (N m), ``tip_deflection`` (m),
+        m/s, ground frame) at the hub, ``generator_torque`` (N m), ``generator_speed`` (rad/s),
+        ``tower_fore_aft`` (downwind), ``tower_side_side`` (left) and ``tip_deflection`` (m),
         ``blade_pitch`` (blade, time; rad), ``state`` (number of the supervisory state).
 
     Raises
@@ -182,7 +185,7 @@ def simulate_condition(
 
     plant = load_turbine(turbine)
     _check(plant, case, dt, run_in)
-    rung = rung or default_rung(case.event)
+    rung = rung or default_rung(plant, case.event)
     prepared = prepare(plant, rung, options or RotorOptions())
     m, c = prepared
     state = _first_state(Same(prepared), case)
@@ -314,6 +317,9 @@ def _dataset(out: np.ndarray, dt: float) -> xr.Dataset:
             ),
             "wind": vector([k.WIND_X, k.WIND_Y, k.WIND_Z], "m/s", "wind at the hub"),
             "generator_torque": scalar(k.TORQUE, "N m", "generator torque"),
+            "generator_speed": scalar(k.GENERATOR, "rad/s", "generator speed"),
+            "tower_fore_aft": scalar(k.FORE_AFT, "m", "tower top, downwind"),
+            "tower_side_side": scalar(k.SIDE_SIDE, "m", "tower top, to the left"),
             "tip_deflection": scalar(k.TIP, "m", "deflection of the outermost section of blade 1"),
             "blade_pitch": (
                 ("blade", "time"),

@@ -32,7 +32,7 @@ def steady_state(
     wind_speed: float | Sequence[float],
     *,
     shear: float = 0.2,
-    rung: str = "flap",
+    rung: str | None = None,
     options: RotorOptions | None = None,
 ) -> xr.Dataset:
     """Operating points in steady wind, means over whole revolutions.
@@ -44,8 +44,8 @@ def steady_state(
         At the hub, m/s, within cut-in … cut-out.
     shear : float
         Exponent of the wind profile over height.
-    rung : {"tables", "bem", "flap"}
-        See `simulate`.
+    rung : {"tables", "bem", "flap", "tower"}, optional
+        See `simulate`; by default the finest that the turbine allows.
     options : RotorOptions, optional
 
     Returns
@@ -72,7 +72,7 @@ def steady_state(
     """
     import xarray as xr
 
-    from .rungs import prepare
+    from .rungs import finest_rung, prepare
 
     machine = load_turbine(turbine)
     speeds = np.atleast_1d(np.asarray(wind_speed, float))
@@ -84,6 +84,7 @@ def steady_state(
         )
     if not 0 <= shear < 1:
         raise InputError(f"shear = {shear} is not allowed; it must be in [0, 1)")
+    rung = rung or finest_rung(machine)
     m, c = prepare(machine, rung, options or RotorOptions())
     rows = np.array([operating_point(m, c, float(v), shear)[0] for v in speeds])
     from . import _slots as k
@@ -119,14 +120,17 @@ def operating_point(
 ) -> tuple[np.ndarray, State]:
     """Mean columns over whole revolutions, and the state that the control settled at."""
     from . import _slots as k
+    from .frame import calmed
     from .inflow import steady_inflow
     from .loop import run, turning_state
 
     state = turning_state(m, c, wind_speed, *_guess(m, c, wind_speed))
     inflow = steady_inflow(wind_speed, round(_SETTLE / _STEP), shear)
     before = np.full(k.COLUMNS + m.blades, np.inf)
-    for _ in range(_ROUNDS):
-        out = run(m, c, inflow, state, _STEP, steps=round(_SETTLE / _STEP))
+    for turn in range(_ROUNDS):
+        # the tower by itself would sway for minutes
+        model = m._replace(frame=calmed(m.frame)) if turn == 0 else m
+        out = run(model, c, inflow, state, _STEP, steps=round(_SETTLE / _STEP))
         turns = np.floor(_MEAN * state.speed / (2 * np.pi)) + 1
         count = round(turns * 2 * np.pi / state.speed / _STEP)
         mean = out[-count:].mean(axis=0)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Iterable
-from dataclasses import MISSING, fields
+from dataclasses import MISSING, fields, replace
 from functools import cache
 from importlib import resources
 from pathlib import Path
@@ -24,13 +24,12 @@ from .schema import (
     Mode,
     RotorGeometry,
     Supervision,
-    Tower,
     Turbine,
 )
+from .tower import Tower, TowerBending
 
 _PARTS = {
     "rotor": RotorGeometry,
-    "tower": Tower,
     "drivetrain": Drivetrain,
     "control": Control,
 }
@@ -106,10 +105,13 @@ def _read(path: Path) -> Turbine:
 
 def _turbine(document: dict[str, Any], folder: Path) -> Turbine:
     frequencies = _table(document.pop("frequencies", {}), "frequencies")
-    _check_keys(document, {*_SCALARS, *_PARTS, "blade", "airfoils"}, "file", {"supervision"})
+    _check_keys(
+        document, {*_SCALARS, *_PARTS, "tower", "blade", "airfoils"}, "file", {"supervision"}
+    )
     parts: dict[str, Any] = {
         name: _part(part, document[name], name) for name, part in _PARTS.items()
     }
+    parts["tower"] = _tower(document["tower"])
     parts["supervision"] = _part(Supervision, document.get("supervision", {}), "supervision")
     airfoils = {
         name: _airfoil(name, entry, folder)
@@ -146,6 +148,37 @@ def _part(part: Any, entry: Any, name: str) -> Any:
     needed = {f.name for f in fields(part) if f.default is MISSING}
     _check_keys(values, needed, name, {f.name for f in fields(part)} - needed)
     return part(**values)
+
+
+def _tower(entry: Any) -> Tower:
+    """The tower, with its bending where the file describes it."""
+    table = dict(_table(entry, "tower"))
+    bending = table.pop("bending", None)
+    tower: Tower = _part(Tower, table, "tower")
+    return tower if bending is None else replace(tower, bending=_bending(bending))
+
+
+def _bending(entry: Any) -> TowerBending:
+    where = "tower.bending"
+    table = _table(entry, where)
+    scalars = {"nacelle_mass", "nacelle_downwind", "nacelle_above", "damping"}
+    shapes = {"fore_aft", "side_side"}
+    _check_keys(table, {*scalars, *shapes, "structure"}, where)
+    rows = _rows(table["structure"], 4, f"{where}.structure")
+    columns = np.array([[_number(v, f"{where}.structure") for v in row] for row in rows]).T
+    numbers: dict[str, Any] = {key: _number(table[key], f"{where}.{key}") for key in scalars}
+    modes: dict[str, Any] = {
+        key: tuple(_number(c, f"{where}.{key}") for c in table[key]) for key in shapes
+    }
+    height, mass_density, fore_aft, side_side = columns
+    return TowerBending(
+        height=height,
+        mass_density=mass_density,
+        fore_aft_stiffness=fore_aft,
+        side_side_stiffness=side_side,
+        **numbers,
+        **modes,
+    )
 
 
 def _blade(entry: Any, airfoils: dict[str, Airfoil]) -> Blade:

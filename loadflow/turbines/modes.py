@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from .schema import Array, Mode
+from .checks import Array
+from .schema import Mode
 
 _POWERS = np.arange(2, 7)
 _FINE = 2001

@@ -9,31 +9,11 @@ from typing import Annotated
 
 import numpy as np
 from annotated_types import Ge, Gt, Le
-from numpy.typing import NDArray
 
-from loadflow.errors import InputError
+from .checks import Array, NotNegative, Positive, require, require_not_negative, require_positive
+from .tower import Tower
 
-Array = NDArray[np.float64]
-Positive = Annotated[float, Gt(0)]
-NotNegative = Annotated[float, Ge(0)]
 _DEGREE = pi / 180
-
-
-def _require(ok: bool, owner: str, name: str, value: object, allowed: str) -> None:
-    if not ok:
-        raise InputError(f"{owner}: {name} = {value!r} is not allowed; it must be {allowed}")
-
-
-def _require_positive(part: object, *names: str) -> None:
-    for name in names:
-        value = getattr(part, name)
-        _require(
-            bool(np.isfinite(value) and value > 0),
-            type(part).__name__,
-            name,
-            value,
-            "positive and finite",
-        )
 
 
 @dataclass(frozen=True)
@@ -60,14 +40,14 @@ class Airfoil:
     def __post_init__(self) -> None:
         owner = f"airfoil {self.name!r}"
         increasing = self.angle.size > 1 and bool(np.all(np.diff(self.angle) > 0))
-        _require(increasing, owner, "angle", self.angle.tolist(), "strictly increasing")
+        require(increasing, owner, "angle", self.angle.tolist(), "strictly increasing")
         span = (float(self.angle[0]), float(self.angle[-1]))
         covers = abs(span[0] + np.pi) < 1e-6 and abs(span[1] - np.pi) < 1e-6
-        _require(covers, owner, "angle range", span, "−π … π (−180° … 180°)")
+        require(covers, owner, "angle range", span, "−π … π (−180° … 180°)")
         for name in ("lift", "drag"):
             values = getattr(self, name)
             fits = values.shape == self.angle.shape and bool(np.all(np.isfinite(values)))
-            _require(fits, owner, name, values.tolist(), "finite, one value for each angle")
+            require(fits, owner, name, values.tolist(), "finite, one value for each angle")
 
 
 @dataclass(frozen=True)
@@ -87,9 +67,9 @@ class Mode:
     coefficients: tuple[float, ...]
 
     def __post_init__(self) -> None:
-        _require(self.name[:4] in ("flap", "edge"), "mode", "name", self.name, "flap… or edge…")
+        require(self.name[:4] in ("flap", "edge"), "mode", "name", self.name, "flap… or edge…")
         total = sum(self.coefficients)
-        _require(abs(total - 1) < 1e-3, f"mode {self.name}", "sum of coefficients", total, "1")
+        require(abs(total - 1) < 1e-3, f"mode {self.name}", "sum of coefficients", total, "1")
 
 
 @dataclass(frozen=True)
@@ -127,13 +107,13 @@ class Blade:
     prebend: Array = field(default_factory=lambda: np.zeros(0))
 
     def __post_init__(self) -> None:
-        _require_positive(self, "mass")
-        _require(0 <= self.damping < 1, "Blade", "damping", self.damping, "in [0, 1)")
+        require_positive(self, "mass")
+        require(0 <= self.damping < 1, "Blade", "damping", self.damping, "in [0, 1)")
         fits = self.prebend.size in (0, self.radius.size) and np.isfinite(self.prebend).all()
-        _require(bool(fits), "Blade", "prebend", self.prebend.tolist(), "one value per section")
+        require(bool(fits), "Blade", "prebend", self.prebend.tolist(), "one value per section")
         for name in ("radius", "span"):
             values = getattr(self, name)
-            _require(
+            require(
                 values.size > 1 and bool(np.all(np.diff(values) > 0)),
                 "Blade",
                 name,
@@ -142,7 +122,7 @@ class Blade:
             )
         for name in ("chord", "mass_density", "flap_stiffness", "edge_stiffness"):
             values = getattr(self, name)
-            _require(bool(np.all(values > 0)), "Blade", name, values.tolist(), "positive")
+            require(bool(np.all(values > 0)), "Blade", name, values.tolist(), "positive")
 
 
 @dataclass(frozen=True)
@@ -171,38 +151,20 @@ class RotorGeometry:
     hub_inertia: NotNegative
 
     def __post_init__(self) -> None:
-        _require_positive(self, "radius", "hub_height", "overhang")
-        _require(1 <= self.blades <= 6, "RotorGeometry", "blades", self.blades, "1 … 6")
+        require_positive(self, "radius", "hub_height", "overhang")
+        require(1 <= self.blades <= 6, "RotorGeometry", "blades", self.blades, "1 … 6")
         inside = 0 <= self.hub_radius < self.radius
-        _require(inside, "RotorGeometry", "hub_radius", self.hub_radius, f"in [0, {self.radius})")
+        require(inside, "RotorGeometry", "hub_radius", self.hub_radius, f"in [0, {self.radius})")
         clear = self.hub_height > self.radius
-        _require(clear, "RotorGeometry", "hub_height", self.hub_height, f"above {self.radius} m")
+        require(clear, "RotorGeometry", "hub_height", self.hub_height, f"above {self.radius} m")
         for name in ("tilt", "cone"):
             value = getattr(self, name)
-            _require(abs(value) < 0.35, "RotorGeometry", name, value, "within ±0.35 rad (20°)")
-
-
-@dataclass(frozen=True)
-class Tower:
-    """The tower as the passing blades feel it: a tapered cylinder.
-
-    Attributes
-    ----------
-    base_diameter, top_diameter, height : float
-        m.
-    """
-
-    base_diameter: Positive
-    top_diameter: Positive
-    height: Positive
-
-    def __post_init__(self) -> None:
-        _require_positive(self, "base_diameter", "top_diameter", "height")
+            require(abs(value) < 0.35, "RotorGeometry", name, value, "within ±0.35 rad (20°)")
 
 
 @dataclass(frozen=True)
 class Drivetrain:
-    """Rigid drivetrain.
+    """Drivetrain: gear, generator, shaft brake, torsion of the shaft.
 
     Attributes
     ----------
@@ -213,17 +175,20 @@ class Drivetrain:
     brake_torque, brake_time : float
         Shaft brake: torque at the generator shaft when fully closed, N m (0: there is none), and
         the time it takes to close, s.
+    torsional_stiffness, torsional_damping : float
+        Between rotor and generator, at the speed of the rotor, N m/rad (0: rigid) and N m s/rad.
     """
 
     gear_ratio: Positive
     generator_inertia: NotNegative
     brake_torque: NotNegative = 0.0
     brake_time: Positive = 0.6
+    torsional_stiffness: NotNegative = 0.0
+    torsional_damping: NotNegative = 0.0
 
     def __post_init__(self) -> None:
-        _require_positive(self, "gear_ratio", "brake_time")
-        braked = bool(np.isfinite(self.brake_torque) and self.brake_torque >= 0)
-        _require(braked, "Drivetrain", "brake_torque", self.brake_torque, ">= 0 and finite")
+        require_positive(self, "gear_ratio", "brake_time")
+        require_not_negative(self, "brake_torque", "torsional_stiffness", "torsional_damping")
 
 
 @dataclass(frozen=True)
@@ -287,14 +252,14 @@ class Control:
     def __post_init__(self) -> None:
         speeds = (self.region_15_start, self.region_2_start, self.rated_speed)
         ordered = 0 < speeds[0] < speeds[1] < speeds[2] <= self.reference_speed
-        _require(
+        require(
             ordered,
             "Control",
             "speeds",
             (*speeds, self.reference_speed),
             "increasing: region_15_start < region_2_start < rated_speed <= reference_speed",
         )
-        _require_positive(
+        require_positive(
             self,
             "region_2_gain",
             "slip",
@@ -306,7 +271,7 @@ class Control:
             "gain_halving_pitch",
             "pitch_rate",
         )
-        _require(
+        require(
             self.minimum_pitch < self.maximum_pitch,
             "Control",
             "minimum_pitch",
@@ -361,11 +326,11 @@ class Supervision:
     brake_speed: Positive = 0.1
 
     def __post_init__(self) -> None:
-        _require_positive(
+        require_positive(
             self, "idling_pitch", "stopped_pitch", "start_rate", "stop_rate", "brake_speed"
         )
-        _require(self.overspeed > 1, "Supervision", "overspeed", self.overspeed, "above 1")
-        _require(self.fault_delay >= 0, "Supervision", "fault_delay", self.fault_delay, ">= 0")
+        require(self.overspeed > 1, "Supervision", "overspeed", self.overspeed, "above 1")
+        require(self.fault_delay >= 0, "Supervision", "fault_delay", self.fault_delay, ">= 0")
 
 
 @dataclass(frozen=True)
@@ -402,21 +367,21 @@ class Turbine:
     supervision: Supervision = Supervision()
 
     def __post_init__(self) -> None:
-        _require_positive(self, "rated_power")
+        require_positive(self, "rated_power")
         pitch, highest = self.supervision.stopped_pitch, self.control.maximum_pitch
         within = max(pitch, self.supervision.idling_pitch) <= highest
-        _require(within, "Supervision", "stopped_pitch", pitch, f"at most {highest} rad")
+        require(within, "Supervision", "stopped_pitch", pitch, f"at most {highest} rad")
         speeds = (self.cut_in, self.rated_wind_speed, self.cut_out)
         ordered = 0 < speeds[0] < speeds[1] < speeds[2]
-        _require(ordered, self.name, "cut_in, rated, cut_out", speeds, "positive and increasing")
+        require(ordered, self.name, "cut_in, rated, cut_out", speeds, "positive and increasing")
         for name in self.blade.airfoil:
             known = ", ".join(sorted(self.airfoils))
-            _require(name in self.airfoils, "Blade", "airfoil", name, f"one of {known}")
+            require(name in self.airfoils, "Blade", "airfoil", name, f"one of {known}")
         for name, value in self.frequencies.items():
-            _require(value > 0, "frequencies", name, value, "positive, in Hz")
+            require(value > 0, "frequencies", name, value, "positive, in Hz")
         tip, root = self.rotor.radius, self.rotor.hub_radius
         inside = bool(self.blade.radius[0] > root and self.blade.radius[-1] < tip)
-        _require(
+        require(
             inside,
             "Blade",
             "radius",

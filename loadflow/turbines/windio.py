@@ -10,8 +10,10 @@ import numpy as np
 from loadflow.errors import InputError
 
 from .airfoils import blended
+from .checks import Array
 from .modes import bending_modes
-from .schema import Airfoil, Array, Blade, Control, Drivetrain, RotorGeometry, Tower, Turbine
+from .schema import Airfoil, Blade, Control, Drivetrain, RotorGeometry, Turbine
+from .tower import Tower
 
 _DEGREE = np.pi / 180
 _RPM = np.pi / 30

@@ -1,0 +1,1 @@
+"""Motion of the blades and of what carries the rotor."""

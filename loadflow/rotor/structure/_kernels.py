@@ -1,0 +1,266 @@
+"""Compiled motion of the blades, and of the tower and drivetrain that carry them.
+
+Axes of one blade: x along the shaft (downwind), r outward, t in the sense of rotation; (x, r, t) is
+right-handed and turns with the rotor. Blades and frame are solved together: each blade hands its
+modes over as they answer to the frame, the frame is solved, the blades follow.
+"""
+
+import numpy as np
+from numba import njit
+
+GRAVITY = 9.80665
+
+
+@njit(cache=True, nogil=True)
+def blade_axes(sine, cosine, vector):
+    """A vector of the shaft frame in the axes (x, r, t) of a blade."""
+    y, z = vector[1], vector[2]
+    return vector[0], cosine * z - sine * y, -cosine * y - sine * z
+
+
+@njit(cache=True, nogil=True)
+def place(m, i, motion, cone_s, cone_c):
+    """Section i in the axes (x, r, t) of its blade."""
+    radius = m.radius[i] - motion[i, 5]
+    along = -radius * cone_s + motion[i, 0] * cone_c
+    out = radius * cone_c + motion[i, 0] * cone_s
+    return along, out, motion[i, 1]
+
+
+@njit(cache=True, nogil=True)
+def turned_shapes(m, pitch, shape):
+    """Mode shapes of a pitched blade, (n, k, 3): normal, tangential, slope of the normal one."""
+    c, s = np.cos(pitch), np.sin(pitch)
+    for i in range(shape.shape[0]):
+        for k in range(shape.shape[1]):
+            shape[i, k, 0] = m.shape[i, k, 0] * c - m.shape[i, k, 1] * s
+            shape[i, k, 1] = m.shape[i, k, 0] * s + m.shape[i, k, 1] * c
+            shape[i, k, 2] = m.slope[i, k, 0] * c - m.slope[i, k, 1] * s
+
+
+@njit(cache=True, nogil=True)
+def deflection(m, pitch, shape, q, v, motion):
+    """Motion of each section, (n, 6): deflection normal and tangential, their rates, slope of the
+    normal deflection, pull towards the root. Modes and prebend turn with the pitch.
+    """
+    c, s = np.cos(pitch), np.sin(pitch)
+    motion[:] = 0.0
+    for i in range(m.radius.size):
+        motion[i, 0] = -m.prebend[i] * c
+        motion[i, 1] = -m.prebend[i] * s
+        motion[i, 4] = -m.prebend_slope[i] * c
+        for k in range(q.size):
+            motion[i, 0] += shape[i, k, 0] * q[k]
+            motion[i, 1] += shape[i, k, 1] * q[k]
+            motion[i, 2] += shape[i, k, 0] * v[k]
+            motion[i, 3] += shape[i, k, 1] * v[k]
+            motion[i, 4] += shape[i, k, 2] * q[k]
+            for j in range(q.size):
+                motion[i, 5] += m.shortening[i, k, j] * q[k] * q[j]
+
+
+@njit(cache=True, nogil=True)
+def nacelle_motion(m, h, v, drift, gravity):
+    """Speed of the apex and rate of rotation of the nacelle, `drift` (6,), and `gravity` (3,), in
+    the shaft frame, which leans with the nacelle; returns its tilt.
+    """
+    drift[:] = 0.0
+    turn_x = turn_y = turn_z = 0.0
+    for j in range(h.size):
+        if m.frame.carries[j] == 0.0:
+            continue
+        for axis in range(6):
+            drift[axis] += m.frame.reach[j, axis] * v[j]
+        turn_x += m.frame.reach[j, 3] * h[j]
+        turn_y += m.frame.reach[j, 4] * h[j]
+        turn_z += m.frame.reach[j, 5] * h[j]
+    x, z = GRAVITY * np.sin(m.tilt), -GRAVITY * np.cos(m.tilt)
+    gravity[0] = x - turn_y * z
+    gravity[1] = turn_x * z - turn_z * x
+    gravity[2] = z + turn_y * x
+    return m.tilt + turn_y
+
+
+@njit(cache=True, nogil=True)
+def carried(reach, along, out, turn):
+    """Motion of a point that moves with the apex and turns with the axes; `reach` (6,)."""
+    return (
+        reach[0] + reach[4] * turn - reach[5] * out,
+        reach[1] + reach[5] * along - reach[3] * turn,
+        reach[2] + reach[3] * out - reach[4] * along,
+    )
+
+
+@njit(cache=True, nogil=True)
+def free_acceleration(speed, rate, motion, i, cone_s, cone_c, out, turn):
+    """Acceleration (x, r, t) of section i while neither modes nor frame accelerate: centripetal,
+    Coriolis and gyroscopic; `rate` (3,): that of the rotation of the nacelle.
+    """
+    v_x = motion[i, 2] * cone_c
+    v_r = motion[i, 2] * cone_s - speed * turn
+    v_t = motion[i, 3] + speed * out
+    return (
+        2 * (rate[1] * v_t - rate[2] * v_r),
+        -(speed**2) * out - 2 * speed * motion[i, 3] + 2 * (rate[2] * v_x - rate[0] * v_t),
+        2 * speed * motion[i, 2] * cone_s - speed**2 * turn + 2 * (rate[0] * v_r - rate[1] * v_x),
+    )
+
+
+@njit(cache=True, nogil=True)
+def blade_equations(
+    m, b, dt, speed, azimuth, shape, drift, gravity, force, motion, q, v, acc, answer, inertia, load
+):
+    """Eliminate the modes of one blade from the equations of the frame.
+
+    `force` (n, 3) holds the aerodynamic force, found at the predicted motion. `answer` (k, 1 + h)
+    becomes the acceleration of the modes while the frame does not accelerate, then that per unit
+    acceleration of each of its coordinates. `inertia` (h, h) and `load` (h,) of the frame grow by
+    what the blade adds to them.
+    """
+    modes, count = q.size, load.size
+    cone_s, cone_c = np.sin(m.cone), np.cos(m.cone)
+    sine, cosine = np.sin(azimuth), np.cos(azimuth)
+    g_x, g_r, g_t = blade_axes(sine, cosine, gravity)
+    rate = blade_axes(sine, cosine, drift[3:])
+    reach = np.empty((count, 6))
+    for j in range(count):
+        reach[j, 0], reach[j, 1], reach[j, 2] = blade_axes(sine, cosine, m.frame.reach[j, :3])
+        reach[j, 3], reach[j, 4], reach[j, 5] = blade_axes(sine, cosine, m.frame.reach[j, 3:])
+    couple = np.zeros((modes, 1 + count))
+    moved = np.empty((count, 3))
+    for i in range(m.radius.size):
+        along, out, turn = place(m, i, motion, cone_s, cone_c)
+        a_x, a_r, a_t = free_acceleration(speed, rate, motion, i, cone_s, cone_c, out, turn)
+        mass = m.mass[i] * m.mass_factor[b]
+        f_x = force[i, 0] + mass * (g_x - a_x)
+        f_r = force[i, 1] + mass * (g_r - a_r)
+        f_t = force[i, 2] + mass * (g_t - a_t)
+        normal = f_x * cone_c + f_r * cone_s
+        for j in range(count):
+            moved[j] = carried(reach[j], along, out, turn)
+            load[j] += moved[j, 0] * f_x + moved[j, 1] * f_r + moved[j, 2] * f_t
+            for n in range(j + 1):
+                product = mass * (
+                    moved[j, 0] * moved[n, 0]
+                    + moved[j, 1] * moved[n, 1]
+                    + moved[j, 2] * moved[n, 2]
+                )
+                inertia[j, n] += product
+                if n < j:
+                    inertia[n, j] += product
+        for k in range(modes):
+            couple[k, 0] += shape[i, k, 0] * normal + shape[i, k, 1] * f_t
+            for j in range(count):
+                across = moved[j, 0] * cone_c + moved[j, 1] * cone_s
+                couple[k, 1 + j] += mass * (shape[i, k, 0] * across + shape[i, k, 1] * moved[j, 2])
+    if modes == 0:
+        return
+    outward = g_r * cone_c - g_x * cone_s
+    stiffness = m.modal_stiffness + m.mass_factor[b] * (
+        speed**2 * m.centrifugal + outward * m.axial_gravity
+    )
+    system = (
+        m.mass_factor[b] * m.modal_mass + 0.5 * dt * m.modal_damping + 0.25 * dt * dt * stiffness
+    )
+    right = couple.copy()
+    for k in range(modes):
+        # the pull on the blade straightens its prebend
+        right[k, 0] += m.mass_factor[b] * (
+            speed**2 * m.prebend_centrifugal[k] + outward * m.prebend_gravity[k]
+        )
+        for j in range(modes):
+            q_free = q[j] + dt * v[j] + 0.25 * dt * dt * acc[j]
+            v_free = v[j] + 0.5 * dt * acc[j]
+            right[k, 0] -= m.modal_damping[k, j] * v_free + stiffness[k, j] * q_free
+    answer[:] = np.linalg.solve(system, right)
+    for j in range(count):
+        for k in range(modes):
+            load[j] -= couple[k, 1 + j] * answer[k, 0]
+            for n in range(count):
+                inertia[j, n] -= couple[k, 1 + j] * answer[k, 1 + n]
+    for k in range(modes):
+        for j in range(count):
+            answer[k, 1 + j] = -answer[k, 1 + j]
+
+
+@njit(cache=True, nogil=True)
+def frame_acceleration(m, dt, controlled, held, inertia, load, gravity, h, v, acc):
+    """Acceleration of the coordinates of the frame (h,), with those of the blades eliminated.
+
+    `load` holds the torque of the generator. The shaft brake holds the generator up to the torque
+    `held`, as dry friction; a rotor that is not `controlled` keeps its speed.
+    """
+    count = load.size
+    f = m.frame
+    system = inertia + f.mass + 0.5 * dt * f.damping + 0.25 * dt * dt * f.stiffness
+    right = load + f.load
+    for j in range(count):
+        for axis in range(3):
+            right[j] += m.hub_mass * f.reach[j, axis] * gravity[axis]
+        for n in range(1, count):
+            h_free = h[n] + dt * v[n] + 0.25 * dt * dt * acc[n]
+            v_free = v[n] + 0.5 * dt * acc[n]
+            right[j] -= f.damping[j, n] * v_free + f.stiffness[j, n] * h_free
+    free = controlled and (held == 0.0 or v[0] != 0.0)
+    if free:
+        right[0] -= np.sign(v[0]) * held
+        return np.linalg.solve(system, right)
+    fixed, still = system.copy(), right.copy()
+    fixed[0, :] = 0.0
+    fixed[0, 0] = 1.0
+    still[0] = 0.0
+    out = np.linalg.solve(fixed, still)
+    out[0] = 0.0  # exactly
+    if controlled:
+        # torque that the brake would have to take to keep the generator at rest
+        needed = right[0]
+        for j in range(1, count):
+            needed -= system[0, j] * out[j]
+        if abs(needed) > held:
+            right[0] -= np.sign(needed) * held
+            out = np.linalg.solve(system, right)
+    return out
+
+
+@njit(cache=True, nogil=True)
+def step_on(dt, new, q, v, acc):
+    """Newmark step (constant mean acceleration) to the acceleration `new`, in place."""
+    for k in range(q.size):
+        q[k] += dt * v[k] + 0.25 * dt * dt * (acc[k] + new[k])
+        v[k] += 0.5 * dt * (acc[k] + new[k])
+        acc[k] = new[k]
+
+
+@njit(cache=True, nogil=True)
+def blade_root(m, b, speed, azimuth, shape, drift, gravity, jerk, force, motion, acc, total):
+    """Add what one blade applies to the hub at the apex: aerodynamics, weight and inertia.
+
+    `jerk` (6,): acceleration of the apex and of the rotation of the rotor; `total` (6,): force and
+    moment in the shaft frame.
+    """
+    cone_s, cone_c = np.sin(m.cone), np.cos(m.cone)
+    sine, cosine = np.sin(azimuth), np.cos(azimuth)
+    g_x, g_r, g_t = blade_axes(sine, cosine, gravity)
+    rate = blade_axes(sine, cosine, drift[3:])
+    reach = np.empty(6)
+    reach[0], reach[1], reach[2] = blade_axes(sine, cosine, jerk[:3])
+    reach[3], reach[4], reach[5] = blade_axes(sine, cosine, jerk[3:])
+    for i in range(m.radius.size):
+        along, out, turn = place(m, i, motion, cone_s, cone_c)
+        bend_n = bend_t = 0.0
+        for k in range(acc.size):
+            bend_n += shape[i, k, 0] * acc[k]
+            bend_t += shape[i, k, 1] * acc[k]
+        a_x, a_r, a_t = free_acceleration(speed, rate, motion, i, cone_s, cone_c, out, turn)
+        moved = carried(reach, along, out, turn)
+        mass = m.mass[i] * m.mass_factor[b]
+        f_x = force[i, 0] + mass * (g_x - a_x - moved[0] - bend_n * cone_c)
+        f_r = force[i, 1] + mass * (g_r - a_r - moved[1] - bend_n * cone_s)
+        f_t = force[i, 2] + mass * (g_t - a_t - moved[2] - bend_t)
+        m_r, m_t = turn * f_x - along * f_t, along * f_r - out * f_x
+        total[0] += f_x
+        total[1] += -sine * f_r - cosine * f_t
+        total[2] += cosine * f_r - sine * f_t
+        total[3] += out * f_t - turn * f_r
+        total[4] += -sine * m_r - cosine * m_t
+        total[5] += cosine * m_r - sine * m_t

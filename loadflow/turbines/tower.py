@@ -1,0 +1,80 @@
+"""The tower: what the passing blades feel of it, and how it bends."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .checks import Array, NotNegative, Positive, require, require_not_negative, require_positive
+
+
+@dataclass(frozen=True)
+class TowerBending:
+    """First bending modes of the tower, clamped at its base, and the nacelle on top of it.
+
+    Attributes
+    ----------
+    nacelle_mass : float
+        All that stands on the tower but the rotor, kg.
+    nacelle_downwind, nacelle_above : float
+        Its centre of mass behind the tower axis and above the tower top, m.
+    damping : float
+        Structural, of each mode of the tower by itself (nothing on top), share of critical.
+    height, mass_density, fore_aft_stiffness, side_side_stiffness : ndarray, shape (n,)
+        Above the base, m; kg/m; N m².
+    fore_aft, side_side : tuple of float
+        Coefficients of x², x³, … of the mode shapes, with x = height over that of the tower top;
+        they add up to 1, so that the modal coordinate is the motion of the tower top.
+    """
+
+    nacelle_mass: NotNegative
+    nacelle_downwind: float
+    nacelle_above: float
+    damping: NotNegative
+    height: Array
+    mass_density: Array
+    fore_aft_stiffness: Array
+    side_side_stiffness: Array
+    fore_aft: tuple[float, ...]
+    side_side: tuple[float, ...]
+
+    def __post_init__(self) -> None:
+        require_not_negative(self, "nacelle_mass")
+        require(0 <= self.damping < 1, "TowerBending", "damping", self.damping, "in [0, 1)")
+        rising = bool(np.all(np.diff(self.height) > 0) and self.height[0] == 0)
+        wanted = "increasing from 0"
+        require(rising, "TowerBending", "height", self.height.tolist(), wanted)
+        for name in ("mass_density", "fore_aft_stiffness", "side_side_stiffness"):
+            values = getattr(self, name)
+            fits = values.shape == self.height.shape and bool(np.all(values > 0))
+            require(fits, "TowerBending", name, values.tolist(), "positive, one for each height")
+        for name in ("fore_aft", "side_side"):
+            total = sum(getattr(self, name))
+            require(
+                abs(total - 1) < 1e-3, "TowerBending", f"{name} sum of coefficients", total, "1"
+            )
+
+
+@dataclass(frozen=True)
+class Tower:
+    """The tower as the passing blades feel it: a tapered cylinder; and how it bends, if known.
+
+    Attributes
+    ----------
+    base_diameter, top_diameter, height : float
+        m.
+    bending : TowerBending, optional
+    """
+
+    base_diameter: Positive
+    top_diameter: Positive
+    height: Positive
+    bending: TowerBending | None = None
+
+    def __post_init__(self) -> None:
+        require_positive(self, "base_diameter", "top_diameter", "height")
+        if self.bending is not None:
+            top = float(self.bending.height[-1])
+            whole = abs(top - self.height) < 1e-6 * self.height
+            require(whole, "TowerBending", "last height", top, f"that of the tower, {self.height}")
