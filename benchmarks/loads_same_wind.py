@@ -61,7 +61,9 @@ def main(folder, winds):
                 ("torque", lambda s: s["hub_moment"].sel(axis="x")),
                 ("speed", lambda s: s["speed"]),
             ):
-                a, b = (pick(s).values.astype(float)[round(SETTLED / step) :] for s in (ours, theirs))
+                a, b = (
+                    pick(s).values.astype(float)[round(SETTLED / step) :] for s in (ours, theirs)
+                )
                 f, c = coherence(a, b, 1 / step, nperseg=round(100 / step))
                 x, y = slow(a, step), slow(b, step)
                 print(

@@ -12,6 +12,7 @@ from loadflow.turbines import Blade, Mode, Turbine
 from .airfoils import attached_flow
 from .frame import Frame, frame
 from .options import RotorOptions
+from .stall import separation
 
 Array = NDArray[np.float64]
 
@@ -46,6 +47,8 @@ class Machine(NamedTuple):
     zero_lift: Array  # (n,), angle of attack without lift
     lift_slope: Array  # (n,), of potential flow, 1/rad; 0: a section without lift
     friction: Array  # (n,), drag at zero lift
+    attached: Array  # (n, p), see `Separation`
+    separation_gain: Array  # (n, p)
     mass: Array  # (n,), kg
     shape: Array  # (n, k, 2)
     slope: Array  # (n, k, 2)
@@ -70,6 +73,7 @@ class Machine(NamedTuple):
     drag_in_induction: bool
     shed_wake: bool
     dynamic_inflow: bool
+    dynamic_stall: bool
     table: Array  # (n, p, q, 2) induced over undisturbed speed; empty: solved at every step
     table_angle: tuple[float, float]  # first inflow angle and step, rad
     table_pitch: tuple[float, float]  # first pitch and step, rad
@@ -99,7 +103,8 @@ def machine(turbine: Turbine, options: RotorOptions) -> Machine:
     outer_pull = _from_tip(density * (span + rotor.hub_radius), span)
     angle = np.arange(-np.pi, np.pi + _POLAR_STEP / 2, _POLAR_STEP)
     foils = [turbine.airfoils[name] for name in blade.airfoil]
-    attached = np.array([attached_flow(foil) for foil in foils])
+    steady = np.array([attached_flow(foil) for foil in foils])
+    split = [separation(foil, angle) for foil in foils]
     imbalance = np.zeros(rotor.blades)
     imbalance[0] = 1.0
     tower = turbine.tower
@@ -121,9 +126,11 @@ def machine(turbine: Turbine, options: RotorOptions) -> Machine:
         twist=blade.twist,
         lift=np.array([np.interp(angle, f.angle, f.lift) for f in foils]),
         drag=np.array([np.interp(angle, f.angle, f.drag) for f in foils]),
-        zero_lift=attached[:, 0],
-        lift_slope=attached[:, 1],
-        friction=attached[:, 2],
+        zero_lift=steady[:, 0],
+        lift_slope=steady[:, 1],
+        friction=steady[:, 2],
+        attached=np.array([s.attached for s in split]),
+        separation_gain=np.array([s.gain for s in split]),
         mass=_lumps(span, density, edges - rotor.hub_radius),
         shape=structure.at(structure.shape, stations),
         slope=structure.at(structure.slope, stations),
@@ -148,6 +155,7 @@ def machine(turbine: Turbine, options: RotorOptions) -> Machine:
         drag_in_induction=options.drag_in_induction,
         shed_wake=options.shed_wake,
         dynamic_inflow=options.dynamic_inflow,
+        dynamic_stall=options.dynamic_stall,
         table=np.zeros((0, 0, 0, 2)),
         table_angle=(0.0, 1.0),
         table_pitch=(0.0, 1.0),

@@ -40,6 +40,8 @@ class RotorOptions:
         inertia of the air, suction of potential flow); otherwise the polars hold at once.
     dynamic_inflow : bool
         Whether the induced velocity lags behind the load on the rotor (Øye's two time constants).
+    dynamic_stall : bool
+        Whether separation lags behind the angle of attack (Øye's filter on Kirchhoff's flow).
     tower_dam : bool
         Whether the blades pass through the potential flow around the tower.
     individual_pitch : bool
@@ -59,6 +61,7 @@ class RotorOptions:
     drag_in_induction: bool = False
     shed_wake: bool = True
     dynamic_inflow: bool = False
+    dynamic_stall: bool = False
     tower_dam: bool = True
     individual_pitch: bool = False
     mass_imbalance: Annotated[float, Ge(-0.2), Le(0.2)] = 0.0

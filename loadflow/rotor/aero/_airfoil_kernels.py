@@ -2,14 +2,16 @@
 
 Leishman, Beddoes, "A semi-empirical model for dynamic stall", Journal of the American Helicopter
 Society 34 (1989), in the form of Damiani and Hayman, "The unsteady aerodynamics module for FAST 8",
-NREL/TP-5000-66347 (2019); equation numbers are of the latter. Separation does not lag here.
+NREL/TP-5000-66347 (2019); equation numbers are of the latter. Separation lags as a switch.
 """
 
 import numpy as np
 from numba import njit
 
-SECTION_STATES = 3
-"""Numbers that a section carries along: two deficiencies of the angle of attack, the angle."""
+SECTION_STATES = 4
+"""Numbers that a section carries along: two deficiencies of the angle of attack, the angle, and how
+far the flow is attached.
+"""
 
 _SHED = ((0.3, 0.14), (0.7, 0.53))  # share and decay of the shed wake
 _SOUND = 340.0  # m/s
@@ -28,6 +30,20 @@ def polar(table, angle):
 
 
 @njit(cache=True, nogil=True)
+def late_separation(m, i, attack, speed, dt, states):
+    """Lift coefficient that comes on top because separation lags behind the angle of attack.
+
+    Øye's filter with the time 4 chords take to pass, as in Hansen, "Aerodynamics of Wind Turbines"
+    (2008), (9.23) to (9.26). `states[3]` holds how far the flow is attached; dt = 0 sets it to
+    steady, where nothing comes on top.
+    """
+    steady = polar(m.attached[i], attack)
+    keep = np.exp(-dt * speed / (4 * m.chord[i])) if dt > 0 else 0.0
+    states[3] = steady + (states[3] - steady) * keep
+    return (states[3] - steady) * polar(m.separation_gain[i], attack)
+
+
+@njit(cache=True, nogil=True)
 def coefficients(m, i, attack, speed, dt, states):
     """Lift and drag coefficient of section i in a flow of angle `attack` and `speed`, m/s.
 
@@ -38,7 +54,10 @@ def coefficients(m, i, attack, speed, dt, states):
     zero lift.
     """
     if not m.shed_wake:
-        return polar(m.lift[i], attack), polar(m.drag[i], attack)
+        lift = polar(m.lift[i], attack)
+        if m.dynamic_stall:
+            lift += late_separation(m, i, attack, speed, dt, states)
+        return lift, polar(m.drag[i], attack)
     mach = min(speed / _SOUND, 0.9)
     square = 1 - mach * mach
     chord, slope = m.chord[i], m.lift_slope[i]
@@ -58,6 +77,8 @@ def coefficients(m, i, attack, speed, dt, states):
     states[2] = attack
     delayed = attack - late
     lift, drag = polar(m.lift[i], delayed), polar(m.drag[i], delayed)
+    if m.dynamic_stall:
+        lift += late_separation(m, i, delayed, speed, dt, states)
     if slope == 0.0:
         return lift, drag
     attached = min(max((_ATTACHED - abs(attack)) / _FADE, 0.0), 1.0)

@@ -1,0 +1,118 @@
+"""Dynamic stall: the static polar in steady flow, loops of the right sense, blades that stand."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from loadflow.rotor import RotorOptions
+from loadflow.rotor.aero._airfoil_kernels import SECTION_STATES, late_separation, polar
+from loadflow.rotor.aero._kernels import section_force
+from loadflow.rotor.machine import machine
+from loadflow.rotor.stall import separation
+from loadflow.turbines import load_turbine
+
+TURBINE = load_turbine("nrel-5mw")
+MODEL = machine(TURBINE, RotorOptions(modes=(), dynamic_stall=True, shed_wake=False))
+OUTER = 12  # NACA64
+SPEED, STEP = 60.0, 0.01
+
+
+def pitching(mean, amplitude, frequency, turns=4):
+    """Angle, lift of the model and of the polar over the last of some turns."""
+    states = np.zeros(SECTION_STATES)
+    attack = mean + amplitude * np.sin(
+        2 * np.pi * frequency * STEP * np.arange(round(turns / (frequency * STEP)))
+    )
+    static = np.array([polar(MODEL.lift[OUTER], a) for a in attack])
+    more = [
+        late_separation(MODEL, OUTER, a, SPEED, STEP if k else 0.0, states)
+        for k, a in enumerate(attack)
+    ]
+    last = slice(-round(1 / (frequency * STEP)), None)
+    return attack[last], (static + more)[last], static[last]
+
+
+def area(x, y):
+    """Signed area of a loop, positive counter-clockwise."""
+    return 0.5 * np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y)
+
+
+@pytest.mark.parametrize("name", sorted(TURBINE.airfoils))
+def test_flow_is_attached_around_zero_lift_and_separated_far_from_it(name):
+    angle = np.radians(np.arange(-180, 180.5, 0.5))
+    split = separation(TURBINE.airfoils[name], angle)
+    assert np.all((split.attached >= 0) & (split.attached <= 1))
+    assert np.all(split.attached[np.abs(angle) > np.radians(60)] == 0)
+    if name.startswith("cylinder"):
+        assert not split.gain.any()
+    else:
+        usual = (angle > np.radians(2)) & (angle < np.radians(7))
+        assert split.attached[usual].min() > 0.5
+        # where the flow is attached, separation would halve the lift
+        lift = np.interp(angle, *(getattr(TURBINE.airfoils[name], n) for n in ("angle", "lift")))
+        firm = (split.attached > 0.999) & (angle > np.radians(1))
+        assert split.gain[firm] == pytest.approx(0.5 * lift[firm], rel=0.03)
+
+
+@pytest.mark.parametrize("degrees", [-30.0, 0.0, 8.0, 16.0, 25.0, 60.0, 150.0])
+def test_steady_flow_has_the_lift_of_the_polar(degrees):
+    states = np.full(SECTION_STATES, 0.3)
+    for _ in range(500):
+        more = late_separation(MODEL, OUTER, np.radians(degrees), SPEED, STEP, states)
+    assert more == pytest.approx(0.0, abs=1e-6)
+    assert late_separation(MODEL, OUTER, np.radians(degrees), SPEED, 0.0, states) == 0.0
+
+
+def test_lift_overshoots_on_the_way_up_and_stays_low_on_the_way_down():
+    attack, lift, static = pitching(np.radians(14), np.radians(6), 1.0)
+    rising = np.gradient(attack) > 0
+    at_mean = np.abs(attack - np.radians(14)) < np.radians(1)
+    assert lift[rising & at_mean].mean() > lift[~rising & at_mean].mean() + 0.1
+    assert lift.max() > static.max() + 0.05
+    # clockwise: lift lags less than it leads, and work is taken from a blade that plunges
+    assert area(attack, lift) < 0
+
+
+def test_attached_flow_has_no_loop():
+    _, lift, static = pitching(np.radians(2), np.radians(2), 1.0)
+    assert np.abs(lift - static).max() < 0.02
+
+
+def test_slow_changes_follow_the_polar_and_fast_ones_the_slope_of_attached_flow():
+    _, slow, static = pitching(np.radians(16), np.radians(2), 0.02, turns=2)
+    assert np.abs(slow - static).max() < 0.05
+    attack, fast, still = pitching(np.radians(16), np.radians(2), 5.0)
+    steep, flat = (np.polyfit(attack, lift, 1)[0] for lift in (fast, still))
+    assert steep > flat + 1.0
+    assert steep > 0
+
+
+def test_the_switch_is_off_by_default_and_acts_on_the_force():
+    assert not RotorOptions().dynamic_stall
+    wake = np.zeros(SECTION_STATES)
+    off = MODEL._replace(dynamic_stall=False)
+    jump = (0.0, 15.0, 60.0, 0.0, 0.0)  # pitch, wind, induction
+    section_force(MODEL, OUTER, 0.3, 15.0, 60.0, 0.0, 0.0, 0.0, wake)
+    delayed = section_force(MODEL, OUTER, *jump, STEP, wake)[0]
+    assert delayed > section_force(off, OUTER, *jump, STEP, np.zeros(SECTION_STATES))[0]
+
+
+@pytest.mark.slow
+def test_blades_that_stand_in_an_oblique_storm_swing_less():
+    from loadflow.rotor import simulate
+
+    tip = {}
+    for stall in (False, True):
+        series = simulate(
+            dlc="6.1",
+            wind_speed=50.0,
+            yaw_error=np.radians(20.0),
+            steady=True,
+            duration=60.0,
+            run_in=60.0,
+            rung="flap",
+            options=dataclasses.replace(RotorOptions(), dynamic_stall=stall),
+        )
+        tip[stall] = float(np.ptp(series["tip_deflection"]))
+    assert tip[True] < 0.5 * tip[False]
