@@ -1,7 +1,8 @@
 """Our rotor in the hub wind of OpenFAST series: slow changes of thrust, torque and speed.
 
-The series tell the wind at the hub alone. It blows over the whole disc here, so that only what is
-slower than the passage of a gust over the disc can agree: below 0.1 Hz.
+The series tell the wind at the hub alone. Over the disc blows what is expected around it: each
+frequency of the hub wind times the coherence of IEC 61400-1 over the distance from the hub. So only
+the part of the load that the hub wind explains can agree, and only slowly: below 0.1 Hz.
 Run: python benchmarks/loads_same_wind.py FOLDER [wind speed …]
 """
 
@@ -17,21 +18,32 @@ from loadflow.wind.field import Field
 
 SLOW, SETTLED = 0.1, 30.0  # Hz; s
 RUN_IN = 60.0
+RADIUS = np.array([0.0, 5.0, 10.0, 17.0, 25.0, 35.0, 45.0, 55.0, 65.0])  # m
+COHERENCE = 8.1 * 42.0  # scale of the coherence, m
 
 
-def blowing(wind, step):
-    """The hub wind over the whole disc, held at its first value before the series."""
+def expected_field(wind, step):
+    """Wind to be expected over the disc, held at its first value before the series."""
     early, late = round(RUN_IN / step), round(20 / step)
     course = np.concatenate([np.full(early, wind[0]), wind, np.full(late, wind[-1])])
-    change = np.broadcast_to((course - wind.mean())[:, None, None], (course.size, 2, 4))
+    mean = float(wind.mean())
+    frequency = np.fft.rfftfreq(course.size, step)
+    hub = np.fft.rfft(course - mean)
+    rings = [
+        np.fft.irfft(
+            hub * np.exp(-12 * np.hypot(frequency * r / mean, 0.12 * r / COHERENCE)), course.size
+        )
+        for r in RADIUS
+    ]
+    change = np.broadcast_to(np.stack(rings, axis=1)[:, :, None], (course.size, RADIUS.size, 4))
     return Field(
         time=step * np.arange(course.size),
-        radius=np.array([0.0, 70.0]),
+        radius=RADIUS,
         angle=2 * np.pi * np.arange(4) / 4,
         u=np.ascontiguousarray(change, dtype=np.float32),
         v=None,
         w=None,
-        wind_speed=float(wind.mean()),
+        wind_speed=mean,
         shear_exponent=0.2,
     )
 
@@ -52,7 +64,7 @@ def main(folder, winds):
             ours = simulate(
                 wind_speed=float(hub.mean()),
                 duration=hub.size * step,
-                field=blowing(hub, step),
+                field=expected_field(hub, step),
                 dt=step,
                 run_in=RUN_IN,
             )
