@@ -19,14 +19,16 @@ WARM_UP = {"wind_speed": 10.0, "duration": 1.0, "run_in": 1.0}
 
 
 def measure(wind_speed, duration=600.0, turbine=TURBINE, **arguments):
-    """Core time per 600 s of result, and mean, std and DEL (m = 4) of tilt and yaw, kN m."""
+    """Core time per 600 s of result; mean, std and DEL (m = 4) of tilt and yaw moment, kN m, and of
+    the thrust, kN.
+    """
     simulate(turbine, **WARM_UP, **arguments)  # compile and fill tables outside the measurement
     start = time.process_time()
     series = simulate(turbine, wind_speed=wind_speed, seed=1, duration=duration, **arguments)
     spent = (time.process_time() - start) * 600.0 / duration
-    moment = series["hub_moment"].sel(axis=["y", "z"]).values / 1e3
-    equivalent = [float(damage_equivalent_load(m, 4.0, duration)) for m in moment]
-    return spent, moment.mean(axis=1), moment.std(axis=1), np.array(equivalent)
+    loads = np.stack([*series["hub_moment"].values[1:], series["hub_force"].values[0]]) / 1e3
+    equivalent = [float(damage_equivalent_load(x, 4.0, duration)) for x in loads]
+    return spent, loads.mean(axis=1), loads.std(axis=1), np.array(equivalent)
 
 
 def rungs(wind_speeds=(8.0, 12.0, 20.0)):
@@ -52,8 +54,10 @@ def variants():
         kept = tuple(mode for mode in modes if mode.name != name)
         return replace(TURBINE, blade=replace(TURBINE.blade, modes=kept))
 
-    yield "default (rung flap)", {}
-    yield "rigid blades", {"rung": "tables"}
+    yield "default (rung tower)", {}
+    yield "without tower", {"options": RotorOptions(tower_motion=False)}
+    yield "without drivetrain torsion", {"options": RotorOptions(drivetrain_torsion=False)}
+    yield "rigid blades, tower and drivetrain", {"rung": "tables"}
     yield "without flap 2", {"turbine": without("flap2")}
     yield "without edge 1", {"turbine": without("edge1")}
     for name, change in (
@@ -61,13 +65,14 @@ def variants():
         ("no skewed wake", {"skew_factor": 0.0}),
         ("no tower dam", {"tower_dam": False}),
         ("dynamic inflow", {"dynamic_inflow": True}),
+        ("dynamic stall", {"dynamic_stall": True}),
         ("0.5° pitch imbalance", {"pitch_imbalance": np.radians(0.5)}),
     ):
         yield name, {"options": RotorOptions(**change)}
 
 
 def switches(wind_speeds=(8.0, 12.0, 20.0)):
-    print("change against the default, tilt / yaw: mean kN m, std, DEL (m = 4), cost")
+    print("change against the default, tilt / yaw / thrust: mean kN m, kN, std, DEL (m = 4), cost")
     for wind_speed in wind_speeds:
         base = None
         for name, change in variants():
@@ -81,8 +86,9 @@ def switches(wind_speeds=(8.0, 12.0, 20.0)):
                 continue
             shift, wide, worn = mean - base[1], std / base[2] - 1, equivalent / base[3] - 1
             print(
-                f"{wind_speed:.0f} m/s | {name} | {shift[0]:+.0f} / {shift[1]:+.0f} | "
-                f"{wide[0]:+.1%} / {wide[1]:+.1%} | {worn[0]:+.1%} / {worn[1]:+.1%} | "
+                f"{wind_speed:.0f} m/s | {name} | {' / '.join(f'{x:+.0f}' for x in shift)} | "
+                f"{' / '.join(f'{x:+.1%}' for x in wide)} | "
+                f"{' / '.join(f'{x:+.1%}' for x in worn)} | "
                 f"{spent / base[0] - 1:+.0%}",
                 flush=True,
             )

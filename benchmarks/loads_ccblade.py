@@ -1,7 +1,7 @@
 """A step of the rotor beside CCBlade (wisdem): time, and power and thrust of the same blade.
 
 CCBlade runs in an environment of its own, as wisdem brings OpenMDAO and compiled solvers. It
-solves three blades in a sheared wind, ours three blades in turbulence at every section; both with 17
+solves three blades in a sheared wind, ours three in turbulence at every section; both with 17
 sections of the NREL 5 MW turbine.
 Run: python benchmarks/loads_ccblade.py [PYTHON that has wisdem]
 """
