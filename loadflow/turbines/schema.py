@@ -279,7 +279,7 @@ class Control:
             f"below maximum_pitch = {self.maximum_pitch}",
         )
         power, pitch = self.scheduled_power, self.scheduled_pitch
-        _require(
+        require(
             all(a < b for a, b in pairwise(power)),
             "Control",
             "scheduled_power",
@@ -287,7 +287,7 @@ class Control:
             "increasing",
         )
         within = all(self.minimum_pitch <= p <= self.maximum_pitch for p in pitch)
-        _require(
+        require(
             len(pitch) == len(power) and within,
             "Control",
             "scheduled_pitch",
