@@ -102,11 +102,13 @@ def rolling_point(
     Raises
     ------
     loadflow.errors.InputError
-        A load that is not finite or that the bearing cannot take; a lubrication without a speed, or
-        with a film too thin for ISO 281.
+        A load that is not finite or that the bearing cannot take; a speed of 0; a lubrication
+        without a speed, or with a film too thin for ISO 281.
     loadflow.errors.SolverError
         No equilibrium.
     """
+    if speed is not None and not (math.isfinite(speed) and speed):
+        raise InputError(f"speed: must be finite and not 0 for a life in hours, got {speed:g}")
     if isinstance(bearing, SlewingBearing):
         r: Any = bearing.equilibrium(force, moment, rings=rings)
     else:
