@@ -70,7 +70,8 @@ def _film_rung(scene: Scene) -> str:
     around, across = scene.journal.grid
     rung = scene.journal.rung
     graded = ", graded" if scene.journal.grading == "graded" else ""
-    names = {"grid": f"grid, {around}x{across}{graded}", "reduced": f"reduced, {around}"}
+    elastic = ", elastic" if scene.journal.shell is not None else ""
+    names = {"grid": f"grid, {around}x{across}{graded}{elastic}", "reduced": f"reduced, {around}"}
     return names.get(rung, rung)
 
 

@@ -16,7 +16,16 @@ from typing import Annotated, Any, Literal, Self, get_args
 from pydantic import BaseModel, Field, ValidationError, field_validator, model_validator
 
 from loadflow.errors import InputError
-from loadflow.journal import GasMixture, Heat, JournalBearing, Lubricant, Supply
+from loadflow.journal import (
+    GasMixture,
+    Heat,
+    JournalBearing,
+    LinedShell,
+    LocalShell,
+    Lubricant,
+    Supply,
+    ThickShell,
+)
 from loadflow.scene_bearings import KINDS, SECTION, Rolling
 from loadflow.shaft.options import (
     Concept,
@@ -197,6 +206,8 @@ class Journal(_Section):
     With ``tilt`` the shaft leans in them as the beam of its suspension does, tilted and bent; if it
     has none, it tilts freely under the moment that the shaft stage gives. The film is then solved
     over its full width.
+
+    A ``shell`` makes the bore elastic; its key ``kind`` says how: local, lined or thick.
     """
 
     bearings: Annotated[list[str], Field(min_length=1)] = ["N", "N2"]
@@ -214,6 +225,15 @@ class Journal(_Section):
     heat: Heat | None = None
     motion: Literal["quasi-static", "transient"] = "quasi-static"
     tilt: bool = False
+    shell: LocalShell | LinedShell | ThickShell | None = None
+
+    @model_validator(mode="after")
+    def _elastic_on_the_grid(self) -> Self:
+        if self.shell is not None and self.rung != "grid":
+            raise ValueError(
+                f'rung "{self.rung}" has a rigid shell: set "grid", or leave out shell'
+            )
+        return self
 
     @property
     def in_motion(self) -> bool:
@@ -223,7 +243,8 @@ class Journal(_Section):
     @property
     def film(self) -> dict[str, Any]:
         """Keywords of `JournalBearing.equilibrium` and `orbit` that say what the film is."""
-        names = ("lubricant", "cavitation", "edge_pressure", "supply", "grid", "grading", "rung")
+        mesh = ("grid", "grading", "rung")
+        names = ("lubricant", "cavitation", "edge_pressure", "supply", *mesh, "shell")
         return {name: getattr(self, name) for name in names}
 
     def at_temperature(self, temperature: float) -> Journal:

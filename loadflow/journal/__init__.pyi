@@ -19,6 +19,10 @@ from .shapes import Cylindrical as Cylindrical
 from .shapes import Lobes as Lobes
 from .shapes import Recess as Recess
 from .shapes import TiltingPads as TiltingPads
+from .shells import LinedShell as LinedShell
+from .shells import LocalShell as LocalShell
+from .shells import MatrixShell as MatrixShell
+from .shells import ThickShell as ThickShell
 from .supply import Capillary as Capillary
 from .supply import ConstantFlow as ConstantFlow
 from .supply import Groove as Groove

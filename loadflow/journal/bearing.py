@@ -20,6 +20,7 @@ from loadflow.journal.rungs import Control, Rung, check_rung, model
 from loadflow.journal.setup import FilmOptions, Grading, Inlet, operating_points
 from loadflow.journal.shaped import Line, equilibrium_rows, field_rows, orbit_start, plain
 from loadflow.journal.shapes import CYLINDER, Relief, Shape
+from loadflow.journal.shells import Shell
 from loadflow.journal.static import plain_fields, plain_film, plain_rows, plain_start
 from loadflow.journal.supply import Supply
 
@@ -33,7 +34,7 @@ _METHODS = (False, True, "direct", "marching")
 
 @dataclass(frozen=True)
 class JournalBearing:
-    """Rigid journal bearing.
+    """Journal bearing.
 
     Attributes
     ----------
@@ -106,6 +107,7 @@ class JournalBearing:
         tilt: ArrayLike | None = None,
         bend: ArrayLike | None = None,
         whirl: float = 0.0,
+        shell: Shell | None = None,
     ) -> Equilibrium:
         """Position of the shaft in which the film carries `force` at rest.
 
@@ -157,6 +159,8 @@ class JournalBearing:
         whirl : float
             Frequency, rad/s, at which tilting pads are condensed out of stiffness and damping: the
             speed for synchronous coefficients, 0 for slow changes.
+        shell : LocalShell, LinedShell, ThickShell or MatrixShell, optional
+            Elastic shell, whose gap follows the pressure above that of the rims; rigid by default.
 
         Returns
         -------
@@ -171,11 +175,13 @@ class JournalBearing:
             bore wherever it is; names the first such load.
         """
         check_rung(rung)
-        options = FilmOptions(lubricant, cavitation, edge_pressure, supply, inlet, grid, grading)
+        options = FilmOptions(
+            lubricant, cavitation, edge_pressure, supply, inlet, grid, grading, shell
+        )
         loads, speeds, shape = operating_points(force, speed, "force")
         warn_if_turbulent(self, speeds, lubricant)
         line = Line.of(shape, moment=moment, tilt=tilt, bend=bend)
-        if not self._plain(line, rung):
+        if not self._plain(line, shell, rung):
             control = Control(tolerance, max_iterations, strict)
             found = equilibrium_rows(self, options, loads, speeds, line, control, whirl)
             return Equilibrium(**stack(found, shape))
@@ -204,6 +210,7 @@ class JournalBearing:
         strict: bool = True,
         tilt: ArrayLike | None = None,
         bend: ArrayLike | None = None,
+        shell: Shell | None = None,
     ) -> FilmField:
         """Film at a given position and velocity of the shaft.
 
@@ -218,7 +225,7 @@ class JournalBearing:
         velocity : array_like (…, 2)
             Velocity of the shaft centre, m/s. The squeeze is F ∂h/∂t, the fill is quasi-steady.
         cavitation, edge_pressure, supply, inlet, grid, grading, tolerance, max_iterations, \
-strict, tilt, bend
+strict, tilt, bend, shell
             As in `equilibrium`. Pads that tilt are where their film has no moment about the pivot.
 
         Returns
@@ -232,7 +239,9 @@ strict, tilt, bend
         SolverError
             No convergence.
         """
-        options = FilmOptions(lubricant, cavitation, edge_pressure, supply, inlet, grid, grading)
+        options = FilmOptions(
+            lubricant, cavitation, edge_pressure, supply, inlet, grid, grading, shell
+        )
         both = np.broadcast_arrays(
             np.asarray(eccentricity, dtype=float), np.asarray(velocity, dtype=float)
         )
@@ -240,7 +249,7 @@ strict, tilt, bend
         velocities, _, _ = operating_points(both[1], speed, "velocity")
         places, velocities = places / self.clearance, velocities / self.clearance
         line = Line.of(shape, tilt=tilt, bend=bend)
-        if not self._plain(line, "grid"):
+        if not self._plain(line, shell, "grid"):
             control = Control(tolerance, max_iterations, strict)
             found, z = field_rows(self, options, places, velocities, speeds, line, control)
             return FilmField(z=z if z[0] < 0 else np.append(-z[::-1], z), **stack(found, shape))
@@ -270,6 +279,7 @@ strict, tilt, bend
         closure: float = 1e-6,
         max_periods: int = 100,
         moment: ArrayLike | None = None,
+        shell: Shell | None = None,
     ) -> xr.Dataset:
         """Path of the shaft under a load that changes with time, or repeats.
 
@@ -313,6 +323,8 @@ strict, tilt, bend
         moment : array_like (n, 2), optional
             What the shaft applies to the bearing about its middle, N m; the shaft then tilts, and
             the result has its `tilt`. Without it the shaft stays aligned.
+        shell : LocalShell, LinedShell, ThickShell or MatrixShell, optional
+            Elastic shell, without inertia; the result then has its `shell_deformation`.
 
         Returns
         -------
@@ -333,7 +345,9 @@ strict, tilt, bend
             close, or a load that turns at half the speed of the shaft.
         """
         check_rung(rung)
-        options = FilmOptions(lubricant, cavitation, edge_pressure, supply, inlet, grid, grading)
+        options = FilmOptions(
+            lubricant, cavitation, edge_pressure, supply, inlet, grid, grading, shell
+        )
         loads, speeds, shape = operating_points(force, speed, "force")
         warn_if_turbulent(self, speeds, lubricant)
         times = np.asarray(time, dtype=float)
@@ -344,7 +358,7 @@ strict, tilt, bend
             raise InputError(f"time[{bad[0] + 1}] = {times[bad[0] + 1]} does not increase")
         place = None if start is None else np.asarray(start, dtype=float) / self.clearance
         line = Line.of(shape, moment=moment)
-        aligned = self._plain(line, rung)
+        aligned = self._plain(line, shell, rung)
         if place is not None and aligned:
             require(bool(np.hypot(*place) < 1), "start", start, f"|start| < c = {self.clearance} m")
         require(step in ("given", "adaptive"), "step", step, '"given" or "adaptive"')
@@ -387,10 +401,10 @@ strict, tilt, bend
         return orbit.assign_attrs(about)
 
     # --- inside ----------------------------------------------------------------------------------
-    def _plain(self, line: Line, rung: Rung) -> bool:
-        """Whether a plain cylinder surrounds an aligned shaft; if not, only the grid serves."""
-        if plain(self, line):
+    def _plain(self, line: Line, shell: Shell | None, rung: Rung) -> bool:
+        """Whether a rigid cylinder surrounds an aligned shaft; if not, only the grid serves."""
+        if plain(self, line) and shell is None:
             return True
-        allowed = '"grid" for a shaped bore or a shaft that tilts or bends'
+        allowed = '"grid" for a shaped bore, an elastic shell or a shaft that tilts or bends'
         require(rung == "grid", "rung", rung, allowed)
         return False

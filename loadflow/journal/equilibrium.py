@@ -18,6 +18,9 @@ _CALM = (
 )
 
 
+_STUCK = 1e-3  # share of a Newton step that an elastic shell must leave room for
+
+
 @dataclass(frozen=True)
 class Solution:
     """A solved film: unknowns, position (clearances), last linearisation, convergence.
@@ -71,14 +74,15 @@ def solve_film(
     weights = np.ones(1)
     for iteration in range(1, max_iterations + 1):
         linear = film.linearise(u, position, velocity)
-        change = film.correct(u, linear.columns[:1], weights)
+        share = film.room(u, linear.columns[:1], weights, (position, position))
+        if share < _STUCK:
+            break
+        change = film.correct(u, linear.columns[:1], share * weights)
         if change < _QUADRATIC:
             residual = film.imbalance(u, position, velocity)
             if residual < tolerance:
                 return Solution(u, position, linear, True, iteration, residual)
-    return Solution(
-        u, position, linear, False, max_iterations, film.imbalance(u, position, velocity)
-    )
+    return Solution(u, position, linear, False, iteration, film.imbalance(u, position, velocity))
 
 
 def solve_equilibrium(
@@ -108,8 +112,9 @@ def solve_equilibrium(
         step = np.zeros(position.size)
         missing = (force - linear.load)[free]
         step[free] = _solve(slope[free][:, free], missing, ease) / max(haste, 1.0)
-        target = film.gap.advance(position, step)
-        weights = film.weights(position, velocity, target, motion.velocity(target))
+        target, weights, share = _moved(film, u, linear, position, step, motion)
+        if share < _STUCK:
+            break
         change = film.correct(u, linear.columns, weights)
         change = max(change, math.hypot(*(target - position)) / film.gap.narrowest(position))
         position = target
@@ -118,7 +123,20 @@ def solve_equilibrium(
             if residual < tolerance:
                 return Solution(u, position, linear, True, iteration, residual, free=free)
     residual = film.imbalance(u, position, motion.velocity(position), force, *old, free)
-    return Solution(u, position, linear, False, max_iterations, residual)
+    return Solution(u, position, linear, False, iteration, residual)
+
+
+def _moved(
+    film: Film, u: Array, linear: Linear, position: Array, step: Array, motion: Motion
+) -> tuple[Array, Array, float]:
+    """Position after the share of `step` that leaves a film, weights of the columns, the share."""
+    target = film.target(position, step)
+    velocity = motion.velocity(position)
+    weights = film.weights(position, velocity, target, motion.velocity(target))
+    share = film.room(u, linear.columns, weights, (position, target))
+    if share < 1.0:
+        target, weights = position + share * (target - position), share * weights
+    return target, weights, share
 
 
 def solve_patiently(

@@ -116,6 +116,7 @@ class Film:
         n = nx * nz
         self.ab = np.empty((n, 3 * mesh.bandwidth + 1))
         self.state = np.empty((8, nx, nz))
+        self.elastic = False  # whether the gap follows the pressure
         self.mirrors = 2.0 if mesh.half else 1.0
         self.ambient: Array | float = 0.0  # of `_load`: what acts outside the film, N
 
@@ -156,10 +157,14 @@ class Film:
 
     def place(self, u: Array, position: Array) -> Array:
         """Evaluate law and gap at `u` and `position`; returns the axes of the mesh's frame."""
+        self._apply_law(u)
+        return self.gap.place(position)
+
+    def _apply_law(self, u: Array) -> None:
+        """Fill `state` from the unknowns `u`."""
         kernel.apply_law(self.kind, self.mixing, self.p_cav, self.scale, u, self.state)
         if self.kind == kernel.REYNOLDS and self.pockets.free.size:
             self._keep_full(u)
-        return self.gap.place(position)
 
     def _keep_full(self, u: Array) -> None:
         """Keep the free grooves full: the complementarity has no row for their pressure."""
@@ -222,10 +227,7 @@ class Film:
         around, across = gap.around, gap.across
         mass = self._storage(gap.coef, around, local, rate)
         slopes = gap.slopes(position)
-        kernel.jacobian(
-            self.state, gap.coef, mesh.dz, mesh.gz, mesh.closed, self.wedge, mass,
-            mesh.order, self.fixed, self.ab,
-        )  # fmt: skip
+        self._assemble(mass, rate)
         lu, pivots, info = dgbtrf(self.ab.T, mesh.bandwidth, mesh.bandwidth, overwrite_ab=1)
         if info:
             raise SolverError(f"film matrix is singular in row {info} at eccentricity {position}")
@@ -243,7 +245,7 @@ class Film:
         columns = np.empty((len(fields), mesh.angle.size * mesh.z.size))
         for column, field in zip(columns, fields):
             kernel.gather(field, mesh.order, column)
-        dgbtrs(lu, mesh.bandwidth, mesh.bandwidth, columns.T, pivots, overwrite_b=1)
+        self._solve((lu, pivots), columns)
         if free.size:
             columns = self._settle(columns, np.array(flows), mass)
 
@@ -265,6 +267,20 @@ class Film:
             columns=columns,
         )
 
+    def _assemble(self, mass: Array, rate: float) -> None:
+        """Write the Newton matrix at the state last placed into the band."""
+        mesh = self.mesh
+        kernel.jacobian(
+            self.state, self.gap.coef, mesh.dz, mesh.gz, mesh.closed, self.wedge, mass,
+            mesh.order, self.fixed, self.ab,
+        )  # fmt: skip
+
+    def _solve(self, factors: tuple[Array, NDArray[np.int32]], columns: Array) -> None:
+        """Solve the Newton matrix for each of `columns` (l, n), in place."""
+        lu, pivots = factors
+        band = self.mesh.bandwidth
+        dgbtrs(lu, band, band, columns.T, pivots, overwrite_b=1)
+
     def _settle(self, columns: Array, direct: Array, mass: Array) -> Array:
         """Let the pressure of the free grooves follow their flow in all `columns`."""
         pockets, mesh = self.pockets, self.mesh
@@ -274,6 +290,7 @@ class Film:
             field = column.reshape(mesh.shape)[mesh.order]
             change[kernel.P] = self.state[kernel.DP] * field
             change[kernel.FILL] = self.state[kernel.DFILL] * field
+            change[kernel.LOAD] = self.state[kernel.DLOAD] * field
             outflow = self.balance(self.gap.coef, mass, change)
             row[:] = pockets.flows(outflow)[pockets.free]
         pressure = pockets.of_free(self.state[kernel.P])
@@ -304,6 +321,29 @@ class Film:
     def correct(self, u: Array, columns: Array, weights: Array) -> float:
         """Apply a Newton step to `u`; returns its largest change over the scale of pressure."""
         return kernel.correct(u, columns, weights, self.mesh.order) / self.scale
+
+    def relax(self, give: float = 1.0) -> None:
+        """Let go of what pressure has deformed; from now on the shell gives way by a share `give`.
+
+        A rigid shell does not.
+        """
+
+    @property
+    def deformation(self) -> Array:
+        """Growth of the gap of the cells by the last pressure, (nx, nz), m."""
+        return np.zeros(self.mesh.shape)
+
+    def room_left(self, position: Array) -> float:
+        """Narrowest gap over the clearance, that between cells included; no limit if rigid."""
+        return math.inf
+
+    def target(self, position: Array, step: Array) -> Array:
+        """Where a step of the shaft may lead, if there is `room`."""
+        return self.gap.advance(position, step)
+
+    def room(self, u: Array, columns: Array, weights: Array, way: tuple[Array, Array]) -> float:
+        """Share of a Newton step that leaves a film between shaft and shell; `way`: from, to."""
+        return 1.0
 
     def imbalance(
         self,

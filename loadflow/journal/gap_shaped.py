@@ -73,9 +73,11 @@ class ShapedGap:
         Cells.
     bore : Bore
         What tells H_0.
+    along : bool
+        Whether to keep a row for each cell across even where the gap does not change there.
     """
 
-    def __init__(self, mesh: ShapedMesh, bore: Bore) -> None:
+    def __init__(self, mesh: ShapedMesh, bore: Bore, along: bool = False) -> None:
         self.mesh = mesh
         self.bore = bore
         self.tilts = not mesh.half
@@ -83,7 +85,7 @@ class ShapedGap:
         self.size = self.shaft + len(bore.pads)
         self.ease = np.repeat([_STAYS, 1.0], [self.shaft, len(bore.pads)])
         nx, nz = mesh.shape
-        along = self.tilts or bore.along
+        along = along or self.tilts or bore.along
         rows = nz if along else 1
         z = mesh.z if along else np.zeros(1)
 
@@ -141,7 +143,7 @@ class ShapedGap:
         facing = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
         self._reach = np.einsum("jid,id->ji", self._shifts(segment), facing)
         self._lengths = self._lengthwise(z)
-        self._facing, self._spots_z = facing, z
+        self._facing, self._spots_angle, self._spots_z = facing, angle, z
         self._spots_line = np.zeros((2, z.size))
 
     # --- the shaft's centre line -----------------------------------------------------------------
@@ -174,16 +176,21 @@ class ShapedGap:
 
     def place(self, position: Array) -> Array:
         """Evaluate `coef` at `position`; the frame of the mesh is that of the shell."""
-        ex, ey = (
-            np.ascontiguousarray((modes.T * position) @ self.across + line)
-            for modes, line in zip(np.moveaxis(self._modes, 2, 0), self.line)
-        )
+        self.moved = self.centre(position)
         kernel.shaped_coefficients(
-            self._face, self._face_gap, self._cell, self._cell_gap, ex, ey,
+            self._face, self._face_gap, self._cell, self._cell_gap, *self.moved,
             self.coef, self._by_x, self._by_y,
         )  # fmt: skip
         kernel.faces_across(self.coef, self.mesh.dz, False, self.coef)
         return np.eye(self.size)
+
+    def centre(self, position: Array) -> tuple[Array, Array]:
+        """Where the shaft is seen to be from each cell, x and y (nx, rows)."""
+        ex, ey = (
+            np.ascontiguousarray((modes.T * position) @ self.across + line)
+            for modes, line in zip(np.moveaxis(self._modes, 2, 0), self.line)
+        )
+        return ex, ey
 
     def slopes(self, position: Array) -> list[tuple[Array, Array]]:
         """Derivatives of (`coef`, `around`) by the position, where it was last placed."""

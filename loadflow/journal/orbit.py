@@ -188,6 +188,8 @@ def march(
 def orbit_row(film: Film, solution: Solution, steps: int) -> dict[str, Any]:
     """What an orbit says of one time, after `steps` implicit steps."""
     row = summary(film, solution.u, solution.position)
+    if film.elastic:
+        row["shell_deformation"] = float(film.deformation.max())
     x, y, *tilt = solution.position.tolist()
     if tilt:
         row["tilt"] = np.array(tilt) * film.relative_clearance
@@ -216,6 +218,7 @@ _VARIABLES = {
     "supply_flow": ("m3/s", "oil that the grooves give, net"),
     "supply_power": ("W", "what lifts that oil from tank to supply pressure"),
     "total_fill": ("1", "share of liquid in the gap"),
+    "shell_deformation": ("m", "largest growth of the gap by the give of the shell"),
     "residual": ("1", "largest imbalance of cell and load, scaled"),
     "iterations": ("1", "Newton steps"),
     "steps": ("1", "implicit steps since the time before"),

@@ -81,6 +81,8 @@ class Equilibrium:
         rad; 0 where the film is symmetric.
     pad_tilt : array (…, pads)
         Rotation of the pads about their pivots, rad, from the first axis toward the second.
+    shell_deformation : array (…)
+        Largest growth of the gap by the give of the shell, m; 0 where it is rigid.
     temperature : array (…), optional
         Effective temperature of the film, K; None without a heat balance.
     """
@@ -112,6 +114,7 @@ class Equilibrium:
     moment: Array = field(default_factory=lambda: np.zeros(2))
     tilt: Array = field(default_factory=lambda: np.zeros(2))
     pad_tilt: Array = field(default_factory=lambda: np.zeros(0))
+    shell_deformation: Array = field(default_factory=lambda: np.zeros(()))
     temperature: Array | None = None
 
 
@@ -135,14 +138,17 @@ class FilmField:
         Axial position of the cell centres from mid-plane, m.
     eccentricity_ratio, minimum_film, maximum_pressure, friction_power, side_flow, supply_flow, \
 supply_power, groove_flow, groove_pressure, starved, total_fill, stiffness, damping, converged, \
-iterations, residual, moment, tilt, pad_tilt
+iterations, residual, moment, tilt, pad_tilt, shell_deformation
         As in `Equilibrium`.
+    deformation : array (…, nx, nz)
+        Growth of the gap of the cells by the give of the shell, m.
     """
 
     film_force: Array
     force: Array
     pressure: Array
     fill: Array
+    deformation: Array
     angle: Array
     z: Array
     eccentricity_ratio: Array
@@ -164,6 +170,7 @@ iterations, residual, moment, tilt, pad_tilt
     moment: Array = field(default_factory=lambda: np.zeros(2))
     tilt: Array = field(default_factory=lambda: np.zeros(2))
     pad_tilt: Array = field(default_factory=lambda: np.zeros(0))
+    shell_deformation: Array = field(default_factory=lambda: np.zeros(()))
 
 
 def stack(rows: list[dict[str, Any]], shape: tuple[int, ...]) -> dict[str, Any]:
@@ -217,6 +224,7 @@ def operating_columns(
         "reynolds_number": reynolds,
         "critical_reynolds_number": critical,
         "laminar": reynolds < critical,
+        "shell_deformation": np.zeros(np.shape(speed)),
     }
 
 
@@ -227,15 +235,17 @@ def without_supply(count: int) -> dict[str, Any]:
 
 def field_row(film: Film, solution: Solution) -> dict[str, Any]:
     """One row of `FilmField`, but for z; the half film is mirrored."""
-    pressure, fill, angle, load = film.field(solution.u, solution.position)
+    *cells, angle, load = film.field(solution.u, solution.position)
+    cells.append(film.deformation)
     if film.mesh.half:
-        pressure = np.concatenate([pressure[:, ::-1], pressure], axis=1)
-        fill = np.concatenate([fill[:, ::-1], fill], axis=1)
+        cells = [np.concatenate([values[:, ::-1], values], axis=1) for values in cells]
+    pressure, fill, deformation = cells
     return {
         "film_force": -load[:2],
         "force": load[:2],
         "pressure": pressure,
         "fill": fill,
+        "deformation": deformation,
         "angle": angle,
         **_common_row(film, solution),
     }
@@ -257,6 +267,7 @@ def _common_row(film: Film, solution: Solution, whirl: float = 0.0) -> dict[str,
     per_radius = clearance / film.radius
     row["tilt"] = per_radius * solution.position[2:4] if tilted else np.zeros(2)
     row["pad_tilt"] = per_radius * solution.position[shaft:]
+    row["shell_deformation"] = float(film.deformation.max())
     if not solution.converged:
         row = {name: _nothing(value) for name, value in row.items()}
     row["converged"] = solution.converged

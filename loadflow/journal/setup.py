@@ -9,9 +9,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError
+from loadflow.journal.compliance import compliance_of
 from loadflow.journal.feed import Feed
 from loadflow.journal.film import Film
+from loadflow.journal.film_elastic import ElasticFilm
 from loadflow.journal.gap import PlainGap
+from loadflow.journal.gap_elastic import ElasticGap
 from loadflow.journal.gap_mesh import recess_marks, shaped_mesh
 from loadflow.journal.gap_shaped import Bore, ShapedGap
 from loadflow.journal.grooves import groove_marks, groove_numbers
@@ -27,6 +30,7 @@ from loadflow.journal.options import (
 )
 from loadflow.journal.pockets import Pockets
 from loadflow.journal.shapes import Arc, Shape
+from loadflow.journal.shells import Shell
 from loadflow.journal.supply import Supply
 
 Array = NDArray[np.float64]
@@ -40,7 +44,7 @@ FULL_GRID = (120, 24)  # the same where both halves of the width differ
 
 @dataclass(frozen=True)
 class FilmOptions:
-    """Lubricant, law, supply and mesh of a film, as documented at `JournalBearing.equilibrium`."""
+    """Lubricant, law, supply, mesh and shell, as documented at `JournalBearing.equilibrium`."""
 
     lubricant: Lubricant
     cavitation: Cavitation | None = None
@@ -49,6 +53,7 @@ class FilmOptions:
     inlet: Inlet = "auto"
     grid: tuple[int, int] | None = None
     grading: Grading = "auto"
+    shell: Shell | None = None
 
     @property
     def law(self) -> Cavitation:
@@ -128,17 +133,23 @@ def build_shaped_film(
     numbers = groove_numbers(mesh.angle, mesh.z, ratio, supply, int(grid[0]), bore.radius)
     mirrors = 2.0 if half else 1.0
     flow_unit = mirrors * bore.clearance**3 / (12.0 * options.lubricant.viscosity)
-    gap = ShapedGap(mesh, bore)
-    film = Film(
-        gap,
+    words = (
         law,
         options.lubricant.viscosity,
         bore.clearance / bore.radius,
         bore.radius,
         options.edge_pressure,
         Pockets(numbers, Feed(supply or Supply(), options.lubricant), flow_unit),
-        end_pressure=pressure,
+        pressure,
     )
+    if options.shell is None:
+        gap = ShapedGap(mesh, bore)
+        film = Film(gap, *words)
+    else:
+        require(not bore.pads, "shell", options.shell, "None for pads, whose backs are not held")
+        compliance = compliance_of(options.shell, mesh, bore.radius)
+        gap = ElasticGap(mesh, bore, rims_give=compliance.spreads)
+        film = ElasticFilm(compliance, gap, *words)
     film.fill(mesh.groove, pressure)
     film.ambient = _outside(gap, film, options.edge_pressure, shape)
     return gap, film

@@ -27,6 +27,7 @@ from loadflow.journal.result import field_row, following, static_row
 from loadflow.journal.rungs import Control
 from loadflow.journal.setup import FilmOptions, build_shaped_film
 from loadflow.journal.shapes import Cylindrical
+from loadflow.journal.softly import APART, solve_by_approach, solve_in_load_steps
 
 if TYPE_CHECKING:
     from loadflow.journal.bearing import JournalBearing
@@ -193,6 +194,7 @@ class _Statics:
     ) -> Solution:
         """Equilibrium under load number `index`."""
         film, gap = self.film, self.gap
+        film.relax()
         film.set_speed(omega)
         lifts = film.pockets.lifts(film.p_edge)
         if omega == 0.0 and load.any() and not lifts:
@@ -218,10 +220,12 @@ class _Statics:
             estimate[:2], last = solution.position[:2], None
             estimate = self._lifted(estimate)
             free = np.append(free[free < gap.shaft], tilting)
-        if not solution.converged:
+        if not solution.converged and film.elastic:
+            solution = solve_in_load_steps(film, force, estimate, control.tolerance, free)
+        elif not solution.converged:
             limits = self._limits(control)
             solution = solve_patiently(film, force, estimate, *limits, free)
-        return replace(solution, estimate=estimate)
+        return self._apart(replace(solution, estimate=estimate))
 
     def _newton(
         self,
@@ -270,16 +274,19 @@ class _Statics:
     ) -> Solution:
         """Film at a given position; pads take the tilt without moment and follow the shaft."""
         film, gap = self.film, self.gap
+        film.relax()
         film.set_speed(omega)
         position, moving = np.zeros(gap.size), np.zeros(gap.size)
         if gap.tilts:
             self._straighten(index, position)
         position[:2], moving[:2] = place, velocity
         position = self._lifted(position)
+        limits = self._limits(control)
+        if film.elastic:
+            return self._apart(solve_by_approach(film, position, moving, *limits))
         self._check_room(index, position)
         pads = self._tilting(position)
         self._idle(pads)
-        limits = self._limits(control)
         if not pads.size:
             return solve_film(film, film.start(), position, moving, *limits)
         first = self._balanced(position, pads, control)
@@ -291,11 +298,18 @@ class _Statics:
         start, nothing = (first.u, first.position), np.zeros(gap.size)
         return solve_equilibrium(film, nothing, *start, *limits, Motion(offset=-moving), pads)
 
+    def _apart(self, solution: Solution) -> Solution:
+        """The solution, not converged where an elastic shell would meet the shaft."""
+        apart = self.film.room_left(solution.position) > APART
+        return replace(solution, converged=solution.converged and apart)
+
     def refusal(self, load: Array, solution: Solution) -> str:
         """Why there is no answer, with numbers."""
         head = f"F = ({load[0]:.6g}, {load[1]:.6g}) N at ω = {self.film.speed:.6g} rad/s"
         if self.film.speed == 0.0 and not self.film.pockets.lifts(self.film.p_edge):
             return f"{head}: without rotation and squeeze the film carries no load"
+        if self.film.room_left(solution.position) <= APART:
+            return f"{head}: the shaft touches the elastic shell, {self._where(solution.position)}"
         return (
             f"{head}: no equilibrium found; residual {solution.residual:.3g} after "
             f"{solution.iterations} steps, {self._where(solution.position)}"
@@ -378,6 +392,7 @@ class _Statics:
         ):
             position = estimate.copy()
             position[free] = last.position[free]
+            self.film.place(last.u, position)
             room = self.gap.narrowest(position)
             if room > 0 and math.hypot(*(estimate - last.estimate)[:2]) < _NEAR * room:
                 yield last.u, position

@@ -37,6 +37,8 @@ WARM = {"temperature": ("K", "effective temperature of the film")}
 
 TEMPERED = 64
 """Samples of a series whose mean friction and flow give the temperature of a film in motion."""
+GIVING = {"shell_deformation": ("m", "largest growth of the gap by the give of the shell")}
+"""What is kept too of an elastic shell."""
 
 
 def film(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
@@ -83,7 +85,8 @@ def _resting(options: Journal, bearing: str, reduced: xr.Dataset) -> xr.Dataset:
             f"bearing {bearing}: no film carries any of the {speed.size} samples; speed "
             f"{np.abs(speed).min():.4g} … {np.abs(speed).max():.4g} rad/s"
         )
-    samples = of_samples(vars(answer), KEPT | WARM if options.heat else KEPT)
+    kept = _kept(options)
+    samples = of_samples(vars(answer), kept | WARM if options.heat else kept)
     if options.tilt:
         meaning = label("rad", "rotation of the shaft: about down, about left")
         samples["tilt"] = ("sample", "component"), answer.tilt, meaning
@@ -106,7 +109,8 @@ def _moving(options: Journal, bearing: str, loads: xr.Dataset, reactions: xr.Dat
         options.geometry.sommerfeld_number(*point, held.lubricant.viscosity)
         for point in zip(np.hypot(*force.T).tolist(), speed.tolist())
     ]
-    found: dict[str, Any] = {name: path[name].values for name in KEPT if name in path}
+    kept = _kept(options)
+    found: dict[str, Any] = {name: path[name].values for name in kept if name in path}
     found |= {"sommerfeld_number": numbers, "converged": np.ones(time.size, dtype=bool)}
     samples = xr.Dataset(
         {
@@ -115,8 +119,8 @@ def _moving(options: Journal, bearing: str, loads: xr.Dataset, reactions: xr.Dat
             "weight": ("sample", np.ones(time.size), label("1", "samples")),
         }
     )
-    kept = of_samples(found, KEPT) | warm
-    return _placed(held, samples.assign(kept), path["eccentricity"].values)
+    labels = of_samples(found, kept) | warm
+    return _placed(held, samples.assign(labels), path["eccentricity"].values)
 
 
 def mean_temperature(options: Journal, force: np.ndarray, speed: np.ndarray) -> float | None:
@@ -145,6 +149,11 @@ def mean_temperature(options: Journal, force: np.ndarray, speed: np.ndarray) -> 
     if not np.any(warm.film.converged):
         raise SolverError("orbit cannot start: no heat balance of its mean friction and flow")
     return float(warm.temperature[0])
+
+
+def _kept(options: Journal) -> dict[str, tuple[str, str]]:
+    """What is kept of every sample of a scene's bearing."""
+    return KEPT if options.shell is None else KEPT | GIVING
 
 
 def follow(

@@ -109,7 +109,8 @@ def quick(journal: Journal) -> Journal | None:
     """The bearing with the film that is quick over a long series; None where it does not fit."""
     bearing = journal.geometry
     cylinder = bearing.shape == CYLINDER and not bearing.relief
-    if cylinder and journal.supply is None and journal.grading != "graded":
+    rigid = cylinder and journal.shell is None
+    if rigid and journal.supply is None and journal.grading != "graded":
         return journal.model_copy(update={"rung": "reduced"})
     return None
 

@@ -1,0 +1,165 @@
+"""What a user states about the elasticity of the shell. Options only, no solver.
+
+The pressure of the film above that of its rims widens the gap. A shell gives way where it is
+pressed (`LocalShell`, `LinedShell`), or all over (`ThickShell`, `MatrixShell`).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from annotated_types import Ge, Gt, Lt
+from numpy.typing import NDArray
+
+from loadflow.journal.options import require
+
+_LOCAL = 0.1  # deviation of a lining from the local law that is let pass
+
+
+def _require_solid(modulus: float, poisson_ratio: float) -> None:
+    require(modulus > 0, "modulus", modulus, "Pa, > 0")
+    require(0 <= poisson_ratio < 0.5, "poisson_ratio", poisson_ratio, "0 ≤ poisson_ratio < 0.5")
+
+
+@dataclass(frozen=True)
+class LocalShell:
+    """Shell that gives way where it is pressed alone (Winkler), (3.36, 3.37) of the source.
+
+    Attributes
+    ----------
+    compliance : float
+        a_f: growth of the gap over pressure, m/Pa.
+    """
+
+    compliance: Annotated[float, Ge(0)]
+    kind: Literal["local"] = "local"
+
+    def __post_init__(self) -> None:
+        good = self.compliance >= 0 and math.isfinite(self.compliance)
+        require(good, "compliance", self.compliance, "m/Pa, ≥ 0, finite")
+
+
+@dataclass(frozen=True)
+class LinedShell:
+    """Thin lining bonded to a rigid housing: each part is squeezed and cannot give way sideways.
+
+    The compliance is ``t (1 + ν)(1 − 2ν)/(E (1 − ν))``, as long as the lining is thin against the
+    length over which the pressure changes. A lining that hardly changes its volume is softer than
+    that: it flows aside. It is refused where that matters by more than a tenth.
+
+    Attributes
+    ----------
+    thickness : float
+        Of the lining, m.
+    modulus : float
+        Young's modulus E of the lining, Pa.
+    poisson_ratio : float
+        ν of the lining.
+    """
+
+    thickness: Annotated[float, Gt(0)]
+    modulus: Annotated[float, Gt(0)]
+    poisson_ratio: Annotated[float, Ge(0), Lt(0.5)] = 0.3
+    kind: Literal["lined"] = "lined"
+
+    def __post_init__(self) -> None:
+        require(self.thickness > 0, "thickness", self.thickness, "m, > 0")
+        _require_solid(self.modulus, self.poisson_ratio)
+
+    @property
+    def compliance(self) -> float:
+        """Growth of the gap over an even pressure, m/Pa."""
+        nu = self.poisson_ratio
+        return self.thickness * (1 + nu) * (1 - 2 * nu) / (self.modulus * (1 - nu))
+
+    def compliance_at(self, wave_length: float) -> float:
+        """Growth of the gap over a pressure cos(2π x/`wave_length`), both amplitudes, m/Pa.
+
+        Exact for a bonded layer in plane strain [Johnson 1985, Contact Mechanics, ch. 5.8].
+        """
+        k, nu = 2 * math.pi / wave_length, self.poisson_ratio
+        kappa, depth = 3 - 4 * nu, 2 * k * self.thickness
+        free = 2 * (1 - nu**2) / (self.modulus * k)
+        if depth > 100:  # a half-space
+            return free
+        held = 2 * kappa * math.cosh(depth) + depth**2 + kappa**2 + 1
+        return free * 2 * (kappa * math.sinh(depth) - depth) / held
+
+    def check_local(self, length: float) -> None:
+        """Refuse a lining that is not local under a pressure that changes over `length`, m.
+
+        Raises
+        ------
+        loadflow.errors.InputError
+            With the compliance that it would have.
+        """
+        exact = self.compliance_at(length)
+        require(
+            abs(exact - self.compliance) <= _LOCAL * self.compliance,
+            "thickness, poisson_ratio",
+            (self.thickness, self.poisson_ratio),
+            f"thin and compressible enough to give way locally; under a pressure wave of "
+            f"{length:.4g} m its compliance is {exact:.4g} m/Pa, not {self.compliance:.4g} m/Pa",
+        )
+
+
+@dataclass(frozen=True)
+class ThickShell:
+    """Thick-walled cylinder as wide as the bearing, held all over its outside.
+
+    Its influence numbers come from three-dimensional elasticity, harmonic by harmonic around.
+
+    Attributes
+    ----------
+    outer_diameter : float
+        m, above the bore.
+    modulus : float
+        Young's modulus E, Pa.
+    poisson_ratio : float
+        ν.
+    """
+
+    outer_diameter: Annotated[float, Gt(0)]
+    modulus: Annotated[float, Gt(0)]
+    poisson_ratio: Annotated[float, Ge(0), Lt(0.5)] = 0.3
+    kind: Literal["thick"] = "thick"
+
+    def __post_init__(self) -> None:
+        require(self.outer_diameter > 0, "outer_diameter", self.outer_diameter, "m, > 0")
+        _require_solid(self.modulus, self.poisson_ratio)
+
+
+@dataclass(frozen=True, eq=False)
+class MatrixShell:
+    """Shell whose influence numbers are given, (3.52–3.56) of the source.
+
+    Attributes
+    ----------
+    matrix : array_like (nx nz, nx nz) or (nx, nz, nx, nz)
+        Growth of the gap at each cell of the film over the pressure on another, m/Pa: the
+        deformation under 1 MPa on one cell is a column times 1e6 Pa. The cells are those of
+        `FilmField.pressure`, full width, the axial place running fastest.
+    """
+
+    matrix: Any
+    kind: Literal["matrix"] = "matrix"
+
+    def __post_init__(self) -> None:
+        matrix = np.array(self.matrix, dtype=float)
+        side = math.isqrt(matrix.size)
+        require(side**2 == matrix.size, "matrix", matrix.shape, "as many rows as columns")
+        require(bool(np.isfinite(matrix).all()), "matrix", "NaN or infinite", "finite, m/Pa")
+        matrix = matrix.reshape(side, side)
+        matrix.flags.writeable = False
+        object.__setattr__(self, "matrix", matrix)
+
+    @property
+    def numbers(self) -> NDArray[np.float64]:
+        """Influence numbers (n, n), m/Pa."""
+        return np.asarray(self.matrix)
+
+
+Shell = LocalShell | LinedShell | ThickShell | MatrixShell

@@ -1,0 +1,247 @@
+"""Elastic shells: limits, closed forms, balance, and what is refused."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from loadflow.errors import InputError, SolverError
+from loadflow.journal import (
+    Arc,
+    ConstantFlow,
+    GasMixture,
+    Groove,
+    Guembel,
+    JournalBearing,
+    LinedShell,
+    LocalShell,
+    Lubricant,
+    MatrixShell,
+    Reynolds,
+    Sommerfeld,
+    Supply,
+    ThickShell,
+    TiltingPads,
+)
+from loadflow.scene import Journal
+from loadflow.stages.journal import equilibria
+from loadflow.validation.shell import annular_seal, plane_ring, soft_arc
+
+BEARING = JournalBearing(diameter=3.0, width=2.25, relative_clearance=0.5e-3)
+FILM = {
+    "lubricant": Lubricant(0.05),
+    "cavitation": GasMixture(0.05e6),
+    "edge_pressure": 0.5e6,
+    "grid": (36, 12),
+}
+LOAD, SPEED = (2.6e6, -0.46e6), 1.267
+SOFT = LocalShell(1e-10)
+THICK = ThickShell(outer_diameter=3.6, modulus=2e9)
+
+
+@pytest.mark.parametrize("shell", [LocalShell(0.0), LocalShell(1e-22), ThickShell(3.6, 1e22)])
+def test_a_stiff_shell_is_the_rigid_one(shell):
+    rigid = BEARING.equilibrium(LOAD, SPEED, **FILM)
+    stiff = BEARING.equilibrium(LOAD, SPEED, shell=shell, **FILM)
+    for name in ("eccentricity", "maximum_pressure", "friction_power", "side_flow"):
+        np.testing.assert_allclose(getattr(stiff, name), getattr(rigid, name), rtol=1e-10)
+    # the narrowest gap is sought at angles half a degree apart
+    np.testing.assert_allclose(stiff.minimum_film, rigid.minimum_film, rtol=2e-5)
+    # K of the rigid bearing is that of central differences of the gap, good to 1e-7
+    np.testing.assert_allclose(stiff.stiffness, rigid.stiffness, rtol=1e-5)
+    assert stiff.shell_deformation < 1e-14
+    assert rigid.shell_deformation == 0.0
+
+
+@pytest.mark.parametrize("shell", [SOFT, THICK])
+@pytest.mark.parametrize(
+    "film",
+    [
+        {},
+        {"cavitation": Guembel()},
+        {"supply": Supply([Groove(np.pi / 2, arc=0.3, length=1.5, restrictor=ConstantFlow(2e-4))])},
+        {"tilt": (1e-5, 4e-5)},
+    ],
+)
+def test_stiffness_is_the_derivative_of_the_force(shell, film):
+    film = FILM | film | {"shell": shell}
+    place = np.array([3e-4, 3e-4])
+    state = BEARING.pressure(place, SPEED, **film)
+    step = 1e-5 * BEARING.clearance
+    for axis, shift in enumerate(step * np.eye(2)):
+        ahead, behind = (BEARING.pressure(place + s, SPEED, **film) for s in (shift, -shift))
+        slope = (ahead.force - behind.force) / (2 * step)
+        np.testing.assert_allclose(
+            slope, state.stiffness[:2, axis], atol=1e-6 * np.abs(state.stiffness[:2, :2]).max()
+        )
+
+
+@given(
+    compliance=st.floats(1e-14, 1e-10),
+    load=st.floats(1e5, 2e6),
+    angle=st.floats(0, 6.28),
+    speed=st.floats(0.8, 2.0),
+)
+@settings(max_examples=15, deadline=None)
+def test_pressure_carries_the_load_and_opens_the_gap(compliance, load, angle, speed):
+    force = load * np.array([np.cos(angle), np.sin(angle)])
+    shell = LocalShell(compliance)
+    state = BEARING.equilibrium(force, speed, shell=shell, **FILM)
+    field = BEARING.pressure(state.eccentricity, speed, shell=shell, **FILM)
+    np.testing.assert_allclose(field.force, force, rtol=1e-7, atol=1e-7 * load)
+    np.testing.assert_allclose(field.deformation, compliance * (field.pressure - 0.5e6), rtol=1e-12)
+    assert state.shell_deformation == pytest.approx(
+        compliance * (state.maximum_pressure - 0.5e6), rel=1e-9
+    )
+    cell = BEARING.radius * 2 * np.pi / 36 * BEARING.width / 12
+    along = np.stack([np.cos(field.angle), np.sin(field.angle)])
+    # the cosine is integrated over the cell: 2 sin(½ dθ)/dθ
+    share = np.sinc(1 / 36)
+    np.testing.assert_allclose(
+        share * cell * (along @ field.pressure).sum(axis=1), force, rtol=2e-3, atol=2e-3 * load
+    )
+
+
+def test_a_thick_shell_is_that_of_its_influence_numbers():
+    unit = _influence_numbers()
+    matrix = MatrixShell(unit)
+    for line in ({}, {"moment": (1e4, 5e4)}):
+        thick, given_numbers = (
+            BEARING.equilibrium(LOAD, SPEED, shell=shell, **line, **FILM)
+            for shell in (THICK, matrix)
+        )
+        np.testing.assert_allclose(given_numbers.eccentricity, thick.eccentricity, rtol=1e-9)
+        np.testing.assert_allclose(given_numbers.stiffness, thick.stiffness, rtol=1e-5)
+
+
+def test_influence_numbers_are_reciprocal_and_symmetric_about_three_planes():
+    numbers = _influence_numbers()
+    np.testing.assert_allclose(numbers, numbers.T, rtol=1e-9, atol=1e-12 * numbers.max())
+    cells = numbers.reshape(36, 12, 36, 12)
+    np.testing.assert_allclose(cells[:, ::-1, :, ::-1], cells, rtol=1e-6, atol=1e-9 * cells.max())
+    turned = np.roll(cells, (9, 9), axis=(0, 2))
+    np.testing.assert_allclose(turned, cells, rtol=1e-9, atol=1e-9 * cells.max())
+    np.testing.assert_array_equal(numbers.argmax(axis=0), np.arange(36 * 12))
+
+
+def _influence_numbers():
+    from loadflow.journal.compliance import compliance_of
+    from loadflow.journal.gap_mesh import shaped_mesh
+
+    mesh = shaped_mesh(0.75, (36, 12), False, False, (), [], [])
+    unit = np.eye(36 * 12).reshape(-1, 36, 12)
+    return compliance_of(THICK, mesh, 1.5).growth(unit).reshape(36 * 12, -1).T
+
+
+def test_a_long_cylinder_is_a_plane_ring():
+    for order in (0, 1, 2, 5):
+        exact, found = plane_ring(order)
+        assert found == pytest.approx(exact, rel=1e-5)
+
+
+def test_a_thin_wall_gives_way_locally():
+    wall, lining = ThickShell(3.02, 5e9), LinedShell(0.01, 5e9)
+    thick, lined = (
+        BEARING.equilibrium(LOAD, SPEED, shell=shell, **FILM) for shell in (wall, lining)
+    )
+    # one hundredth of the distance over which the pressure changes
+    assert thick.shell_deformation == pytest.approx(float(lined.shell_deformation), rel=0.02)
+    assert lining.compliance_at(1e3) == pytest.approx(lining.compliance, rel=1e-6)
+    half_space = 2 * (1 - 0.3**2) / (5e9 * 2 * np.pi / 1e-4)
+    assert lining.compliance_at(1e-4) == pytest.approx(half_space, rel=1e-6)
+
+
+def test_flow_through_a_soft_seal_is_that_of_the_closed_form():
+    errors = [abs(np.subtract(*annular_seal(cells)) / annular_seal(cells)[0]) for cells in (8, 32)]
+    assert errors[1] < 2e-3
+    assert errors[1] < 0.5 * errors[0]
+
+
+def test_a_soft_arc_has_the_pressure_of_the_differential_equation():
+    exact, found = soft_arc()
+    assert found == pytest.approx(exact, rel=2e-3)
+
+
+def test_a_shaft_in_a_soft_shell_goes_farther_than_the_clearance():
+    soft = ThickShell(3.6, 2e8)
+    film = FILM | {"grid": (60, 20)}
+    state = BEARING.equilibrium(LOAD, SPEED, shell=soft, **film)
+    assert state.eccentricity_ratio > 1.1
+    assert state.minimum_film > 0.05 * BEARING.clearance
+    field = BEARING.pressure(state.eccentricity, SPEED, shell=soft, **film)
+    np.testing.assert_allclose(field.force, LOAD, rtol=1e-6)
+
+
+def test_rims_that_would_meet_the_shaft_are_named():
+    with pytest.raises(SolverError, match=r"touches the elastic shell.*z = 1\.125 m"):
+        BEARING.equilibrium(LOAD, SPEED, shell=LocalShell(8e-10), **FILM | {"grid": (60, 20)})
+    states = BEARING.equilibrium(
+        LOAD, [SPEED, 0.0, 20.0], shell=LocalShell(1e-9), strict=False, **FILM
+    )
+    assert states.converged.tolist() == [False, False, True]
+    assert np.isnan(states.shell_deformation[:2]).all()
+
+
+def test_damped_newton_ends_on_the_sharp_laws_too():
+    for law in (Reynolds(), Sommerfeld()):
+        state = BEARING.equilibrium(LOAD, SPEED, shell=SOFT, **FILM | {"cavitation": law})
+        assert state.residual < 1e-10
+
+
+def test_an_orbit_under_a_slow_load_follows_the_equilibria():
+    time = np.linspace(0.0, 400.0, 9)
+    force = np.array(LOAD) * (1 + 0.2 * np.sin(2 * np.pi * time / 400.0))[:, None]
+    path = BEARING.orbit(time, force, SPEED, shell=SOFT, **FILM)
+    still = BEARING.equilibrium(force, SPEED, shell=SOFT, **FILM)
+    np.testing.assert_allclose(path.eccentricity_ratio, still.eccentricity_ratio, rtol=2e-3)
+    np.testing.assert_allclose(path.shell_deformation, still.shell_deformation, rtol=1e-2)
+    assert path.shell_deformation.units == "m"
+    assert abs(path.mass_balance) < 1e-3
+
+
+def test_what_is_refused():
+    def ask(shell, bearing=BEARING, **more):
+        return bearing.equilibrium(LOAD, SPEED, shell=shell, **FILM | more)
+
+    with pytest.raises(InputError, match=r"rung = .*elastic shell"):
+        ask(SOFT, rung="reduced")
+    with pytest.raises(InputError, match="pads"):
+        ask(SOFT, JournalBearing(3.0, 2.25, 0.5e-3, shape=TiltingPads(4, 1.2)))
+    with pytest.raises(InputError, match="outer_diameter"):
+        ask(ThickShell(2.9, 2e11))
+    with pytest.raises(InputError, match="36 × 12 = 432"):
+        ask(MatrixShell(np.eye(100)))
+    with pytest.raises(InputError, match="locally"):
+        ask(LinedShell(0.02, 1e7, 0.4999))
+    for wrong in (
+        lambda: LocalShell(-1e-12),
+        lambda: LinedShell(0.0, 1e9),
+        lambda: LinedShell(0.01, 1e9, 0.5),
+        lambda: ThickShell(3.6, 0.0),
+        lambda: MatrixShell(np.ones((3, 4))),
+        lambda: MatrixShell([[np.nan]]),
+    ):
+        with pytest.raises(InputError):
+            wrong()
+
+
+def test_arcs_may_be_elastic():
+    bearing = JournalBearing(0.2, 0.2, 1e-3, shape=Arc(0.0, 2.0))
+    film = {"lubricant": Lubricant(0.02), "grid": (40, 12)}
+    rigid = bearing.equilibrium((2e4, 0.0), 100.0, **film)
+    for shell in (LocalShell(2e-12), ThickShell(0.3, 5e9)):
+        soft = bearing.equilibrium((2e4, 0.0), 100.0, shell=shell, **film)
+        assert soft.maximum_pressure < rigid.maximum_pressure
+
+
+def test_a_scene_states_its_shell():
+    section = Journal.model_validate(
+        {"shell": {"kind": "thick", "outer_diameter": 3.6, "modulus": 2e9}}
+    )
+    assert section.shell == THICK
+    force = np.array([[0.0, LOAD[1], -LOAD[0]]])
+    found = equilibria(section, force, np.array([SPEED]))
+    direct = BEARING.equilibrium(LOAD, SPEED, shell=THICK, **FILM | {"grid": (60, 20)})
+    assert found.eccentricity_ratio[0] == pytest.approx(float(direct.eccentricity_ratio))
+    with pytest.raises(ValueError, match="rigid shell"):
+        Journal.model_validate({"shell": {"kind": "local", "compliance": 1e-12}, "rung": "map"})
