@@ -11,10 +11,12 @@ from loadflow.journal import (
     Groove,
     Guembel,
     JournalBearing,
+    LocalShell,
     Lubricant,
     MassConserving,
     Reynolds,
     Supply,
+    ThickShell,
 )
 
 MAIN = JournalBearing(diameter=3.0, width=2.25, relative_clearance=0.5e-3)
@@ -243,3 +245,34 @@ def nearly_edge():
     )
     assert np.isfinite(film.force).all()
     return solved(film, f"p_max = {float(film.maximum_pressure) / 1e6:.1f} MPa")
+
+
+@hard(
+    "journal",
+    "thin shell: a gap that the pressure opens by more than the clearance",
+    why="gap and pressure decide each other; alternating between film and shell diverges",
+    what="the shell stands in the Newton matrix of the film, its spread by GMRES; ε passes 1",
+)
+def soft_shell():
+    shells = [None, ThickShell(3.6, 210e9), ThickShell(3.6, 2e9), ThickShell(3.6, 2e8)]
+    states = [MAIN.equilibrium((2.6e6, -0.46e6), 1.267, shell=s, **MIXED) for s in shells]
+    rigid, steel, _, soft = states
+    assert abs(steel.eccentricity_ratio / rigid.eccentricity_ratio - 1) < 1e-3
+    assert soft.eccentricity_ratio > 1 > soft.minimum_film / MAIN.clearance > 0.1
+    given = soft.shell_deformation / MAIN.clearance
+    return solved(soft, f"ε = {float(soft.eccentricity_ratio):.3f}, shell gives {given:.2f} c")
+
+
+@hard(
+    "journal",
+    "a shell so soft that its rims meet the shaft",
+    why="a shell that gives way locally keeps its rims, where the pressure ends",
+    what="a named error with gap, angle and place",
+)
+def soft_rims():
+    shell = LocalShell(8e-10)
+    return refused(
+        lambda: MAIN.equilibrium((2.6e6, -0.46e6), 1.267, shell=shell, **MIXED),
+        "touches the elastic shell",
+        "z = 1.125 m",
+    )
