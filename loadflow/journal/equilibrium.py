@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.journal.film import EVERY, Film, Linear
+from loadflow.journal.film import EVERY, Film, Linear, SingularFilm
 
 Array = NDArray[np.float64]
 
@@ -73,7 +73,12 @@ def solve_film(
     u = u.copy()
     weights = np.ones(1)
     for iteration in range(1, max_iterations + 1):
-        linear = film.linearise(u, position, velocity)
+        try:
+            linear = film.linearise(u, position, velocity)
+        except SingularFilm:
+            if iteration == 1:
+                raise
+            break
         share = film.room(u, linear.columns[:1], weights, (position, position))
         if share < _STUCK:
             break
@@ -106,7 +111,12 @@ def solve_equilibrium(
     old = (motion.volume_rate, motion.volume)
     for iteration in range(1, max_iterations + 1):
         velocity = motion.velocity(position)
-        linear = film.linearise(u, position, velocity, *old)
+        try:
+            linear = film.linearise(u, position, velocity, *old)
+        except SingularFilm:
+            if iteration == 1:
+                raise
+            break
         slope = linear.stiffness + motion.rate * linear.damping
         haste = film.size(linear.columns[0]) / _CALM
         step = np.zeros(position.size)

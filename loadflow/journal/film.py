@@ -37,6 +37,10 @@ EVERY = slice(None)  # all degrees of freedom
 _TURN = np.array([[0.0, -1.0], [1.0, 0.0]])  # a quarter turn with the rotation
 
 
+class SingularFilm(SolverError):
+    """A Newton matrix that cannot be solved, as states far from any film have."""
+
+
 @dataclass(frozen=True)
 class Linear:
     """The film linearised at one state.
@@ -230,7 +234,7 @@ class Film:
         self._assemble(mass, rate)
         lu, pivots, info = dgbtrf(self.ab.T, mesh.bandwidth, mesh.bandwidth, overwrite_ab=1)
         if info:
-            raise SolverError(f"film matrix is singular in row {info} at eccentricity {position}")
+            raise SingularFilm(f"film matrix is singular in row {info} at eccentricity {position}")
 
         outflow = self.balance(gap.coef, mass) - old
         fields = [self._residual(outflow)]

@@ -16,6 +16,7 @@ from loadflow.journal import (
     LinedShell,
     LocalShell,
     Lubricant,
+    MassConserving,
     MatrixShell,
     Reynolds,
     Sommerfeld,
@@ -182,10 +183,16 @@ def test_rims_that_would_meet_the_shaft_are_named():
     assert np.isnan(states.shell_deformation[:2]).all()
 
 
-def test_damped_newton_ends_on_the_sharp_laws_too():
-    for law in (Reynolds(), Sommerfeld()):
-        state = BEARING.equilibrium(LOAD, SPEED, shell=SOFT, **FILM | {"cavitation": law})
+@pytest.mark.parametrize("law", [Sommerfeld(), Reynolds(), MassConserving(), GasMixture(1e3)])
+def test_sharp_laws_are_solved_from_stiff_to_soft(law):
+    # where Newton fails from a cold start, at 3e-11 and 1e-10, the load is raised in steps
+    film = {"lubricant": Lubricant(0.05), "cavitation": law, "edge_pressure": 0.5e6}
+    ratios = []
+    for compliance in (1e-12, 3e-11, 1e-10, 3e-10):
+        state = BEARING.equilibrium(LOAD, SPEED, shell=LocalShell(compliance), **film)
         assert state.residual < 1e-10
+        ratios.append(float(state.eccentricity_ratio))
+    assert ratios[0] < ratios[2] < ratios[3]
 
 
 def test_an_orbit_under_a_slow_load_follows_the_equilibria():
