@@ -1,9 +1,10 @@
 """Equilibrium with ball centres and every patch as unknowns: reference of the condensed solver.
 
 The static state of § 3 of [Ritzer 2018] written down as it stands: rigid motion of the inner ring's
-structure, two coordinates of each ball centre, all modes of each ring; four contacts at each ball,
-each with the stiffness of its own raceway; F = K ⟨|b - c| - (r - R_w)⟩^1.5 between ball centre b
-and groove centre c. Slow and dense, for small bearings.
+structure, all three coordinates of each ball centre (the source's springs along the groove are as
+good as none), all modes of each ring; four contacts at each ball, each with the stiffness of its
+own raceway; F = K ⟨|b - c| - (r - R_w)⟩^1.5 between ball centre b and groove centre c. Slow and
+dense, for small bearings.
 """
 
 from __future__ import annotations
@@ -107,7 +108,7 @@ def reference_equilibrium(
 def _geometry(bearing: SlewingBearing, rings: FlexibleRings) -> tuple[Array, Array, Array]:
     """Shift of all contact vectors by the unknowns, their start, stiffness of the unknowns.
 
-    Unknowns: five rigid, (r, z) of each ball centre, then the modes of each flexible ring.
+    Unknowns: five rigid, (r, θ, z) of each ball centre, then the modes of each flexible ring.
     Contacts: all of the inner ring, then all of the outer one. In the frame (r, θ, z) of each ball.
     """
     contacts = bearing.contacts()
@@ -120,16 +121,15 @@ def _geometry(bearing: SlewingBearing, rings: FlexibleRings) -> tuple[Array, Arr
         if ring is not None:
             points = patch_points(bearing, name, contacts.azimuth, rings.shell)
             parts.append((side, ring.flexibility(points)))
-    first = 5 + 2 * rows * balls
+    first = 5 + 3 * rows * balls
     size = first + sum(factor.shape[-1] for _, factor in parts)
     shift = np.zeros((2, kinds, balls, 3, size))
     basis = rigid_basis(contacts).reshape(3, kinds, balls, 5)
     shift[0, ..., :5] = np.moveaxis(basis, 0, 2)
     for kind in range(kinds):
         for ball in range(balls):
-            centre = 5 + 2 * (kind // 2 * balls + ball)
-            shift[:, kind, ball, 0, centre] = -1
-            shift[:, kind, ball, 2, centre + 1] = -1
+            centre = 5 + 3 * (kind // 2 * balls + ball)
+            shift[:, kind, ball, :, centre : centre + 3] = -np.eye(3)
     stiffness = np.zeros(size)
     stiffness[first:] = 1
     for side, factor in parts:

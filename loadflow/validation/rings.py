@@ -46,12 +46,12 @@ SOLID_DRIVE = {
 }  # fmt: skip
 # load (N, N m) → |displacement| (m; tilts times D_pw/2) and largest ball force (N), drive_rings()
 UNCONDENSED: dict[Load, tuple[float, float]] = {
-    (0, 0, 5e4, 0, 0): (3.74688e-05, 1508.1515),
-    (0, 0, -5e4, 0, 0): (3.34974e-05, 1514.4682),
-    (6500, 0, 8000, 0, -2000): (2.92879e-05, 1475.4749),
-    (6500, 0, 8000, 0, 2000): (4.14782e-05, 1564.9495),
-    (0, 0, 0, 2000, 0): (2.80028e-05, 1076.6347),
-    (2e4, 0, 0, 0, 0): (3.10119e-05, 1221.4634),
+    (0, 0, 5e4, 0, 0): (3.74567e-05, 1508.1864),
+    (0, 0, -5e4, 0, 0): (3.34072e-05, 1514.6103),
+    (6500, 0, 8000, 0, -2000): (2.95258e-05, 1489.1247),
+    (6500, 0, 8000, 0, 2000): (4.24177e-05, 1618.2534),
+    (0, 0, 0, 2000, 0): (2.80028e-05, 1074.9315),
+    (2e4, 0, 0, 0, 0): (3.19394e-05, 1275.7726),
 }
 # Tab. 3.13: F_a (N), u_z (m) of the source's multibody model and of its finite elements
 TABLE_3_13 = ((5e3, 0.008e-3, 0.007e-3), (15e3, 0.018e-3, 0.016e-3), (20e3, 0.023e-3, 0.020e-3),
@@ -241,7 +241,9 @@ def _drive() -> Iterator[Check]:
         yield from _beside(exact, axial, rings, expected, name, f"own solid rings, {ASSUMED}")
     for case, expected in UNCONDENSED.items():
         name = "F = ({:g}, {:g}, {:g}) N, M = ({:g}, {:g}) N m".format(*case)
-        yield from _beside(exact, case, rings, expected, name, f"nothing condensed, {ASSUMED}")
+        yield from _beside(
+            exact, case, rings, expected, name, f"nothing condensed, {ASSUMED}", 0.01
+        )
 
 
 def _beside(
@@ -251,8 +253,9 @@ def _beside(
     expected: tuple[float, float],
     name: str,
     source: str,
+    tolerance: float = 0.05,
 ) -> Iterator[Check]:
-    """Displacement and largest ball force beside those of a fuller model, within 5 %."""
+    """Displacement and largest ball force beside those of a fuller model."""
     shift, force = _solve(bearing, load, rings)
-    yield Check(f"|u|, {name}", source, expected[0] * 1e3, shift * 1e3, 0.05, unit="mm")
-    yield Check(f"F_k,max, {name}", source, expected[1], force, 0.05, unit="N")
+    yield Check(f"|u|, {name}", source, expected[0] * 1e3, shift * 1e3, tolerance, unit="mm")
+    yield Check(f"F_k,max, {name}", source, expected[1], force, tolerance, unit="N")
