@@ -13,7 +13,9 @@ equilibrium      rigid rings in five degrees of freedom, for arrays of load case
 rings            flexible rings, condensed to few modes; `slewing_flexible`: their equilibrium,
                  `slewing_transient`: their way to it, `slewing_reference`: without condensation
 ring_beam        ring as a curved beam on its supports; `ring_section`: their constants
-ring_fem         rings of finite elements, in harmonics; `ring_solid`: meshed all round
+ring_fem         rings of finite elements, in harmonics (`ring_harmonics`); `ring_solid`: meshed all
+                 round; `ring_local`: what Hertz counts already and is taken off them
+ring_dynamics    natural frequencies of rings, and their Craig–Bampton form
 ring_profile     sections with raceway grooves, as grids
 ring_given       ring by a given compliance or stiffness; Guyan condensation
 expansion        rings that widen under axial load, closed form

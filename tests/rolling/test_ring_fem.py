@@ -201,6 +201,17 @@ def test_condensed_solver_agrees_with_all_modes_and_balls_as_unknowns(load, oute
     assert ours.maximum_force == pytest.approx(full.forces.max(), rel=5e-3)
 
 
+@pytest.mark.parametrize("seed", range(6))
+def test_every_ball_carries_what_it_does_without_condensation_under_any_load(seed):
+    rng = np.random.default_rng(seed)
+    load = rng.normal(size=5) * [1e3, 1e3, 6e3, 80, 80]
+    bearing = dataclasses.replace(BEARING, clearance=(-1e-5, 0.0, 2e-5)[seed % 3])
+    rings = FlexibleRings(outer=ring("bottom"))
+    full = reference_equilibrium(bearing, rings, load[:3], load[3:])
+    ours = bearing.equilibrium(load[:3], load[3:], rings=rings)
+    assert ours.ball_forces[0] == pytest.approx(full.forces[0], abs=2e-3 * full.forces.max())
+
+
 def test_rings_that_slide_on_their_faces_take_their_balls_along():
     bearing, rings = FOUR_BALL, four_ball_rings()
     for load in ((1e4, 0, 0, 0, 0), (5e3, 0, 2e4, 100, 0)):
