@@ -90,7 +90,8 @@ def ours(rung):
     rigid = RotorOptions(tower_dam=False, drag_in_induction=True)
     m, c = prepare(TURBINE, rung, rigid)
     state = turning_state(m, c, WIND, SPEED, 0.0)
-    calm = run(m, c, steady_inflow(WIND, 400, 0.2), state, STEP, steps=400, controlled=False)
+    settled = steady_inflow(WIND, 4000, 0.2)  # the tower sways at first
+    calm = run(m, c, settled, state, STEP, steps=4000, controlled=False)
     box = kaimal(
         WIND, 1.5, radius=np.linspace(0, 63, 11), angles=2 * np.pi * np.arange(48) / 48,
         hub_height=90.0, duration=STEP * STEPS + 20, dt=0.05, seed=1,

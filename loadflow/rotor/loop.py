@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass, fields
 
 import numpy as np
@@ -129,18 +130,21 @@ def run(
     SolverError
         If a value is not finite or the rotor runs away.
     """
-    out = np.empty((steps, k.COLUMNS + m.blades))
-    kernels.march(
-        m, c, schedule, inflow, dt, steps, start, controlled, state.scalars, state.pitch,
-        state.modes, state.mode_speed, state.mode_acceleration, state.frame, state.frame_speed,
-        state.frame_acceleration, state.inflow_angle, state.wake, state.induced, out,
-    )  # fmt: skip
+    out = np.full((steps, k.COLUMNS + m.blades), np.nan)
+    # solving for accelerations refuses infinite loads: the steps that are left out stay NaN
+    with suppress(np.linalg.LinAlgError):
+        kernels.march(
+            m, c, schedule, inflow, dt, steps, start, controlled, state.scalars, state.pitch,
+            state.modes, state.mode_speed, state.mode_acceleration, state.frame, state.frame_speed,
+            state.frame_acceleration, state.inflow_angle, state.wake, state.induced, out,
+        )  # fmt: skip
     bad = ~np.isfinite(out).all(axis=1) | (np.abs(out[:, k.SPEED]) > 10)
     if bad.any():
         step = int(np.argmax(bad))
+        last = max(step - 1, 0)
         raise SolverError(
-            f"the rotor model broke down at t = {start + step * dt:.3f} s: speed "
-            f"{out[step, k.SPEED]:.4g} rad/s, pitch {out[step, k.PITCH]:.4g} rad, hub "
-            f"wind {out[step, k.WIND_X]:.4g} m/s"
+            f"the rotor model broke down at t = {start + step * dt:.3f} s; the step before: speed "
+            f"{out[last, k.SPEED]:.4g} rad/s, pitch {out[last, k.PITCH]:.4g} rad, hub "
+            f"wind {out[last, k.WIND_X]:.4g} m/s"
         )
     return out

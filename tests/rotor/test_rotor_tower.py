@@ -6,7 +6,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from loadflow.errors import InputError
+from loadflow.errors import InputError, SolverError
 from loadflow.rotor import RotorOptions, simulate
 from loadflow.rotor import _slots as k
 from loadflow.rotor.control.constants import controller
@@ -177,6 +177,14 @@ def test_a_braked_rotor_rings_down_about_a_generator_that_stands():
     stop = simulate(dlc="5.1", wind_speed=12.0, duration=60.0, run_in=10.0, event_time=5.0)
     assert float(stop["generator_speed"][-1]) == 0.0
     assert abs(float(stop["speed"][-1])) < 0.02
+
+
+def test_a_model_that_breaks_down_says_when(flexible):
+    m, c = flexible
+    state = turning_state(m, c, 10.0, 1.0, 0.0)
+    state.mode_speed[1, 0] = np.inf
+    with pytest.raises(SolverError, match=r"broke down at t = 0\.000 s"):
+        run(m, c, steady_inflow(10.0, 5, 0.0), state, STEP, steps=5)
 
 
 def test_the_rung_names_what_a_turbine_lacks():
