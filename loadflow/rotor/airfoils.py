@@ -14,7 +14,7 @@ def attached_flow(foil: Airfoil) -> tuple[float, float, float]:
     """Angle of zero lift, slope of potential flow and drag at zero lift.
 
     The slope is the steepest line from zero lift to the normal force of the polar between 2° and
-    15° above it, so that potential flow bounds the polar there.
+    15° off it, on either side, so that potential flow bounds the polar there.
 
     Parameters
     ----------
@@ -33,7 +33,8 @@ def attached_flow(foil: Airfoil) -> tuple[float, float, float]:
     k = rises[-1]
     zero = angle[k] - lift[k] * (angle[k + 1] - angle[k]) / (lift[k + 1] - lift[k])
     friction = float(np.interp(zero, foil.angle, foil.drag))
-    above = zero + np.linspace(_NEAR, _FAR, 100)
-    lift, drag = (np.interp(above, foil.angle, y) for y in (foil.lift, foil.drag))
-    normal = lift * np.cos(above) + (drag - friction) * np.sin(above)
-    return float(zero), float(np.max(normal / (above - zero))), friction
+    off = np.linspace(_NEAR, _FAR, 100)
+    angle = zero + np.concatenate([-off, off])
+    lift, drag = (np.interp(angle, foil.angle, y) for y in (foil.lift, foil.drag))
+    normal = lift * np.cos(angle) + (drag - friction) * np.sin(angle)
+    return float(zero), float(np.max(normal / (angle - zero))), friction

@@ -29,7 +29,7 @@ def _series(attack, section=OUTER):
 def test_parameters_are_those_of_the_polar():
     zero, slope, friction = attached_flow(TURBINE.airfoils["NACA64"])
     assert np.degrees(zero) == pytest.approx(-3.84, abs=0.01)  # −0.017 at −4°, 0.088 at −3°
-    assert slope == pytest.approx(6.6, rel=0.02)
+    assert slope == pytest.approx(7.0, rel=0.01)  # −0.264 at −6°, −0.375 at −7°
     assert friction == pytest.approx(0.0071, abs=1e-4)
     assert attached_flow(TURBINE.airfoils["cylinder1"]) == (0.0, 0.0, 0.0)
 
@@ -46,7 +46,7 @@ def test_chord_force_is_bounded_by_the_suction_of_potential_flow():
     for degrees, value in drag.items():
         bucket = polar(MACHINE.drag[OUTER], np.radians(degrees))
         if degrees < 10:
-            assert bucket < value < 0.0075
+            assert bucket < value < 0.008
         else:
             assert value == pytest.approx(bucket, rel=1e-6)
     assert drag[0.0] == pytest.approx(0.0071, rel=0.02)  # chord and flow coincide: no suction
