@@ -30,7 +30,7 @@ _START = ((10, 0.835), (20, 2.124), (30, 4.052), (40, 8.221), (45, 10.61), (50, 
 # kN and kN m, power in bands (kN m)²; tolerance. The aims are 10 % of the mean and of the thrust's
 # std, 8 % of the others, a factor of 1.25 for the bands, 8 % of DEL, 12 % of the extremes
 _TURBULENT = {
-    ("thrust", "std"): (120.3, 0.13),  # the seeds of OpenFAST scatter by 20 % in the hub wind
+    ("thrust", "std"): (120.3, 0.12),  # the seeds of OpenFAST scatter by 20 % in the hub wind
     ("tilt moment", "mean"): (1037.0, 0.05),
     ("tilt moment", "std"): (1222.0, 0.05),
     ("tilt moment", "0 … 0.1 Hz"): (8.279e5, 0.10),
@@ -66,8 +66,8 @@ _IEA = {
 _AIM_MOMENT = (0.08, 60.0)  # share, kN m
 # what misses its aim: tolerance that holds instead
 _MISSED = {
-    (24.0, "tilt moment"): 275.0,
-    (24.0, "yaw moment"): 170.0,
+    (24.0, "tilt moment"): 280.0,
+    (24.0, "yaw moment"): 140.0,
     (5.0, "IEA power"): 0.03,
     (6.0, "IEA power"): 0.03,
 }
