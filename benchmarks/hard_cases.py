@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import json
 import sys
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
+from typing import Any
 
 ROOT = Path(__file__).parents[1]
-sys.path.insert(0, str(ROOT / "tests" / "hard"))
+HARD = ROOT / "tests" / "hard"
+sys.path.insert(0, str(HARD))
 
 import friction_cases  # noqa: E402, F401
 import journal_cases  # noqa: E402, F401
@@ -23,12 +27,40 @@ Where solvers of this kind usually fail, and what this one does. Each row is a t
 wrong with numbers; none hangs, none gives a silent NaN. The residual is the worst of the row's
 loads, scaled as each solver states; iterations likewise. Written by
 `python benchmarks/hard_cases.py`.
+
+The last column is what other packages do with the same case, where they can express it, with their
+versions: their answer, their error or their warning, as `python benchmarks/hard_peers.py` got it
+(`tests/hard/peers.json`). ROSS is asked for the plain bearing under load (`PlainJournal`, 20 x 8
+elements, a pad of 359°) or for the pressure at a given position (`FluidFlow`).
 """
 
 
 def main() -> None:
     """Write the page."""
     (ROOT / "docs" / "hard-cases.md").write_text("\n".join(_page()) + "\n", encoding="utf-8")
+
+
+DRAWN = """## Random draws
+
+Every solver over its whole documented range of inputs, drawn at random; each draw gives an answer
+that holds the laws of its test (converged, finite, within its bounds, in balance) or an error that
+names what is wrong. Counts of the last long run (`python benchmarks/hard_fuzz.py`,
+`tests/hard/draws.json`); the test suite draws a sample.
+
+| what is drawn | draws | refused by name | failures | found on the way, and now |
+|---|---:|---:|---:|---|"""
+
+FOUND = {
+    "test_reduction_keeps_the_weight_of_the_whole_series": (
+        "the largest force of the series was lost where a smaller one at less speed shared its "
+        "class; it is kept, but for a class of which one pair is kept"
+    ),
+    "test_rollers_carry_any_load_or_say_why_not": (
+        "an axial load that cylindrical rollers cannot carry passed as balanced where it was below "
+        "a millionth of the others, the shaft metres away; it is refused"
+    ),
+}
+"""What the draws of a test brought to light."""
 
 
 def _page() -> Iterator[str]:
@@ -39,14 +71,30 @@ def _page() -> Iterator[str]:
         yield "|---|---|---|---|---:|---:|---|"
         yield from (_row(case) for case in CASES if case.room == room)
         yield ""
+    yield DRAWN
+    yield from _draws()
 
 
 def _row(case: HardCase) -> str:
     outcome = case.solve()
     residual = "-" if outcome.residual is None else f"{outcome.residual:.0e}"
     iterations = "-" if outcome.iterations is None else str(outcome.iterations)
-    cells = (case.name, case.why, case.what, outcome.result, residual, iterations, case.peer)
+    peer = _stored("peers.json").get(str(case), "")
+    cells = (case.name, case.why, case.what, outcome.result, residual, iterations, peer)
     return "| " + " | ".join(cells) + " |"
+
+
+def _draws() -> Iterator[str]:
+    for test, row in _stored("draws.json").items():
+        name = test.removeprefix("test_").replace("_", " ")
+        refused = f"{100 * row['refused']:.2g} %" if row["refused"] else "none"
+        found = FOUND.get(test, "nothing")
+        yield f"| {name} | {row['draws']:,} | {refused} | {row['failing']} | {found} |"
+
+
+@cache
+def _stored(name: str) -> dict[str, Any]:
+    return json.loads((HARD / name).read_text(encoding="utf-8"))
 
 
 if __name__ == "__main__":

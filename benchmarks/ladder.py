@@ -1,6 +1,6 @@
 """Speed and error of every model rung: writes docs/speed-vs-error.md and ladder.json, gains.json.
 
-python benchmarks/ladder.py [--quick] [--only STAGE]
+python benchmarks/ladder.py [--quick] [--only STAGE …]
 
 One run on one core, over wind speeds from cut-in to cut-out. Seconds depend on the machine; their
 ratios and the errors do not. ``--quick`` takes fewer and shorter cases and writes nothing.
@@ -18,8 +18,10 @@ from typing import Any
 from ladder_bearings import measure_gains, measure_journal, measure_reduction, measure_rolling
 from ladder_figures import draw
 from ladder_friction import measure_friction
+from ladder_life import measure_life
 from ladder_loads import measure_loads, measure_seeds, measure_shaft, measure_statistics
 from ladder_orbit import measure_orbit
+from ladder_wind import measure_wind
 from measuring import QUICK, Bench, Entry, Rungs, Setting, percent
 
 ROOT = Path(__file__).parents[1]
@@ -28,6 +30,7 @@ GAINS = LADDER.with_name("gains.json")
 DOC = ROOT / "docs" / "speed-vs-error.md"
 
 STAGES: dict[str, Callable[[Bench], Rungs]] = {
+    "wind": measure_wind,
     "loads": measure_loads,
     "shaft": measure_shaft,
     "statistics": measure_statistics,
@@ -36,8 +39,12 @@ STAGES: dict[str, Callable[[Bench], Rungs]] = {
     "journal": measure_journal,
     "journal, transient": measure_orbit,
     "rolling": measure_rolling,
+    "life": measure_life,
     "friction": measure_friction,
 }
+
+GAINING = {"journal", "rolling", "friction"}
+"""Stages whose answers have gains: these are measured with any of them."""
 
 HEAD = """# Speed against error
 
@@ -46,9 +53,10 @@ reads the same numbers. All of this page is written by `python benchmarks/ladder
 
 **Relative time** is against the dearest rung of the stage, measured in the same run; the seconds
 hold for one core of one busy machine and are only rough. **Errors** are relative deviations from
-the stated reference: the largest of all cases, the 95 % quantile, and the worst case. They say what
-a coarser model changes, not how well the finest one fits a real turbine. A rung is **dominated** if
-another one is cheaper and nowhere less accurate.
+the stated reference: the largest of all cases, the 95 % quantile, and the worst case; of a
+stiffness, the norm of the difference of the matrices over that of the reference; of a slip,
+absolute. They say what a coarser model changes, not how well the finest one fits a real turbine. A
+rung is **dominated** if another one is cheaper and nowhere less accurate.
 """
 
 RELATIVE = {"reduction": "film solutions, relative"}
@@ -119,7 +127,7 @@ def _errors(rungs: Rungs) -> Iterator[str]:
     yield "| rung | quantity | largest error | 95 % below | worst case |"
     yield "|---|---|---:|---:|---|"
     for name, entry in rungs.items():
-        for quantity, error in entry["errors"].items():
+        for quantity, error in (entry["errors"] or {}).items():
             largest, most = percent(error["max"]), percent(error["p95"])
             yield f"| {name} | {quantity} | {largest} | {most} | {error['worst']} |"
 
@@ -127,25 +135,30 @@ def _errors(rungs: Rungs) -> Iterator[str]:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--quick", action="store_true", help="a few short cases; writes nothing")
-    parser.add_argument("--only", choices=STAGES, help="one stage; the others stay as they are")
+    only = "stages to measure; the others stay as they are"
+    parser.add_argument("--only", nargs="+", choices=STAGES, default=list(STAGES), help=only)
     arguments = parser.parse_args()
     bench = Bench(QUICK if arguments.quick else Setting())
     measured = {}
-    for name in [arguments.only] if arguments.only else STAGES:
+    for name in arguments.only:
         start = time.perf_counter()
         measured[name] = STAGES[name](bench)
         print(f"{name}: {time.perf_counter() - start:.0f} s")
         for rung, entry in measured[name].items():
             print(f"  {rung}: {entry['relative_time']:.3g} × top, {entry['error']}")
-    gains = measure_gains(bench)
+    gains = measure_gains(bench) if GAINING & {*arguments.only} else _read(GAINS)
     if arguments.quick:
         return
-    found = json.loads(LADDER.read_text(encoding="utf-8")) | measured
+    found = _read(LADDER) | measured
     ordered = {name: found[name] for name in STAGES if name in found}
     _write(LADDER, ordered)
     _write(GAINS, gains)
     _draw(ordered)
     DOC.write_text(page(ordered, gains), encoding="utf-8")
+
+
+def _read(path: Path) -> dict[str, Any]:
+    return json.loads(path.read_text(encoding="utf-8"))
 
 
 def _write(path: Path, data: dict[str, Any]) -> None:

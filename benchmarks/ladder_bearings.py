@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+from ladder_friction import friction_gains
 from measuring import (
     Bench,
     Entry,
@@ -25,7 +26,7 @@ from measuring import (
 )
 from scipy.interpolate import RectBivariateSpline
 
-from loadflow.scene import Journal, Scene
+from loadflow.scene import Journal, Rolling, Scene
 from loadflow.stages import reduction, rolling
 from loadflow.stages.cases import Case
 from loadflow.stages.frames import to_film, to_rolling
@@ -210,6 +211,8 @@ def film_errors(options: Journal, setting: Setting, reference: Any, **keys: Any)
             errors.add(
                 name.replace("_", " "), where, getattr(answer, name)[i], getattr(reference, name)[i]
             )
+        if answer.stiffness is not None:
+            errors.add("stiffness", where, answer.stiffness[i], reference.stiffness[i])
     return errors
 
 
@@ -271,12 +274,13 @@ def _film_seconds(bench: Bench, keys: dict[str, Any]) -> float:
     return timed(lambda: solve(options, load, speed, **keys), bench.setting.repeat) / count
 
 
+ROLLING = Rolling()
 CONTACTS = ("maximum_force", "maximum_pressure", "equivalent_load")
 
 
 def measure_rolling(bench: Bench) -> Rungs:
     """Rigid rings against flexible ones; these against all their modes, at few samples."""
-    flexible = bench.scene.rolling.model_copy(update={"rings": "flexible"}).ring_model
+    flexible = Rolling(rings="flexible").ring_model
     every_mode = replace(flexible, modes=1000)
     found = {
         "rigid": _ring_errors(bench, "rigid", flexible, 200),
@@ -288,7 +292,7 @@ def measure_rolling(bench: Bench) -> Rungs:
             "includes": [_RINGS[name], "Hertzian contacts, operating contact angles"],
             "seconds_per_sample": rounded(_ring_seconds(bench, name)),
             "reference": "flexible rings of the default scene; these against all ring modes",
-            "cases": f"{on_cases(bench)}; 1 seed, bearing {bench.scene.rolling.bearing}",
+            "cases": f"{on_cases(bench)}; 1 seed, the bearing M of the default scene",
             "errors": errors,
             "error": sentence(errors, "maximum force", "life"),
         }
@@ -303,8 +307,8 @@ _RINGS = {
 }
 
 
-def _ring_seconds(bench: Bench, rings: str) -> float:
-    options = bench.scene.rolling.model_copy(update={"rings": rings})
+def _ring_seconds(bench: Bench, rings: Any) -> float:
+    options = Rolling(rings=rings)
     scene = bench.scene.model_copy(update={"rolling": options})
     case, parts = bench.middle, bench.series[bench.middle]
     reduced = {"reduction": reduction.reduced_loads(scene, case, parts)}
@@ -313,7 +317,7 @@ def _ring_seconds(bench: Bench, rings: str) -> float:
 
 
 def _ring_errors(bench: Bench, rings: Any, reference: Any, samples: int) -> dict[str, Any]:
-    bearing, name = bench.scene.rolling.geometry, bench.scene.rolling.bearing
+    bearing, name = ROLLING.geometry, ROLLING.bearing
     errors = Errors()
     for case, parts in bench.series.items():
         load = parts["shaft"].sel(bearing=name).transpose("time", "axis", ...)
@@ -326,14 +330,23 @@ def _ring_errors(bench: Bench, rings: Any, reference: Any, samples: int) -> dict
             for key in CONTACTS:
                 pair = getattr(ours, key)[i], getattr(best, key)[i]
                 errors.add(key.replace("_", " "), where, *pair)
+            stiff = (_evened(answer.stiffness[i], bearing) for answer in (ours, best))
+            errors.add("stiffness", where, *stiff)
             lives = ours.equivalent_load[i], best.equivalent_load[i]
             errors.add("life", where, *(load**LIFE_EXPONENT for load in lives))
     return errors.summary()
 
 
+def _evened(stiffness: np.ndarray, bearing: Any) -> np.ndarray:
+    """Stiffness (5, 5) with the tilts as ways at the pitch circle: all in N/m."""
+    lever = np.array([1.0, 1.0, 1.0, *[2.0 / bearing.pitch_diameter] * 2])
+    return stiffness * np.outer(lever, lever)
+
+
 def measure_gains(bench: Bench) -> dict[str, dict[str, float]]:
     """Largest |d ln(answer)/d ln(load)| of what users read of each kind of bearing."""
-    return {"journal": _film_gains(bench), "rolling": _contact_gains(bench)}
+    rolling = _contact_gains(bench) | friction_gains(bench, STEP)
+    return {"journal": _film_gains(bench), "rolling": rolling}
 
 
 STEP = 1.02  # ratio of the loads that a gain compares
@@ -354,7 +367,7 @@ def _film_gains(bench: Bench) -> dict[str, float]:
 
 def _contact_gains(bench: Bench) -> dict[str, float]:
     """Of the rolling bearing, at the largest load of each case."""
-    bearing, name = bench.scene.rolling.geometry, bench.scene.rolling.bearing
+    bearing, name = ROLLING.geometry, ROLLING.bearing
     found: dict[str, list[float]] = {}
     for parts in bench.series.values():
         worst = int(np.argmax(np.hypot(*radial_loads(parts["shaft"])[name].T)))

@@ -6,7 +6,6 @@ import tempfile
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -43,6 +42,9 @@ from loadflow.stages.cases import list_cases
 
 SLOPE = 4.0
 
+Found = dict[tuple[str, str], float]
+"""Of a case, by quantity and place."""
+
 ROTOR = {
     "tables": ["rigid blades", "tabulated induction"],
     "bem": ["rigid blades", "blade-element momentum at every section and step"],
@@ -67,7 +69,7 @@ def measure_loads(bench: Bench) -> Rungs:
         )
         case = list_cases(scene)[0]
         seconds = timed(lambda s=scene, c=case: loads.hub_loads(s, c, {}), setting.repeat)  # type: ignore[misc]
-        errors = _deviations(described[rung], described[TOP]).summary()
+        errors = deviations(described[rung], described[TOP]).summary()
         rungs[rung] = {
             "settings": {"rung": rung},
             "includes": includes,
@@ -85,33 +87,40 @@ def measure_loads(bench: Bench) -> Rungs:
     return with_ratios(rungs | {"files": _files(bench)}, TOP)
 
 
-def _describe_cases(scene: Scene) -> Iterator[tuple[str, dict[tuple[str, str], float]]]:
-    """Yield spread, damage and extreme of hub moments and bearing loads of each case."""
+def _describe_cases(scene: Scene) -> Iterator[tuple[str, Found]]:
     for case in list_cases(scene):
-        parts = inputs(scene, case)
-        hub, bearings = parts["loads"]["hub_moment"], parts["shaft"]
-        tracks = {
-            ("tilt moment", "hub"): hub.sel(axis="y"),
-            ("yaw moment", "hub"): hub.sel(axis="z"),
-        }
-        for bearing in ("N", "N2"):
-            for axis in ("y", "z"):
-                tracks["bearing force", f"{bearing} F{axis}"] = bearings["force"].sel(
-                    bearing=bearing, axis=axis
-                )
-        found: dict[tuple[str, str], float] = {}
-        for (name, where), data in tracks.items():
-            values = data.values.astype(float)
-            found[f"{name} std", where] = values.std()
-            found[f"{name} DEL", where] = damage_equivalent_load(
-                values, SLOPE, scene.loads.duration
+        yield label(case), describe(inputs(scene, case))
+
+
+def describe(parts: dict[str, xr.Dataset]) -> Found:
+    """Spread, damage and extreme of hub moments and bearing loads; mean of the bearing loads."""
+    hub, bearings = parts["loads"]["hub_moment"], parts["shaft"]
+    tracks = {
+        ("tilt moment", "hub"): hub.sel(axis="y"),
+        ("yaw moment", "hub"): hub.sel(axis="z"),
+    }
+    for bearing in ("N", "N2"):
+        for axis in ("y", "z"):
+            tracks["bearing force", f"{bearing} F{axis}"] = bearings["force"].sel(
+                bearing=bearing, axis=axis
             )
-        for name, load in radial_loads(bearings).items():
-            found["bearing load max", name] = np.hypot(load[:, 0], load[:, 1]).max()
-        yield label(case), found
+    duration = float(hub["time"][-1] - hub["time"][0])
+    found: Found = {}
+    for (name, where), data in tracks.items():
+        values = data.values.astype(float)
+        found[f"{name} std", where] = values.std()
+        found[f"{name} DEL", where] = float(damage_equivalent_load(values, SLOPE, duration))
+        if where == "hub":
+            found[f"{name} max", where] = np.abs(values).max()
+    for name, load in radial_loads(bearings).items():
+        radial = np.hypot(load[:, 0], load[:, 1])
+        found["bearing load max", name] = radial.max()
+        found["bearing load mean", name] = radial.mean()
+    return found
 
 
-def _deviations(rung: dict[str, Any], top: dict[str, Any]) -> Errors:
+def deviations(rung: dict[str, Found], top: dict[str, Found]) -> Errors:
+    """Errors of a rung against the top one, over their cases."""
     errors = Errors()
     for case, found in rung.items():
         for (quantity, where), value in found.items():

@@ -51,12 +51,17 @@ QUICK = Setting(
 
 @dataclass
 class Errors:
-    """Relative deviations of quantities, each under the name of its case."""
+    """Deviations of quantities, each under the name of its case."""
 
     found: dict[str, dict[str, float]] = field(default_factory=lambda: defaultdict(dict))
 
-    def add(self, quantity: str, case: str, value: float, reference: float) -> None:
-        self.found[quantity][case] = abs(value / reference - 1.0)
+    def add(
+        self, quantity: str, case: str, value: Any, reference: Any, scale: float | None = None
+    ) -> None:
+        """Add |value − reference| over |reference|, or over `scale`; of a matrix, its norm."""
+        size = float(np.linalg.norm(reference)) if scale is None else scale
+        off = float(np.linalg.norm(np.subtract(value, reference)))
+        self.found[quantity][case] = off / size
 
     def summary(self) -> dict[str, dict[str, Any]]:
         """Largest and 95 % quantile of each quantity, and the case that is worst."""
@@ -120,7 +125,10 @@ def with_dominated(rungs: Rungs) -> Rungs:
             for name, other in measured.items()
             if other["relative_time"] < entry["relative_time"]
             and ("settings" in other or "settings" not in entry)
-            and all(other["errors"][q]["max"] <= e["max"] for q, e in entry["errors"].items())
+            and all(
+                q in other["errors"] and other["errors"][q]["max"] <= e["max"]
+                for q, e in entry["errors"].items()
+            )
         ]
         if better:
             entry["dominated_by"] = better[0]

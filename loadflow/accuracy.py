@@ -12,8 +12,6 @@ from dataclasses import dataclass, replace
 from itertools import product
 from typing import Any
 
-import numpy as np
-
 from loadflow.ladder import (
     choices,
     expected_seconds,
@@ -22,12 +20,13 @@ from loadflow.ladder import (
     is_open,
     measured,
     rung_of,
+    section_of,
     with_settings,
 )
 from loadflow.scene import Scene
 from loadflow.stages.cases import Case
 
-OPEN_STAGES = ("loads", "reduction", "journal", "rolling")
+OPEN_STAGES = ("wind", "loads", "reduction", "journal", "rolling")
 """Stages that offer more than one model of the same thing."""
 
 FINEST_GRID = 480
@@ -47,31 +46,38 @@ class Link:
     of_load: bool = False
 
 
+def _load(quantity: str, of_load: bool = True) -> tuple[Link, ...]:
+    """What a load brings: the error of the wind and that of the rotor."""
+    return Link("wind", quantity, of_load), Link("loads", quantity, of_load)
+
+
 def _film(reduction: str, journal: str) -> tuple[Link, ...]:
-    return (
-        Link("loads", "bearing load max", of_load=True),
-        Link("reduction", reduction),
-        Link("journal", journal),
-    )
+    return *_load("bearing load max"), Link("reduction", reduction), Link("journal", journal)
 
 
 def _contact(quantity: str) -> tuple[Link, ...]:
     return (
-        Link("loads", "bearing load max", of_load=True),
+        *_load("bearing load max"),
         Link("reduction", "largest load", of_load=True),
         Link("rolling", quantity),
     )
 
 
+def _friction(quantity: str) -> tuple[Link, ...]:
+    return *_load("bearing load max"), Link("friction", quantity)
+
+
 CHAINS: dict[str, dict[str, tuple[Link, ...]]] = {
     "loads.statistics": {
-        "bearing load max": (Link("loads", "bearing load max"),),
-        "bearing force DEL": (Link("loads", "bearing force DEL"),),
+        "bearing load max": _load("bearing load max", of_load=False),
+        "bearing force DEL": _load("bearing force DEL", of_load=False),
     },
     "seeds.equality": {},
-    "rolling.friction": {},
     "reduction.histogram": {
-        "largest load": (Link("loads", "bearing load max"), Link("reduction", "largest load")),
+        "largest load": (
+            *_load("bearing load max", of_load=False),
+            Link("reduction", "largest load"),
+        ),
     },
     "journal.film": {
         "eccentricity ratio": _film("E_max", "eccentricity ratio"),
@@ -85,13 +91,19 @@ CHAINS: dict[str, dict[str, tuple[Link, ...]]] = {
     },
     "rolling.life": {
         "life": (
-            Link("loads", "bearing force DEL", of_load=True),
+            *_load("bearing force DEL"),
             Link("reduction", "life"),
             Link("rolling", "life"),
         ),
     },
+    "rolling.friction": {
+        quantity: _friction(quantity) for quantity in ("friction power", "film parameter", "slip")
+    },
 }
-"""For each result, what users read of it, and the stages whose errors reach it."""
+"""For each result, what users read of it, and the stages whose errors reach it.
+
+A verdict on seeds is no number, and has no error.
+"""
 
 
 @dataclass(frozen=True)
@@ -136,16 +148,21 @@ def _total(scene: Scene, answer: tuple[str, str], links: tuple[Link, ...]) -> fl
 def _added(scene: Scene, answer: tuple[str, str], link: Link) -> float | None:
     if link.stage == "reduction" and answer[0] == "journal" and scene.journal.in_motion:
         return 0.0  # a film in motion reads the whole series
+    if link.stage == "wind" and not scene.loads.makes_wind:
+        return 0.0  # it is given
     known = measured(scene, link.stage)
-    if known is None:
+    if known is None or known["errors"] is None:
         return None
     if not known["errors"]:
         return 0.0  # the top rung, or exact
     if link.error not in known["errors"]:
         return None
     error = known["errors"][link.error]["max"]
+    if not link.of_load:
+        return error
     room, quantity = answer
-    return error * gains()[room][quantity] if link.of_load else error
+    gain = gains()[room].get(quantity)
+    return None if gain is None else error * gain
 
 
 def choose(scene: Scene, stages: Iterable[str], cases: tuple[Case, ...]) -> Choice:
@@ -163,47 +180,66 @@ def choose(scene: Scene, stages: Iterable[str], cases: tuple[Case, ...]) -> Choi
     Returns
     -------
     Choice
-        Where no combination is accurate enough, the most accurate one, `met` False.
+        Where no combination is accurate enough, the most accurate one; where some errors were not
+        measured, one with as few of these as can be, chosen by the others. `met` is False in both.
     """
     stages = tuple(stages)
-    options = {stage: choices(scene, stage) for stage in OPEN_STAGES if stage in stages}
+    chosen = [stage for stage in OPEN_STAGES if stage in (*stages, *_within(stages))]
+    reasons = dict.fromkeys(map(section_of, chosen), "as the scene says")
     if scene.accuracy is None:
-        return Choice(scene, dict.fromkeys(options, "as the scene says"), expected_errors(scene))
-    candidates = list(_combinations(scene, options))
-    excess = [_excess(candidate) for candidate in candidates]
-    good = [k for k, ratio in enumerate(excess) if ratio <= 1.0]
+        return Choice(scene, reasons, expected_errors(scene))
+    candidates = list(_combinations(scene, chosen))
+    rank = [_unknown_and_excess(candidate) for candidate in candidates]
+    unknown = min(found[0] for found in rank)
+    good = [k for k, found in enumerate(rank) if found[0] == unknown and found[1] <= 1.0]
     best = (
-        min(good, key=lambda k: _seconds(candidates[k], stages, cases))
+        min(good, key=lambda k: _unknown_and_seconds(candidates[k], stages, cases))
         if good
-        else int(np.argmin(excess))
+        else min(range(len(rank)), key=rank.__getitem__)
     )
     why = "cheapest that is accurate enough" if good else "most accurate that was measured"
-    reasons = {
-        stage: why if len(found) > 1 else "as the scene says" for stage, found in options.items()
-    }
-    return Choice(candidates[best], reasons, expected_errors(candidates[best]), met=bool(good))
+    if unknown:
+        why += ", by the errors that are known"
+    reasons |= {section_of(stage): why for stage in chosen if is_open(scene, stage)}
+    errors = expected_errors(candidates[best])
+    return Choice(candidates[best], reasons, errors, met=bool(good) and not unknown)
 
 
-def _combinations(scene: Scene, options: dict[str, list[Scene]]) -> Iterator[Scene]:
-    for picked in product(*options.values()):
-        sections = {stage: getattr(one, stage) for stage, one in zip(options, picked)}
-        yield scene.model_copy(update=sections)
+def _within(stages: tuple[str, ...]) -> tuple[str, ...]:
+    """Stages of the ladder that run inside one of the plan."""
+    return ("wind",) if "loads" in stages else ()
 
 
-def _excess(scene: Scene) -> float:
-    """Largest ratio of expected error to what is allowed; infinite where one is not known."""
+def _combinations(scene: Scene, stages: Iterable[str]) -> Iterator[Scene]:
+    sections: dict[str, list[Scene]] = {}
+    for stage in stages:
+        name = section_of(stage)
+        before = sections.get(name, [scene])
+        sections[name] = [one for other in before for one in choices(other, stage)]
+    for picked in product(*sections.values()):
+        yield scene.model_copy(
+            update={name: getattr(one, name) for name, one in zip(sections, picked)}
+        )
+
+
+def _unknown_and_excess(scene: Scene) -> tuple[int, float, float]:
+    """How many errors are not known; of the others, over what is allowed, the largest and all."""
     ratios = [
-        float("inf") if error is None else error / allowed
+        None if error is None else error / allowed
         for result, errors in expected_errors(scene).items()
         if (allowed := scene.allowed_error(result)) is not None
         for error in errors.values()
     ]
-    return max(ratios, default=0.0)
+    known = [ratio for ratio in ratios if ratio is not None]
+    return ratios.count(None), max(known, default=0.0), sum(known)
 
 
-def _seconds(scene: Scene, stages: tuple[str, ...], cases: tuple[Case, ...]) -> float:
+def _unknown_and_seconds(
+    scene: Scene, stages: tuple[str, ...], cases: tuple[Case, ...]
+) -> tuple[int, float]:
+    """How many times are not known, and the sum of those that are."""
     costs = [expected_seconds(scene, stage, cases) for stage in stages]
-    return sum(float("inf") if cost is None else cost for cost in costs)
+    return costs.count(None), sum(cost for cost in costs if cost is not None)
 
 
 def finer(scene: Scene, stage: str) -> Scene | None:

@@ -7,7 +7,7 @@ processor time per unit of work, and the error of what users read against a stat
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable
 from functools import cache
 from importlib.resources import files
 from typing import Any
@@ -15,7 +15,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from loadflow.rolling import BallBearing, SlewingBearing
-from loadflow.scene import Scene
+from loadflow.scene import Loads, Scene
 from loadflow.stages.cases import Case
 
 STEPS_PER_CASE = 24_000
@@ -39,17 +39,12 @@ def _data(name: str) -> dict[str, Any]:
 
 
 def rung_of(scene: Scene, stage: str) -> str:
-    """Return the model that the scene chooses for a stage, by its name in the ladder."""
-    if stage == "loads":
-        return (scene.loads.rung or finest(scene)) if scene.loads.source == "simulate" else "files"
-    return {
-        "shaft": "+".join(_shaft_rungs(scene)),
-        "seeds": "+".join(sorted(set(scene.seeds.methods))),
-        "reduction": _reduction_rung(scene),
-        "journal": _film_rung(scene),
-        "rolling": scene.rolling.rung,
-        "friction": _friction_rung(scene),
-    }.get(stage, "-")
+    """Return the model that the scene chooses for a stage, by its name in the ladder.
+
+    The wind is a stage of the ladder, too, made in the stage "loads".
+    """
+    found = _RUNGS.get(stage)
+    return found(scene) if found else "-"
 
 
 def finest(scene: Scene) -> str:
@@ -60,10 +55,20 @@ def finest(scene: Scene) -> str:
     return finest_rung(load_turbine(scene.turbine.name))
 
 
-def _shaft_rungs(scene: Scene) -> Iterator[str]:
-    for name, concept in scene.shaft:
-        if concept:
-            yield f"{name}, beam" if concept.beam else name
+def _loads_rung(scene: Scene) -> str:
+    return (scene.loads.rung or finest(scene)) if scene.loads.source == "simulate" else "files"
+
+
+def _wind_rung(scene: Scene) -> str:
+    if not scene.loads.makes_wind:
+        return "files"
+    radii, angles = scene.loads.wind_grid
+    return f"{scene.loads.spectrum}, {radii}x{angles}"
+
+
+def _shaft_rung(scene: Scene) -> str:
+    concepts = ((name, concept) for name, concept in scene.shaft if concept)
+    return "+".join(f"{name}, beam" if concept.beam else name for name, concept in concepts)
 
 
 def _film_rung(scene: Scene) -> str:
@@ -78,12 +83,29 @@ def _film_rung(scene: Scene) -> str:
 def _friction_rung(scene: Scene) -> str:
     balls = BallBearing | SlewingBearing
     followed = any(not isinstance(b, balls) for b in scene.rolling.geometries.values())
-    return "rollers" if followed else "balls"
+    return f"{'rollers' if followed else 'balls'}, every {scene.friction.step:g} s"
 
 
 def _reduction_rung(scene: Scene) -> str:
     pick, size = scene.reduction.pick, scene.reduction.size
     return "full series" if size == 1.0 else f"histogram, {pick}, {size:g}"
+
+
+_RUNGS: dict[str, Callable[[Scene], str]] = {
+    "wind": _wind_rung,
+    "loads": _loads_rung,
+    "shaft": _shaft_rung,
+    "seeds": lambda scene: "+".join(sorted(set(scene.seeds.methods))),
+    "reduction": _reduction_rung,
+    "journal": _film_rung,
+    "rolling": lambda scene: scene.rolling.rung,
+    "friction": _friction_rung,
+}
+
+
+def section_of(stage: str) -> str:
+    """Return the section of a scene that holds the settings of a stage."""
+    return "loads" if stage == "wind" else stage
 
 
 def measured(scene: Scene, stage: str) -> dict[str, Any] | None:
@@ -103,10 +125,25 @@ def expected_seconds(scene: Scene, stage: str, cases: Iterable[Case]) -> float |
     if known is None:
         return None
     if "seconds_per_case" in known:
-        return known["seconds_per_case"] * sum(case.steps for case in cases) / STEPS_PER_CASE
+        more = _wind_seconds(scene) if stage == "loads" else 0.0
+        if more is None:
+            return None
+        each = known["seconds_per_case"] + more
+        return each * sum(case.steps for case in cases) / STEPS_PER_CASE
     bearings = len(scene.journal.bearings) if stage == "journal" else 1
     samples = _share(scene, stage) * bearings * sum(case.steps for case in cases)
     return known["seconds_per_sample"] * samples
+
+
+def _wind_seconds(scene: Scene) -> float | None:
+    """Time of the wind beyond that of the usual grid, with which the stage "loads" is measured."""
+    if not scene.loads.makes_wind:
+        return 0.0
+    usual = scene.model_copy(update={"loads": Loads()})
+    ours, theirs = (measured(one, "wind") for one in (scene, usual))
+    if ours is None or theirs is None:
+        return None
+    return ours["seconds_per_case"] - theirs["seconds_per_case"]
 
 
 def _share(scene: Scene, stage: str) -> float:
@@ -123,8 +160,9 @@ def choices(scene: Scene, stage: str) -> list[Scene]:
     A rung is open where the scene names none of its settings. Rungs that another one makes
     needless, or that a scene cannot ask for, are passed over.
     """
-    section = getattr(scene, stage)
-    if stage == "loads" and scene.loads.source == "files":
+    section = getattr(scene, section_of(stage))
+    given = {"loads": scene.loads.source == "files", "wind": not scene.loads.makes_wind}
+    if given.get(stage):
         return [scene]
     entries = _rungs(scene, stage).values()
     useful = [e["settings"] for e in entries if "settings" in e and "dominated_by" not in e]
@@ -140,11 +178,12 @@ def is_open(scene: Scene, stage: str) -> bool:
 
 def with_settings(scene: Scene, stage: str, settings: dict[str, Any]) -> Scene | None:
     """Return the scene with other settings, None where it lacks the data that they need."""
-    section = getattr(scene, stage)
+    name = section_of(stage)
+    section = getattr(scene, name)
     if settings.get("rung") == "tower" and finest(scene) != "tower":
         return None
     try:
         changed = type(section).model_validate(section.model_dump(exclude_unset=True) | settings)
     except ValidationError:
         return None
-    return scene.model_copy(update={stage: changed})
+    return scene.model_copy(update={name: changed})

@@ -206,11 +206,22 @@ def _step(scene: Scene, stage: Stage, cases: tuple[Case, ...], done: dict[str, S
     if stage.name == "loads":
         parts += [f"{case.name}:{case.fingerprint}" for case in cases]
     digest = hashlib.sha256("\n".join(parts).encode()).hexdigest()
+    rung, error = _model(scene, stage.name)
     return Step(
         stage,
-        rung_of(scene, stage.name),
+        rung,
         digest,
         1 if stage.scope == "run" else len(cases),
         expected_seconds(scene, stage.name, cases),
-        (measured(scene, stage.name) or {}).get("error"),
+        error,
     )
+
+
+def _model(scene: Scene, stage: str) -> tuple[str, str | None]:
+    """Model of a stage and its error in words; loads may be those in a wind that is made."""
+    rung, error = rung_of(scene, stage), (measured(scene, stage) or {}).get("error")
+    if stage != "loads" or not scene.loads.makes_wind:
+        return rung, error
+    wind = (measured(scene, "wind") or {}).get("error")
+    both = f"{error}; wind: {wind}" if error and wind else None
+    return f"{rung} in {rung_of(scene, 'wind')}", both

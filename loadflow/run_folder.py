@@ -79,6 +79,11 @@ def prepare(
             | {"reason": plan.reasons.get(step.stage.name, "")}
             for step in plan.steps
         },
+        "expected_errors": {
+            result: {name: "not measured" if e is None else e for name, e in errors.items()}
+            for result, errors in plan.errors.items()
+        },
+        "accurate": plan.accurate,
         "inputs": {c.file or c.wind: c.fingerprint for c in plan.cases if c.fingerprint},
         "cases": [case.name for case in plan.cases],
         "versions": {"python": platform.python_version(), "loadflow": loadflow.__version__}

@@ -85,9 +85,10 @@ class Loads(_Section):
     are those of each load case unless they are given here. ``seeds`` and ``first_seed`` concern
     turbulent winds; a gust has its own variants (sign, time of the event), and may meet the rotor
     at several ``azimuths`` (rad). ``yaw_errors`` are in rad. ``steady`` takes the steady extreme
-    wind of 6.1 … 6.3 and 7.1. ``spectrum = "mann"`` needs the extra of that name. A ``rung`` that
-    is not named is "tower" ("flap" where the turbine does not say how its tower bends), and
-    "tables" for a parked turbine.
+    wind of 6.1 … 6.3 and 7.1. ``spectrum = "mann"`` needs the extra of that name; ``wind_grid`` are
+    the radii, with the hub, and the angles of the polar grid of the wind, and another grid is
+    another realisation. A ``rung`` that is not named is "tower" ("flap" where the turbine does not
+    say how its tower bends), and "tables" for a parked turbine.
     """
 
     source: Literal["simulate", "files"] = "simulate"
@@ -108,10 +109,19 @@ class Loads(_Section):
     wind_class: Literal["I", "II", "III"] = "I"
     category: Literal["A+", "A", "B", "C"] = "B"
     spectrum: Literal["kaimal", "mann"] = "kaimal"
+    wind_grid: tuple[Annotated[int, Field(ge=2, le=41)], Annotated[int, Field(ge=6, le=288)]] = (
+        11,
+        48,
+    )
     rung: Literal["tables", "bem", "flap", "tower"] | None = None
     individual_pitch: bool = False
     mass_imbalance: Annotated[float, Field(ge=-0.2, le=0.2)] = 0.0
     pitch_imbalance: Annotated[float, Field(ge=-0.2, le=0.2)] = 0.0
+
+    @property
+    def makes_wind(self) -> bool:
+        """Whether the wind is made, and neither it nor the loads are given."""
+        return self.source == "simulate" and not self.winds
 
     @property
     def dlcs(self) -> tuple[str, ...]:

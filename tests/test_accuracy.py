@@ -66,6 +66,58 @@ def test_an_accuracy_out_of_reach_is_said_and_the_best_is_taken():
     assert rung_of(plan.scene, "journal") == min(worst, key=worst.__getitem__)
 
 
+def test_an_error_that_was_not_measured_is_said_and_does_not_force_the_dearest_models():
+    """A film grid that the ladder does not hold: the others decide the rest."""
+    loose, unknown = (
+        make_plan(scene_of(accuracy=0.3, journal={"grid": grid})) for grid in ([60, 20], [48, 16])
+    )
+    assert loose.accurate
+    assert not unknown.accurate
+    assert set(unknown.errors["journal.film"].values()) == {None}
+    assert None not in unknown.errors["rolling.life"].values()
+    for stage in ("wind", "loads", "rolling"):
+        assert rung_of(unknown.scene, stage) == rung_of(loose.scene, stage)
+    assert "by the errors that are known" in unknown.reasons["loads"]
+
+
+def test_of_models_without_measured_errors_as_few_as_can_be_are_taken():
+    """Mann's turbulence is not measured, whatever its grid; everything else still is."""
+    plan = make_plan(scene_of(accuracy=0.3, loads={"spectrum": "mann"}, results=["journal.film"]))
+    assert not plan.accurate
+    steps = {step.stage.name: step for step in plan.steps}
+    assert "wind: not measured" in steps["loads"].error
+    assert set(plan.errors["journal.film"].values()) == {None}
+
+
+def test_the_wind_is_as_fine_as_the_accuracy_asks_for():
+    grids = [
+        make_plan(scene_of(accuracy=a, results=["loads.statistics"])).scene.loads.wind_grid
+        for a in (0.02, 0.06, 0.3)
+    ]
+    points = [radii * angles for radii, angles in grids]
+    assert points == sorted(points, reverse=True)
+    assert points[0] > points[-1]
+    named = make_plan(scene_of(accuracy=0.02, loads={"wind_grid": [11, 24]}))
+    assert named.scene.loads.wind_grid == (11, 24)
+    assert not named.accurate
+
+
+def test_given_loads_owe_nothing_to_a_wind(cube):
+    plan = make_plan(given(cube, results=["loads.statistics"], accuracy=1e-9))
+    assert plan.accurate
+    assert "wind" not in plan.steps[0].rung
+
+
+def test_the_error_of_friction_is_known_and_grows_with_its_step():
+    errors = [
+        expected_errors(scene_of(results=["rolling.friction"], friction={"step": step}))
+        for step in (0.1, 0.4, 0.3)
+    ]
+    usual, coarse, other = (found["rolling.friction"]["friction power"] for found in errors)
+    assert 0 < usual < coarse
+    assert other is None
+
+
 def test_a_named_model_is_kept():
     plan = make_plan(scene_of(accuracy=0.01, journal={"grid": [30, 10]}))
     assert plan.scene.journal.grid == (30, 10)
@@ -111,6 +163,9 @@ def test_a_run_reports_how_far_better_models_move_it(cube, tmp_path):
     assert np.all((film > 0) & (film < 0.2))
     assert "solved again by better models" in run.report.read_text(encoding="utf-8")
     assert any(warning.startswith("journal: ") for warning in run.warnings)
+    manifest = json.loads((run.path / "manifest.json").read_text(encoding="utf-8"))
+    assert manifest["accurate"] is False
+    assert manifest["expected_errors"]["journal.film"]["minimum film"] == "not measured"
 
 
 def test_a_run_climbs_where_its_own_cases_need_it_and_gives_the_same_when_taken_up(cube, tmp_path):
@@ -141,6 +196,18 @@ def test_plan_prints_choice_error_and_what_is_on_disk(cube, tmp_path, capsys):
     assert all(step["finished"] == step["runs"] for step in found["steps"])
     assert found["accurate"]
     assert found["errors"]["journal.film"]["eccentricity ratio"] > 0
+
+
+def test_plan_says_what_was_not_measured(cube, tmp_path, capsys):
+    scene = tmp_path / "given.toml"
+    journal = {"grid": [24, 8], "bearings": ["N2"]}
+    scene.write_text(given(cube, accuracy=0.2, journal=journal).to_toml(), encoding="utf-8")
+    with pytest.raises(SystemExit) as ended:
+        main(["plan", str(scene)])
+    assert ended.value.code == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert "minimum film not measured" in said
+    assert "not known to hold: some errors were not measured" in said
 
 
 def test_bench_shows_every_rung_of_a_stage(capsys):

@@ -5,6 +5,7 @@ from typing import get_args
 
 import numpy as np
 import pytest
+import synthetic
 
 from loadflow.ladder import STEPS_PER_CASE, gains, ladder
 from loadflow.plan import make_plan
@@ -25,6 +26,12 @@ def plan_of(**sections):
 
 
 SCENES = [
+    *({"loads": e["settings"]} for e in ladder().get("wind", {}).values() if "settings" in e),
+    *(
+        {"friction": {"step": step}, "rolling": {"arrangement": arrangement}}
+        for step in (0.1, 0.4)
+        for arrangement in ("two-spherical", "moment")
+    ),
     *({"loads": {"rung": rung}} for rung in choices(Loads, "rung")),
     *({"reduction": {"pick": pick}} for pick in choices(Reduction, "pick")),
     *(
@@ -85,12 +92,22 @@ def test_one_case_of_the_plan_is_one_case_of_the_ladder():
     assert steps[0].seconds == pytest.approx(ladder()["loads"]["tower"]["seconds_per_case"])
 
 
+def test_a_finer_wind_costs_what_it_takes_longer():
+    def seconds(**loads):
+        return plan_of(loads={"wind_speeds": [12.0], "seeds": 1} | loads).steps[0].seconds
+
+    wind = ladder()["wind"]
+    more = wind["kaimal, 21x144"]["seconds_per_case"] - wind["kaimal, 11x48"]["seconds_per_case"]
+    assert seconds(wind_grid=[21, 144]) - seconds() == pytest.approx(more)
+    assert seconds(wind_grid=[13, 50]) is None
+
+
 def test_errors_are_ordered_and_name_their_worst_case():
     measured = [
         error
         for rungs in ladder().values()
         for e in rungs.values()
-        for error in e["errors"].values()
+        for error in (e["errors"] or {}).values()
     ]
     assert len(measured) > 20
     for error in measured:
@@ -137,6 +154,72 @@ def test_stored_errors_of_the_film_in_motion_still_hold(monkeypatch):
         for quantity, stored in ladder()["journal, transient"][name]["errors"].items():
             found = errors.summary()[quantity]["max"]
             assert stored["max"] / 10 < found < 1.5 * stored["max"], (name, quantity)
+
+
+def within(found, stored):
+    """A sample of fewer cases: no worse than half as much again, and no less than a tenth."""
+    return stored["max"] / 10 < found["max"] < 1.5 * stored["max"]
+
+
+def test_stored_errors_of_the_wind_still_hold(monkeypatch):
+    """One minute at 12 m/s on rigid blades, against the next but one grid."""
+    monkeypatch.syspath_prepend(BENCHMARKS)
+    from ladder_loads import describe, deviations
+    from ladder_wind import loads_in, thinned, turbulence
+
+    from loadflow.stages.cases import list_cases
+
+    loads = {"wind_speeds": [12.0], "seeds": 1, "duration": 60.0, "rung": "tables"}
+    scene = make_scene({"name": "sample", "loads": loads})
+    case = list_cases(scene)[0]
+    fine = turbulence(scene, case, (11, 72), "fast")
+    coarse, best = (
+        {"sample": describe(loads_in(scene, case, thinned(fine, grid)))}
+        for grid in ((11, 24), (11, 72))
+    )
+    errors = deviations(coarse, best).summary()
+    stored = ladder()["wind"]["kaimal, 11x24"]["errors"]
+    for quantity in ("tilt moment DEL", "yaw moment DEL", "bearing force DEL", "tilt moment std"):
+        assert within(errors[quantity], stored[quantity]), quantity
+
+
+def test_stored_errors_of_binned_lives_still_hold(monkeypatch):
+    """Measured again on noise of the turbine's size."""
+    monkeypatch.syspath_prepend(BENCHMARKS)
+    from ladder_life import MODELS, Loads, compare, life_of
+
+    from loadflow.rolling import main_bearings
+
+    rng = np.random.default_rng(1)
+    force = np.array([1e5, -9e5, 4e5]) + 1e5 * rng.standard_normal((4000, 3))
+    moment = 1.2e6 * rng.standard_normal((4000, 2))
+    loads = Loads(force, moment, np.ones(4000), np.zeros(4000, int))
+    bearing = main_bearings("moment")["M"]
+    best = {"noise": life_of(bearing, loads)}
+    for name in ("bins, 4", "bins, 12"):
+        gather, _ = MODELS[name]
+        errors = compare({"noise": life_of(bearing, gather(loads))}, best).summary()
+        assert within(errors["life"], ladder()["life"][name]["errors"]["life"]), name
+
+
+def test_stored_errors_of_friction_still_hold(monkeypatch):
+    """Measured again on waves and noise, the four-point bearing in ideal rolling."""
+    monkeypatch.syspath_prepend(BENCHMARKS)
+    from ladder_friction import compare, solve
+    from measuring import Errors
+
+    from loadflow.stages import shaft
+    from loadflow.stages.cases import Case
+
+    scene, case = make_scene({"name": "sample"}), Case("1.1", 12.0, 1)
+    hub = synthetic.case(12.0, 1, steps=1200, dt=0.05)
+    noise = 3e5 * np.random.default_rng(1).standard_normal(hub["hub_moment"].shape)
+    parts = {"loads": hub.assign(hub_moment=hub["hub_moment"] + noise)}
+    parts |= {"shaft": shaft.bearing_loads(scene, case, parts)}
+    errors = Errors()
+    compare(errors, "noise", *(solve(scene, step, case, parts) for step in (0.4, 0.05)))
+    stored = ladder()["friction"]["balls, every 0.4 s"]["errors"]
+    assert within(errors.summary()["friction power"], stored["friction power"]), errors.summary()
 
 
 def test_the_page_shows_what_is_stored(monkeypatch):

@@ -153,7 +153,9 @@ def histogram(
         over the rest of the class in the order of force over speed. ``"envelope"`` does so, too,
         but a class that keeps one pair only keeps the severest if no other class has as much force
         at as little speed, else any: the extremes of the series stay, and means are not biased
-        towards severe pairs.
+        towards severe pairs. Both keep the largest force of the series, too, unless its class
+        keeps one pair only and that is its severest: then the largest that is kept lies in the
+        same class.
     rounding : {"up", "nearest", "total"}
         Of q_x; ``"nearest"`` keeps at least one, too. ``"total"`` rounds up, but from a smaller q,
         so that no more than the wanted size remain in all (or one of each class, if these are
@@ -194,7 +196,10 @@ def histogram(
         index, weight = _pick_random(cell, counts, kept, rng)
     elif pick in ("extremes", "envelope"):
         severest = (kept > 1) | (pick == "extremes") | _envelope(counts.reshape(shape))
-        index, weight = _pick_extremes(cell, counts, kept, severest, _severity(resultant, n), rng)
+        strongest = int(resultant.argmax())
+        index, weight = _pick_extremes(
+            cell, counts, kept, severest, _severity(resultant, n), strongest, rng
+        )
     else:
         raise InputError(f'pick = {pick!r}; allowed: "random", "extremes", "envelope"')
     order = np.argsort(index)
@@ -305,9 +310,13 @@ def _pick_extremes(
     kept: Ints,
     severest: NDArray[np.bool_],
     severity: Floats,
+    strongest: int,
     rng: np.random.Generator,
 ) -> tuple[Ints, Floats]:
-    """Pick the severest of each class that wants it, and one of each equal layer of the others."""
+    """Pick the severest of each class that wants it, and one of each equal layer of the others.
+
+    The layer of the pair `strongest` gives that one.
+    """
     order = np.lexsort((-severity, cell))
     ordered = cell[order]
     place, size, q = _places(ordered, counts), counts[ordered], kept[ordered]
@@ -318,5 +327,7 @@ def _pick_extremes(
     first = np.cumsum(lengths) - lengths
     lucky = first + (rng.random(lengths.size) * lengths).astype(int)
     top = (layer[first] == 0) & severest[ordered[first]]
+    there = int(np.flatnonzero(order == strongest)[0])
+    lucky[group[there]] = there
     lucky[top] = first[top]
     return order[lucky], lengths.astype(float)

@@ -314,8 +314,8 @@ def _newton(
     Newton with the exact Hessian, a Levenberg shift where it is singular, a cap on the step, and
     halving until energy or residual falls. `scale` turns rotations into lengths. The residual is
     the largest unbalanced component over the largest load (or 1e-4 of the sum of contact forces,
-    below which rounding rules). Tiny loads with clearance are also settled where the unbalanced
-    force is that of the last digits of the displacement.
+    below which rounding rules). Tiny loads with clearance are also settled where each unbalanced
+    component is that of the last digits of the displacement.
     """
     gradient, trial, step = np.zeros(5), np.zeros(5), np.zeros(5)
     rhs, q_new = np.zeros(5), np.zeros(5)
@@ -392,7 +392,12 @@ def _newton(
         q[:] = q_new
         gradient[:] = trial
         hessian[:, :] = h_new
-    settled = residual <= tolerance or residual * reference <= 16.0 * _EPS * moved * largest
+    settled = True
+    for a in range(5):
+        digits = 0.0
+        for b in range(5):
+            digits += abs(scaled[a, b] * q[b] / scale[b])
+        settled = settled and abs(rhs[a]) <= max(tolerance * reference, 16.0 * _EPS * digits)
     return settled, residual, iterations, pivot <= 1e-12
 
 

@@ -95,11 +95,14 @@ def wind_options(scene: Scene) -> WindOptions:
     from loadflow.wind import WindOptions
 
     loads = scene.loads
+    radii, angles = loads.wind_grid
     return WindOptions(
         wind_class=loads.wind_class,
         category=loads.category,
         seeds=loads.seeds,
         spectrum=loads.spectrum,
+        radii=radii,
+        angles=angles,
     )
 
 

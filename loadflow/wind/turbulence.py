@@ -144,8 +144,15 @@ def kaimal_box(
     -------
     Box
         The fluctuation.
+
+    Raises
+    ------
+    InputError
+        As `kaimal`; if two points coincide, lines do not rise or lie below the ground.
     """
     lines_y, lines_z = np.asarray(y, float), np.asarray(z, float)
+    if (lines_z < 0).any():
+        raise InputError(f"z = {lines_z.min():g} m is below the ground; allowed: z >= 0")
     points_y, points_z = (p.ravel() for p in np.meshgrid(lines_y, lines_z, indexing="ij"))
     grid = PointGrid(points_y, points_z)
     scale = iec_length_scale(hub_height) if length_scale is None else length_scale

@@ -40,8 +40,6 @@ class HardCase:
         Solves it, asserts what must hold of the answer, and gives the outcome.
     tolerance : float
         Largest residual allowed.
-    peer : str
-        What another program does with it, where one was run.
     """
 
     room: str
@@ -50,7 +48,6 @@ class HardCase:
     what: str
     solve: Callable[[], Outcome] = field(repr=False)
     tolerance: float = 1e-8
-    peer: str = ""
 
     def __str__(self) -> str:
         return f"{self.room}: {self.name}"

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 from hard_case import Outcome, hard, refused
 
-from loadflow.reduction import histogram
+from loadflow.reduction import damage_equivalent_load, histogram, rainflow
 from loadflow.rotor import simulate, steady_state
 from loadflow.seeds import equality, kruskal_wallis, meyer_bahlburg
-from loadflow.wind import iec
+from loadflow.wind import PointGrid, iec, kaimal_box
 from loadflow.wind.gusts import direction_change
 
 RNG = np.random.default_rng
@@ -19,7 +19,6 @@ RNG = np.random.default_rng
     "all samples tied",
     why="the tie correction divides by zero",
     what="a constant record has nothing to test: statistic 0, p = 1",
-    peer="scipy 1.17 kruskal raises ValueError or gives NaN",
 )
 def constant():
     test = kruskal_wallis([np.ones(50), np.ones(40)])
@@ -33,7 +32,6 @@ def constant():
     "N = 3 mod 4, many ties",
     why="alternating ranks depend on how the tail is dealt",
     what="Siegel–Tukey ranks for any N, ties by mid-ranks, and a note that says so",
-    peer="the known R implementation is wrong for both",
 )
 def ties():
     rng = RNG(1)
@@ -107,6 +105,30 @@ def isolated():
 
 
 @hard(
+    "reduction",
+    "a series with a gap to count",
+    why="a NaN compares with nothing: turning points vanish around it, or damage is left out",
+    what="a named error with the place of the gap",
+)
+def gap():
+    return refused(lambda: rainflow([0, 5, np.nan, -5, 3, -2, 4, 0]), "nan", "index (2,)")
+
+
+@hard(
+    "reduction",
+    "a constant series to count",
+    why="no turning points at all; an equivalent load divides by their number or takes a root of 0",
+    what="no cycles, and an equivalent load of 0",
+)
+def nothing_to_count():
+    cycles = rainflow(np.ones(10))
+    assert cycles.range.size == 0
+    load = damage_equivalent_load(np.ones(10), 4.0, duration=10.0)
+    assert load == 0
+    return Outcome(f"{cycles.range.size} cycles, equivalent load {load:g}")
+
+
+@hard(
     "wind",
     "gust at the extreme wind speed itself",
     why="the amplitude of the operating gust passes zero and would turn negative",
@@ -131,6 +153,53 @@ def turning():
     assert np.all(np.diff(half) >= -1e-12)
     assert abs(half[-1] - np.pi) < 1e-9
     return Outcome(f"0 and {np.degrees(half[-1]):.0f}°")
+
+
+BOX = {"hub_height": 90.0, "duration": 60.0, "dt": 0.1, "seed": 1}
+
+
+@hard(
+    "wind",
+    "grid points a micrometre apart",
+    why="a coherence matrix that is singular but for the last digits has no Cholesky factor",
+    what="factored without a shift of its diagonal; both points get the same wind",
+)
+def touching():
+    box = kaimal_box(12.0, 2.0, y=[0.0, 1e-6], z=[89.0, 90.0], **BOX)
+    assert np.isfinite(box.u).all()
+    apart = float(np.abs(np.diff(box.u, axis=1)).max() / box.u.std())
+    assert apart < 0.01
+    return Outcome(f"they differ by {apart:.0e} standard deviations at most")
+
+
+@hard(
+    "wind",
+    "two grid points at the same place",
+    why="the coherence matrix is singular",
+    what="a named error",
+)
+def coinciding():
+    return refused(lambda: PointGrid(np.zeros(2), np.full(2, 90.0)), "coincide")
+
+
+@hard(
+    "wind",
+    "a grid that reaches below the ground",
+    why="heights under roots: the profile of the wind has no value there",
+    what="a named error with the lowest height",
+)
+def underground():
+    return refused(lambda: kaimal_box(12.0, 2.0, y=[0.0, 10.0], z=[-5.0, 90.0], **BOX), "-5 m")
+
+
+@hard(
+    "wind",
+    "turbulence without wind",
+    why="wave lengths are speed over frequency",
+    what="a named error",
+)
+def calm():
+    return refused(lambda: kaimal_box(0.0, 2.0, y=[0.0, 10.0], z=[80.0, 90.0], **BOX), "> 0")
 
 
 @hard(

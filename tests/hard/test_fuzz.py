@@ -4,7 +4,7 @@ A sample here; ``HYPOTHESIS_PROFILE=long pytest tests/hard/test_fuzz.py`` draws 
 """
 
 import numpy as np
-from hypothesis import assume, event, given
+from hypothesis import assume, event, example, given
 from hypothesis import strategies as st
 
 from loadflow.errors import LoadflowError
@@ -139,13 +139,19 @@ def test_rank_tests_feel_neither_scale_nor_order(records, scale, shift):
     size=st.floats(0.005, 1.0),
     seed=st.integers(0, 1000),
     spread=powers(-9, 9),
-    pick=st.sampled_from(["random", "extremes"]),
+    pick=st.sampled_from(["random", "extremes", "envelope"]),
 )
+@example(n=3, size=0.25, seed=694, spread=1.0, pick="extremes")  # severest and strongest: two pairs
 def test_reduction_keeps_the_weight_of_the_whole_series(n, size, seed, spread, pick):
     rng = np.random.default_rng(seed)
     speed, force = rng.normal(1, 0.1, n), spread * rng.standard_t(2, (n, 2))
     reduced = histogram(speed, force, np.arange(n) * 0.1, size=size, pick=pick, seed=seed)
     assert np.isclose(reduced.weight.sum(), n)
     assert np.unique(reduced.index).size == reduced.index.size
-    if pick == "extremes":
-        assert np.hypot(*force.T).argmax() in reduced.index
+    if pick != "random":
+        load = np.hypot(*force.T)
+        severity = load / np.abs(speed)
+        assert np.isclose(severity[reduced.index].max(), severity.max(), rtol=1e-12)
+        row = np.searchsorted(reduced.edges[0], speed[load.argmax()], side="right") - 1
+        assert load.argmax() in reduced.index or reduced.counts_reduced[row, -1] == 1
+        assert load[reduced.index].max() >= reduced.edges[1][-2]
