@@ -250,6 +250,7 @@ class Film:
         for column, field in zip(columns, fields):
             kernel.gather(field, mesh.order, column)
         self._solve((lu, pivots), columns)
+        self._lag((lu, pivots), columns, gap.size)
         if free.size:
             columns = self._settle(columns, np.array(flows), mass)
 
@@ -284,6 +285,13 @@ class Film:
         lu, pivots = factors
         band = self.mesh.bandwidth
         dgbtrs(lu, band, band, columns.T, pivots, overwrite_b=1)
+
+    def _lag(self, factors: tuple[Array, NDArray[np.int32]], columns: Array, size: int) -> None:
+        """Let the derivatives by velocity know what else moves with the shaft: nothing, if rigid.
+
+        After the Newton step, `columns` hold `size` derivatives by position (fewer where the mesh
+        turns) and `size` by velocity.
+        """
 
     def _settle(self, columns: Array, direct: Array, mass: Array) -> Array:
         """Let the pressure of the free grooves follow their flow in all `columns`."""

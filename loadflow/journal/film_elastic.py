@@ -140,15 +140,33 @@ class ElasticFilm(Film):
         else:
             columns[:] = found.reshape(columns.shape) * sizes
 
+    def _lag(self, factors: tuple[Array, NDArray[np.int32]], columns: Array, size: int) -> None:
+        """Let the derivatives by velocity have the squeeze of the shell that follows the shaft."""
+        by_place, by_velocity = columns[1 : size + 1], columns[size + 1 : 2 * size + 1]
+        pressure = -self.state[kernel.DLOAD] * self._fields(by_place)
+        growth = self._per_clearance * self.compliance.growth(pressure)
+        volume = self.slope * self.state[kernel.FILL] * self.gap.widths * growth
+        volume[:, self.fixed] = 0.0
+        more = self._columns(volume)
+        self._solve(factors, more)
+        by_velocity += more
+
+    def _fields(self, columns: Array) -> Array:
+        """Columns in the order of the solver, (l, n), as fields of cells (l, nx, nz)."""
+        return columns.reshape(-1, *self.mesh.shape)[:, self.mesh.order]
+
+    def _columns(self, fields: Array) -> Array:
+        """Fields of cells (l, nx, nz) as columns in the order of the solver, (l, n)."""
+        ordered = np.empty_like(fields)
+        ordered[:, self.mesh.order] = fields
+        return ordered.reshape(len(fields), -1)
+
     def _far(self, columns: Array) -> Array:
         """What the balance owes to changes of the unknowns, (l, n), by way of other cells' gaps."""
-        mesh = self.mesh
-        fields = columns.reshape(-1, *mesh.shape)[:, mesh.order]
+        fields = self._fields(columns)
         pressure = self.state[kernel.DLOAD] * fields
         growth = self.compliance.growth(pressure) - self.compliance.local * pressure
         out = np.zeros_like(fields)
         self._spread(growth, out)
         out[:, self.fixed] = 0.0
-        rest = np.empty_like(columns)
-        rest.reshape(-1, *mesh.shape)[:, mesh.order] = out
-        return rest
+        return self._columns(out)

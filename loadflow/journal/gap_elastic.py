@@ -50,6 +50,11 @@ class ElasticGap(ShapedGap):
         return super().gaps(position) + across.of(grown.T).T
 
     @property
+    def widths(self) -> Array:
+        """Areas of the cells (nx, nz), in units of R²."""
+        return np.outer(self._cell[2], self.mesh.dz)
+
+    @property
     def nodes(self) -> tuple[Array, Array, Array, Array]:
         """Places and gaps of faces, then of cells, where the shaft was last placed."""
         face, cell = self.films(*self.moved)

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import xarray as xr
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -25,7 +26,7 @@ from loadflow.journal import (
     TiltingPads,
 )
 from loadflow.scene import Journal
-from loadflow.stages.journal import equilibria
+from loadflow.stages.journal import equilibria, follow
 from loadflow.validation.shell import annular_seal, plane_ring, soft_arc
 
 BEARING = JournalBearing(diameter=3.0, width=2.25, relative_clearance=0.5e-3)
@@ -204,6 +205,38 @@ def test_an_orbit_under_a_slow_load_follows_the_equilibria():
     np.testing.assert_allclose(path.shell_deformation, still.shell_deformation, rtol=1e-2)
     assert path.shell_deformation.units == "m"
     assert abs(path.mass_balance) < 1e-3
+
+
+@pytest.mark.parametrize("shell", [SOFT, THICK])
+def test_damping_is_the_lag_behind_a_load_that_grows_slowly(shell):
+    film = FILM | {"cavitation": Sommerfeld(), "shell": shell}
+    growth = np.array([200.0, -50.0])  # N/s
+    time = np.linspace(0.0, 40.0, 81)
+    force = np.array(LOAD) + (time - time[-1])[:, None] * growth
+    path = BEARING.orbit(time, force, SPEED, **film)
+    still = BEARING.equilibrium(LOAD, SPEED, **film)
+    moving = np.linalg.solve(still.stiffness, growth)
+    behind = np.linalg.solve(still.stiffness, still.damping @ moving)
+    lag = still.eccentricity - path.eccentricity.values[-1]
+    np.testing.assert_allclose(lag, behind, rtol=0.01, atol=0.01 * np.abs(behind).max())
+
+
+def test_samples_of_a_scene_know_what_its_shell_gives():
+    section = Journal.model_validate({"shell": {"kind": "local", "compliance": 1e-10}})
+    force = np.zeros((3, 3))
+    force[:, 2] = -LOAD[0] * np.array([0.9, 0.95, 1.0])
+    series = xr.Dataset(
+        {
+            "force": (("time", "axis"), force),
+            "moment": (("time", "axis"), 0.0 * force),
+            "speed": ("time", np.full(3, SPEED)),
+        },
+        coords={"time": [0.0, 0.1, 0.2]},
+    )
+    moved = follow(section, series, series)
+    assert np.all(np.diff(moved["shell_deformation"]) > 0)
+    rested = equilibria(section, force, series["speed"].values)
+    assert rested.shell_deformation[0] == pytest.approx(float(moved["shell_deformation"][0]))
 
 
 def test_what_is_refused():
