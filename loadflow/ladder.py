@@ -21,6 +21,9 @@ from loadflow.stages.cases import Case
 STEPS_PER_CASE = 24_000
 """Length of a load case in the ladder: 600 s in steps of 0.025 s."""
 
+WARM_FILMS = 7.0
+"""Time of a film with its heat balance over that of an isothermal one; see docs/journal.md."""
+
 
 @cache
 def ladder() -> dict[str, Any]:
@@ -132,7 +135,13 @@ def expected_seconds(scene: Scene, stage: str, cases: Iterable[Case]) -> float |
         return each * sum(case.steps for case in cases) / STEPS_PER_CASE
     bearings = len(scene.journal.bearings) if stage == "journal" else 1
     samples = _share(scene, stage) * bearings * sum(case.steps for case in cases)
-    return known["seconds_per_sample"] * samples
+    return known["seconds_per_sample"] * samples * _films(scene, stage)
+
+
+def _films(scene: Scene, stage: str) -> float:
+    """Films solved for each sample: a heat balance tries several temperatures."""
+    warm = stage == "journal" and scene.journal.heat is not None and not scene.journal.in_motion
+    return WARM_FILMS if warm else 1.0
 
 
 def _wind_seconds(scene: Scene) -> float | None:

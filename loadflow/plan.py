@@ -190,6 +190,8 @@ def _left_out(scene: Scene, needed: set[str]) -> dict[str, str]:
             )
         if not scene.journal.tilt:
             why["tilt of the shaft"] = "no journal.tilt: half the width of the film is solved"
+        if scene.journal.shell is None:
+            why["elastic shell"] = "no journal.shell"
     if "rolling" in needed and scene.rolling.rings == "rigid":
         why["elastic rings"] = 'rolling.rings = "rigid"'
     return why

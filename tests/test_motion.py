@@ -68,7 +68,7 @@ def test_the_reduction_adds_no_error_to_a_film_in_motion():
     def error(size):
         film = {"rung": "reduced", "motion": "transient"}
         scene = {"name": "m", "journal": film, "results": ["journal.film"]}
-        scene |= {"reduction": {"pick": "random", "size": size}, "loads": {"rung": "tower"}}
+        scene |= {"reduction": {"pick": "random", "size": size}, "loads": {"files": ["loads.h5"]}}
         return expected_errors(make_scene(scene))["journal.film"]["eccentricity ratio"]
 
     assert error(0.05) == error(0.2)
@@ -123,3 +123,13 @@ def test_a_film_at_rest_settles_at_a_temperature_for_each_load(tmp_path):
 def test_a_warm_film_has_no_other_lubricant(tmp_path):
     with pytest.raises(InputError, match="lubricant: follows from heat"):
         make_scene({"name": "x", "journal": {"heat": HEAT, "lubricant": {"viscosity": 0.06}}})
+
+
+def test_the_plan_counts_the_films_of_a_heat_balance():
+    loads = {"wind_speeds": [12.0], "seeds": 1}
+    cold, warm = (
+        make_scene({"name": "m", "loads": loads, "journal": {"rung": "reduced"} | heat})
+        for heat in ({}, {"heat": HEAT})
+    )
+    cases = make_plan(cold).cases
+    assert expected_seconds(warm, "journal", cases) > 4 * expected_seconds(cold, "journal", cases)

@@ -85,8 +85,7 @@ def _resting(options: Journal, bearing: str, reduced: xr.Dataset) -> xr.Dataset:
             f"bearing {bearing}: no film carries any of the {speed.size} samples; speed "
             f"{np.abs(speed).min():.4g} … {np.abs(speed).max():.4g} rad/s"
         )
-    kept = _kept(options)
-    samples = of_samples(vars(answer), kept | WARM if options.heat else kept)
+    samples = of_samples(vars(answer), _kept(options))
     if options.tilt:
         meaning = label("rad", "rotation of the shaft: about down, about left")
         samples["tilt"] = ("sample", "component"), answer.tilt, meaning
@@ -101,10 +100,9 @@ def _moving(options: Journal, bearing: str, loads: xr.Dataset, reactions: xr.Dat
         path = follow(options, loads, reactions)
     except SolverError as error:
         raise SolverError(f"bearing {bearing}: {error}") from error
-    held, warm = options, {}
+    held = options
     if options.heat is not None:
-        held = options.at_temperature(path["temperature"].item())
-        warm = of_samples({"temperature": np.full(time.size, path["temperature"])}, WARM)
+        held = options.at_temperature(float(path["temperature"][0]))
     numbers = [
         options.geometry.sommerfeld_number(*point, held.lubricant.viscosity)
         for point in zip(np.hypot(*force.T).tolist(), speed.tolist())
@@ -119,7 +117,7 @@ def _moving(options: Journal, bearing: str, loads: xr.Dataset, reactions: xr.Dat
             "weight": ("sample", np.ones(time.size), label("1", "samples")),
         }
     )
-    labels = of_samples(found, kept) | warm
+    labels = of_samples(found, kept)
     return _placed(held, samples.assign(labels), path["eccentricity"].values)
 
 
@@ -153,7 +151,8 @@ def mean_temperature(options: Journal, force: np.ndarray, speed: np.ndarray) -> 
 
 def _kept(options: Journal) -> dict[str, tuple[str, str]]:
     """What is kept of every sample of a scene's bearing."""
-    return KEPT if options.shell is None else KEPT | GIVING
+    giving = GIVING if options.shell is not None else {}
+    return KEPT | giving | (WARM if options.heat is not None else {})
 
 
 def follow(
@@ -172,7 +171,9 @@ def follow(
     temperature = mean_temperature(options, force, speed)
     film = (options if temperature is None else options.at_temperature(temperature)).film
     path = options.geometry.orbit(time, force, speed, moment=freeing, start=start, **film)
-    return path if temperature is None else path.assign(temperature=temperature)
+    if temperature is None:
+        return path
+    return path.assign(temperature=("time", np.full(time.size, temperature)))
 
 
 def shaft_line(options: Journal, bearing: xr.Dataset) -> dict[str, np.ndarray]:
