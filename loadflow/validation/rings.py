@@ -37,8 +37,8 @@ Load = tuple[float, ...]
 
 # axial load (N) → u_z (m) and ball force (N), contact resolved, four_ball_rings() and drive_rings()
 SOLID_FOUR = {
-    1e4: (4.45071e-5, 3440.15), 3e4: (9.73263e-5, 10078.9),
-    -1e4: (4.02814e-5, 3428.36), -3e4: (8.31133e-5, 9968.18),
+    1e4: (4.45278e-5, 3440.6), 3e4: (9.73408e-5, 10075.6),
+    -1e4: (4.02976e-5, 3429.37), -3e4: (8.31301e-5, 9968.5),
 }  # fmt: skip
 SOLID_DRIVE = {
     5e4: (3.7568e-5, 1511.33), 1e5: (6.08011e-5, 2971.18),
