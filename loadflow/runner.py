@@ -161,16 +161,15 @@ def _carry_out(
     if plan.cases and not any((folder / "loads").glob("*.h5")):
         raise SolverError("no load case could be answered:\n" + _lines(failures))
 
-    over_all = [step.stage for step in plan.of_scope("run")]
-    for number, whole in enumerate(over_all):
-        say(whole.name, number, len(over_all))
+    for whole in (step.stage for step in plan.of_scope("run")):
+        say(whole.name, 0, 1)
         if not (target := part_file(folder, whole)).exists():
             begun = time.perf_counter()
             cases = _looked_at(whole, plan.cases, folder)
             inputs = {case.name: _open(whole, case, folder) for case in cases}
             save_cube(_call(whole, plan.scene, cases, inputs), target)
             timing[whole.name] = time.perf_counter() - begun
-        say(whole.name, number + 1, len(over_all))
+        say(whole.name, 1, 1)
     return timing, failures
 
 
