@@ -5,8 +5,8 @@ e_r = −sin ψ y + cos ψ z, in the sense of rotation e_t = −cos ψ y − sin
 """
 
 import numpy as np
-from numba import njit
 
+from ._compile import kernel, section
 from ._slots import (
     AZIMUTH,
     COLUMNS,
@@ -47,12 +47,12 @@ from .structure._kernels import (
 )
 
 
-@njit(cache=True, nogil=True)
+@section
 def turbulence(inflow, time, y, z):
     """Fluctuation (u, v, w) at a point of the rotor plane: linear in time, radius and angle."""
     count, rings, angles = inflow.u.shape
     position = min(max(time / inflow.box_step, 0.0), count - 1.0)
-    k = min(int(position), count - 2)
+    k = max(min(int(position), count - 2), 0)  # NaN is no place
     late = position - k
 
     radius = np.sqrt(y * y + z * z)
@@ -61,7 +61,7 @@ def turbulence(inflow, time, y, z):
     outer = min((radius - inflow.box_radius[i]) / width, 1.0)
 
     around = (np.arctan2(-y, z) * (angles / (2 * np.pi))) % angles
-    j = min(int(around), angles - 1)
+    j = max(min(int(around), angles - 1), 0)
     turn = around - j
     j_next = j + 1 if j + 1 < angles else 0
 
@@ -84,7 +84,7 @@ def turbulence(inflow, time, y, z):
     return u, v, w
 
 
-@njit(cache=True, nogil=True)
+@section
 def wind_at(m, inflow, step, time, x, y, z):
     """Wind (X, Y, Z) in the ground frame, tower dam included, at a point relative to the hub."""
     height = max(m.hub_height + z, 1.0)
@@ -112,7 +112,7 @@ def wind_at(m, inflow, step, time, x, y, z):
     return wind_x, wind_y, wind_z
 
 
-@njit(cache=True, nogil=True)
+@section
 def tabulated_induction(m, i, pitch, normal, tangential):
     """Induction factors from the table over inflow angle and pitch; solved outside of it."""
     speed = np.sqrt(normal * normal + tangential * tangential)
@@ -138,7 +138,7 @@ def tabulated_induction(m, i, pitch, normal, tangential):
     return a, swirl
 
 
-@njit(cache=True, nogil=True)
+@section
 def skewed(m, a, r_y, r_z, state):
     """Induction factor redistributed over the disc under oblique inflow (Pitt and Peters)."""
     across = np.sqrt(state[S_Y] ** 2 + state[S_Z] ** 2)
@@ -149,7 +149,7 @@ def skewed(m, a, r_y, r_z, state):
     return a * (1 + m.skew_factor * np.tan(0.5 * min(skew, 1.5)) * downstream)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def momentum_share(m, speed, state):
     """Share of the induction that momentum theory gives: none up to a tip speed ratio of 1, where
     a rotor that stands or idles has no wake of rings, all of it from 2 on.
@@ -161,7 +161,7 @@ def momentum_share(m, speed, state):
     return 0.5 * (1 - np.cos(np.pi * excess / wind)) if excess > 0 else 0.0
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def blade_aerodynamics(
     m, inflow, step, time, azimuth, pitch, speed, tilt, drift, motion, state, guess, wake, induced,
     dt, force,
@@ -221,7 +221,7 @@ def blade_aerodynamics(
     return mean_x, mean_y, mean_z
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def march(
     m, c, schedule, inflow, dt, steps, start, controlled, state, blade_pitch, q, v, acc,
     h, h_rate, h_acc, guess, wake, induced, out,
@@ -325,7 +325,7 @@ def march(
         state[S_AZIMUTH] += 0.5 * dt * (old + state[S_SPEED])
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def fill_table(m, angles, pitches, table):
     """Induced over undisturbed speed, normal and tangential, for `tabulated_induction`."""
     for i in range(m.radius.size):

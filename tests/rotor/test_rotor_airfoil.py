@@ -37,14 +37,14 @@ def test_parameters_are_those_of_the_polar():
 def test_steady_lift_is_that_of_the_polar_at_every_angle():
     for attack in np.radians([-150.0, -60.0, -10.0, -3.0, 2.0, 8.0, 15.0, 30.0, 90.0]):
         lift, _ = _series([attack])[0]
-        assert lift == pytest.approx(polar(MACHINE.lift[OUTER], attack), abs=2e-3)
+        assert lift == pytest.approx(polar(MACHINE.lift, OUTER, attack), abs=2e-3)
 
 
 def test_chord_force_is_bounded_by_the_suction_of_potential_flow():
     # the polar has 0.0052 in its laminar bucket, 0.0071 at zero lift; past stall nothing changes
     drag = {a: _series([np.radians(a)])[0][1] for a in (-2.0, 0.0, 1.0, 15.0, 30.0, 90.0)}
     for degrees, value in drag.items():
-        bucket = polar(MACHINE.drag[OUTER], np.radians(degrees))
+        bucket = polar(MACHINE.drag, OUTER, np.radians(degrees))
         if degrees < 10:
             assert bucket < value < 0.008
         else:

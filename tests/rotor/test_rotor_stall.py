@@ -22,7 +22,7 @@ def pitching(mean, amplitude, frequency, turns=4):
     attack = mean + amplitude * np.sin(
         2 * np.pi * frequency * STEP * np.arange(round(turns / (frequency * STEP)))
     )
-    static = np.array([polar(MODEL.lift[OUTER], a) for a in attack])
+    static = np.array([polar(MODEL.lift, OUTER, a) for a in attack])
     more = [
         late_separation(MODEL, OUTER, a, SPEED, STEP if k else 0.0, states)
         for k, a in enumerate(attack)

@@ -6,7 +6,8 @@ NREL/TP-5000-66347 (2019); equation numbers are of the latter. Separation lags a
 """
 
 import numpy as np
-from numba import njit
+
+from .._compile import kernel, section
 
 SECTION_STATES = 4
 """Numbers that a section carries along: two deficiencies of the angle of attack, the angle, and how
@@ -18,18 +19,18 @@ _SOUND = 340.0  # m/s
 _ATTACHED, _FADE = np.radians(45.0), np.radians(5.0)  # beyond, the flow is that of the polar
 
 
-@njit(cache=True, nogil=True)
-def polar(table, angle):
-    """Linear interpolation in a table over −π … π in equal steps."""
-    count = table.size - 1
+@section
+def polar(table, i, angle):
+    """Linear interpolation in row i of a table over −π … π in equal steps."""
+    count = table.shape[1] - 1
     wrapped = (angle + np.pi) % (2 * np.pi)
     position = wrapped * (count / (2 * np.pi))
-    i = min(int(position), count - 1)
-    share = position - i
-    return table[i] * (1 - share) + table[i + 1] * share
+    j = max(min(int(position), count - 1), 0)  # NaN is no place
+    share = position - j
+    return table[i, j] * (1 - share) + table[i, j + 1] * share
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def late_separation(m, i, attack, speed, dt, states):
     """Lift coefficient that comes on top because separation lags behind the angle of attack.
 
@@ -37,13 +38,13 @@ def late_separation(m, i, attack, speed, dt, states):
     (2008), (9.23) to (9.26). `states[3]` holds how far the flow is attached; dt = 0 sets it to
     steady, where nothing comes on top.
     """
-    steady = polar(m.attached[i], attack)
+    steady = polar(m.attached, i, attack)
     keep = np.exp(-dt * speed / (4 * m.chord[i])) if dt > 0 else 0.0
     states[3] = steady + (states[3] - steady) * keep
-    return (states[3] - steady) * polar(m.separation_gain[i], attack)
+    return (states[3] - steady) * polar(m.separation_gain, i, attack)
 
 
-@njit(cache=True, nogil=True)
+@section
 def coefficients(m, i, attack, speed, dt, states):
     """Lift and drag coefficient of section i in a flow of angle `attack` and `speed`, m/s.
 
@@ -54,10 +55,10 @@ def coefficients(m, i, attack, speed, dt, states):
     zero lift.
     """
     if not m.shed_wake:
-        lift = polar(m.lift[i], attack)
+        lift = polar(m.lift, i, attack)
         if m.dynamic_stall:
             lift += late_separation(m, i, attack, speed, dt, states)
-        return lift, polar(m.drag[i], attack)
+        return lift, polar(m.drag, i, attack)
     mach = min(speed / _SOUND, 0.9)
     square = 1 - mach * mach
     chord, slope = m.chord[i], m.lift_slope[i]
@@ -73,10 +74,10 @@ def coefficients(m, i, attack, speed, dt, states):
         stiffening = 1 - mach + 0.5 * slope * mach * mach * np.sqrt(square) * fading
         inertia = 3 * chord * change / (dt * max(speed, 0.1) * stiffening)
     else:
-        states[:2] = 0.0
+        states[0] = states[1] = 0.0
     states[2] = attack
     delayed = attack - late
-    lift, drag = polar(m.lift[i], delayed), polar(m.drag[i], delayed)
+    lift, drag = polar(m.lift, i, delayed), polar(m.drag, i, delayed)
     if m.dynamic_stall:
         lift += late_separation(m, i, delayed, speed, dt, states)
     if slope == 0.0:

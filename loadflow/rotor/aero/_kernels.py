@@ -6,8 +6,8 @@ hub loss, Buhl's correction at high induction.
 """
 
 import numpy as np
-from numba import njit
 
+from .._compile import kernel, section
 from .._slots import S_AXIAL
 from ._airfoil_kernels import coefficients, polar
 
@@ -18,7 +18,7 @@ _TOLERANCE = 1e-7  # rad
 _MOMENTUM_LIMIT = 2.0 / 3.0
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def loss(m, i, sine):
     """Prandtl's tip and hub loss at section i for |sin φ|."""
     radius = m.radius[i]
@@ -31,13 +31,13 @@ def loss(m, i, sine):
     return max(factor, 1e-4)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def induction(m, i, angle, pitch, normal, tangential):
     """Induction factors that the forces at inflow angle φ ask for, and the residual of φ."""
     sine, cosine = np.sin(angle), np.cos(angle)
     attack = angle - m.twist[i] - pitch
-    lift = polar(m.lift[i], attack)
-    drag = polar(m.drag[i], attack) if m.drag_in_induction else 0.0
+    lift = polar(m.lift, i, attack)
+    drag = polar(m.drag, i, attack) if m.drag_in_induction else 0.0
     force_normal = lift * cosine + drag * sine
     force_tangential = lift * sine - drag * cosine
     solidity = m.blades * m.chord[i] / (2 * np.pi * m.radius[i])
@@ -65,7 +65,7 @@ def induction(m, i, angle, pitch, normal, tangential):
     return residual, a, swirl
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _root(m, i, low, high, f_low, f_high, pitch, normal, tangential):
     """False position with Anderson and Björck's weights; ends in bisection if it must."""
     for step in range(60):
@@ -88,7 +88,7 @@ def _root(m, i, low, high, f_low, f_high, pitch, normal, tangential):
     return 0.5 * (low + high)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def solve(m, i, pitch, normal, tangential, guess):
     """Inflow angle, axial and tangential induction factor of section i.
 
@@ -121,7 +121,7 @@ def solve(m, i, pitch, normal, tangential, guess):
     return np.arctan2(normal, tangential), 0.0, 0.0
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def inflow_lag(m, i, normal, tangential, a, swirl, state, dt, induced):
     """Induction factors that lag behind their quasi-steady values by two time constants.
 
@@ -149,7 +149,7 @@ def inflow_lag(m, i, normal, tangential, a, swirl, state, dt, induced):
     return a, swirl
 
 
-@njit(cache=True, nogil=True)
+@section
 def section_force(m, i, pitch, normal, tangential, a, swirl, dt, states):
     """Force per length (normal, tangential), N/m, for given induction factors.
 

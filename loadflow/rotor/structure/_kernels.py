@@ -6,19 +6,20 @@ modes over as they answer to the frame, the frame is solved, the blades follow.
 """
 
 import numpy as np
-from numba import njit
+
+from .._compile import kernel, section
 
 GRAVITY = 9.80665
 
 
-@njit(cache=True, nogil=True)
+@section
 def blade_axes(sine, cosine, vector):
     """A vector of the shaft frame in the axes (x, r, t) of a blade."""
     y, z = vector[1], vector[2]
     return vector[0], cosine * z - sine * y, -cosine * y - sine * z
 
 
-@njit(cache=True, nogil=True)
+@section
 def place(m, i, motion, cone_s, cone_c):
     """Section i in the axes (x, r, t) of its blade."""
     radius = m.radius[i] - motion[i, 5]
@@ -27,7 +28,7 @@ def place(m, i, motion, cone_s, cone_c):
     return along, out, motion[i, 1]
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def turned_shapes(m, pitch, shape):
     """Mode shapes of a pitched blade, (n, k, 3): normal, tangential, slope of the normal one."""
     c, s = np.cos(pitch), np.sin(pitch)
@@ -38,7 +39,7 @@ def turned_shapes(m, pitch, shape):
             shape[i, k, 2] = m.slope[i, k, 0] * c - m.slope[i, k, 1] * s
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def deflection(m, pitch, shape, q, v, motion):
     """Motion of each section, (n, 6): deflection normal and tangential, their rates, slope of the
     normal deflection, pull towards the root. Modes and prebend turn with the pitch.
@@ -59,7 +60,7 @@ def deflection(m, pitch, shape, q, v, motion):
                 motion[i, 5] += m.shortening[i, k, j] * q[k] * q[j]
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def nacelle_motion(m, h, v, drift, gravity):
     """Speed of the apex and rate of rotation of the nacelle, `drift` (6,), and `gravity` (3,), in
     the shaft frame, which leans with the nacelle; returns its tilt.
@@ -81,7 +82,7 @@ def nacelle_motion(m, h, v, drift, gravity):
     return m.tilt + turn_y
 
 
-@njit(cache=True, nogil=True)
+@section
 def carried(reach, along, out, turn):
     """Motion of a point that moves with the apex and turns with the axes; `reach` (6,)."""
     return (
@@ -91,7 +92,7 @@ def carried(reach, along, out, turn):
     )
 
 
-@njit(cache=True, nogil=True)
+@section
 def free_acceleration(speed, rate, motion, i, cone_s, cone_c, out, turn):
     """Acceleration (x, r, t) of section i while neither modes nor frame accelerate: centripetal,
     Coriolis and gyroscopic; `rate` (3,): that of the rotation of the nacelle.
@@ -106,7 +107,7 @@ def free_acceleration(speed, rate, motion, i, cone_s, cone_c, out, turn):
     )
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def blade_equations(
     m, b, dt, speed, azimuth, shape, drift, gravity, force, motion, q, v, acc, answer, inertia, load
 ):
@@ -183,7 +184,7 @@ def blade_equations(
             answer[k, 1 + j] = -answer[k, 1 + j]
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def frame_acceleration(m, dt, controlled, held, inertia, load, gravity, h, v, acc):
     """Acceleration of the coordinates of the frame (h,), with those of the blades eliminated.
 
@@ -222,7 +223,7 @@ def frame_acceleration(m, dt, controlled, held, inertia, load, gravity, h, v, ac
     return out
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def step_on(dt, new, q, v, acc):
     """Newmark step (constant mean acceleration) to the acceleration `new`, in place."""
     for k in range(q.size):
@@ -231,7 +232,7 @@ def step_on(dt, new, q, v, acc):
         acc[k] = new[k]
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def blade_root(m, b, speed, azimuth, shape, drift, gravity, jerk, force, motion, acc, total):
     """Add what one blade applies to the hub at the apex: aerodynamics, weight and inertia.
 

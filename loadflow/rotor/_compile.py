@@ -1,0 +1,17 @@
+"""How the rotor's kernels are compiled.
+
+A machine is a tuple of some forty arrays. Counting references to each of them, at each call for
+each section, took two thirds of the time of a run; so what works on one section is inlined and
+counts none (`_nrt`: it may not allocate), and division by zero gives infinity or NaN, without a
+branch that raises. The loop is checked for finite results afterwards.
+"""
+
+from functools import partial
+
+from numba import njit
+
+kernel = partial(njit, cache=True, nogil=True, error_model="numpy")()
+"""Of a function that is called once for each blade, or less."""
+
+section = partial(njit, cache=True, nogil=True, error_model="numpy", forceinline=True, _nrt=False)()
+"""Of a function that is called for each section at each step."""
