@@ -178,7 +178,7 @@ def warm_equilibrium(
             f"balance below {HOTTEST} K; at {warmth.temperature[worst]:.4g} K it is off by "
             f"{warmth.residual[worst]:.2g} K"
         )
-    return warmth.shaped(replace(state, converged=found), heat, shape)
+    return warmth.shaped(_where(found, state), heat, shape)
 
 
 @dataclass(frozen=True)
@@ -197,7 +197,7 @@ class _Warmth:
             "residual": self.residual,
         }
         whole = ("moment", "tilt", "pad_tilt")  # not by load where the film has none of them
-        film = replace(film, temperature=self.temperature)
+        film = replace(film, temperature=np.where(film.converged, self.temperature, np.nan))
         rows = {k: v for k, v in vars(film).items() if k not in whole or v.ndim > 1}
         state = replace(film, **shaped(rows, shape))
         return WarmFilm(state, iterations=self.iterations, **shaped(found, shape))
@@ -292,6 +292,17 @@ class _Balance:
             columns = np.nan_to_num([state.friction_power, state.side_flow])
             power, flow = np.average(columns, axis=1, weights=share)[:, None]
         return self.heat.temperature(power, flow, temperature) - temperature
+
+
+def _where(found: NDArray[np.bool_], state: Equilibrium) -> Equilibrium:
+    """Films of which those without a balance say nothing but that."""
+    kept = ("force", "speed", "residual", "critical_reynolds_number")
+    blank = {
+        name: _times(values, np.where(found, 1.0, np.nan))
+        for name, values in vars(state).items()
+        if name not in kept and np.shape(values)[:1] == found.shape and values.dtype == float
+    }
+    return replace(state, converged=found, **blank)
 
 
 def _times(values: Any, factor: Array) -> Any:

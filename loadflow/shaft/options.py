@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Annotated, ClassVar
+from typing import Annotated, ClassVar, cast
 
 from annotated_types import Ge, Gt
 
@@ -19,8 +19,31 @@ from loadflow.shaft.beam import Beam
 Masses = tuple[tuple[float, float], ...]
 
 
+class _OnTwoSeats:
+    """What suspensions with a first seat behind the hub and a second one a span apart share."""
+
+    hub_to_first: float
+    span: float
+
+    bearings: ClassVar[tuple[str, ...]] = ("N", "N2")
+    locating: ClassVar[int] = 1
+
+    def __post_init__(self) -> None:
+        _check(cast("Concept", self), positive=("hub_to_first", "span"))
+
+    @property
+    def positions(self) -> tuple[float, ...]:
+        """Positions of the two seats, m."""
+        return self.hub_to_first, self.hub_to_first + self.span
+
+    @property
+    def torque_support(self) -> tuple[float, float] | None:
+        """Position and lateral arm of a one-sided support of the torque, m; None without one."""
+        return None
+
+
 @dataclass(frozen=True)
-class TwoPoint:
+class TwoPoint(_OnTwoSeats):
     """Two bearings on the shaft and a slip-on gearbox behind them: hub – N – N2 – gearbox.
 
     The default distances and the gearbox mass are those of the source (Fig. 5-1); it does not give
@@ -57,17 +80,6 @@ class TwoPoint:
     torque_arm: float = 0.0
     beam: Beam | None = None
 
-    bearings: ClassVar[tuple[str, ...]] = ("N", "N2")
-    locating: ClassVar[int] = 1
-
-    def __post_init__(self) -> None:
-        _check(self, positive=("hub_to_first", "span"))
-
-    @property
-    def positions(self) -> tuple[float, ...]:
-        """Positions of the two bearings, m."""
-        return self.hub_to_first, self.hub_to_first + self.span
-
     @property
     def gearbox_position(self) -> float:
         """Position of the centre of mass of the gearbox, m."""
@@ -86,7 +98,7 @@ class TwoPoint:
 
 
 @dataclass(frozen=True)
-class ThreePoint:
+class ThreePoint(_OnTwoSeats):
     """One main bearing N, which locates, and the torque arms of the gearbox as second support G.
 
     The arms stand on both sides; their pair of forces against the torque cancels on the shaft.
@@ -113,15 +125,6 @@ class ThreePoint:
 
     bearings: ClassVar[tuple[str, ...]] = ("N", "G")
     locating: ClassVar[int] = 0
-    torque_support: ClassVar[None] = None
-
-    def __post_init__(self) -> None:
-        _check(self, positive=("hub_to_first", "span"))
-
-    @property
-    def positions(self) -> tuple[float, ...]:
-        """Positions of the main bearing and of the torque arms, m."""
-        return self.hub_to_first, self.hub_to_first + self.span
 
     @property
     def masses(self) -> Masses:
@@ -131,7 +134,7 @@ class ThreePoint:
 
 
 @dataclass(frozen=True)
-class Integrated:
+class Integrated(_OnTwoSeats):
     """Two bearings N, N2 close together in the housing of the gearbox, which the frame carries.
 
     Its torque reaction stays in the frame. The default distances are assumed.
@@ -152,18 +155,6 @@ class Integrated:
     hub_to_shaft_centre: Annotated[float, Ge(0)] = 2.5
     beam: Beam | None = None
 
-    bearings: ClassVar[tuple[str, ...]] = ("N", "N2")
-    locating: ClassVar[int] = 1
-    torque_support: ClassVar[None] = None
-
-    def __post_init__(self) -> None:
-        _check(self, positive=("hub_to_first", "span"))
-
-    @property
-    def positions(self) -> tuple[float, ...]:
-        """Positions of the two bearings, m."""
-        return self.hub_to_first, self.hub_to_first + self.span
-
     @property
     def masses(self) -> Masses:
         """The shaft."""
@@ -171,7 +162,7 @@ class Integrated:
 
 
 @dataclass(frozen=True)
-class DirectDrive:
+class DirectDrive(_OnTwoSeats):
     """Two bearings N, N2 and the generator's rotor on the shaft, no gearbox.
 
     The default distances are those of the IEA 15 MW turbine. The air gap hands its torque to the
@@ -198,18 +189,6 @@ class DirectDrive:
     shaft_mass: Annotated[float, Ge(0)] = 0.0
     hub_to_shaft_centre: Annotated[float, Ge(0)] = 1.6
     beam: Beam | None = None
-
-    bearings: ClassVar[tuple[str, ...]] = ("N", "N2")
-    locating: ClassVar[int] = 1
-    torque_support: ClassVar[None] = None
-
-    def __post_init__(self) -> None:
-        _check(self, positive=("hub_to_first", "span"))
-
-    @property
-    def positions(self) -> tuple[float, ...]:
-        """Positions of the two bearings, m."""
-        return self.hub_to_first, self.hub_to_first + self.span
 
     @property
     def masses(self) -> Masses:

@@ -118,6 +118,9 @@ def test_what_gets_too_hot_is_told_with_its_load():
         BEARING, [(1e6, 0.0), (0.0, 0.0)], [1.0, 9.0], heat, strict=False, **QUICK
     )
     assert loose.film.converged.tolist() == [True, False]
+    for values in (loose.film.minimum_film, loose.film.stiffness, loose.temperature):
+        assert np.isfinite(values[0]).all()
+        assert np.isnan(values[1]).all()
 
 
 def test_a_standing_shaft_has_no_heat_balance():
