@@ -78,15 +78,8 @@ def _loads(scene: Scene, case: Case, parts: Parts) -> Iterator[Difference]:
     sharp = bearing_loads(better, case, {"loads": series})
     for bearing in sharp["bearing"].values:
         ours, theirs = (_describe(data, bearing) for data in (parts["shaft"], sharp))
-        for quantity in ours:
-            yield Difference(
-                "loads",
-                "loads.statistics",
-                quantity,
-                f"{case.name}, {bearing}",
-                f"the rotor {better.loads.rung}",
-                _relative(ours[quantity], theirs[quantity]),
-            )
+        where, against = f"{case.name}, {bearing}", f"the rotor {better.loads.rung}"
+        yield from _rows("loads", "loads.statistics", where, against, ours, theirs)
 
 
 def _describe(bearings: xr.Dataset, bearing: str) -> dict[str, float]:
@@ -188,15 +181,9 @@ def _films(
         loads = parts["reduction"][bearing].to_dataset().isel(sample=places)
         line = shaft_line(scene.journal, loads)
         answer = equilibria(better, loads["force"].values, some["speed"].values, **line)
-        for quantity in FILM:
-            yield Difference(
-                stage,
-                "journal.film",
-                quantity.replace("_", " "),
-                f"{case.name}, {bearing}",
-                against,
-                _relative(some[quantity].values, getattr(answer, quantity)),
-            )
+        ours = {quantity: some[quantity].values for quantity in FILM}
+        where = f"{case.name}, {bearing}"
+        yield from _rows(stage, "journal.film", where, against, ours, vars(answer))
 
 
 def _orbits(
@@ -213,18 +200,11 @@ def _orbits(
         place = film["eccentricity"].values[begin]
         try:
             path = follow(better, loads, shaft.sel(bearing=bearing), place)
+            theirs = _of_orbit(path)
         except SolverError:
-            path = None
-        for quantity in FILM:
-            theirs = np.nan if path is None else _of_orbit(quantity, path)
-            yield Difference(
-                stage,
-                "journal.film",
-                quantity.replace("_", " "),
-                f"{case.name}, {bearing}",
-                against,
-                _relative(_of_orbit(quantity, ours), theirs),
-            )
+            theirs = dict.fromkeys(FILM, np.nan)
+        where = f"{case.name}, {bearing}"
+        yield from _rows(stage, "journal.film", where, against, _of_orbit(ours), theirs)
 
 
 def _motion(scene: Scene, case: Case, parts: Parts) -> Iterator[Difference]:
@@ -239,23 +219,18 @@ def _motion(scene: Scene, case: Case, parts: Parts) -> Iterator[Difference]:
             path = follow(journal, loads, shaft)
         except SolverError:
             continue
-        for quantity in EXTREMES:
-            yield Difference(
-                "motion",
-                "journal.film",
-                quantity.replace("_", " "),
-                f"{case.name}, {bearing}",
-                "the film in motion",
-                _relative(_of_orbit(quantity, film), _of_orbit(quantity, path)),
-            )
+        ours = {quantity: _of_orbit(film)[quantity] for quantity in EXTREMES}
+        where = f"{case.name}, {bearing}"
+        yield from _rows(
+            "motion", "journal.film", where, "the film in motion", ours, _of_orbit(path)
+        )
 
 
-def _of_orbit(quantity: str, path: xr.Dataset) -> float:
+def _of_orbit(path: xr.Dataset) -> dict[str, float]:
     """What users read of an orbit: the smallest film, the mean friction, else the largest value."""
-    values = path[quantity].values
-    if quantity == "friction_power":
-        return float(values.mean())
-    return float(values.min() if quantity == "minimum_film" else values.max())
+    found = {name: float(path[name].max()) for name in ("eccentricity_ratio", "maximum_pressure")}
+    smallest, friction = float(path["minimum_film"].min()), float(path["friction_power"].mean())
+    return found | {"minimum_film": smallest, "friction_power": friction}
 
 
 def _contacts(scene: Scene, case: Case, parts: Parts) -> Iterator[Difference]:
@@ -269,17 +244,26 @@ def _contacts(scene: Scene, case: Case, parts: Parts) -> Iterator[Difference]:
     some = reduced.isel(sample=places).load()
     ours, theirs = (solve_bearing(one, bearing, some) for one in (scene, better))
     where, against = f"{case.name}, {bearing}", f"rings {better.rolling.rings}"
-    for quantity in CONTACT:
-        yield Difference(
-            "rolling",
-            "rolling.loads",
-            quantity.replace("_", " "),
-            where,
-            against,
-            _relative(getattr(ours, quantity), getattr(theirs, quantity)),
-        )
-    lives = (life_of(answer, some) for answer in (ours, theirs))
-    yield Difference("rolling", "rolling.life", "life", where, against, _relative(*lives))
+    forces, lives = (
+        [{q: getattr(answer, q) for q in CONTACT} for answer in (ours, theirs)],
+        [{"life": life_of(answer, some)} for answer in (ours, theirs)],
+    )
+    yield from _rows("rolling", "rolling.loads", where, against, *forces)
+    yield from _rows("rolling", "rolling.life", where, against, *lives)
+
+
+def _rows(
+    stage: str,
+    result: str,
+    where: str,
+    against: str,
+    ours: Mapping[str, Any],
+    theirs: Mapping[str, Any],
+) -> Iterator[Difference]:
+    """A difference for each quantity of `ours`."""
+    for name, values in ours.items():
+        change = _relative(values, theirs[name])
+        yield Difference(stage, result, name.replace("_", " "), where, against, change)
 
 
 def _spread(values: np.ndarray) -> np.ndarray:
