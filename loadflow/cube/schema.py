@@ -65,9 +65,6 @@ CASE_COORDS: Mapping[str, Variable] = MappingProxyType(
 """Coordinates on ``case``; what else varied may be added under a name of its own."""
 
 TIME = Variable("s", "time from the start of the series", ("time",))
-POSITION = Variable(
-    "m", "position of the bearing along the shaft from the rotor apex", ("bearing",)
-)
 
 
 def case_name(dlc: str, wind_speed: float, seed: int) -> str:

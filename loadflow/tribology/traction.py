@@ -42,11 +42,6 @@ def smooth_stress(newtonian: Value, limit: Value) -> Value:
     return limit * np.tanh(newtonian / limit)
 
 
-def eyring_stress(newtonian: Value, eyring: Value) -> Value:
-    """Stress of Eyring's liquid, τ₀ arsinh(τ_N/τ₀), Pa."""
-    return eyring * np.arcsinh(newtonian / eyring)
-
-
 def inlet_force(
     sliding: Value, viscosity: Value, length: float, radius: float, film: Value
 ) -> Value:

@@ -249,6 +249,16 @@ def test_a_given_matrix_is_the_ring_it_came_from_and_turns_by_ball_pitches(axes)
         DRIVE.equilibrium(LOAD[:3], rings=FlexibleRings(outer=given_ring), ball_angle=0.01)
 
 
+def test_a_ring_may_be_given_by_its_stiffness_if_that_holds_it():
+    root = np.random.default_rng(1).normal(size=(12, 12))
+    stiffness = 1e9 * (root @ root.T + 12 * np.eye(12))
+    given_ring = CompliantRing.from_stiffness(stiffness, axes="cartesian")
+    np.testing.assert_allclose(given_ring.compliance @ stiffness, np.eye(12), atol=1e-9)
+    assert given_ring.axes == "cartesian"
+    with pytest.raises(InputError, match="hold the ring by supports"):
+        CompliantRing.from_stiffness(np.zeros((12, 12)))
+
+
 def test_guyan_condensation_gives_the_compliance_at_the_masters():
     rng = np.random.default_rng(0)
     root = rng.normal(size=(12, 12))

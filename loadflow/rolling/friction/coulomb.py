@@ -19,8 +19,6 @@ Value = float | NDArray[np.float64]
 Driving = Literal["inner", "outer"]
 Variant = Literal["physics", "printed"]
 
-RIB_LEVER = 0.75  # ρ_h/ρ
-
 
 def cage_force(
     radial: Value,
