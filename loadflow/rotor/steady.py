@@ -25,6 +25,9 @@ _SETTLE, _MEAN = 40.0, 20.0  # s; the mean is over whole revolutions of at least
 _ROUNDS = 12
 _TOLERANCE = 2e-4  # of the mean speed from one round to the next
 _PITCH_TOLERANCE = 2e-4  # rad
+# control that hunts around rated: rounds in each of the two means compared, and how near they are
+_HUNTED = 4
+_HUNTING_TOLERANCE, _HUNTING_PITCH_TOLERANCE = 1e-3, 2e-3  # of the speed; rad
 
 
 def steady_state(
@@ -54,14 +57,15 @@ def steady_state(
         Over ``wind_speed``: ``speed`` (rad/s), ``pitch`` (rad), ``power`` (mechanical, of the
         rotor, W), ``torque`` (N m), ``thrust`` (N, aerodynamic plus the part of the weight along
         the shaft), ``hub_force`` and ``hub_moment`` (wind_speed, axis) at the rotor apex, N and
-        N m, ``tip_deflection`` (m, out of plane, at the outermost section).
+        N m, ``tip_deflection`` (m, out of plane, at the outermost section), ``settled``: where it
+        is False the control hunts in a cycle, and the values are means over 160 s.
 
     Raises
     ------
     InputError
         A wind speed outside the operating range, an unknown rung.
     SolverError
-        If no steady state is reached.
+        If neither a steady state nor a steady cycle is reached.
 
     Examples
     --------
@@ -86,7 +90,8 @@ def steady_state(
         raise InputError(f"shear = {shear} is not allowed; it must be in [0, 1)")
     rung = rung or finest_rung(machine)
     m, c = prepare(machine, rung, options or RotorOptions())
-    rows = np.array([operating_point(m, c, float(v), shear)[0] for v in speeds])
+    points = [operating_point(m, c, float(v), shear) for v in speeds]
+    rows = np.array([mean for mean, _, _ in points])
     from . import _slots as k
 
     moment, force = rows[:, [k.MX, k.MY, k.MZ]], rows[:, [k.FX, k.FY, k.FZ]]
@@ -106,6 +111,9 @@ def steady_state(
             "hub_force": variable(force, "N", "force of the rotor on the shaft"),
             "hub_moment": variable(moment, "N m", "moment of the rotor on the shaft at the apex"),
             "tip_deflection": variable(rows[:, k.TIP], "m", "deflection of the outermost section"),
+            "settled": variable(
+                np.array([settled for _, _, settled in points]), "1", "control does not hunt"
+            ),
         },
         coords={
             "wind_speed": ("wind_speed", speeds, {"units": "m/s", "long_name": "hub wind speed"}),
@@ -117,8 +125,12 @@ def steady_state(
 
 def operating_point(
     m: Machine, c: Controller, wind_speed: float, shear: float
-) -> tuple[np.ndarray, State]:
-    """Mean columns over whole revolutions, and the state that the control settled at."""
+) -> tuple[np.ndarray, State, bool]:
+    """Mean columns, the last state, and whether the control settled.
+
+    The means are over whole revolutions; where the control hunts, as between its regions, over
+    the minutes of a cycle that neither grows nor drifts.
+    """
     from . import _slots as k
     from .frame import calmed
     from .inflow import steady_inflow
@@ -127,6 +139,7 @@ def operating_point(
     state = turning_state(m, c, wind_speed, *_guess(m, c, wind_speed))
     inflow = steady_inflow(wind_speed, round(_SETTLE / _STEP), shear)
     before = np.full(k.COLUMNS + m.blades, np.inf)
+    rounds = []
     for turn in range(_ROUNDS):
         # the tower by itself would sway for minutes
         model = m._replace(frame=calmed(m.frame)) if turn == 0 else m
@@ -136,8 +149,13 @@ def operating_point(
         mean = out[-count:].mean(axis=0)
         settled = abs(mean[k.SPEED] / before[k.SPEED] - 1) < _TOLERANCE
         if settled and abs(mean[k.PITCH] - before[k.PITCH]) < _PITCH_TOLERANCE:
-            return mean, state
+            return mean, state, True
         before = mean
+        rounds.append(out.mean(axis=0))
+    early, late = (np.mean(rounds[-n:][:_HUNTED], axis=0) for n in (2 * _HUNTED, _HUNTED))
+    steady = abs(late[k.SPEED] / early[k.SPEED] - 1) < _HUNTING_TOLERANCE
+    if steady and abs(late[k.PITCH] - early[k.PITCH]) < _HUNTING_PITCH_TOLERANCE:
+        return late, state, False
     raise SolverError(
         f"no steady state at {wind_speed} m/s after {_ROUNDS * _SETTLE:.0f} s: mean speed "
         f"{mean[k.SPEED]:.5f} rad/s, pitch {mean[k.PITCH]:.5f} rad"

@@ -31,6 +31,18 @@ def test_operating_points_obey_the_control_law(points):
     assert generator[2:] == pytest.approx(122.9096, rel=1e-3)
     assert points["pitch"].values[:2] == pytest.approx(0.0, abs=1e-6)
     assert points["pitch"].values[3] > points["pitch"].values[2] > 0.1
+    assert points["settled"].all()
+
+
+def test_control_that_hunts_between_its_regions_has_a_mean_and_says_so():
+    # a weakly damped loop of pitch and speed: fine pitch on one side, constant power on the other
+    point = steady_state("nrel-5mw", wind_speed=[11.4, 11.75, 12.2])
+    assert point["settled"].values.tolist() == [True, False, True]
+    assert 0 == point["pitch"][0] < np.radians(1.5) < point["pitch"][1] < np.radians(2.3)
+    assert point["power"].values[1] == pytest.approx(5.29661e6, rel=5e-3)
+    assert point["thrust"][0] > point["thrust"][1] > point["thrust"][2]
+    series = simulate(wind_speed=11.75, duration=1.0, run_in=0.0)
+    assert series["speed"].values == pytest.approx(12.1 * np.pi / 30, rel=0.05)
 
 
 def test_no_skew_no_shear_no_tilt_no_cone_leaves_torque_and_thrust_alone():
