@@ -92,7 +92,7 @@ def _tower_modes(turbine: Turbine) -> list[_TowerMode]:
             f"rung = 'tower': the file of {turbine.name} has no table tower.bending; describe it, "
             "or take the rung 'flap'"
         )
-    height = np.linspace(0, tower.height, _FINE)
+    height = np.linspace(bending.height[0], tower.height, _FINE)
     density = np.interp(height, bending.height, bending.mass_density)
     weight = _GRAVITY * (turbine.rotor_mass + bending.nacelle_mass + _above(density, height))
     # apex seen from the tower top, ground frame
@@ -128,14 +128,15 @@ def _tower_modes(turbine: Turbine) -> list[_TowerMode]:
 
 
 def _shape(coefficients: tuple[float, ...], height: Array) -> tuple[Array, Array, Array]:
-    """Deflection, slope and curvature of a mode over the height."""
-    x, top = (height / height[-1])[:, None], height[-1]
+    """Deflection, slope and curvature of a mode over the height, from foot to top."""
+    length = height[-1] - height[0]
+    x = ((height - height[0]) / length)[:, None]
     powers = np.arange(2, 2 + len(coefficients))
     c = np.array(coefficients) / sum(coefficients)
     return (
         x**powers @ c,
-        x ** (powers - 1) @ (c * powers) / top,
-        x ** (powers - 2) @ (c * powers * (powers - 1)) / top**2,
+        x ** (powers - 1) @ (c * powers) / length,
+        x ** (powers - 2) @ (c * powers * (powers - 1)) / length**2,
     )
 
 

@@ -15,7 +15,7 @@ import numpy as np
 from loadflow.errors import InputError
 
 from .airfoils import blended
-from .modes import bending_modes
+from .modes import bending_modes, tower_mode
 from .schema import (
     Airfoil,
     Blade,
@@ -111,13 +111,14 @@ def _turbine(document: dict[str, Any], folder: Path) -> Turbine:
     parts: dict[str, Any] = {
         name: _part(part, document[name], name) for name, part in _PARTS.items()
     }
-    parts["tower"] = _tower(document["tower"])
     parts["supervision"] = _part(Supervision, document.get("supervision", {}), "supervision")
     airfoils = {
         name: _airfoil(name, entry, folder)
         for name, entry in _table(document["airfoils"], "airfoils").items()
     }
     blade = _blade(document["blade"], airfoils)
+    rotor: RotorGeometry = parts["rotor"]
+    parts["tower"] = _tower(document["tower"], rotor.hub_mass + rotor.blades * blade.mass)
     scalars: dict[str, Any] = {
         key: str(document[key]) if key in ("name", "source") else _number(document[key], key)
         for key in _SCALARS
@@ -150,32 +151,37 @@ def _part(part: Any, entry: Any, name: str) -> Any:
     return part(**values)
 
 
-def _tower(entry: Any) -> Tower:
+def _tower(entry: Any, rotor_mass: float) -> Tower:
     """The tower, with its bending where the file describes it."""
     table = dict(_table(entry, "tower"))
     bending = table.pop("bending", None)
     tower: Tower = _part(Tower, table, "tower")
-    return tower if bending is None else replace(tower, bending=_bending(bending))
+    return tower if bending is None else replace(tower, bending=_bending(bending, rotor_mass))
 
 
-def _bending(entry: Any) -> TowerBending:
+def _bending(entry: Any, rotor_mass: float) -> TowerBending:
+    """How the tower bends; mode shapes that are left out follow from mass and stiffness."""
     where = "tower.bending"
     table = _table(entry, where)
     scalars = {"nacelle_mass", "nacelle_downwind", "nacelle_above", "damping"}
-    shapes = {"fore_aft", "side_side"}
-    _check_keys(table, {*scalars, *shapes, "structure"}, where)
+    shapes = ("fore_aft", "side_side")
+    _check_keys(table, {*scalars, "structure"}, where, shapes)
     rows = _rows(table["structure"], 4, f"{where}.structure")
     columns = np.array([[_number(v, f"{where}.structure") for v in row] for row in rows]).T
     numbers: dict[str, Any] = {key: _number(table[key], f"{where}.{key}") for key in scalars}
+    height, mass_density, *stiffness = columns
+    top_mass = numbers["nacelle_mass"] + rotor_mass
     modes: dict[str, Any] = {
-        key: tuple(_number(c, f"{where}.{key}") for c in table[key]) for key in shapes
+        key: tuple(_number(c, f"{where}.{key}") for c in table[key])
+        if key in table
+        else tower_mode(height, mass_density, rigidity, top_mass)
+        for key, rigidity in zip(shapes, stiffness, strict=True)
     }
-    height, mass_density, fore_aft, side_side = columns
     return TowerBending(
         height=height,
         mass_density=mass_density,
-        fore_aft_stiffness=fore_aft,
-        side_side_stiffness=side_side,
+        fore_aft_stiffness=stiffness[0],
+        side_side_stiffness=stiffness[1],
         **numbers,
         **modes,
     )

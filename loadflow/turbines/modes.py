@@ -1,4 +1,4 @@
-"""Bending modes of a blade from its mass and stiffness."""
+"""Bending modes of a blade or a tower from mass and stiffness."""
 
 from __future__ import annotations
 
@@ -30,29 +30,51 @@ def bending_modes(
     tuple of Mode
         flap1, flap2, edge1.
     """
-    from scipy.linalg import eigh
-
-    x = np.linspace(0, 1, _FINE)
-
-    def along(values: Array) -> Array:
-        return np.interp(x * span[-1], span, values)
-
-    shape = x[:, None] ** _POWERS
-    curvature = _POWERS * (_POWERS - 1) * x[:, None] ** (_POWERS - 2)
-    mass = np.trapezoid(
-        along(mass_density)[:, None, None] * shape[:, :, None] * shape[:, None, :], x, axis=0
-    )
 
     def modes(stiffness: Array, names: tuple[str, ...]) -> list[Mode]:
-        bending = np.trapezoid(
-            along(stiffness)[:, None, None] * curvature[:, :, None] * curvature[:, None, :],
-            x,
-            axis=0,
-        )
-        vectors = eigh(bending, mass)[1].T
-        return [
-            Mode(name, tuple((v / v.sum()).tolist()))
-            for name, v in zip(names, vectors, strict=False)
-        ]
+        shapes = clamped_shapes(span, mass_density, stiffness)
+        return [Mode(name, tuple(c.tolist())) for name, c in zip(names, shapes, strict=False)]
 
     return (*modes(flap_stiffness, ("flap1", "flap2")), *modes(edge_stiffness, ("edge1",)))
+
+
+def tower_mode(
+    height: Array, mass_density: Array, stiffness: Array, top_mass: float
+) -> tuple[float, ...]:
+    """Coefficients of the first mode of a tower with rotor and nacelle as a point on its top."""
+    return tuple(clamped_shapes(height, mass_density, stiffness, top_mass)[0].tolist())
+
+
+def clamped_shapes(
+    span: Array, mass_density: Array, stiffness: Array, end_mass: float = 0.0
+) -> Array:
+    """Mode shapes of a beam clamped at its first station, by Ritz's method over x² … x⁶.
+
+    Parameters
+    ----------
+    span : ndarray, shape (m,)
+        Stations along the beam, m; x runs from 0 at the first to 1 at the last.
+    mass_density, stiffness : ndarray, shape (m,)
+        kg/m; N m².
+    end_mass : float
+        A point on the free end, kg.
+
+    Returns
+    -------
+    ndarray, shape (5, 5)
+        Coefficients of x² … x⁶ of each mode, lowest first; they add up to 1.
+    """
+    from scipy.linalg import eigh
+
+    x, length = np.linspace(0, 1, _FINE), span[-1] - span[0]
+
+    def integral(values: Array, functions: Array) -> Array:
+        weight = np.interp(span[0] + x * length, span, values)
+        product = functions[:, :, None] * functions[:, None, :]
+        return np.trapezoid(weight[:, None, None] * product, x, axis=0)
+
+    curvature = _POWERS * (_POWERS - 1) * x[:, None] ** (_POWERS - 2)
+    # every function is 1 at the end
+    mass = integral(mass_density, x[:, None] ** _POWERS) + end_mass / length
+    vectors = eigh(integral(stiffness, curvature), mass)[1].T
+    return vectors / vectors.sum(axis=1, keepdims=True)

@@ -11,7 +11,7 @@ from .checks import Array, NotNegative, Positive, require, require_not_negative,
 
 @dataclass(frozen=True)
 class TowerBending:
-    """First bending modes of the tower, clamped at its base, and the nacelle on top of it.
+    """First bending modes of the tower, clamped at its foot, and the nacelle on top of it.
 
     Attributes
     ----------
@@ -22,10 +22,10 @@ class TowerBending:
     damping : float
         Structural, of each mode of the tower by itself (nothing on top), share of critical.
     height, mass_density, fore_aft_stiffness, side_side_stiffness : ndarray, shape (n,)
-        Above the base, m; kg/m; N m².
+        Above the ground, m, clamped at the first (a monopile begins below 0); kg/m; N m².
     fore_aft, side_side : tuple of float
-        Coefficients of x², x³, … of the mode shapes, with x = height over that of the tower top;
-        they add up to 1, so that the modal coordinate is the motion of the tower top.
+        Coefficients of x², x³, … of the mode shapes, with x = 0 at the foot and 1 at the top; they
+        add up to 1, so that the modal coordinate is the motion of the tower top.
     """
 
     nacelle_mass: NotNegative
@@ -42,9 +42,8 @@ class TowerBending:
     def __post_init__(self) -> None:
         require_not_negative(self, "nacelle_mass")
         require(0 <= self.damping < 1, "TowerBending", "damping", self.damping, "in [0, 1)")
-        rising = bool(np.all(np.diff(self.height) > 0) and self.height[0] == 0)
-        wanted = "increasing from 0"
-        require(rising, "TowerBending", "height", self.height.tolist(), wanted)
+        rising = self.height.size > 1 and bool(np.all(np.diff(self.height) > 0))
+        require(rising, "TowerBending", "height", self.height.tolist(), "increasing")
         for name in ("mass_density", "fore_aft_stiffness", "side_side_stiffness"):
             values = getattr(self, name)
             fits = values.shape == self.height.shape and bool(np.all(values > 0))
