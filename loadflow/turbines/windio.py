@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -10,10 +11,10 @@ import numpy as np
 from loadflow.errors import InputError
 
 from .airfoils import blended
-from .checks import Array
-from .modes import bending_modes
+from .checks import Array, require
+from .modes import bending_modes, tower_mode
 from .schema import Airfoil, Blade, Control, Drivetrain, RotorGeometry, Turbine
-from .tower import Tower
+from .tower import Tower, TowerBending
 
 _DEGREE = np.pi / 180
 _RPM = np.pi / 30
@@ -23,7 +24,14 @@ _LOWEST_RANGE = 1.1  # region 1½ up to this share of the lowest speed
 _CENTRE = 1e-3  # m, of a shaft without a hub radius
 
 
-def from_windio(path: str | Path, *, sections: int = 20, damping: float = 0.005) -> Turbine:
+def from_windio(
+    path: str | Path,
+    *,
+    sections: int = 20,
+    damping: float = 0.005,
+    tower_damping: float = 0.01,
+    seabed: float | None = None,
+) -> Turbine:
     """Read a turbine from a windIO file.
 
     The format describes a rotor well and its control roughly. The pitch gains become
@@ -37,8 +45,12 @@ def from_windio(path: str | Path, *, sections: int = 20, damping: float = 0.005)
         YAML file of windIO version 2.
     sections : int
         Aerodynamic sections of equal length per blade.
-    damping : float
-        Structural damping of each blade mode, share of critical: the files leave it at zero.
+    damping, tower_damping : float
+        Structural damping of each mode of a blade and of the tower by itself, share of critical:
+        the files leave the one at zero and give the other in terms of one program.
+    seabed : float, optional
+        Height of the seabed, m (negative), down to which the monopile of the file belongs to the
+        tower; otherwise the tower is clamped at its own foot. Soil and water are left out.
 
     Returns
     -------
@@ -56,7 +68,10 @@ def from_windio(path: str | Path, *, sections: int = 20, damping: float = 0.005)
     """
     document = _document(Path(path))
     try:
-        return _turbine(document, sections, damping)
+        turbine = _turbine(document, sections, damping)
+        parts = document["components"]
+        bending = _bending(parts, turbine.rotor_mass, tower_damping, seabed)
+        return replace(turbine, tower=replace(turbine.tower, bending=bending))
     except KeyError as error:
         raise InputError(f"{path}: missing key {error}") from error
     except (TypeError, IndexError) as error:
@@ -106,6 +121,7 @@ def _turbine(document: dict[str, Any], sections: int, damping: float) -> Turbine
     diameter = tower["outer_shape"]["outer_diameter"]["values"]
     airfoils = {foil["name"]: _airfoil(foil) for foil in document["airfoils"]}
     control = document["control"]
+    body = nacelle.get("elastic_properties", {})
     return Turbine(
         name=str(document["name"]),
         source="windIO",
@@ -125,11 +141,82 @@ def _turbine(document: dict[str, Any], sections: int, damping: float) -> Turbine
         drivetrain=Drivetrain(
             gear_ratio=gear_ratio,
             generator_inertia=float(nacelle["generator"]["elastic_properties"]["inertia"][0]),
+            torsional_stiffness=float(body.get("spring_constant", 0.0)),
+            torsional_damping=float(body.get("damping_coefficient", 0.0)),
         ),
         control=_control(control, gear_ratio),
         blade=_blade(blade, rotor, airfoils, sections, damping),
         airfoils=airfoils,
     )
+
+
+def _bending(
+    parts: dict[str, Any], rotor_mass: float, damping: float, seabed: float | None
+) -> TowerBending | None:
+    """The tower and what stands on it; none if the file gives no mass or stiffness of either."""
+    nacelle = parts["drivetrain"].get("elastic_properties", {})
+    if "mass" not in nacelle or "elastic_properties" not in parts["tower"]["structure"]:
+        return None
+    mass = float(nacelle["mass"])
+    yaw = float(parts.get("yaw", {}).get("elastic_properties", {}).get("mass", 0.0))
+    downwind, _, above = (float(x) * mass / (mass + yaw) for x in nacelle["location"])
+    beam = _tower_beam(parts["tower"])
+    if seabed is not None:
+        beam = np.hstack([_pile_beam(parts["monopile"], parts["tower"], beam[:, 0], seabed), beam])
+    height, density, fore_aft, side_side = beam
+    top_mass = mass + yaw + rotor_mass
+    return TowerBending(
+        nacelle_mass=mass + yaw,
+        nacelle_downwind=downwind,
+        nacelle_above=above,
+        damping=damping,
+        height=height,
+        mass_density=density,
+        fore_aft_stiffness=fore_aft,
+        side_side_stiffness=side_side,
+        fore_aft=tower_mode(height, density, fore_aft, top_mass),
+        side_side=tower_mode(height, density, side_side, top_mass),
+    )
+
+
+def _tower_beam(entry: dict[str, Any]) -> Array:
+    """Height, mass density, fore-aft and side-to-side stiffness, (4, n)."""
+    height, *stiffness = _stiffness(entry)
+    axis = entry["reference_axis"]["z"]
+    inertia = entry["structure"]["elastic_properties"]["inertia_matrix"]
+    along = np.interp(inertia["grid"], axis["grid"], axis["values"])
+    return np.array([height, np.interp(height, along, inertia["mass"]), *stiffness])
+
+
+def _pile_beam(entry: dict[str, Any], tower: dict[str, Any], foot: Array, seabed: float) -> Array:
+    """The same of the monopile from the seabed to the foot of the tower, whose column is `foot`.
+
+    The mass in the files counts soil in; that of a thin tube of the same steel is proportional to
+    its stiffness over the square of its diameter.
+    """
+    height, *stiffness = _stiffness(entry)
+    within = bool(height[0] <= seabed < foot[0])
+    allowed = f"from {height[0]} m to below {foot[0]} m"
+    require(within, "from_windio", "seabed", seabed, allowed)
+    station = np.append(seabed, height[(height > seabed) & (height < foot[0])])
+    fore_aft, side_side = (np.interp(station, height, values) for values in stiffness)
+    width = _diameter(entry, station) / _diameter(tower, foot[:1])
+    return np.array([station, foot[1] * fore_aft / foot[2] / width**2, fore_aft, side_side])
+
+
+def _stiffness(entry: dict[str, Any]) -> tuple[Array, Array, Array]:
+    """Height, fore-aft and side-to-side stiffness of a tower or a monopile."""
+    axis = entry["reference_axis"]["z"]
+    matrix = entry["structure"]["elastic_properties"]["stiffness_matrix"]
+    height = np.interp(matrix["grid"], axis["grid"], axis["values"])
+    return height, np.asarray(matrix["K55"], float), np.asarray(matrix["K44"], float)
+
+
+def _diameter(entry: dict[str, Any], height: Array) -> Array:
+    """Outer diameter of a tower or a monopile at the given heights."""
+    axis, diameter = entry["reference_axis"]["z"], entry["outer_shape"]["outer_diameter"]
+    share = np.interp(height, axis["values"], axis["grid"])
+    return np.interp(share, diameter["grid"], diameter["values"])
 
 
 def _blade(

@@ -126,7 +126,8 @@ def _iea() -> Iterator[Check]:
 
     turbine = load_turbine("iea-15mw")
     weight = turbine.rotor_mass * 9.80665 * np.sin(turbine.rotor.tilt)
-    points = steady_state(turbine, wind_speed=list(_IEA), shear=0.0)
+    # the coefficients are of the air alone; a tower that leans turns weight into the shaft
+    points = steady_state(turbine, wind_speed=list(_IEA), shear=0.0, rung="flap")
     for i, (wind, (power, thrust)) in enumerate(_IEA.items()):
         point = points.isel(wind_speed=i)
         got = float(point["power"]) / 1e6, (float(point["thrust"]) - weight) / 1e6

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from loadflow.rotor import RotorOptions, simulate, steady_state
+from loadflow.rotor.control.constants import STATES
 from loadflow.turbines import load_turbine
 
 CALM = RotorOptions(tower_dam=False, skew_factor=0.0)
@@ -40,6 +41,33 @@ def test_a_turbine_runs_in_turbulence_and_stops(name):
         rung="tables",
     )
     assert float(stop["speed"][-1]) < 0.2 * reference
+
+
+@pytest.mark.parametrize("name", ["windpact-1.5mw", "iea-15mw"])
+@pytest.mark.parametrize("wind_speed", [8.0, 20.0])
+def test_a_turbine_on_its_tower_starts(name, wind_speed):
+    # an integrator slower than the ramp once took over at 84° and the generator drove the rotor
+    turbine = load_turbine(name)
+    start = simulate(
+        name, dlc="3.1", wind_speed=wind_speed, duration=150.0, run_in=5.0, event_time=5.0
+    )
+    reference = turbine.control.reference_speed / turbine.drivetrain.gear_ratio
+    speed = start["speed"].values
+    assert speed.min() > -0.02 * reference
+    assert 0.7 * reference < speed[-1] < 1.05 * reference
+    assert speed.max() < turbine.supervision.overspeed * reference
+    assert int(start["state"][-1]) == STATES.index("run")
+
+
+@pytest.mark.parametrize("name", ["windpact-1.5mw", "iea-15mw"])
+@pytest.mark.parametrize("dlc", ["6.1", "6.4"])
+def test_a_turbine_that_stands_stays_put_on_its_tower(name, dlc):
+    turbine = load_turbine(name)
+    wind = 50.0 if dlc == "6.1" else 10.0
+    idle = simulate(name, dlc=dlc, wind_speed=wind, duration=60.0, rung="tower")
+    reference = turbine.control.reference_speed / turbine.drivetrain.gear_ratio
+    assert np.abs(idle["speed"]).max() < 0.25 * reference
+    assert np.abs(idle["tower_fore_aft"]).max() < 0.02 * turbine.tower.height
 
 
 def test_prebend_moves_the_blades_upwind_as_a_cone_does():

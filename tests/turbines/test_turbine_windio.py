@@ -43,7 +43,7 @@ def test_the_shipped_iea_15mw_is_what_windio_says(read):
                 angle, b.angle, getattr(b, name)
             )
             assert np.abs(difference).max() < 0.02  # resampled to whole degrees
-    assert shipped.frequencies == read.frequencies == {}
+    assert read.frequencies == {}
 
 
 @pytest.mark.parametrize("sections", [10, 40])

@@ -114,6 +114,8 @@ def collective_pitch(c, schedule, state, dt):
     error = state[k.S_FILTERED] - c.reference_speed
     span = gain * c.integral_gain
     integral = state[k.S_INTEGRAL] + error * dt
+    if state[k.S_STATE] == START and error < 0:
+        integral = 0.0  # nothing to hold yet: the ramp leads, however slow the integrator
     state[k.S_INTEGRAL] = min(max(integral, floor / span), c.maximum_pitch / span)
     wanted = gain * c.proportional_gain * error + span * state[k.S_INTEGRAL]
     wanted = min(max(wanted, floor), c.maximum_pitch)
