@@ -71,7 +71,9 @@ def _wind_rung(scene: Scene) -> str:
 
 def _shaft_rung(scene: Scene) -> str:
     concepts = ((name, concept) for name, concept in scene.shaft if concept)
-    return "+".join(f"{name}, beam" if concept.beam else name for name, concept in concepts)
+    plain = "+".join(f"{name}, beam" if concept.beam else name for name, concept in concepts)
+    seats = [f"{name} {seat.stiffness}" for name, seat in scene.shaft.seated.items()]
+    return f"{plain}, iterated with {', '.join(seats)}" if seats else plain
 
 
 def _film_rung(scene: Scene) -> str:

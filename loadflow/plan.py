@@ -70,6 +70,9 @@ _FILM_IN_MOTION = replace(
 )
 """It reads the whole series, not the reduced one."""
 
+_ON_BEARINGS = replace(STAGES["shaft"], sections=(*STAGES["shaft"].sections, "journal", "rolling"))
+"""The shaft rests on these bearings."""
+
 GIVEN_BY = {
     "loads.statistics": "statistics",
     "seeds.equality": "seeds",
@@ -155,6 +158,8 @@ def make_plan(scene: Scene, climbed: Iterable[str] = ()) -> Plan:
     """
     wanted = {GIVEN_BY[result] for result in scene.results}
     stages = STAGES | {"journal": _FILM_IN_MOTION} if scene.journal.in_motion else STAGES
+    if scene.shaft.seated:
+        stages = stages | {"shaft": _ON_BEARINGS}
     needed = set().union(*(_with_needs(name, stages) for name in wanted))
     cases = tuple(list_cases(scene))
     choice = climb(choose(scene, needed, cases), climbed)

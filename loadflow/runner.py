@@ -240,8 +240,9 @@ def _collect(plan: Plan, folder: Path) -> xr.DataTree:
         elif hasattr(module, "summary"):
             files = {case: part_file(folder, step.stage, case) for case in plan.cases}
             parts = {case: open_cube(file) for case, file in files.items() if file.exists()}
-            if parts:
-                groups[step.stage.name] = module.summary(parts)
+            found = module.summary(parts) if parts else None
+            if found is not None:
+                groups[step.stage.name] = found
     return xr.DataTree.from_dict(
         {
             f"{name}/{path}".rstrip("/"): node

@@ -26,7 +26,9 @@ from loadflow.journal import (
     Supply,
     ThickShell,
 )
+from loadflow.rolling import SphericalRollerBearing
 from loadflow.scene_bearings import KINDS, SECTION, Rolling
+from loadflow.shaft.beam import BearingSeat
 from loadflow.shaft.options import (
     Concept,
     DirectDrive,
@@ -155,7 +157,8 @@ class Shaft(_Section):
     ``two_point``, ``integrated`` and ``direct_drive`` have the bearings N (floating) and N2
     (locating), ``three_point`` the bearing N and the gearbox's torque arms G; one of these at most.
     ``moment`` has the bearing M. With a ``beam`` in its table the shaft bends, and tilts in its
-    bearings; an empty one takes the defaults.
+    bearings; an empty one takes the defaults. A seat of the beam with ``stiffness = "journal"`` or
+    ``"rolling"`` gives under each load as the bearing of that kind that the scene has there.
     """
 
     two_point: TwoPoint | None = None
@@ -180,6 +183,16 @@ class Shaft(_Section):
         if len(with_first) > 1:
             raise ValueError(f"{' and '.join(with_first)} all have a bearing N; keep one of them")
         return self
+
+    @property
+    def seated(self) -> dict[str, BearingSeat]:
+        """Seats, by bearing, whose stiffness comes from a journal or rolling bearing."""
+        return {
+            name: seat
+            for concept in self.concepts
+            for name, seat in zip(concept.bearings, concept.beam.seats if concept.beam else ())
+            if seat.stiffness != "given"
+        }
 
     def leans(self, bearing: str) -> bool:
         """Whether the shaft is a beam there, so that its tilt in the bearing is known."""
@@ -334,6 +347,26 @@ class Scene(_Section):
                 if bearing not in self.shaft.bearings:
                     have = ", ".join(self.shaft.bearings) or "none"
                     raise ValueError(f"{key} = {bearing!r}: the shaft has the bearings {have}")
+        return self
+
+    @model_validator(mode="after")
+    def _seats_have_bearings(self) -> Self:
+        there = {"journal": self.journal.bearings, "rolling": [*self.rolling.geometries]}
+        for name, seat in self.shaft.seated.items():
+            what = f'shaft: seat of bearing {name} with stiffness = "{seat.stiffness}"'
+            have = there[seat.stiffness]
+            if name not in have:
+                raise ValueError(
+                    f"{what}: the scene has {seat.stiffness} bearings at {', '.join(have)} only"
+                )
+            if seat.takes_moment and seat.stiffness == "journal" and not self.journal.tilt:
+                raise ValueError(
+                    f"{what} and takes_moment = true: only a tilted film takes a moment; set "
+                    "journal.tilt = true, or leave out takes_moment"
+                )
+            aligning = isinstance(self.rolling.geometries.get(name), SphericalRollerBearing)
+            if seat.takes_moment and seat.stiffness == "rolling" and aligning:
+                raise ValueError(f"{what}: it aligns itself; leave out takes_moment")
         return self
 
     @model_validator(mode="after")

@@ -9,3 +9,5 @@ from .options import MomentBearing as MomentBearing
 from .options import ThreePoint as ThreePoint
 from .options import TwoPoint as TwoPoint
 from .reactions import bearing_loads as bearing_loads
+from .seated import Seated as Seated
+from .seated import seated_loads as seated_loads

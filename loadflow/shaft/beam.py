@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import Annotated
+from dataclasses import dataclass, replace
+from typing import Annotated, Literal
 
 from annotated_types import Ge, Gt, Lt, MinLen
 
@@ -65,6 +65,9 @@ class BearingSeat:
         Whether the bearing resists tilting.
     tilt, housing_tilt : float, optional
         Of a bearing that does, and of its housing, against rotation across the shaft, N m/rad.
+    stiffness : {"given", "journal", "rolling"}
+        Whether `radial` and `tilt` say how stiff the bearing is, or whether it follows, under each
+        load, from the journal or the rolling bearing that stands there.
     """
 
     radial: Annotated[float, Gt(0)] | None = None
@@ -73,11 +76,22 @@ class BearingSeat:
     takes_moment: bool = False
     tilt: Annotated[float, Gt(0)] | None = None
     housing_tilt: Annotated[float, Gt(0)] | None = None
+    stiffness: Literal["given", "journal", "rolling"] = "given"
 
     def __post_init__(self) -> None:
         for name, value in vars(self).items():
-            if value is not None and name != "takes_moment" and not 0 < value < math.inf:
+            number = name not in ("takes_moment", "stiffness")
+            if number and value is not None and not 0 < value < math.inf:
                 raise InputError(f"{name} = {value}: must be greater than 0 and finite")
+        if self.stiffness not in ("given", "journal", "rolling"):
+            raise InputError(
+                f"stiffness = {self.stiffness!r}: must be 'given', 'journal' or 'rolling'"
+            )
+        if self.stiffness != "given" and (self.radial or self.tilt):
+            raise InputError(
+                f"stiffness = {self.stiffness!r} with radial = {self.radial} N/m, tilt = "
+                f"{self.tilt} N m/rad: leave them out, they follow from the bearing"
+            )
         if not self.takes_moment and (self.tilt or self.housing_tilt):
             raise InputError(
                 f"takes_moment = False with tilt = {self.tilt}, housing_tilt = "
@@ -137,6 +151,10 @@ class Beam:
         if bearings == 1 and not seats[0].takes_moment:
             raise InputError("seats[0].takes_moment = False: a single bearing must take the moment")
         return seats
+
+    def on_rigid_bearings(self) -> Beam:
+        """The beam with rigid bearings in place of those that are solved, in their housings."""
+        return replace(self, seats=tuple(replace(s, stiffness="given") for s in self.seats))
 
     def stretches(self, end: float) -> list[tuple[float, float, ShaftSection]]:
         """Start, end (m from the hub centre) and section of each stretch up to `end`.

@@ -26,11 +26,13 @@ Floats = NDArray[np.float64]
 BearingModel = Callable[[Floats, Floats], tuple[Floats, Floats]]
 """What a bearing does under `force` and `moment`, (n, 3), N and N m, of the shaft on it: the
 displacement of the shaft (y, z, θy, θz), (n, 4), m and rad, and the stiffness at it in the same
-order, (n, 4, 4). A bearing that takes no moment may give (n, 2) and (n, 2, 2)."""
+order, (n, 4, 4). A bearing that takes no moment may give (n, 2) and (n, 2, 2). A load without an
+answer has NaN."""
 
 _TURN = np.array([[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 0, 1], [0, 0, -1, 0]], dtype=float)
 """From (y, z, θy, θz) to (v, w, v′, w′)."""
-_TOLERANCE, _ITERATIONS = 1e-10, 50
+_ITERATIONS = 50
+_FREE = 1e6  # over the flexibility of the shaft: a seat that hardly takes a moment
 
 
 @dataclass(frozen=True)
@@ -48,6 +50,8 @@ class Leaning:
     convergence : Convergence
         Of the iteration with the bearings' own models; the residual is the largest change of a
         reaction, relative to the largest reaction.
+    settled : ndarray of bool, shape (n,)
+        Of which loads shaft and bearings agree.
     """
 
     force: Floats
@@ -56,6 +60,23 @@ class Leaning:
     tilt: Floats
     curvature: Floats
     convergence: Convergence
+    settled: NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class Iteration:
+    """How far shaft and bearing models are iterated.
+
+    Attributes
+    ----------
+    tolerance : float
+        Largest change of a reaction, relative to the largest one.
+    strict : bool
+        Raise for the first load that does not settle; else flag it.
+    """
+
+    tolerance: float = 1e-10
+    strict: bool = True
 
 
 def lean(
@@ -65,6 +86,7 @@ def lean(
     forces: Floats,
     hub_moment: Floats,
     models: Mapping[int, BearingModel],
+    iteration: Iteration,
 ) -> Leaning:
     """Solve the shaft under loads across it.
 
@@ -82,6 +104,8 @@ def lean(
         At the hub centre, N m.
     models : mapping of int
         Models of bearings by number; they replace `radial` and `tilt` of their seats.
+    iteration : Iteration
+        How far shaft and models are iterated.
 
     Raises
     ------
@@ -114,7 +138,7 @@ def lean(
         bent=np.where(plane[:, None] == plane, flexible[np.ix_(station, station)], 0.0),
         free=np.einsum("rk,rkn->rn", flexible[station], loads[plane]),
     )
-    reaction, base, convergence = redundant.solve(seats, models)
+    reaction, base, convergence, settled = redundant.solve(seats, models, iteration)
 
     loads[plane, station] -= reaction
     moved = flexible @ loads + rigid @ base.reshape(2, 2, -1)
@@ -124,7 +148,7 @@ def lean(
     motion = np.concatenate([moved[:, at], moved[:, at + bearings]]).swapaxes(0, 1)
     bow = curvature(beam, line, loads, np.array(positions), end).swapaxes(0, 1)
     bow = np.concatenate([bow, np.zeros_like(bow)], axis=1)
-    return Leaning(*_across(reactions), *_across(motion), _across(bow)[0], convergence)
+    return Leaning(*_across(reactions), *_across(motion), _across(bow)[0], convergence, settled)
 
 
 def _across(full: Floats) -> tuple[Floats, Floats]:
@@ -164,38 +188,77 @@ class _Redundant:
     free: Floats
 
     def solve(
-        self, seats: tuple[BearingSeat, ...], models: Mapping[int, BearingModel]
-    ) -> tuple[Floats, Floats, Convergence]:
-        """Reactions (r, n), motion of the shaft's end (4, n), and how the iteration went."""
-        housings = np.diag(self._compliance(seats, _HOUSING))[None]
-        springs = np.diag(self._compliance(seats, _BEARING))[None]
-        compliance, offset = housings + springs, np.zeros_like(self.free)
+        self,
+        seats: tuple[BearingSeat, ...],
+        models: Mapping[int, BearingModel],
+        iteration: Iteration,
+    ) -> tuple[Floats, Floats, Convergence, NDArray[np.bool_]]:
+        """Reactions (r, n), motion of the shaft's end (4, n), how the iteration went, and where."""
+        own, housing = (self._compliance(seats, names) for names in (_BEARING, _HOUSING))
+        bearings = _Bearings(self, models, housing, own)
+        # a model that takes a moment starts nearly without: bearings harden, and a step from the
+        # soft side never goes too far
+        asked = np.isin(self.seat, list(models)) & (self.component > 1) & (own == 0)
+        first = own + np.where(asked, _FREE * np.diag(self.bent), 0.0)
+        compliance, offset = np.diag(housing + first)[None], np.zeros_like(self.free)
         reaction = self._balance(compliance, offset)
-        change, iterations = 0.0, 0
-        while models:
-            tangent, offset = self._tangent(models, springs[0], reaction)
-            compliance = housings + tangent
-            last, reaction = reaction, self._balance(compliance, offset)
-            change = float((abs(reaction - last) / self.unit[:, None]).max())
-            change /= float((abs(reaction) / self.unit[:, None]).max()) or 1.0
-            iterations += 1
-            if change < _TOLERANCE:
-                break
-            if iterations == _ITERATIONS or not np.isfinite(change):
-                raise SolverError(
-                    f"shaft and bearings do not settle: after {iterations} iterations the "
-                    f"reactions still change by {change:.1e}"
-                )
+        settled, convergence = np.ones(self.free.shape[1], dtype=bool), Convergence(True, 0.0, 0)
+        if models:
+            reaction, compliance, offset, settled, convergence = self._settle(
+                bearings, reaction, iteration
+            )
         seated = np.einsum("nrs,sn->rn", compliance, reaction) + offset
         rest = seated - self.free + self.bent @ reaction
         base = np.linalg.lstsq(self.arms, rest, rcond=None)[0]
-        return reaction, base, Convergence(True, change, iterations)
+        return reaction, base, convergence, settled
+
+    def _settle(
+        self, bearings: _Bearings, reaction: Floats, iteration: Iteration
+    ) -> tuple[Floats, Floats, Floats, NDArray[np.bool_], Convergence]:
+        """Newton's method from `reaction` on; a load's step is halved until its gap narrows."""
+        compliance, offset = bearings.tangent(reaction)
+        gape, step = self._open(compliance, offset, reaction), np.ones(reaction.shape[1])
+        for iterations in range(1, _ITERATIONS + 1):  # noqa: B007  told at the end
+            target = self._balance(compliance, offset)
+            size = float((abs(reaction) / self.unit[:, None]).max()) or 1.0
+            change = (abs(target - reaction) / self.unit[:, None]).max(axis=0) / size
+            answered = np.isfinite(offset).all(axis=0)
+            settled = answered & (change < iteration.tolerance)
+            if settled.all() or not (answered & ~settled).any():
+                break
+            trial = reaction + np.where(settled, 1.0, step) * (target - reaction)
+            softer, moved = bearings.tangent(trial)
+            left = self._open(softer, moved, trial)
+            nearer = settled | (left < gape)
+            reaction = np.where(nearer, trial, reaction)
+            compliance = np.where(nearer[:, None, None], softer, compliance)
+            offset, gape = np.where(nearer, moved, offset), np.where(nearer, left, gape)
+            step = np.where(nearer, np.minimum(2 * step, 1.0), step / 2)
+        worst = float(np.nan_to_num(change, nan=np.inf).max())
+        if iteration.strict and not settled.all():
+            raise SolverError(
+                f"shaft and bearings do not settle: after {iterations} iterations the reactions "
+                f"still change by {worst:.1e}; load {int(np.argmin(settled))} is the first"
+            )
+        convergence = Convergence(bool(settled.all()), worst, iterations)
+        return np.where(settled, target, reaction), compliance, offset, settled, convergence
+
+    def _open(self, compliance: Floats, offset: Floats, reaction: Floats) -> Floats:
+        """How far shaft and seats gape (n,), m."""
+        own = self._own()
+        apart = np.einsum("nrs,sn->rn", self.bent + compliance, reaction) + offset - self.free
+        return np.asarray(np.hypot.reduce(own.T @ apart, axis=0, initial=0.0))
+
+    def _own(self) -> Floats:
+        """Sets of reactions in equilibrium by themselves, (r, sets)."""
+        turn = np.linalg.qr(self.unit[:, None] * self.arms, mode="complete")[0]
+        return self.unit[:, None] * turn[:, 4:]
 
     def _balance(self, compliance: Floats, offset: Floats) -> Floats:
         """Reactions in equilibrium under which shaft and seats deform alike."""
         turn, corner = np.linalg.qr(self.unit[:, None] * self.arms, mode="complete")
         needed = self.unit[:, None] * (turn[:, :4] @ np.linalg.solve(corner[:4].T, self.due))
-        own = self.unit[:, None] * turn[:, 4:]  # sets of reactions in equilibrium by themselves
+        own = self._own()
         if not own.size:
             return needed
         total = self.bent + compliance
@@ -207,21 +270,39 @@ class _Redundant:
         stiffness = [getattr(seats[k], names[c]) for k, c in zip(self.seat, self.component)]
         return np.array([0.0 if k is None else 1 / k for k in stiffness])
 
-    def _tangent(
-        self, models: Mapping[int, BearingModel], springs: Floats, reaction: Floats
-    ) -> tuple[Floats, Floats]:
-        """Compliance (n, r, r) of the bearings and their motion at zero load, linearised."""
-        compliance = np.repeat(springs[None], reaction.shape[1], axis=0)
+
+@dataclass(frozen=True)
+class _Bearings:
+    """Seats of which some have models.
+
+    Attributes
+    ----------
+    rows : _Redundant
+        What the components of the seats are.
+    models : mapping of int
+        Models of bearings by number.
+    housing, own : ndarray, shape (r,)
+        Compliance of the housings, and of bearings without a model.
+    """
+
+    rows: _Redundant
+    models: Mapping[int, BearingModel]
+    housing: Floats
+    own: Floats
+
+    def tangent(self, reaction: Floats) -> tuple[Floats, Floats]:
+        """Compliance (n, r, r) of the seats and their motion (r, n) at zero load, linearised."""
+        compliance = np.repeat(np.diag(self.own)[None], reaction.shape[1], axis=0)
         offset = np.zeros_like(reaction)
-        for number, model in models.items():
-            rows = np.flatnonzero(self.seat == number)
+        for number, model in self.models.items():
+            rows = np.flatnonzero(self.rows.seat == number)
             full = np.zeros((1, 4, reaction.shape[1]))
-            full[0, self.component[rows]] = reaction[rows]
+            full[0, self.rows.component[rows]] = reaction[rows]
             force, moment = (part[0].T for part in _across(full))
             motion, soft = _ask(model, force, moment, number, rows.size)
             compliance[:, rows[:, None], rows] = soft
             offset[rows] = (motion - np.einsum("nrs,sn->nr", soft, reaction[rows])).T
-        return compliance, offset
+        return np.diag(self.housing) + compliance, offset
 
 
 _BEARING = ("radial", "radial", "tilt", "tilt")

@@ -13,7 +13,7 @@ import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError
-from loadflow.shaft.elastic import BearingModel, Leaning, lean
+from loadflow.shaft.elastic import BearingModel, Iteration, Leaning, lean
 from loadflow.shaft.options import Concept
 
 GRAVITY = 9.80665
@@ -29,6 +29,8 @@ def bearing_loads(
     tilt: float = 0.0,
     time: ArrayLike | None = None,
     models: Mapping[str, BearingModel] | None = None,
+    tolerance: float = 1e-10,
+    strict: bool = True,
 ) -> xr.Dataset:
     """Loads that the shaft applies to its bearings, from equilibrium at every instant.
 
@@ -52,6 +54,10 @@ def bearing_loads(
         What bearings do under load, by name: functions of force and moment (n, 3) that return
         displacement (n, 4) and stiffness (n, 4, 4) in y, z, θy, θz. They replace the constant
         stiffness in the beam's seats; shaft and bearings are iterated until they agree.
+    tolerance : float
+        Largest change of a reaction in the last iteration, relative to the largest reaction.
+    strict : bool
+        Raise for a load under which shaft and bearings do not agree; else `settled` is False.
 
     Returns
     -------
@@ -59,15 +65,16 @@ def bearing_loads(
         `force` (N) and `moment` (N m) over (bearing, axis, time), with the coordinate
         `position` (bearing), m from the hub centre. The torque passes by all bearings. With a beam
         also `displacement` (m), `tilt` (rad) and `curvature` (1/m) of the shaft in each bearing,
-        and the attributes `converged`, `residual` and `iterations`.
+        and the attributes `converged`, `residual` and `iterations`; with models also `settled`
+        (time), whether shaft and bearings agree.
 
     Raises
     ------
     loadflow.errors.InputError
         Shapes do not match, a load is not finite, or |tilt| is not below 90°; models without a
-        beam, or of a bearing that is not there.
+        beam, or of a bearing that is not there; none of a seat whose stiffness comes from one.
     loadflow.errors.SolverError
-        Shaft and bearing models do not settle.
+        Shaft and bearing models do not settle, and `strict`.
 
     Examples
     --------
@@ -95,10 +102,11 @@ def bearing_loads(
     else:
         places = np.array([0.0, *(position for position, _ in own)])
         pushes = np.stack(np.broadcast_arrays(force, *(extra for _, extra in own)))
-        leaning = lean(concept.beam, concept.positions, places, pushes, moment, numbered)
+        iteration = Iteration(tolerance, strict)
+        leaning = lean(concept.beam, concept.positions, places, pushes, moment, numbered, iteration)
         forces, moments = leaning.force, leaning.moment
     forces[concept.locating, 0] = total[0]
-    return _dataset(concept, forces, moments, leaning, time)
+    return _dataset(concept, forces, moments, leaning, time, bool(models))
 
 
 def _checked(load: ArrayLike, name: str) -> Floats:
@@ -119,6 +127,12 @@ def _numbered(concept: Concept, models: Mapping[str, BearingModel]) -> dict[int,
             raise InputError(f"models: no bearing {name!r}; there are {concept.bearings}")
     if models and concept.beam is None:
         raise InputError("models: a rigid shaft does not feel its bearings; give it a beam")
+    seats = concept.beam.seats if concept.beam else ()
+    for name, seat in zip(concept.bearings, seats):
+        if seat.stiffness != "given" and name not in models:
+            raise InputError(
+                f"models: bearing {name!r} is missing, its seat has stiffness = {seat.stiffness!r}"
+            )
     return {concept.bearings.index(name): model for name, model in models.items()}
 
 
@@ -161,6 +175,7 @@ def _dataset(
     moment: Floats,
     leaning: Leaning | None,
     time: ArrayLike | None,
+    modelled: bool,
 ) -> xr.Dataset:
     found = {
         "force": (force, "N", "force of the shaft on the bearing"),
@@ -190,6 +205,11 @@ def _dataset(
         },
         attrs,
     )
+    if modelled and leaning:
+        meaning = "whether shaft and bearings agree"
+        flags = np.broadcast_to(leaning.settled, (len(concept.bearings), leaning.settled.size))
+        labels = {"units": "1", "long_name": meaning}
+        dataset["settled"] = ("bearing", "time"), flags.copy(), labels
     if time is None:
         return dataset
     return dataset.assign_coords(time=("time", np.asarray(time, dtype=float), {"units": "s"}))

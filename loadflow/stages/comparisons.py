@@ -18,6 +18,7 @@ from loadflow.stages.cases import Case
 from loadflow.stages.frames import to_film
 from loadflow.stages.journal import equilibria, follow, shaft_line
 from loadflow.stages.loads import hub_loads
+from loadflow.stages.reduction import moment_governs
 from loadflow.stages.reduction_error import quick
 from loadflow.stages.rolling import life_of, solve_bearing
 from loadflow.stages.shaft import bearing_loads
@@ -77,14 +78,14 @@ def _loads(scene: Scene, case: Case, parts: Parts) -> Iterator[Difference]:
     series = hub_loads(better, case, {})
     sharp = bearing_loads(better, case, {"loads": series})
     for bearing in sharp["bearing"].values:
-        ours, theirs = (_describe(data, bearing) for data in (parts["shaft"], sharp))
+        ours, theirs = (_describe(scene, data, bearing) for data in (parts["shaft"], sharp))
         where, against = f"{case.name}, {bearing}", f"the rotor {better.loads.rung}"
         yield from _rows("loads", "loads.statistics", where, against, ours, theirs)
 
 
-def _describe(bearings: xr.Dataset, bearing: str) -> dict[str, float]:
+def _describe(scene: Scene, bearings: xr.Dataset, bearing: str) -> dict[str, float]:
     """Return largest load and damage of what governs a bearing: radial force or tilting moment."""
-    load, time = _governing(bearings, bearing), bearings["time"].values
+    load, time = _governing(scene, bearings, bearing), bearings["time"].values
     duration = float(time[-1] - time[0])
     sideways, upright = (damage_equivalent_load(track, SLOPE, duration) for track in load.T)
     return {
@@ -93,17 +94,17 @@ def _describe(bearings: xr.Dataset, bearing: str) -> dict[str, float]:
     }
 
 
-def _governing(bearings: xr.Dataset, bearing: str) -> np.ndarray:
-    """Radial force (time, 2), or the tilting moment of a bearing that takes one."""
+def _governing(scene: Scene, bearings: xr.Dataset, bearing: str) -> np.ndarray:
+    """Radial force or tilting moment (time, 2) of a bearing, whichever governs it."""
     data = bearings.sel(bearing=bearing)
     moment = data["moment"].transpose("time", "axis").values.astype(float)
     force = data["force"].transpose("time", "axis").values.astype(float)
-    return to_film(moment if np.any(moment[:, 1:]) else force)
+    return to_film(moment if moment_governs(scene, bearing, moment) else force)
 
 
 def _reduction(scene: Scene, case: Case, parts: Parts) -> Iterator[Difference]:
     for bearing, node in parts["reduction"].children.items():
-        load = np.hypot(*_governing(parts["shaft"], bearing).T)
+        load = np.hypot(*_governing(scene, parts["shaft"], bearing).T)
         where, index = f"{case.name}, {bearing}", node["index"].values
         yield Difference(
             "reduction",

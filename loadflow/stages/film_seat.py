@@ -11,12 +11,14 @@ from loadflow.stages.journal import equilibria
 
 Floats = np.ndarray
 
-_TURN = np.array([[0.0, -1.0], [1.0, 0.0]])
-"""From (y, z) of the cube to the plane of the film, (−z, y)."""
+_TURN = np.kron(np.eye(2), [[0.0, -1.0], [1.0, 0.0]])
+"""From (y, z, θy, θz) of the cube to the axes of the film, (−z, y, −θz, θy)."""
 
 
-def film_model(options: Journal, speed: Floats) -> BearingModel:
-    """Eccentricity and exact stiffness of the film under each load, for an aligned shaft.
+def film_model(
+    options: Journal, speed: Floats, *, tilting: bool = False, strict: bool = True
+) -> BearingModel:
+    """Position and exact stiffness of the film under each load.
 
     Parameters
     ----------
@@ -24,20 +26,23 @@ def film_model(options: Journal, speed: Floats) -> BearingModel:
         Bearing, oil and film.
     speed : ndarray, shape (n,)
         Rotor speed of each load, rad/s.
-
-    Returns
-    -------
-    BearingModel
-        It raises `loadflow.errors.SolverError` for a load that no film carries.
+    tilting : bool
+        Whether the shaft tilts under the moment, which the film then takes; else it stays aligned,
+        and the model has no tilt.
+    strict : bool
+        Raise `loadflow.errors.SolverError` for a load that no film carries; else it has NaN.
     """
+    size = 4 if tilting else 2
+    turn, aligned = _TURN[:size, :size], options.model_copy(update={"tilt": False})
 
     def model(force: Floats, moment: Floats) -> tuple[Floats, Floats]:
-        answer = equilibria(options.model_copy(update={"tilt": False}), force, speed)
-        if not np.all(answer.converged):
+        answer = equilibria(aligned, force, speed, **({"moment": moment} if tilting else {}))
+        if strict and not np.all(answer.converged):
             worst = int(np.argmin(answer.converged))
             raise SolverError(
                 f"no film carries {np.hypot(*force[worst, 1:]):.4g} N at {speed[worst]:.4g} rad/s"
             )
-        return answer.eccentricity @ _TURN, _TURN.T @ answer.stiffness @ _TURN
+        motion = np.concatenate([answer.eccentricity, answer.tilt], axis=1)[:, :size]
+        return motion @ turn, turn.T @ answer.stiffness @ turn
 
     return model

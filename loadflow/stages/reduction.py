@@ -17,8 +17,7 @@ from loadflow.stages.labels import label
 def reduced_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
     """Reduce the series by the histogram of speed and load (4.28–4.36); one group per bearing.
 
-    A bearing that takes moments is classed by its tilting moment, which governs its rolling
-    elements; the others by their radial force.
+    A bearing is classed by what governs it, see `moment_governs`.
     """
     loads, shaft = inputs["loads"].load(), inputs["shaft"].load()
     speed = loads["speed"].values.astype(float)
@@ -27,7 +26,7 @@ def reduced_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTr
     for bearing in shaft["bearing"].values:
         force = _vectors(shaft["force"].sel(bearing=bearing))
         moment = _vectors(shaft["moment"].sel(bearing=bearing))
-        by_moment = bool(np.any(moment[:, 1:]))
+        by_moment = moment_governs(scene, str(bearing), moment)
         reduced = histogram(
             speed,
             to_film(moment if by_moment else force),
@@ -40,6 +39,16 @@ def reduced_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTr
         dataset = reduced_dataset(reduced, force, moment, by_moment)
         groups[str(bearing)] = dataset.assign(_leaning(shaft.sel(bearing=bearing), reduced))
     return xr.DataTree.from_dict(groups)
+
+
+def moment_governs(scene: Scene, bearing: str, moment: np.ndarray) -> bool:
+    """Whether the tilting moment (n, 3) governs a bearing, and not the radial force.
+
+    It does where a bearing takes one, as its rolling elements feel that most. A film gives way to
+    it, and is governed by the force.
+    """
+    seat = scene.shaft.seated.get(bearing)
+    return bool(np.any(moment[:, 1:])) and (seat is None or seat.stiffness != "journal")
 
 
 def _leaning(bearing: xr.Dataset, reduced: Reduced) -> dict[str, Any]:

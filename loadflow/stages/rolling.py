@@ -13,6 +13,7 @@ from loadflow.rolling import SlewingBearing, life, safety, system_life
 from loadflow.rolling.arrangements import life_exponent, weibull_slope
 from loadflow.rolling.static_rating import HOURS_20_YEARS, STATIC_RATING
 from loadflow.scene import Scene
+from loadflow.scene_bearings import FurtherBearing
 from loadflow.stages.cases import Case
 from loadflow.stages.frames import to_rolling
 from loadflow.stages.labels import label, labelled, of_samples
@@ -84,16 +85,19 @@ def balls(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
 
 def solve_bearing(scene: Scene, name: str, loads: xr.Dataset) -> Any:
     """Equilibrium of one bearing under all samples of `loads`, or the one that they are."""
-    bearing = scene.rolling.geometries[name]
-    force = to_rolling(loads["force"].values)
-    moment = to_rolling(loads["moment"].values)[..., :2]
     try:
-        if isinstance(bearing, SlewingBearing):
-            rings = scene.rolling.bearings[name].ring_model
-            return bearing.equilibrium(force, moment, rings=rings)
-        return bearing.equilibrium(force, moment)
+        return rest(scene.rolling.bearings[name], loads["force"].values, loads["moment"].values)
     except SolverError as error:
         raise SolverError(f"bearing {name}: {error}") from error
+
+
+def rest(part: FurtherBearing, force: np.ndarray, moment: np.ndarray, strict: bool = True) -> Any:
+    """Equilibrium of a bearing, with its rings, under loads (..., 3) in the frame of the cube."""
+    bearing = part.geometry
+    load = to_rolling(force), to_rolling(moment)[..., :2]
+    if isinstance(bearing, SlewingBearing):
+        return bearing.equilibrium(*load, rings=part.ring_model, strict=strict)
+    return bearing.equilibrium(*load, strict=strict)
 
 
 def _of_bearing(answer: Any, reduced: xr.Dataset) -> tuple[float, float, float, float]:

@@ -2,27 +2,129 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
+import numpy as np
 import xarray as xr
 
 from loadflow.scene import Scene
+from loadflow.shaft import Concept, Seated, seated_loads
+from loadflow.shaft import bearing_loads as reactions
 from loadflow.stages.cases import Case
+from loadflow.stages.labels import labelled
+from loadflow.stages.summary import over_cases
+
+Floats = np.ndarray
+
+STILL = 0.01
+"""Share of the largest speed of a series, below which surfaces touch and no film is asked."""
+
+_GLIDING = 0.03  # share of the largest speed, above which a film changes with its logarithm
 
 
 def bearing_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
     """Return `force` and `moment` (bearing, axis, time) of all suspensions of the scene.
 
     Where a shaft is a beam, also its `displacement`, `tilt` and `curvature` in each bearing; they
-    are NaN in bearings of a rigid shaft beside it.
+    are NaN in bearings of a rigid shaft beside it. `tilt` is that against the housing. Where the
+    stiffness of seats comes from the scene's bearings, `settled` tells in which samples it does;
+    in the others, such as of a film at standstill, these bearings are rigid.
     """
-    from loadflow.shaft import bearing_loads as reactions
     from loadflow.turbines import load_turbine
 
     series = inputs["loads"].load()
     tilt = load_turbine(scene.turbine.name).rotor.tilt
-    force = series["hub_force"].transpose("axis", "time").values.astype(float)
-    moment = series["hub_moment"].transpose("axis", "time").values.astype(float)
-    parts = [reactions(concept, force, moment, tilt=tilt) for concept in scene.shaft.concepts]
-    joined = xr.concat(parts, "bearing", combine_attrs="drop_conflicts")
+    force, moment = (
+        series[name].transpose("axis", "time").values.astype(float)
+        for name in ("hub_force", "hub_moment")
+    )
+    speed = series["speed"].values.astype(float)
+    parts = [
+        _suspended(scene, concept, force, moment, speed, tilt) for concept in scene.shaft.concepts
+    ]
+    joined = xr.concat(parts, "bearing", combine_attrs="drop").assign_attrs(_worst(parts))
     return joined.assign_coords(time=series["time"]).astype("float32")
+
+
+def _suspended(
+    scene: Scene, concept: Concept, force: Floats, moment: Floats, speed: Floats, tilt: float
+) -> xr.Dataset:
+    seats = {name: s for name, s in scene.shaft.seated.items() if name in concept.bearings}
+    if not seats:
+        return _against_housings(concept, reactions(concept, force, moment, tilt=tilt))
+    rigid = reactions(replace(concept, beam=None), force, moment, tilt=tilt)
+    thrust = dict(zip(concept.bearings, rigid["force"].values[:, 0]))
+    bearings = {
+        name: _film(scene, speed, seat.takes_moment)
+        if seat.stiffness == "journal"
+        else _rolling(scene, name, thrust[name], seat.takes_moment)
+        for name, seat in seats.items()
+    }
+    return _against_housings(concept, seated_loads(concept, force, moment, bearings, tilt=tilt))
+
+
+def _worst(parts: list[xr.Dataset]) -> dict[str, float]:
+    """How shaft and bearings were iterated, of the suspension that it was hardest for."""
+    told = {
+        name: [part.attrs[name] for part in parts if name in part.attrs]
+        for name in ("converged", *_TOLD)
+    }
+    pick = {"converged": min}
+    return {name: pick.get(name, max)(values) for name, values in told.items() if values}
+
+
+def _film(scene: Scene, speed: Floats, tilting: bool) -> Seated:
+    from loadflow.stages.film_seat import film_model
+
+    fastest = float(np.abs(speed).max())
+    return Seated(
+        lambda rows: film_model(scene.journal, speed[rows], tilting=tilting, strict=False),
+        state=np.arcsinh(speed / (_GLIDING * fastest or 1.0)),
+        idle=np.abs(speed) <= STILL * fastest,
+    )
+
+
+def _rolling(scene: Scene, name: str, thrust: Floats, tilting: bool) -> Seated:
+    from loadflow.stages.rolling_seat import rolling_model
+
+    part = scene.rolling.bearings[name]
+    return Seated(
+        lambda rows: rolling_model(part, thrust[rows], tilting=tilting, strict=False),
+        state=thrust,
+        idle=np.zeros(thrust.size, dtype=bool),
+        quick=part.rings == "rigid",
+    )
+
+
+def _against_housings(concept: Concept, found: xr.Dataset) -> xr.Dataset:
+    """`found`, with the tilt of the shaft in each bearing less that of its housing."""
+    if concept.beam is None or not concept.beam.seats:
+        return found
+    soft = np.array([1 / (seat.housing_tilt or np.inf) for seat in concept.beam.seats])
+    turned = found["moment"] * xr.DataArray(soft, dims="bearing")
+    return found.assign(tilt=(found["tilt"] - turned).assign_attrs(found["tilt"].attrs))
+
+
+def summary(parts: Mapping[Case, xr.Dataset]) -> xr.Dataset | None:
+    """How shaft and bearings agree in each case; None where no bearing is iterated with."""
+    if not all("settled" in part for part in parts.values()):
+        return None
+    return over_cases({case: _agreement(part) for case, part in parts.items()})
+
+
+def _agreement(part: xr.Dataset) -> xr.Dataset:
+    rigid = (part["settled"] == 0).any("bearing").sum("time")  # NaN where nothing is iterated
+    found = {"not_converged": (rigid, "1", "samples with rigid bearings: these have no answer")}
+    for name, meaning in _TOLD.items():
+        found[name] = xr.DataArray(float(part.attrs[name])), "1", meaning
+    return labelled(found)
+
+
+_TOLD = {
+    "iterations": "iterations of shaft and bearings",
+    "residual": "largest change of a reaction in the last iteration, relative",
+    "solved": "samples solved with the bearings' own models",
+    "interpolation_error": "error between these, of loads, displacement and tilt",
+}

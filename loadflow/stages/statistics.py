@@ -29,11 +29,11 @@ def describe(series: xr.Dataset) -> xr.Dataset:
     """Return `STATISTICS` of every variable over ``time``, dimension ``statistic``.
 
     Skewness and kurtosis are those of the distribution of the values (0 and 3 if it is normal; both
-    0 for a constant). The damage-equivalent load is a range at 1 Hz with the exponent `SLOPE`. The
-    azimuth, an angle that only runs round, and the number of the supervisory state are left out.
+    0 for a constant). The damage-equivalent load is a range at 1 Hz with the exponent `SLOPE`. Left
+    out are the azimuth, an angle that only runs round, the supervisory state and flags.
     """
     over_time = (name for name in series.data_vars if "time" in series[name].dims)
-    wanted = [name for name in over_time if name not in ("azimuth", "state")]
+    wanted = [name for name in over_time if name not in ("azimuth", "state", "settled")]
     time = series["time"].values
     duration = float(time[-1] - time[0])
     found = {name: _describe(series[name], duration) for name in wanted}

@@ -1,0 +1,269 @@
+"""A shaft over a whole series on bearings with models of their own, some of them dear to solve.
+
+Shaft and bearings are iterated at chosen loads of the series, each the farthest from those before.
+Between these a dear bearing is its tangent, that is its load, motion and compliance, interpolated;
+with it and the quick bearings as they are the whole series is iterated. So forces and moments
+balance everywhere. What is chosen next is predicted before it is solved: that is the error, and
+more are chosen until it is small. Where all bearings are quick nothing is interpolated.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from functools import reduce
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from loadflow.errors import InputError
+from loadflow.shaft.elastic import BearingModel
+from loadflow.shaft.options import Concept
+from loadflow.shaft.reactions import bearing_loads
+from loadflow.shaft.scattered import Rows, between, evened, farthest, nearest
+
+Floats = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+
+FIRST, MORE, MOST = 100, 50, 400
+"""Loads solved on dear bearings: at first, at a time, and at most."""
+
+ACCURACY = 5e-3
+"""Error of force, moment, displacement and tilt, over their largest values, that is enough."""
+
+_CHUNK = 500  # loads iterated together
+_AGREED = 1e-7  # relative change of a reaction in the last iteration
+_KEPT = ("force", "moment", "displacement", "tilt", "curvature")
+
+
+@dataclass(frozen=True)
+class Seated:
+    """A bearing that the shaft rests on, over a series of n samples.
+
+    Attributes
+    ----------
+    model : callable
+        From numbers of samples to the bearing's model under their loads; NaN without an answer.
+    state : ndarray, shape (n,)
+        What the bearing depends on beside its load across the shaft, such as the speed.
+    idle : ndarray of bool, shape (n,)
+        Samples in which it is not asked, as it can have no answer.
+    quick : bool
+        Whether the model takes microseconds, so that all loads can be solved.
+    """
+
+    model: Callable[[Rows], BearingModel]
+    state: Floats
+    idle: Flags
+    quick: bool = False
+
+
+def seated_loads(
+    concept: Concept,
+    hub_force: Floats,
+    hub_moment: Floats,
+    bearings: Mapping[str, Seated],
+    *,
+    tilt: float = 0.0,
+    accuracy: float = ACCURACY,
+) -> xr.Dataset:
+    """Loads of the bearings of a long series, iterated with the bearings' own models.
+
+    A sample to which a bearing has no answer, such as a film at standstill, is that of rigid
+    bearings; among those not solved, the ones whose nearest solved sample has none.
+
+    Parameters
+    ----------
+    concept : Concept
+        The suspension, with a beam.
+    hub_force, hub_moment : ndarray, shape (3, n)
+        As for `bearing_loads`.
+    bearings : mapping
+        Bearings with models, by name.
+    tilt : float
+        Tilt of the shaft, rad.
+    accuracy : float
+        Error of the interpolation that is enough, relative.
+
+    Returns
+    -------
+    xarray.Dataset
+        As of `bearing_loads` with `models`, and the attributes `solved`, the number of samples
+        solved with the bearings' own models, and `interpolation_error`, of the last of these before
+        they were solved: of force, moment, displacement and tilt across the shaft, over their
+        largest values; 0 where all are solved.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        As `bearing_loads`; a shaft without a beam.
+    """
+    if concept.beam is None:
+        raise InputError("bearings: a rigid shaft does not feel them; give it a beam")
+    on_rigid = replace(concept, beam=concept.beam.on_rigid_bearings())
+    rigid = bearing_loads(on_rigid, hub_force, hub_moment, tilt=tilt)
+    series = _Series(concept, hub_force, hub_moment, tilt, bearings)
+    asked = np.flatnonzero(~np.any([seat.idle for seat in bearings.values()], axis=0))
+    values, settled = _arrays(rigid), np.zeros(hub_force.shape[1], dtype=bool)
+    attrs = rigid.attrs | {"solved": 0, "interpolation_error": 0.0}
+    if asked.size:
+        found, solved, error = series.carried(asked, accuracy)
+        attrs = found.attrs | {"solved": solved, "interpolation_error": error}
+        settled[asked] = found.settled
+        values[settled] = found.values[found.settled]
+    flags = np.broadcast_to(settled, (rigid.sizes["bearing"], settled.size)).copy()
+    meaning = {"units": "1", "long_name": "whether shaft and bearings agree"}
+    columns = zip(_KEPT, np.moveaxis(values, 0, -1))
+    return rigid.assign(
+        {name: rigid[name].copy(data=column) for name, column in columns}
+        | {"settled": (("bearing", "time"), flags, meaning)}
+    ).assign_attrs(attrs)
+
+
+@dataclass(frozen=True)
+class _Solved:
+    """What was found of k samples.
+
+    Attributes
+    ----------
+    values : ndarray, shape (k, 5, bearing, axis)
+        What `_KEPT` names.
+    settled : ndarray of bool, shape (k,)
+        Whether shaft and bearings agree.
+    attrs : dict
+        How the iteration went at its worst.
+    """
+
+    values: Floats
+    settled: Flags
+    attrs: dict[str, float] = field(default_factory=dict)
+
+    def joined(self, more: _Solved) -> _Solved:
+        """Both together."""
+        worst = {name: max(self.attrs[name], more.attrs[name]) for name in self.attrs}
+        worst["converged"] = min(self.attrs["converged"], more.attrs["converged"])
+        return _Solved(
+            np.concatenate([self.values, more.values]),
+            np.concatenate([self.settled, more.settled]),
+            worst,
+        )
+
+    def off(self, truth: _Solved) -> float:
+        """Largest error across the shaft of what both have, over the largest true value."""
+        both = self.settled & truth.settled
+        if not both.any():
+            return np.inf
+        ours, theirs = (part.values[both][:, :4, :, 1:] for part in (self, truth))
+        off, size = (abs(part).max(axis=(0, 2, 3)) for part in (ours - theirs, theirs))
+        return float(np.divide(off, size, out=np.zeros_like(off), where=size > 0).max())
+
+
+@dataclass(frozen=True)
+class _Series:
+    """Loads of the hub over a series, and the bearings under it."""
+
+    concept: Concept
+    force: Floats
+    moment: Floats
+    tilt: float
+    bearings: Mapping[str, Seated]
+
+    def carried(self, rows: Rows, accuracy: float) -> tuple[_Solved, int, float]:
+        """Result of `rows`, number of them solved exactly, error of the others."""
+        dear = any(not seat.quick for seat in self.bearings.values())
+        if not dear or rows.size <= FIRST + MORE:
+            return self.solve(rows, self.exact), rows.size, 0.0
+        places = self.places(rows)
+        order = farthest(places, MOST)
+        count = min(FIRST, order.size)
+        known, error = self.solve(rows[order[:count]], self.exact), np.inf
+        while count < order.size and error > accuracy:
+            batch = order[count : count + MORE]
+            more = self.solve(rows[batch], self.exact)
+            if known.settled.sum() > 2 * places.shape[1]:
+                tangents = self.tangents(rows, places, order[:count], known)
+                error = self.solve(rows[batch], tangents).off(more)
+            known, count = known.joined(more), count + batch.size
+        return self.filled(rows, places, order[:count], known), count, error
+
+    def filled(self, rows: Rows, places: Floats, chosen: Rows, known: _Solved) -> _Solved:
+        """Result of `rows`, of which the `chosen` are known."""
+        settled = known.settled[nearest(places, places[chosen])]
+        values = np.zeros((rows.size, *known.values.shape[1:]))
+        attrs = known.attrs
+        if settled.any() and known.settled.sum() > 2 * places.shape[1]:
+            rest = self.solve(rows[settled], self.tangents(rows, places, chosen, known))
+            values[settled], attrs = rest.values, known.joined(rest).attrs
+            settled[settled] = rest.settled
+        values[chosen], settled[chosen] = known.values, known.settled
+        return _Solved(values, settled, attrs)
+
+    def places(self, rows: Rows) -> Floats:
+        """Loads of the hub and states of the bearings, as far as they vary, (k, d)."""
+        torque = 0 if self.concept.torque_support else 1
+        loads = [*self.force[1:], *self.moment[torque:]]
+        states = [seat.state for seat in self.bearings.values()]
+        return evened(np.stack([*loads, *states], axis=1)[rows])
+
+    def exact(self, rows: Rows) -> dict[str, BearingModel]:
+        """The bearings' own models."""
+        return {name: seat.model(rows) for name, seat in self.bearings.items()}
+
+    def tangents(
+        self, rows: Rows, places: Floats, chosen: Rows, known: _Solved
+    ) -> Callable[[Rows], dict[str, BearingModel]]:
+        """Models for samples between the `chosen` ones: tangents of the dear bearings."""
+        good = chosen[known.settled]
+        found: dict[str, Callable[[Floats], Floats]] = {}
+        for name, seat in self.bearings.items():
+            if not seat.quick:
+                place = self.concept.bearings.index(name)
+                force, moment = known.values[known.settled, :2, place].swapaxes(0, 1)
+                motion, stiffness = seat.model(rows[good])(force, moment)
+                soft = np.linalg.inv(stiffness).reshape(good.size, -1)
+                load = np.concatenate([force[:, 1:], moment[:, 1:]], axis=1)
+                found[name] = between(places[good], np.concatenate([load, motion, soft], axis=1))
+
+        def models(some: Rows) -> dict[str, BearingModel]:
+            at = places[np.searchsorted(rows, some)]
+            return self.exact(some) | {name: _tangent(table(at)) for name, table in found.items()}
+
+        return models
+
+    def solve(self, rows: Rows, models: Callable[[Rows], dict[str, BearingModel]]) -> _Solved:
+        """Shaft and bearings under the loads of `rows`, a chunk at a time."""
+        parts = [rows[k : k + _CHUNK] for k in range(0, rows.size, _CHUNK)]
+        return reduce(_Solved.joined, (self._solve(part, models(part)) for part in parts))
+
+    def _solve(self, rows: Rows, models: dict[str, BearingModel]) -> _Solved:
+        found = bearing_loads(
+            self.concept,
+            self.force[:, rows],
+            self.moment[:, rows],
+            tilt=self.tilt,
+            models=models,
+            tolerance=_AGREED,
+            strict=False,
+        )
+        settled = found["settled"].values.astype(bool).all(axis=0)
+        return _Solved(_arrays(found), np.asarray(settled), found.attrs)
+
+
+def _tangent(table: Floats) -> BearingModel:
+    """Model of a bearing about known loads (n, 4), motions (n, m) and compliances (n, m, m)."""
+    size = 4 if table.shape[1] > 10 else 2
+    known, motion, soft = table[:, :4], table[:, 4 : 4 + size], table[:, 4 + size :]
+    compliance = soft.reshape(-1, size, size)
+    stiffness = np.asarray(np.linalg.inv(compliance), dtype=float)
+
+    def model(force: Floats, moment: Floats) -> tuple[Floats, Floats]:
+        more = (np.concatenate([force[:, 1:], moment[:, 1:]], axis=1) - known)[:, :size]
+        return np.asarray(motion + np.einsum("nij,nj->ni", compliance, more)), stiffness
+
+    return model
+
+
+def _arrays(found: xr.Dataset) -> Floats:
+    """What is kept of each sample, (n, 5, bearing, axis)."""
+    return np.moveaxis(np.stack([found[name].values for name in _KEPT]), -1, 0).copy()
