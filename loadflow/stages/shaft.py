@@ -44,7 +44,7 @@ def bearing_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Datase
     parts = [
         _suspended(scene, concept, force, moment, speed, tilt) for concept in scene.shaft.concepts
     ]
-    joined = xr.concat(parts, "bearing", combine_attrs="drop").assign_attrs(_worst(parts))
+    joined = xr.concat(parts, "bearing", combine_attrs="drop_conflicts").assign_attrs(_worst(parts))
     return joined.assign_coords(time=series["time"]).astype("float32")
 
 
