@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
@@ -58,14 +60,22 @@ def channels(series: xr.Dataset, tilt: float) -> dict[str, Array]:
     return {k: np.asarray(v, float) / 1e3 for k, v in out.items()} | {"wind": wind.astype(float)}
 
 
-def compare(series: list[xr.Dataset], tilt: float) -> dict[str, dict[str, float]]:
-    """Means over the series of their measures, by channel and measure."""
+def each(series: Iterable[xr.Dataset], tilt: float) -> dict[str, dict[str, Array]]:
+    """Measures of each of the series, by channel and measure."""
     rows = []
     for one in series:
         step = float(one["time"][1] - one["time"][0])
         speed = float(one["speed"].mean())
         rows.append({n: measures(x, step, speed) for n, x in channels(one, tilt).items()})
     return {
-        channel: {m: float(np.mean([row[channel][m] for row in rows])) for m in MEASURES}
+        channel: {m: np.array([row[channel][m] for row in rows]) for m in MEASURES}
         for channel in rows[0]
+    }
+
+
+def compare(series: Iterable[xr.Dataset], tilt: float) -> dict[str, dict[str, float]]:
+    """Means over the series of their measures, by channel and measure."""
+    return {
+        channel: {m: float(values.mean()) for m, values in of_channel.items()}
+        for channel, of_channel in each(series, tilt).items()
     }
