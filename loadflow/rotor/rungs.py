@@ -6,6 +6,9 @@ from dataclasses import replace
 from functools import lru_cache
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from loadflow.errors import InputError
 from loadflow.turbines import Turbine
 from loadflow.wind.cases import Event
@@ -13,6 +16,7 @@ from loadflow.wind.cases import Event
 from .control.constants import Controller, controller
 from .machine import Machine, machine
 from .options import RUNGS, RotorOptions, Rung
+from .schedule import schedule_over_power
 from .tables import with_table
 
 _MODES = ("flap1", "flap2", "edge1")
@@ -59,6 +63,13 @@ class Same:
 @lru_cache(maxsize=8)
 def _prepare(key: Same, options: RotorOptions) -> tuple[Machine, Controller]:
     built = machine(key.thing, options)
-    return (with_table(built) if options.tabulated else built), controller(
-        key.thing, options.individual_pitch
-    )
+    c = controller(key.thing, options.individual_pitch)
+    if key.thing.control.scheduled_wind:
+        power, pitch = _schedule(key)
+        c = c._replace(scheduled_power=power, scheduled_pitch=pitch)
+    return (with_table(built) if options.tabulated else built), c
+
+
+@lru_cache(maxsize=8)
+def _schedule(key: Same) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    return schedule_over_power(key.thing)

@@ -217,11 +217,11 @@ class Control:
         rad/s.
     pitch_rate, minimum_pitch, maximum_pitch : float
         rad/s; rad.
-    scheduled_power, scheduled_pitch : tuple of float
-        Lowest pitch over the mechanical power: W, increasing, and rad; linear between the points,
-        constant outside. Empty: `minimum_pitch` throughout.
+    scheduled_wind, scheduled_pitch : tuple of float
+        Lowest pitch over the wind: m/s, increasing, and rad; linear in the power between the
+        points, constant outside. Empty: `minimum_pitch` throughout.
     schedule_filter : float
-        Corner of the low-pass on the power that the schedule sees, Hz.
+        Corner of the low-pass on the power, by which the wind is recognised, Hz.
     individual_gain, individual_limit : float
         Of the individual pitch control: integral gain on the tilt and yaw moment, rad/(N m s), and
         largest deviation from the collective pitch, rad.
@@ -243,7 +243,7 @@ class Control:
     pitch_rate: Positive
     minimum_pitch: float
     maximum_pitch: float
-    scheduled_power: tuple[float, ...] = ()
+    scheduled_wind: tuple[float, ...] = ()
     scheduled_pitch: tuple[float, ...] = ()
     schedule_filter: Positive = 0.033
     individual_gain: NotNegative = 0.0
@@ -278,21 +278,21 @@ class Control:
             self.minimum_pitch,
             f"below maximum_pitch = {self.maximum_pitch}",
         )
-        power, pitch = self.scheduled_power, self.scheduled_pitch
+        wind, pitch = self.scheduled_wind, self.scheduled_pitch
         require(
-            all(a < b for a, b in pairwise(power)),
+            all(a < b for a, b in pairwise((0.0, *wind))),
             "Control",
-            "scheduled_power",
-            power,
-            "increasing",
+            "scheduled_wind",
+            wind,
+            "positive and increasing",
         )
         within = all(self.minimum_pitch <= p <= self.maximum_pitch for p in pitch)
         require(
-            len(pitch) == len(power) and within,
+            len(pitch) == len(wind) and within,
             "Control",
             "scheduled_pitch",
             pitch,
-            "one value for each scheduled_power, from minimum_pitch to maximum_pitch",
+            "one value for each scheduled_wind, from minimum_pitch to maximum_pitch",
         )
 
 

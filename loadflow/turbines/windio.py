@@ -36,8 +36,7 @@ def from_windio(
 
     The format describes a rotor well and its control roughly. The pitch gains become
     ``gain / (1 + pitch / halving pitch)``; the torque follows ``region2_k``; the rated power is
-    taken for the mechanical one. The pitch that the file asks for in low wind and the torsion of
-    the blade are left out.
+    taken for the mechanical one. The torsion of the blade is left out.
 
     Parameters
     ----------
@@ -121,15 +120,13 @@ def _turbine(document: dict[str, Any], sections: int, damping: float) -> Turbine
     diameter = tower["outer_shape"]["outer_diameter"]["values"]
     airfoils = {foil["name"]: _airfoil(foil) for foil in document["airfoils"]}
     control = document["control"]
+    rated_wind = control["rated_rotor_speed"] * _RPM * rotor.radius / control["optimal_tsr"]
     body = nacelle.get("elastic_properties", {})
     return Turbine(
         name=str(document["name"]),
         source="windIO",
         rated_power=float(assembly["rated_power"]),
-        rated_wind_speed=control["rated_rotor_speed"]
-        * _RPM
-        * rotor.radius
-        / control["optimal_tsr"],
+        rated_wind_speed=rated_wind,
         cut_in=float(assembly["cut_in_wind_speed"]),
         cut_out=float(assembly["cut_out_wind_speed"]),
         rotor=rotor,
@@ -144,7 +141,7 @@ def _turbine(document: dict[str, Any], sections: int, damping: float) -> Turbine
             torsional_stiffness=float(body.get("spring_constant", 0.0)),
             torsional_damping=float(body.get("damping_coefficient", 0.0)),
         ),
-        control=_control(control, gear_ratio),
+        control=_control(control, gear_ratio, rated_wind),
         blade=_blade(blade, rotor, airfoils, sections, damping),
         airfoils=airfoils,
     )
@@ -280,12 +277,13 @@ def _airfoil(entry: dict[str, Any]) -> Airfoil:
     )
 
 
-def _control(entry: dict[str, Any], gear_ratio: float) -> Control:
+def _control(entry: dict[str, Any], gear_ratio: float, rated_wind: float) -> Control:
     reference = entry["rated_rotor_speed"] * _RPM * gear_ratio
     lowest = entry["min_rotor_speed"] * _RPM * gear_ratio
     rated = reference * (1 - _SPEED_MARGIN)
     proportional, integral, halving = _gain_schedule(entry["pitch_kp"], entry["pitch_ki"])
     per_speed = _DEGREE / _RPM / gear_ratio
+    wind, pitch = _schedule(entry, rated_wind)
     return Control(
         region_2_gain=entry["region2_k"] / _RPM**2 / gear_ratio**3,
         region_15_start=lowest,
@@ -301,9 +299,24 @@ def _control(entry: dict[str, Any], gear_ratio: float) -> Control:
         gain_halving_pitch=halving,
         reference_speed=reference,
         pitch_rate=entry["max_pitch_rate"] * _DEGREE,
-        minimum_pitch=entry["fine_pitch"] * _DEGREE,
+        minimum_pitch=min((entry["fine_pitch"] * _DEGREE, *pitch)),
         maximum_pitch=0.5 * np.pi,
+        scheduled_wind=wind,
+        scheduled_pitch=pitch,
     )
+
+
+def _schedule(entry: dict[str, Any], rated_wind: float) -> tuple[tuple[float, ...], ...]:
+    """Lowest pitch below rated wind (m/s; rad), without points inside and at the end of a plateau.
+
+    Above rated wind the tables go on with the pitch of the speed control.
+    """
+    table = entry.get("min_pitch_table", {"wind_speed": [], "min_pitch": []})
+    points = zip(table["wind_speed"], table["min_pitch"], strict=True)
+    below = np.array([point for point in points if point[0] < rated_wind]).reshape(-1, 2)
+    step = np.diff(below[:, 1], prepend=below[:1, 1], append=below[-1:, 1]) != 0
+    wind, pitch = below[step[:-1] | step[1:]].T
+    return tuple(wind.tolist()), tuple((pitch * _DEGREE).tolist())
 
 
 def _gain_schedule(proportional: dict[str, Any], integral: dict[str, Any]) -> tuple[float, ...]:

@@ -1,4 +1,4 @@
-"""Lowest pitch scheduled over the power: IEA 15 MW below 7 m/s."""
+"""Lowest pitch scheduled over the wind, recognised by the power: IEA 15 MW below 7 m/s."""
 
 import dataclasses
 
@@ -7,6 +7,7 @@ import pytest
 
 from loadflow.errors import InputError
 from loadflow.rotor import simulate, steady_state
+from loadflow.rotor.schedule import schedule_over_power
 from loadflow.turbines import load_turbine
 
 TURBINE = load_turbine("iea-15mw")
@@ -14,7 +15,7 @@ LOWEST_SPEED = 5.0 * np.pi / 30
 
 
 def _unscheduled():
-    control = dataclasses.replace(TURBINE.control, scheduled_power=(), scheduled_pitch=())
+    control = dataclasses.replace(TURBINE.control, scheduled_wind=(), scheduled_pitch=())
     return dataclasses.replace(TURBINE, control=control)
 
 
@@ -25,13 +26,28 @@ def test_schedule_pitches_a_rotor_that_turns_too_fast_for_the_wind():
         for t in (TURBINE, _unscheduled())
     )
     assert float(ours["speed"]) == pytest.approx(LOWEST_SPEED, rel=0.02)
-    expected = np.interp(
-        float(ours["power"]), TURBINE.control.scheduled_power, TURBINE.control.scheduled_pitch
-    )
-    assert float(ours["pitch"]) == pytest.approx(expected, abs=2e-3)
+    expected = np.interp(5.0, TURBINE.control.scheduled_wind, TURBINE.control.scheduled_pitch)
+    assert float(ours["pitch"]) == pytest.approx(expected, abs=1e-3)
     assert float(plain["pitch"]) == 0
     assert ours["power"] > 1.1 * plain["power"]
     assert ours["thrust"] < 0.9 * plain["thrust"]
+
+
+def test_each_wind_of_the_schedule_is_recognised_by_the_published_power():
+    # power coefficients that OpenFAST gives for this turbine, at the winds of the schedule
+    published = [0.844e6, 1.318e6, 1.893e6, 2.591e6, 3.427e6, 4.393e6, 4.911e6]
+    power, pitch = schedule_over_power(TURBINE)
+    assert power == pytest.approx(published, rel=0.02)
+    assert tuple(pitch) == TURBINE.control.scheduled_pitch
+
+
+def test_the_schedule_ends_where_the_power_is_rated():
+    control = dataclasses.replace(
+        TURBINE.control, scheduled_wind=(7.0, 9.0, 13.0, 15.0), scheduled_pitch=(0.02, 0.01, 0, 0)
+    )
+    power, pitch = schedule_over_power(dataclasses.replace(TURBINE, control=control))
+    assert pitch == pytest.approx([0.02, 0.01])
+    assert power[-1] < control.rated_mechanical_power
 
 
 def test_schedule_follows_a_turbulent_wind_without_limiting_power():
@@ -52,9 +68,10 @@ def test_above_its_last_power_the_schedule_leaves_fine_pitch():
 @pytest.mark.parametrize(
     ("change", "name"),
     [
-        ({"scheduled_power": (2e6, 1e6)}, "scheduled_power"),
-        ({"scheduled_power": (1e6,), "scheduled_pitch": ()}, "scheduled_pitch"),
-        ({"scheduled_power": (1e6,), "scheduled_pitch": (-0.1,)}, "scheduled_pitch"),
+        ({"scheduled_wind": (5.0, 4.0)}, "scheduled_wind"),
+        ({"scheduled_wind": (-5.0, 4.0)}, "scheduled_wind"),
+        ({"scheduled_wind": (5.0,), "scheduled_pitch": ()}, "scheduled_pitch"),
+        ({"scheduled_wind": (5.0,), "scheduled_pitch": (-0.1,)}, "scheduled_pitch"),
     ],
 )
 def test_unsound_schedule_is_refused_by_name(change, name):

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from loadflow.errors import InputError
+from loadflow.rotor import steady_state
 from loadflow.turbines import from_windio, load_turbine
 from loadflow.turbines.airfoils import blended
 from loadflow.turbines.modes import bending_modes
@@ -44,6 +45,29 @@ def test_the_shipped_iea_15mw_is_what_windio_says(read):
             )
             assert np.abs(difference).max() < 0.02  # resampled to whole degrees
     assert read.frequencies == {}
+
+
+def test_the_lowest_pitch_of_a_windio_file_is_that_of_the_shipped_turbine(read):
+    ours, theirs = load_turbine("iea-15mw").control, read.control
+    # plateaus and what lies above rated wind are left out
+    assert theirs.scheduled_wind[0] == 4.3086
+    assert theirs.scheduled_pitch[-2:] == pytest.approx((np.radians(0.1719), 0.0), abs=1e-5)
+    wind = np.linspace(3.0, 10.0, 71)
+    pitches = [np.interp(wind, c.scheduled_wind, c.scheduled_pitch) for c in (ours, theirs)]
+    assert np.abs(pitches[0] - pitches[1]).max() < np.radians(0.05)
+    points = [
+        steady_state(t, wind_speed=5.0, shear=0.0, rung="tables")["pitch"].item()
+        for t in (load_turbine("iea-15mw"), read)
+    ]
+    assert points[0] == pytest.approx(points[1], abs=np.radians(0.05))
+
+
+def test_a_windio_file_without_a_lowest_pitch_has_no_schedule(example, tmp_path):
+    text = example.read_text()
+    path = tmp_path / "own.yaml"
+    path.write_text(text.replace("min_pitch_table:", "some_other_table:"))
+    control = from_windio(path).control
+    assert control.scheduled_wind == control.scheduled_pitch == ()
 
 
 @pytest.mark.parametrize("sections", [10, 40])

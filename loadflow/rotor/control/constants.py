@@ -38,7 +38,7 @@ class Controller(NamedTuple):
     pitch_rate: float
     minimum_pitch: float
     maximum_pitch: float
-    scheduled_power: NDArray[np.float64]
+    scheduled_power: NDArray[np.float64]  # one point: no schedule; see `schedule_over_power`
     scheduled_pitch: NDArray[np.float64]
     schedule_rate: float
     start_rate: float
@@ -92,8 +92,8 @@ def controller(turbine: Turbine, individual_pitch: bool = False) -> Controller:
         pitch_rate=c.pitch_rate,
         minimum_pitch=c.minimum_pitch,
         maximum_pitch=c.maximum_pitch,
-        scheduled_power=np.array(c.scheduled_power or (0.0,)),
-        scheduled_pitch=np.array(c.scheduled_pitch or (c.minimum_pitch,)),
+        scheduled_power=np.zeros(1),
+        scheduled_pitch=np.array([c.minimum_pitch]),
         schedule_rate=2 * np.pi * c.schedule_filter,
         start_rate=s.start_rate,
         stop_rate=s.stop_rate,
