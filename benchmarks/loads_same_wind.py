@@ -110,9 +110,7 @@ def main(folder, winds):
     for wind, of_wind in files.items():
         for file in of_wind:
             same_wind(file, wind, turbine)
-    print(
-        "\ncontrol replayed: rms of the torque (its deviation), N m; of the pitch, without mean, °"
-    )
+    print("\ncontrol replayed: rms error (standard deviation) of torque, N m, and pitch, °")
     for wind, of_wind in files.items():
         for file in of_wind:
             ours, torque, bent, pitch = replay(file, turbine)
