@@ -18,6 +18,7 @@ _CALM = (
 )
 
 
+_PRESSED = 1e-13  # narrowest gap, in clearances, that is none
 _STUCK = 1e-3  # share of a Newton step that an elastic shell must leave room for
 
 
@@ -107,7 +108,7 @@ def solve_equilibrium(
     same is one implicit step in time. Only the degrees of freedom `free` move; the others are held.
     """
     u = u.copy()
-    ease = film.gap.ease[free]
+    ease, gap = film.gap.ease[free], film.gap.narrowest(position)
     old = (motion.volume_rate, motion.volume)
     for iteration in range(1, max_iterations + 1):
         velocity = motion.velocity(position)
@@ -126,8 +127,10 @@ def solve_equilibrium(
         if share < _STUCK:
             break
         change = film.correct(u, linear.columns, weights)
-        change = max(change, math.hypot(*(target - position)) / film.gap.narrowest(position))
-        position = target
+        change = max(change, math.hypot(*(target - position)) / gap)
+        position, gap = target, film.gap.narrowest(target)
+        if abs(gap) < _PRESSED:
+            break
         if change < _QUADRATIC:
             residual = film.imbalance(u, position, motion.velocity(position), force, *old, free)
             if residual < tolerance:
@@ -178,6 +181,8 @@ def solve_patiently(
                 break
             step = 0.5 * step
         state, missing = trial, left
+        if abs(film.gap.narrowest(state.position)) < _PRESSED:
+            break
         if math.hypot(*missing) < 1e-3 * math.hypot(*wanted):
             end = solve_equilibrium(
                 film, force, state.u, state.position, tolerance, max_iterations, free=free

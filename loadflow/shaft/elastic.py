@@ -32,6 +32,7 @@ answer has NaN."""
 _TURN = np.array([[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 0, 1], [0, 0, -1, 0]], dtype=float)
 """From (y, z, θy, θz) to (v, w, v′, w′)."""
 _ITERATIONS = 50
+_STUCK = 2.0**-7  # share of a step that is none
 _FREE = 1e6  # over the flexibility of the shaft: a seat that hardly takes a moment
 
 
@@ -224,16 +225,17 @@ class _Redundant:
             change = (abs(target - reaction) / self.unit[:, None]).max(axis=0) / size
             answered = np.isfinite(offset).all(axis=0)
             settled = answered & (change < iteration.tolerance)
-            if settled.all() or not (answered & ~settled).any():
+            moving = answered & ~settled & (step > _STUCK)
+            if not moving.any():
                 break
-            trial = reaction + np.where(settled, 1.0, step) * (target - reaction)
+            trial = np.where(moving, reaction + step * (target - reaction), reaction)
             softer, moved = bearings.tangent(trial)
             left = self._open(softer, moved, trial)
-            nearer = settled | (left < gape)
+            nearer = moving & (left < gape)
             reaction = np.where(nearer, trial, reaction)
             compliance = np.where(nearer[:, None, None], softer, compliance)
             offset, gape = np.where(nearer, moved, offset), np.where(nearer, left, gape)
-            step = np.where(nearer, np.minimum(2 * step, 1.0), step / 2)
+            step = np.where(moving, np.where(nearer, np.minimum(2 * step, 1.0), step / 2), step)
         worst = float(np.nan_to_num(change, nan=np.inf).max())
         if iteration.strict and not settled.all():
             raise SolverError(

@@ -34,6 +34,7 @@ ACCURACY = 5e-3
 
 _CHUNK = 500  # loads iterated together
 _AGREED = 1e-7  # relative change of a reaction in the last iteration
+_LOST = 0.5  # share that must settle for more to be worth solving
 _KEPT = ("force", "moment", "displacement", "tilt", "curvature")
 
 
@@ -178,7 +179,7 @@ class _Series:
         order = farthest(places, MOST)
         count = min(FIRST, order.size)
         known, error = self.solve(rows[order[:count]], self.exact), np.inf
-        while count < order.size and error > accuracy:
+        while count < order.size and error > accuracy and known.settled.mean() > _LOST:
             batch = order[count : count + MORE]
             more = self.solve(rows[batch], self.exact)
             if known.settled.sum() > 2 * places.shape[1]:

@@ -32,17 +32,25 @@ def film_model(
     strict : bool
         Raise `loadflow.errors.SolverError` for a load that no film carries; else it has NaN.
     """
-    size = 4 if tilting else 2
+    n, size = len(speed), 4 if tilting else 2
     turn, aligned = _TURN[:size, :size], options.model_copy(update={"tilt": False})
+    last, motion = np.full((n, 6), np.nan), np.empty((n, size))
+    stiffness = np.empty((n, size, size))
 
     def model(force: Floats, moment: Floats) -> tuple[Floats, Floats]:
-        answer = equilibria(aligned, force, speed, **({"moment": moment} if tilting else {}))
-        if strict and not np.all(answer.converged):
-            worst = int(np.argmin(answer.converged))
-            raise SolverError(
-                f"no film carries {np.hypot(*force[worst, 1:]):.4g} N at {speed[worst]:.4g} rad/s"
-            )
-        motion = np.concatenate([answer.eccentricity, answer.tilt], axis=1)[:, :size]
-        return motion @ turn, turn.T @ answer.stiffness @ turn
+        load = np.concatenate([force, moment if tilting else np.zeros((n, 3))], axis=1)
+        new = np.flatnonzero((load != last).any(axis=1))  # the others are known from the last time
+        if new.size:
+            line = {"moment": moment[new]} if tilting else {}
+            answer = equilibria(aligned, force[new], speed[new], **line)
+            if strict and not np.all(answer.converged):
+                k = new[int(np.argmin(answer.converged))]
+                raise SolverError(
+                    f"no film carries {np.hypot(*force[k, 1:]):.4g} N at {speed[k]:.4g} rad/s"
+                )
+            moved = np.concatenate([answer.eccentricity, answer.tilt], axis=1)[:, :size]
+            last[new], motion[new] = load[new], moved @ turn
+            stiffness[new] = turn.T @ answer.stiffness @ turn
+        return motion.copy(), stiffness.copy()
 
     return model

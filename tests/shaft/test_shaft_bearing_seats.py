@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from synthetic import case as synthetic_case
 
-from loadflow.errors import InputError
+from loadflow.errors import InputError, SolverError
 from loadflow.ladder import rung_of
 from loadflow.plan import make_plan
 from loadflow.scene import make_scene
@@ -190,3 +190,13 @@ def test_the_plan_names_the_choice_and_feels_the_bearings():
 def test_a_seat_without_such_a_bearing_is_refused(seats, sections, message):
     with pytest.raises(InputError, match=message):
         scene_of(seats, **sections)
+
+
+def test_a_moment_that_presses_the_shaft_onto_the_rim_has_no_film():
+    journal = scene_of([], journal={"tilt": True, "grid": [36, 8]}).journal
+    model = film_model(journal, np.array([1.2, 1.2]), tilting=True, strict=False)
+    force = np.array([[0.0, 0.0, -2.5e6]] * 2)
+    motion, _ = model(force, np.array([[0.0, 3e5, 0.0], [0.0, 3e6, 0.0]]))
+    assert np.isfinite(motion).all(axis=1).tolist() == [True, False]
+    with pytest.raises(SolverError, match="no film carries 2.5e"):
+        film_model(journal, np.array([1.2]), tilting=True)(force[1:], np.array([[0.0, 3e6, 0.0]]))
