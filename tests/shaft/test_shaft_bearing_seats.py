@@ -198,5 +198,5 @@ def test_a_moment_that_presses_the_shaft_onto_the_rim_has_no_film():
     force = np.array([[0.0, 0.0, -2.5e6]] * 2)
     motion, _ = model(force, np.array([[0.0, 3e5, 0.0], [0.0, 3e6, 0.0]]))
     assert np.isfinite(motion).all(axis=1).tolist() == [True, False]
-    with pytest.raises(SolverError, match="no film carries 2.5e"):
+    with pytest.raises(SolverError, match="no film carries"):
         film_model(journal, np.array([1.2]), tilting=True)(force[1:], np.array([[0.0, 3e6, 0.0]]))
