@@ -205,6 +205,8 @@ class Control:
         Of the generator in region 2½, share of its synchronous speed.
     rated_mechanical_power : float
         W.
+    constant_power : float
+        Above rated wind: 1 holds the power, 0 the torque, anything between is a blend of both.
     maximum_torque, maximum_torque_rate : float
         N m; N m/s.
     speed_filter : float
@@ -246,6 +248,7 @@ class Control:
     scheduled_wind: tuple[float, ...] = ()
     scheduled_pitch: tuple[float, ...] = ()
     schedule_filter: Positive = 0.033
+    constant_power: Annotated[float, Ge(0), Le(1)] = 1.0
     individual_gain: NotNegative = 0.0
     individual_limit: NotNegative = 5.0 * _DEGREE
 
@@ -271,6 +274,8 @@ class Control:
             "gain_halving_pitch",
             "pitch_rate",
         )
+        share = self.constant_power
+        require(0 <= share <= 1, "Control", "constant_power", share, "in [0, 1]")
         require(
             self.minimum_pitch < self.maximum_pitch,
             "Control",

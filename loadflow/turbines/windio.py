@@ -301,6 +301,7 @@ def _control(entry: dict[str, Any], gear_ratio: float, rated_wind: float) -> Con
         pitch_rate=entry["max_pitch_rate"] * _DEGREE,
         minimum_pitch=min((entry["fine_pitch"] * _DEGREE, *pitch)),
         maximum_pitch=0.5 * np.pi,
+        constant_power=float(entry.get("constant_power", 1.0)),
         scheduled_wind=wind,
         scheduled_pitch=pitch,
     )

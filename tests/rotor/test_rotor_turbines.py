@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from loadflow.rotor import RotorOptions, simulate, steady_state
-from loadflow.rotor.control.constants import STATES
+from loadflow.rotor.control._kernels import control_torque
+from loadflow.rotor.control.constants import STATES, controller
 from loadflow.turbines import load_turbine
 
 CALM = RotorOptions(tower_dam=False, skew_factor=0.0)
@@ -41,6 +42,24 @@ def test_a_turbine_runs_in_turbulence_and_stops(name):
         rung="tables",
     )
     assert float(stop["speed"][-1]) < 0.2 * reference
+
+
+@pytest.mark.parametrize(("share", "exponent"), [(1.0, -1.0), (0.0, 0.0)])
+def test_above_rated_speed_the_power_or_the_torque_is_held(share, exponent):
+    turbine = load_turbine("iea-15mw")
+    c = controller(turbine)._replace(constant_power=share)
+    speeds = c.reference_speed * np.array([1.0, 1.05, 1.1])
+    torque = np.array([control_torque(c, speed, 0.2) for speed in speeds])
+    assert torque == pytest.approx(torque[0] * (speeds / speeds[0]) ** exponent)
+    assert torque[0] * speeds[0] == pytest.approx(c.rated_power)
+    # the line of region 2½ ends on it
+    below = control_torque(c, c.rated_speed * (1 - 1e-9), 0.0)
+    assert below == pytest.approx(control_torque(c, c.rated_speed, 0.0), rel=1e-6)
+
+
+def test_turbulence_at_high_wind_does_not_trip_the_iea_15mw():
+    series = simulate("iea-15mw", wind_speed=24.0, seed=1, duration=300.0, rung="tables")
+    assert (series["state"] == STATES.index("run")).all()
 
 
 @pytest.mark.parametrize("name", ["windpact-1.5mw", "iea-15mw"])

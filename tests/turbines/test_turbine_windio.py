@@ -29,7 +29,13 @@ def test_the_shipped_iea_15mw_is_what_windio_says(read):
         "rotor": ("radius", "hub_radius", "overhang", "tilt", "cone", "hub_mass", "hub_inertia"),
         "tower": ("base_diameter", "top_diameter", "height"),
         "drivetrain": ("gear_ratio", "generator_inertia"),
-        "control": ("reference_speed", "speed_filter", "proportional_gain", "gain_halving_pitch"),
+        "control": (
+            "reference_speed",
+            "speed_filter",
+            "proportional_gain",
+            "gain_halving_pitch",
+            "constant_power",
+        ),
         "blade": ("mass", "radius", "twist", "chord", "prebend", "mass_density", "flap_stiffness"),
     }.items():
         for name in names:

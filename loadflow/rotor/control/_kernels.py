@@ -26,8 +26,9 @@ def control_torque(c, speed, surplus):
     """Generator torque of the speed, N m (regions 1 to 3; 3 is held while the `surplus` of the
     pitch above the lowest one exceeds 1°).
     """
+    held = (1 - c.constant_power) * c.rated_power / c.reference_speed
     if speed >= c.rated_speed or surplus >= _REGION_3_PITCH:
-        torque = c.rated_power / max(speed, 0.01 * c.rated_speed)
+        torque = held + c.constant_power * c.rated_power / max(speed, 0.01 * c.rated_speed)
     elif speed <= c.region_15_start:
         torque = 0.0
     elif speed < c.region_2_start:
@@ -35,7 +36,8 @@ def control_torque(c, speed, surplus):
         share = (speed - c.region_15_start) / (c.region_2_start - c.region_15_start)
         torque = top * share
     else:
-        slope = c.rated_power / c.rated_speed / (c.rated_speed - c.synchronous_speed)
+        top = held + c.constant_power * c.rated_power / c.rated_speed
+        slope = top / (c.rated_speed - c.synchronous_speed)
         # region 2 follows the parabola until the line of region 2 1/2 crosses it
         torque = max(c.region_2_gain * speed**2, slope * (speed - c.synchronous_speed))
     return min(torque, c.maximum_torque)

@@ -28,6 +28,7 @@ class Controller(NamedTuple):
     rated_speed: float
     synchronous_speed: float
     rated_power: float
+    constant_power: float
     maximum_torque: float
     torque_rate: float
     filter_rate: float
@@ -82,6 +83,7 @@ def controller(turbine: Turbine, individual_pitch: bool = False) -> Controller:
         rated_speed=c.rated_speed,
         synchronous_speed=c.rated_speed / (1 + c.slip),
         rated_power=c.rated_mechanical_power,
+        constant_power=c.constant_power,
         maximum_torque=c.maximum_torque,
         torque_rate=c.maximum_torque_rate,
         filter_rate=2 * np.pi * c.speed_filter,
