@@ -40,6 +40,7 @@ def control_torque(c, speed, surplus):
         slope = top / (c.rated_speed - c.synchronous_speed)
         # region 2 follows the parabola until the line of region 2 1/2 crosses it
         torque = max(c.region_2_gain * speed**2, slope * (speed - c.synchronous_speed))
+        torque = min(torque, top)
     return min(torque, c.maximum_torque)
 
 
