@@ -136,6 +136,7 @@ def operating_point(
     from .inflow import steady_inflow
     from .loop import run, turning_state
 
+    c = c._replace(overspeed=np.inf)  # too fast on the way from a poor guess is no fault
     state = turning_state(m, c, wind_speed, *_guess(m, c, wind_speed))
     inflow = steady_inflow(wind_speed, round(_SETTLE / _STEP), shear)
     before = np.full(k.COLUMNS + m.blades, np.inf)

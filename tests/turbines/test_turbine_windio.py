@@ -68,6 +68,18 @@ def test_the_lowest_pitch_of_a_windio_file_is_that_of_the_shipped_turbine(read):
     assert points[0] == pytest.approx(points[1], abs=np.radians(0.05))
 
 
+def test_another_turbine_of_windio_follows_its_table_below_rated_wind_and_holds_power_above(
+    example,
+):
+    turbine = from_windio(example.parent / "IEA-22-280-RWT.yaml")
+    point = steady_state(turbine, wind_speed=[8.0, 20.0], shear=0.0, rung="tables")
+    table = turbine.control.scheduled_wind, turbine.control.scheduled_pitch
+    # its fine pitch is −4°; the wind is recognised by the power of rigid blades
+    assert float(point["pitch"][0]) == pytest.approx(np.interp(8.0, *table), abs=np.radians(0.05))
+    assert float(point["power"][1]) == pytest.approx(22e6, rel=1e-3)
+    assert float(point["speed"][1]) == pytest.approx(turbine.control.reference_speed, rel=1e-3)
+
+
 def test_a_windio_file_without_a_lowest_pitch_has_no_schedule(example, tmp_path):
     text = example.read_text()
     path = tmp_path / "own.yaml"
