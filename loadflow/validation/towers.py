@@ -71,17 +71,14 @@ def _sway(turbine: Any, place: int) -> float:
 
 def _clamped(tower: Any) -> float:
     """Frequency of the first fore-aft mode under a point mass, by Rayleigh's quotient, Hz."""
+    from loadflow.rotor.frame import _above, _shape
+    from loadflow.rotor.machine import GRAVITY
+
     height = np.linspace(tower.height[0], tower.height[-1], 2001)
-    length = np.ptp(height)
-    x = ((height - height[0]) / length)[:, None]
-    powers, c = np.arange(2, 2 + len(tower.fore_aft)), np.array(tower.fore_aft)
-    shape = x**powers @ c
-    slope = x ** (powers - 1) @ (c * powers) / length
-    curvature = x ** (powers - 2) @ (c * powers * (powers - 1)) / length**2
+    shape, slope, curvature = _shape(tower.fore_aft, height)
     density = np.interp(height, tower.height, tower.mass_density)
     rigidity = np.interp(height, tower.height, tower.fore_aft_stiffness)
-    pieces = 0.5 * (density[1:] + density[:-1]) * np.diff(height)
-    above = _MODES_MASS + np.append(np.cumsum(pieces[::-1])[::-1], 0.0)
-    stiffness = np.trapezoid(rigidity * curvature**2 - 9.80665 * above * slope**2, height)
-    mass = np.trapezoid(density * shape**2, height) + _MODES_MASS * shape[-1] ** 2
+    weight = GRAVITY * (_MODES_MASS + _above(density, height))
+    stiffness = np.trapezoid(rigidity * curvature**2 - weight * slope**2, height)
+    mass = np.trapezoid(density * shape**2, height) + _MODES_MASS
     return float(np.sqrt(stiffness / mass) / (2 * np.pi))
