@@ -24,6 +24,7 @@ from measuring import (
     timed,
     with_ratios,
 )
+from seats import measure_seats
 
 from loadflow.cube import make_cube, save_cube
 from loadflow.reduction import damage_equivalent_load
@@ -191,7 +192,7 @@ def measure_shaft(bench: Bench) -> Rungs:
         f"; if both bearings resist tilting with {TILTING:.0e} N m/rad, bearing load max ≤ "
         f"{percent(off)} against the beam"
     )
-    return with_ratios(found, "two_point+moment")
+    return with_ratios(found | measure_seats(bench), "two_point+moment")
 
 
 def _across(force: xr.DataArray) -> np.ndarray:

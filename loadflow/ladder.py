@@ -115,7 +115,21 @@ def section_of(stage: str) -> str:
 
 def measured(scene: Scene, stage: str) -> dict[str, Any] | None:
     """Return what the ladder holds of the scene's rung of a stage, None if it was not measured."""
-    return _rungs(scene, stage).get(rung_of(scene, stage))
+    seated = stage == "shaft" and scene.shaft.seated
+    return _rungs(scene, stage).get(_seats_rung(scene) if seated else rung_of(scene, stage))
+
+
+def _seats_rung(scene: Scene) -> str:
+    """Kinds of bearing that the shaft is iterated with, as the ladder names them."""
+    kinds = {
+        f"{seat.stiffness}, tilting"
+        if seat.stiffness == "journal" and seat.takes_moment
+        else f"{seat.stiffness}, flexible"
+        if seat.stiffness == "rolling" and scene.rolling.bearings[name].rings == "flexible"
+        else seat.stiffness
+        for name, seat in scene.shaft.seated.items()
+    }
+    return f"on {'+'.join(sorted(kinds))}"
 
 
 def _rungs(scene: Scene, stage: str) -> dict[str, Any]:
@@ -134,10 +148,25 @@ def expected_seconds(scene: Scene, stage: str, cases: Iterable[Case]) -> float |
         if more is None:
             return None
         each = known["seconds_per_case"] + more
-        return each * sum(case.steps for case in cases) / STEPS_PER_CASE
+        films = _seat_films(scene, known) if stage == "shaft" else 1.0
+        if films is None:
+            return None
+        return each * films * sum(case.steps for case in cases) / STEPS_PER_CASE
     bearings = len(scene.journal.bearings) if stage == "journal" else 1
     samples = _share(scene, stage) * bearings * sum(case.steps for case in cases)
     return known["seconds_per_sample"] * samples * _films(scene, stage)
+
+
+def _seat_films(scene: Scene, known: dict[str, Any]) -> float | None:
+    """Time of the scene's film over that of the one which the shaft was measured on."""
+    if "film" not in known:
+        return 1.0
+    films = ladder()["journal"]
+    ours, theirs = films.get(rung_of(scene, "journal")), films[known["film"]]
+    if ours is None:
+        return None
+    warm = WARM_FILMS if scene.journal.heat is not None else 1.0
+    return warm * float(ours["seconds_per_sample"] / theirs["seconds_per_sample"])
 
 
 def _films(scene: Scene, stage: str) -> float:

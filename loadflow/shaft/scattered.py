@@ -43,7 +43,7 @@ def nearest(places: Floats, known: Floats) -> Rows:
     return np.asarray(KDTree(known).query(places)[1])
 
 
-def between(known: Floats, values: Floats) -> Callable[[Floats], Floats]:
+def interpolation(known: Floats, values: Floats) -> Callable[[Floats], Floats]:
     """Function from places (n, d) to values (n, m), through `values` (k, m) at `known` (k, d).
 
     By cubic radial basis functions, which give straight functions exactly; k > d is needed.

@@ -21,7 +21,7 @@ from loadflow.errors import InputError
 from loadflow.shaft.elastic import BearingModel
 from loadflow.shaft.options import Concept
 from loadflow.shaft.reactions import bearing_loads
-from loadflow.shaft.scattered import Rows, between, evened, farthest, nearest
+from loadflow.shaft.scattered import Rows, evened, farthest, interpolation, nearest
 
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -134,20 +134,25 @@ class _Solved:
         Whether shaft and bearings agree.
     attrs : dict
         How the iteration went at its worst.
+    tangents : dict
+        Load, motion and compliance of dear bearings, (k, m), by name; NaN where not settled.
     """
 
     values: Floats
     settled: Flags
-    attrs: dict[str, float] = field(default_factory=dict)
+    attrs: dict[str, float]
+    tangents: dict[str, Floats] = field(default_factory=dict)
 
     def joined(self, more: _Solved) -> _Solved:
         """Both together."""
         worst = {name: max(self.attrs[name], more.attrs[name]) for name in self.attrs}
         worst["converged"] = min(self.attrs["converged"], more.attrs["converged"])
+        tangents = [name for name in self.tangents if name in more.tangents]
         return _Solved(
             np.concatenate([self.values, more.values]),
             np.concatenate([self.settled, more.settled]),
             worst,
+            {n: np.concatenate([self.tangents[n], more.tangents[n]]) for n in tangents},
         )
 
     def off(self, truth: _Solved) -> float:
@@ -178,12 +183,12 @@ class _Series:
         places = self.places(rows)
         order = farthest(places, MOST)
         count = min(FIRST, order.size)
-        known, error = self.solve(rows[order[:count]], self.exact), np.inf
+        known, error = self.with_tangents(rows[order[:count]]), np.inf
         while count < order.size and error > accuracy and known.settled.mean() > _LOST:
             batch = order[count : count + MORE]
-            more = self.solve(rows[batch], self.exact)
+            more = self.with_tangents(rows[batch])
             if known.settled.sum() > 2 * places.shape[1]:
-                tangents = self.tangents(rows, places, order[:count], known)
+                tangents = self.between(rows, places, order[:count], known)
                 error = self.solve(rows[batch], tangents).off(more)
             known, count = known.joined(more), count + batch.size
         return self.filled(rows, places, order[:count], known), count, error
@@ -194,7 +199,7 @@ class _Series:
         values = np.zeros((rows.size, *known.values.shape[1:]))
         attrs = known.attrs
         if settled.any() and known.settled.sum() > 2 * places.shape[1]:
-            rest = self.solve(rows[settled], self.tangents(rows, places, chosen, known))
+            rest = self.solve(rows[settled], self.between(rows, places, chosen, known))
             values[settled], attrs = rest.values, known.joined(rest).attrs
             settled[settled] = rest.settled
         values[chosen], settled[chosen] = known.values, known.settled
@@ -211,20 +216,37 @@ class _Series:
         """The bearings' own models."""
         return {name: seat.model(rows) for name, seat in self.bearings.items()}
 
-    def tangents(
+    def with_tangents(self, rows: Rows) -> _Solved:
+        """Result with the bearings' own models, and the tangents of the dear ones."""
+        found = self.solve(rows, self.exact)
+        return replace(
+            found,
+            tangents={
+                name: self._tangents(name, rows, found)
+                for name, seat in self.bearings.items()
+                if not seat.quick
+            },
+        )
+
+    def _tangents(self, name: str, rows: Rows, found: _Solved) -> Floats:
+        good, place = np.flatnonzero(found.settled), self.concept.bearings.index(name)
+        force, moment = found.values[good, :2, place].swapaxes(0, 1)
+        motion, stiffness = self.bearings[name].model(rows[good])(force, moment)
+        soft = np.linalg.inv(stiffness).reshape(good.size, stiffness.shape[-1] ** 2)
+        known = np.concatenate([force[:, 1:], moment[:, 1:], motion, soft], axis=1)
+        table = np.full((rows.size, known.shape[1]), np.nan)
+        table[good] = known
+        return table
+
+    def between(
         self, rows: Rows, places: Floats, chosen: Rows, known: _Solved
     ) -> Callable[[Rows], dict[str, BearingModel]]:
         """Models for samples between the `chosen` ones: tangents of the dear bearings."""
-        good = chosen[known.settled]
-        found: dict[str, Callable[[Floats], Floats]] = {}
-        for name, seat in self.bearings.items():
-            if not seat.quick:
-                place = self.concept.bearings.index(name)
-                force, moment = known.values[known.settled, :2, place].swapaxes(0, 1)
-                motion, stiffness = seat.model(rows[good])(force, moment)
-                soft = np.linalg.inv(stiffness).reshape(good.size, -1)
-                load = np.concatenate([force[:, 1:], moment[:, 1:]], axis=1)
-                found[name] = between(places[good], np.concatenate([load, motion, soft], axis=1))
+        good = known.settled
+        found = {
+            name: interpolation(places[chosen[good]], table[good])
+            for name, table in known.tangents.items()
+        }
 
         def models(some: Rows) -> dict[str, BearingModel]:
             at = places[np.searchsorted(rows, some)]
