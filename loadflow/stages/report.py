@@ -75,6 +75,13 @@ def _sections(
     yield Section(
         "Loads", tables=[*_load_tables(tables)], pictures=[*_load_pictures(folder, shown)]
     )
+    if "shaft" in tables:
+        yield Section(
+            "Shaft",
+            "Shaft and the scene's own bearings, iterated until they agree. Marked: cases with "
+            "samples to which a bearing has no answer; it is rigid there.",
+            tables=[_case_table(tables["shaft"])],
+        )
     if "seeds" in tables:
         yield _seed_section(folder, tables["seeds"], manifest)
     if (folder / "reduction").is_dir() and "reduction" in manifest["stages"]:

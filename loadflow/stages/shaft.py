@@ -21,7 +21,7 @@ Floats = np.ndarray
 STILL = 0.01
 """Share of the largest speed of a series, below which surfaces touch and no film is asked."""
 
-_GLIDING = 0.03  # share of the largest speed, above which a film changes with its logarithm
+_GLIDING = 0.1  # share of the largest speed, above which a film changes with its logarithm
 
 
 def bearing_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
@@ -121,6 +121,29 @@ def _agreement(part: xr.Dataset) -> xr.Dataset:
         found[name] = xr.DataArray(float(part.attrs[name])), "1", meaning
     return labelled(found)
 
+
+def warnings(tree: xr.DataTree) -> list[str]:
+    """Say where shaft and bearings were iterated, but not well, or not at all."""
+    if "shaft" not in tree.children:
+        return []
+    found = tree["shaft"].to_dataset()
+    worst = found.isel(case=int(np.argmax(found["interpolation_error"].values)))
+    error, said = worst["interpolation_error"].item(), []
+    if error > WARN:
+        said.append(
+            f"shaft: between the samples solved, loads or lean are off by {100 * error:.2g} % of "
+            f"their largest ({worst['case'].item()})"
+        )
+    if rigid := int(found["not_converged"].sum()):
+        said.append(
+            f"shaft: {rigid} samples have rigid bearings in place of films or rollers that have "
+            "no answer there, such as a film at standstill"
+        )
+    return said
+
+
+WARN = 0.05
+"""Error between the samples solved, over the largest values, above which a run warns."""
 
 _TOLD = {
     "iterations": "iterations of shaft and bearings",

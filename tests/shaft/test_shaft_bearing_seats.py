@@ -2,11 +2,14 @@
 
 import numpy as np
 import pytest
+import xarray as xr
 from synthetic import case as synthetic_case
 
+from loadflow.cube import make_cube, open_cube, save_cube
 from loadflow.errors import InputError, SolverError
-from loadflow.ladder import rung_of
+from loadflow.ladder import expected_seconds, measured, rung_of
 from loadflow.plan import make_plan
+from loadflow.runner import run
 from loadflow.scene import make_scene
 from loadflow.shaft import TwoPoint
 from loadflow.shaft import bearing_loads as suspended
@@ -171,6 +174,16 @@ def test_the_plan_names_the_choice_and_feels_the_bearings():
         for s in (one, other)
     ]
     assert digests[0] != digests[1]
+    known = measured(one, "shaft")
+    assert "of the largest" in known["error"]
+    cases = make_plan(one).cases
+    slow, fast = (
+        expected_seconds(one.model_copy(update={"journal": journal}), "shaft", cases)
+        for journal in (one.journal, one.journal.model_copy(update={"rung": "map"}))
+    )
+    assert slow > 5 * fast > 0
+    odd = one.journal.model_copy(update={"grid": (62, 22)})
+    assert expected_seconds(one.model_copy(update={"journal": odd}), "shaft", cases) is None
 
 
 @pytest.mark.parametrize(
@@ -200,3 +213,28 @@ def test_a_moment_that_presses_the_shaft_onto_the_rim_has_no_film():
     assert np.isfinite(motion).all(axis=1).tolist() == [True, False]
     with pytest.raises(SolverError, match="no film carries"):
         film_model(journal, np.array([1.2]), tilting=True)(force[1:], np.array([[0.0, 3e6, 0.0]]))
+
+
+def test_a_run_tells_that_shaft_and_bearings_were_iterated(tmp_path):
+    still = synthetic_case(12.0, 1, steps=200)
+    still["speed"][:5] = 0.0
+    cube = save_cube(make_cube([synthetic_case(8.0, 1, steps=200), still]), tmp_path / "loads.h5")
+    scene = scene_of(
+        [{"stiffness": "journal"}, {"stiffness": "journal"}],
+        journal={"grid": [36, 8]},
+        loads={"files": [str(cube)]},
+    )
+    found = run(scene, out=tmp_path)
+    told = found.tree["shaft"].to_dataset()
+    assert told["not_converged"].values.tolist() == [0, 5]
+    assert (told["solved"] == [150, 150]).all()
+    assert list(found.flagged.values()) == [5]
+    assert any("5 samples have rigid bearings" in line for line in found.warnings)
+    page = found.report.read_text(encoding="utf-8")
+    assert "iterated with N journal, N2 journal" in page
+    # a part that is lost comes back the same
+    part = next((found.path / "shaft").glob("*v12*"))
+    before = open_cube(part).load()
+    part.unlink()
+    run(scene, out=tmp_path, report=False)
+    xr.testing.assert_identical(before, open_cube(part).load())
