@@ -12,6 +12,7 @@ import xarray as xr
 from loadflow.scene import Scene
 from loadflow.seeds import Method, equality, group_seeds_jointly, holm
 from loadflow.stages.cases import Case
+from loadflow.stages.reduction import moment_governs
 
 TESTS = ("location", "spread", "spectrum")
 
@@ -52,7 +53,7 @@ def equality_of_seeds(
 
 def _together(scene: Scene, group: list[Case], inputs: Mapping[str, dict[str, Any]]) -> str:
     """Say which seeds of one wind speed belong together, all components at once, and why."""
-    found = components(group, inputs)
+    found = components(scene, group, inputs)
     step = next(iter(found.values()))[1]
     series = {name: values for name, (values, _) in found.items()}
     grouping = group_seeds_jointly(series, step, scene.seeds.alpha)
@@ -81,7 +82,7 @@ def _one_group(
     options = scene.seeds
     found = {
         name: equality(series, step, alpha=options.alpha, method=method, band=options.band)
-        for name, (series, step) in components(group, inputs).items()
+        for name, (series, step) in components(scene, group, inputs).items()
     }
     dims = ("group", "component", "test")
 
@@ -112,23 +113,24 @@ def _one_group(
 
 
 def components(
-    group: list[Case], inputs: Mapping[str, dict[str, Any]]
+    scene: Scene, group: list[Case], inputs: Mapping[str, dict[str, Any]]
 ) -> dict[str, tuple[list[np.ndarray], float]]:
     """Return for each component the series of all seeds, and their step."""
     found: dict[str, tuple[list[np.ndarray], float]] = {}
     for case in group:
-        for name, values, step in _series(inputs[case.name]):
+        for name, values, step in _series(scene, inputs[case.name]):
             found.setdefault(name, ([], step))[0].append(values)
     return found
 
 
-def _series(parts: dict[str, Any]) -> Iterator[tuple[str, np.ndarray, float]]:
+def _series(scene: Scene, parts: dict[str, Any]) -> Iterator[tuple[str, np.ndarray, float]]:
     loads, shaft = parts["loads"], parts["shaft"]
     step = _step(loads)
     yield "speed", loads["speed"].values.astype(float), step
     for bearing in shaft["bearing"].values:
-        moment = shaft["moment"].sel(bearing=bearing)
-        name, load = ("M", moment) if np.any(moment.sel(axis=["y", "z"])) else ("F", shaft["force"])
+        moment = shaft["moment"].sel(bearing=bearing).transpose("time", "axis").values
+        by_moment = moment_governs(scene, str(bearing), moment)
+        name, load = ("M", shaft["moment"]) if by_moment else ("F", shaft["force"])
         for axis in ("y", "z"):
-            component = load.sel(axis=axis) if name == "M" else load.sel(bearing=bearing, axis=axis)
+            component = load.sel(bearing=bearing, axis=axis)
             yield f"{bearing} {name}{axis}", component.values.astype(float), step
