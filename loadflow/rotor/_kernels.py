@@ -168,7 +168,7 @@ def blade_aerodynamics(
 ):  # fmt: skip
     """Aerodynamic force (x, r, t) on each section of one blade, N.
 
-    `tilt` and `drift` (6,): see `nacelle_motion`; `motion` (n, 6): see `deflection`; `guess` (n,):
+    `tilt` and `drift` (6,): see `nacelle_motion`; `motion` (n, 7): see `deflection`; `guess` (n,):
     inflow angles of the step before, replaced; `wake` (n, SECTION_STATES): see `coefficients`;
     `induced` (n, 2, 3): see `inflow_lag`. Returns the mean wind over the sections (x, y, z).
     """
@@ -209,8 +209,9 @@ def blade_aerodynamics(
         if m.dynamic_inflow:
             a, swirl = inflow_lag(m, i, normal, tangential, a, swirl, state, dt, induced[i])
         a = skewed(m, a, y, z, state)
+        # rotation of the rotor turns a section that leans about its span
         f_normal, f_tangential = section_force(
-            m, i, pitch, normal, tangential, a, swirl, dt, wake[i]
+            m, i, pitch + motion[i, 6], -speed * lean_s, normal, tangential, a, swirl, dt, wake[i]
         )
         force[i, 0] = f_normal * lean_c * m.width[i]
         force[i, 1] = f_normal * lean_s * m.width[i]
@@ -232,8 +233,8 @@ def march(
     Not `controlled`: speed and pitch stay. `out` (steps, COLUMNS + blades) is filled.
     """
     sections, modes, count, twist = m.radius.size, q.shape[1], h.size, m.frame.twist
-    shape = np.zeros((m.blades, sections, modes, 3))
-    motion = np.zeros((sections, 6))
+    shape = np.zeros((m.blades, sections, modes, 4))
+    motion = np.zeros((sections, 7))
     force = np.zeros((m.blades, sections, 3))
     answer = np.zeros((m.blades, modes, 1 + count))
     inertia, load = np.zeros((count, count)), np.zeros(count)

@@ -9,10 +9,9 @@ from numpy.typing import NDArray
 
 from loadflow.turbines import Blade, Mode, Turbine
 
-from .airfoils import attached_flow
+from .airfoils import potential_flow, separation
 from .frame import Frame, frame
 from .options import RotorOptions
-from .stall import separation
 
 Array = NDArray[np.float64]
 
@@ -48,7 +47,7 @@ class Machine(NamedTuple):
     lift_slope: Array  # (n,), of potential flow, 1/rad; 0: a section without lift
     friction: Array  # (n,), drag at zero lift
     attached: Array  # (n, p), see `Separation`
-    separation_gain: Array  # (n, p)
+    separated: Array  # (n, p)
     mass: Array  # (n,), kg
     shape: Array  # (n, k, 2)
     slope: Array  # (n, k, 2)
@@ -62,6 +61,7 @@ class Machine(NamedTuple):
     prebend_slope: Array  # (n,)
     prebend_centrifugal: Array  # (k,), load on the modes per Ω²
     prebend_gravity: Array  # (k,), load on the modes per outward component of gravity
+    bend_twist: float
     mass_factor: Array  # (blades,)
     pitch_offset: Array  # (blades,)
     tower_distance: float  # rotor apex to tower axis, along the shaft
@@ -103,8 +103,8 @@ def machine(turbine: Turbine, options: RotorOptions) -> Machine:
     outer_pull = _from_tip(density * (span + rotor.hub_radius), span)
     angle = np.arange(-np.pi, np.pi + _POLAR_STEP / 2, _POLAR_STEP)
     foils = [turbine.airfoils[name] for name in blade.airfoil]
-    steady = np.array([attached_flow(foil) for foil in foils])
-    split = [separation(foil, angle) for foil in foils]
+    flows = [potential_flow(foil) for foil in foils]
+    split = [separation(*pair, angle) for pair in zip(foils, flows, strict=True)]
     imbalance = np.zeros(rotor.blades)
     imbalance[0] = 1.0
     tower = turbine.tower
@@ -126,11 +126,11 @@ def machine(turbine: Turbine, options: RotorOptions) -> Machine:
         twist=blade.twist,
         lift=np.array([np.interp(angle, f.angle, f.lift) for f in foils]),
         drag=np.array([np.interp(angle, f.angle, f.drag) for f in foils]),
-        zero_lift=steady[:, 0],
-        lift_slope=steady[:, 1],
-        friction=steady[:, 2],
+        zero_lift=np.array([flow.zero for flow in flows]),
+        lift_slope=np.array([flow.slope for flow in flows]),
+        friction=np.array([flow.friction for flow in flows]),
         attached=np.array([s.attached for s in split]),
-        separation_gain=np.array([s.gain for s in split]),
+        separated=np.array([s.separated for s in split]),
         mass=_lumps(span, density, edges - rotor.hub_radius),
         shape=structure.at(structure.shape, stations),
         slope=structure.at(structure.slope, stations),
@@ -144,6 +144,7 @@ def machine(turbine: Turbine, options: RotorOptions) -> Machine:
         prebend_slope=np.interp(stations, span, bow),
         prebend_centrifugal=np.trapezoid(outer_pull * bow * structure.slope[:, 0], span),
         prebend_gravity=np.trapezoid(outer_weight * bow * structure.slope[:, 0], span),
+        bend_twist=options.bend_twist,
         mass_factor=1 + options.mass_imbalance * imbalance,
         pitch_offset=options.pitch_imbalance * imbalance,
         tower_distance=rotor.overhang,

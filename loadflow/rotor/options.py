@@ -28,6 +28,10 @@ class RotorOptions:
         Induction from a table instead of solving it at every section and step. The rung sets it.
     tower_motion, drivetrain_torsion : bool
         Whether the tower bends and the drivetrain twists; on the rung "tower" only.
+    bend_twist : float
+        Nose-down turn of a section, per product of its slopes out of and in the rotor plane, of a
+        blade that bends both ways without twisting: 1/2 in the axes of OpenFAST's AeroDyn, which
+        take the sweep out first; −1/2 for the section as it stands in the flow; 0 off.
     air_density : float
         kg/m³.
     skew_factor : float
@@ -36,12 +40,12 @@ class RotorOptions:
     drag_in_induction : bool
         Whether drag counts in the momentum balance.
     shed_wake : bool
-        Whether lift and drag follow the angle of attack as in unsteady attached flow (shed wake,
-        inertia of the air, suction of potential flow); otherwise the polars hold at once.
+        Whether lift and drag lag behind the angle of attack as the wake is shed, and a section that
+        turns about its span is met at three quarters of its chord.
     dynamic_inflow : bool
         Whether the induced velocity lags behind the load on the rotor (Øye's two time constants).
     dynamic_stall : bool
-        Whether separation lags behind the angle of attack (Øye's filter on Kirchhoff's flow).
+        Whether separation lags behind lift. Without this and `shed_wake` the polars hold at once.
     tower_dam : bool
         Whether the blades pass through the potential flow around the tower.
     individual_pitch : bool
@@ -56,6 +60,7 @@ class RotorOptions:
     tabulated: bool = False
     tower_motion: bool = True
     drivetrain_torsion: bool = True
+    bend_twist: Annotated[float, Ge(-1), Le(1)] = 0.5
     air_density: Annotated[float, Gt(0)] = 1.225
     skew_factor: Annotated[float, Ge(0), Le(2)] = 1.4726215563702154
     drag_in_induction: bool = False
@@ -72,6 +77,8 @@ class RotorOptions:
             raise InputError(f"air_density = {self.air_density} is not allowed; > 0 kg/m³")
         if not 0 <= self.skew_factor <= 2:
             raise InputError(f"skew_factor = {self.skew_factor} is not allowed; 0 … 2")
+        if not -1 <= self.bend_twist <= 1:
+            raise InputError(f"bend_twist = {self.bend_twist} is not allowed; -1 … 1")
         for name in ("mass_imbalance", "pitch_imbalance"):
             value = getattr(self, name)
             if not -0.2 <= value <= 0.2:

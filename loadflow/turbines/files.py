@@ -246,9 +246,15 @@ def _airfoil(name: str, entry: Any, folder: Path) -> Airfoil:
     if set(table) == {"drag"}:
         drag = _number(table["drag"], where)
         return Airfoil(name, np.array([-np.pi, np.pi]), np.zeros(2), np.full(2, drag), thickness)
+    stated = {key: table.pop(key) for key in ("zero_lift_deg", "lift_slope") if key in table}
     _check_keys(table, {"polars", "column"}, where)
     angle, lift, drag_of = _polars(folder, str(table["polars"]), str(table["column"]), where)
-    return Airfoil(name, np.radians(angle), lift, drag_of, thickness)
+    zero, slope = (
+        _number(stated[key], f"{where}.{key}") if key in stated else None
+        for key in ("zero_lift_deg", "lift_slope")
+    )
+    zero = None if zero is None else np.radians(zero)
+    return Airfoil(name, np.radians(angle), lift, drag_of, thickness, zero, slope)
 
 
 def _polars(folder: Path, file: str, column: str, where: str) -> list[np.ndarray]:

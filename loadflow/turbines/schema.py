@@ -29,6 +29,9 @@ class Airfoil:
         Coefficients, referred to the chord.
     thickness : float, optional
         Over the chord; airfoils that state it can be blended, see `blended`.
+    zero_lift, lift_slope : float, optional
+        Potential flow that unsteady airfoils build on: angle of attack without lift, rad, and slope
+        of the lift coefficient, 1/rad; left out, they follow from the polar.
     """
 
     name: str
@@ -36,9 +39,18 @@ class Airfoil:
     lift: Array
     drag: Array
     thickness: float | None = None
+    zero_lift: float | None = None
+    lift_slope: float | None = None
 
     def __post_init__(self) -> None:
         owner = f"airfoil {self.name!r}"
+        if self.zero_lift is not None:
+            near = abs(self.zero_lift) <= np.radians(15)
+            require(near, owner, "zero_lift", self.zero_lift, "within ±15° (0.262 rad)")
+        if self.lift_slope is not None:
+            require(
+                1 <= self.lift_slope <= 15, owner, "lift_slope", self.lift_slope, "1 … 15 1/rad"
+            )
         increasing = self.angle.size > 1 and bool(np.all(np.diff(self.angle) > 0))
         require(increasing, owner, "angle", self.angle.tolist(), "strictly increasing")
         span = (float(self.angle[0]), float(self.angle[-1]))

@@ -39,7 +39,7 @@ def test_control_that_hunts_between_its_regions_has_a_mean_and_says_so():
     point = steady_state("nrel-5mw", wind_speed=[11.4, 11.75, 12.2])
     assert point["settled"].values.tolist() == [True, False, True]
     assert 0 == point["pitch"][0] < np.radians(1.5) < point["pitch"][1] < np.radians(2.3)
-    assert point["power"].values[1] == pytest.approx(5.29661e6, rel=5e-3)
+    assert point["power"].values[1] == pytest.approx(5.29661e6, rel=1e-2)
     assert point["thrust"][0] > point["thrust"][1] > point["thrust"][2]
     series = simulate(wind_speed=11.75, duration=1.0, run_in=0.0)
     assert series["speed"].values == pytest.approx(12.1 * np.pi / 30, rel=0.05)

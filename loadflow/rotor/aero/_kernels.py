@@ -150,16 +150,17 @@ def inflow_lag(m, i, normal, tangential, a, swirl, state, dt, induced):
 
 
 @section
-def section_force(m, i, pitch, normal, tangential, a, swirl, dt, states):
+def section_force(m, i, pitch, turn, normal, tangential, a, swirl, dt, states):
     """Force per length (normal, tangential), N/m, for given induction factors.
 
-    `states`: see `coefficients`; they are moved on by `dt`, dt = 0 sets them to steady.
+    `turn`, `states`: see `coefficients`; the states are moved on by `dt`, dt = 0 sets them to
+    steady.
     """
     w_normal = normal * (1 - a)
     w_tangential = tangential * (1 + swirl)
     angle = np.arctan2(w_normal, w_tangential)
     speed = np.sqrt(w_normal**2 + w_tangential**2)
-    lift, drag = coefficients(m, i, angle - m.twist[i] - pitch, speed, dt, states)
+    lift, drag = coefficients(m, i, angle - m.twist[i] - pitch, speed, turn, dt, states)
     pressure = 0.5 * m.air_density * m.chord[i] * speed**2
     sine, cosine = np.sin(angle), np.cos(angle)
     return pressure * (lift * cosine + drag * sine), pressure * (lift * sine - drag * cosine)

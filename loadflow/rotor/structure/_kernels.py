@@ -30,19 +30,23 @@ def place(m, i, motion, cone_s, cone_c):
 
 @kernel
 def turned_shapes(m, pitch, shape):
-    """Mode shapes of a pitched blade, (n, k, 3): normal, tangential, slope of the normal one."""
+    """Mode shapes of a pitched blade, (n, k, 4): normal, tangential, and the slopes of both."""
     c, s = np.cos(pitch), np.sin(pitch)
     for i in range(shape.shape[0]):
         for k in range(shape.shape[1]):
             shape[i, k, 0] = m.shape[i, k, 0] * c - m.shape[i, k, 1] * s
             shape[i, k, 1] = m.shape[i, k, 0] * s + m.shape[i, k, 1] * c
             shape[i, k, 2] = m.slope[i, k, 0] * c - m.slope[i, k, 1] * s
+            shape[i, k, 3] = m.slope[i, k, 0] * s + m.slope[i, k, 1] * c
 
 
 @kernel
 def deflection(m, pitch, shape, q, v, motion):
-    """Motion of each section, (n, 6): deflection normal and tangential, their rates, slope of the
-    normal deflection, pull towards the root. Modes and prebend turn with the pitch.
+    """Motion of each section, (n, 7): deflection normal and tangential, their rates, slope of the
+    normal deflection, pull towards the root, nose-down turn. Modes and prebend turn with the pitch.
+
+    A blade that bends both ways turns its sections by the product of the two slopes, see
+    `RotorOptions.bend_twist`.
     """
     c, s = np.cos(pitch), np.sin(pitch)
     motion[:] = 0.0
@@ -50,14 +54,18 @@ def deflection(m, pitch, shape, q, v, motion):
         motion[i, 0] = -m.prebend[i] * c
         motion[i, 1] = -m.prebend[i] * s
         motion[i, 4] = -m.prebend_slope[i] * c
+        bent = swept = 0.0
         for k in range(q.size):
             motion[i, 0] += shape[i, k, 0] * q[k]
             motion[i, 1] += shape[i, k, 1] * q[k]
             motion[i, 2] += shape[i, k, 0] * v[k]
             motion[i, 3] += shape[i, k, 1] * v[k]
-            motion[i, 4] += shape[i, k, 2] * q[k]
+            bent += shape[i, k, 2] * q[k]
+            swept += shape[i, k, 3] * q[k]
             for j in range(q.size):
                 motion[i, 5] += m.shortening[i, k, j] * q[k] * q[j]
+        motion[i, 4] += bent
+        motion[i, 6] = m.bend_twist * bent * swept
 
 
 @kernel
