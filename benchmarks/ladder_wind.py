@@ -39,7 +39,7 @@ def measure_wind(bench: Bench) -> Rungs:
         wind_speeds=list(setting.wind_speeds),
         seeds=setting.seeds,
         duration=setting.duration,
-        rung="flap",
+        rung="tower",
     )
     found: dict[str, dict[str, Found]] = {}
     for case in list_cases(scene):
@@ -50,7 +50,7 @@ def measure_wind(bench: Bench) -> Rungs:
     doubt = deviations(found[name(NEXT)], found[top]).summary()
     about = {
         "reference": reference(doubt),
-        "cases": f"{on_cases(bench)}; {setting.seeds} seeds, {setting.duration:g} s, rotor flap",
+        "cases": f"{on_cases(bench)}; {setting.seeds} seeds, {setting.duration:g} s, rotor tower",
     }
     rungs: Rungs = {}
     for rung, values in found.items():

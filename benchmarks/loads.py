@@ -61,7 +61,8 @@ def variants():
     yield "without flap 2", {"turbine": without("flap2")}
     yield "without edge 1", {"turbine": without("edge1")}
     for name, change in (
-        ("no shed wake", {"shed_wake": False}),
+        ("polars at once", {"shed_wake": False}),
+        ("no turn of sections bent both ways", {"bend_twist": 0.0}),
         ("no skewed wake", {"skew_factor": 0.0}),
         ("no tower dam", {"tower_dam": False}),
         ("dynamic inflow", {"dynamic_inflow": True}),
