@@ -37,7 +37,7 @@ def potential_flow(foil: Airfoil) -> PotentialFlow:
     """Potential flow as the airfoil states it, otherwise found in its polar.
 
     The slope found is the steepest line from zero lift to the normal force of the polar between 2°
-    and 15° off it, on either side, so that potential flow bounds the polar there.
+    and 15° above it, so that potential flow bounds the polar there.
 
     Parameters
     ----------
@@ -60,8 +60,7 @@ def potential_flow(foil: Airfoil) -> PotentialFlow:
         zero = foil.zero_lift
     if foil.lift_slope is not None:
         return PotentialFlow(float(zero), foil.lift_slope, friction)
-    off = np.linspace(_NEAR, _FAR, 100)
-    angle = zero + np.concatenate([-off, off])
+    angle = zero + np.linspace(_NEAR, _FAR, 100)
     lift, drag = (np.interp(angle, foil.angle, y) for y in (foil.lift, foil.drag))
     normal = lift * np.cos(angle) + (drag - friction) * np.sin(angle)
     return PotentialFlow(float(zero), float(np.max(normal / (angle - zero))), friction)
@@ -71,10 +70,10 @@ def separation(foil: Airfoil, flow: PotentialFlow, angle: Array) -> Separation:
     """Split a polar by Kirchhoff's formula, lift = slope (α − α₀) ((1 + √f)/2)².
 
     As in Hansen, Gaunaa and Madsen, Risø-R-1354 (2004). Where lift falls below a quarter of that of
-    potential flow, and farther out, the flow is separated. Where it exceeds potential flow or has
-    the other sign, the formula has no answer: there the flow is attached if that is nearer to the
-    polar than separated flow with half the lift, so the sum is not the polar. This happens where a
-    stated potential flow crosses zero elsewhere than the polar.
+    potential flow, and farther out, the flow is separated. Where lift exceeds potential flow or has
+    the other sign, the formula has no answer. Then the sum follows the polar all the same, unless
+    the airfoil states its potential flow: there the flow is attached if that is nearer to the polar
+    than separated flow with half the lift, as OpenFAST has it, and the sum is not the polar.
 
     Parameters
     ----------
@@ -98,12 +97,16 @@ def separation(foil: Airfoil, flow: PotentialFlow, angle: Array) -> Separation:
     separated = np.where(
         firm, 0.5 * lift, (lift - attached * potential) / np.where(firm, 1.0, 1 - attached)
     )
+    if foil.zero_lift is None and foil.lift_slope is None:
+        beyond, against = ratio > 1, ratio < 0
+        attached[beyond], attached[against] = 1 / ratio[beyond], 0.0
+        separated[beyond], separated[against] = (lift + potential)[beyond], lift[against]
+    else:
+        between = potential - separated
+        share = (lift - separated) / np.where(between == 0.0, 1.0, between)
+        attached = np.where(between == 0.0, 1.0, np.clip(share, 0.0, 1.0))
     apart = _stalled(ratio, off)
-    separated[apart] = lift[apart]
-    between = potential - separated
-    share = (lift - separated) / np.where(between == 0.0, 1.0, between)
-    attached = np.where(between == 0.0, 1.0, np.clip(share, 0.0, 1.0))
-    attached[apart] = 0.0
+    attached[apart], separated[apart] = 0.0, lift[apart]
     return Separation(attached, separated)
 
 

@@ -18,12 +18,14 @@ from .options import RotorOptions
 
 if TYPE_CHECKING:
     import xarray as xr
+    from numpy.typing import NDArray
 
     from .control.constants import Schedule
     from .loop import State
     from .rungs import Same
 
 _MARGIN = 10.0  # s of wind before and after, because the sections meet it early and late
+_CALMING, _CALM_STEP = 40.0, 0.04  # s, for a tower to settle
 _CALM, _FASTEST = 0.1, 100.0  # m/s, of the wind on a turbine that stands
 
 
@@ -254,7 +256,7 @@ def _first_state(prepared: Same, case: Condition) -> State:
 
     if case.event in STANDING or case.event == "start":
         m, c = prepared.thing
-        return standing_state(
+        state = standing_state(
             m,
             c,
             case.wind_speed,
@@ -262,7 +264,26 @@ def _first_state(prepared: Same, case: Condition) -> State:
             idle=case.event == "idling",
             stuck=case.event == "parked, blade stuck",
         )
+        lean = _lean(prepared, case.wind_speed, case.shear_exponent)
+        state.frame[m.frame.carries > 0] = lean[m.frame.carries > 0]
+        return state
     return _running_state(prepared, case.wind_speed, case.shear_exponent).copy()
+
+
+@lru_cache(maxsize=64)
+def _lean(prepared: Same, wind_speed: float, shear: float) -> NDArray[np.float64]:
+    """Where weight and a steady wind hold the tower of a parked rotor, which sways for minutes."""
+    from .frame import calmed
+    from .inflow import steady_inflow
+    from .loop import run, standing_state
+
+    m, c = prepared.thing
+    state = standing_state(m, c, wind_speed, 0.0, idle=False, stuck=False)
+    if np.any(m.frame.carries > 0):
+        steps = round(_CALMING / _CALM_STEP)
+        inflow = steady_inflow(wind_speed, steps, shear)
+        run(m._replace(frame=calmed(m.frame)), c, inflow, state, _CALM_STEP, steps=steps)
+    return state.frame
 
 
 @lru_cache(maxsize=64)
