@@ -24,7 +24,7 @@ from loadflow.executor import executor, finished
 from loadflow.plan import STAGES, Plan, Stage, make_plan
 from loadflow.run_folder import climbs, part_file, prepare, record
 from loadflow.scene import Scene
-from loadflow.stages import check, shaft
+from loadflow.stages import check, loads, shaft
 from loadflow.stages.cases import Case
 from loadflow.stages.report import write_report
 
@@ -65,7 +65,7 @@ class Run:
     @property
     def warnings(self) -> list[str]:
         """What the run found doubtful about its own models."""
-        return check.warnings(self.tree) + shaft.warnings(self.tree)
+        return [said for stage in (loads, shaft, check) for said in stage.warnings(self.tree)]
 
     @property
     def report(self) -> Path:

@@ -90,6 +90,7 @@ def loads(
 ) -> None:
     """Simulate the hub loads of a turbine in its design load cases, from power to standstill."""
     from loadflow.cube import iter_cases, save_cube
+    from loadflow.stages.loads import trip_warnings
     from loadflow.stages.simulated import simulate_cube
 
     check_free(output, overwrite)
@@ -106,9 +107,14 @@ def loads(
         cube = simulate_cube(turbine, wind_speed, seed or [1], settings, progress=show)
     save_cube(cube, output)
     lengths = {name: case.sizes["time"] * step for name, case in iter_cases(cube)}
+    tripped = {name: float(case["tripped"]) for name, case in iter_cases(cube)}
+    warnings = trip_warnings({name: t for name, t in tripped.items() if t >= 0})
     if as_json:
         cases = list(lengths)
-        print_json({"path": str(output), "cases": cases, "turbine": turbine, **settings})
+        told = {"cases": cases, "turbine": turbine, "warnings": warnings}
+        print_json({"path": str(output), **told, **settings})
     else:
         listed = ", ".join(f"{name} ({length:g} s)" for name, length in lengths.items())
         out.print(f"{output}: {listed}; in steps of {step:g} s", soft_wrap=True)
+        for warning in warnings:
+            out.print(f"warning  {warning}", soft_wrap=True)

@@ -58,6 +58,7 @@ CASE_COORDS: Mapping[str, Variable] = MappingProxyType(
         "wind_speed": Variable("m/s", "mean wind speed at hub height", ("case",)),
         "seed": Variable("", "seed of the turbulence", ("case",)),
         "weight": Variable("1", "share of the lifetime", ("case",)),
+        "tripped": Variable("s", "overspeed trip: 0 in the run-in, NaN if none", ("case",)),
         "file": Variable("", "file the case was read from", ("case",)),
         "file_start": Variable("s", "first time stamp in the file", ("case",)),
     }

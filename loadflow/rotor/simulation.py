@@ -112,7 +112,10 @@ def simulate(
         rotate (x along the shaft downwind, z up, y left looking downwind); ``wind`` (axis, time;
         m/s, ground frame) at the hub, ``generator_torque`` (N m), ``generator_speed`` (rad/s),
         ``tower_fore_aft`` (downwind), ``tower_side_side`` (left) and ``tip_deflection`` (m),
-        ``blade_pitch`` (blade, time; rad), ``state`` (number of the supervisory state).
+        ``blade_pitch`` (blade, time; rad), ``state`` (number of the supervisory state). The
+        attribute ``tripped`` is the time (s) at which the overspeed protection stopped the turbine
+        though the load case has no fault, or not yet: 0 in the run-in (it then stops or stands from
+        the beginning), NaN if it did not trip.
 
     Raises
     ------
@@ -181,6 +184,7 @@ def simulate_condition(
 
     Parameters and result are those of `simulate`; `winds` are the options that made the condition.
     """
+    from . import _slots as k
     from .inflow import case_inflow, wind_machine
     from .loop import run
     from .rungs import Same, default_rung, prepare
@@ -221,6 +225,7 @@ def simulate_condition(
         "event": case.event,
         "event_time": case.event_time,
         "safety_factor": case.safety_factor,
+        "tripped": _trip(time, out[:, k.STATE], case),
     }
     return data
 
@@ -312,6 +317,16 @@ def _schedule(case: Condition, zero: float, dt: float) -> Schedule:
 
     # half a step early: sums of steps miss the time by a rounding error
     return Schedule(EVENTS.index(case.event), zero + case.event_time - 0.5 * dt)
+
+
+def _trip(time: np.ndarray, state: np.ndarray, case: Condition) -> float:
+    """When the overspeed protection stopped the turbine unasked, s; 0 in the run-in, NaN never."""
+    from .control.constants import FAULT, FAULTS
+
+    tripped = time[state == FAULT]
+    if not tripped.size or (case.event in FAULTS and tripped[0] >= case.event_time):
+        return np.nan
+    return max(float(tripped[0]), 0.0)
 
 
 def _dataset(out: np.ndarray, dt: float) -> xr.Dataset:

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import xarray as xr
 
-from loadflow.cube import iter_cases, open_cube
+from loadflow.cube import CASE_COORDS, iter_cases, open_cube
 from loadflow.scene import Scene
 from loadflow.stages.cases import CUBES, Case, wind_of, wind_options
 from loadflow.stages.given_winds import RUN_IN, given_field
+from loadflow.stages.summary import over_cases
 
 
 def hub_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
@@ -48,7 +51,8 @@ def _simulate(scene: Scene, case: Case) -> xr.Dataset:
         ),
     )
     # a cube has the pitch of blade 1 and the wind along the mean
-    return series.drop_dims("blade").assign(wind=series["wind"].sel(axis="x", drop=True))
+    series = series.drop_dims("blade").assign(wind=series["wind"].sel(axis="x", drop=True))
+    return series.assign_coords(tripped=((), series.attrs.pop("tripped"), _TRIPPED))
 
 
 def _read(scene: Scene, case: Case) -> xr.Dataset:
@@ -62,3 +66,47 @@ def _read(scene: Scene, case: Case) -> xr.Dataset:
         path, turbine=scene.turbine.name, cases=loads.case_list, pattern=loads.pattern
     )
     return next(series for _, series in iter_cases(cube))
+
+
+def summary(parts: Mapping[Case, xr.Dataset]) -> xr.Dataset | None:
+    """When each case tripped, s; None where the series do not tell."""
+    if not all("tripped" in part.coords for part in parts.values()):
+        return None
+    times = {
+        case: xr.Dataset({"tripped": ((), part["tripped"].item(), _TRIPPED)})
+        for case, part in parts.items()
+    }
+    return over_cases(times)
+
+
+def trips(groups: Mapping[str, Any]) -> dict[str, float]:
+    """Return when cases of a run tripped, s; those that did not are left out.
+
+    `groups` is what the run found, by stage.
+    """
+    if "loads" not in groups:
+        return {}
+    times = groups["loads"]["tripped"]
+    names = times["case"].values
+    return {str(name): float(t) for name, t in zip(names, times.values) if np.isfinite(t)}
+
+
+def warnings(tree: xr.DataTree) -> list[str]:
+    """Say which cases stand because they tripped, and since when."""
+    return trip_warnings(trips(tree.children))
+
+
+def trip_warnings(times: Mapping[str, float]) -> list[str]:
+    """Say it of cases that tripped, given by name with the time (s); nothing of none."""
+    if not times:
+        return []
+    told = ", ".join(f"{name} {when_tripped(t)}" for name, t in times.items())
+    return [f"loads: tripped on overspeed, and stopped from then on: {told}"]
+
+
+def when_tripped(time: float) -> str:
+    """Time of a trip (s) in words."""
+    return f"at {time:.1f} s" if time > 0 else "in the run-in"
+
+
+_TRIPPED = CASE_COORDS["tripped"].attrs

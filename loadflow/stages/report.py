@@ -18,6 +18,7 @@ from loadflow.rolling.static_rating import HOURS_20_YEARS, STATIC_RATING
 from loadflow.scene import Scene, read_scene
 from loadflow.stages.check import WARN
 from loadflow.stages.extreme_loads import safety_factor
+from loadflow.stages.loads import trips, when_tripped
 from loadflow.stages.statistics import SLOPE
 
 CRITICAL_RATIO = 0.95  # eccentricity ratio E_krit at which mixed friction begins (5.2)
@@ -73,7 +74,9 @@ def _sections(
     yield _overview(tables, manifest)
     shown = _shown_cases(tables, manifest)
     yield Section(
-        "Loads", tables=[*_load_tables(tables)], pictures=[*_load_pictures(folder, shown)]
+        "Loads",
+        tables=[*_trip_table(tables), *_load_tables(tables)],
+        pictures=[*_load_pictures(folder, shown)],
     )
     if "shaft" in tables:
         yield Section(
@@ -189,6 +192,12 @@ def _there(folder: Path, stage: str, cases: list[str]) -> list[str]:
 
 def _caption(case: str, more: str = "") -> str:
     return f"{case}{', ' + more if more else ''}"
+
+
+def _trip_table(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
+    """Cases that are no longer what their load case says; nothing if there are none."""
+    if rows := [[name, when_tripped(time)] for name, time in trips(tables).items()]:
+        yield Table("Tripped on overspeed, and stopped from then on", ["load case", "when"], rows)
 
 
 def _load_tables(tables: dict[str, xr.Dataset]) -> Iterator[Table]:

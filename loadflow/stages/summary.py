@@ -11,7 +11,7 @@ from loadflow.stages.cases import Case
 
 def over_cases(parts: Mapping[Case, xr.Dataset]) -> xr.Dataset:
     """Join Datasets along ``case``, labelled by what each case is."""
-    plain = [part.drop_vars(LABELS, errors="ignore") for part in parts.values()]
+    plain = [part.drop_vars([c for c in LABELS if c in part.coords]) for part in parts.values()]
     joined = xr.concat(
         plain, "case", combine_attrs="override", coords="minimal", compat="override"
     ).transpose(..., "case")
@@ -25,4 +25,4 @@ def over_cases(parts: Mapping[Case, xr.Dataset]) -> xr.Dataset:
     )
 
 
-LABELS = ("case", "dlc", "wind_speed", "seed", "weight", "file", "file_start")
+LABELS = ("case", "dlc", "wind_speed", "seed", "weight", "tripped", "file", "file_start")

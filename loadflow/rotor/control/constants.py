@@ -19,6 +19,10 @@ EVENTS: tuple[Event, ...] = get_args(Event)
 """Events of a load case; their places are the numbers in the loop."""
 
 
+FAULTS: tuple[Event, ...] = ("blade stuck", "pitch runaway", "grid loss")
+"""Events that the control answers with the state "fault"."""
+
+
 class Controller(NamedTuple):
     """Constants of the control, generator side, SI."""
 
