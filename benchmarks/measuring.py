@@ -16,7 +16,8 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 import numpy as np
 import xarray as xr
 
-from loadflow.scene import Loads, Scene, read_scene
+from loadflow.scene import Scene, read_scene
+from loadflow.scene_loads import Loads
 from loadflow.stages import loads, shaft
 from loadflow.stages.cases import Case, list_cases
 from loadflow.stages.frames import to_film

@@ -15,7 +15,8 @@ from typing import Any
 from pydantic import ValidationError
 
 from loadflow.rolling import BallBearing, SlewingBearing
-from loadflow.scene import Loads, Scene
+from loadflow.scene import Scene
+from loadflow.scene_loads import Loads
 from loadflow.stages.cases import Case
 
 STEPS_PER_CASE = 24_000

@@ -27,7 +27,9 @@ from loadflow.journal import (
     ThickShell,
 )
 from loadflow.rolling import SphericalRollerBearing
-from loadflow.scene_bearings import KINDS, SECTION, Rolling
+from loadflow.scene_bearings import KINDS, Rolling
+from loadflow.scene_loads import Loads, check_simulation
+from loadflow.scene_section import Section
 from loadflow.shaft.beam import BearingSeat
 from loadflow.shaft.options import (
     Concept,
@@ -37,6 +39,7 @@ from loadflow.shaft.options import (
     ThreePoint,
     TwoPoint,
 )
+from loadflow.turbines import load_turbine
 
 Result = Literal[
     "loads.statistics",
@@ -51,107 +54,19 @@ Result = Literal[
 Positive = Annotated[float, Field(gt=0)]
 
 
-class _Section(BaseModel):
-    """Part of a scene: frozen, and an unknown key is an error."""
-
-    model_config = SECTION
-
-    @property
-    def changed(self) -> set[str]:
-        """Keys whose value is not the default, also of a scene written with all its defaults."""
-        known = type(self).model_fields
-        return {name for name in known if getattr(self, name) != known[name].default}
-
-
-class Turbine(_Section):
+class Turbine(Section, BaseModel):
     """The turbine: a name that `loadflow.turbines` knows, or a path to a file of the same form."""
 
     name: str = "nrel-5mw"
 
-
-class Loads(_Section):
-    """Where the load series come from.
-
-    ``source = "simulate"`` makes them from IEC wind; ``source = "files"`` reads them: the output of
-    a simulator, or a load cube (``.h5``). ``weights = "given"`` keeps the shares of the lifetime
-    that a cube or a case list states; otherwise they follow from the wind speed (2.2).
-    ``mass_imbalance`` (share of its mass) and ``pitch_imbalance`` (rad) are those of blade 1;
-    without them the rotor is perfect and the fixed-frame loads have no 1p line.
-
-    ``winds`` are turbulent fields of your own (names or patterns of ``.bts`` and ``.wnd`` files).
-    The rotor is simulated in each, from its 60th second on, as in the load case ``dlc``. Their
-    names tell wind speed and seed as those of load series do, or by ``pattern``; else the speed is
-    the mean of the field.
-
-    ``dlc`` is one design load case of IEC 61400-1 or several; wind speeds, realisations and length
-    are those of each load case unless they are given here. ``seeds`` and ``first_seed`` concern
-    turbulent winds; a gust has its own variants (sign, time of the event), and may meet the rotor
-    at several ``azimuths`` (rad). ``yaw_errors`` are in rad. ``steady`` takes the steady extreme
-    wind of 6.1 … 6.3 and 7.1. ``spectrum = "mann"`` needs the extra of that name; ``wind_grid`` are
-    the radii, with the hub, and the angles of the polar grid of the wind, and another grid is
-    another realisation. A ``rung`` that is not named is "tower" ("flap" where the turbine does not
-    say how its tower bends), and "tables" for a parked turbine.
-    """
-
-    source: Literal["simulate", "files"] = "simulate"
-    files: list[str] = []
-    case_list: str | None = None
-    pattern: str | None = None
-    winds: list[str] = []
-    weights: Literal["rayleigh", "given"] = "rayleigh"
-    dlc: str | Annotated[list[str], Field(min_length=1)] = "1.1"
-    wind_speeds: Annotated[list[Positive], Field(min_length=1)] | None = None
-    seeds: Annotated[int, Field(ge=1, le=1000)] | None = None
-    first_seed: Annotated[int, Field(ge=0)] = 1
-    yaw_errors: Annotated[list[float], Field(min_length=1)] | None = None
-    azimuths: Annotated[list[float], Field(min_length=1)] = [0.0]
-    steady: bool = False
-    duration: Positive | None = None
-    step: Annotated[float, Field(gt=0, le=0.5)] = 0.025
-    wind_class: Literal["I", "II", "III"] = "I"
-    category: Literal["A+", "A", "B", "C"] = "B"
-    spectrum: Literal["kaimal", "mann"] = "kaimal"
-    wind_grid: tuple[Annotated[int, Field(ge=2, le=41)], Annotated[int, Field(ge=6, le=288)]] = (
-        11,
-        48,
-    )
-    rung: Literal["tables", "bem", "flap", "tower"] | None = None
-    individual_pitch: bool = False
-    mass_imbalance: Annotated[float, Field(ge=-0.2, le=0.2)] = 0.0
-    pitch_imbalance: Annotated[float, Field(ge=-0.2, le=0.2)] = 0.0
-
-    @property
-    def makes_wind(self) -> bool:
-        """Whether the wind is made, and neither it nor the loads are given."""
-        return self.source == "simulate" and not self.winds
-
-    @property
-    def dlcs(self) -> tuple[str, ...]:
-        """The design load cases, each once."""
-        return tuple(dict.fromkeys([self.dlc] if isinstance(self.dlc, str) else self.dlc))
-
-    @model_validator(mode="before")
+    @field_validator("name")
     @classmethod
-    def _given_before_simulated(cls, data: Any) -> Any:
-        """Given series are read, not simulated anew, unless the scene says otherwise."""
-        if isinstance(data, dict) and data.get("files") and "source" not in data:
-            return data | {"source": "files"}
-        return data
-
-    @model_validator(mode="after")
-    def _files_for_files(self) -> Self:
-        if self.source == "simulate" and self.files:
-            raise ValueError('files are given, but source = "simulate"; set source = "files"')
-        own = {"wind_speeds", "seeds", "first_seed", "steady"} & self.changed
-        if self.winds and (own or self.source == "files" or len(self.dlcs) > 1):
-            raise ValueError(
-                "winds: each field is a simulated case of one dlc; leave out "
-                f"{', '.join(sorted(own)) or 'files, or all load cases but one'}"
-            )
-        return self
+    def _readable(cls, name: str) -> str:
+        load_turbine(name)
+        return name
 
 
-class Shaft(_Section):
+class Shaft(Section, BaseModel):
     """Suspensions to compute; a table that is left out costs nothing.
 
     ``two_point``, ``integrated`` and ``direct_drive`` have the bearings N (floating) and N2
@@ -199,7 +114,7 @@ class Shaft(_Section):
         return any(c.beam is not None and bearing in c.bearings for c in self.concepts)
 
 
-class Seeds(_Section):
+class Seeds(Section, BaseModel):
     """Tests of seed equality: level of significance, method, half width of the spectral band."""
 
     alpha: Annotated[float, Field(gt=0, lt=1)] = 0.05
@@ -207,7 +122,7 @@ class Seeds(_Section):
     band: Annotated[float, Field(gt=0, lt=1)] = 0.025
 
 
-class Reduction(_Section):
+class Reduction(Section, BaseModel):
     """Quasi-static histogram reduction: share of the samples kept, and how they are picked."""
 
     size: Annotated[float, Field(gt=0, le=1)] = 0.1
@@ -215,7 +130,7 @@ class Reduction(_Section):
     seed: Annotated[int, Field(ge=0)] = 0
 
 
-class Journal(_Section):
+class Journal(Section, BaseModel):
     """Journal bearings: which ones of the shaft, and one set of data for all of them.
 
     ``motion = "quasi-static"`` solves the equilibrium of every sample of the reduced series;
@@ -283,7 +198,7 @@ class Journal(_Section):
         return self
 
 
-class Friction(_Section):
+class Friction(Section, BaseModel):
     """Lubricant and surfaces of the rolling bearings, for their friction and slip.
 
     ``lubricant`` is a name of `loadflow.tribology.lubricant_names`; ``temperature`` (K),
@@ -310,7 +225,7 @@ class Friction(_Section):
         return name
 
 
-class Scene(_Section):
+class Scene(Section, BaseModel):
     """What is wanted, and from what; see the modules of the sections for units.
 
     Attributes
@@ -318,7 +233,8 @@ class Scene(_Section):
     name : str
         Name of the run and of its folder.
     results : list of str
-        What is wanted; the plan runs only the stages that these need.
+        What is wanted; the plan runs only the stages that these need. Left out: all, but those of
+        journal or rolling bearings of which the scene says nothing and the shaft has none.
     accuracy : float or dict, optional
         Largest relative error allowed, of every result or by result. The plan then takes the
         cheapest models that hold it, wherever the scene names none; without it the defaults.
@@ -336,6 +252,27 @@ class Scene(_Section):
     rolling: Rolling = Rolling()
     friction: Friction = Friction()
 
+    @model_validator(mode="before")
+    @classmethod
+    def _results_that_the_shaft_can_give(cls, data: Any) -> Any:
+        """Without `results`: all, but none of a default bearing that the shaft does not have."""
+        if not isinstance(data, dict) or "results" in data or "shaft" not in data:
+            return data
+        try:
+            there = set(Shaft.model_validate(data["shaft"]).bearings)
+        except ValidationError:  # told by the shaft's own check, with its key
+            return data
+        by_default = {"journal": {*Journal().bearings}, "rolling": {Rolling().bearing}}
+        absent = {room for room, own in by_default.items() if room not in data and own - there}
+        wanted = [name for name in get_args(Result) if name.split(".")[0] not in absent]
+        return data | {"results": wanted}
+
+    @model_validator(mode="after")
+    def _simulates(self) -> Self:
+        if self.loads.source == "simulate":
+            check_simulation(self.loads, self.turbine.name)
+        return self
+
     @model_validator(mode="after")
     def _bearings_exist(self) -> Self:
         wanted = {
@@ -346,7 +283,11 @@ class Scene(_Section):
             for bearing in bearings:
                 if bearing not in self.shaft.bearings:
                     have = ", ".join(self.shaft.bearings) or "none"
-                    raise ValueError(f"{key} = {bearing!r}: the shaft has the bearings {have}")
+                    room = key.split(".")[0]
+                    raise ValueError(
+                        f"{key} = {bearing!r}: the shaft has the bearings {have}; set {key} to "
+                        f"what it has, or leave what begins with {room} out of results"
+                    )
         return self
 
     @model_validator(mode="after")

@@ -8,7 +8,6 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import (
     BaseModel,
     BeforeValidator,
-    ConfigDict,
     Discriminator,
     Tag,
     WrapSerializer,
@@ -29,9 +28,7 @@ from loadflow.rolling import (
     ThreeRowRollerBearing,
     main_bearings,
 )
-
-SECTION = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
-"""Of every part of a scene: frozen, and an unknown key is an error."""
+from loadflow.scene_section import SECTION
 
 KINDS = {
     "slewing": SlewingBearing,

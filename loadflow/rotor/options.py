@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import inf
 from typing import Annotated, Literal
 
 from annotated_types import Ge, Gt, Le
@@ -14,6 +15,9 @@ RUNGS: tuple[Rung, ...] = ("tables", "bem", "flap", "tower")
 """Rigid blades with tabulated induction; with induction solved at every step; bending blades; those
 on a tower that bends and a drivetrain that twists.
 """
+
+STEPS = (0.005, 0.1)
+"""Shortest and longest step of the simulation, s."""
 
 
 @dataclass(frozen=True)
@@ -73,8 +77,10 @@ class RotorOptions:
     pitch_imbalance: Annotated[float, Ge(-0.2), Le(0.2)] = 0.0
 
     def __post_init__(self) -> None:
-        if not self.air_density > 0:
-            raise InputError(f"air_density = {self.air_density} is not allowed; > 0 kg/m³")
+        if not 0 < self.air_density < inf:
+            raise InputError(
+                f"air_density = {self.air_density} is not allowed; > 0 kg/m³ and finite"
+            )
         if not 0 <= self.skew_factor <= 2:
             raise InputError(f"skew_factor = {self.skew_factor} is not allowed; 0 … 2")
         if not -1 <= self.bend_twist <= 1:

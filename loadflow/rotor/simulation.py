@@ -12,9 +12,9 @@ import numpy as np
 from loadflow.errors import InputError
 from loadflow.turbines import Turbine, load_turbine
 from loadflow.wind import Condition, Field, WindOptions, condition, inflow
-from loadflow.wind.cases import STANDING, Event
+from loadflow.wind.cases import STANDING, Event, wind_range
 
-from .options import RotorOptions
+from .options import STEPS, RotorOptions
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -26,7 +26,6 @@ if TYPE_CHECKING:
 
 _MARGIN = 10.0  # s of wind before and after, because the sections meet it early and late
 _CALMING, _CALM_STEP = 40.0, 0.04  # s, for a tower to settle
-_CALM, _FASTEST = 0.1, 100.0  # m/s, of the wind on a turbine that stands
 
 
 def simulate(
@@ -239,16 +238,15 @@ def _check(turbine: Turbine, case: Condition, dt: float, run_in: float) -> None:
 
     if case.event not in EVENTS:
         raise InputError(f"event = {case.event!r} is unknown; known: {', '.join(EVENTS)}")
-    low, high = turbine.cut_in, turbine.cut_out
-    if case.event in STANDING:
-        low, high = _CALM, _FASTEST
+    low, high = wind_range(case.event, turbine.cut_in, turbine.cut_out)
     if not low <= case.wind_speed <= high:
         raise InputError(
             f"wind_speed = {case.wind_speed} m/s is not allowed; {turbine.name} "
             f"{'stands' if case.event in STANDING else 'runs'} from {low} to {high} m/s"
         )
-    if not 0.005 <= dt <= 0.1:
-        raise InputError(f"dt = {dt} s is not allowed; it must be within 0.005 … 0.1 s")
+    if not STEPS[0] <= dt <= STEPS[1]:
+        allowed = f"{STEPS[0]} … {STEPS[1]} s"
+        raise InputError(f"dt = {dt} s is not allowed; it must be within {allowed}")
     if not (case.duration >= dt and run_in >= 0):
         raise InputError(
             f"duration = {case.duration} s, run_in = {run_in} s: > 0 and >= 0 are needed"

@@ -81,6 +81,8 @@ def steady_state(
     machine = load_turbine(turbine)
     speeds = np.atleast_1d(np.asarray(wind_speed, float))
     outside = [v for v in speeds if not machine.cut_in <= v <= machine.cut_out]
+    if speeds.size == 0:
+        raise InputError("wind_speed = [] is not allowed; give at least one, m/s")
     if speeds.ndim != 1 or outside:
         raise InputError(
             f"wind_speed = {outside or speeds.shape} is not allowed; it must be within "

@@ -86,6 +86,8 @@ def bearing_loads(
     force, moment = _checked(hub_force, "hub_force"), _checked(hub_moment, "hub_moment")
     if force.shape != moment.shape:
         raise InputError(f"hub_force {force.shape} and hub_moment {moment.shape} must be alike")
+    if time is not None and np.shape(time) != force.shape[1:]:
+        raise InputError(f"time: shape must be {force.shape[1:]}, got {np.shape(time)}")
     if not abs(tilt) < np.pi / 2:
         raise InputError(f"tilt = {tilt} rad: must be between -π/2 and π/2")
     down = np.array([np.sin(tilt), 0.0, -np.cos(tilt)])

@@ -17,7 +17,8 @@ from loadflow.cube import case_name, check_cube, iter_cases, open_cube
 from loadflow.errors import InputError
 from loadflow.readers import read_loads
 from loadflow.readers.loads import find_files
-from loadflow.scene import Loads, Scene
+from loadflow.scene import Scene
+from loadflow.scene_loads import Loads
 from loadflow.stages.given_winds import wind_files
 
 if TYPE_CHECKING:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from functools import cache
+from typing import Annotated, Any, get_origin, get_type_hints
 
 import numpy as np
-from annotated_types import Ge, Gt
+from annotated_types import Ge, Gt, Le
 from numpy.typing import NDArray
 
 from loadflow.errors import InputError
@@ -13,6 +14,7 @@ from loadflow.errors import InputError
 Array = NDArray[np.float64]
 Positive = Annotated[float, Gt(0)]
 NotNegative = Annotated[float, Ge(0)]
+Bound = Gt | Ge | Le
 
 
 def require(ok: bool, owner: str, name: str, value: object, allowed: str) -> None:
@@ -26,22 +28,44 @@ def require(ok: bool, owner: str, name: str, value: object, allowed: str) -> Non
         raise InputError(f"{owner}: {name} = {value!r} is not allowed; it must be {allowed}")
 
 
-def require_positive(part: object, *names: str) -> None:
-    """Refuse fields of a part that are not positive and finite."""
-    for name in names:
+def require_ranges(part: Any) -> None:
+    """Refuse numbers of a part that are not finite, or outside the ranges that their types state.
+
+    Raises
+    ------
+    InputError
+    """
+    for name, bounds in _ranges(type(part)).items():
         value = getattr(part, name)
-        require(
-            bool(np.isfinite(value) and value > 0),
-            type(part).__name__,
-            name,
-            value,
-            "positive and finite",
-        )
+        ok = bool(np.isfinite(value)) and all(_holds(bound, value) for bound in bounds)
+        allowed = " and ".join([*map(_words, bounds), "finite"])
+        require(ok, type(part).__name__, name, value, allowed)
 
 
-def require_not_negative(part: object, *names: str) -> None:
-    """Refuse fields of a part that are negative or not finite."""
-    for name in names:
-        value = getattr(part, name)
-        fits = bool(np.isfinite(value) and value >= 0)
-        require(fits, type(part).__name__, name, value, ">= 0 and finite")
+@cache
+def _ranges(part: type) -> dict[str, tuple[Bound, ...]]:
+    """Bounds of the numbers of a part, by name; none is left out that has any."""
+    hints = get_type_hints(part, include_extras=True)
+    return {
+        name: hint.__metadata__ for name, hint in hints.items() if get_origin(hint) is Annotated
+    }
+
+
+def _holds(bound: Bound, value: float) -> bool:
+    match bound:
+        case Gt(gt=limit):
+            return bool(value > limit)  # type: ignore[operator]
+        case Ge(ge=limit):
+            return bool(value >= limit)  # type: ignore[operator]
+        case Le(le=limit):
+            return bool(value <= limit)  # type: ignore[operator]
+
+
+def _words(bound: Bound) -> str:
+    match bound:
+        case Gt(gt=limit):
+            return f"> {limit}"
+        case Ge(ge=limit):
+            return f">= {limit}"
+        case Le(le=limit):
+            return f"<= {limit}"

@@ -148,7 +148,10 @@ def _part(part: Any, entry: Any, name: str) -> Any:
         values[kept] = int(number) if key == "blades" else number
     needed = {f.name for f in fields(part) if f.default is MISSING}
     _check_keys(values, needed, name, {f.name for f in fields(part)} - needed)
-    return part(**values)
+    try:
+        return part(**values)
+    except InputError as error:
+        raise InputError(f"[{name}] {error}") from error
 
 
 def _tower(entry: Any, rotor_mass: float) -> Tower:

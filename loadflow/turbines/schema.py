@@ -10,7 +10,7 @@ from typing import Annotated
 import numpy as np
 from annotated_types import Ge, Gt, Le
 
-from .checks import Array, NotNegative, Positive, require, require_not_negative, require_positive
+from .checks import Array, NotNegative, Positive, require, require_ranges
 from .tower import Tower
 
 _DEGREE = pi / 180
@@ -119,7 +119,7 @@ class Blade:
     prebend: Array = field(default_factory=lambda: np.zeros(0))
 
     def __post_init__(self) -> None:
-        require_positive(self, "mass")
+        require_ranges(self)
         require(0 <= self.damping < 1, "Blade", "damping", self.damping, "in [0, 1)")
         fits = self.prebend.size in (0, self.radius.size) and np.isfinite(self.prebend).all()
         require(bool(fits), "Blade", "prebend", self.prebend.tolist(), "one value per section")
@@ -163,8 +163,7 @@ class RotorGeometry:
     hub_inertia: NotNegative
 
     def __post_init__(self) -> None:
-        require_positive(self, "radius", "hub_height", "overhang")
-        require(1 <= self.blades <= 6, "RotorGeometry", "blades", self.blades, "1 … 6")
+        require_ranges(self)
         inside = 0 <= self.hub_radius < self.radius
         require(inside, "RotorGeometry", "hub_radius", self.hub_radius, f"in [0, {self.radius})")
         clear = self.hub_height > self.radius
@@ -199,8 +198,7 @@ class Drivetrain:
     torsional_damping: NotNegative = 0.0
 
     def __post_init__(self) -> None:
-        require_positive(self, "gear_ratio", "brake_time")
-        require_not_negative(self, "brake_torque", "torsional_stiffness", "torsional_damping")
+        require_ranges(self)
 
 
 @dataclass(frozen=True)
@@ -274,20 +272,7 @@ class Control:
             (*speeds, self.reference_speed),
             "increasing: region_15_start < region_2_start < rated_speed <= reference_speed",
         )
-        require_positive(
-            self,
-            "region_2_gain",
-            "slip",
-            "rated_mechanical_power",
-            "maximum_torque",
-            "maximum_torque_rate",
-            "speed_filter",
-            "integral_gain",
-            "gain_halving_pitch",
-            "pitch_rate",
-        )
-        share = self.constant_power
-        require(0 <= share <= 1, "Control", "constant_power", share, "in [0, 1]")
+        require_ranges(self)
         require(
             self.minimum_pitch < self.maximum_pitch,
             "Control",
@@ -343,11 +328,7 @@ class Supervision:
     brake_speed: Positive = 0.1
 
     def __post_init__(self) -> None:
-        require_positive(
-            self, "idling_pitch", "stopped_pitch", "start_rate", "stop_rate", "brake_speed"
-        )
-        require(self.overspeed > 1, "Supervision", "overspeed", self.overspeed, "above 1")
-        require(self.fault_delay >= 0, "Supervision", "fault_delay", self.fault_delay, ">= 0")
+        require_ranges(self)
 
 
 @dataclass(frozen=True)
@@ -384,7 +365,7 @@ class Turbine:
     supervision: Supervision = Supervision()
 
     def __post_init__(self) -> None:
-        require_positive(self, "rated_power")
+        require_ranges(self)
         pitch, highest = self.supervision.stopped_pitch, self.control.maximum_pitch
         within = max(pitch, self.supervision.idling_pitch) <= highest
         require(within, "Supervision", "stopped_pitch", pitch, f"at most {highest} rad")

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .checks import Array, NotNegative, Positive, require, require_not_negative, require_positive
+from .checks import Array, NotNegative, Positive, require, require_ranges
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,7 @@ class TowerBending:
     side_side: tuple[float, ...]
 
     def __post_init__(self) -> None:
-        require_not_negative(self, "nacelle_mass")
+        require_ranges(self)
         require(0 <= self.damping < 1, "TowerBending", "damping", self.damping, "in [0, 1)")
         rising = self.height.size > 1 and bool(np.all(np.diff(self.height) > 0))
         require(rising, "TowerBending", "height", self.height.tolist(), "increasing")
@@ -72,7 +72,7 @@ class Tower:
     bending: TowerBending | None = None
 
     def __post_init__(self) -> None:
-        require_positive(self, "base_diameter", "top_diameter", "height")
+        require_ranges(self)
         if self.bending is not None:
             top = float(self.bending.height[-1])
             whole = abs(top - self.height) < 1e-6 * self.height

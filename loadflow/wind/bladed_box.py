@@ -14,6 +14,7 @@ import numpy as np
 
 from loadflow.errors import InputError
 from loadflow.wind.box import Box, power_law_exponent
+from loadflow.wind.box_file import content
 
 _IMPROVED, _LONG = 4, (7, 8)  # TurbSim and improved von Karman; general Kaimal and Mann
 _INTENSITIES = struct.Struct("<i6f")  # components, latitude, roughness, height, three intensities
@@ -51,7 +52,7 @@ def read_bladed_box(
     InputError
         Not a file of this format, shorter than its header says, or it lacks what is not given.
     """
-    raw = Path(path).read_bytes()
+    raw = content(path)
     if len(raw) < 4 + _LENGTHS.size + _GRID.size:
         raise InputError(f"{path}: {len(raw)} bytes, shorter than the header of a .wnd file")
     identifier, model = struct.unpack_from("<2h", raw)

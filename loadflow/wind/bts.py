@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from loadflow.errors import InputError
 from loadflow.wind.box import Box, power_law_exponent, spacing_of
+from loadflow.wind.box_file import content
 
 _HEAD = struct.Struct("<h4i6f6fi")
 _NOT_PERIODIC, _PERIODIC = 7, 8
@@ -67,7 +68,7 @@ def read_bts(path: str | Path) -> Box:
     InputError
         If the file is not of this format, or is shorter than its header says.
     """
-    raw = Path(path).read_bytes()
+    raw = content(path)
     if len(raw) < _HEAD.size:
         raise InputError(f"{path}: {len(raw)} bytes, shorter than the header of a .bts file")
     identifier, nz, ny, tower, nt, dz, dy, dt, speed, hub, bottom, *scales, text = (

@@ -24,6 +24,7 @@ Event = Literal[
 ]  # fmt: skip
 STANDING = ("parked", "parked, blade stuck", "idling")
 """Events that are a state: the turbine is in it from the beginning to the end."""
+_CALM, _FASTEST = 0.1, 100.0  # m/s, of the wind on a turbine that stands
 TURBULENT = ("NTM", "ETM", "EWM50", "EWM1")
 #: Signs and directions of the transient conditions.
 VARIANTS = {
@@ -82,6 +83,11 @@ class LoadCase:
     def turbulent(self) -> bool:
         """Whether realisations of the wind differ at random."""
         return self.wind in TURBULENT
+
+    @property
+    def extreme(self) -> bool:
+        """Whether the wind is the extreme one, which has a steady variant."""
+        return self.wind.startswith("EWM")
 
     @property
     def operating(self) -> bool:
@@ -143,6 +149,11 @@ def load_case(dlc: str) -> LoadCase:
     if dlc not in LOAD_CASES:
         raise InputError(f"load case {dlc!r} is unknown; known: {', '.join(LOAD_CASES)}")
     return LOAD_CASES[dlc]
+
+
+def wind_range(event: Event, cut_in: float, cut_out: float) -> tuple[float, float]:
+    """Lowest and highest mean speed that a turbine may meet an event in, m/s."""
+    return (_CALM, _FASTEST) if event in STANDING else (cut_in, cut_out)
 
 
 def speeds(

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import product
-from math import radians
+from math import inf, isfinite, pi, radians
+from numbers import Integral
 from typing import Literal
 
 from loadflow.errors import InputError
@@ -21,6 +22,15 @@ from loadflow.wind.cases import (
     wind_class,
 )
 from loadflow.wind.options import Machine, WindOptions
+
+_RANGES = (
+    ("yaw_error", -pi, pi, "rad"),
+    ("azimuth", -2 * pi, 2 * pi, "rad"),
+    ("wind_speed", 0.0, inf, "m/s"),
+    ("gust_time", 0.0, inf, "s"),
+    ("event_time", 0.0, inf, "s"),
+)
+"""Lowest and highest value of what a condition states, and its units."""
 
 
 @dataclass(frozen=True)
@@ -73,6 +83,20 @@ class Condition:
     weight: float = 0.0
     kind: Literal["U", "F"] = "U"
     safety_factor: float = 1.0
+
+    def __post_init__(self) -> None:
+        if not (0 < self.duration < inf and isfinite(self.shear_exponent)):
+            raise InputError(
+                f"duration = {self.duration} s, shear_exponent = {self.shear_exponent}: the "
+                "duration must be > 0, and both finite"
+            )
+        for name, low, high, units in _RANGES:
+            value = getattr(self, name)
+            if not (low <= value <= high and isfinite(value)):
+                raise InputError(
+                    f"{name} = {value} {units} is not allowed; it must be finite and within "
+                    f"{low:.5g} … {high:.5g} {units}"
+                )
 
 
 def conditions(
@@ -170,9 +194,11 @@ def condition(
     Raises
     ------
     InputError
-        Also if a deterministic wind has no variant of that number.
+        Also if a deterministic wind has no variant of that number, or the index is none.
     """
     row, options = load_case(dlc), options or WindOptions()
+    if not isinstance(index, Integral) or index < 1:
+        raise InputError(f"index (seed) = {index} is not allowed; it must be a whole number >= 1")
     if steady and not row.wind.startswith("EWM"):
         raise InputError(f"load case {dlc} has no steady extreme wind, its wind is {row.wind}")
     choices = _choices(row, yaw_errors, azimuths, steady)

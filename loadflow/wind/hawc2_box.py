@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from loadflow.errors import InputError
 from loadflow.wind.box import Box
+from loadflow.wind.box_file import content
 
 
 def read_hawc2_box(
@@ -58,7 +59,7 @@ def read_hawc2_box(
 
 
 def _component(path: Path, shape: tuple[int, int, int]) -> NDArray[np.float32]:
-    raw = path.read_bytes()
+    raw = content(path)
     if len(raw) != 4 * np.prod(shape):
         raise InputError(
             f"{path}: {len(raw)} bytes, a box of {' × '.join(map(str, shape))} points has "

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import gamma
+from numbers import Real
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -108,8 +109,11 @@ def reference_intensity(category: str | float) -> float:
                 f"turbulence category {category!r} is unknown; known: {known}, or I_ref"
             )
         return REFERENCE_INTENSITY[category]
-    if not 0 < category < 1:
-        raise InputError(f"reference turbulence intensity {category} must be in (0, 1)")
+    if not isinstance(category, Real) or not 0 < category < 1:
+        raise InputError(
+            f"turbulence category {category!r} is unknown; known: "
+            f"{', '.join(REFERENCE_INTENSITY)}, or the reference intensity I_ref in (0, 1)"
+        )
     return float(category)
 
 

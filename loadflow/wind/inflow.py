@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.errors import InputError
 from loadflow.wind import gusts
 from loadflow.wind.box import Box
 from loadflow.wind.coherence import CoherenceFactors, PolarGrid
@@ -97,8 +96,6 @@ def _mann(
     condition: Condition, machine: Machine, options: WindOptions, seed: np.random.SeedSequence
 ) -> Box:
     """Box as wide as the rotor, with a grid point at the hub."""
-    if options.scaling == "each":
-        raise InputError("scaling = 'each' would break the correlations of spectrum = 'mann'")
     radius = machine.rotor_diameter / 2
     lines = np.linspace(-radius, radius, 2 * options.radii - 1)
     return mann_box(
@@ -111,7 +108,7 @@ def _mann(
         dt=options.step,
         seed=seed,
         shear_exponent=condition.shear_exponent,
-        scaling=options.scaling,
+        scaling="hub" if options.scaling == "hub" else "none",
     )
 
 

@@ -3,11 +3,24 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Literal
+from typing import Annotated, Literal, get_args
 
 from annotated_types import Ge, Gt, Lt
 
 from loadflow.errors import InputError
+
+ClassName = Literal["I", "II", "III", "S", "T", "I-T", "II-T", "III-T"]
+CategoryName = Literal["A+", "A", "B", "C", "S"]
+Spectrum = Literal["kaimal", "mann"]
+Scaling = Literal["none", "hub", "each"]
+Lateral = Literal["coherent", "independent"]
+_CHOICES = {
+    "wind_class": ClassName,
+    "category": CategoryName,
+    "spectrum": Spectrum,
+    "scaling": Scaling,
+    "lateral": Lateral,
+}
 
 
 @dataclass(frozen=True)
@@ -43,36 +56,53 @@ class WindOptions:
         Time step of the wind, s.
     """
 
-    wind_class: Literal["I", "II", "III", "S", "T", "I-T", "II-T", "III-T"] = "I"
-    category: Literal["A+", "A", "B", "C", "S"] = "B"
+    wind_class: ClassName = "I"
+    category: CategoryName = "B"
     v_ref: Annotated[float, Gt(0)] | None = None
     v_ave: Annotated[float, Gt(0)] | None = None
     reference_intensity: Annotated[float, Gt(0), Lt(1)] | None = None
     shear_exponent: Annotated[float, Ge(0), Lt(1)] = 0.2
     speed_step: Annotated[float, Gt(0)] = 2.0
     seeds: Annotated[int, Ge(1)] | None = None
-    spectrum: Literal["kaimal", "mann"] = "kaimal"
-    scaling: Literal["none", "hub", "each"] = "none"
-    lateral: Literal["coherent", "independent"] = "coherent"
+    spectrum: Spectrum = "kaimal"
+    scaling: Scaling = "none"
+    lateral: Lateral = "coherent"
     radii: Annotated[int, Ge(2)] = 11
     angles: Annotated[int, Ge(3)] = 48
     step: Annotated[float, Gt(0)] = 0.05
 
     def __post_init__(self) -> None:
+        for name, kind in _CHOICES.items():
+            value, known = getattr(self, name), get_args(kind)
+            if value not in known:
+                raise InputError(f"{name} = {value!r} is unknown; known: {', '.join(known)}")
+        if not 0 <= self.shear_exponent < 1:
+            raise InputError(
+                f"shear_exponent = {self.shear_exponent} is not allowed; it must be in [0, 1)"
+            )
+        if self.spectrum == "mann" and self.scaling == "each":
+            raise InputError("scaling = 'each' would break the correlations of spectrum = 'mann'")
         own_speeds = [speed for speed in (self.v_ref, self.v_ave) if speed is not None]
         if len(own_speeds) != (2 if self.wind_class == "S" else 0):
             raise InputError(
                 f"wind_class = {self.wind_class!r} with v_ref = {self.v_ref} and v_ave = "
                 f"{self.v_ave} m/s: class 'S', and only it, takes both"
             )
+        for name in ("v_ref", "v_ave"):
+            speed = getattr(self, name)
+            if speed is not None and not 0 < speed < float("inf"):
+                raise InputError(f"{name} = {speed} m/s must be > 0 and finite")
+        intensity = self.reference_intensity
+        if intensity is not None and not 0 < intensity < 1:
+            raise InputError(f"reference_intensity = {intensity} must be in (0, 1)")
         if (self.reference_intensity is not None) != (self.category == "S"):
             raise InputError(
                 f"category = {self.category!r} with reference_intensity = "
                 f"{self.reference_intensity}: category 'S', and only it, takes one"
             )
         for name in ("speed_step", "step"):
-            if not getattr(self, name) > 0:
-                raise InputError(f"{name} = {getattr(self, name)} must be > 0")
+            if not 0 < getattr(self, name) < float("inf"):
+                raise InputError(f"{name} = {getattr(self, name)} must be > 0 and finite")
         if self.radii < 2 or self.angles < 3 or (self.seeds is not None and self.seeds < 1):
             raise InputError(
                 f"radii = {self.radii}, angles = {self.angles}, seeds = {self.seeds}: "

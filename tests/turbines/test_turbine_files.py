@@ -2,6 +2,7 @@
 
 import dataclasses
 import importlib.resources
+import re
 
 import numpy as np
 import pytest
@@ -65,3 +66,19 @@ def test_a_turbine_cannot_be_changed_into_nonsense():
     turbine = load_turbine("nrel-5mw")
     with pytest.raises(InputError, match="hub_height"):
         dataclasses.replace(turbine.rotor, hub_height=50.0)
+
+
+@pytest.mark.parametrize(
+    ("table", "key"),
+    [
+        ("rotor", "hub_mass"),
+        ("rotor", "hub_inertia"),
+        ("drivetrain", "generator_inertia"),
+        ("control", "proportional_gain"),
+    ],
+)
+def test_a_number_that_cannot_be_negative_is_named_with_file_table_and_key(tmp_path, table, key):
+    path = tmp_path / "own.toml"
+    path.write_text(re.sub(rf"(?m)^{key} = ", f"{key} = -", SHIPPED))
+    with pytest.raises(InputError, match=rf"own\.toml: \[{table}\] .*{key} = -.* >= 0"):
+        load_turbine(path)

@@ -1,0 +1,75 @@
+"""What no simulation can do is refused with the scene: file, key and what is allowed."""
+
+import re
+from importlib import resources
+
+import pytest
+
+from loadflow.errors import InputError
+from loadflow.scene import make_scene
+from loadflow.turbines import load_turbine
+
+
+@pytest.mark.parametrize(
+    ("loads", "words"),
+    [
+        ({"dlc": "9.1"}, ["loads.dlc = '9.1'", "1.1, 1.2", "7.1"]),
+        ({"wind_speeds": [30]}, ["loads.wind_speeds = 30", "from 3 to 25 m/s"]),
+        ({"dlc": ["6.4", "1.1"], "wind_speeds": [2]}, ["load case 1.1", "from 3 to 25 m/s"]),
+        ({"dlc": "6.4", "wind_speeds": [110]}, ["load case 6.4", "stands from 0.1 to 100 m/s"]),
+        ({"step": 0.3}, ["loads.step = 0.3", "less than or equal to 0.1"]),
+        ({"steady": True}, ["loads.steady = true", "load case 1.1", "6.1, 6.2, 6.3, 7.1"]),
+        ({"yaw_errors": [9]}, ["loads.yaw_errors", "9 rad", "±3.1416 rad"]),
+        ({"azimuths": [90]}, ["loads.azimuths", "90 rad", "±6.2832 rad"]),
+        ({"first_seed": 0}, ["loads.first_seed = 0", "greater than or equal to 1"]),
+    ],
+)
+def test_what_cannot_be_simulated_is_refused(loads, words):
+    with pytest.raises(InputError) as info:
+        make_scene({"loads": loads}, "own.toml")
+    for word in ["own.toml", *words]:
+        assert word in str(info.value)
+
+
+def test_what_the_turbine_does_not_have_is_refused(tmp_path):
+    shipped = (resources.files("loadflow.turbines") / "nrel-5mw.toml").read_text(encoding="utf-8")
+    plain = re.sub(r"(?m)^individual_gain.*$", "", shipped)
+    plain = re.sub(r"(?ms)^\[tower\.bending\].*?(?=^\[)", "", plain)
+    path = tmp_path / "plain.toml"
+    path.write_text(plain, encoding="utf-8")
+    for loads in ({"individual_pitch": True}, {"rung": "tower"}):
+        make_scene({"loads": dict(loads)})
+        (key,) = loads
+        with pytest.raises(InputError, match=rf"loads\.{key} = .* NREL 5 MW has no"):
+            make_scene({"turbine": {"name": str(path)}, "loads": loads})
+
+
+def test_given_series_are_not_held_to_what_can_be_simulated():
+    scene = make_scene({"loads": {"files": ["a.outb"], "dlc": "site", "wind_speeds": [30]}})
+    assert scene.loads.dlcs == ("site",)
+
+
+@pytest.mark.parametrize("name", ["foo", "nowhere.toml"])
+def test_an_unknown_turbine_is_named(name):
+    with pytest.raises(InputError, match=rf"own\.toml: turbine\.name: .*{name}"):
+        make_scene({"turbine": {"name": name}}, "own.toml")
+
+
+def test_wind_speeds_may_reach_the_bounds_of_the_turbine():
+    machine = load_turbine("nrel-5mw")
+    make_scene({"loads": {"wind_speeds": [machine.cut_in, machine.cut_out]}})
+
+
+def test_without_results_a_shaft_is_asked_only_for_what_it_has():
+    two_point = make_scene({"shaft": {"two_point": {}}})
+    assert two_point.wants("journal")
+    assert not two_point.wants("rolling")
+    moment = make_scene({"shaft": {"moment": {}}})
+    assert moment.wants("rolling")
+    assert not moment.wants("journal")
+    assert make_scene({}).wants("rolling")
+
+
+def test_a_default_bearing_that_results_ask_for_names_the_key_to_set():
+    with pytest.raises(InputError, match=r"set rolling\.bearing to what it has, or leave"):
+        make_scene({"shaft": {"two_point": {}}, "results": ["rolling.life"]})
