@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import cache
 from typing import Annotated, Any, get_origin, get_type_hints
 
 import numpy as np
@@ -42,7 +41,6 @@ def require_ranges(part: Any) -> None:
         require(ok, type(part).__name__, name, value, allowed)
 
 
-@cache
 def _ranges(part: type) -> dict[str, tuple[Bound, ...]]:
     """Bounds of the numbers of a part, by name; none is left out that has any."""
     hints = get_type_hints(part, include_extras=True)
