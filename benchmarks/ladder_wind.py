@@ -14,7 +14,7 @@ from loadflow.rotor import simulate_condition
 from loadflow.rotor.inflow import wind_machine
 from loadflow.scene import Scene
 from loadflow.stages import shaft
-from loadflow.stages.cases import Case, list_cases, wind_of, wind_options
+from loadflow.stages.cases import Case, list_cases, wind_of
 from loadflow.turbines import load_turbine
 from loadflow.wind import Field, inflow
 
@@ -96,7 +96,7 @@ def turbulence(scene: Scene, case: Case, grid: tuple[int, int], method: Any) -> 
     plant = wind_machine(load_turbine(scene.turbine.name))
     wind = wind_of(scene, case)
     longer = replace(wind, duration=RUN_IN + wind.duration + 2 * MARGIN)
-    options = replace(wind_options(scene), radii=grid[0], angles=grid[1])
+    options = replace(scene.loads.wind_options, radii=grid[0], angles=grid[1])
     return inflow(longer, plant, options, method=method)
 
 
@@ -127,7 +127,7 @@ def loads_in(scene: Scene, case: Case, field: Field) -> dict[str, Any]:
     hub = simulate_condition(
         scene.turbine.name,
         wind_of(scene, case),
-        wind_options(scene),
+        scene.loads.wind_options,
         dt=scene.loads.step,
         run_in=RUN_IN,
         field=field,

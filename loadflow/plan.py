@@ -186,6 +186,8 @@ def _left_out(scene: Scene, needed: set[str]) -> dict[str, str]:
     why = {name: "no wanted result needs it" for name in STAGES if name not in {*needed, "check"}}
     if scene.loads.source == "files":
         why["wind, rotor"] = "load series are given, nothing is simulated"
+    else:
+        why |= _left_out_of_rotor(scene)
     if "journal" in needed:
         if scene.journal.heat is None:
             why["heat of the film"] = "no journal.heat; the run warns where it would matter"
@@ -199,6 +201,18 @@ def _left_out(scene: Scene, needed: set[str]) -> dict[str, str]:
             why["elastic shell"] = "no journal.shell"
     if "rolling" in needed and scene.rolling.rings == "rigid":
         why["elastic rings"] = 'rolling.rings = "rigid"'
+    return why
+
+
+def _left_out_of_rotor(scene: Scene) -> dict[str, str]:
+    """Why effects of the simulated rotor are left out."""
+    loads, why = scene.loads, {}
+    if not loads.dynamic_inflow:
+        why["dynamic inflow"] = "no loads.dynamic_inflow: induction follows the load at once"
+    if not loads.dynamic_stall:
+        why["dynamic stall"] = "no loads.dynamic_stall: separation follows lift at once"
+    if loads.bend_twist == 0:
+        why["turn of blades bent both ways"] = "loads.bend_twist = 0"
     return why
 
 

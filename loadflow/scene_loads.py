@@ -7,10 +7,11 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import BaseModel, Field, ValidationInfo, field_validator, model_validator
 
-from loadflow.rotor.options import STEPS
+from loadflow.rotor.options import STEPS, RotorOptions
 from loadflow.scene_section import Section
 from loadflow.turbines import load_turbine
 from loadflow.wind.cases import LOAD_CASES, load_case, wind_range
+from loadflow.wind.options import CategoryName, ClassName, Lateral, Scaling, Spectrum, WindOptions
 
 Positive = Annotated[float, Field(gt=0)]
 
@@ -33,10 +34,18 @@ class Loads(Section, BaseModel):
     are those of each load case unless they are given here. ``seeds`` and ``first_seed`` concern
     turbulent winds; a gust has its own variants (sign, time of the event), and may meet the rotor
     at several ``azimuths`` (rad). ``yaw_errors`` are in rad. ``steady`` takes the steady extreme
-    wind of 6.1 … 6.3 and 7.1. ``spectrum = "mann"`` needs the extra of that name; ``wind_grid`` are
-    the radii, with the hub, and the angles of the polar grid of the wind, and another grid is
-    another realisation. A ``rung`` that is not named is "tower" ("flap" where the turbine does not
-    say how its tower bends), and "tables" for a parked turbine.
+    wind of 6.1 … 6.3 and 7.1.
+
+    The wind is that of `loadflow.wind.WindOptions`: class "S" takes ``v_ref`` and ``v_ave`` (m/s),
+    category "S" its ``reference_intensity``; ``shear_exponent`` is 0.2 onshore and 0.14 offshore
+    (extreme winds have 0.11, fields of your own theirs); ``scaling`` and ``lateral`` say how the
+    turbulence keeps its standard deviation and its coherence. ``spectrum = "mann"`` needs the extra
+    of that name; ``wind_grid`` are the radii, with the hub, and the angles of the polar grid of the
+    wind, and another grid is another realisation.
+
+    ``dynamic_inflow``, ``dynamic_stall``, ``bend_twist`` and ``individual_pitch`` are those of
+    `loadflow.rotor.RotorOptions`. A ``rung`` that is not named is "tower" ("flap" where the turbine
+    does not say how its tower bends), and "tables" for a parked turbine.
     """
 
     source: Literal["simulate", "files"] = "simulate"
@@ -54,14 +63,23 @@ class Loads(Section, BaseModel):
     steady: bool = False
     duration: Positive | None = None
     step: Annotated[float, Field(ge=STEPS[0], le=STEPS[1])] = 0.025
-    wind_class: Literal["I", "II", "III"] = "I"
-    category: Literal["A+", "A", "B", "C"] = "B"
-    spectrum: Literal["kaimal", "mann"] = "kaimal"
+    wind_class: ClassName = "I"
+    v_ref: Positive | None = None
+    v_ave: Positive | None = None
+    category: CategoryName = "B"
+    reference_intensity: Annotated[float, Field(gt=0, lt=1)] | None = None
+    shear_exponent: Annotated[float, Field(ge=0, lt=1)] = 0.2
+    spectrum: Spectrum = "kaimal"
+    scaling: Scaling = "none"
+    lateral: Lateral = "coherent"
     wind_grid: tuple[Annotated[int, Field(ge=2, le=41)], Annotated[int, Field(ge=6, le=288)]] = (
         11,
         48,
     )
     rung: Literal["tables", "bem", "flap", "tower"] | None = None
+    dynamic_inflow: bool = False
+    dynamic_stall: bool = False
+    bend_twist: Annotated[float, Field(ge=-1, le=1)] = 0.5
     individual_pitch: bool = False
     mass_imbalance: Annotated[float, Field(ge=-0.2, le=0.2)] = 0.0
     pitch_imbalance: Annotated[float, Field(ge=-0.2, le=0.2)] = 0.0
@@ -88,6 +106,37 @@ class Loads(Section, BaseModel):
         """The design load cases, each once."""
         return tuple(dict.fromkeys([self.dlc] if isinstance(self.dlc, str) else self.dlc))
 
+    @property
+    def wind_options(self) -> WindOptions:
+        """What the scene says about the wind."""
+        radii, angles = self.wind_grid
+        return WindOptions(
+            wind_class=self.wind_class,
+            category=self.category,
+            v_ref=self.v_ref,
+            v_ave=self.v_ave,
+            reference_intensity=self.reference_intensity,
+            shear_exponent=self.shear_exponent,
+            seeds=self.seeds,
+            spectrum=self.spectrum,
+            scaling=self.scaling,
+            lateral=self.lateral,
+            radii=radii,
+            angles=angles,
+        )
+
+    @property
+    def rotor_options(self) -> RotorOptions:
+        """What the scene says about the rotor, but for its rung."""
+        return RotorOptions(
+            bend_twist=self.bend_twist,
+            dynamic_inflow=self.dynamic_inflow,
+            dynamic_stall=self.dynamic_stall,
+            individual_pitch=self.individual_pitch,
+            mass_imbalance=self.mass_imbalance,
+            pitch_imbalance=self.pitch_imbalance,
+        )
+
     @model_validator(mode="before")
     @classmethod
     def _given_before_simulated(cls, data: Any) -> Any:
@@ -95,6 +144,11 @@ class Loads(Section, BaseModel):
         if isinstance(data, dict) and data.get("files") and "source" not in data:
             return data | {"source": "files"}
         return data
+
+    @model_validator(mode="after")
+    def _wind_is_whole(self) -> Self:
+        _ = self.wind_options  # class and category S need what the others must not have
+        return self
 
     @model_validator(mode="after")
     def _files_for_files(self) -> Self:

@@ -6,7 +6,10 @@ from importlib import resources
 import pytest
 
 from loadflow.errors import InputError
+from loadflow.plan import make_plan
 from loadflow.scene import make_scene
+from loadflow.stages.cases import Case, list_cases, wind_of
+from loadflow.stages.loads import hub_loads
 from loadflow.turbines import load_turbine
 
 
@@ -42,6 +45,72 @@ def test_what_the_turbine_does_not_have_is_refused(tmp_path):
         (key,) = loads
         with pytest.raises(InputError, match=rf"loads\.{key} = .* NREL 5 MW has no"):
             make_scene({"turbine": {"name": str(path)}, "loads": loads})
+
+
+@pytest.mark.parametrize(
+    ("loads", "words"),
+    [
+        ({"wind_class": "S"}, ["loads: wind_class = 'S'", "v_ref"]),
+        ({"v_ref": 45.0, "v_ave": 8.0}, ["wind_class = 'I'", "'S', and only it"]),
+        ({"category": "S"}, ["loads: category = 'S'", "reference_intensity"]),
+        ({"category": "Z"}, ["loads.category = 'Z'", "'A+', 'A', 'B', 'C' or 'S'"]),
+        ({"reference_intensity": 1.2}, ["loads.reference_intensity = 1.2", "less than 1"]),
+        ({"shear_exponent": 1.0}, ["loads.shear_exponent = 1.0", "less than 1"]),
+        ({"scaling": "all"}, ["loads.scaling = 'all'", "'none', 'hub' or 'each'"]),
+        ({"lateral": "no"}, ["loads.lateral = 'no'", "'coherent' or 'independent'"]),
+        ({"bend_twist": 2.0}, ["loads.bend_twist = 2.0", "less than or equal to 1"]),
+        ({"spectrum": "mann", "scaling": "each"}, ["loads: scaling = 'each'", "mann"]),
+    ],
+)
+def test_options_of_wind_and_rotor_are_held_to_their_ranges(loads, words):
+    with pytest.raises(InputError) as info:
+        make_scene({"loads": loads}, "own.toml")
+    for word in ["own.toml", *words]:
+        assert word in str(info.value)
+
+
+def test_a_class_of_ones_own_sets_extreme_wind_turbulence_and_shares():
+    own = {"wind_class": "S", "v_ref": 45.0, "v_ave": 8.0, "category": "S"}
+    own |= {"reference_intensity": 0.1, "wind_speeds": [8, 16]}
+    scene = make_scene({"loads": own})
+    assert wind_of(scene, Case("1.1", 8.0, 1)).sigma == pytest.approx(0.1 * (0.75 * 8 + 5.6))
+    storm = make_scene({"loads": {k: own[k] for k in own if k != "wind_speeds"} | {"dlc": "6.1"}})
+    assert {case.wind_speed for case in list_cases(storm)} == {45.0}
+    shares = {c.wind_speed: c.weight for c in list_cases(scene) if c.seed == 1}
+    calmer = list_cases(make_scene({"loads": own | {"v_ave": 6.0}}))
+    assert shares[8.0] < next(c.weight for c in calmer if c.wind_speed == 8.0)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"shear_exponent": 0.14},
+        {"scaling": "hub"},
+        {"lateral": "independent"},
+        {"dynamic_inflow": True},
+        {"dynamic_stall": True},
+        {"bend_twist": 0.0},
+    ],
+    ids=lambda change: next(iter(change)),
+)
+def test_an_option_reaches_the_loads_and_the_fingerprint_of_their_parts(change):
+    short = {"duration": 2.0, "step": 0.1, "wind_grid": [3, 6], "rung": "flap"}
+    plain, other = (make_scene({"loads": short | own}) for own in ({}, change))
+    assert plain.digest("loads") != other.digest("loads")
+    case = Case("1.1", 16.0, 1)
+    before, after = (hub_loads(s, case, {})["hub_moment"] for s in (plain, other))
+    assert abs(after - before).max() > 1e-4 * abs(before).max()
+
+
+def test_the_plan_says_which_effects_of_the_rotor_are_off():
+    base = {"wind_speeds": [8], "seeds": 1}
+    told = make_plan(make_scene({"loads": dict(base)})).left_out
+    assert {"dynamic inflow", "dynamic stall"} <= told.keys()
+    assert "turn of blades bent both ways" not in told
+    on = {"dynamic_inflow": True, "dynamic_stall": True, "bend_twist": 0.0}
+    told = make_plan(make_scene({"loads": base | on})).left_out
+    assert not {"dynamic inflow", "dynamic stall"} & told.keys()
+    assert "turn of blades bent both ways" in told
 
 
 def test_given_series_are_not_held_to_what_can_be_simulated():

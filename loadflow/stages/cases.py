@@ -22,7 +22,7 @@ from loadflow.scene_loads import Loads
 from loadflow.stages.given_winds import wind_files
 
 if TYPE_CHECKING:
-    from loadflow.wind import Condition, Machine, WindOptions
+    from loadflow.wind import Condition, Machine, iec
 
 CUBES = (".h5", ".nc")
 
@@ -79,32 +79,23 @@ def list_cases(scene: Scene) -> list[Case]:
     """
     loads = scene.loads
     if loads.winds:
-        return weighted(_distinct(_in_given_winds(scene)), loads.wind_class)
+        return weighted(_distinct(_in_given_winds(scene)), wind_class(scene))
     if loads.source == "simulate":
         simulated = [case for dlc in loads.dlcs for case in _simulated(scene, dlc)]
-        return weighted(_distinct(simulated), loads.wind_class)
+        return weighted(_distinct(simulated), wind_class(scene))
     if not loads.files:
         raise InputError('loads.files: source = "files" needs load files; none is given')
     files = [path for pattern in loads.files for path in _matching(pattern)]
     cases = [case for path in files for case in _cases_of(path, loads)]
     distinct = _distinct(cases)
-    return distinct if loads.weights == "given" else weighted(distinct, loads.wind_class)
+    return distinct if loads.weights == "given" else weighted(distinct, wind_class(scene))
 
 
-def wind_options(scene: Scene) -> WindOptions:
-    """What the scene says about the wind."""
-    from loadflow.wind import WindOptions
+def wind_class(scene: Scene) -> iec.WindClass:
+    """Speeds of the wind class of a scene."""
+    from loadflow.wind.cases import wind_class as class_of
 
-    loads = scene.loads
-    radii, angles = loads.wind_grid
-    return WindOptions(
-        wind_class=loads.wind_class,
-        category=loads.category,
-        seeds=loads.seeds,
-        spectrum=loads.spectrum,
-        radii=radii,
-        angles=angles,
-    )
+    return class_of(scene.loads.wind_options)
 
 
 def simulated_case(scene: Scene, dlc: str, wind_speed: float, index: int) -> Case:
@@ -120,7 +111,7 @@ def wind_of(scene: Scene, case: Case) -> Condition:
     return condition(
         case.dlc,
         _machine(scene),
-        wind_options(scene),
+        scene.loads.wind_options,
         wind_speed=case.wind_speed,
         index=case.seed,
         **_choice(scene),
@@ -133,7 +124,11 @@ def _simulated(scene: Scene, dlc: str) -> Iterator[Case]:
 
     loads = scene.loads
     winds = conditions(
-        dlc, _machine(scene), wind_options(scene), wind_speeds=loads.wind_speeds, **_choice(scene)
+        dlc,
+        _machine(scene),
+        loads.wind_options,
+        wind_speeds=loads.wind_speeds,
+        **_choice(scene),
     )
     for wind in winds:
         later = loads.first_seed - 1 if wind.sigma > 0 else 0
@@ -222,7 +217,7 @@ def _hash(path: Path) -> str:
         return hashlib.file_digest(stream, "sha256").hexdigest()
 
 
-def weighted(cases: list[Case], wind_class: str, shape: float = 2.0) -> list[Case]:
+def weighted(cases: list[Case], wind_class: str | iec.WindClass, shape: float = 2.0) -> list[Case]:
     """Share the lifetime over the wind speeds of each DLC, and their seeds; see `speed_shares`."""
     share = {
         dlc: speed_shares((c.wind_speed for c in cases if c.dlc == dlc), wind_class, shape)
@@ -235,7 +230,7 @@ def weighted(cases: list[Case], wind_class: str, shape: float = 2.0) -> list[Cas
 
 
 def speed_shares(
-    wind_speeds: Iterable[float], wind_class: str, shape: float = 2.0
+    wind_speeds: Iterable[float], wind_class: str | iec.WindClass, shape: float = 2.0
 ) -> dict[float, float]:
     """Return the share of the lifetime of each wind speed: its bin reaches half way to the next.
 
@@ -243,8 +238,8 @@ def speed_shares(
     ----------
     wind_speeds : iterable of float
         m/s.
-    wind_class : str
-        I, II or III, which sets the annual mean (2.3).
+    wind_class : str or loadflow.wind.iec.WindClass
+        Sets the annual mean (2.3).
     shape : float
         Of the Weibull distribution; 2 is the Rayleigh distribution (2.2).
 

@@ -11,7 +11,7 @@ import xarray as xr
 
 from loadflow.cube import CASE_COORDS, iter_cases, open_cube
 from loadflow.scene import Scene
-from loadflow.stages.cases import CUBES, Case, wind_of, wind_options
+from loadflow.stages.cases import CUBES, Case, wind_of
 from loadflow.stages.given_winds import RUN_IN, given_field
 from loadflow.stages.summary import over_cases
 
@@ -28,11 +28,11 @@ def hub_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
 
 
 def _simulate(scene: Scene, case: Case) -> xr.Dataset:
-    from loadflow.rotor import RotorOptions, simulate_condition
+    from loadflow.rotor import simulate_condition
     from loadflow.rotor.inflow import wind_machine
     from loadflow.turbines import load_turbine
 
-    loads, wind, winds, field = scene.loads, wind_of(scene, case), wind_options(scene), None
+    loads, wind, winds, field = scene.loads, wind_of(scene, case), scene.loads.wind_options, None
     if case.wind:
         plant = wind_machine(load_turbine(scene.turbine.name))
         wind, field = given_field(Path(case.wind), wind, winds, plant, loads.duration)
@@ -44,11 +44,7 @@ def _simulate(scene: Scene, case: Case) -> xr.Dataset:
         field=field,
         dt=loads.step,
         rung=loads.rung,
-        options=RotorOptions(
-            individual_pitch=loads.individual_pitch,
-            mass_imbalance=loads.mass_imbalance,
-            pitch_imbalance=loads.pitch_imbalance,
-        ),
+        options=loads.rotor_options,
     )
     # a cube has the pitch of blade 1 and the wind along the mean
     series = series.drop_dims("blade").assign(wind=series["wind"].sel(axis="x", drop=True))

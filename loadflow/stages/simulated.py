@@ -7,7 +7,7 @@ from typing import Any
 
 from loadflow.cube import Cube, make_cube
 from loadflow.scene import make_scene
-from loadflow.stages.cases import list_cases, simulated_case, weighted
+from loadflow.stages.cases import list_cases, simulated_case, weighted, wind_class
 from loadflow.stages.loads import hub_loads
 
 
@@ -53,7 +53,7 @@ def simulate_cube(
     if seeds:
         wanted = dict.fromkeys((c.dlc, c.wind_speed, seed) for c in cases for seed in seeds)
         chosen = [simulated_case(scene, *what) for what in wanted]
-        cases = weighted(chosen, scene.loads.wind_class)
+        cases = weighted(chosen, wind_class(scene))
     done = []
     for case in cases:
         done.append(hub_loads(scene, case, {}))

@@ -29,11 +29,10 @@ from loadflow.wind.coherence import (
 from loadflow.wind.field import Field
 from loadflow.wind.iec import COMPONENT_SIGMA, Floats
 from loadflow.wind.iec import length_scale as iec_length_scale
+from loadflow.wind.options import Lateral, Scaling
 from loadflow.wind.seeding import Seed, as_sequence, child
 from loadflow.wind.spectra import check_turbulence, coherence_decay, kaimal_spectrum
 
-Scaling = Literal["none", "hub", "each"]
-Lateral = Literal["coherent", "independent"]
 Method = Literal["fast", "exact"]
 Factors = CoherenceFactors | ExactFactors
 
