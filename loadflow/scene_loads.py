@@ -199,6 +199,6 @@ def check_simulation(loads: Loads, turbine: str) -> None:
         for speed in loads.wind_speeds or []:
             if not low <= speed <= high:
                 raise ValueError(
-                    f"loads.wind_speeds = {speed:g}: in load case {dlc} {machine.name} "
-                    f"{'runs' if row.operating else 'stands'} from {low:g} to {high:g} m/s"
+                    f"loads.wind_speeds = {speed} m/s is not allowed; in load case {dlc} "
+                    f"{machine.name} {'runs' if row.operating else 'stands'} from {low:g} to {high:g} m/s"
                 )

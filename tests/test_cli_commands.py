@@ -356,7 +356,7 @@ def test_rolling_takes_a_bearing_and_its_rings_from_a_scene(loadflow, tmp_path):
         (["reduce", "CUBE", "-o", "OUT", "--size", 3], "size = 3.0"),
         (["reduce", "CUBE", "-o", "OUT", "--pick", "best"], "extremes"),
         (["reduce", "CUBE"], "Missing option"),
-        (["loads", "--wind-speed", 40, "-o", "OUT"], "wind_speed = 40.0 m/s is not allowed"),
+        (["loads", "--wind-speed", 40, "-o", "OUT"], "wind_speeds = 40.0 m/s is not allowed"),
         (["loads", "--wind-speed", 8, "--category", "Q", "-o", "OUT"], "category = 'Q'"),
         (["loads", "--wind-speed", 8, "--duration", -1, "-o", "OUT"], "duration = -1"),
         (["loads", "--wind-speed", 8, "--turbine", "none", "-o", "OUT"], "unknown turbine 'none'"),
