@@ -238,6 +238,25 @@ def test_lifetime_of_the_bearings(loadflow, hub_cube, tmp_path):
     assert (tmp_path / "lifetime.html").exists()
 
 
+def test_lifetime_counts_events_and_names_the_load_cases_left_out(loadflow, tmp_path):
+    cases = [case(8.0, 1).assign_coords(dlc=dlc) for dlc in ("1.2", "3.1", "4.1")]
+    length = 0.25 * cases[0].sizes["time"]
+    cube = save_cube(make_cube(cases), tmp_path / "loads.h5")
+    ask = ("lifetime", cube, "-o", tmp_path / "out", "--json")
+    code, out, err = loadflow(*ask, "--per-year", "3.1=1000")
+    assert code == 0, err
+    answer = json.loads(out)
+    shares = answer["bearings"][0]["shares"]
+    assert shares["dlc3.1_v8_s1"] == pytest.approx(1000 * length / (365.25 * 86400))
+    assert shares["dlc4.1_v8_s1"] == 0.0
+    assert sum(shares.values()) == pytest.approx(1.0)
+    (warning,) = answer["warnings"]
+    assert "DLC 4.1;" in warning
+    code, _, err = loadflow(*ask, "--per-year", "often")
+    assert code == 2
+    assert "DLC=NUMBER" in err
+
+
 def test_short_records_have_no_extrapolated_extreme(loadflow, hub_cube, tmp_path):
     code, out, _ = loadflow("lifetime", hub_cube, "-o", tmp_path, "--block", 60, "--json")
     assert code == 0

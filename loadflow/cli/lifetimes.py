@@ -18,6 +18,7 @@ from loadflow.cli.base import (
     print_json,
     print_rows,
 )
+from loadflow.errors import InputError
 
 
 class Weights(StrEnum):
@@ -98,6 +99,10 @@ def lifetime(
         Weights, typer.Option(help="Shares of the cases: by wind speed, or the cube's own.")
     ] = Weights.rayleigh,
     wind_class: Annotated[str, typer.Option("--class", help="Wind class: I, II or III.")] = "I",
+    per_year: Annotated[
+        list[str] | None,
+        typer.Option(help="How often a year a load case happens, as 3.1=1000; repeatable."),
+    ] = None,
     weibull_shape: Annotated[
         float, typer.Option(help="Of the wind speeds; 2 is the Rayleigh distribution.")
     ] = 2.0,
@@ -112,9 +117,17 @@ def lifetime(
 ) -> None:
     """Sum up a lifetime of each bearing: fatigue, revolutions by speed and force, extreme load."""
     from loadflow.stages.lifetime import LifetimeOptions, lifetimes
-    from loadflow.stages.lifetime_page import HEADS, as_dict, summary_rows, write_lifetime
+    from loadflow.stages.lifetime_page import (
+        HEADS,
+        as_dict,
+        share_warnings,
+        summary_rows,
+        write_lifetime,
+    )
     from loadflow.stages.suspended import iter_bearings
+    from loadflow.turbines import load_turbine
 
+    plant = load_turbine(turbine)
     options = LifetimeOptions(
         years=years,
         return_period=return_period,
@@ -122,14 +135,32 @@ def lifetime(
         weights=weights.value,
         wind_class=wind_class,
         weibull_shape=weibull_shape,
+        operating=(plant.cut_in, plant.cut_out),
+        per_year=_counts(per_year or []),
         tail=tail.value,
         block=block,
     )
     series = iter_bearings(open_checked(cube), bearing or [], turbine, str(cube))
     lives = list(lifetimes(series, options))
     page = write_lifetime(lives, options, output, cube.name)
+    warnings = share_warnings(lives)
     if as_json:
-        print_json({"page": str(page), "bearings": [as_dict(life, options) for life in lives]})
+        bearings = [as_dict(life, options) for life in lives]
+        print_json({"page": str(page), "bearings": bearings, "warnings": warnings})
         return
     print_rows(HEADS, [row for life in lives for row in summary_rows(life, options)])
+    for warning in warnings:
+        out.print(f"warning  {warning}", soft_wrap=True)
     out.print(f"page     {page}", soft_wrap=True)
+
+
+def _counts(given: list[str]) -> dict[str, float]:
+    """Load cases and their numbers from ``DLC=NUMBER``."""
+    counts = {}
+    for item in given:
+        dlc, _, number = item.partition("=")
+        try:
+            counts[dlc] = float(number)
+        except ValueError:
+            raise InputError(f"--per-year {item}: must be DLC=NUMBER, as 3.1=1000") from None
+    return counts

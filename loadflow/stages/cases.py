@@ -40,7 +40,8 @@ class Case:
     seed : int
         Index of the turbulence seed, or of the variant of a wind without turbulence.
     weight : float
-        Share of the lifetime.
+        Share of the lifetime, if its design load case takes the whole of it; how several load
+        cases share it is told by `loadflow.stages.shares.lifetime_shares`.
     file : str
         File the series is read from; empty if it is simulated.
     entry : str

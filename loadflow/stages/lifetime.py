@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Literal
 
 import numpy as np
@@ -26,10 +25,9 @@ from loadflow.reduction import (
     tail_of_peaks,
 )
 from loadflow.reduction.quasistatic import class_edges
-from loadflow.stages.cases import speed_shares
+from loadflow.stages.shares import YEAR, lifetime_shares, without_share
 from loadflow.stages.suspended import BearingSeries
 
-YEAR = 365.25 * 86_400.0
 COMPONENTS = ("Fx (down)", "Fy (left)", "F axial")
 TailKind = Literal["maxima", "peaks"]
 
@@ -47,11 +45,16 @@ class LifetimeOptions:
     exponents : tuple of float
         Wöhler exponents.
     weights : {"rayleigh", "given"}
-        Shares from the distribution of wind speeds (2.2, 2.3), or those that the cube states.
+        Shares from the distribution of wind speeds (2.2, 2.3), see
+        `loadflow.stages.shares.lifetime_shares`, or those that the cube states.
     wind_class : str
         I, II or III.
     weibull_shape : float
         2 is the Rayleigh distribution.
+    operating : tuple of float
+        Cut-in and cut-out, m/s; production and idling part there.
+    per_year : mapping of str to float
+        How often a year a design load case happens, such as ``{"3.1": 1000}``.
     classes : int
         Of speed, of force, and of the Markov matrix.
     tail : {"peaks", "maxima"}
@@ -66,6 +69,8 @@ class LifetimeOptions:
     weights: Literal["rayleigh", "given"] = "rayleigh"
     wind_class: str = "I"
     weibull_shape: float = 2.0
+    operating: tuple[float, float] = (3.0, 25.0)
+    per_year: Mapping[str, float] = field(default_factory=dict)
     classes: int = 44
     tail: TailKind = "maxima"
     block: float = 60.0
@@ -76,6 +81,8 @@ class LifetimeOptions:
                 raise InputError(f"{name} = {getattr(self, name)}; allowed: {name} > 0")
         if self.classes < 1:
             raise InputError(f"classes = {self.classes}; allowed: at least 1")
+        if self.weights == "given" and self.per_year:
+            raise InputError('per_year: weights = "given" takes the shares of the cube')
 
 
 @dataclass(frozen=True)
@@ -90,6 +97,8 @@ class BearingLifetime:
         Load cases.
     shares : ndarray, shape (k,)
         Share of the lifetime of each case.
+    left_out : tuple of str
+        Design load cases without a share: they add nothing but to the load classes' range.
     equivalent : ndarray, shape (exponent, component, k)
         Damage-equivalent load of each case, N, a range at 1 Hz; components as in `COMPONENTS`.
     lifetime_equivalent : ndarray, shape (exponent, component)
@@ -109,6 +118,7 @@ class BearingLifetime:
     bearing: str
     cases: tuple[str, ...]
     shares: np.ndarray
+    left_out: tuple[str, ...]
     equivalent: np.ndarray
     lifetime_equivalent: np.ndarray
     duration: LoadDuration
@@ -160,13 +170,15 @@ def _lifetime(
         load_duration(part.speed, part.radial, part.time, classes=(speed_edges, force_edges))
         for part in parts
     ]
-    tails = _tails(parts, resultants, options)
+    living = [k for k, share in enumerate(shares.tolist()) if share > 0]
+    tails = _tails([parts[k] for k in living], [resultants[k] for k in living], options)
     speeds = np.array([part.labels["wind_speed"] for part in parts])
     tail_shares = np.array([shares[speeds == speed].sum() for speed in tails])
     return BearingLifetime(
         bearing,
         tuple(part.case for part in parts),
         shares,
+        tuple(without_share([part.labels["dlc"] for part in parts], shares)),
         equivalent,
         np.array(lifetime),
         lifetime_duration(durations, shares, seconds),
@@ -180,18 +192,21 @@ def _lifetime(
 
 
 def _shares(parts: Sequence[BearingSeries], options: LifetimeOptions) -> np.ndarray:
-    """Share of each case; those of a wind speed and load case part equally."""
+    """Share of each case."""
     if options.weights == "given":
-        return np.array([part.labels["weight"] for part in parts])
-    keys = [(part.labels["dlc"], part.labels["wind_speed"]) for part in parts]
-    count = Counter(keys)
-    found = {
-        dlc: speed_shares(
-            (v for d, v in keys if d == dlc), options.wind_class, options.weibull_shape
-        )
-        for dlc in {dlc for dlc, _ in keys}
-    }
-    return np.array([found[dlc][v] / count[dlc, v] for dlc, v in keys]) / len(found)
+        given = np.array([part.labels["weight"] for part in parts])
+        if not given.any():
+            raise InputError("weights: the cube gives every case a share of 0")
+        return given
+    return lifetime_shares(
+        [part.labels["dlc"] for part in parts],
+        [part.labels["wind_speed"] for part in parts],
+        [float(part.time[-1] + part.time[1] - 2 * part.time[0]) for part in parts],
+        wind_class=options.wind_class,
+        shape=options.weibull_shape,
+        operating=options.operating,
+        per_year=options.per_year,
+    )
 
 
 def _equivalent(part: BearingSeries, exponents: Sequence[float]) -> np.ndarray:

@@ -39,6 +39,19 @@ def summary_rows(life: BearingLifetime, options: LifetimeOptions) -> list[list[s
     return rows
 
 
+def share_warnings(lives: Sequence[BearingLifetime]) -> list[str]:
+    """Say which design load cases the lifetimes leave out, and if shares exceed the lifetime."""
+    told = []
+    if dropped := list(dict.fromkeys(dlc for life in lives for dlc in life.left_out)):
+        told.append(
+            f"lifetime: no share of time, and so no fatigue, for DLC {', '.join(dropped)}; tell "
+            "how often a year it happens (per year), or give the shares"
+        )
+    if (total := max(float(life.shares.sum()) for life in lives)) > 1.001:
+        told.append(f"lifetime: the shares sum to {total:.4g} lifetimes")
+    return told
+
+
 def as_dict(life: BearingLifetime, options: LifetimeOptions) -> dict[str, Any]:
     """A lifetime in plain values and SI units, for JSON."""
     extreme = life.extreme
@@ -89,6 +102,11 @@ def write_lifetime(
     if options.weights == "rayleigh":
         shares = f"Weibull, shape {options.weibull_shape:g}, class {options.wind_class}"
     facts = {"Lifetime": f"{options.years:g} years", "Shares of the cases": shares}
+    if options.per_year:
+        counts = (f"{dlc}: {number:g}" for dlc, number in options.per_year.items())
+        facts["Times a year"] = ", ".join(counts)
+    if warnings := share_warnings(lives):
+        facts["Left out"] = " ".join(warnings)
     return write_page(folder / "lifetime.html", f"Lifetime of {source}", facts, sections)
 
 

@@ -1,0 +1,138 @@
+"""Shares of the lifetime of several design load cases are shares of its time."""
+
+import math
+
+import numpy as np
+import pytest
+
+from loadflow.errors import InputError
+from loadflow.stages.lifetime import LifetimeOptions, lifetimes
+from loadflow.stages.lifetime_page import share_warnings
+from loadflow.stages.shares import YEAR, lifetime_shares, without_share
+from loadflow.stages.suspended import BearingSeries
+from loadflow.wind import Machine, conditions
+
+NREL_5MW = Machine(cut_in=3.0, rated=11.4, cut_out=25.0, rotor_diameter=126.0, hub_height=90.0)
+
+
+def below(v):
+    """Share of time below v in class I: Rayleigh, annual mean 10 m/s."""
+    return 1 - math.exp(-math.pi / 4 * (v / 10) ** 2)
+
+
+RUNNING = below(25) - below(3)
+
+
+def test_shares_computed_by_hand():
+    """Production at 8 (two seeds) and 12 m/s, idling at 2, 12 and 28 m/s, a start, an extreme."""
+    dlcs = ["1.2", "1.2", "1.2", "6.4", "6.4", "6.4", "3.1", "1.3"]
+    speeds = [8.0, 8.0, 12.0, 2.0, 12.0, 28.0, 8.0, 12.0]
+    lengths = [600.0] * 6 + [300.0, 600.0]
+    got = lifetime_shares(dlcs, speeds, lengths, per_year={"3.1": 1000})
+    start = 1000 * 300 / (365.25 * 86400)
+    low = (below(10) - below(6)) / (below(14) - below(6))  # bins of 8 and 12 m/s: 6 … 10 … 14
+    calm, storm = below(7), below(36) - below(20)  # bins of 2 and 28 m/s: 0 … 7, 20 … 36
+    idle = (1 - RUNNING) / (calm + storm)
+    rest = 1 - start
+    expected = [
+        rest * RUNNING * low / 2,
+        rest * RUNNING * low / 2,
+        rest * RUNNING * (1 - low),
+        rest * idle * calm,
+        0.0,
+        rest * idle * storm,
+        start,
+        0.0,
+    ]
+    np.testing.assert_allclose(got, expected, rtol=1e-12)
+    assert got.sum() == pytest.approx(1.0)
+    assert without_share(dlcs, got) == ["1.3"]
+
+
+def test_production_and_idling_are_weighted_as_the_conditions_of_the_wind_are():
+    cases = conditions("1.2", NREL_5MW) + conditions("6.4", NREL_5MW)
+    got = lifetime_shares(
+        [c.dlc for c in cases], [c.wind_speed for c in cases], [c.duration for c in cases]
+    )
+    theirs = np.array([c.weight for c in cases])
+    production = np.array([c.dlc == "1.2" for c in cases])
+    np.testing.assert_allclose(got[production], theirs[production], rtol=1e-9)
+    # what is below 1 and above 35 m/s goes to the speeds that are there
+    scale = (1 - RUNNING) / theirs[~production].sum()
+    assert 1 < scale < 1.15
+    np.testing.assert_allclose(got[~production], scale * theirs[~production], rtol=1e-9)
+
+
+def test_both_cases_of_normal_production_share_one_time():
+    got = lifetime_shares(["1.1", "1.2", "1.2", "6.4"], [8.0, 8.0, 12.0, 30.0], [600.0] * 4)
+    assert got[0] == pytest.approx(got[1])
+    assert got[:3].sum() == pytest.approx(RUNNING)
+
+
+def test_a_single_load_case_takes_the_whole_lifetime():
+    got = lifetime_shares(["3.1"] * 3, [4.0, 8.0, 8.0], [300.0] * 3)
+    assert got.sum() == pytest.approx(1.0)
+    assert got[1] == got[2]
+
+
+def test_nothing_but_counted_events_takes_their_time_alone():
+    got = lifetime_shares(["3.1", "4.1"], [8.0, 8.0], [300.0] * 2, per_year={"3.1": 10, "4.1": 20})
+    np.testing.assert_allclose(got, np.array([10, 20]) * 300 / YEAR)
+
+
+@pytest.mark.parametrize(
+    ("dlcs", "per_year", "says"),
+    [
+        (["1.4", "1.5"], {}, "1.4, 1.5 has a share"),
+        (["1.2", "3.1"], {"4.1": 10}, "'4.1'"),
+        (["1.2", "3.1"], {"3.1": -1}, "3.1 = -1"),
+        (["1.2", "3.1"], {"3.1": math.nan}, "3.1 = nan"),
+        (["1.2", "3.1"], {"3.1": 1e6}, "take 9.51 years"),
+    ],
+)
+def test_what_cannot_be_is_an_error(dlcs, per_year, says):
+    with pytest.raises(InputError, match=says):
+        lifetime_shares(dlcs, [8.0, 8.0], [300.0, 300.0], per_year=per_year)
+
+
+def series(dlc, wind_speed, swing, weight):
+    time = 0.5 * np.arange(1201)
+    noise = np.random.default_rng(1).normal(size=time.size)
+    wave = swing * (np.sin(2 * np.pi * 0.2 * time) + 0.1 * noise)
+    force = np.stack([np.zeros_like(time), np.zeros_like(time), -1e6 + wave], axis=1)
+    labels = {"dlc": dlc, "wind_speed": wind_speed, "seed": 1, "weight": weight}
+    speed = np.full_like(time, 1.2)
+    return BearingSeries(f"{dlc} {wind_speed}", "N", labels, time, speed, force, 0 * force)
+
+
+def test_an_event_without_a_number_does_no_damage_and_is_named():
+    parts = [series("1.2", 8.0, 1e5, 0.5), series("3.1", 8.0, 9e5, 0.5)]
+    alone, both = (
+        next(iter(lifetimes(chosen, LifetimeOptions(block=10.0)))) for chosen in (parts[:1], parts)
+    )
+    assert both.shares.tolist() == [1.0, 0.0]
+    np.testing.assert_allclose(both.lifetime_equivalent, alone.lifetime_equivalent)
+    assert both.left_out == ("3.1",)
+    assert "3.1" in share_warnings([both])[0]
+    assert share_warnings([alone]) == []
+    assert both.tails[8.0].threshold == alone.tails[8.0].threshold
+
+
+def test_counted_events_and_given_weights_do_damage():
+    parts = [series("1.2", 8.0, 1e5, 0.5), series("3.1", 8.0, 9e5, 0.5)]
+    counted = next(iter(lifetimes(parts, LifetimeOptions(per_year={"3.1": 1000.0}))))
+    assert counted.shares[1] == pytest.approx(1000 * 600.5 / YEAR)
+    given = next(iter(lifetimes(parts, LifetimeOptions(weights="given"))))
+    assert given.shares.tolist() == [0.5, 0.5]
+    assert given.lifetime_equivalent[0, 0] > counted.lifetime_equivalent[0, 0] > 2e5
+    with pytest.raises(InputError, match="given"):
+        LifetimeOptions(weights="given", per_year={"3.1": 1.0})
+
+
+def test_given_weights_are_taken_as_they_are_but_not_without_a_word():
+    per_case = [series("1.2", 8.0, 1e5, 1.0), series("6.4", 28.0, 1e5, 1.0)]
+    (life,) = lifetimes(per_case, LifetimeOptions(weights="given"))
+    assert life.shares.tolist() == [1.0, 1.0]
+    assert "sum to 2 lifetimes" in share_warnings([life])[0]
+    with pytest.raises(InputError, match="share of 0"):
+        list(lifetimes([series("1.2", 8.0, 1e5, 0.0)], LifetimeOptions(weights="given")))
