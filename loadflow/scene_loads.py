@@ -196,9 +196,10 @@ def check_simulation(loads: Loads, turbine: str) -> None:
     for dlc in loads.dlcs:
         row = load_case(dlc)
         low, high = wind_range(row.events[0], machine.cut_in, machine.cut_out)
+        state = "runs" if row.operating else "stands"
         for speed in loads.wind_speeds or []:
             if not low <= speed <= high:
                 raise ValueError(
                     f"loads.wind_speeds = {speed} m/s is not allowed; in load case {dlc} "
-                    f"{machine.name} {'runs' if row.operating else 'stands'} from {low:g} to {high:g} m/s"
+                    f"{machine.name} {state} from {low:g} to {high:g} m/s"
                 )
