@@ -194,7 +194,7 @@ def simulate_condition(
     prepared = prepare(plant, rung, options or RotorOptions())
     m, c = prepared
     state = _first_state(Same(prepared), case)
-    run_in += _wait(state, case, run_in)
+    run_in += _wait(Same(prepared), state, case, run_in, dt)
     start = 0.0
     if field is None and case.sigma > 0:
         start = _MARGIN
@@ -298,15 +298,26 @@ def _running_state(prepared: Same, wind_speed: float, shear: float) -> State:
     return operating_point(m, c, wind_speed, shear)[1]
 
 
-def _wait(state: State, case: Condition, run_in: float) -> float:
+def _wait(prepared: Same, state: State, case: Condition, run_in: float, dt: float) -> float:
     """Time to add to the run-in so that blade 1 is where it shall be when the gust begins, s.
 
     Turbulence meets the rotor anywhere, and a rotor that stands is there already.
     """
+    from . import _slots as k
+    from .inflow import steady_inflow
+    from .loop import run
+
     if case.sigma > 0 or state.speed == 0:
         return 0.0
-    passed = state.azimuth + state.speed * (run_in + case.gust_time)
-    return float((case.azimuth - passed) % (2 * np.pi) / state.speed)
+    m, c = prepared.thing
+    begin = run_in + case.gust_time
+    steps = round((begin + 4 * np.pi / state.speed) / dt)
+    wind = steady_inflow(case.wind_speed, steps, case.shear_exponent, case.yaw_error)
+    out = run(m, c, wind, state.copy(), dt, steps=steps)
+    turned, time = np.unwrap(out[:, k.AZIMUTH]), dt * np.arange(steps)
+    now = np.interp(begin, time, turned)
+    there = now + (case.azimuth - now) % (2 * np.pi)
+    return float(np.interp(there, turned, time) - begin)
 
 
 def _schedule(case: Condition, zero: float, dt: float) -> Schedule:
