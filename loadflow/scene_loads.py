@@ -57,7 +57,7 @@ class Loads(Section, BaseModel):
     dlc: str | Annotated[list[str], Field(min_length=1)] = "1.1"
     wind_speeds: Annotated[list[Positive], Field(min_length=1)] | None = None
     seeds: Annotated[int, Field(ge=1, le=1000)] | None = None
-    first_seed: Annotated[int, Field(ge=1)] = 1
+    first_seed: Annotated[int, Field(ge=0)] = 1
     yaw_errors: Annotated[list[float], Field(min_length=1)] | None = None
     azimuths: Annotated[list[float], Field(min_length=1)] = [0.0]
     steady: bool = False

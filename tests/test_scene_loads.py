@@ -24,7 +24,7 @@ from loadflow.turbines import load_turbine
         ({"steady": True}, ["loads.steady = true", "load case 1.1", "6.1, 6.2, 6.3, 7.1"]),
         ({"yaw_errors": [9]}, ["loads.yaw_errors", "9 rad", "±3.1416 rad"]),
         ({"azimuths": [90]}, ["loads.azimuths", "90 rad", "±6.2832 rad"]),
-        ({"first_seed": 0}, ["loads.first_seed = 0", "greater than or equal to 1"]),
+        ({"first_seed": -1}, ["loads.first_seed = -1", "greater than or equal to 0"]),
     ],
 )
 def test_what_cannot_be_simulated_is_refused(loads, words):

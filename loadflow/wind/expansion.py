@@ -187,8 +187,8 @@ def condition(
 ) -> Condition:
     """One wind of a load case: number `index` at one mean speed; the rest as in `conditions`.
 
-    The index counts realisations of a turbulent wind, without end, or the variants (sign, time of
-    the event, azimuth, yaw error) of a deterministic one. What it stands for does not depend on
+    The index counts realisations of a turbulent wind, from 0 without end, or the variants (sign,
+    time of the event, azimuth, yaw error) of a deterministic one, from 1. What it stands for does not depend on
     the number of seeds.
 
     Raises
@@ -197,8 +197,8 @@ def condition(
         Also if a deterministic wind has no variant of that number, or the index is none.
     """
     row, options = load_case(dlc), options or WindOptions()
-    if not isinstance(index, Integral) or index < 1:
-        raise InputError(f"index (seed) = {index} is not allowed; it must be a whole number >= 1")
+    if not isinstance(index, Integral) or index < 0:
+        raise InputError(f"index (seed) = {index} is not allowed; it must be a whole number >= 0")
     if steady and not row.wind.startswith("EWM"):
         raise InputError(f"load case {dlc} has no steady extreme wind, its wind is {row.wind}")
     choices = _choices(row, yaw_errors, azimuths, steady)
