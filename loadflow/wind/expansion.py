@@ -188,8 +188,8 @@ def condition(
     """One wind of a load case: number `index` at one mean speed; the rest as in `conditions`.
 
     The index counts realisations of a turbulent wind, from 0 without end, or the variants (sign,
-    time of the event, azimuth, yaw error) of a deterministic one, from 1. What it stands for does not depend on
-    the number of seeds.
+    time of the event, azimuth, yaw error) of a deterministic one, from 1. What it stands for does
+    not depend on the number of seeds.
 
     Raises
     ------
