@@ -12,21 +12,16 @@ import time
 import numpy as np
 from numba import njit
 
-from loadflow.rolling import (
-    FrictionOptions,
-    RollerBearing,
-    _coulomb_kernels,
-    _motion_kernels,
-    roller_friction,
-)
+from loadflow.rolling import FrictionOptions, RollerBearing, roller_friction
 from loadflow.rolling import friction as parts
-from loadflow.rolling.roller_motion import (
+from loadflow.rolling.motion import _coulomb_kernels, _motion_kernels
+from loadflow.rolling.motion.rollers import (
     coulomb_motion,
     film_arguments,
     film_motion,
     film_numbers,
 )
-from loadflow.rolling.skidding import roller_slip
+from loadflow.rolling.motion.skidding import roller_slip
 from loadflow.tribology import lubricant
 from loadflow.validation._friction_motion import ROW, static_load
 from loadflow.validation.friction import MAIN

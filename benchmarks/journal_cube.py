@@ -25,7 +25,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 import numpy as np
 
 from loadflow.cube import open_cube
-from loadflow.scene import Journal, read_scene
+from loadflow.scene.scene import Journal, read_scene
 from loadflow.stages.frames import to_film
 
 BEFORE, BEHIND = 350, 50  # steps of a window around the largest eccentricity

@@ -17,8 +17,8 @@ from typing import Any
 import numpy as np
 from journal import OMEGA, STEP, SparseFilm
 
-from loadflow.journal import mobility
-from loadflow.journal.setup import FilmOptions
+from loadflow.journal.film.discretise import FilmOptions
+from loadflow.journal.models import mobility
 from loadflow.validation.journal import PERIODIC_LOADS, reference_bearing, sines
 
 

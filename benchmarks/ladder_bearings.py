@@ -26,9 +26,9 @@ from measuring import (
 )
 from scipy.interpolate import RectBivariateSpline
 
-from loadflow.scene import Journal, Rolling, Scene
+from loadflow.scene.cases import Case
+from loadflow.scene.scene import Journal, Rolling, Scene
 from loadflow.stages import reduction, rolling
-from loadflow.stages.cases import Case
 from loadflow.stages.frames import to_film, to_rolling
 
 FILM = ("eccentricity_ratio", "minimum_film", "maximum_pressure", "friction_power", "side_flow")

@@ -17,9 +17,9 @@ from measuring import (
     with_ratios,
 )
 
-from loadflow.scene import Rolling, Scene
+from loadflow.scene.cases import Case
+from loadflow.scene.scene import Rolling, Scene
 from loadflow.stages import friction
-from loadflow.stages.cases import Case
 
 ROLLING = {
     "balls": Rolling(),

@@ -11,7 +11,7 @@ import numpy as np
 from measuring import Bench, Errors, Rungs, label, on_cases, rounded, sentence, with_ratios
 
 from loadflow.rolling import ARRANGEMENTS, BearingLife, arrangement_lives, bin_loads, main_bearings
-from loadflow.rolling.arrangements import MainBearing
+from loadflow.rolling.bearings.arrangements import MainBearing
 from loadflow.stages.frames import to_rolling
 
 EVERY = 8  # steps of 0.025 s

@@ -28,7 +28,8 @@ from seats import measure_seats
 
 from loadflow.cube import make_cube, save_cube
 from loadflow.reduction import damage_equivalent_load
-from loadflow.scene import Scene, Shaft, with_loads
+from loadflow.scene.cases import list_cases
+from loadflow.scene.scene import Scene, Shaft, with_loads
 from loadflow.shaft import (
     Beam,
     BearingSeat,
@@ -39,7 +40,6 @@ from loadflow.shaft import (
     TwoPoint,
 )
 from loadflow.stages import loads, seeds, shaft, statistics
-from loadflow.stages.cases import list_cases
 
 SLOPE = 4.0
 

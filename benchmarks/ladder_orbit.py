@@ -21,7 +21,7 @@ from measuring import (
     with_ratios,
 )
 
-from loadflow.scene import Journal
+from loadflow.scene.scene import Journal
 
 MODELS: dict[str, dict[str, Any]] = {
     "reduced, 60": {"rung": "reduced", "grid": (60, 20)},

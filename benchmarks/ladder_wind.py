@@ -12,9 +12,9 @@ from measuring import Bench, Entry, Rungs, label, on_cases, rounded, sentence, t
 
 from loadflow.rotor import simulate_condition
 from loadflow.rotor.inflow import wind_machine
-from loadflow.scene import Scene
+from loadflow.scene.cases import Case, list_cases, wind_of
+from loadflow.scene.scene import Scene
 from loadflow.stages import shaft
-from loadflow.stages.cases import Case, list_cases, wind_of
 from loadflow.turbines import load_turbine
 from loadflow.wind import Field, inflow
 

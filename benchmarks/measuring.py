@@ -16,10 +16,10 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 import numpy as np
 import xarray as xr
 
-from loadflow.scene import Scene, read_scene
-from loadflow.scene_loads import Loads
+from loadflow.scene.cases import Case, list_cases
+from loadflow.scene.loads import Loads
+from loadflow.scene.scene import Scene, read_scene
 from loadflow.stages import loads, shaft
-from loadflow.stages.cases import Case, list_cases
 from loadflow.stages.frames import to_film
 
 SCENE = Path(__file__).parents[1] / "pipelines" / "dlc_1_1.toml"

@@ -16,9 +16,10 @@ import numpy as np
 
 from loadflow.cube import open_cube, select
 from loadflow.reduction import histogram
-from loadflow.scene import Journal
+from loadflow.scene.scene import Journal
 from loadflow.stages.reduction import reduced_dataset
-from loadflow.stages.reduction_error import (
+from loadflow.studies.bearing_series import BearingSeries, iter_bearings
+from loadflow.studies.reduction_error import (
     HEADS,
     MEASURES,
     FilmError,
@@ -26,8 +27,7 @@ from loadflow.stages.reduction_error import (
     solve_films,
     summary_rows,
 )
-from loadflow.stages.simulated import simulate_cube
-from loadflow.stages.suspended import BearingSeries, iter_bearings
+from loadflow.studies.simulated_cube import simulate_cube
 
 DOC = Path(__file__).parents[1] / "docs" / "reduction.md"
 BEGIN, END = "<!-- reduction: begin -->", "<!-- reduction: end -->"

@@ -14,7 +14,7 @@ from dataclasses import replace
 import numpy as np
 
 from loadflow.rolling import FlexibleRings, RollerBearing, SlewingBearing, legs
-from loadflow.scene import Rolling
+from loadflow.scene.scene import Rolling
 from loadflow.validation._slewing_cases import SPECTRUM
 
 PITCH = SlewingBearing(

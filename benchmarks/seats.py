@@ -17,11 +17,13 @@ import numpy as np
 import xarray as xr
 from measuring import Bench, Entry, Errors, Rungs, Setting, label, rounded, sentence, timed
 
-from loadflow.ladder import rung_of
-from loadflow.scene import Scene, make_scene
+from loadflow.planning.ladder import rung_of
+from loadflow.scene.cases import Case
+from loadflow.scene.scene import Scene, make_scene
 from loadflow.shaft import bearing_loads as suspended
-from loadflow.stages import film_seat, rolling_seat, shaft
-from loadflow.stages.cases import Case
+from loadflow.stages import film_support as film_seat
+from loadflow.stages import rolling_support as rolling_seat
+from loadflow.stages import shaft
 
 SECTION = {"outer_diameter": 2.0, "inner_diameter": 1.6}
 """A shaft that the bearings of the scene fit around, m; assumed."""

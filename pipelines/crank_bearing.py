@@ -12,12 +12,12 @@ import math
 import numpy as np
 
 from loadflow.rolling import FrictionOptions, friction
-from loadflow.rolling.cage_rim import CageRim, cage_orbit
-from loadflow.rolling.crank import CrankDrive
-from loadflow.rolling.kinematics import common_period
-from loadflow.rolling.radial_load import behw_law, radial_distribution
-from loadflow.rolling.roller_history import RollerHistory, RollerRow, crank_history
-from loadflow.rolling.roller_motion import coulomb_motion, film_motion
+from loadflow.rolling.motion.cage import CageRim, cage_orbit
+from loadflow.rolling.motion.crank import CrankDrive
+from loadflow.rolling.motion.history import RollerHistory, RollerRow, crank_history
+from loadflow.rolling.motion.kinematics import common_period
+from loadflow.rolling.motion.radial_load import behw_law, radial_distribution
+from loadflow.rolling.motion.rollers import coulomb_motion, film_motion
 from loadflow.tribology import lubricant
 
 DRIVE = CrankDrive(

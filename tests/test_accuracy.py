@@ -7,11 +7,11 @@ import pytest
 from synthetic import cube_file
 
 import loadflow as lf
-from loadflow.accuracy import CHAINS, OPEN_STAGES, expected_errors
 from loadflow.cli import main
-from loadflow.ladder import expected_seconds, gains, ladder, rung_of
-from loadflow.plan import GIVEN_BY, make_plan
-from loadflow.scene import make_scene
+from loadflow.planning.accuracy import CHAINS, OPEN_STAGES, expected_errors
+from loadflow.planning.ladder import expected_seconds, gains, ladder, rung_of
+from loadflow.planning.plan import GIVEN_BY, make_plan
+from loadflow.scene.scene import make_scene
 
 
 def scene_of(**keys):

@@ -5,10 +5,10 @@ import pytest
 from synthetic import case, cube_file
 
 import loadflow as lf
-from loadflow.accuracy import finer
 from loadflow.cube import make_cube, save_cube
-from loadflow.plan import make_plan
-from loadflow.scene import make_scene
+from loadflow.planning.accuracy import finer
+from loadflow.planning.plan import make_plan
+from loadflow.scene.scene import make_scene
 
 FILM = {"grid": [24, 8], "bearings": ["N2"], "rung": "reduced"}
 
@@ -83,7 +83,7 @@ def test_a_run_whose_films_all_fail_has_nothing_to_check(tmp_path):
 
 
 def test_loads_given_to_a_scene_keep_how_it_reads_them(cube):
-    from loadflow.scene import with_loads
+    from loadflow.scene.scene import with_loads
 
     loads = {"files": ["none.h5"], "pattern": r"v(?P<wind_speed>\d+)", "wind_class": "II"}
     scene = with_loads(scene_of(cube, "journal.film", loads=loads), [str(cube)])

@@ -12,12 +12,12 @@ from loadflow.cli import main
 from loadflow.cube import make_cube, open_cube, save_cube
 from loadflow.journal import Groove, Supply
 from loadflow.reduction import damage_equivalent_load, read_parameter_file, stationary
-from loadflow.scene import Journal
+from loadflow.scene.scene import Journal
 from loadflow.seeds import group_seeds_jointly
 from loadflow.stages.film_response import film_response
 from loadflow.stages.frames import to_film
-from loadflow.stages.reduction_error import for_long_series, solve_films
-from loadflow.stages.suspended import iter_bearings, with_bearings
+from loadflow.studies.bearing_series import iter_bearings, with_bearings
+from loadflow.studies.reduction_error import for_long_series, solve_films
 
 
 @pytest.fixture
@@ -143,7 +143,7 @@ def test_the_film_is_asked_once_for_each_wind_speed(loadflow, hub_cube, tmp_path
         asked.append(speed)
         return lambda mean, amplitude, frequency: 0.6 + 0.3 / (1 + (frequency / 0.3) ** 2)
 
-    monkeypatch.setattr("loadflow.stages.design_loads.film_response", film)
+    monkeypatch.setattr("loadflow.studies.design_loads.film_response", film)
     code, out, _ = loadflow(
         *("reduce", hub_cube, "-o", tmp_path, "--method", "periodic", "--bearing", "N")
     )
@@ -337,9 +337,9 @@ def test_bad_input_gives_one_message_and_code_2(loadflow, hub_cube, tmp_path, ar
 
 def test_chunked_and_loaded_cubes_give_the_same_numbers(hub_cube):
     pytest.importorskip("dask")
-    from loadflow.stages.cube_statistics import statistic_records
-    from loadflow.stages.lifetime import lifetimes
-    from loadflow.stages.seed_verdicts import seed_verdicts
+    from loadflow.studies.lifetime import lifetimes
+    from loadflow.studies.seeds import seed_verdicts
+    from loadflow.studies.statistics import statistic_records
 
     forms = [open_cube(hub_cube, chunks={"time": 150}), open_cube(hub_cube).load()]
     chunked, loaded = ([v.as_dict() for v in seed_verdicts(cube)] for cube in forms)

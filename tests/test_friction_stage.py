@@ -5,8 +5,8 @@ import pytest
 
 import loadflow as lf
 from loadflow.errors import InputError
-from loadflow.plan import make_plan
-from loadflow.scene import make_scene
+from loadflow.planning.plan import make_plan
+from loadflow.scene.scene import make_scene
 
 
 def short(**sections):

@@ -7,9 +7,9 @@ import pytest
 
 import loadflow as lf
 from loadflow.errors import InputError
-from loadflow.plan import make_plan
+from loadflow.planning.plan import make_plan
 from loadflow.rotor import simulate
-from loadflow.scene import make_scene
+from loadflow.scene.scene import make_scene
 from loadflow.wind import WindOptions, kaimal_box, read_bts, rotor_grid, write_bts
 from loadflow.wind.options import Machine
 

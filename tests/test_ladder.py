@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 import synthetic
 
-from loadflow.ladder import STEPS_PER_CASE, gains, ladder
-from loadflow.plan import make_plan
-from loadflow.scene import Journal, Loads, Reduction, Rolling, Seeds, Shaft, make_scene
+from loadflow.planning.ladder import STEPS_PER_CASE, gains, ladder
+from loadflow.planning.plan import make_plan
+from loadflow.scene.scene import Journal, Loads, Reduction, Rolling, Seeds, Shaft, make_scene
 from loadflow.wind import LOAD_CASES
 
 BENCHMARKS = Path(__file__).parents[1] / "benchmarks"
@@ -167,7 +167,7 @@ def test_stored_errors_of_the_wind_still_hold(monkeypatch):
     from ladder_loads import describe, deviations
     from ladder_wind import loads_in, thinned, turbulence
 
-    from loadflow.stages.cases import list_cases
+    from loadflow.scene.cases import list_cases
 
     loads = {"wind_speeds": [12.0], "seeds": 1, "duration": 60.0, "rung": "tables"}
     scene = make_scene({"name": "sample", "loads": loads})
@@ -208,8 +208,8 @@ def test_stored_errors_of_friction_still_hold(monkeypatch):
     from ladder_friction import compare, solve
     from measuring import Errors
 
+    from loadflow.scene.cases import Case
     from loadflow.stages import shaft
-    from loadflow.stages.cases import Case
 
     scene, case = make_scene({"name": "sample"}), Case("1.1", 12.0, 1)
     hub = synthetic.case(12.0, 1, steps=1200, dt=0.05)

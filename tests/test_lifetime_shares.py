@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from loadflow.errors import InputError
-from loadflow.stages.lifetime import LifetimeOptions, lifetimes
-from loadflow.stages.lifetime_page import share_warnings
-from loadflow.stages.shares import YEAR, lifetime_shares, without_share
-from loadflow.stages.suspended import BearingSeries
+from loadflow.studies.bearing_series import BearingSeries
+from loadflow.studies.lifetime import LifetimeOptions, lifetimes
+from loadflow.studies.lifetime_page import share_warnings
+from loadflow.studies.lifetime_shares import YEAR, lifetime_shares, without_share
 from loadflow.wind import Machine, conditions
 
 NREL_5MW = Machine(cut_in=3.0, rated=11.4, cut_out=25.0, rotor_diameter=126.0, hub_height=90.0)

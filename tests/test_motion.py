@@ -6,12 +6,12 @@ import xarray as xr
 from synthetic import case, cube_file
 
 import loadflow as lf
-from loadflow.accuracy import expected_errors, finer
 from loadflow.cube import make_cube, save_cube
 from loadflow.errors import InputError
-from loadflow.ladder import expected_seconds, ladder, measured
-from loadflow.plan import make_plan
-from loadflow.scene import make_scene
+from loadflow.planning.accuracy import expected_errors, finer
+from loadflow.planning.ladder import expected_seconds, ladder, measured
+from loadflow.planning.plan import make_plan
+from loadflow.scene.scene import make_scene
 
 FILM = {"grid": [24, 8], "bearings": ["N2"], "rung": "reduced"}
 

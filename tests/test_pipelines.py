@@ -9,9 +9,9 @@ import pytest
 import loadflow as lf
 from loadflow.cli import main
 from loadflow.cube import iter_cases, open_cube
-from loadflow.plan import make_plan
-from loadflow.scene import Scene, read_scene
-from loadflow.stages.cases import list_cases
+from loadflow.planning.plan import make_plan
+from loadflow.scene.cases import list_cases
+from loadflow.scene.scene import Scene, read_scene
 from loadflow.wind import LOAD_CASES
 
 PIPELINES = sorted((Path(__file__).parents[1] / "pipelines").glob("*.toml"))

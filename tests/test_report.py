@@ -10,7 +10,7 @@ from synthetic import cube_file
 
 import loadflow as lf
 from loadflow.report.style import envelope, figure
-from loadflow.scene import make_scene
+from loadflow.scene.scene import make_scene
 
 BROWSER = next(
     filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None

@@ -10,8 +10,8 @@ from synthetic import cube_file
 import loadflow as lf
 from loadflow.cube import open_cube
 from loadflow.errors import InputError
-from loadflow.plan import GIVEN_BY, STAGES, make_plan
-from loadflow.scene import Scene, make_scene
+from loadflow.planning.plan import GIVEN_BY, STAGES, make_plan
+from loadflow.scene.scene import Scene, make_scene
 from loadflow.stages.journal import equilibria
 
 

@@ -3,7 +3,7 @@
 import pytest
 
 from loadflow.errors import InputError
-from loadflow.scene import make_scene, read_scene
+from loadflow.scene.scene import make_scene, read_scene
 
 
 def refused(text, tmp_path):

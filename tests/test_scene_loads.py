@@ -6,9 +6,9 @@ from importlib import resources
 import pytest
 
 from loadflow.errors import InputError
-from loadflow.plan import make_plan
-from loadflow.scene import make_scene
-from loadflow.stages.cases import Case, list_cases, wind_of
+from loadflow.planning.plan import make_plan
+from loadflow.scene.cases import Case, list_cases, wind_of
+from loadflow.scene.scene import make_scene
 from loadflow.stages.loads import hub_loads
 from loadflow.turbines import load_turbine
 

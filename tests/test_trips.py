@@ -7,9 +7,9 @@ import pytest
 
 import loadflow as lf
 from loadflow.cube import open_cube, save_cube
-from loadflow.scene import make_scene
+from loadflow.scene.scene import make_scene
 from loadflow.stages.loads import trip_warnings
-from loadflow.stages.simulated import simulate_cube
+from loadflow.studies.simulated_cube import simulate_cube
 
 SHORT = {"duration": 4.0, "step": 0.05, "seeds": 1, "rung": "tables"}
 

@@ -91,7 +91,7 @@ def loads(
     """Simulate the hub loads of a turbine in its design load cases, from power to standstill."""
     from loadflow.cube import iter_cases, save_cube
     from loadflow.stages.loads import trip_warnings
-    from loadflow.stages.simulated import simulate_cube
+    from loadflow.studies.simulated_cube import simulate_cube
 
     check_free(output, overwrite)
     settings: dict[str, Any] = {

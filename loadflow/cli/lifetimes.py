@@ -55,7 +55,9 @@ def statistics(
 
     Beside each extreme stand the loads at the same moment, as IEC 61400-1 wants them.
     """
-    from loadflow.stages.cube_statistics import (
+    from loadflow.studies.bearing_series import bearing_cube
+    from loadflow.studies.extreme_loads import contemporaneous_extremes
+    from loadflow.studies.statistics import (
         EXTREME_HEADS,
         HEADS,
         extreme_records,
@@ -64,8 +66,6 @@ def statistics(
         statistic_row,
         write_statistics,
     )
-    from loadflow.stages.extreme_loads import contemporaneous_extremes
-    from loadflow.stages.suspended import bearing_cube
 
     series = open_checked(cube)
     if bearings:
@@ -116,15 +116,15 @@ def lifetime(
     as_json: AsJson = False,
 ) -> None:
     """Sum up a lifetime of each bearing: fatigue, revolutions by speed and force, extreme load."""
-    from loadflow.stages.lifetime import LifetimeOptions, lifetimes
-    from loadflow.stages.lifetime_page import (
+    from loadflow.studies.bearing_series import iter_bearings
+    from loadflow.studies.lifetime import LifetimeOptions, lifetimes
+    from loadflow.studies.lifetime_page import (
         HEADS,
         as_dict,
         share_warnings,
         summary_rows,
         write_lifetime,
     )
-    from loadflow.stages.suspended import iter_bearings
     from loadflow.turbines import load_turbine
 
     plant = load_turbine(turbine)

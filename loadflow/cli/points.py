@@ -22,7 +22,7 @@ def wind_conditions(
     as_json: AsJson = False,
 ) -> None:
     """Show the wind conditions of IEC 61400-1 at a wind speed."""
-    from loadflow.stages.points import iec_conditions
+    from loadflow.studies.journal_point import iec_conditions
 
     print_quantities(
         iec_conditions(
@@ -87,7 +87,7 @@ def journal(
 ) -> None:
     """Solve the film of a plain journal bearing for one load, or for a reduced series."""
     from loadflow.journal import GasMixture, Groove, Heat, JournalBearing, Lubricant, Supply
-    from loadflow.stages.points import journal_point, journal_series
+    from loadflow.studies.journal_point import journal_point, journal_series
 
     bearing = JournalBearing(diameter, width, relative_clearance)
     if (viscosity is None) == (oil is None):
@@ -174,7 +174,7 @@ def rolling(
 ) -> None:
     """Share a load between the balls of a four-point slewing bearing, or a bearing of a scene."""
     from loadflow.rolling import Lubrication
-    from loadflow.stages.rolling_point import bearing_of_scene, rolling_point, slewing_bearing
+    from loadflow.studies.rolling_point import bearing_of_scene, rolling_point, slewing_bearing
     from loadflow.tribology import lubricant
 
     measures: dict[str, Any] = {

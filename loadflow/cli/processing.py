@@ -22,7 +22,7 @@ from loadflow.errors import InputError
 
 if TYPE_CHECKING:
     from loadflow.cube import Cube
-    from loadflow.scene import Journal
+    from loadflow.scene.scene import Journal
 
 
 class Test(StrEnum):
@@ -82,15 +82,9 @@ def seeds(
 
     Then group the seeds of each wind speed: those of one group may be merged.
     """
-    from loadflow.stages.seed_page import write_seed_page
-    from loadflow.stages.seed_verdicts import (
-        HEADS,
-        as_row,
-        count_different,
-        groupings,
-        seed_verdicts,
-    )
-    from loadflow.stages.suspended import bearing_cube
+    from loadflow.studies.bearing_series import bearing_cube
+    from loadflow.studies.seeds import HEADS, as_row, count_different, groupings, seed_verdicts
+    from loadflow.studies.seeds_page import write_seed_page
 
     series = open_checked(cube)
     if bearings:
@@ -180,7 +174,7 @@ def reduce_series(
 
 def _journal(scene: Path | None) -> Journal:
     """The journal bearing of a scene, or the reference bearing."""
-    from loadflow.scene import Journal, read_scene
+    from loadflow.scene.scene import Journal, read_scene
 
     return Journal() if scene is None else read_scene(scene).journal
 
@@ -192,7 +186,7 @@ def _histogram(
     options: dict[str, Any],
     as_json: bool,
 ) -> None:
-    from loadflow.stages.reduced_files import (
+    from loadflow.studies.reduced_series import (
         FILM_HEADS,
         HEADS,
         as_row,
@@ -215,13 +209,13 @@ def _histogram(
 
 
 def _stationary(cube: Cube, folder: Path, where: dict[str, Any], as_json: bool) -> None:
-    from loadflow.stages.design_loads import (
+    from loadflow.studies.bearing_series import iter_bearings
+    from loadflow.studies.design_loads import (
         STATIONARY_HEADS,
         stationary_row,
         stationary_rows,
         write_stationary,
     )
-    from loadflow.stages.suspended import iter_bearings
 
     rows = [row for series in iter_bearings(cube, **where) for row in stationary_rows(series)]
     file = write_stationary(rows, folder)
@@ -240,8 +234,8 @@ def _periodic(
     scene: Path | None,
     as_json: bool,
 ) -> None:
-    from loadflow.stages.design_loads import PERIODIC_HEADS, periodic_parts, write_periodic
-    from loadflow.stages.suspended import iter_bearings
+    from loadflow.studies.bearing_series import iter_bearings
+    from loadflow.studies.design_loads import PERIODIC_HEADS, periodic_parts, write_periodic
     from loadflow.turbines import load_turbine
 
     if scene is not None and options["bounds"]:

@@ -20,7 +20,7 @@ LoadFiles = Annotated[
 
 
 def _read(path: Path, loads: list[str] | None, name: str | None = None) -> Any:
-    from loadflow.scene import read_scene, with_loads
+    from loadflow.scene.scene import read_scene, with_loads
 
     scene = read_scene(path)
     scene = with_loads(scene, loads) if loads else scene
@@ -39,7 +39,7 @@ def run(
     as_json: AsJson = False,
 ) -> None:
     """Carry a scene out; a run that was killed goes on where it was."""
-    from loadflow.runner import run as carry_out
+    from loadflow.running.runner import run as carry_out
 
     with progress(quiet=as_json) as show:
         result = carry_out(
@@ -73,8 +73,8 @@ def plan(
     as_json: AsJson = False,
 ) -> None:
     """Show which stages and models a scene needs, their expected time and error."""
-    from loadflow.plan import make_plan
-    from loadflow.run_folder import climbs, finished_parts
+    from loadflow.planning.plan import make_plan
+    from loadflow.running.folder import climbs, finished_parts
 
     wanted = _read(scene, loads)
     folder = out_folder / wanted.name
@@ -140,7 +140,7 @@ def show_scene(
 @app.command()
 def report(run_folder: Annotated[Path, typer.Argument(help="Folder of a run.")]) -> None:
     """Write the report page of a run again."""
-    from loadflow.stages.report import write_report
+    from loadflow.running.report_page import write_report
 
     out.print(str(write_report(run_folder)), soft_wrap=True)
 
@@ -151,7 +151,7 @@ def bench(
     as_json: AsJson = False,
 ) -> None:
     """Show the measured speed and error of every model; `benchmarks/run` measures them anew."""
-    from loadflow.ladder import ladder
+    from loadflow.planning.ladder import ladder
 
     known = ladder()
     if unknown := set(stages or []) - set(known):

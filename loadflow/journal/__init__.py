@@ -1,34 +1,19 @@
 """Hydrodynamic journal bearing: film, cavitation, supply, equilibrium, orbit.
 
-========================  ==========================================================
-`options`                 lubricant, laws of the ruptured film
-`supply`                  grooves, pockets, restrictors, pump
-`bearing`                 `JournalBearing`: what the user calls
-`rungs`                   the table of models behind the same signature
-`setup`                   from the user's words to the discrete film
-`shapes`                  shapes of the bore and their relief
-`shells`, `compliance`    elastic shells: as stated, and on the cells of a film
-`cylinder`                influence numbers of a thick-walled cylinder
-`mesh`, `gap_mesh`        cells of the film: of a plain cylinder, of a shaped bore
-`gap`, `gap_shaped`       the discrete gap: of a plain cylinder; of any shape, shaft tilted or bent
-`gap_elastic`             the same in a shell that gives way
-`grooves`                 cells of grooves and pockets
-`feed`                    flow against pressure of what feeds them
-`pockets`                 their unknown pressures in the film
-`film_elastic`            film and elastic shell in one Newton matrix
-`film`                    balance, linearisation and integrals of the discrete film
-`equilibrium`             Newton for film, and for film and shaft together
-`softly`                  soft shells, step by step
-`shaped`                  statics of shaped bores, tilted shafts and tilting pads
-`orbit`                   implicit steps of film and shaft in time
-`chart`, `superposed`     charts of ISO 7902, historical methods
-`mapped`                  the rung "map": `mobility` tabulated from `moving` films
-`periodic`                the closed orbit under a load that repeats
-`energy`                  losses against the power of the shaft
-`laminar`, `two_grids`    limits of the model: turbulence, error of the cells
-`result`                  what comes back
-`_kernels`                compiled loops
-========================  ==========================================================
+===============  ====================================================================
+`bearing`        `JournalBearing`: what the user calls
+`options`        lubricant, laws of the ruptured film
+`shapes`         shapes of the bore and their relief
+`shells`         elastic shells
+`supply`         grooves, pockets, restrictors, pump
+`results`        what comes back
+`thermal`        heat balance; `energy`: losses against the power of the shaft
+`validity`       limits of the model: turbulence; `grid_error`: error of the cells
+`dimensionless`  a bearing in numbers without dimension
+`film`           the discrete film: mesh, gap, balance, grooves, elastic shells, kernels
+`models`         the rungs: charts, mobility map, few unknowns across the width
+`solvers`        statics, steps in time, closed orbits
+===============  ====================================================================
 """
 
 import lazy_loader as _lazy

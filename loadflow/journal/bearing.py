@@ -10,19 +10,36 @@ from annotated_types import Gt, Lt
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError
-from loadflow.journal.film import EVERY
-from loadflow.journal.laminar import warn_if_turbulent
+from loadflow.journal.film.discretise import FilmOptions, Grading, Inlet, operating_points
+from loadflow.journal.film.film import EVERY
+from loadflow.journal.models.model import Control, Rung, check_rung, model
 from loadflow.journal.options import Cavitation, Lubricant, require
-from loadflow.journal.orbit import Marcher, march, mass_balance, orbit_dataset, orbit_row
-from loadflow.journal.periodic import Method, check_period, close_orbit, refuse_half_speed_whirl
-from loadflow.journal.result import Equilibrium, FilmField, shaped, stack
-from loadflow.journal.rungs import Control, Rung, check_rung, model
-from loadflow.journal.setup import FilmOptions, Grading, Inlet, operating_points
-from loadflow.journal.shaped import Line, equilibrium_rows, field_rows, orbit_start, plain
+from loadflow.journal.results import Equilibrium, FilmField, shaped, stack
 from loadflow.journal.shapes import CYLINDER, Relief, Shape
 from loadflow.journal.shells import Shell
-from loadflow.journal.static import plain_fields, plain_film, plain_rows, plain_start
+from loadflow.journal.solvers.periodic import (
+    Method,
+    check_period,
+    close_orbit,
+    refuse_half_speed_whirl,
+)
+from loadflow.journal.solvers.statics import plain_fields, plain_film, plain_rows, plain_start
+from loadflow.journal.solvers.statics_shaped import (
+    Line,
+    equilibrium_rows,
+    field_rows,
+    orbit_start,
+    plain,
+)
+from loadflow.journal.solvers.transient import (
+    Marcher,
+    march,
+    mass_balance,
+    orbit_dataset,
+    orbit_row,
+)
 from loadflow.journal.supply import Supply
+from loadflow.journal.validity import warn_if_turbulent
 
 if TYPE_CHECKING:
     import xarray as xr

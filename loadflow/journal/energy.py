@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.journal.options import require
-from loadflow.journal.result import Equilibrium
+from loadflow.journal.results import Equilibrium
 
 Array = NDArray[np.float64]
 

@@ -12,7 +12,7 @@ import math
 import numpy as np
 from numba import njit
 
-from loadflow.rolling.contact import (
+from loadflow.rolling.contacts import (
     FREE,
     GAP,
     HEIGHT,

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError, SolverError
-from loadflow.rolling.contact import Array, Contacts
+from loadflow.rolling.contacts import Array, Contacts
 
 COMPONENTS = ("Fx", "Fy", "Fz", "Mx", "My")
 CHUNK = 512

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from loadflow.rolling import capacity, safety
-from loadflow.rolling.contact import Array
-from loadflow.rolling.result import ContactResult
+from loadflow.rolling.contacts import Array
+from loadflow.rolling.rating import capacity, safety
+from loadflow.rolling.results import ContactResult
 
 if TYPE_CHECKING:
-    from loadflow.rolling.roller_raceway import RollerRaceways
+    from loadflow.rolling.roller_raceways import RollerRaceways
 
 
 @dataclass(frozen=True)

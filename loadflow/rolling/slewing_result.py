@@ -9,12 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import InputError
-from loadflow.rolling import friction, life
-from loadflow.rolling.contact import Array
-from loadflow.rolling.result import BallResult
+from loadflow.rolling import friction
+from loadflow.rolling.contacts import Array
+from loadflow.rolling.rating import life
+from loadflow.rolling.results import BallResult
 
 if TYPE_CHECKING:
-    from loadflow.rolling.slewing import SlewingBearing
+    from loadflow.rolling.bearings.four_point import SlewingBearing
 
 
 @dataclass(frozen=True)

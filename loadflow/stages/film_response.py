@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.scene import Journal
+from loadflow.scene.scene import Journal
 from loadflow.stages.journal import mean_temperature
 
 Floats = NDArray[np.float64]

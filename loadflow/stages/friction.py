@@ -18,10 +18,10 @@ from loadflow.rolling import (
     ball_friction,
     roller_slip,
 )
-from loadflow.scene import Friction, Scene
-from loadflow.stages.cases import Case
+from loadflow.scene.cases import Case
+from loadflow.scene.scene import Friction, Scene
 from loadflow.stages.frames import to_rolling
-from loadflow.stages.labels import label, labelled
+from loadflow.stages.labelling import label, labelled
 from loadflow.stages.summary import over_cases
 from loadflow.tribology import lubricant
 

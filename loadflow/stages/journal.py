@@ -10,11 +10,11 @@ import xarray as xr
 
 from loadflow.errors import SolverError
 from loadflow.journal import Equilibrium, Heat, JournalBearing, Lubricant, warm_equilibrium
-from loadflow.journal.laminar import critical_reynolds_number, reynolds_number
-from loadflow.scene import Journal, Scene
-from loadflow.stages.cases import Case
+from loadflow.journal.validity import critical_reynolds_number, reynolds_number
+from loadflow.scene.cases import Case
+from loadflow.scene.scene import Journal, Scene
 from loadflow.stages.frames import to_film
-from loadflow.stages.labels import label, labelled, of_samples
+from loadflow.stages.labelling import label, labelled, of_samples
 from loadflow.stages.summary import over_cases
 
 # what is kept of every sample: units and meaning

@@ -10,9 +10,9 @@ import numpy as np
 import xarray as xr
 
 from loadflow.cube import CASE_COORDS, iter_cases, open_cube
-from loadflow.scene import Scene
-from loadflow.stages.cases import CUBES, Case, wind_of
-from loadflow.stages.given_winds import RUN_IN, given_field
+from loadflow.scene.cases import CUBES, Case, wind_of
+from loadflow.scene.given_winds import RUN_IN, given_field
+from loadflow.scene.scene import Scene
 from loadflow.stages.summary import over_cases
 
 

@@ -8,10 +8,10 @@ import numpy as np
 import xarray as xr
 
 from loadflow.reduction import Reduced, histogram
-from loadflow.scene import Scene
-from loadflow.stages.cases import Case
+from loadflow.scene.cases import Case
+from loadflow.scene.scene import Scene
 from loadflow.stages.frames import to_film
-from loadflow.stages.labels import label
+from loadflow.stages.labelling import label
 
 
 def reduced_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:

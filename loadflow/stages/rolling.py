@@ -9,14 +9,15 @@ import numpy as np
 import xarray as xr
 
 from loadflow.errors import SolverError
-from loadflow.rolling import SlewingBearing, life, safety, system_life
-from loadflow.rolling.arrangements import life_exponent, weibull_slope
-from loadflow.rolling.static_rating import HOURS_20_YEARS, STATIC_RATING
-from loadflow.scene import Scene
-from loadflow.scene_bearings import FurtherBearing
-from loadflow.stages.cases import Case
+from loadflow.rolling import SlewingBearing, system_life
+from loadflow.rolling.bearings.arrangements import life_exponent, weibull_slope
+from loadflow.rolling.rating import life, safety
+from loadflow.rolling.rating.static import HOURS_20_YEARS, STATIC_RATING
+from loadflow.scene.bearings import FurtherBearing
+from loadflow.scene.cases import Case
+from loadflow.scene.scene import Scene
 from loadflow.stages.frames import to_rolling
-from loadflow.stages.labels import label, labelled, of_samples
+from loadflow.stages.labelling import label, labelled, of_samples
 from loadflow.stages.summary import over_cases
 
 # what is kept of every sample: units and meaning

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from loadflow.scene import Scene
+from loadflow.scene.cases import Case
+from loadflow.scene.scene import Scene
 from loadflow.seeds import Method, equality, group_seeds_jointly, holm
-from loadflow.stages.cases import Case
 from loadflow.stages.reduction import moment_governs
 
 TESTS = ("location", "spread", "spectrum")

@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from loadflow.scene import Scene
+from loadflow.scene.cases import Case
+from loadflow.scene.scene import Scene
 from loadflow.shaft import Concept, Seated, seated_loads
 from loadflow.shaft import bearing_loads as reactions
-from loadflow.stages.cases import Case
-from loadflow.stages.labels import labelled
+from loadflow.stages.labelling import labelled
 from loadflow.stages.summary import over_cases
 
 Floats = np.ndarray
@@ -76,7 +76,7 @@ def _worst(parts: list[xr.Dataset]) -> dict[str, float]:
 
 
 def _film(scene: Scene, speed: Floats, tilting: bool) -> Seated:
-    from loadflow.stages.film_seat import film_model
+    from loadflow.stages.film_support import film_model
 
     fastest = float(np.abs(speed).max())
     return Seated(
@@ -87,7 +87,7 @@ def _film(scene: Scene, speed: Floats, tilting: bool) -> Seated:
 
 
 def _rolling(scene: Scene, name: str, thrust: Floats, tilting: bool) -> Seated:
-    from loadflow.stages.rolling_seat import rolling_model
+    from loadflow.stages.rolling_support import rolling_model
 
     part = scene.rolling.bearings[name]
     return Seated(

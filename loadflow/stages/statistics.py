@@ -9,8 +9,8 @@ import numpy as np
 import xarray as xr
 
 from loadflow.reduction import damage_equivalent_load
-from loadflow.scene import Scene
-from loadflow.stages.cases import Case
+from loadflow.scene.cases import Case
+from loadflow.scene.scene import Scene
 from loadflow.stages.summary import over_cases
 
 SLOPE = 4.0

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 import xarray as xr
 
-from loadflow.stages.cases import Case
+from loadflow.scene.cases import Case
 
 
 def over_cases(parts: Mapping[Case, xr.Dataset]) -> xr.Dataset:

@@ -16,12 +16,12 @@ import numpy as np
 
 from loadflow.rolling import FrictionOptions
 from loadflow.rolling import friction as parts
-from loadflow.rolling.cage_rim import CageRim, cage_orbit
-from loadflow.rolling.crank import CrankDrive
 from loadflow.rolling.friction import DragConstants, RollerGaps
-from loadflow.rolling.radial_load import behw_law
-from loadflow.rolling.roller_history import RollerHistory, RollerRow, radial_history
-from loadflow.rolling.roller_motion import RollerMotion, coulomb_motion, film_motion
+from loadflow.rolling.motion.cage import CageRim, cage_orbit
+from loadflow.rolling.motion.crank import CrankDrive
+from loadflow.rolling.motion.history import RollerHistory, RollerRow, radial_history
+from loadflow.rolling.motion.radial_load import behw_law
+from loadflow.rolling.motion.rollers import RollerMotion, coulomb_motion, film_motion
 from loadflow.tribology import Oil
 from loadflow.validation.check import Check
 

@@ -6,7 +6,8 @@ import math
 from collections.abc import Iterator
 from dataclasses import replace
 
-from loadflow.rolling import BallBearing, lubricated_life
+from loadflow.rolling import BallBearing
+from loadflow.rolling.rating import modified_life as lubricated_life
 from loadflow.tribology.hertz import curvature_sum, exact_ellipse
 from loadflow.validation._slewing_cases import RINGS
 from loadflow.validation.check import Check

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from loadflow.rolling import SlewingBearing
-from loadflow.rolling.raceway import Raceway
+from loadflow.rolling.raceways import Raceway
 from loadflow.rolling.slewing_result import SlewingResult
 
 MM15 = 1e3**1.5  # N/mm^1.5 in N/m^1.5

@@ -11,7 +11,7 @@ from loadflow.tribology import film, film_tables
 from loadflow.validation.check import Check
 
 if TYPE_CHECKING:
-    from loadflow.journal.rungs import Rung
+    from loadflow.journal.models.model import Rung
 
 
 def stated_error_checks() -> Iterator[Check]:

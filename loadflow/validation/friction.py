@@ -15,12 +15,12 @@ import numpy as np
 
 from loadflow.rolling import RollerBearing
 from loadflow.rolling import friction as parts
-from loadflow.rolling.crank import CrankDrive
-from loadflow.rolling.film_dynamics import richter_plate, richter_printed
 from loadflow.rolling.friction import roller_drag as drag
-from loadflow.rolling.kinematics import common_period, contact_speeds, ideal_speeds
-from loadflow.rolling.lim_singh import lim_singh_ball, lim_singh_roller
-from loadflow.rolling.radial_load import LineLaw, behw_law, radial_distribution
+from loadflow.rolling.motion.crank import CrankDrive
+from loadflow.rolling.motion.kinematics import common_period, contact_speeds, ideal_speeds
+from loadflow.rolling.motion.radial_load import LineLaw, behw_law, radial_distribution
+from loadflow.rolling.stiffness.contact_films import richter_plate, richter_printed
+from loadflow.rolling.stiffness.lim_singh import lim_singh_ball, lim_singh_roller
 from loadflow.tribology import contact_film as film
 from loadflow.tribology import lubricant, traction
 from loadflow.tribology import lubricant_laws as laws

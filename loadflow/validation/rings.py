@@ -27,9 +27,9 @@ from loadflow.rolling import (
     Support,
     legs,
 )
-from loadflow.rolling.patches import PatchPoints
-from loadflow.rolling.ring_fem import FiniteElementRing
-from loadflow.rolling.ring_profile import RingProfile
+from loadflow.rolling.rings.finite_element import FiniteElementRing
+from loadflow.rolling.rings.patches import PatchPoints
+from loadflow.rolling.rings.profile import RingProfile
 from loadflow.validation._slewing_cases import DRIVE, FOUR_BALL
 from loadflow.validation.check import Check
 

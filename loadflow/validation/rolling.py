@@ -12,8 +12,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from loadflow.rolling import capacity, friction, life, safety
-from loadflow.rolling.patches import raceway_points
+from loadflow.rolling import friction
+from loadflow.rolling.rating import capacity, life, safety
+from loadflow.rolling.rings.patches import raceway_points
 from loadflow.tribology.hertz import curvature_sum, effective_modulus, stiffness_factor
 from loadflow.validation import (
     _rolling_standards,

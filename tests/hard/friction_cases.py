@@ -6,9 +6,9 @@ import numpy as np
 from hard_case import Outcome, hard, refused
 
 from loadflow.rolling import FrictionOptions, RollerBearing, roller_friction, rotor_coefficients
-from loadflow.rolling.film_dynamics import richter_plate, richter_printed
 from loadflow.rolling.friction import balanced_temperature
-from loadflow.rolling.radial_load import behw_law, radial_distribution
+from loadflow.rolling.motion.radial_load import behw_law, radial_distribution
+from loadflow.rolling.stiffness.contact_films import richter_plate, richter_printed
 from loadflow.tribology import lubricant, moes_line, traction
 from loadflow.tribology.lubricant_laws import barus
 

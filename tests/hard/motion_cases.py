@@ -6,12 +6,12 @@ import numpy as np
 from hard_case import hard, refused, solved
 
 from loadflow.rolling import FrictionOptions, RollerBearing
-from loadflow.rolling.cage_rim import CageRim, cage_orbit
 from loadflow.rolling.friction import DragConstants
-from loadflow.rolling.radial_load import behw_law
-from loadflow.rolling.roller_history import RollerHistory, RollerRow, radial_history
-from loadflow.rolling.roller_motion import coulomb_motion, film_motion
-from loadflow.rolling.skidding import roller_slip
+from loadflow.rolling.motion.cage import CageRim, cage_orbit
+from loadflow.rolling.motion.history import RollerHistory, RollerRow, radial_history
+from loadflow.rolling.motion.radial_load import behw_law
+from loadflow.rolling.motion.rollers import coulomb_motion, film_motion
+from loadflow.rolling.motion.skidding import roller_slip
 from loadflow.tribology import lubricant
 
 ROW = RollerRow(

@@ -16,10 +16,10 @@ from loadflow.journal import (
     Reynolds,
     Sommerfeld,
     Supply,
-    mobility,
 )
-from loadflow.journal.setup import FilmOptions
-from loadflow.journal.splines import spline
+from loadflow.journal.film.discretise import FilmOptions
+from loadflow.journal.models import mobility
+from loadflow.numerics.splines import spline
 
 BEARING = JournalBearing(diameter=3.0, width=2.25, relative_clearance=0.5e-3)
 OIL = Lubricant(0.05)

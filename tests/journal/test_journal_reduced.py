@@ -16,10 +16,10 @@ from loadflow.journal import (
     Reynolds,
     Sommerfeld,
     Supply,
-    reduced,
 )
-from loadflow.journal.axial import Axial, lobatto
-from loadflow.journal.mesh import build_mesh
+from loadflow.journal.film.mesh import build_mesh
+from loadflow.journal.models import reduced
+from loadflow.journal.models.width_modes import Axial, lobatto
 from loadflow.validation.journal import PERIODIC_LOADS, reference_bearing, sines
 
 BEARING, FILM = reference_bearing()

@@ -25,7 +25,7 @@ from loadflow.journal import (
     ThickShell,
     TiltingPads,
 )
-from loadflow.scene import Journal
+from loadflow.scene.scene import Journal
 from loadflow.stages.journal import equilibria, follow
 from loadflow.validation.shell import annular_seal, plane_ring, soft_arc
 
@@ -127,8 +127,8 @@ def test_influence_numbers_are_reciprocal_and_symmetric_about_three_planes():
 
 
 def _influence_numbers():
-    from loadflow.journal.compliance import compliance_of
-    from loadflow.journal.gap_mesh import shaped_mesh
+    from loadflow.journal.film.compliance import compliance_of
+    from loadflow.journal.film.gap_mesh import shaped_mesh
 
     mesh = shaped_mesh(0.75, (36, 12), False, False, (), [], [])
     unit = np.eye(36 * 12).reshape(-1, 36, 12)

@@ -21,11 +21,11 @@ from loadflow.rolling import (
     main_bearings,
     system_life,
 )
-from loadflow.rolling.arrangements import life_kind
-from loadflow.scene import make_scene
-from loadflow.stages import report
+from loadflow.rolling.bearings.arrangements import life_kind
+from loadflow.running import report_page as report
+from loadflow.scene.cases import Case
+from loadflow.scene.scene import make_scene
 from loadflow.stages import rolling as stage
-from loadflow.stages.cases import Case
 from loadflow.tribology import lubricant
 
 RNG = np.random.default_rng(7)

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from loadflow.errors import InputError
-from loadflow.rolling.crank import CrankDrive
+from loadflow.rolling.motion.crank import CrankDrive
 
 DRIVE = CrankDrive(
     radius=42.5e-3, rod_length=143.5e-3, piston_mass=0.4, rod_mass=0.6, rod_centre=43e-3,

@@ -12,15 +12,16 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 
 from loadflow.errors import InputError, SolverError
-from loadflow.rolling import friction, kinematics, radial_load
+from loadflow.rolling import friction
 from loadflow.rolling.friction import catalogue, coulomb, guides, roller_drag, rolling_resistance
+from loadflow.rolling.motion import kinematics, radial_load
 from loadflow.tribology import asperities, contact_film, traction
 from loadflow.validation.friction import MAIN, MAIN_RACES, MODULUS
 
 MODULES = [
     "friction.catalogue",
-    "kinematics",
-    "radial_load",
+    "motion.kinematics",
+    "motion.radial_load",
     "friction.guides",
     "friction.energy",
     "friction.roller_losses",

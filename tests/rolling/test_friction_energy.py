@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from loadflow.errors import InputError, SolverError
 from loadflow.rolling import FrictionOptions, RollerBearing, friction, roller_friction
 from loadflow.rolling.friction import RollerState, energy_audit, rolling_resistance
-from loadflow.rolling.kinematics import contact_speeds, ideal_speeds
+from loadflow.rolling.motion.kinematics import contact_speeds, ideal_speeds
 from loadflow.tribology import lubricant, traction
 from loadflow.validation.friction import MAIN, MAIN_BEARING, MAIN_RACES, MODULUS
 

@@ -8,7 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from loadflow.errors import InputError
-from loadflow.rolling import capacity, friction, life, rating_life_spectrum, safety
+from loadflow.rolling import friction, rating_life_spectrum
+from loadflow.rolling.rating import capacity, life, safety
 
 
 @pytest.mark.parametrize(

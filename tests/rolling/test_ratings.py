@@ -16,14 +16,14 @@ from loadflow.rolling import (
     RollerBearing,
     SlewingBearing,
     life_modification,
-    lubricated_life,
     modified_life,
     static_capacity,
-    static_rating,
     system_life,
     verdicts,
 )
-from loadflow.rolling.lubricated_life import CLEANLINESS, contamination_factor, life_factor
+from loadflow.rolling.rating import modified_life as lubricated_life
+from loadflow.rolling.rating import static as static_rating
+from loadflow.rolling.rating.modified_life import CLEANLINESS, contamination_factor, life_factor
 from loadflow.tribology import lubricant
 
 KINDS = ("radial-ball", "radial-roller", "thrust-ball", "thrust-roller")

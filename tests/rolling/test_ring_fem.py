@@ -19,7 +19,7 @@ from loadflow.rolling import (
     patch_points,
     reference_equilibrium,
 )
-from loadflow.rolling.ring_local import half_space
+from loadflow.rolling.rings.local_compliance import half_space
 from loadflow.tribology.hertz import STEEL_MODULUS, STEEL_POISSON
 from loadflow.validation._slewing_cases import FOUR_BALL
 from loadflow.validation.rings import four_ball_rings

@@ -21,8 +21,8 @@ from loadflow.rolling import (
     legs,
     patch_points,
 )
-from loadflow.rolling.expansion import RingSections
-from loadflow.rolling.patches import PatchPoints
+from loadflow.rolling.rings.expansion import RingSections
+from loadflow.rolling.rings.patches import PatchPoints
 
 STEEL = 210e9
 DRIVE = SlewingBearing(

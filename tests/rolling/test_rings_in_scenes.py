@@ -7,10 +7,10 @@ from synthetic import cube_file
 
 import loadflow as lf
 from loadflow.errors import InputError
-from loadflow.ladder import rung_of
+from loadflow.planning.ladder import rung_of
 from loadflow.rolling import RingSection
-from loadflow.scene import make_scene
-from loadflow.scene_bearings import standing_ring
+from loadflow.scene.bearings import standing_ring
+from loadflow.scene.scene import make_scene
 
 GEOMETRY = {
     "balls": 100, "ball_diameter": 0.04, "pitch_diameter": 2.5, "groove_radius": 0.021,

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from loadflow.errors import InputError
-from loadflow.rolling import RollerBearing, capacity
+from loadflow.rolling import RollerBearing
+from loadflow.rolling.rating import capacity
 
 CYLINDRICAL = RollerBearing(
     rollers=12,

@@ -12,8 +12,8 @@ from loadflow.rolling import (
     RollerRaceways,
     SphericalRollerBearing,
     ThreeRowRollerBearing,
-    capacity,
 )
+from loadflow.rolling.rating import capacity
 
 SPHERICAL = SphericalRollerBearing(
     rollers=28, roller_diameter=0.08, roller_length=0.12, pitch_diameter=0.95, contact_angle=0.17

@@ -8,14 +8,20 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from loadflow.errors import InputError
-from loadflow.rolling import FrictionOptions, _coulomb_kernels, _motion_kernels
+from loadflow.rolling import FrictionOptions
 from loadflow.rolling import friction as parts
-from loadflow.rolling.cage_rim import CageRim, cage_orbit
-from loadflow.rolling.crank import CrankDrive
 from loadflow.rolling.friction import DragConstants, RollerState, energy_audit
-from loadflow.rolling.radial_load import behw_law, radial_distribution
-from loadflow.rolling.roller_history import RollerHistory, RollerRow, crank_history, radial_history
-from loadflow.rolling.roller_motion import (
+from loadflow.rolling.motion import _coulomb_kernels, _motion_kernels
+from loadflow.rolling.motion.cage import CageRim, cage_orbit
+from loadflow.rolling.motion.crank import CrankDrive
+from loadflow.rolling.motion.history import (
+    RollerHistory,
+    RollerRow,
+    crank_history,
+    radial_history,
+)
+from loadflow.rolling.motion.radial_load import behw_law, radial_distribution
+from loadflow.rolling.motion.rollers import (
     coulomb_motion,
     film_arguments,
     film_motion,

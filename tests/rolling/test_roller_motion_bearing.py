@@ -14,7 +14,7 @@ from loadflow.rolling import (
     roller_friction,
     roller_slip,
 )
-from loadflow.rolling.roller_history import bearing_histories, turned
+from loadflow.rolling.motion.history import bearing_histories, turned
 from loadflow.tribology import lubricant
 
 PIPELINES = Path(__file__).parents[2] / "pipelines"

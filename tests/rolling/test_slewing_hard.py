@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 
 from loadflow.errors import InputError, SolverError
 from loadflow.rolling import FlexibleRings, RingBeam, RingSection, SlewingBearing, axial_expansion
-from loadflow.rolling.capacity import slewing_capacity
-from loadflow.rolling.expansion import RingSections
+from loadflow.rolling.rating.capacity import slewing_capacity
+from loadflow.rolling.rings.expansion import RingSections
 
 BEARING = SlewingBearing(
     balls=45, ball_diameter=0.015, pitch_diameter=0.250, groove_radius=0.0078,

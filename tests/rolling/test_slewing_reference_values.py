@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from loadflow.rolling import life
+from loadflow.rolling.rating import life
 from loadflow.validation._slewing_cases import BLADE, DRIVE, FOUR_BALL, MM15, RINGS, SPECTRUM
 from loadflow.validation._slewing_cases import coacting as together
 

@@ -15,10 +15,10 @@ from loadflow.rolling import (
     RollerBearing,
     SlewingBearing,
     _kernels,
-    film_dynamics,
     rotor_coefficients,
 )
-from loadflow.rolling.lim_singh import lim_singh_ball, lim_singh_roller
+from loadflow.rolling.stiffness import contact_films as film_dynamics
+from loadflow.rolling.stiffness.lim_singh import lim_singh_ball, lim_singh_roller
 from loadflow.tribology import lubricant
 
 ROLLER = RollerBearing(
@@ -54,7 +54,7 @@ def _ball(q):
     )  # fmt: skip
 
 
-@pytest.mark.parametrize("name", ["film_dynamics", "rotor_dynamics"])
+@pytest.mark.parametrize("name", ["stiffness.contact_films", "stiffness.rotor_coefficients"])
 def test_examples_of_the_docstrings(name):
     outcome = doctest.testmod(importlib.import_module(f"loadflow.rolling.{name}"))
     assert outcome.attempted > 0

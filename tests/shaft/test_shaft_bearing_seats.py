@@ -7,15 +7,15 @@ from synthetic import case as synthetic_case
 
 from loadflow.cube import make_cube, open_cube, save_cube
 from loadflow.errors import InputError, SolverError
-from loadflow.ladder import expected_seconds, measured, rung_of
-from loadflow.plan import make_plan
-from loadflow.runner import run
-from loadflow.scene import make_scene
+from loadflow.planning.ladder import expected_seconds, measured, rung_of
+from loadflow.planning.plan import make_plan
+from loadflow.running.runner import run
+from loadflow.scene.scene import make_scene
 from loadflow.shaft import TwoPoint
 from loadflow.shaft import bearing_loads as suspended
-from loadflow.stages.film_seat import film_model
+from loadflow.stages.film_support import film_model
 from loadflow.stages.reduction import reduced_loads
-from loadflow.stages.rolling_seat import rolling_model
+from loadflow.stages.rolling_support import rolling_model
 from loadflow.stages.seeds import components
 from loadflow.stages.shaft import bearing_loads, summary
 from loadflow.turbines import load_turbine

@@ -5,10 +5,10 @@ import pytest
 from synthetic import case as synthetic_case
 
 from loadflow.errors import InputError
-from loadflow.scene import make_scene
+from loadflow.scene.scene import make_scene
 from loadflow.shaft import Beam, ShaftSection, TwoPoint
 from loadflow.shaft import bearing_loads as suspended
-from loadflow.stages.film_seat import film_model
+from loadflow.stages.film_support import film_model
 from loadflow.stages.journal import equilibria, film
 from loadflow.stages.reduction import reduced_loads
 from loadflow.stages.shaft import bearing_loads

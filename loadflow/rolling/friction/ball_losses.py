@@ -30,8 +30,8 @@ from loadflow.rolling.friction.bearing import (
 )
 from loadflow.rolling.friction.contact_films import ContactFilm, Ring, groove_film
 from loadflow.rolling.friction.options import FrictionOptions
-from loadflow.rolling.kinematics import entrainment_speed
-from loadflow.rolling.result import BallResult
+from loadflow.rolling.motion.kinematics import entrainment_speed
+from loadflow.rolling.results import BallResult
 from loadflow.tribology import traction
 from loadflow.tribology.hertz import effective_modulus
 

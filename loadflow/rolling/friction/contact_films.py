@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.rolling.friction.options import FrictionOptions
-from loadflow.rolling.raceway import BallRaceways
+from loadflow.rolling.raceways import BallRaceways
 from loadflow.tribology import contact_film
 from loadflow.tribology.hertz import effective_modulus
 

@@ -13,7 +13,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.rolling.kinematics import Value, contact_speeds
+from loadflow.rolling.motion.kinematics import Value, contact_speeds
 
 Array = NDArray[np.float64]
 

@@ -26,7 +26,7 @@ from loadflow.rolling.friction.contact_films import (
     sphere_film,
 )
 from loadflow.rolling.friction.options import FrictionOptions
-from loadflow.rolling.kinematics import entrainment_speed
+from loadflow.rolling.motion.kinematics import entrainment_speed
 from loadflow.rolling.roller_result import RollerResult
 from loadflow.tribology import asperities
 from loadflow.tribology.hertz import effective_modulus

@@ -1,0 +1,1 @@
+"""The discrete film: cells, gap, flow balance and its linearisation, grooves, elastic shells."""

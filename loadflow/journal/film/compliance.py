@@ -1,0 +1,137 @@
+"""Shells on the cells of a film: growth of every gap over the pressure on every cell.
+
+What the film asks of its shell: ``local`` (nx, nz), the growth of the gap of a cell over its own
+pressure, m/Pa; whether it ``spreads``, so that a pressure widens other gaps, too; and the
+``growth`` of all gaps under a pressure.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from loadflow.errors import InputError
+from loadflow.journal.film.mesh import Mesh
+from loadflow.journal.options import require
+from loadflow.journal.shells import LinedShell, LocalShell, MatrixShell, Shell, ThickShell
+
+Array = NDArray[np.float64]
+
+_HARMONICS = 2  # times the cells around: what a pressure even over a cell has beyond is left out
+
+
+@dataclass(frozen=True, eq=False)
+class Local:
+    """Every cell gives way for itself."""
+
+    local: Array
+    spreads: bool = False
+
+    def growth(self, pressure: Array) -> Array:
+        """Growth of the gaps under `pressure`, (…, nx, nz), m."""
+        return self.local * pressure
+
+
+@dataclass(frozen=True, eq=False)
+class Numbers:
+    """Influence numbers (n, n) of the cells, m/Pa."""
+
+    numbers: Array
+    local: Array
+    spreads: bool = True
+
+    def growth(self, pressure: Array) -> Array:
+        """Growth of the gaps under `pressure`, (…, nx, nz), m."""
+        flat = pressure.reshape(*pressure.shape[:-2], -1)
+        return (flat @ self.numbers.T).reshape(pressure.shape)
+
+
+@dataclass(frozen=True, eq=False)
+class Harmonic:
+    """Influence numbers of a body of revolution, harmonic by harmonic.
+
+    Attributes
+    ----------
+    turns : array (h, 2, nx)
+        Means of cos nθ and sin nθ over the cells around.
+    weights : array (nx,)
+        Widths of the cells, rad.
+    numbers : array (h, nz, nz)
+        Growth over pressure of each harmonic, over π (2π for the mean), m/Pa.
+    """
+
+    turns: Array
+    weights: Array
+    numbers: Array
+    local: Array
+    spreads: bool = True
+
+    def growth(self, pressure: Array) -> Array:
+        """Growth of the gaps under `pressure`, (…, nx, nz), m."""
+        orders, _, nx = self.turns.shape
+        turns = self.turns.reshape(-1, nx)
+        waves = (turns * self.weights) @ pressure
+        split = waves.reshape(*pressure.shape[:-2], orders, 2, -1)
+        grown = split @ self.numbers.swapaxes(-1, -2)
+        return turns.T @ grown.reshape(waves.shape)
+
+
+Compliance = Local | Numbers | Harmonic
+
+
+def compliance_of(shell: Shell, mesh: Mesh, radius: float) -> Compliance:
+    """Put `shell` on the cells of `mesh` around a shaft of `radius`, m.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        A lining that is not local, a shell inside the bore, a matrix of another grid.
+    """
+    if isinstance(shell, LocalShell):
+        return Local(np.full(mesh.shape, shell.compliance))
+    if isinstance(shell, LinedShell):
+        shell.check_local(2 * radius * float(mesh.z_edges[-1]))
+        return Local(np.full(mesh.shape, shell.compliance))
+    if isinstance(shell, MatrixShell):
+        return _given(shell, mesh)
+    return _thick(shell, mesh, radius)
+
+
+def _given(shell: MatrixShell, mesh: Mesh) -> Numbers:
+    """The given numbers; on half of the width each cell stands for its mirror image, too."""
+    nx, nz = mesh.shape
+    across = 2 * nz if mesh.half else nz
+    numbers, size = shell.numbers, nx * across
+    if numbers.shape[0] != size:
+        raise InputError(
+            f"matrix of {numbers.shape[0]} cells is not allowed: {nx} × {across} = {size}, the "
+            "cells of this film"
+        )
+    if mesh.half:
+        full = numbers.reshape(nx, across, nx, across)
+        numbers = full[:, nz:, :, nz:] + full[:, nz:, :, nz - 1 :: -1]
+        numbers = numbers.reshape(nx * nz, nx * nz)
+    return Numbers(np.ascontiguousarray(numbers), np.diag(numbers).reshape(nx, nz).copy())
+
+
+def _thick(shell: ThickShell, mesh: Mesh, radius: float) -> Harmonic:
+    from loadflow.journal.film.cylinder import bore_compliance
+
+    outer = 0.5 * shell.outer_diameter
+    require(outer > radius, "outer_diameter", shell.outer_diameter, f"m, > {2 * radius:.6g}")
+    nx = mesh.shape[0]
+    orders = np.arange(_HARMONICS * nx + 1)
+    numbers = bore_compliance(
+        orders, radius * mesh.z_edges, radius, outer, shell.modulus, shell.poisson_ratio
+    )
+    numbers /= np.where(orders == 0, 2 * np.pi, np.pi)[:, None, None]
+    n = np.maximum(orders, 1)[:, None]
+    cos = np.diff(np.sin(n * mesh.edges)) / (n * mesh.dx)
+    sin = -np.diff(np.cos(n * mesh.edges)) / (n * mesh.dx)
+    cos[0], sin[0] = 1.0, 0.0
+    turns = np.stack([cos, sin], axis=1)
+    squares = (turns**2).sum(axis=1) * mesh.dx
+    local = np.einsum("hi,hkk->ik", squares, numbers)
+    return Harmonic(turns, mesh.dx, numbers, local)

@@ -1,0 +1,172 @@
+"""Film in a shell that gives way: the gap follows the pressure in the same Newton iteration.
+
+The shell needs no unknowns of its own: its growth is that of the pressure at hand, so that every
+residual of the film is one of film and shell. What the gap of a cell owes to its own pressure
+stands in the band; what it owes to others is iterated on top of the band's factors.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from loadflow.journal.film import _kernels as kernel
+from loadflow.journal.film import _shell_kernels as shell_kernel
+from loadflow.journal.film.compliance import Compliance
+from loadflow.journal.film.film import Film
+from loadflow.journal.film.gap import KEPT
+from loadflow.journal.film.gap_elastic import ElasticGap
+
+Array = NDArray[np.float64]
+
+_EXACT = 1e-8  # residual of the linear systems of a shell that spreads, over their right-hand side
+_KRYLOV = 60  # steps of GMRES that are tried
+_SMALLEST = 1.0 / 2**20  # share of a step below which it has no room
+
+
+class ElasticFilm(Film):
+    """Film between a shaft and a shell with `compliance`; the other parameters are those of `Film`.
+
+    The shell is at its nominal size under the edge pressure, inside and outside.
+    """
+
+    def __init__(self, compliance: Compliance, gap: ElasticGap, *film: Any) -> None:
+        super().__init__(gap, *film)
+        self.gap: ElasticGap = gap
+        self.compliance = compliance
+        self.elastic = True
+        self.stencil = np.empty((5, *gap.mesh.shape))
+        self._give = 1.0  # share of its compliance that the shell has
+
+    def place(self, u: Array, position: Array) -> Array:
+        """Evaluate law, shell and gap at `u` and `position`; returns the axes of the frame."""
+        self._apply_law(u)
+        self._grow()
+        return self.gap.place(position)
+
+    def relax(self, give: float = 1.0) -> None:
+        """Let go of what pressure has deformed; from now on the shell has a share of its `give`."""
+        self._give = give
+        self.gap.grow(np.zeros(self.mesh.shape))
+
+    @property
+    def _per_clearance(self) -> float:
+        """Growth of the gap that counts, in clearances, over that of the shell, m."""
+        return self._give / (self.relative_clearance * self.radius)
+
+    def _grow(self) -> None:
+        pressure = self.state[kernel.LOAD] - self.p_edge
+        self.gap.grow(self._per_clearance * self.compliance.growth(pressure))
+
+    @property
+    def deformation(self) -> Array:
+        """Growth of the gap of the cells last placed, (nx, nz), m."""
+        return self.gap.growth * (self.relative_clearance * self.radius)
+
+    def target(self, position: Array, step: Array) -> Array:
+        """Where a step of the shaft may lead: as far as the shell gives way."""
+        return position + step
+
+    def room_left(self, position: Array) -> float:
+        """Narrowest gap over the clearance, that between cells included."""
+        return min(self.gap.room(position), self.gap.narrowest(position))
+
+    def room(self, u: Array, columns: Array, weights: Array, way: tuple[Array, Array]) -> float:
+        """Share of a Newton step that leaves at least a third of the narrowest gap."""
+        start, target = way
+        least = KEPT * self.gap.room(start)
+        share = 1.0
+        while share > _SMALLEST:
+            trial = u.copy()
+            kernel.correct(trial, columns, share * weights, self.mesh.order)
+            self._apply_law(trial)
+            self._grow()
+            if self.gap.room(start + share * (target - start)) >= least:
+                return share
+            share *= 0.5
+        return share
+
+    def balance(self, coef: Array, mass: Array, change: Array | None = None) -> Array:
+        """Outflow of every cell (nx, nz) at the state last placed, or by a `change` of it."""
+        field = super().balance(coef, mass, change)
+        if change is not None:
+            self._spread(self.compliance.growth(change[kernel.LOAD])[None], field[None])
+        return field
+
+    def _spread(self, growth: Array, fields: Array) -> None:
+        """Add what a `growth` (l, nx, nz), m, of the gaps changes in the balance to `fields`."""
+        shell_kernel.spread(self.stencil, self._per_clearance * growth, fields)
+
+    def _assemble(self, mass: Array, rate: float) -> None:
+        super()._assemble(mass, rate)
+        mesh = self.mesh
+        rims = (self.p_edge, self.p_line, self.line_fill)
+        shell_kernel.gap_stencil(
+            self.state, self.gap.coef, *self.gap.nodes, mesh.dz, mesh.gz, mesh.closed, self.wedge,
+            rims, self.slope * rate, self.fixed, self.stencil,
+        )  # fmt: skip
+        growth = self._per_clearance * self.compliance.local * self.state[kernel.DLOAD]
+        shell_kernel.add_stencil(self.stencil, growth, mesh.order, self.fixed, self.ab)
+
+    def _solve(self, factors: tuple[Array, NDArray[np.int32]], columns: Array) -> None:
+        """Solve for each of `columns` (l, n), in place.
+
+        Where the shell spreads by GMRES, preconditioned with the band; where that stalls, because
+        the shell is much softer than the film, all at once.
+        """
+        super()._solve(factors, columns)
+        if not self.compliance.spreads:
+            return
+        from scipy.sparse.linalg import LinearOperator, gmres
+
+        def preconditioned(given: Array) -> Array:
+            rest = self._far(given)
+            super(ElasticFilm, self)._solve(factors, rest)
+            return given + rest
+
+        sizes = np.linalg.norm(columns, axis=1, keepdims=True)
+        scaled = columns / np.where(sizes > 0.0, sizes, 1.0)
+        matrix = LinearOperator(
+            (scaled.size, scaled.size),
+            lambda vector: preconditioned(vector.reshape(scaled.shape)).ravel(),
+            dtype=float,
+        )
+        found, failed = gmres(matrix, scaled.ravel(), rtol=_EXACT, restart=_KRYLOV, maxiter=1)
+        if failed:
+            every = preconditioned(np.eye(columns.shape[1]))
+            columns[:] = np.linalg.solve(every.T, columns.T).T
+        else:
+            columns[:] = found.reshape(columns.shape) * sizes
+
+    def _lag(self, factors: tuple[Array, NDArray[np.int32]], columns: Array, size: int) -> None:
+        """Let the derivatives by velocity have the squeeze of the shell that follows the shaft."""
+        by_place, by_velocity = columns[1 : size + 1], columns[size + 1 : 2 * size + 1]
+        pressure = -self.state[kernel.DLOAD] * self._fields(by_place)
+        growth = self._per_clearance * self.compliance.growth(pressure)
+        volume = self.slope * self.state[kernel.FILL] * self.gap.widths * growth
+        volume[:, self.fixed] = 0.0
+        more = self._columns(volume)
+        self._solve(factors, more)
+        by_velocity += more
+
+    def _fields(self, columns: Array) -> Array:
+        """Columns in the order of the solver, (l, n), as fields of cells (l, nx, nz)."""
+        return columns.reshape(-1, *self.mesh.shape)[:, self.mesh.order]
+
+    def _columns(self, fields: Array) -> Array:
+        """Fields of cells (l, nx, nz) as columns in the order of the solver, (l, n)."""
+        ordered = np.empty_like(fields)
+        ordered[:, self.mesh.order] = fields
+        return ordered.reshape(len(fields), -1)
+
+    def _far(self, columns: Array) -> Array:
+        """What the balance owes to changes of the unknowns, (l, n), by way of other cells' gaps."""
+        fields = self._fields(columns)
+        pressure = self.state[kernel.DLOAD] * fields
+        growth = self.compliance.growth(pressure) - self.compliance.local * pressure
+        out = np.zeros_like(fields)
+        self._spread(growth, out)
+        out[:, self.fixed] = 0.0
+        return self._columns(out)

@@ -1,0 +1,429 @@
+"""The discrete film at one position of the shaft: balance, linearisation, integrals."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg.lapack import dgbtrf, dgbtrs
+
+from loadflow.errors import SolverError
+from loadflow.journal.film import _kernels as kernel
+from loadflow.journal.film.gap import Gap, turning_frame
+from loadflow.journal.film.groove_pressure import Pockets
+from loadflow.journal.options import (
+    Cavitation,
+    GasMixture,
+    Guembel,
+    MassConserving,
+    Reynolds,
+    Sommerfeld,
+)
+
+Array = NDArray[np.float64]
+
+_CELLS = 0.6  # of the width of the narrowest gap, the widest cell around that resolves it
+
+_KIND = {
+    Sommerfeld: kernel.FULL,
+    Guembel: kernel.GUEMBEL,
+    Reynolds: kernel.REYNOLDS,
+    MassConserving: kernel.MASS_CONSERVING,
+    GasMixture: kernel.GAS_MIXTURE,
+}
+EVERY = slice(None)  # all degrees of freedom
+_TURN = np.array([[0.0, -1.0], [1.0, 0.0]])  # a quarter turn with the rotation
+
+
+class SingularFilm(SolverError):
+    """A Newton matrix that cannot be solved, as states far from any film have."""
+
+
+@dataclass(frozen=True)
+class Linear:
+    """The film linearised at one state.
+
+    Attributes
+    ----------
+    load : array (m,)
+        ∫ p N_j dA for each degree of freedom, after the Newton step of the pressure alone, N.
+    stiffness, damping : array (m, m)
+        Derivatives of `load` by position (per clearance) and velocity (clearances per second).
+    columns : array (l, n)
+        Newton step of the unknowns, and their derivatives by what `Film.weights` lists.
+    """
+
+    load: Array
+    stiffness: Array
+    damping: Array
+    columns: Array
+
+
+class Film:
+    """Film of one bearing, lubricant and law on one mesh; holds the work arrays.
+
+    Positions are in clearances, velocities in clearances per second, pressures in Pa.
+
+    Parameters
+    ----------
+    gap : Gap
+        Gap on its mesh.
+    law : Cavitation
+        Law of the ruptured film.
+    viscosity, relative_clearance, radius : float
+        η (Pa s), ψ, shaft radius (m).
+    edge_pressure : float
+        Pressure at the rims and on the inlet line, Pa, absolute.
+    pockets : Pockets
+        Grooves and what feeds them.
+    end_pressure : float, optional
+        Pressure of the grooves at both ends of a film that does not run round, Pa; without one
+        an open film ends on the inlet line.
+    """
+
+    def __init__(
+        self,
+        gap: Gap,
+        law: Cavitation,
+        viscosity: float,
+        relative_clearance: float,
+        radius: float,
+        edge_pressure: float,
+        pockets: Pockets,
+        end_pressure: float | None = None,
+    ) -> None:
+        self.gap = gap
+        self.mesh = mesh = gap.mesh
+        self.kind = _KIND[type(law)]
+        self.ruptures = self.kind != kernel.FULL
+        self.creeps = self.kind == kernel.REYNOLDS  # its rupture moves by a cell a step
+        self.mixing = law.mixing_constant if isinstance(law, GasMixture) else 0.0
+        self.p_cav = getattr(law, "cavitation_pressure", 0.0)
+        self.p_edge = edge_pressure
+        self.p_line = edge_pressure if end_pressure is None else end_pressure
+        self.ends_supply = end_pressure is not None and not gap.mesh.closed
+        wet = self.p_line + self.mixing
+        self.line_fill = self.p_line / wet if self.mixing and wet > 0 else 1.0
+        self.radius = radius
+        self.relative_clearance = relative_clearance
+        self.viscosity = viscosity
+        self.slope = 12.0 * viscosity / relative_clearance**2  # squeeze pressure per d(FH)/dt
+        self.pockets = pockets
+        self.fixed = self.grooved = pockets.fixed  # cells held, and those of them without drag
+        self.given = pockets.given(edge_pressure)
+        self.set_scale(0.0)
+        self.set_speed(0.0)
+
+        nx, nz = mesh.shape
+        n = nx * nz
+        self.ab = np.empty((n, 3 * mesh.bandwidth + 1))
+        self.state = np.empty((8, nx, nz))
+        self.elastic = False  # whether the gap follows the pressure
+        self.mirrors = 2.0 if mesh.half else 1.0
+        self.ambient: Array | float = 0.0  # of `_load`: what acts outside the film, N
+
+    def set_speed(self, speed: float) -> None:
+        """Set the speed of the shaft, rad/s."""
+        self.speed = speed
+        self.wedge = 0.5 * self.slope * speed
+
+    def set_scale(self, rate: float) -> None:
+        """Set the scale of pressure and unknowns, Pa, from the largest speed or squeeze, 1/s."""
+        feed = self.pockets.feed
+        fed = max(feed.largest_pressure, feed.largest_flow / self.pockets.flow_unit)
+        self.scale = max(0.5 * self.slope * rate, self.p_edge, fed, 1.0)
+
+    def fill(self, columns: NDArray[np.bool_], pressure: float) -> None:
+        """Make `columns` (nx,) of cells a groove at `pressure`, Pa."""
+        self.given = np.where(columns[:, None] & ~self.grooved, pressure, self.given)
+        self.fixed = self.grooved = self.grooved | columns[:, None]
+
+    def rest(self, columns: NDArray[np.bool_]) -> None:
+        """Hold `columns` (nx,) of cells at edge pressure: pads without load."""
+        self.fixed = self.grooved | columns[:, None]
+
+    def raise_scale(self, pressure: float) -> None:
+        """Raise the scale of pressure to at least `pressure`, Pa."""
+        self.scale = max(self.scale, pressure)
+
+    # --- state -----------------------------------------------------------------------------------
+    def unknown_of(self, pressure: Array) -> Array:
+        """Unknowns of a (not ruptured) pressure field."""
+        if self.kind != kernel.GAS_MIXTURE:
+            return np.array(pressure, dtype=float)
+        return pressure - self.scale * self.mixing / (pressure + self.mixing)
+
+    def start(self) -> Array:
+        """Unknowns of a film at edge pressure everywhere but in the grooves."""
+        return self.unknown_of(self.given)
+
+    def place(self, u: Array, position: Array) -> Array:
+        """Evaluate law and gap at `u` and `position`; returns the axes of the mesh's frame."""
+        self._apply_law(u)
+        return self.gap.place(position)
+
+    def _apply_law(self, u: Array) -> None:
+        """Fill `state` from the unknowns `u`."""
+        kernel.apply_law(self.kind, self.mixing, self.p_cav, self.scale, u, self.state)
+        if self.kind == kernel.REYNOLDS and self.pockets.free.size:
+            self._keep_full(u)
+
+    def _keep_full(self, u: Array) -> None:
+        """Keep the free grooves full: the complementarity has no row for their pressure."""
+        cells = self.pockets.free_cells
+        for row, value in ((kernel.P, u[cells]), (kernel.DP, 1.0), (kernel.SLACK, 0.0)):
+            self.state[row][cells] = value
+        self.state[kernel.LOAD][cells], self.state[kernel.DLOAD][cells] = u[cells], 1.0
+
+    # --- balance ---------------------------------------------------------------------------------
+    def _storage(self, coef: Array, around: Array, velocity: Array, rate: float) -> Array:
+        """Growth of the gap volume of each cell, (nx, rows), Pa."""
+        across = self.gap.across
+        moving = (around.T * velocity) @ across
+        return self.slope * (rate * coef[kernel.HM, :-1, : across.shape[1]] - moving)
+
+    def balance(self, coef: Array, mass: Array, change: Array | None = None) -> Array:
+        """Outflow of every cell (nx, nz) at the state last placed, or by a `change` of it."""
+        mesh = self.mesh
+        field = np.zeros(mesh.shape)
+        state, rim, line, full = self.state, self.p_edge, self.p_line, self.line_fill
+        if change is not None:
+            state, rim, line, full = change, 0.0, 0.0, 0.0
+        kernel.balance(
+            state, coef, mesh.dz, mesh.gz, mesh.closed, self.wedge,
+            rim, line, full, mass, self.fixed, field,
+        )  # fmt: skip
+        return field
+
+    def _residual(self, outflow: Array) -> Array:
+        """Balance of every cell (nx, nz) of which `outflow` leaves, after `place`."""
+        field = outflow + self.state[kernel.SLACK]
+        field[self.fixed] = 0.0
+        return field
+
+    def linearise(
+        self,
+        u: Array,
+        position: Array,
+        velocity: Array,
+        rate: float = 0.0,
+        old: Array | float = 0.0,
+    ) -> Linear:
+        """Newton matrix of the film at `u`, factorised, and what follows from it.
+
+        Parameters
+        ----------
+        u : array (nx, nz)
+            Unknowns.
+        position, velocity : array (2,)
+            Shaft centre, clearances, and its velocity, clearances per second.
+        rate : float
+            1/s; with `old` it makes the storage ``rate · F H − old`` of an implicit step.
+        old : array (nx, nz)
+            Storage of earlier times.
+        """
+        mesh = self.mesh
+        frame = self.place(u, position)
+        local = frame.T @ velocity
+        gap = self.gap
+        around, across = gap.around, gap.across
+        mass = self._storage(gap.coef, around, local, rate)
+        slopes = gap.slopes(position)
+        self._assemble(mass, rate)
+        lu, pivots, info = dgbtrf(self.ab.T, mesh.bandwidth, mesh.bandwidth, overwrite_ab=1)
+        if info:
+            raise SingularFilm(f"film matrix is singular in row {info} at eccentricity {position}")
+
+        outflow = self.balance(gap.coef, mass) - old
+        fields = [self._residual(outflow)]
+        fields += [self.balance(c, self._storage(c, a, local, rate)) for c, a in slopes]
+        squeeze = -self.slope * self.state[kernel.FILL] * mesh.dz
+        fields += [squeeze * np.outer(a, b) for a, b in zip(around, across)]
+        free = self.pockets.free
+        flows = [self.pockets.flows(f)[free] for f in (outflow, *fields[1:])] if free.size else []
+        for field in fields:
+            field[self.fixed] = 0.0
+        fields += [np.where(self.pockets.numbers == number, 1.0, 0.0) for number in free]
+        columns = np.empty((len(fields), mesh.angle.size * mesh.z.size))
+        for column, field in zip(columns, fields):
+            kernel.gather(field, mesh.order, column)
+        self._solve((lu, pivots), columns)
+        self._lag((lu, pivots), columns, gap.size)
+        if free.size:
+            columns = self._settle(columns, np.array(flows), mass)
+
+        carried = np.empty((columns.shape[0], gap.size))
+        slope = self.state[kernel.DLOAD]
+        kernel.carried_by(slope, around, across, mesh.dz, mesh.order, columns, carried)
+        carried *= self.mirrors * self.radius**2
+        load = self._load(around) - carried[0]
+        by_gap = [self._load(a) + self.ambient for _, a in slopes]
+        damping = -carried[-gap.size :].T
+        direct = [d - c for d, c in zip(by_gap, carried[1:])]
+        if mesh.polar:
+            ratio = max(float(np.hypot(*position)), 1e-9)
+            direct.append(_TURN @ load / ratio - damping @ (_TURN @ local) / ratio)
+        return Linear(
+            load=frame @ load,
+            stiffness=frame @ np.array(direct).T @ frame.T,
+            damping=frame @ damping @ frame.T,
+            columns=columns,
+        )
+
+    def _assemble(self, mass: Array, rate: float) -> None:
+        """Write the Newton matrix at the state last placed into the band."""
+        mesh = self.mesh
+        kernel.jacobian(
+            self.state, self.gap.coef, mesh.dz, mesh.gz, mesh.closed, self.wedge, mass,
+            mesh.order, self.fixed, self.ab,
+        )  # fmt: skip
+
+    def _solve(self, factors: tuple[Array, NDArray[np.int32]], columns: Array) -> None:
+        """Solve the Newton matrix for each of `columns` (l, n), in place."""
+        lu, pivots = factors
+        band = self.mesh.bandwidth
+        dgbtrs(lu, band, band, columns.T, pivots, overwrite_b=1)
+
+    def _lag(self, factors: tuple[Array, NDArray[np.int32]], columns: Array, size: int) -> None:
+        """Let the derivatives by velocity know what else moves with the shaft: nothing, if rigid.
+
+        After the Newton step, `columns` hold `size` derivatives by position (fewer where the mesh
+        turns) and `size` by velocity.
+        """
+
+    def _settle(self, columns: Array, direct: Array, mass: Array) -> Array:
+        """Let the pressure of the free grooves follow their flow in all `columns`."""
+        pockets, mesh = self.pockets, self.mesh
+        change = np.zeros_like(self.state)
+        through = np.empty((columns.shape[0], pockets.free.size))
+        for row, column in zip(through, columns):
+            field = column.reshape(mesh.shape)[mesh.order]
+            change[kernel.P] = self.state[kernel.DP] * field
+            change[kernel.FILL] = self.state[kernel.DFILL] * field
+            change[kernel.LOAD] = self.state[kernel.DLOAD] * field
+            outflow = self.balance(self.gap.coef, mass, change)
+            row[:] = pockets.flows(outflow)[pockets.free]
+        pressure = pockets.of_free(self.state[kernel.P])
+        slope = pockets.of_free(self.state[kernel.DP])
+        return pockets.settle(columns, direct, through, pressure, slope, self.scale)
+
+    def _load(self, around: Array) -> Array:
+        """∫ p N_j dA at the state last placed, whole film, in the mesh's frame, N."""
+        out = np.empty(self.gap.size)
+        load = self.state[kernel.LOAD]
+        kernel.load_of(load, around, self.gap.across, self.mesh.dz, out)
+        return self.mirrors * self.radius**2 * out - self.ambient
+
+    # --- what Newton needs -----------------------------------------------------------------------
+    def weights(self, position: Array, velocity: Array, target: Array, speed: Array) -> Array:
+        """Weights of `Linear.columns` in a step to position `target` and velocity `speed`."""
+        if not self.mesh.polar:
+            return np.concatenate([[1.0], target - position, speed - velocity])
+        far = math.hypot(*target) - math.hypot(*position)
+        turned = turning_frame(target).T @ speed - turning_frame(position).T @ velocity
+        return np.array([1.0, far, *turned])
+
+    def size(self, column: Array) -> float:
+        """Largest entry of a change of the unknowns over the pressure of the film."""
+        peak = float(self.state[kernel.LOAD].max())
+        return float(np.abs(column).max()) / max(self.scale, peak)
+
+    def correct(self, u: Array, columns: Array, weights: Array) -> float:
+        """Apply a Newton step to `u`; returns its largest change over the scale of pressure."""
+        return kernel.correct(u, columns, weights, self.mesh.order) / self.scale
+
+    def relax(self, give: float = 1.0) -> None:
+        """Let go of what pressure has deformed; from now on the shell gives way by a share `give`.
+
+        A rigid shell does not.
+        """
+
+    @property
+    def deformation(self) -> Array:
+        """Growth of the gap of the cells by the last pressure, (nx, nz), m."""
+        return np.zeros(self.mesh.shape)
+
+    def room_left(self, position: Array) -> float:
+        """Narrowest gap over the clearance, that between cells included; no limit if rigid."""
+        return math.inf
+
+    def target(self, position: Array, step: Array) -> Array:
+        """Where a step of the shaft may lead, if there is `room`."""
+        return self.gap.advance(position, step)
+
+    def room(self, u: Array, columns: Array, weights: Array, way: tuple[Array, Array]) -> float:
+        """Share of a Newton step that leaves a film between shaft and shell; `way`: from, to."""
+        return 1.0
+
+    def imbalance(
+        self,
+        u: Array,
+        position: Array,
+        velocity: Array,
+        force: Array | None = None,
+        rate: float = 0.0,
+        old: Array | float = 0.0,
+        free: slice | NDArray[np.int64] = EVERY,
+    ) -> float:
+        """Largest imbalance of a cell, and of the load if `force` is given, over their scales.
+
+        Only the degrees of freedom `free` need balance.
+        """
+        frame = self.place(u, position)
+        around = self.gap.around
+        mass = self._storage(self.gap.coef, around, frame.T @ velocity, rate)
+        flux = (abs(self.wedge) + self.scale) * self.mesh.dz.max()
+        outflow = self.balance(self.gap.coef, mass) - old
+        worst = float(np.abs(self._residual(outflow)).max()) / flux
+        if self.pockets.free.size:
+            worst = max(worst, self.pockets.missing(self.state[kernel.P], outflow, self.scale))
+        if force is not None:
+            scale = max(math.hypot(*force), self.scale * self.radius**2 * 1e-3)
+            missing = force - frame @ self._load(around)
+            worst = max(worst, math.hypot(*missing[free]) / scale)
+        return worst
+
+    def liquid(self) -> Array:
+        """Liquid in each cell (nx, nz) times the squeeze pressure, Pa s, at the last state."""
+        rows = self.gap.across.shape[1]
+        volume = self.gap.coef[kernel.HM, :-1, :rows] * self.mesh.dz
+        return self.slope * self.state[kernel.FILL] * volume
+
+    def stock(self) -> tuple[float, float]:
+        """Liquid outside the grooves, m³, and what it gains over rims and grooves, m³/s."""
+        mass = np.zeros((self.mesh.shape[0], self.gap.across.shape[1]))
+        outflow = self.balance(self.gap.coef, mass)
+        free = ~self.fixed
+        unit = self.pockets.flow_unit
+        return unit * float(self.liquid()[free].sum()), -unit * float(outflow[free].sum())
+
+    def resolves(self, position: Array) -> bool:
+        """Whether the cells resolve the narrowest gap, which is about √(2 (1 − ε)) rad wide.
+
+        Where they do not, Newton may well converge, to an ε that depends on where the cells lie.
+        """
+        cell = 2 * np.pi / self.mesh.shape[0]
+        ratio = min(math.hypot(*position), 1.0)
+        return bool(cell <= _CELLS * math.sqrt(2 * (1 - ratio)))
+
+    # --- results ---------------------------------------------------------------------------------
+    def dry(self, u: Array) -> bool:
+        """Whether a fed groove would have to rupture, which only laws with fill can follow."""
+        if self.kind in (kernel.MASS_CONSERVING, kernel.GAS_MIXTURE):
+            return False
+        return bool(np.any(self.pockets.of_free(u) < self.p_cav))
+
+    def field(self, u: Array, position: Array) -> tuple[Array, Array, Array, Array]:
+        """Pressure (Pa) and fill of the cells (nx, nz), their angle (nx,), and the load (N)."""
+        frame = self.place(u, position)
+        load = frame @ self._load(self.gap.around)
+        angle = self.mesh.angle
+        if self.mesh.polar:
+            stretch = self.mesh.strength * float(np.hypot(*position))
+            narrow = np.sqrt((1 - stretch) / (1 + stretch))
+            angle = 2 * np.arctan(narrow * np.tan(0.5 * angle)) + np.arctan2(
+                frame[1, 0], frame[0, 0]
+            )
+        return self.state[kernel.LOAD].copy(), self.state[kernel.FILL].copy(), angle, load

@@ -1,0 +1,116 @@
+"""Gap of a shell that gives way: that of `ShapedGap`, grown cell by cell."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from loadflow.journal.film.gap_mesh import ShapedMesh
+from loadflow.journal.film.gap_shaped import Bore, ShapedGap
+
+Array = NDArray[np.float64]
+
+
+class ElasticGap(ShapedGap):
+    """Gap ``H = H_0(θ, z) + W − Σ q_j N_j(θ, z)`` with a growth W of each cell.
+
+    Between cell centres the gap is that of the one up to their face and of the other beyond, which
+    the conductances in series of a face take as it is.
+
+    Parameters
+    ----------
+    mesh, bore
+        As for `ShapedGap`.
+    rims_give : bool
+        Whether the growth goes on to the rims, or ends there with the pressure.
+    """
+
+    def __init__(self, mesh: ShapedMesh, bore: Bore, rims_give: bool) -> None:
+        super().__init__(mesh, bore, along=True)
+        self._rigid_face, self._rigid_cell = self._face_gap, self._cell_gap
+        columns = np.arange(mesh.shape[0])
+        first, last = (columns[-1], 0) if mesh.closed else (0, columns[-1])
+        self._sides = np.append(first, columns), np.append(columns, last)
+        self._to_spots = _around(self._spots_angle, mesh), _across(self._spots_z, mesh, rims_give)
+        self.growth = np.zeros(mesh.shape)
+
+    def grow(self, growth: Array) -> None:
+        """Let the gaps of the cells grow by `growth` (nx, nz), clearances."""
+        self.growth = growth
+        self._face_gap = self._rigid_face + np.stack([growth[s] for s in self._sides], axis=1)
+        self._cell_gap = self._rigid_cell + growth
+
+    def gaps(self, position: Array) -> Array:
+        """Gap at the sampled places, in clearances; the growth runs straight between cells."""
+        around, across = self._to_spots
+        still = np.zeros((around.low.size, 1))
+        grown = np.hstack([around.of(self.growth), still])
+        return super().gaps(position) + across.of(grown.T).T
+
+    @property
+    def widths(self) -> Array:
+        """Areas of the cells (nx, nz), in units of R²."""
+        return np.outer(self._cell[2], self.mesh.dz)
+
+    @property
+    def nodes(self) -> tuple[Array, Array, Array, Array]:
+        """Places and gaps of faces, then of cells, where the shaft was last placed."""
+        face, cell = self.films(*self.moved)
+        return self._face, face, self._cell, cell
+
+    def films(self, ex: Array, ey: Array) -> tuple[Array, Array]:
+        """Gaps of faces (nx + 1, 2, nz) and cells (nx, nz) of a shaft that is at (`ex`, `ey`)."""
+        last = np.minimum(np.arange(len(ex) + 1), len(ex) - 1)
+        cos, sin = self._face[:2, :, :, None]
+        face = self._face_gap - ex[last, None] * cos - ey[last, None] * sin
+        cos, sin = self._cell[:2, :, None]
+        return face, self._cell_gap - ex * cos - ey * sin
+
+    def room(self, position: Array) -> float:
+        """Narrowest gap, in clearances, that the balance of the film takes up."""
+        return min(float(gaps.min()) for gaps in self.films(*self.centre(position)))
+
+
+class _Line(NamedTuple):
+    """Straight lines through neighbouring rows: their numbers, and the share of the higher."""
+
+    low: NDArray[np.int64]
+    high: NDArray[np.int64]
+    share: Array
+
+    @classmethod
+    def through(cls, nodes: Array, rows: NDArray[np.int64], places: Array) -> _Line:
+        """Lines through `rows`, which lie at `nodes`, to `places`."""
+        at = np.clip(np.searchsorted(nodes, places) - 1, 0, nodes.size - 2)
+        share = (places - nodes[at]) / (nodes[at + 1] - nodes[at])
+        return cls(rows[at], rows[at + 1], share[:, None])
+
+    def of(self, values: Array) -> Array:
+        """Values (rows, m) on the lines, (places, m)."""
+        return (1.0 - self.share) * values[self.low] + self.share * values[self.high]
+
+
+def _around(angle: Array, mesh: ShapedMesh) -> _Line:
+    """Lines between the cells around, to `angle`."""
+    count = mesh.angle.size
+    numbers = np.arange(-1, count + 1) if mesh.closed else np.arange(count)
+    turns, cells = np.divmod(numbers, count)
+    return _Line.through(mesh.angle[cells] + 2 * np.pi * turns, cells, angle)
+
+
+def _across(z: Array, mesh: ShapedMesh, rims_give: bool) -> _Line:
+    """Lines between the cells across, to `z`, mirrored at mid-plane where that is an end.
+
+    Behind the cells there is a row that stays: the rims, if they do not give.
+    """
+    count = mesh.z.size
+    nodes, rows = mesh.z, np.arange(count)
+    if not rims_give:
+        nodes, rows = np.append(nodes, mesh.z_edges[-1]), np.append(rows, count)
+    if mesh.half:
+        nodes, rows = np.append(-mesh.z[0], nodes), np.append(0, rows)
+    elif not rims_give:
+        nodes, rows = np.append(mesh.z_edges[0], nodes), np.append(count, rows)
+    return _Line.through(nodes, rows, z)

@@ -1,0 +1,182 @@
+"""Cells of a film whose gap has a shape: they fit its lobes, grooves and recesses."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from loadflow.journal.film.mesh import Mesh, check_grid, graded_share
+from loadflow.journal.shapes import Recess, Relief, Segment
+
+Array = NDArray[np.float64]
+_TURN = 2 * np.pi
+_SLIVER = 1e-7  # share of a groove in its outermost cells, so that its pressure acts at its edge
+_FEWEST = 4  # cells around of a segment
+
+
+@dataclass(frozen=True, eq=False)
+class ShapedMesh(Mesh):
+    """Cells fixed to the shell. Open where there are segments: both ends lie in one groove.
+
+    Attributes
+    ----------
+    segment : array of int (nx,)
+        Segment that each column of cells belongs to; grooves are shared out between neighbours.
+    groove : array of bool (nx,)
+        Columns in a groove between two segments.
+    marks : array of bool (nx + 1,)
+        Cell edges at which the gap may step.
+    graded : bool
+        Whether cells crowd at the rims.
+    """
+
+    segment: NDArray[np.int64]
+    groove: NDArray[np.bool_]
+    marks: NDArray[np.bool_]
+    graded: bool
+
+    @property
+    def rims(self) -> tuple[float, float]:
+        """Distances of the outermost cell centres to the rims, as exact as graded cells allow."""
+        if not self.graded:
+            return super().rims
+        distance = _rim_distance(self.z_edges[self.z_edges >= 0.0])
+        return distance, distance
+
+    @cached_property
+    def face_angles(self) -> tuple[Array, Array]:
+        """Nodes between cell centres, one on either side of a face: angles and weights (nx + 1, 2).
+
+        Both lie on the face itself but where the gap may step.
+        """
+        width = np.diff(self.edges)
+        first, last = (width[-1], width[0]) if self.closed else (0.0, 0.0)
+        sides = 0.5 * np.stack([np.append(first, width), np.append(width, last)], axis=-1)
+        away = np.where(self.marks[:, None], 0.5 * sides * np.array([-1.0, 1.0]), 0.0)
+        return self.edges[:, None] + away, sides
+
+
+def shaped_mesh(
+    width_ratio: float,
+    grid: tuple[int, int],
+    half: bool,
+    graded: bool,
+    segments: tuple[Segment, ...],
+    marks: Iterable[float],
+    marks_across: Sequence[float],
+) -> ShapedMesh:
+    """Mesh of a shaped gap.
+
+    Parameters
+    ----------
+    width_ratio : float
+        B/D.
+    grid : tuple of int
+        Cells around (on the segments together, where there are some) and across the full width.
+    half : bool
+        Whether one half of the width stands for both.
+    graded : bool
+        Whether cells crowd at the rims.
+    segments : tuple of Segment
+        Lobes or pads; none for a bore that runs round.
+    marks, marks_across : sequence of float
+        Angles (rad) and axial places (shaft radii) at which the gap may step.
+    """
+    around, across = check_grid(grid)
+    turns = np.array(sorted(marks), dtype=float)
+    if segments:
+        edges, segment, groove = _around_segments(segments, turns, around)
+    else:
+        start = turns[0] if turns.size else 0.0
+        edges = _between(start, start + _TURN, turns, around)
+        segment = np.zeros(edges.size - 1, dtype=np.int64)
+        groove = np.zeros(edges.size - 1, dtype=bool)
+    away = (edges[:, None] - turns[None, :] + np.pi) % _TURN - np.pi
+    return ShapedMesh(
+        edges=edges,
+        z_edges=_across(width_ratio, across, half, graded, marks_across),
+        closed=not segments,
+        polar=False,
+        strength=0.0,
+        nodes=1,
+        segment=segment,
+        groove=groove,
+        marks=(np.abs(away) < 1e-9).any(axis=1),
+        graded=graded and not marks_across,
+    )
+
+
+def _rim_distance(edges: Array) -> float:
+    """Distance from the outermost cell centre to the rim that makes a parabola's load exact.
+
+    `edges` run from mid-plane 0 to the rim b. Cells of p'' = −1 have the exact flow p' = −z at
+    their edges; what is free is p of the outermost cell, which Σ p dz = b³/3 asks for. Half a cell
+    leaves the load too large by more than all other errors across the width.
+    """
+    centres, widths = 0.5 * (edges[1:] + edges[:-1]), np.diff(edges)
+    falls = np.append(edges[1:-1] * np.diff(centres), 0.0)
+    above = np.cumsum(falls[::-1])[::-1]  # pressure over that of the outermost cell
+    rim = float(edges[-1])
+    return float((rim**3 / 3.0 - above @ widths) / rim**2)
+
+
+def recess_marks(relief: tuple[Relief, ...], radius: float, width: float) -> tuple[list, list]:
+    """Angles and axial places (shaft radii) of the edges of all recesses."""
+    recesses = [part for part in relief if isinstance(part, Recess)]
+    turns = [angle for recess in recesses for angle in recess.around()]
+    places = [z for recess in recesses for z in recess.across(width) if abs(z) < 0.5 * width]
+    return turns, [z / radius for z in places]
+
+
+def _around_segments(
+    segments: tuple[Segment, ...], turns: Array, cells: int
+) -> tuple[Array, NDArray[np.int64], NDArray[np.bool_]]:
+    """Cell edges from the first segment's start to the last one's end; a groove takes 3 cells."""
+    total = sum(s.end - s.start for s in segments)
+    edges, segment, groove = [np.array([segments[0].start])], [], []
+    for number, part in enumerate(segments):
+        if number:
+            gap = part.start - segments[number - 1].end
+            inner = segments[number - 1].end + gap * np.array([_SLIVER, 1 - _SLIVER, 1.0])
+            edges.append(inner)
+            segment += [number - 1, number - 1, number]
+            groove += [True] * 3
+        wanted = max(_FEWEST, round(cells * (part.end - part.start) / total))
+        own = _between(part.start, part.end, turns, wanted)
+        edges.append(own[1:])
+        segment += [number] * (own.size - 1)
+        groove += [False] * (own.size - 1)
+    return np.concatenate(edges), np.array(segment), np.array(groove)
+
+
+def _between(start: float, end: float, marks: Array, cells: int) -> Array:
+    """About `cells` even cells from `start` to `end`, with edges on the `marks` between them."""
+    inside = start + (marks - start) % _TURN
+    inside = inside[(inside > start + 1e-9) & (inside < end - 1e-9)]
+    return _filled(np.concatenate([[start], np.unique(np.round(inside, 12)), [end]]), cells)
+
+
+def _filled(breaks: Array, cells: int) -> Array:
+    """Even cells between `breaks`, about `cells` in all."""
+    counts = np.maximum(np.rint(np.diff(breaks) / np.ptp(breaks) * cells).astype(int), 1)
+    parts = [np.linspace(a, b, n + 1)[:-1] for a, b, n in zip(breaks[:-1], breaks[1:], counts)]
+    return np.append(np.concatenate(parts), breaks[-1])
+
+
+def _across(
+    width_ratio: float, cells: int, half: bool, graded: bool, marks: Sequence[float]
+) -> Array:
+    """Cell edges across, in shaft radii, from mid-plane or from rim to rim."""
+    inside = [z for z in marks if not half or z > 0]
+    if inside:
+        low = 0.0 if half else -width_ratio
+        breaks = np.unique(np.round([low, *inside, width_ratio], 12))
+        return _filled(breaks, cells // 2 if half else cells)
+    share = graded_share(cells // 2) if graded else np.linspace(0.0, 1.0, cells // 2 + 1)
+    if not half:
+        share = np.concatenate([-share[:0:-1], share])
+    return width_ratio * share

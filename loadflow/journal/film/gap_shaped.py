@@ -1,0 +1,251 @@
+"""Gap of any shape around a shaft that may tilt and bend; pads that tilt."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from loadflow.journal.film import _kernels as kernel
+from loadflow.journal.film.gap import KEPT
+from loadflow.journal.film.gap_mesh import ShapedMesh
+from loadflow.journal.shapes import Relief, Segment
+
+Array = NDArray[np.float64]
+_STAYS = 1e-3  # readiness of a shaft that nothing holds to move, against that of its pad
+_SMALL_LIFT = 0.03  # tilt of a pad, in clearances, from which it may grow threefold in a step
+_FINE = np.radians(0.5)  # distance of the angles at which the narrowest gap is sought
+
+
+@dataclass(frozen=True)
+class Bore:
+    """Bore of a bearing: segments, relief, and the lengths that make its gap dimensionless (m)."""
+
+    segments: tuple[Segment, ...]
+    relief: tuple[Relief, ...]
+    radius: float
+    width: float
+    clearance: float
+
+    @property
+    def along(self) -> bool:
+        """Whether the gap changes along the axis."""
+        return bool(self.relief)
+
+    @property
+    def pads(self) -> list[int]:
+        """Numbers of the segments that tilt."""
+        return [number for number, part in enumerate(self.segments) if part.tilting]
+
+    def gap(self, angle: Array, segment: NDArray[np.int64], z: Array) -> Array:
+        """Gap of the centred shaft in clearances, (n, m).
+
+        Parameters
+        ----------
+        angle, segment : array (n,)
+            rad, and the segment that each lies in.
+        z : array (m,)
+            Shaft radii from mid-plane.
+        """
+        around = np.ones(angle.size)
+        if self.segments:
+            preload = np.array([part.preload for part in self.segments])[segment]
+            narrowest = np.array([part.narrowest for part in self.segments])[segment]
+            around = (1.0 - preload * np.cos(angle - narrowest)) / (1.0 - preload)
+        total = np.repeat(around[:, None], z.size, axis=1)
+        for part in self.relief:
+            total += part.added(angle, z * self.radius, self.width) / self.clearance
+        return total
+
+
+class ShapedGap:
+    """Gap ``H = H_0(θ, z) − Σ q_j N_j(θ, z)`` on a mesh fixed to the shell.
+
+    The degrees of freedom q are the eccentricity (x, y); on a mesh of the full width also the
+    rotations of the shaft about x and y, in clearances per shaft radius; and one tilt for each
+    pad, in clearances: how far it lifts the film a quarter turn before the pivot.
+
+    Parameters
+    ----------
+    mesh : ShapedMesh
+        Cells.
+    bore : Bore
+        What tells H_0.
+    along : bool
+        Whether to keep a row for each cell across even where the gap does not change there.
+    """
+
+    def __init__(self, mesh: ShapedMesh, bore: Bore, along: bool = False) -> None:
+        self.mesh = mesh
+        self.bore = bore
+        self.tilts = not mesh.half
+        self.shaft = 4 if self.tilts else 2
+        self.size = self.shaft + len(bore.pads)
+        self.ease = np.repeat([_STAYS, 1.0], [self.shaft, len(bore.pads)])
+        nx, nz = mesh.shape
+        along = along or self.tilts or bore.along
+        rows = nz if along else 1
+        z = mesh.z if along else np.zeros(1)
+
+        pivots = np.array([bore.segments[number].narrowest for number in bore.pads])
+        self._tangents = np.stack([-np.sin(pivots), np.cos(pivots)], axis=-1)
+        self._modes = self._shifts(mesh.segment)
+        self.across = self._lengthwise(z)
+        angles, weights = mesh.face_angles
+        self._face = np.ascontiguousarray([np.cos(angles), np.sin(angles), weights])
+        self._cell = np.array([np.cos(mesh.angle), np.sin(mesh.angle), np.diff(mesh.edges)])
+        columns = np.arange(nx)
+        sides = np.append(0, columns), np.append(columns, nx - 1)
+        nodes = [bore.gap(a, mesh.segment[side], z) for a, side in zip(angles.T, sides)]
+        self._face_gap = np.ascontiguousarray(np.stack(nodes, axis=1))
+        self._cell_gap = bore.gap(mesh.angle, mesh.segment, z)
+        self._around = np.einsum("jid,di->ji", self._modes, self._cell[:2] * self._cell[2])
+        self._around[self.shaft :, mesh.groove] = 0.0  # grooves do not press on pads
+
+        shape = (8, nx + 1, rows + (1 if along else 0))
+        self.coef, self._by_x, self._by_y = np.zeros(shape), np.zeros(shape), np.zeros(shape)
+        self.line = np.zeros((2, rows))
+        self._z = z
+        self._sample()
+
+    def _shifts(self, segment: NDArray[np.int64]) -> Array:
+        """Direction (x, y) in which each degree of freedom shifts the shaft, (m, n, 2)."""
+        shifts = np.zeros((self.size, segment.size, 2))
+        shifts[0, :, 0] = shifts[1, :, 1] = 1.0
+        if self.tilts:
+            shifts[2, :, 1], shifts[3, :, 0] = -1.0, 1.0
+        for row, number in enumerate(self.bore.pads, start=self.shaft):
+            shifts[row, segment == number] = self._tangents[row - self.shaft]
+        return shifts
+
+    def _lengthwise(self, z: Array) -> Array:
+        """Factor of each mode along the axis, (m, rows)."""
+        across = np.ones((self.size, z.size))
+        if self.tilts:
+            across[2:4] = z
+        return across
+
+    def _sample(self) -> None:
+        """Places at which the narrowest gap is sought: H_0, cosine and sine, modes there."""
+        mesh = self.mesh
+        columns = np.flatnonzero(~mesh.groove)
+        parts = [
+            np.linspace(mesh.edges[i], mesh.edges[i + 1], 2 + int(mesh.dx[i] / _FINE))
+            for i in columns
+        ]
+        angle = np.concatenate(parts)
+        segment = np.repeat(mesh.segment[columns], [part.size for part in parts])
+        z = mesh.z_edges if self._z.size > 1 else self._z
+        inner = np.clip(angle, angle[0] + 1e-9, angle[-1] - 1e-9)
+        self._spots = self.bore.gap(inner, segment, z)
+        facing = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+        self._reach = np.einsum("jid,id->ji", self._shifts(segment), facing)
+        self._lengths = self._lengthwise(z)
+        self._facing, self._spots_angle, self._spots_z = facing, angle, z
+        self._spots_line = np.zeros((2, z.size))
+
+    # --- the shaft's centre line -----------------------------------------------------------------
+    def bend(self, curvature: Array) -> None:
+        """Bend the shaft: curvature (2,) of its centre line over that of one clearance per R²."""
+        self.line = 0.5 * np.outer(curvature, self._z**2)
+        self._spots_line = 0.5 * np.outer(curvature, self._spots_z**2)
+
+    def gaps(self, position: Array) -> Array:
+        """Gap at the sampled places, in clearances."""
+        moved = (self._reach.T * position) @ self._lengths
+        return np.asarray(self._spots - moved - self._facing @ self._spots_line)
+
+    def uniform(self) -> Array:
+        """∫ N_j over the film (m,), in units of R²."""
+        return np.asarray(self._around.sum(axis=1) * (self.across * self.mesh.dz).sum(axis=1))
+
+    def facing_groove(self) -> Array:
+        """∫ N_j over the groove in which the film begins and ends (m,), in units of R²."""
+        first, last = self.bore.segments[0].start + 2 * np.pi, self.bore.segments[-1].end
+        out = np.zeros(self.size)
+        out[:2] = np.sin(first) - np.sin(last), np.cos(last) - np.cos(first)
+        return out * float(self.mesh.dz.sum())
+
+    # --- what the film asks ----------------------------------------------------------------------
+    @property
+    def around(self) -> Array:
+        """Modes, integrated over the cells around (m, nx)."""
+        return self._around
+
+    def place(self, position: Array) -> Array:
+        """Evaluate `coef` at `position`; the frame of the mesh is that of the shell."""
+        self.moved = self.centre(position)
+        kernel.shaped_coefficients(
+            self._face, self._face_gap, self._cell, self._cell_gap, *self.moved,
+            self.coef, self._by_x, self._by_y,
+        )  # fmt: skip
+        kernel.faces_across(self.coef, self.mesh.dz, False, self.coef)
+        return np.eye(self.size)
+
+    def centre(self, position: Array) -> tuple[Array, Array]:
+        """Where the shaft is seen to be from each cell, x and y (nx, rows)."""
+        ex, ey = (
+            np.ascontiguousarray((modes.T * position) @ self.across + line)
+            for modes, line in zip(np.moveaxis(self._modes, 2, 0), self.line)
+        )
+        return ex, ey
+
+    def slopes(self, position: Array) -> list[tuple[Array, Array]]:
+        """Derivatives of (`coef`, `around`) by the position, where it was last placed."""
+        still = np.zeros_like(self._around)
+        slopes = []
+        for (ax, ay), across in zip(np.swapaxes(self._modes, 1, 2), self.across):
+            out = np.zeros_like(self.coef)
+            kernel.mode_slope(self._by_x, self._by_y, ax.copy(), ay.copy(), across, out)
+            kernel.faces_across(self.coef, self.mesh.dz, True, out)
+            slopes.append((out, still))
+        return slopes
+
+    def advance(self, position: Array, step: Array) -> Array:
+        """Position after `step`, of which every place keeps at least a third of its gap."""
+        gaps = self.gaps(position)
+        closing = (self._reach.T * step) @ self._lengths
+        worst = float((closing / gaps).max())
+        target = position + step * min(1.0, (1.0 - KEPT) / worst if worst > 0 else 1.0)
+        for row in (self.shaft + np.flatnonzero(step[self.shaft :])).tolist():
+            before, after = self._lift(row, position), self._lift(row, target)
+            # a pad that tilts the other way has no film, and would stay so
+            low, high = KEPT * abs(before), max(abs(before), _SMALL_LIFT) / KEPT
+            kept = math.copysign(min(max(math.copysign(after, after * before), low), high), before)
+            target[row] += kept - after
+        return target
+
+    def _lift(self, row: int, position: Array) -> float:
+        """Tilt of a pad against the shaft: its own less the way of the shaft past it."""
+        return float(position[row] + position[:2] @ self._tangents[row - self.shaft])
+
+    def narrowest(self, position: Array) -> float:
+        """Narrowest gap over the clearance; ≤ 0 where the shaft would touch the bore."""
+        return float(self.gaps(position).min())
+
+    def closest(self, position: Array) -> tuple[float, float, float]:
+        """Narrowest gap (clearances), its angle (rad) and axial place (shaft radii)."""
+        gaps = self.gaps(position)
+        i, k = np.unravel_index(gaps.argmin(), gaps.shape)
+        angle = math.atan2(self._facing[i, 1], self._facing[i, 0])
+        return float(gaps[i, k]), angle, float(self._spots_z[k])
+
+    def roomiest(self, position: Array, free: NDArray[np.int64]) -> Array:
+        """Position with the widest narrowest gap, when only the degrees of freedom `free` move."""
+        from scipy.optimize import linprog
+
+        held = position.copy()
+        held[free] = 0.0
+        room = self.gaps(held).ravel()
+        taken = (self._reach[free, :, None] * self._lengths[free, None, :]).reshape(free.size, -1)
+        # widest t with taken·q + t ≤ room
+        answer = linprog(
+            np.append(np.zeros(free.size), -1.0),
+            A_ub=np.column_stack([taken.T, np.ones(room.size)]),
+            b_ub=room,
+            bounds=[(None, None)] * free.size + [(None, 1.0)],
+        )
+        held[free] = answer.x[:-1]
+        return held

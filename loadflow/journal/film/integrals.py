@@ -1,0 +1,92 @@
+"""Integrals over a solved film: pressure, friction, flows, fill, and what the grooves feed."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from loadflow.journal.film import _kernels as kernel
+from loadflow.journal.film.groove_pressure import UNSUPPLIED
+
+if TYPE_CHECKING:
+    from loadflow.journal.film.film import Film
+
+Array = NDArray[np.float64]
+
+
+class Integrals(NamedTuple):
+    """Integrals over the solved film in the units of `_kernels`; numbers, or arrays over states.
+
+    Largest pressure, dissipation, shear, flow over the rims, total fill.
+    """
+
+    peak: Any
+    dissipation: Any
+    shear: Any
+    outflow: Any
+    fill: Any
+
+
+def summary(film: Film, u: Array, position: Array) -> dict[str, Any]:
+    """Integral results at `u`, in SI units, named as in `Equilibrium`."""
+    film.place(u, position)
+    mesh = film.mesh
+    peak, dissipation, shear, outflow, liquid, volume = kernel.integrals(
+        film.state, film.gap.coef, mesh.dz, mesh.gz, mesh.closed,
+        film.p_edge, film.p_line, film.grooved,
+    )  # fmt: skip
+    found = Integrals(peak, dissipation, shear, outflow, liquid / volume)
+    return {
+        **in_units(film, found, film.speed, film.gap.narrowest(position)),
+        **_supplied(film, u),
+    }
+
+
+def in_units(film: Film, found: Integrals, speed: Any, narrowest: Any) -> dict[str, Any]:
+    """Name `found` at `speed` and `narrowest` gap as in `Equilibrium`, in SI units."""
+    clearance = film.relative_clearance * film.radius
+    flow = film.pockets.flow_unit
+    drag = film.mirrors * film.viscosity * speed**2 * film.radius**4 / clearance
+    return {
+        "minimum_film": clearance * narrowest,
+        "maximum_pressure": found.peak,
+        "friction_power": flow * found.dissipation + drag * found.shear,
+        "side_flow": flow * found.outflow,
+        "total_fill": found.fill,
+    }
+
+
+def _supplied(film: Film, u: Array) -> dict[str, Any]:
+    """Flow and pressure of the grooves at the state last placed, named as in `Equilibrium`."""
+    pockets = film.pockets
+    if not film.ends_supply and not film.fixed.any():
+        return UNSUPPLIED
+    mass = np.zeros((film.mesh.shape[0], film.gap.across.shape[1]))
+    outflow = film.balance(film.gap.coef, mass)
+    flows = pockets.flows(outflow)
+    shaped = float(outflow[film.fixed & ~pockets.fixed].sum()) + _from_ends(film)
+    pressure = film.state[kernel.P].ravel()[pockets.samples]
+    lack = film.unknown_of(np.array(film.p_edge)) - pockets.of_free(u)
+    return {
+        "supply_flow": float(flows.sum()) + pockets.flow_unit * shaped,
+        "supply_power": pockets.feed.power(pressure, flows),
+        "groove_flow": flows,
+        "groove_pressure": pressure,
+        "starved": bool(np.any(lack > 1e-9 * film.scale)),
+    }
+
+
+def _from_ends(film: Film) -> float:
+    """Flow in at both ends of the film, where these are grooves."""
+    if not film.ends_supply:
+        return 0.0
+    total = 0.0
+    for cell, sign in ((0, 1.0), (-1, -1.0)):
+        pressure, fill = (film.state[row, cell] for row in (kernel.P, kernel.FILL))
+        upstream = film.line_fill if sign * film.wedge > 0 else fill
+        g, e = film.gap.coef[[kernel.G, kernel.E], cell, : film.mesh.z.size]
+        flow = g * (film.p_line - pressure) + sign * film.wedge * e * upstream
+        total += float(film.mesh.dz @ flow)
+    return total

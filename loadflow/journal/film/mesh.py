@@ -1,0 +1,182 @@
+"""Cells of the film: around in the coordinate of the Sommerfeld map, across to the rims."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from loadflow.journal.film.grooves import edges_across, edges_around
+from loadflow.journal.options import require
+from loadflow.journal.supply import Supply
+
+Array = NDArray[np.float64]
+
+MAP_STRENGTH = (
+    0.95  # of the Sommerfeld map, times the eccentricity ratio: least error up to ε = 0.99
+)
+RIM_STRENGTH = 0.8  # share of the sine in the axial grading toward the rim
+
+
+@dataclass(frozen=True, eq=False)
+class Mesh:
+    """Cells of the half or the whole film.
+
+    Attributes
+    ----------
+    edges : array (nx + 1,)
+        Cell edges around, in the coordinate a of the Sommerfeld map, rad.
+    z_edges : array (nz + 1,)
+        Cell edges across, from mid-plane 0 or from the other rim to the rim, in shaft radii.
+    closed : bool
+        Whether the film runs round; else both ends lie on an inlet line.
+    polar : bool
+        Whether the mesh turns with the eccentricity (θ = 0 at the narrowest gap); else it is fixed
+        to the shell.
+    strength : float
+        Strength of the Sommerfeld map over the eccentricity ratio (polar meshes only).
+    nodes : int
+        Gauss points of the integrals over cells.
+    """
+
+    edges: Array
+    z_edges: Array
+    closed: bool
+    polar: bool
+    strength: float
+    nodes: int
+
+    @cached_property
+    def angle(self) -> Array:
+        """Cell centres around, in the coordinate of the map."""
+        return 0.5 * (self.edges[1:] + self.edges[:-1])
+
+    @cached_property
+    def z(self) -> Array:
+        """Cell centres across, in shaft radii."""
+        return 0.5 * (self.z_edges[1:] + self.z_edges[:-1])
+
+    @cached_property
+    def dx(self) -> Array:
+        """Cell widths around, in the coordinate of the map."""
+        return np.diff(self.edges)
+
+    @cached_property
+    def dz(self) -> Array:
+        """Cell widths across."""
+        return np.diff(self.z_edges)
+
+    @property
+    def half(self) -> bool:
+        """Whether only the half from mid-plane to one rim is solved."""
+        return bool(self.z_edges[0] == 0.0)
+
+    @property
+    def rims(self) -> tuple[float, float]:
+        """Distances of the outermost cell centres to the ends of `z_edges`."""
+        return float(self.z[0] - self.z_edges[0]), float(self.z_edges[-1] - self.z[-1])
+
+    @cached_property
+    def gz(self) -> Array:
+        """Inverse distances between cell centres and to the rims (nz + 1,); 0 at mid-plane."""
+        first, last = self.rims
+        inverse = 1.0 / np.concatenate([[first], np.diff(self.z), [last]])
+        if self.half:
+            inverse[0] = 0.0
+        return inverse
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Cells around and across."""
+        return self.angle.size, self.z.size
+
+    @cached_property
+    def order(self) -> NDArray[np.int64]:
+        """Place of each column of cells in the band; a closed film is folded (0, N−1, 1, …)."""
+        turn = np.arange(self.angle.size)
+        if not self.closed:
+            return turn
+        return np.where(2 * turn < turn.size, 2 * turn, 2 * (turn.size - turn) - 1)
+
+    @property
+    def bandwidth(self) -> int:
+        """Half bandwidth of the Jacobian."""
+        return (2 if self.closed else 1) * self.z.size
+
+    @cached_property
+    def trigonometry(self) -> tuple[Array, Array, Array, Array, Array, Array]:
+        """Cosine, sine and weight at the Gauss points between centres, then inside cells."""
+        a = self.angle
+        ends = (a[-1] - 2 * np.pi, a[0] + 2 * np.pi) if self.closed else self.edges[[0, -1]]
+        between = np.concatenate([[ends[0]], a, [ends[1]]])
+        return (*_gauss(between, self.nodes), *_gauss(self.edges, self.nodes))
+
+
+def _gauss(edges: Array, nodes: int) -> tuple[Array, Array, Array]:
+    """Cosine, sine and weight of Gauss points between `edges`, each (intervals, nodes)."""
+    x, w = np.polynomial.legendre.leggauss(nodes)
+    half = 0.5 * np.diff(edges)[:, None]
+    a = 0.5 * (edges[1:] + edges[:-1])[:, None] + half * x
+    return np.cos(a), np.sin(a), np.ascontiguousarray(half * w)
+
+
+def check_grid(grid: tuple[int, int]) -> tuple[int, int]:
+    """Cells around and across the full width, if they are possible."""
+    nx, nz = int(grid[0]), int(grid[1])
+    require(nx >= 8, "grid[0]", nx, "at least 8 cells around")
+    require(nz >= 2 and nz % 2 == 0, "grid[1]", nz, "an even number of cells across the width")
+    return nx, nz
+
+
+def graded_share(cells: int) -> Array:
+    """Edges of `cells` from mid-plane 0 to rim 1 that crowd at the rim."""
+    share = np.linspace(0.0, 1.0, cells + 1)
+    return (1 - RIM_STRENGTH) * share + RIM_STRENGTH * np.sin(0.5 * np.pi * share)
+
+
+@lru_cache(maxsize=32)
+def build_mesh(
+    width_ratio: float,
+    grid: tuple[int, int],
+    graded: bool,
+    inlet: bool,
+    supply: Supply | None,
+    radius: float,
+) -> Mesh:
+    """Mesh of a bearing of width over diameter `width_ratio`.
+
+    Parameters
+    ----------
+    width_ratio : float
+        B/D.
+    grid : tuple of int
+        Cells around and across the full width (even).
+    graded : bool
+        Graded around the narrowest gap and toward the rims, else uniform.
+    inlet : bool
+        Inlet line at the widest gap.
+    supply : Supply or None
+        Grooves of the shell; the mesh is then fixed to the shell, with edges on the grooves'.
+    radius : float
+        Of the shaft, m.
+    """
+    nx, nz = check_grid(grid)
+    share = graded_share(nz // 2) if graded else np.linspace(0.0, 1.0, nz // 2 + 1)
+    z_edges = width_ratio * share
+    polar = supply is None and (graded or inlet)
+    if supply is None:
+        start = -np.pi if polar else 0.0
+        edges = start + np.linspace(0.0, 2 * np.pi, nx + 1)
+    else:
+        edges = edges_around(nx, supply.grooves, radius)
+        z_edges = edges_across(z_edges, supply.grooves, radius)
+    return Mesh(
+        edges=edges,
+        z_edges=z_edges,
+        closed=not inlet,
+        polar=polar,
+        strength=MAP_STRENGTH if graded and polar else 0.0,
+        nodes=3 if graded else 1,
+    )

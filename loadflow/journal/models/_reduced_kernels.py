@@ -1,0 +1,253 @@
+"""Compiled operators of the film with few unknowns across the width.
+
+Units and laws are those of `_kernels`. The balance of point k of cell column i, over its width, is
+
+    flux(i + ½) − flux(i − ½) + Δθ H³ Σ stiffness · (p − p_edge) + storage = 0,
+    flux = weight · (wedge · F · H − H³ ∂p),   storage = slope · Δθ · weight · (rate · F H − old)
+
+with the cells fixed to the shell. `ring` and `work` are those of the module `ring`.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from loadflow.journal.film._kernels import (
+    DFILL,
+    DLOAD,
+    DP,
+    DSLACK,
+    FILL,
+    LOAD,
+    SLACK,
+    P,
+    apply_law,
+)
+from loadflow.journal.models.reduced_film import DISSIPATION, FILLED, OUTFLOW, PEAK, SHEAR, X, Y
+
+
+@njit(cache=True, nogil=True)
+def place(ring, work, x, y):
+    """Evaluate law and gap at the unknowns and the position (x, y)."""
+    apply_law(ring.kind, ring.mixing, ring.p_cav, ring.scale, work.u, work.state)
+    for i in range(ring.cos.size):
+        work.gap[i] = 1.0 - x * ring.cos[i] - y * ring.sin[i]
+        work.gap_face[i] = 1.0 - x * ring.cos_face[i] - y * ring.sin_face[i]
+
+
+@njit(cache=True, nogil=True)
+def balance(ring, work, wedge, rate):
+    """Residual of the cells and its derivatives by the position into `columns`, after `place`.
+
+    Returns the largest residual and the load ∫ p (cos θ, sin θ) dA, N.
+    """
+    nx, m = work.u.shape
+    step = 2.0 * np.pi / nx
+    axial = ring.axial
+    p = work.state[P]
+    fill = work.state[FILL]
+    columns = work.columns
+    squeeze = ring.slope * step
+    fx = 0.0
+    fy = 0.0
+    for i in range(nx):
+        base = ring.order[i] * m
+        c = ring.cos[i]
+        s = ring.sin[i]
+        h = work.gap[i]
+        h3 = step * h * h * h
+        slope3 = -3.0 * step * h * h
+        load = 0.0
+        for k in range(m):
+            outflow = 0.0
+            for j in range(m):
+                outflow += axial.stiffness[k, j] * (p[i, j] - ring.p_edge)
+            held = squeeze * axial.weights[k]
+            by_gap = slope3 * outflow - held * rate * fill[i, k]
+            columns[base + k, 0] = (
+                h3 * outflow
+                + held * (rate * fill[i, k] * h - work.liquid[0, i, k])
+                + work.state[SLACK, i, k]
+            )
+            columns[base + k, 1] = c * by_gap
+            columns[base + k, 2] = s * by_gap
+            load += axial.weights[k] * work.state[LOAD, i, k]
+        fx += load * c
+        fy += load * s
+    for i in range(nx):  # face between cell i and the next one
+        right = i + 1 if i + 1 < nx else 0
+        base = ring.order[i] * m
+        base_r = ring.order[right] * m
+        h = work.gap_face[i]
+        g = h * h * h / step
+        by_g = 3.0 * h * h / step
+        upwind = i if wedge > 0 else right
+        for k in range(m):
+            w = axial.weights[k]
+            rise = p[right, k] - p[i, k]
+            flow = wedge * fill[upwind, k]
+            q = w * (flow * h - g * rise)
+            dq = w * (flow - by_g * rise)
+            dx = -dq * ring.cos_face[i]
+            dy = -dq * ring.sin_face[i]
+            columns[base + k, 0] += q
+            columns[base + k, 1] += dx
+            columns[base + k, 2] += dy
+            columns[base_r + k, 0] -= q
+            columns[base_r + k, 1] -= dx
+            columns[base_r + k, 2] -= dy
+    largest = 0.0
+    for row in range(columns.shape[0]):
+        largest = max(largest, abs(columns[row, 0]))
+    return largest, ring.area * step * fx, ring.area * step * fy
+
+
+@njit(cache=True, nogil=True)
+def matrix(ring, work, wedge, rate):
+    """Band matrix of the derivatives of the residual by the unknowns."""
+    nx, m = work.u.shape
+    step = 2.0 * np.pi / nx
+    axial = ring.axial
+    band = work.band
+    mid = 2 * m
+    dp = work.state[DP]
+    df = work.state[DFILL]
+    squeeze = ring.slope * step * rate
+    band[:] = 0.0
+    for i in range(nx):
+        base = ring.order[i] * m
+        h = work.gap[i]
+        h3 = step * h * h * h
+        for k in range(m):
+            for j in range(m):
+                band[base + k, mid + j - k] = h3 * axial.stiffness[k, j] * dp[i, j]
+            held = squeeze * axial.weights[k] * h
+            band[base + k, mid] += held * df[i, k] + work.state[DSLACK, i, k]
+    for i in range(nx):
+        right = i + 1 if i + 1 < nx else 0
+        base = ring.order[i] * m
+        base_r = ring.order[right] * m
+        shift = base_r - base
+        h = work.gap_face[i]
+        g = h * h * h / step
+        e_l = wedge * h if wedge > 0 else 0.0
+        e_r = wedge * h if wedge <= 0 else 0.0
+        for k in range(m):
+            w = axial.weights[k]
+            by_l = w * (e_l * df[i, k] + g * dp[i, k])
+            by_r = w * (e_r * df[right, k] - g * dp[right, k])
+            band[base + k, mid] += by_l
+            band[base + k, mid + shift] += by_r
+            band[base_r + k, mid] -= by_r
+            band[base_r + k, mid - shift] -= by_l
+
+
+@njit(cache=True, nogil=True)
+def factorise(band):
+    """LU of the band matrix in place, without pivoting; False if that breaks down.
+
+    The columns of the balance are diagonally dominant but for the axial terms, which are positive
+    definite, so that the pivots need no search.
+    """
+    n, width = band.shape
+    mid = width // 2
+    for j in range(n):
+        pivot = band[j, mid]
+        if not abs(pivot) > 0.0:  # NaN too
+            return False
+        inverse = 1.0 / pivot
+        reach = min(mid, n - 1 - j)
+        for i in range(1, reach + 1):
+            factor = band[j + i, mid - i] * inverse
+            band[j + i, mid - i] = factor
+            for k in range(1, reach + 1):
+                band[j + i, mid - i + k] -= factor * band[j, mid + k]
+        band[j, mid] = inverse
+    return True
+
+
+@njit(cache=True, nogil=True)
+def substitute(band, columns):
+    """Solve for the three `columns` (n, 3) in place with the factors of `factorise`."""
+    n, width = band.shape
+    mid = width // 2
+    for i in range(n):
+        for k in range(max(0, mid - i), mid):
+            factor = band[i, k]
+            row = i - mid + k
+            for c in range(3):
+                columns[i, c] -= factor * columns[row, c]
+    for i in range(n - 1, -1, -1):
+        for k in range(mid + 1, min(width, n - i + mid)):
+            factor = band[i, k]
+            row = i - mid + k
+            for c in range(3):
+                columns[i, c] -= factor * columns[row, c]
+        for c in range(3):
+            columns[i, c] *= band[i, mid]
+
+
+@njit(cache=True, nogil=True)
+def carried(ring, work):
+    """Load that each of the columns carries, (fx, fy) of each: a 3 × 2 tuple of scalars."""
+    nx, m = work.u.shape
+    fx0, fx1, fx2, fy0, fy1, fy2 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    for i in range(nx):
+        a0, a1, a2 = 0.0, 0.0, 0.0
+        base = ring.order[i] * m
+        for k in range(m):
+            w = ring.axial.weights[k] * work.state[DLOAD, i, k]
+            a0 += w * work.columns[base + k, 0]
+            a1 += w * work.columns[base + k, 1]
+            a2 += w * work.columns[base + k, 2]
+        c = ring.cos[i]
+        s = ring.sin[i]
+        fx0 += a0 * c
+        fx1 += a1 * c
+        fx2 += a2 * c
+        fy0 += a0 * s
+        fy1 += a1 * s
+        fy2 += a2 * s
+    f = ring.area * 2.0 * np.pi / nx
+    return (f * fx0, f * fy0), (f * fx1, f * fy1), (f * fx2, f * fy2)
+
+
+@njit(cache=True, nogil=True)
+def summarise(ring, work, x, y, row):
+    """Integrals over the half film into `row`, after `place` at (x, y); units of this module."""
+    nx, m = work.u.shape
+    step = 2.0 * np.pi / nx
+    axial = ring.axial
+    p = work.state[LOAD]
+    fill_rim = 1.0
+    if ring.mixing > 0.0:
+        fill_rim = ring.p_edge / (ring.p_edge + ring.mixing)
+    peak, dissipation, shear, outflow, liquid = -np.inf, 0.0, 0.0, 0.0, 0.0
+    half_width = axial.weights.sum() + axial.rim_weight
+    for i in range(nx):
+        right = i + 1 if i + 1 < nx else 0
+        h = work.gap[i]
+        h3 = step * h * h * h
+        g = work.gap_face[i] ** 3 / step
+        middle, leak, inside = 0.0, 0.0, fill_rim * axial.rim_weight
+        for k in range(m):
+            q = p[i, k] - ring.p_edge
+            middle += axial.middle[k] * q
+            leak += axial.leak[k] * q
+            inside += axial.weights[k] * work.state[FILL, i, k]
+            dissipation += g * axial.weights[k] * (p[right, k] - p[i, k]) ** 2
+            for j in range(m):
+                dissipation += h3 * q * axial.stiffness[k, j] * (p[i, j] - ring.p_edge)
+            peak = max(peak, p[i, k])
+        peak = max(peak, middle + ring.p_edge)
+        outflow += max(h3 * leak, 0.0)
+        liquid += step * h * inside
+        shear += step * half_width / h
+    row[X] = x
+    row[Y] = y
+    row[PEAK] = peak
+    row[DISSIPATION] = dissipation
+    row[SHEAR] = shear
+    row[OUTFLOW] = outflow
+    row[FILLED] = liquid / (2.0 * np.pi * half_width)

@@ -1,0 +1,228 @@
+"""Compiled loops of the rung "reduced": Newton, and a march through time.
+
+No step of a loop returns to Python or allocates. Compiling takes most of its time once for each
+function that calls `newton`, so there is one.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from loadflow.journal.film._kernels import FILL, LOAD
+from loadflow.journal.models._reduced_kernels import (
+    balance,
+    carried,
+    factorise,
+    matrix,
+    place,
+    substitute,
+    summarise,
+)
+from loadflow.journal.models.reduced_film import CONVERGED, ITERATIONS, RESIDUAL, X, Y
+
+_CALM = 0.5  # change of the film over its pressure, up to which the shaft goes all the way
+_SMALLEST = 1.0 / 256  # of a given step, to which a step that fails may be cut
+
+
+@njit(cache=True, nogil=True)
+def limited(x, y, dx, dy):
+    """Position after a step, of which the narrowest gap keeps at least a third of its height.
+
+    An eccentric shaft goes along the gap, not along the chord.
+    """
+    ratio = np.hypot(x, y)
+    limit = 1.0 - 0.3 * (1.0 - ratio)
+    if ratio < 0.5:
+        length = np.hypot(x + dx, y + dy)
+        share = limit / length if length > limit else 1.0
+        return share * (x + dx), share * (y + dy)
+    radial = (x * dx + y * dy) / ratio
+    turn = np.arctan2(y, x) + max(-0.5, min(0.5, (x * dy - y * dx) / ratio**2))
+    length = max(0.3, min(limit, ratio + radial))
+    return length * np.cos(turn), length * np.sin(turn)
+
+
+@njit(cache=True, nogil=True)
+def shaft_step(ring, work, x, y, gx, gy):
+    """Position after a Newton step that carries the missing load (gx, gy).
+
+    A step that changes the film by more than its own pressure is shortened.
+    """
+    nx, m = work.u.shape
+    (ax, ay), (axx, ayx), (axy, ayy) = carried(ring, work)
+    gx += ax
+    gy += ay
+    det = axx * ayy - axy * ayx
+    if det == 0.0:
+        return x, y
+    change = 0.0
+    peak = ring.scale
+    for i in range(nx):
+        base = ring.order[i] * m
+        for k in range(m):
+            change = max(change, abs(work.columns[base + k, 0]))
+            peak = max(peak, work.state[LOAD, i, k])
+    haste = max(1.0, change / (peak * _CALM))
+    scale = -1.0 / (det * haste)
+    return limited(x, y, scale * (ayy * gx - axy * gy), scale * (axx * gy - ayx * gx))
+
+
+@njit(cache=True, nogil=True)
+def newton(ring, work, x, y, fx, fy, speed, rate, tolerance, max_iterations):
+    """Film and shaft at which the load (fx, fy) is carried; one implicit step if rate > 0.
+
+    Starts from `work.u` and (x, y), where the shaft stays unless `ring.free`. Returns position,
+    residual, Newton steps and whether the residual fell below the tolerance.
+    """
+    nx, m = work.u.shape
+    wedge = 0.5 * ring.slope * speed
+    flux = (abs(wedge) + ring.scale) * ring.axial.weights.max()
+    force_scale = max(np.hypot(fx, fy), 0.5e-3 * ring.scale * ring.area)
+    spent = 0
+    while True:
+        place(ring, work, x, y)
+        worst, lx, ly = balance(ring, work, wedge, rate)
+        residual = worst / flux
+        if ring.free:
+            residual = max(residual, np.hypot(fx - lx, fy - ly) / force_scale)
+        if residual < tolerance or spent == max_iterations or not residual < np.inf:
+            return x, y, residual, spent, residual < tolerance
+        spent += 1
+        matrix(ring, work, wedge, rate)
+        if not factorise(work.band):
+            return x, y, residual, spent, False
+        substitute(work.band, work.columns)
+        dx, dy = 0.0, 0.0
+        if ring.free:
+            x_new, y_new = shaft_step(ring, work, x, y, fx - lx, fy - ly)
+            dx, dy = x_new - x, y_new - y
+            x, y = x_new, y_new
+        for i in range(nx):
+            base = ring.order[i] * m
+            for k in range(m):
+                row = base + k
+                work.u[i, k] -= (
+                    work.columns[row, 0] + dx * work.columns[row, 1] + dy * work.columns[row, 2]
+                )
+
+
+@njit(cache=True, nogil=True)
+def finish(ring, work, x, y, speed, row, stiffness, damping):
+    """Results of a film at rest at (x, y): integrals into `row`, and the slopes of the load.
+
+    `stiffness` and `damping` (2, 2) are by position (per clearance) and by velocity (clearances
+    per second).
+    """
+    nx, m = work.u.shape
+    place(ring, work, x, y)
+    summarise(ring, work, x, y, row)
+    wedge = 0.5 * ring.slope * speed
+    balance(ring, work, wedge, 0.0)
+    matrix(ring, work, wedge, 0.0)
+    factorise(work.band)
+    substitute(work.band, work.columns)
+    _, by_x, by_y = carried(ring, work)
+    squeeze = ring.slope * 2.0 * np.pi / nx
+    for i in range(nx):
+        base = ring.order[i] * m
+        for k in range(m):
+            held = -squeeze * ring.axial.weights[k] * work.state[FILL, i, k]
+            work.columns[base + k, 0] = 0.0
+            work.columns[base + k, 1] = held * ring.cos[i]
+            work.columns[base + k, 2] = held * ring.sin[i]
+    substitute(work.band, work.columns)
+    _, by_vx, by_vy = carried(ring, work)
+    for axis in range(2):
+        stiffness[axis, 0], stiffness[axis, 1] = -by_x[axis], -by_y[axis]
+        damping[axis, 0], damping[axis, 1] = -by_vx[axis], -by_vy[axis]
+
+
+@njit(cache=True, nogil=True)
+def keep(work):
+    """Shift the history: what is current becomes the last time."""
+    nx, m = work.u.shape
+    for i in range(nx):
+        for k in range(m):
+            work.before[i, k] = work.last[i, k]
+            work.last[i, k] = work.u[i, k]
+            work.liquid[2, i, k] = work.liquid[1, i, k]
+            work.liquid[1, i, k] = work.state[FILL, i, k] * work.gap[i]
+
+
+@njit(cache=True, nogil=True)
+def predict(work, ratio, extrapolate, weight, weight_before):
+    """Unknowns to start a step from, and the storage of earlier times."""
+    nx, m = work.u.shape
+    for i in range(nx):
+        for k in range(m):
+            last = work.last[i, k]
+            work.u[i, k] = last
+            if extrapolate:
+                work.u[i, k] += ratio * (last - work.before[i, k])
+            work.liquid[0, i, k] = (
+                weight * work.liquid[1, i, k] + weight_before * work.liquid[2, i, k]
+            )
+
+
+@njit(cache=True, nogil=True)
+def march(ring, work, x, y, time, force, speed, tolerance, max_iterations, rows):
+    """Implicit steps of second order (BDF2 of variable step) through all of `time`.
+
+    `work.u` and (x, y) are the film at the first time. A step at which Newton fails is cut, load
+    and speed interpolated. Fills `rows` (n, RESULTS) and returns how many of them.
+    """
+    place(ring, work, x, y)
+    keep(work)
+    x_before, y_before = x, y
+    step_before = 0.0
+    for n in range(1, time.size):
+        whole = time[n] - time[n - 1]
+        share, done, spent = 1.0, 0.0, 0
+        while done < 1.0:
+            at = min(1.0, done + share)
+            step = (at - done) * whole
+            rate, weight, weight_before = 1.0 / step, 1.0 / step, 0.0
+            x_new, y_new, ratio, ahead = x, y, 0.0, False
+            if step_before > 0.0:
+                ratio = step / step_before
+                rate = (1.0 + 2.0 * ratio) / (1.0 + ratio) / step
+                weight = (1.0 + ratio) / step
+                weight_before = -ratio * ratio / (1.0 + ratio) / step
+                x_ahead = x + ratio * (x - x_before)
+                y_ahead = y + ratio * (y - y_before)
+                ahead = np.hypot(x_ahead, y_ahead) < 0.5 + 0.5 * np.hypot(x, y)
+                if ahead:
+                    x_new, y_new = x_ahead, y_ahead
+            predict(work, ratio, ahead, weight, weight_before)
+            x_new, y_new, residual, iterations, converged = newton(
+                ring,
+                work,
+                x_new,
+                y_new,
+                force[n - 1, 0] + at * (force[n, 0] - force[n - 1, 0]),
+                force[n - 1, 1] + at * (force[n, 1] - force[n - 1, 1]),
+                speed[n - 1] + at * (speed[n] - speed[n - 1]),
+                rate,
+                tolerance,
+                max_iterations,
+            )
+            spent += iterations
+            if converged:
+                keep(work)
+                x_before, y_before, x, y = x, y, x_new, y_new
+                step_before = step
+                done = at
+                share = min(2.0 * share, 1.0)
+            elif share > _SMALLEST:
+                share *= 0.5
+            else:
+                break
+        rows[n, RESIDUAL] = residual
+        rows[n, ITERATIONS] = spent
+        rows[n, CONVERGED] = converged
+        if not converged:
+            rows[n, X], rows[n, Y] = x_new, y_new
+            return n + 1
+        summarise(ring, work, x, y, rows[n])
+    return time.size

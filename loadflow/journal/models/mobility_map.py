@@ -1,0 +1,224 @@
+"""The rung "map": shaft and film by the mobility map of `mobility`, tabulated from the grid."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from loadflow.errors import SolverError
+from loadflow.journal.film.discretise import FilmOptions, build_film
+from loadflow.journal.models import _mobility_kernels as kernel
+from loadflow.journal.models import mobility_films as row
+from loadflow.journal.models.mobility import MobilityMap, scaled, tabulate
+from loadflow.journal.options import require
+from loadflow.journal.results import operating_columns, without_supply
+from loadflow.journal.solvers.newton import refusal
+from loadflow.journal.solvers.transient import orbit_dataset
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from loadflow.journal.bearing import JournalBearing
+    from loadflow.journal.models.model import Control
+
+Array = NDArray[np.float64]
+
+_MOST = 100_000  # steps between two times of a series
+
+
+@dataclass(frozen=True, eq=False)
+class Mapped:
+    """A map with the units of one bearing.
+
+    Attributes
+    ----------
+    table : MobilityMap
+        Map without dimensions.
+    units : array (2,)
+        Load (N) of s = 1 and velocity (clearances per second) of u = 1.
+    pressure : float
+        Unit of pressure, Pa.
+    """
+
+    bearing: JournalBearing
+    options: FilmOptions
+    table: MobilityMap
+    units: Array
+    pressure: float
+
+    def results(self, position: Array, force: Array, speed: Array) -> dict[str, Any]:
+        """What follows from positions (n, 2) in clearances, loads and speeds; named as elsewhere.
+
+        `in_range` tells where the map covers them.
+        """
+        bearing, viscosity = self.bearing, self.options.lubricant.viscosity
+        place, found = self.table.results_at(position, force / self.units[kernel.LOAD])
+        gap = place[:, 0]
+        flow = self.pressure * bearing.clearance**3 / (12 * viscosity)
+        arc = 2 * np.pi / np.sqrt(gap * (2 - gap))
+        drag = viscosity * speed**2 * bearing.radius**3 * bearing.width / bearing.clearance
+        direction = np.where(np.hypot(*position.T) > 0, np.arctan2(*position.T[::-1]), 0.0)
+        per_place = self.pressure * bearing.radius**2 / bearing.clearance
+        return {
+            "minimum_film": bearing.clearance * gap,
+            "maximum_pressure": self.options.edge_pressure + self.pressure * found[:, row.PEAK],
+            "friction_power": self.pressure * flow * found[:, row.DISSIPATION] + drag * arc,
+            "side_flow": flow * found[:, row.OUTFLOW],
+            "total_fill": found[:, row.FILL],
+            "stiffness": per_place * _turned(found[:, row.STIFFNESS], direction),
+            "damping": per_place
+            / self.units[kernel.VELOCITY]
+            * _turned(found[:, row.DAMPING], direction),
+            "in_range": self.table.covers(place),
+            **without_supply(speed.size),
+        }
+
+
+def _turned(matrices: Array, angle: Array) -> Array:
+    """Matrices (n, 4) of frames at `angle` in the frame of the bearing, (n, 2, 2)."""
+    c, s = np.cos(angle), np.sin(angle)
+    frame = np.stack([np.stack([c, -s], axis=-1), np.stack([s, c], axis=-1)], axis=-2)
+    return frame @ matrices.reshape(-1, 2, 2) @ frame.swapaxes(-1, -2)
+
+
+def mapped(bearing: JournalBearing, options: FilmOptions, force: Array) -> Mapped:
+    """The map of a bearing and film, tabulated up to the largest of `force` (n, 2)."""
+    require(options.supply is None, "supply", options.supply, 'None with rung = "map"')
+    if options.grading == "auto":
+        options = replace(options, grading="graded")
+    # refuses, in the user's units, what no film can have
+    build_film(bearing.diameter, bearing.width, bearing.relative_clearance, options)
+    plain, unit = scaled(options)
+    area = bearing.width * bearing.diameter
+    largest = 0.0
+    if unit > 0.0:
+        most = float(np.hypot(*force.T).max()) / (area * unit)
+        largest = 2.0 ** math.ceil(math.log2(max(most, 0.25)))
+    table = tabulate(bearing.width / bearing.diameter, plain, largest)
+    pressure = unit or 1.0
+    velocity = pressure * bearing.relative_clearance**2 / (12 * options.lubricant.viscosity)
+    return Mapped(bearing, options, table, np.array([pressure * area, velocity]), pressure)
+
+
+def equilibrium(
+    bearing: JournalBearing, options: FilmOptions, force: Array, speed: Array, control: Control
+) -> dict[str, Any]:
+    """Static equilibria: where the velocity of the map is zero.
+
+    Raises
+    ------
+    SolverError
+        A load at ω = 0, or one that the map does not cover; names the first such load.
+    """
+    film = mapped(bearing, options, force)
+    position, iterations = _at_rest(film, force, speed)
+    answer = {
+        **operating_columns(bearing, force, speed, options.lubricant, position),
+        **film.results(position, force, speed),
+        "eccentricity_ratio": np.hypot(*position.T),
+        "iterations": iterations,
+    }
+    idle = ~force.any(axis=-1)
+    found = answer.pop("in_range") & (idle | (iterations > 0))
+    residual = np.where(found, 0.0, np.inf)
+    if control.strict and not found.all():
+        bad = int(np.flatnonzero(~found)[0])
+        ratio = float(answer["eccentricity_ratio"][bad])
+        words = refusal(force[bad], speed[bad], residual[bad], iterations[bad], ratio)
+        raise SolverError(f"load {bad}: {words}: the map ends there")
+    for name in ("eccentricity", "attitude_angle", "eccentricity_ratio", *_FROM_FILM):
+        answer[name] = np.where(
+            found.reshape(-1, *[1] * (answer[name].ndim - 1)), answer[name], np.nan
+        )
+    return answer | {"converged": found, "residual": residual}
+
+
+_FROM_FILM = (
+    "minimum_film", "maximum_pressure", "friction_power", "side_flow", "total_fill", "stiffness",
+    "damping",
+)  # fmt: skip
+
+
+def _at_rest(film: Mapped, force: Array, speed: Array) -> tuple[Array, NDArray[np.int64]]:
+    """Positions (n, 2) in clearances; iterations are 0 where there is no load, or no answer."""
+    size = np.hypot(*force.T) / film.units[kernel.LOAD]
+    turns = (size > 0) & (speed != 0)
+    gap, chi = np.ones(size.size), np.zeros(size.size)
+    gap[size > 0] = math.exp(-film.table.axes[kernel.XI_MAX])
+    iterations = np.zeros(size.size, dtype=np.int64)
+    part = gap[turns], chi[turns], iterations[turns]
+    kernel.steady(
+        film.table.motion, film.table.axes, film.units, size[turns], np.abs(speed[turns]), *part
+    )
+    gap[turns], chi[turns], iterations[turns] = part
+    k = (gap / (2 - gap)) ** kernel.STRETCH
+    turn = np.arctan2(force[:, 1], force[:, 0])
+    turn += np.sign(speed) * 2 * np.arctan(k * np.tan(0.5 * chi))
+    return (1 - gap)[:, None] * np.stack([np.cos(turn), np.sin(turn)], axis=-1), iterations
+
+
+def orbit(
+    bearing: JournalBearing,
+    options: FilmOptions,
+    time: Array,
+    force: Array,
+    speed: Array,
+    start: Array | None,
+    control: Control,
+) -> xr.Dataset:
+    """Path of the shaft by an ordinary differential equation.
+
+    `residual` is the largest error of a step over the narrowest gap, kept below √tolerance, and
+    `iterations` counts the steps; `in_range` tells where the map covers position and load.
+
+    Raises
+    ------
+    SolverError
+        No equilibrium to start from, or too many steps between two times.
+    """
+    film = mapped(bearing, options, force)
+    if start is None:
+        first = equilibrium(bearing, film.options, force[:1], speed[:1], control)
+        start = first["eccentricity"][0] / bearing.clearance
+    path, _, values = advance(
+        film.table.motion, film.table.axes, film.units, time, force, speed, start, control
+    )
+    values |= film.results(path, force, speed)
+    data = orbit_dataset(values, time, force, speed, bearing.clearance)
+    flag = {"units": "1", "long_name": "whether the map covers position and load"}
+    return data.assign(in_range=("time", values["in_range"], flag))
+
+
+def advance(
+    motion: Array,
+    axes: Array,
+    units: Array,
+    time: Array,
+    force: Array,
+    speed: Array,
+    start: Array,
+    control: Control,
+) -> tuple[Array, Array, dict[str, Any]]:
+    """Path of the shaft and its velocity u against the oil, (n, 2), and values for the orbit.
+
+    Raises
+    ------
+    SolverError
+        Too many steps between two times.
+    """
+    path, slip, error = np.empty((time.size, 2)), np.empty((time.size, 2)), np.zeros(time.size)
+    steps = np.zeros(time.size, dtype=np.int64)
+    stop = kernel.march(
+        motion, axes, units, time, np.ascontiguousarray(force), np.ascontiguousarray(speed),
+        start, math.sqrt(control.tolerance), _MOST, path, slip, steps, error,
+    )  # fmt: skip
+    if stop >= 0:
+        raise SolverError(
+            f"orbit stops before t = {time[stop]:.6g} s: F = ({force[stop, 0]:.6g}, "
+            f"{force[stop, 1]:.6g}) N, ω = {speed[stop]:.6g} rad/s need more than {_MOST} steps"
+        )
+    return path, slip, {"x": path[:, 0], "y": path[:, 1], "residual": error, "iterations": steps}

@@ -1,0 +1,226 @@
+"""The rung "reduced": fine cells around, few unknowns across the width, one compiled loop.
+
+Across the width the pressure is an even polynomial through `POINTS` Gauss–Lobatto points; around,
+the cells are those of the rung "grid", and so are law, time steps and scales. Cells are fixed to
+the shell: there is no inlet line, and no groove.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from loadflow.errors import SolverError
+from loadflow.journal.film.discretise import FilmOptions, build_film
+from loadflow.journal.film.film import Film
+from loadflow.journal.film.integrals import Integrals, in_units
+from loadflow.journal.models import reduced_film as at
+from loadflow.journal.models._reduced_kernels import summarise
+from loadflow.journal.models._reduced_loops import finish, march, newton
+from loadflow.journal.models.reduced_film import Ring, Work, make_work
+from loadflow.journal.models.width_modes import lobatto
+from loadflow.journal.options import Guembel, Reynolds, require
+from loadflow.journal.results import operating_columns, without_supply
+from loadflow.journal.solvers.estimate import NEAR, closed_form_position
+from loadflow.journal.solvers.newton import refusal
+from loadflow.journal.solvers.transient import orbit_dataset
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from loadflow.journal.bearing import JournalBearing
+    from loadflow.journal.models.model import Control
+
+Array = NDArray[np.float64]
+
+POINTS = 3  # across the half width; the largest pressure moves by 0.4 % at most with more of them
+
+
+def equilibrium(
+    bearing: JournalBearing, options: FilmOptions, force: Array, speed: Array, control: Control
+) -> dict[str, Any]:
+    """Static equilibria; a load that fails or is not resolved here is solved on the grid."""
+    force, speed = np.array(force), np.array(speed)  # of the layout that the kernels know
+    film = _film(bearing, options, speed)
+    ring, work = _discrete(film)
+    count = speed.size
+    rows = np.zeros((count, at.RESULTS))
+    stiffness, damping = np.zeros((count, 2, 2)), np.zeros((count, 2, 2))
+    starts = _Starts(film, work, _estimate(bearing, film, force, speed))
+    for n in range(count):
+        spent, converged = 0, False
+        for x, y in starts.of(n):
+            x, y, residual, iterations, converged = newton(
+                ring, work, x, y, force[n, 0], force[n, 1], speed[n], 0.0,
+                control.tolerance, control.max_iterations,
+            )  # fmt: skip
+            spent += iterations
+            if converged and options.may_grade:
+                converged = film.resolves(np.array([x, y]))
+            if converged:
+                finish(ring, work, x, y, speed[n], rows[n], stiffness[n], damping[n])
+                starts.keep(n, (x, y))
+                break
+        rows[n, at.RESIDUAL :] = residual, spent, converged
+    position = rows[:, [at.X, at.Y]]
+    answer = {
+        **operating_columns(bearing, force, speed, options.lubricant, position),
+        **_results(film, rows, speed),
+        "eccentricity_ratio": np.hypot(*position.T),
+        "stiffness": stiffness / bearing.clearance,
+        "damping": damping / bearing.clearance,
+        "converged": rows[:, at.CONVERGED] > 0,
+    }
+    for index in np.flatnonzero(~answer["converged"]):
+        _from_grid(bearing, options, int(index), answer, control)
+    return answer
+
+
+def orbit(
+    bearing: JournalBearing,
+    options: FilmOptions,
+    time: Array,
+    force: Array,
+    speed: Array,
+    start: Array | None,
+    control: Control,
+) -> xr.Dataset:
+    """Path of the shaft; all steps in one compiled loop.
+
+    Raises
+    ------
+    SolverError
+        No equilibrium to start from, or a step that fails even when cut to 1/256.
+    """
+    time, force, speed = (np.array(values) for values in (time, force, speed))
+    film = _film(bearing, options, speed)
+    film.raise_scale(float(np.hypot(*force.T).max()) / (bearing.width * bearing.diameter))
+    ring, work = _discrete(film)
+    work.u[:] = film.unknown_of(np.full(work.u.shape, film.p_edge))
+    first = _estimate(bearing, film, force[:1], speed[:1])[0] if start is None else start
+    rows = np.zeros((time.size, at.RESULTS))
+    begin = ring._replace(free=start is None)
+    x, y, residual, iterations, converged = newton(
+        begin, work, first[0], first[1], force[0, 0], force[0, 1], speed[0], 0.0,
+        control.tolerance, 2 * control.max_iterations,
+    )  # fmt: skip
+    if not converged:
+        words = refusal(force[0], speed[0], residual, iterations, float(np.hypot(x, y)))
+        raise SolverError(f"orbit cannot start: {words}")
+    summarise(ring, work, x, y, rows[0])
+    rows[0, at.RESIDUAL :] = residual, iterations, converged
+    solved = march(
+        ring, work, x, y, time, force, speed, control.tolerance, control.max_iterations, rows
+    )
+    last = solved - 1
+    if not rows[last, at.CONVERGED]:
+        raise SolverError(
+            f"orbit stops at t = {time[last]:.6g} s: F = ({force[last, 0]:.6g}, "
+            f"{force[last, 1]:.6g}) N, ω = {speed[last]:.6g} rad/s, "
+            f"ε = {np.hypot(rows[last, at.X], rows[last, at.Y]):.6g}; residual "
+            f"{rows[last, at.RESIDUAL]:.3g} after {rows[last, at.ITERATIONS]:g} Newton "
+            "steps"
+        )
+    values = _results(film, rows, speed) | {"x": rows[:, at.X], "y": rows[:, at.Y]}
+    return orbit_dataset(values, time, force, speed, bearing.clearance)
+
+
+class _Starts:
+    """Where Newton may start: from the last film if the closed form has moved little."""
+
+    def __init__(self, film: Film, work: Work, estimate: Array) -> None:
+        self.work = work
+        self.estimate = estimate
+        self.cold = film.unknown_of(np.full(work.u.shape, film.p_edge))
+        self.last: tuple[int, tuple[float, float]] | None = None
+
+    def of(self, n: int) -> Iterator[tuple[float, float]]:
+        """Positions to start load `n` from; sets the unknowns that belong to each."""
+        if self.last is not None:
+            before, position = self.last
+            moved = np.hypot(*(self.estimate[n] - self.estimate[before]))
+            if moved < NEAR * (1.0 - np.hypot(*position)):
+                self.work.u[:] = self.work.last
+                yield position
+        self.work.u[:] = self.cold
+        yield self.estimate[n, 0], self.estimate[n, 1]
+
+    def keep(self, n: int, position: tuple[float, float]) -> None:
+        """Remember the solved film of load `n`."""
+        self.work.last[:] = self.work.u
+        self.last = n, position
+
+
+def _film(bearing: JournalBearing, options: FilmOptions, speed: Array) -> Film:
+    """The grid's film on cells fixed to the shell: what the few unknowns take their data from."""
+    allowed = 'None with rung = "reduced"; take rung = "grid"'
+    require(options.supply is None, "supply", options.supply, allowed)
+    lined = options.inlet == "auto" and isinstance(options.law, Reynolds | Guembel)
+    require(not lined and options.inlet != "widest gap", "inlet", options.inlet, allowed)
+    allowed = 'uniform with rung = "reduced"'
+    require(options.grading != "graded", "grading", options.grading, allowed)
+    fixed = replace(options, grading="uniform", inlet=None)
+    film = build_film(bearing.diameter, bearing.width, bearing.relative_clearance, fixed)
+    film.set_scale(float(np.abs(speed).max()))
+    return film
+
+
+def _discrete(film: Film) -> tuple[Ring, Work]:
+    """Constants and work arrays of the compiled loops."""
+    angle = film.mesh.angle
+    face = angle + np.pi / angle.size
+    axial = lobatto(float(film.mesh.z_edges[-1]), POINTS)
+    ring = Ring(
+        np.cos(angle), np.sin(angle), np.cos(face), np.sin(face), film.mesh.order, axial,
+        film.kind, film.mixing, film.p_cav, film.scale, film.p_edge, film.slope,
+        2.0 * film.radius**2, True,
+    )  # fmt: skip
+    return ring, make_work(angle.size, POINTS)
+
+
+def _estimate(bearing: JournalBearing, film: Film, force: Array, speed: Array) -> Array:
+    load = np.hypot(*force.T)
+    numbers = [
+        bearing.sommerfeld_number(*point, film.viscosity)
+        for point in zip(load.tolist(), speed.tolist())
+    ]
+    ratio = bearing.width / bearing.diameter
+    return closed_form_position(ratio, numbers, force, speed, film.ruptures)
+
+
+def _results(film: Film, rows: Array, speed: Array) -> dict[str, Any]:
+    found = Integrals(
+        peak=rows[:, at.PEAK],
+        dissipation=rows[:, at.DISSIPATION],
+        shear=rows[:, at.SHEAR],
+        outflow=rows[:, at.OUTFLOW],
+        fill=rows[:, at.FILLED],
+    )
+    values = in_units(film, found, speed, 1.0 - np.hypot(rows[:, at.X], rows[:, at.Y]))
+    return values | {
+        "residual": rows[:, at.RESIDUAL],
+        "iterations": rows[:, at.ITERATIONS].astype(int),
+        **without_supply(len(rows)),
+    }
+
+
+def _from_grid(
+    bearing: JournalBearing,
+    options: FilmOptions,
+    index: int,
+    answer: dict[str, Any],
+    control: Control,
+) -> None:
+    """Replace the row `index` of `answer` by that of the rung "grid"."""
+    force, speed = answer["force"][index], float(answer["speed"][index])
+    state = bearing.equilibrium(force, speed, **vars(options), strict=False)
+    if control.strict and not state.converged:
+        ratio, residual = float(state.eccentricity_ratio), float(state.residual)
+        words = refusal(force, speed, residual, int(state.iterations), ratio)
+        raise SolverError(f"load {index}: {words}")
+    for name, values in answer.items():
+        values[index] = getattr(state, name)

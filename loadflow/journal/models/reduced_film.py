@@ -1,0 +1,100 @@
+"""What the compiled loops of the rung "reduced" work on: constants of a film, and work arrays."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from loadflow.journal.models.width_modes import Axial
+
+Array = NDArray[np.float64]
+
+# columns of a row of results
+X, Y, PEAK, DISSIPATION, SHEAR, OUTFLOW, FILLED, RESIDUAL, ITERATIONS, CONVERGED = range(10)
+RESULTS = 10
+
+
+class Ring(NamedTuple):
+    """Constants of a film: the cells around, fixed to the shell, and what fills them.
+
+    Attributes
+    ----------
+    cos, sin, cos_face, sin_face : array (nx,)
+        Of the cell centres, and of the faces behind them.
+    order : array (nx,)
+        Place of each column of cells in the folded band.
+    axial : Axial
+        Points across the half width.
+    kind, mixing, p_cav, scale, p_edge
+        As in `_kernels.apply_law`; Pa.
+    slope : float
+        12 η/ψ², Pa s.
+    area : float
+        Load over ∫ p over the half film, 2 R², m².
+    free : bool
+        Whether the shaft moves to where its load is carried.
+    """
+
+    cos: Array
+    sin: Array
+    cos_face: Array
+    sin_face: Array
+    order: NDArray[np.int64]
+    axial: Axial
+    kind: int
+    mixing: float
+    p_cav: float
+    scale: float
+    p_edge: float
+    slope: float
+    area: float
+    free: bool
+
+
+class Work(NamedTuple):
+    """Work arrays of one film of (nx, m) points, n = nx m.
+
+    Attributes
+    ----------
+    u, before, last : array (nx, m)
+        Unknowns: current, and at the last two times.
+    liquid : array (3, nx, m)
+        F H of the cells: storage of earlier times, then the last two times.
+    state : array (8, nx, m)
+        As in `_kernels.apply_law`.
+    gap, gap_face : array (nx,)
+        H at cell centres and faces.
+    band : array (n, 4 m + 1)
+        Band matrix, row by row.
+    columns : array (n, 3)
+        Residual and its derivatives by the position; then what the matrix makes of them.
+    """
+
+    u: Array
+    before: Array
+    last: Array
+    liquid: Array
+    state: Array
+    gap: Array
+    gap_face: Array
+    band: Array
+    columns: Array
+
+
+def make_work(around: int, points: int) -> Work:
+    """Allocate the work arrays."""
+    shape = (around, points)
+    n = around * points
+    return Work(
+        u=np.zeros(shape),
+        before=np.zeros(shape),
+        last=np.zeros(shape),
+        liquid=np.zeros((3, *shape)),
+        state=np.zeros((8, *shape)),
+        gap=np.zeros(around),
+        gap_face=np.zeros(around),
+        band=np.zeros((n, 4 * points + 1)),
+        columns=np.zeros((n, 3)),
+    )

@@ -1,0 +1,152 @@
+"""Historical rungs: force of rotation and force of squeeze computed apart and added.
+
+"holland" adds the load-carrying vectors [Holland 1959] of the tables, "butenschoen" those of the
+closed forms [Butenschön 1976]; "hahn" adds the pressures of both motions and cuts what is negative
+[Hahn 1957], which for a linear film is the Gümbel film. At rest they are "table", "chart" and the
+Gümbel film.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from loadflow.journal.film.discretise import FilmOptions
+from loadflow.journal.models import mobility_map as mapped
+from loadflow.journal.models.charts import CLOSED, TABLE, Chart, friction_power, width_of
+from loadflow.journal.models.mobility_map import advance
+from loadflow.journal.options import Guembel
+from loadflow.journal.solvers.transient import orbit_dataset
+from loadflow.numerics.splines import spline
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from loadflow.journal.bearing import JournalBearing
+    from loadflow.journal.models.model import Control
+
+Array = NDArray[np.float64]
+
+_NODES = 200
+
+
+@dataclass(frozen=True)
+class Superposed:
+    """Load-carrying vectors of a chart, added.
+
+    Attributes
+    ----------
+    name : str
+        Name of the rung.
+    chart : Chart
+        What the vectors are taken from.
+    """
+
+    name: str
+    chart: Chart
+
+    def equilibrium(
+        self,
+        bearing: JournalBearing,
+        options: FilmOptions,
+        force: Array,
+        speed: Array,
+        control: Control,
+    ) -> dict[str, Any]:
+        """Static equilibria: those of the chart."""
+        return replace(self.chart, name=self.name).equilibrium(
+            bearing, options, force, speed, control
+        )
+
+    def orbit(
+        self,
+        bearing: JournalBearing,
+        options: FilmOptions,
+        time: Array,
+        force: Array,
+        speed: Array,
+        start: Array | None,
+        control: Control,
+    ) -> xr.Dataset:
+        """Path of the shaft by an ordinary differential equation, as of the rung "map".
+
+        Largest pressure, flow and fill are not known and missing.
+        """
+        width_ratio = width_of(bearing, options, self.name)
+        if start is None:
+            first = self.equilibrium(bearing, options, force[:1], speed[:1], control)
+            start = first["eccentricity"][0] / bearing.clearance
+        motion, axes = _vectors(self.chart, width_ratio)
+        viscosity = options.lubricant.viscosity
+        per_load = bearing.relative_clearance**2 / (12 * viscosity)
+        units = np.array([bearing.width * bearing.diameter, per_load])
+        path, slip, values = advance(motion, axes, units, time, force, speed, start, control)
+        gap = 1 - np.hypot(*path.T)
+        values |= {
+            "minimum_film": bearing.clearance * gap,
+            "friction_power": friction_power(bearing, viscosity, path, force, speed, slip),
+        }
+        data = orbit_dataset(values, time, force, speed, bearing.clearance)
+        flag = {"units": "1", "long_name": "whether the chart covers the position"}
+        return data.assign(in_range=("time", gap >= 1 - self.chart.largest, flag))
+
+
+@lru_cache(maxsize=16)
+def _vectors(chart: Chart, width_ratio: float) -> tuple[Array, Array]:
+    """Splines over ξ of the four mobilities that `_map_kernels` adds, and their axes."""
+    xi = np.linspace(0.0, -math.log(1.0 - chart.largest), _NODES)
+    ratio = np.minimum(np.maximum(-np.expm1(-xi), 1e-6), chart.largest)
+    so, beta = chart.rotation(ratio, width_ratio)
+    rows = [
+        1 / np.tan(beta),
+        np.log(6 * ratio / (so * np.sin(beta))),
+        np.log(12 / chart.squeeze(ratio, width_ratio)),
+        np.log(12 / chart.squeeze(-ratio, width_ratio)),
+    ]
+    coef = spline(np.stack(rows, axis=-1), 0, "smooth")
+    axes = np.array([xi[1], 1.0, 1.0, 1.0, xi[-1], 0.0])
+    return np.ascontiguousarray(coef[:, None, None, :]), axes
+
+
+class Hahn:
+    """Superposed pressures: the Gümbel film without an inlet, by its map."""
+
+    @staticmethod
+    def _film(options: FilmOptions) -> FilmOptions:
+        law = Guembel(cavitation_pressure=options.edge_pressure)
+        return replace(options, cavitation=law, inlet=None)
+
+    def equilibrium(
+        self,
+        bearing: JournalBearing,
+        options: FilmOptions,
+        force: Array,
+        speed: Array,
+        control: Control,
+    ) -> dict[str, Any]:
+        """Static equilibria of the Gümbel film."""
+        return mapped.equilibrium(bearing, self._film(options), force, speed, control)
+
+    def orbit(
+        self,
+        bearing: JournalBearing,
+        options: FilmOptions,
+        time: Array,
+        force: Array,
+        speed: Array,
+        start: Array | None,
+        control: Control,
+    ) -> xr.Dataset:
+        """Path of the shaft in the Gümbel film."""
+        film = self._film(options)
+        return mapped.orbit(bearing, film, time, force, speed, start, control)
+
+
+HOLLAND = Superposed("holland", TABLE)
+BUTENSCHOEN = Superposed("butenschoen", CLOSED)
+HAHN = Hahn()

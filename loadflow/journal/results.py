@@ -1,0 +1,316 @@
+"""What the journal bearing answers."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from loadflow.journal.film.groove_pressure import UNSUPPLIED
+from loadflow.journal.film.integrals import summary
+from loadflow.journal.validity import critical_reynolds_number, reynolds_number
+
+if TYPE_CHECKING:
+    from loadflow.journal.bearing import JournalBearing
+    from loadflow.journal.film.film import Film, Linear
+    from loadflow.journal.options import Lubricant
+    from loadflow.journal.solvers.newton import Solution
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Equilibrium:
+    """Static equilibrium of shaft and film.
+
+    Shapes are those of the input, `force` without its last axis broadcast with `speed`; plain
+    scalars for one load.
+
+    Attributes
+    ----------
+    force : array (…, 2)
+        What the shaft applies to the bearing, N.
+    speed : array (…)
+        Speed of the shaft, rad/s, > 0 from the first axis toward the second.
+    eccentricity : array (…, 2)
+        Shaft centre relative to the shell, m.
+    eccentricity_ratio : array (…)
+        ε = |e|/c.
+    attitude_angle : array (…)
+        From load to eccentricity, > 0 with rotation, rad; π/2 without load.
+    minimum_film : array (…)
+        Narrowest gap, m; c (1 − ε) in a plain bearing.
+    maximum_pressure : array (…)
+        Largest pressure of the film, Pa, absolute.
+    sommerfeld_number : array (…)
+        So = p_m ψ²/(η |ω|), (1.13) of the source [Jonuschies 2015].
+    friction_power : array (…)
+        (3.34) of the source: pure liquid over the whole film, W.
+    side_flow : array (…)
+        Oil that leaves through the rims, (3.31–3.33), m³/s.
+    supply_flow : array (…)
+        Oil that the grooves give to the film, net, m³/s; 0 without a supply.
+    supply_power : array (…)
+        Q p of Table 5-23: what lifts that oil from tank to supply pressure, W.
+    groove_flow, groove_pressure : array (…, grooves)
+        Oil that each groove gives to the film, m³/s, and its pressure, Pa, absolute.
+    starved : array of bool (…)
+        Whether a fed groove gives less than the film would draw from it at the pressure of the
+        rims, so that its own pressure falls below that.
+    total_fill : array (…)
+        ∫F h dA/∫h dA, (3.43).
+    reynolds_number : array (…)
+        Re = ρ ω R c/η.
+    critical_reynolds_number : array (…)
+        Re_cr = 41.3 √(D/s), (3.14).
+    laminar : array of bool (…)
+        Whether Re is below Re_cr.
+    stiffness, damping : array (…, 2, 2) or (…, 4, 4)
+        −∂F_film/∂e (N/m) and −∂F_film/∂ė (N s/m), [i, j]. On the full width also the moments (rows
+        2, 3) and tilts (columns 2, 3) about both axes. Pads follow without moment.
+    converged : array of bool (…)
+        Whether `residual` fell below the tolerance.
+    iterations : array of int (…)
+        Newton steps.
+    residual : array (…)
+        Largest imbalance of a cell and of the load, over their scales.
+    moment, tilt : array (…, 2)
+        What the shaft applies to the bearing about both axes, N m, and its rotation about them,
+        rad; 0 where the film is symmetric.
+    pad_tilt : array (…, pads)
+        Rotation of the pads about their pivots, rad, from the first axis toward the second.
+    shell_deformation : array (…)
+        Largest growth of the gap by the give of the shell, m; 0 where it is rigid.
+    temperature : array (…), optional
+        Effective temperature of the film, K; None without a heat balance.
+    """
+
+    force: Array
+    speed: Array
+    eccentricity: Array
+    eccentricity_ratio: Array
+    attitude_angle: Array
+    minimum_film: Array
+    maximum_pressure: Array
+    sommerfeld_number: Array
+    friction_power: Array
+    side_flow: Array
+    supply_flow: Array
+    supply_power: Array
+    groove_flow: Array
+    groove_pressure: Array
+    starved: NDArray[np.bool_]
+    total_fill: Array
+    reynolds_number: Array
+    critical_reynolds_number: Array
+    laminar: NDArray[np.bool_]
+    stiffness: Array
+    damping: Array
+    converged: NDArray[np.bool_]
+    iterations: NDArray[np.int64]
+    residual: Array
+    moment: Array = field(default_factory=lambda: np.zeros(2))
+    tilt: Array = field(default_factory=lambda: np.zeros(2))
+    pad_tilt: Array = field(default_factory=lambda: np.zeros(0))
+    shell_deformation: Array = field(default_factory=lambda: np.zeros(()))
+    temperature: Array | None = None
+
+
+@dataclass(frozen=True)
+class FilmField:
+    """Film at a given position and velocity of the shaft.
+
+    Attributes
+    ----------
+    film_force : array (…, 2)
+        Force of the film on the shaft, N.
+    force : array (…, 2)
+        What the shaft applies to the bearing, ``−film_force``, N.
+    pressure : array (…, nx, nz)
+        Pressure of the cells, full width, Pa, absolute.
+    fill : array (…, nx, nz)
+        Share of liquid F.
+    angle : array (…, nx)
+        Angle of the cell centres from the first axis toward the second, rad.
+    z : array (nz,)
+        Axial position of the cell centres from mid-plane, m.
+    eccentricity_ratio, minimum_film, maximum_pressure, friction_power, side_flow, supply_flow, \
+supply_power, groove_flow, groove_pressure, starved, total_fill, stiffness, damping, converged, \
+iterations, residual, moment, tilt, pad_tilt, shell_deformation
+        As in `Equilibrium`.
+    deformation : array (…, nx, nz)
+        Growth of the gap of the cells by the give of the shell, m.
+    """
+
+    film_force: Array
+    force: Array
+    pressure: Array
+    fill: Array
+    deformation: Array
+    angle: Array
+    z: Array
+    eccentricity_ratio: Array
+    minimum_film: Array
+    maximum_pressure: Array
+    friction_power: Array
+    side_flow: Array
+    supply_flow: Array
+    supply_power: Array
+    groove_flow: Array
+    groove_pressure: Array
+    starved: NDArray[np.bool_]
+    total_fill: Array
+    stiffness: Array
+    damping: Array
+    converged: NDArray[np.bool_]
+    iterations: NDArray[np.int64]
+    residual: Array
+    moment: Array = field(default_factory=lambda: np.zeros(2))
+    tilt: Array = field(default_factory=lambda: np.zeros(2))
+    pad_tilt: Array = field(default_factory=lambda: np.zeros(0))
+    shell_deformation: Array = field(default_factory=lambda: np.zeros(()))
+
+
+def stack(rows: list[dict[str, Any]], shape: tuple[int, ...]) -> dict[str, Any]:
+    """Turn a list of rows into arrays of leading `shape`; one row of shape () into scalars."""
+    return shaped({name: np.array([row[name] for row in rows]) for name in rows[0]}, shape)
+
+
+def shaped(columns: dict[str, Any], shape: tuple[int, ...]) -> dict[str, Any]:
+    """Give the leading axis of `columns` the `shape` of the input; () makes scalars, None stays."""
+    return {
+        name: None if values is None else values.reshape(shape + values.shape[1:])[()]
+        for name, values in columns.items()
+    }
+
+
+def static_row(
+    bearing: JournalBearing,
+    film: Film,
+    load: Array,
+    lubricant: Lubricant,
+    solution: Solution,
+    whirl: float = 0.0,
+) -> dict[str, Any]:
+    """One row of `Equilibrium`; pads are condensed at the frequency `whirl`, rad/s."""
+    position = solution.position[:2] if solution.converged else np.full(2, np.nan)
+    return {
+        **operating_columns(bearing, load, film.speed, lubricant, position),
+        **_common_row(film, solution, whirl),
+    }
+
+
+def operating_columns(
+    bearing: JournalBearing,
+    force: Array,
+    speed: Any,
+    lubricant: Lubricant,
+    position: Array,
+) -> dict[str, Any]:
+    """What `Equilibrium` says of loads (…, 2), speeds (…) and positions (…, 2), in clearances."""
+    number = np.vectorize(bearing.sommerfeld_number, otypes=[float])
+    critical = np.full(np.shape(speed), critical_reynolds_number(bearing.relative_clearance))
+    reynolds = reynolds_number(bearing, speed, lubricant)
+    return {
+        "force": force,
+        "speed": speed,
+        "eccentricity": position * bearing.clearance,
+        "attitude_angle": attitude_angle(force, position, speed),
+        "sommerfeld_number": number(
+            np.hypot(force[..., 0], force[..., 1]), speed, lubricant.viscosity
+        ),
+        "reynolds_number": reynolds,
+        "critical_reynolds_number": critical,
+        "laminar": reynolds < critical,
+        "shell_deformation": np.zeros(np.shape(speed)),
+    }
+
+
+def without_supply(count: int) -> dict[str, Any]:
+    """What `Equilibrium` says of the supply of `count` films that have none."""
+    return {name: np.array([value] * count) for name, value in UNSUPPLIED.items()}
+
+
+def field_row(film: Film, solution: Solution) -> dict[str, Any]:
+    """One row of `FilmField`, but for z; the half film is mirrored."""
+    *cells, angle, load = film.field(solution.u, solution.position)
+    cells.append(film.deformation)
+    if film.mesh.half:
+        cells = [np.concatenate([values[:, ::-1], values], axis=1) for values in cells]
+    pressure, fill, deformation = cells
+    return {
+        "film_force": -load[:2],
+        "force": load[:2],
+        "pressure": pressure,
+        "fill": fill,
+        "deformation": deformation,
+        "angle": angle,
+        **_common_row(film, solution),
+    }
+
+
+def _common_row(film: Film, solution: Solution, whirl: float = 0.0) -> dict[str, Any]:
+    clearance = film.relative_clearance * film.radius
+    row: dict[str, Any] = summary(film, solution.u, solution.position)
+    shaft, lengths = film.gap.shaft, np.ones(film.gap.shaft)
+    lengths[2:] = film.radius  # of the degrees of freedom: those of tilts are arms
+    pads = np.intersect1d(np.arange(film.gap.size)[solution.free], np.arange(shaft, film.gap.size))
+    stiffness, damping = without_pads(solution.linear, shaft, pads, whirl)
+    both = np.outer(lengths, lengths) / clearance
+    row["eccentricity_ratio"] = float(np.hypot(*solution.position[:2]))
+    row["stiffness"] = stiffness * both
+    row["damping"] = damping * both
+    tilted = shaft > 2
+    row["moment"] = film.radius * solution.linear.load[2:4] if tilted else np.zeros(2)
+    per_radius = clearance / film.radius
+    row["tilt"] = per_radius * solution.position[2:4] if tilted else np.zeros(2)
+    row["pad_tilt"] = per_radius * solution.position[shaft:]
+    row["shell_deformation"] = float(film.deformation.max())
+    if not solution.converged:
+        row = {name: _nothing(value) for name, value in row.items()}
+    row["converged"] = solution.converged
+    row["iterations"] = solution.iterations
+    row["residual"] = solution.residual
+    return row
+
+
+def without_pads(
+    linear: Linear, shaft: int, pads: NDArray[np.int64], whirl: float
+) -> tuple[Array, Array]:
+    """Stiffness and damping of the shaft alone while `pads` follow it without moment.
+
+    The shaft vibrates at the frequency `whirl`, rad/s, and K + i ν C is condensed; at 0 what is
+    left of it to first order in ν. Both are exact: the pads have no inertia.
+    """
+    k, c = linear.stiffness, linear.damping
+    if not pads.size:
+        return k[:shaft, :shaft], c[:shaft, :shaft]
+    every = np.append(np.arange(shaft), pads)
+    k, c = k[np.ix_(every, every)], c[np.ix_(every, every)]
+    if whirl == 0.0:
+        follow = np.vstack([np.eye(shaft), -following(k, shaft)])
+        lead = np.vstack([np.eye(shaft), -following(k.T, shaft)])
+        return lead.T @ k @ follow, lead.T @ c @ follow
+    z = k + 1j * whirl * c
+    left = z[:shaft, :shaft] - z[:shaft, shaft:] @ following(z, shaft)
+    return left.real, left.imag / whirl
+
+
+def following(stiffness: NDArray[Any], shaft: int) -> NDArray[Any]:
+    """How far pads tilt with the shaft, (pads, shaft)."""
+    return np.asarray(np.linalg.solve(stiffness[shaft:, shaft:], stiffness[shaft:, :shaft]))
+
+
+def _nothing(value: Any) -> Any:
+    """NaN in the shape of `value`; flags are False."""
+    return False if isinstance(value, bool) else np.full_like(value, np.nan)
+
+
+def attitude_angle(force: Array, position: Array, speed: ArrayLike) -> Array:
+    """Angle from load to eccentricity, > 0 with rotation; the limit π/2 where either vanishes."""
+    cross = force[..., 0] * position[..., 1] - force[..., 1] * position[..., 0]
+    along = (force * position).sum(axis=-1)
+    angle = np.arctan2(np.where(np.asarray(speed) < 0, -1.0, 1.0) * cross, along)
+    return np.where(force.any(axis=-1) & position.any(axis=-1), angle, 0.5 * np.pi)

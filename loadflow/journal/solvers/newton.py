@@ -1,0 +1,223 @@
+"""Newton for the film alone, and for film and shaft together."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from loadflow.journal.film.film import EVERY, Film, Linear, SingularFilm
+
+Array = NDArray[np.float64]
+
+_QUADRATIC = 1e-7  # a step this small leaves an error near its square: the last factors are exact
+_CALM = (
+    0.5  # change of the film, over the scale of pressure, up to which the shaft goes all the way
+)
+
+
+_PRESSED = 1e-13  # narrowest gap, in clearances, that is none
+_STUCK = 1e-3  # share of a Newton step that an elastic shell must leave room for
+
+
+@dataclass(frozen=True)
+class Solution:
+    """A solved film: unknowns, position (clearances), last linearisation, convergence.
+
+    `estimate` is the position by the closed form, which tells whether the next load is near; `free`
+    are the degrees of freedom that are in balance.
+    """
+
+    u: Array
+    position: Array
+    linear: Linear
+    converged: bool
+    iterations: int
+    residual: float
+    estimate: Array | None = None
+    free: slice | NDArray[np.int64] = field(default_factory=lambda: EVERY)
+
+
+@dataclass(frozen=True)
+class Motion:
+    """How velocity and storage follow from the position in an implicit step; at rest by default.
+
+    Attributes
+    ----------
+    rate : float
+        1/s; the velocity is ``rate · position − offset``.
+    offset : array (m,) or 0
+        Clearances per second.
+    volume_rate, volume
+        The storage of a cell is ``volume_rate · liquid − volume``.
+    """
+
+    rate: float = 0.0
+    offset: Array | float = 0.0
+    volume_rate: float = 0.0
+    volume: Array | float = 0.0
+
+    def velocity(self, position: Array) -> Array:
+        """Velocity of the shaft, clearances per second."""
+        return self.rate * position - self.offset
+
+
+REST = Motion()
+
+
+def solve_film(
+    film: Film, u: Array, position: Array, velocity: Array, tolerance: float, max_iterations: int
+) -> Solution:
+    """Pressure of the film at a given position and velocity."""
+    u = u.copy()
+    weights = np.ones(1)
+    for iteration in range(1, max_iterations + 1):
+        try:
+            linear = film.linearise(u, position, velocity)
+        except SingularFilm:
+            if iteration == 1:
+                raise
+            break
+        share = film.room(u, linear.columns[:1], weights, (position, position))
+        if share < _STUCK:
+            break
+        change = film.correct(u, linear.columns[:1], share * weights)
+        if change < _QUADRATIC:
+            residual = film.imbalance(u, position, velocity)
+            if residual < tolerance:
+                return Solution(u, position, linear, True, iteration, residual)
+    return Solution(u, position, linear, False, iteration, film.imbalance(u, position, velocity))
+
+
+def solve_equilibrium(
+    film: Film,
+    force: Array,
+    u: Array,
+    position: Array,
+    tolerance: float,
+    max_iterations: int,
+    motion: Motion = REST,
+    free: slice | NDArray[np.int64] = EVERY,
+) -> Solution:
+    """Position at which the film carries `force`, by one Newton for film and shaft.
+
+    Each step solves the film's linearisation for the pressure and for its derivative by the
+    position; the exact stiffness that follows gives the step of the shaft. With `motion` the
+    same is one implicit step in time. Only the degrees of freedom `free` move; the others are held.
+    """
+    u = u.copy()
+    ease, gap = film.gap.ease[free], film.gap.narrowest(position)
+    old = (motion.volume_rate, motion.volume)
+    for iteration in range(1, max_iterations + 1):
+        velocity = motion.velocity(position)
+        try:
+            linear = film.linearise(u, position, velocity, *old)
+        except SingularFilm:
+            if iteration == 1:
+                raise
+            break
+        slope = linear.stiffness + motion.rate * linear.damping
+        haste = film.size(linear.columns[0]) / _CALM
+        step = np.zeros(position.size)
+        missing = (force - linear.load)[free]
+        step[free] = _solve(slope[free][:, free], missing, ease) / max(haste, 1.0)
+        target, weights, share = _moved(film, u, linear, position, step, motion)
+        if share < _STUCK:
+            break
+        change = film.correct(u, linear.columns, weights)
+        change = max(change, math.hypot(*(target - position)) / gap)
+        position, gap = target, film.gap.narrowest(target)
+        if abs(gap) < _PRESSED:
+            break
+        if change < _QUADRATIC:
+            residual = film.imbalance(u, position, motion.velocity(position), force, *old, free)
+            if residual < tolerance:
+                return Solution(u, position, linear, True, iteration, residual, free=free)
+    residual = film.imbalance(u, position, motion.velocity(position), force, *old, free)
+    return Solution(u, position, linear, False, iteration, residual)
+
+
+def _moved(
+    film: Film, u: Array, linear: Linear, position: Array, step: Array, motion: Motion
+) -> tuple[Array, Array, float]:
+    """Position after the share of `step` that leaves a film, weights of the columns, the share."""
+    target = film.target(position, step)
+    velocity = motion.velocity(position)
+    weights = film.weights(position, velocity, target, motion.velocity(target))
+    share = film.room(u, linear.columns, weights, (position, target))
+    if share < 1.0:
+        target, weights = position + share * (target - position), share * weights
+    return target, weights, share
+
+
+def solve_patiently(
+    film: Film,
+    force: Array,
+    position: Array,
+    tolerance: float,
+    max_iterations: int,
+    free: slice | NDArray[np.int64] = EVERY,
+) -> Solution:
+    """As `solve_equilibrium`, for the few loads at which that fails: film solved at every position.
+
+    The step of the shaft is halved until the missing force shrinks.
+    """
+    rest = np.zeros(position.size)
+    wanted, ease = force[free], film.gap.ease[free]
+    state = solve_film(film, film.start(), position, rest, tolerance, max_iterations)
+    spent = state.iterations
+    missing = wanted - state.linear.load[free]
+    while state.converged and spent < 10 * max_iterations:
+        step = np.zeros(position.size)
+        step[free] = _solve(state.linear.stiffness[free][:, free], missing, ease)
+        for _ in range(20):
+            target = film.gap.advance(state.position, step)
+            trial = solve_film(film, state.u, target, rest, tolerance, max_iterations)
+            spent += trial.iterations
+            left = wanted - trial.linear.load[free]
+            if trial.converged and math.hypot(*left) < math.hypot(*missing):
+                break
+            step = 0.5 * step
+        state, missing = trial, left
+        if abs(film.gap.narrowest(state.position)) < _PRESSED:
+            break
+        if math.hypot(*missing) < 1e-3 * math.hypot(*wanted):
+            end = solve_equilibrium(
+                film, force, state.u, state.position, tolerance, max_iterations, free=free
+            )
+            return replace(end, iterations=spent + end.iterations)
+    return replace(state, converged=False, iterations=spent)
+
+
+def _solve(matrix: Array, rhs: Array, ease: Array) -> Array:
+    """Solve for a step. A singular 2×2 system gives none; a larger one moves what moves with ease.
+
+    The second is a shaft on one single pad, free to go sideways while the pad follows.
+    """
+    if rhs.size != 2:
+        return ease * np.asarray(np.linalg.lstsq(matrix * ease, rhs, rcond=1e-10)[0])
+    (a, b), (c, d) = matrix.tolist()
+    det = a * d - b * c
+    if det == 0.0:
+        return np.zeros(2)
+    return np.array([(d * rhs[0] - b * rhs[1]) / det, (a * rhs[1] - c * rhs[0]) / det])
+
+
+def no_film(film: Film) -> Solution:
+    """The answer where there is none: NaN, not converged."""
+    nothing = np.full((film.gap.size, film.gap.size), np.nan)
+    linear = Linear(nothing[0], nothing, nothing, nothing)
+    return Solution(film.start(), nothing[0], linear, False, 0, np.inf)
+
+
+def refusal(force: Array, speed: float, residual: float, iterations: float, ratio: float) -> str:
+    """Why no film carries `force` (2,), in words."""
+    head = f"F = ({force[0]:.6g}, {force[1]:.6g}) N at ω = {speed:.6g} rad/s"
+    if speed == 0.0:
+        return f"{head}: without rotation and squeeze the film carries no load"
+    return (
+        f"{head}: no equilibrium found; residual {residual:.3g} after {iterations:.0f} steps, at "
+        f"ε = {ratio:.6g}"
+    )

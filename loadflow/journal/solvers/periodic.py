@@ -1,0 +1,140 @@
+"""The closed path of the shaft under a load that repeats."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from loadflow.errors import InputError, SolverError
+from loadflow.journal.solvers.newton import Solution
+from loadflow.journal.solvers.transient import Marcher, Past, march
+from loadflow.numerics.anderson import Anderson
+from loadflow.tribology.film import effective_speed
+
+Array = NDArray[np.float64]
+Method = Literal["direct", "marching"]
+
+_DEPTH = 8  # periods that the direct method looks back
+_STANDS = 1e-6  # share of the speed below which the effective speed is none
+
+
+def check_period(time: Array, force: Array, speed: Array) -> None:
+    """Refuse loads or speeds that do not end as they begin.
+
+    Raises
+    ------
+    InputError
+        Fewer than four samples, or first and last differ.
+    """
+    if time.size < 4:
+        raise InputError(f"a period of {time.size} samples: give four or more, the last closing it")
+    for name, values in (("force", force), ("speed", speed)):
+        gap = np.abs(values[-1] - values[0]).max()
+        if gap > 1e-6 * np.abs(values).max():
+            raise InputError(
+                f"{name} is {values[0]} at the start of the period and {values[-1]} at its end: "
+                "the last sample must close it"
+            )
+
+
+def load_speed(time: Array, force: Array) -> float:
+    """Mean speed at which the load turns round over a period, rad/s."""
+    angle = np.unwrap(np.arctan2(force[:, 1], force[:, 0]))
+    return float((angle[-1] - angle[0]) / (time[-1] - time[0]))
+
+
+def refuse_half_speed_whirl(time: Array, force: Array, speed: Array) -> None:
+    """Name a steady load that turns at half the speed of the shaft: no film carries it.
+
+    Raises
+    ------
+    SolverError
+        The effective speed (3.8) vanishes.
+    """
+    size, turning, mean = np.hypot(*force.T), load_speed(time, force), float(speed.mean())
+    angle = np.unwrap(np.arctan2(force[:, 1], force[:, 0]))
+    steady = np.ptp(size) < 1e-6 * size.max() and np.ptp(speed) <= 1e-6 * abs(mean)
+    even = np.abs(angle - angle[0] - turning * (time - time[0])).max() < 1e-6
+    effective = effective_speed(mean, load=turning)
+    if steady and even and abs(effective) < _STANDS * abs(mean) and size.max() > 0:
+        raise SolverError(
+            f"half-speed whirl: a load of {size[0]:.6g} N turns at {turning:.6g} rad/s, half the "
+            f"speed of the shaft ({mean:.6g} rad/s); at the effective speed "
+            f"{effective:.3g} rad/s the film carries nothing"
+        )
+
+
+def close_orbit(
+    marcher: Marcher,
+    start: Solution,
+    time: Array,
+    force: Array,
+    speed: Array,
+    method: Method,
+    closure: float,
+    max_periods: int,
+) -> tuple[list[dict[str, Any]], tuple[Past, Past], dict[str, float]]:
+    """Rows of the closed orbit, the history at both its ends, and its closure and periods.
+
+    "marching" goes on from period to period; "direct" solves for the state at the start of the
+    period that comes back, by Anderson's acceleration of the same map.
+
+    Raises
+    ------
+    SolverError
+        The orbit does not close within `max_periods`, or a step fails.
+    """
+    period = time[-1] - time[0]
+    past = marcher.begin(float(time[0]), start)
+    accelerate, residual = Anderson(_DEPTH), math.inf
+    for number in range(1, max_periods + 1):
+        rows, end = march(marcher, past, time, force, speed)
+        following = [replace(p, time=p.time - period) for p in end[-2:]]
+        last, residual = residual, _distance(marcher, past[-1], following[-1])
+        if residual < closure:
+            about = {"closure": residual, "periods": number}
+            return [rows[-1], *rows], (past[-1], end[-1]), about
+        if method == "direct" and len(past) == len(following):
+            if residual > 2 * last:
+                accelerate.forget()
+            past = _mixed(marcher, accelerate, past, following)
+        else:
+            past = following
+    raise SolverError(
+        f"the orbit does not close: its ends differ by {residual:.3g} after {max_periods} periods, "
+        f"at ε = {math.hypot(*past[-1].position):.6g}; effective speed "
+        f"{effective_speed(float(speed.mean()), load=load_speed(time, force)):.6g} rad/s"
+    )
+
+
+def _distance(marcher: Marcher, one: Past, other: Past) -> float:
+    """Largest difference of two states: of positions, and of unknowns over their scale."""
+    film = marcher.film
+    moved = float(np.abs(one.position - other.position).max())
+    return max(moved, float(np.abs(one.u - other.u).max()) / film.scale)
+
+
+def _mixed(
+    marcher: Marcher, accelerate: Anderson, past: list[Past], following: list[Past]
+) -> list[Past]:
+    """Start of the next period from that of this one and of the `following`."""
+    film = marcher.film
+    weight = film.scale * math.sqrt(past[-1].u.size)
+
+    def packed(states: list[Past]) -> Array:
+        parts = [np.concatenate([p.position, p.u.ravel() / weight]) for p in states]
+        return np.concatenate(parts)
+
+    guesses = np.split(accelerate.next(packed(past), packed(following)), len(past))
+    size = film.gap.size
+    if any(film.gap.narrowest(guess[:size]) <= 0 for guess in guesses):
+        accelerate.forget()
+        return following
+    return [
+        marcher.past(p.time, weight * guess[size:].reshape(p.u.shape), guess[:size])
+        for p, guess in zip(following, guesses)
+    ]

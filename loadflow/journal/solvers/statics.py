@@ -1,0 +1,211 @@
+"""Films of the plain bearing around an aligned shaft: at rest under loads, and at given places."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from loadflow.errors import InputError, SolverError
+from loadflow.journal.film.discretise import FilmOptions, build_film
+from loadflow.journal.film.film import Film
+from loadflow.journal.models.model import Control
+from loadflow.journal.results import field_row, static_row
+from loadflow.journal.solvers.estimate import NEAR, closed_form_position
+from loadflow.journal.solvers.newton import (
+    Solution,
+    no_film,
+    refusal,
+    solve_equilibrium,
+    solve_film,
+    solve_patiently,
+)
+
+if TYPE_CHECKING:
+    from loadflow.journal.bearing import JournalBearing
+
+Array = NDArray[np.float64]
+
+_HIGH = 0.99  # eccentricity ratio at which the lift of a supply is stated
+_AFLOAT = 0.5  # eccentricity ratio at which a shaft is sought that its supply carries
+_STARVED = (
+    "the supply is starved, a groove would fall below the cavitation pressure: MassConserving and "
+    "GasMixture follow a groove that is not full"
+)
+
+
+def plain_film(bearing: JournalBearing, options: FilmOptions, rates: Array) -> Film:
+    """Film of a plain bearing, scaled to the largest of `rates`, 1/s."""
+    film = build_film(bearing.diameter, bearing.width, bearing.relative_clearance, options)
+    film.set_scale(float(np.abs(rates).max()))
+    return film
+
+
+def plain_rows(
+    bearing: JournalBearing, options: FilmOptions, loads: Array, speeds: Array, control: Control
+) -> list[dict[str, Any]]:
+    """Rows of `Equilibrium`."""
+    film = plain_film(bearing, options, speeds)
+    if film.pockets.free.size:  # the supply must raise the pressure that carries the load
+        film.raise_scale(_mean_pressure(bearing, loads))
+    finer = plain_film(bearing, options.graded(), speeds) if options.may_grade else None
+    rows = []
+    last: Solution | None = None
+    for index, (load, omega) in enumerate(zip(loads, speeds.tolist())):
+        used, solution = _settle(bearing, film, finer, load, omega, last, control)
+        if not solution.converged and control.strict:
+            raise SolverError(f"load {index}: {_refusal(used, load, solution)}")
+        if solution.converged and used is film:
+            last = solution
+        rows.append(static_row(bearing, used, load, options.lubricant, solution))
+    return rows
+
+
+def plain_fields(
+    bearing: JournalBearing,
+    options: FilmOptions,
+    places: Array,
+    velocities: Array,
+    speeds: Array,
+    control: Control,
+) -> tuple[list[dict[str, Any]], Array]:
+    """Rows of `FilmField` and axial places of the cells of one half, m."""
+    ratio = np.hypot(places[:, 0], places[:, 1])
+    if ratio.max(initial=0.0) >= 1.0:
+        raise InputError(
+            f"eccentricity {ratio.argmax()}: ratio ε = {ratio.max():.6g} is not allowed: < 1 "
+            f"(radial clearance {bearing.clearance:.6g} m)"
+        )
+    rates = np.abs(speeds) + np.hypot(velocities[:, 0], velocities[:, 1])
+    film = plain_film(bearing, options, rates)
+    rows = []
+    for index, (place, moving, omega) in enumerate(zip(places, velocities, speeds.tolist())):
+        film.set_speed(omega)
+        steps = _steps(film, control.max_iterations)
+        solution = solve_film(film, film.start(), place, moving, control.tolerance, steps)
+        if control.strict and film.dry(solution.u):
+            raise SolverError(f"film {index} at ε = {np.hypot(*place):.6g}: {_STARVED}")
+        if control.strict and not solution.converged:
+            raise SolverError(
+                f"film {index} at ε = {np.hypot(*place):.6g}, ω = {omega:.6g} rad/s: residual "
+                f"{solution.residual:.3g} after {solution.iterations} steps"
+            )
+        rows.append(field_row(film, solution))
+    return rows, film.mesh.z * bearing.radius
+
+
+def plain_start(
+    bearing: JournalBearing,
+    film: Film,
+    loads: Array,
+    speeds: Array,
+    place: Array | None,
+    control: Control,
+) -> Solution:
+    """First state of an orbit, at `place` (clearances) or at the equilibrium of the first load."""
+    film.raise_scale(_mean_pressure(bearing, loads))
+    omega = float(speeds[0])
+    film.set_speed(omega)
+    if place is None:
+        _, first = _settle(bearing, film, None, loads[0], omega, None, control)
+    else:
+        first = solve_film(film, film.start(), place, np.zeros(2), control.tolerance, 100)
+    if not first.converged:
+        raise SolverError(f"orbit cannot start: {_refusal(film, loads[0], first)}")
+    return first
+
+
+def _mean_pressure(bearing: JournalBearing, loads: Array) -> float:
+    """Largest load over the projected area, Pa."""
+    return float(np.hypot(*loads.T).max()) / (bearing.width * bearing.diameter)
+
+
+def _settle(
+    bearing: JournalBearing,
+    film: Film,
+    finer: Film | None,
+    load: Array,
+    speed: float,
+    last: Solution | None,
+    control: Control,
+) -> tuple[Film, Solution]:
+    """Equilibrium from the closed form, robustly; the film it was found on comes with it."""
+    tolerance, max_iterations = control.tolerance, control.max_iterations
+    film.set_speed(speed)
+    lifts = film.pockets.lifts(film.p_edge)
+    if speed == 0.0 and not lifts:
+        if load.any():
+            return film, no_film(film)
+        return film, solve_film(film, film.start(), load, load, tolerance, max_iterations)
+    position = _estimate(bearing, load, film)
+    attempts = [(film, *start) for start in _starts(film, position, last)]
+    if lifts:
+        floating = _floating(film, load, position)
+        attempts.insert(0 if film.pockets.free.size else len(attempts), floating)
+    if finer is not None:
+        finer.set_speed(speed)
+        attempts.append((finer, finer.start(), position))
+    for used, u, start in attempts:
+        steps = _steps(used, max_iterations)
+        solution = solve_equilibrium(used, load, u, start, tolerance, steps)
+        if solution.converged and (finer in (None, used) or used.resolves(solution.position)):
+            dry = used.dry(solution.u)
+            return used, replace(solution, estimate=position, converged=not dry)
+    used = finer or film
+    solution = solve_patiently(used, load, position, tolerance, max_iterations)
+    return used, replace(solution, estimate=position)
+
+
+def _starts(film: Film, position: Array, last: Solution | None) -> Iterator[tuple[Array, Array]]:
+    """Where Newton may start: from the last solution if the closed form has moved little."""
+    if last is not None and last.estimate is not None:
+        moved = position - last.estimate
+        if np.hypot(*moved) < NEAR * (1 - np.hypot(*last.position)):
+            yield last.u, last.position
+    yield film.start(), position
+
+
+def _estimate(bearing: JournalBearing, load: Array, film: Film) -> Array:
+    """Position by Butenschön's closed form, in clearances."""
+    if film.speed == 0.0:
+        return np.zeros(2)
+    wanted = bearing.sommerfeld_number(float(np.hypot(*load)), film.speed, film.viscosity)
+    ratio = bearing.width / bearing.diameter
+    return closed_form_position(ratio, wanted, load, film.speed, film.ruptures)
+
+
+def _refusal(film: Film, load: Array, solution: Solution) -> str:
+    """Why no film carries `load`, in words."""
+    head = f"F = ({load[0]:.6g}, {load[1]:.6g}) N at ω = {film.speed:.6g} rad/s"
+    if film.dry(solution.u):
+        return f"{head}: {_STARVED}"
+    if film.speed == 0.0:
+        if not film.pockets.lifts(film.p_edge):
+            return f"{head}: without rotation and squeeze the film carries no load"
+        return f"{head}: the supply carries no more than {_lift(film, load):.6g} N, at ε = {_HIGH}"
+    ratio = float(np.hypot(*solution.position))
+    return refusal(load, film.speed, solution.residual, solution.iterations, ratio)
+
+
+def _steps(film: Film, max_iterations: int) -> int:
+    """Newton steps that a load may take; the rupture of Reynolds moves by one cell in each."""
+    return max(max_iterations, film.mesh.shape[0] if film.creeps else 0)
+
+
+def _floating(film: Film, load: Array, position: Array) -> tuple[Film, Array, Array]:
+    """Start for a shaft that its supply carries: well off the shell, the film settled."""
+    ratio = float(np.hypot(*position))
+    if film.speed == 0.0 or ratio > _AFLOAT:
+        position = _AFLOAT * load / (float(np.hypot(*load)) or 1.0)
+    state = solve_film(film, film.start(), position, np.zeros(2), 1e-6, 30)
+    return film, state.u, position
+
+
+def _lift(film: Film, load: Array) -> float:
+    """Load that the supply carries against `load` with the shaft nearly on the shell, N."""
+    way = load / (float(np.hypot(*load)) or 1.0)
+    state = solve_film(film, film.start(), _HIGH * way, np.zeros(2), 1e-6, 100)
+    return float(state.linear.load @ way)

@@ -1,0 +1,275 @@
+"""Path of the shaft under a load that changes with time: implicit steps of film and shaft."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from loadflow.errors import SolverError
+from loadflow.journal.film.film import EVERY, Film
+from loadflow.journal.film.integrals import summary
+from loadflow.journal.results import attitude_angle
+from loadflow.journal.solvers.newton import Motion, Solution, solve_equilibrium
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+Array = NDArray[np.float64]
+
+_SMALLEST = 1.0 / 256  # of a given step, to which a step that fails may be cut
+_SAFETY = 0.8  # of the step that the error would allow
+_FINEST = 1.0 / 65536  # of a given step, to which one that is not accurate may be cut
+
+
+@dataclass(frozen=True)
+class Past:
+    """What a step needs of an earlier time: position, unknowns, liquid in the cells.
+
+    `volume` is the liquid outside grooves, m³, `gain` what enters it at this time, m³/s, and
+    `gained` what has entered so far, m³; `ahead` is the step that its error allows next, s.
+    """
+
+    time: float
+    position: Array
+    u: Array
+    liquid: Array
+    volume: float
+    gain: float
+    gained: float = 0.0
+    ahead: float = math.inf
+
+
+@dataclass(frozen=True)
+class Marcher:
+    """Second-order implicit steps (BDF2 of variable step) of one film.
+
+    A mesh fixed to the shell keeps the liquid of each cell as history; a mesh that turns with the
+    shaft serves the laws without fill, whose only history is the path of the shaft. With an
+    `accuracy`, steps are cut until their error is below that share of the narrowest gap. Only the
+    degrees of freedom `free` move.
+    """
+
+    film: Film
+    tolerance: float
+    max_iterations: int
+    accuracy: float = math.inf
+    free: slice | NDArray[np.int64] = field(default_factory=lambda: EVERY)
+
+    def begin(self, time: float, solution: Solution) -> list[Past]:
+        """History that starts at `solution`."""
+        return [self.past(time, solution.u, solution.position)]
+
+    def step(
+        self,
+        past: list[Past],
+        time: float,
+        force: Array,
+        speed: float,
+        before: tuple[Array, float],
+    ) -> tuple[Solution, list[Past], int]:
+        """Advance to `time` under `force` (N) and `speed` (rad/s), in the number of steps returned.
+
+        `before` are force and speed at the last time; where Newton fails, or the error is too
+        large, the step is cut and the load interpolated.
+        """
+        start = past[-1].time
+        smallest = _SMALLEST if math.isinf(self.accuracy) else _FINEST
+        share, done, spent, steps = 1.0, 0.0, 0, 0
+        if self.accuracy < math.inf:
+            share = min(past[-1].ahead / (time - start), 1.0)
+        while True:
+            at = 1.0 if done + 1.01 * share > 1.0 else done + share
+            now = start + at * (time - start)
+            load = before[0] + at * (force - before[0])
+            self.film.set_speed(before[1] + at * (speed - before[1]))
+            solution = self._try(past, now, load)
+            spent += solution.iterations
+            growth = self._growth(past, now, solution.position) if solution.converged else 0.5
+            if growth >= _SAFETY:
+                share = (
+                    min(growth * (at - done), 1.0) if at < 1.0 else max(growth * (at - done), share)
+                )
+                past = [*past[-2:], self._next(past[-1], now, solution, share * (time - start))]
+                done, steps = at, steps + 1
+                if done >= 1.0:
+                    return replace(solution, iterations=spent), past, steps
+            elif share > smallest:
+                share *= growth
+            else:
+                return replace(solution, iterations=spent, converged=False), past, steps
+
+    def _growth(self, past: list[Past], time: float, position: Array) -> float:
+        """How much longer the next step may be; below `_SAFETY` this one was too long.
+
+        The error of the step follows from how far the corrector left the polynomial through the
+        last positions.
+        """
+        if math.isinf(self.accuracy):
+            return 2.0
+        step = time - past[-1].time
+        times = np.array([p.time - time for p in past])
+        weights = np.array([np.prod([s / (s - t) for s in times if s != t]) for t in times])
+        left = position - weights @ np.array([p.position for p in past])
+        share = 1.0
+        if len(past) == 3:
+            ratio = step / (past[-1].time - past[-2].time)
+            known = step * (1 + ratio) / (1 + 2 * ratio)
+            share = known / (known - times[0])
+        error = share * math.hypot(*left) / self.film.gap.narrowest(position)
+        return min(2.0, max(0.2, _SAFETY * (self.accuracy / max(error, 1e-300)) ** (1 / 3)))
+
+    def _try(self, past: list[Past], time: float, force: Array) -> Solution:
+        last = past[-1]
+        step = time - last.time
+        u, position = last.u, last.position
+        if len(past) == 1:
+            rate = 1.0 / step
+            kept = [(rate, last)]
+        else:
+            before = past[-2]
+            ratio = step / (last.time - before.time)
+            rate = (1 + 2 * ratio) / (1 + ratio) / step
+            kept = [((1 + ratio) / step, last), (-(ratio**2) / (1 + ratio) / step, before)]
+            ahead = last.position + ratio * (last.position - before.position)
+            gap = self.film.gap
+            if gap.narrowest(ahead) > 0.5 * gap.narrowest(last.position):
+                u, position = last.u + ratio * (last.u - before.u), ahead
+        if self.film.mesh.polar:
+            offset = sum((w * p.position for w, p in kept), np.zeros(2))
+            motion = Motion(rate=rate, offset=offset)
+        else:
+            volume = sum((w * p.liquid for w, p in kept), np.zeros(self.film.mesh.shape))
+            motion = Motion(volume_rate=rate, volume=volume)
+        return solve_equilibrium(
+            self.film, force, u, position, self.tolerance, self.max_iterations, motion, self.free
+        )
+
+    def _next(self, last: Past, time: float, solution: Solution, ahead: float) -> Past:
+        new = self.past(time, solution.u, solution.position)
+        gained = last.gained + 0.5 * (last.gain + new.gain) * (time - last.time)
+        return replace(new, gained=gained, ahead=ahead)
+
+    def past(self, time: float, u: Array, position: Array) -> Past:
+        """History of a film with unknowns `u` at `position`."""
+        self.film.place(u, position)
+        volume, gain = self.film.stock()
+        return Past(time, position, u, self.film.liquid(), volume, gain)
+
+
+def march(
+    marcher: Marcher, past: list[Past], time: Array, force: Array, speed: Array
+) -> tuple[list[dict[str, Any]], list[Past]]:
+    """Rows of the orbit at every time after the first, and the history at the last.
+
+    Raises
+    ------
+    SolverError
+        A step fails even when cut.
+    """
+    rows = []
+    for i in range(1, time.size):
+        before = (force[i - 1], float(speed[i - 1]))
+        now = float(time[i])
+        solution, past, steps = marcher.step(past, now, force[i], float(speed[i]), before)
+        if not solution.converged:
+            raise SolverError(
+                f"orbit stops at t = {now:.6g} s: F = ({force[i, 0]:.6g}, {force[i, 1]:.6g}) N, "
+                f"ω = {speed[i]:.6g} rad/s, ε = {math.hypot(*solution.position):.6g}; residual "
+                f"{solution.residual:.3g} after {solution.iterations} Newton steps"
+            )
+        rows.append(orbit_row(marcher.film, solution, steps))
+    return rows, past
+
+
+def orbit_row(film: Film, solution: Solution, steps: int) -> dict[str, Any]:
+    """What an orbit says of one time, after `steps` implicit steps."""
+    row = summary(film, solution.u, solution.position)
+    if film.elastic:
+        row["shell_deformation"] = float(film.deformation.max())
+    x, y, *tilt = solution.position.tolist()
+    if tilt:
+        row["tilt"] = np.array(tilt) * film.relative_clearance
+    return row | {
+        "x": x,
+        "y": y,
+        "residual": solution.residual,
+        "iterations": solution.iterations,
+        "steps": steps,
+    }
+
+
+def mass_balance(first: Past, last: Past, rows: list[dict[str, Any]], time: Array) -> float:
+    """What entered the film less what left and what stayed, over what left or was there."""
+    left = float(np.trapezoid([row["side_flow"] for row in rows], time))
+    stored = last.volume - first.volume
+    return float((last.gained - first.gained - stored) / max(left, last.volume))
+
+
+_VARIABLES = {
+    "eccentricity_ratio": ("1", "eccentricity ratio |e|/c"),
+    "minimum_film": ("m", "minimum film thickness"),
+    "maximum_pressure": ("Pa", "largest film pressure, absolute"),
+    "friction_power": ("W", "friction power of the film"),
+    "side_flow": ("m3/s", "oil that leaves through the rims"),
+    "supply_flow": ("m3/s", "oil that the grooves give, net"),
+    "supply_power": ("W", "what lifts that oil from tank to supply pressure"),
+    "total_fill": ("1", "share of liquid in the gap"),
+    "shell_deformation": ("m", "largest growth of the gap by the give of the shell"),
+    "residual": ("1", "largest imbalance of cell and load, scaled"),
+    "iterations": ("1", "Newton steps"),
+    "steps": ("1", "implicit steps since the time before"),
+}
+_GROOVES = {
+    "groove_flow": ("m3/s", "oil that each groove gives to the film"),
+    "groove_pressure": ("Pa", "pressure of each groove, absolute"),
+}
+
+
+_TILTS = {"tilt": ("rad", "rotation of the shaft about both axes")}
+
+
+def orbit_dataset(
+    values: dict[str, Array], time: Array, force: Array, speed: Array, clearance: float
+) -> xr.Dataset:
+    """The orbit as a Dataset over time; `values` hold its variables and the position x, y."""
+    import xarray as xr
+
+    path = np.stack([values["x"], values["y"]], axis=-1)
+    values = values | {"eccentricity_ratio": np.hypot(path[:, 0], path[:, 1])}
+    data = {
+        name: (dims, values[name], {"units": units, "long_name": text})
+        for dims, names in (
+            ("time", _VARIABLES),
+            (("time", "groove"), _GROOVES),
+            (("time", "axis"), _TILTS),
+        )
+        for name, (units, text) in names.items()
+        if name in values
+    }
+    return xr.Dataset(
+        {
+            "eccentricity": (
+                ("time", "axis"),
+                path * clearance,
+                {"units": "m", "long_name": "shaft centre relative to the shell"},
+            ),
+            "attitude_angle": (
+                "time",
+                attitude_angle(force, path, speed),
+                {"units": "rad", "long_name": "angle from load to eccentricity, > 0 with rotation"},
+            ),
+            **data,
+        },
+        coords={
+            "time": ("time", time, {"units": "s", "long_name": "time"}),
+            "axis": (
+                "axis",
+                [0, 1],
+                {"units": "1", "long_name": "component in the bearing's plane"},
+            ),
+        },
+    )

@@ -1,0 +1,1 @@
+"""How accurate a run will be and what it costs: plan, ladder of models, accuracy, verification."""

@@ -1,0 +1,285 @@
+"""Answers of a case beside those of the next better models, on a few of its samples."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from loadflow.errors import SolverError
+from loadflow.planning.accuracy import finer
+from loadflow.planning.ladder import rung_of
+from loadflow.reduction import damage_equivalent_load
+from loadflow.scene.cases import Case
+from loadflow.scene.scene import Journal, Scene
+from loadflow.stages.frames import to_film
+from loadflow.stages.journal import equilibria, follow, shaft_line
+from loadflow.stages.loads import hub_loads
+from loadflow.stages.reduction import moment_governs
+from loadflow.stages.rolling import life_of, solve_bearing
+from loadflow.stages.shaft import bearing_loads
+from loadflow.stages.statistics import SLOPE
+from loadflow.studies.reduction_error import quick
+
+Parts = Mapping[str, Any]
+"""What each stage gave for a case, by the name of the stage."""
+
+FILM = ("eccentricity_ratio", "minimum_film", "maximum_pressure", "friction_power")
+EXTREMES = ("eccentricity_ratio", "minimum_film", "maximum_pressure")
+CONTACT = ("maximum_force", "maximum_pressure")
+
+SAMPLES = 5
+"""Samples of a case that are solved again, from the mildest to the hardest."""
+
+STEPS = 240
+"""Steps of an orbit that are followed again, up to a little behind its largest eccentricity."""
+
+HEAT_CAPACITY = 2000.0  # J/(kg K), mineral oil
+THINNING = 0.035  # 1/K, relative loss of viscosity of a mineral oil of VG 100 … 320 near 50 °C
+
+
+@dataclass(frozen=True)
+class Difference:
+    """How much an answer moves when a model is replaced by a better one.
+
+    `result` is what the answer belongs to, `value` the relative change at its largest.
+    """
+
+    stage: str
+    result: str
+    quantity: str
+    case: str
+    against: str
+    value: float
+
+
+def compare(scene: Scene, case: Case, parts: Parts) -> Iterator[Difference]:
+    """Compare what the stages gave for a case with what the next better models give."""
+    yield from _loads(scene, case, parts)
+    if "reduction" in parts:
+        yield from _reduction(scene, case, parts)
+    if "journal" in parts:
+        again = _orbits if scene.journal.in_motion else _films
+        for stage, against, options in _better_films(scene, parts):
+            yield from again(scene, case, parts, stage, against, options)
+        if not (scene.journal.in_motion or scene.journal.tilt):
+            yield from _motion(scene, case, parts)
+    if "rolling" in parts:
+        yield from _contacts(scene, case, parts)
+
+
+def _loads(scene: Scene, case: Case, parts: Parts) -> Iterator[Difference]:
+    better = finer(scene, "loads")
+    if better is None:
+        return
+    series = hub_loads(better, case, {})
+    sharp = bearing_loads(better, case, {"loads": series})
+    for bearing in sharp["bearing"].values:
+        ours, theirs = (_describe(scene, data, bearing) for data in (parts["shaft"], sharp))
+        where, against = f"{case.name}, {bearing}", f"the rotor {better.loads.rung}"
+        yield from _rows("loads", "loads.statistics", where, against, ours, theirs)
+
+
+def _describe(scene: Scene, bearings: xr.Dataset, bearing: str) -> dict[str, float]:
+    """Return largest load and damage of what governs a bearing: radial force or tilting moment."""
+    load, time = _governing(scene, bearings, bearing), bearings["time"].values
+    duration = float(time[-1] - time[0])
+    sideways, upright = (damage_equivalent_load(track, SLOPE, duration) for track in load.T)
+    return {
+        "bearing load max": float(np.hypot(*load.T).max()),
+        "bearing force DEL": float(np.hypot(sideways, upright)),
+    }
+
+
+def _governing(scene: Scene, bearings: xr.Dataset, bearing: str) -> np.ndarray:
+    """Radial force or tilting moment (time, 2) of a bearing, whichever governs it."""
+    data = bearings.sel(bearing=bearing)
+    moment = data["moment"].transpose("time", "axis").values.astype(float)
+    force = data["force"].transpose("time", "axis").values.astype(float)
+    return to_film(moment if moment_governs(scene, bearing, moment) else force)
+
+
+def _reduction(scene: Scene, case: Case, parts: Parts) -> Iterator[Difference]:
+    for bearing, node in parts["reduction"].children.items():
+        load = np.hypot(*_governing(scene, parts["shaft"], bearing).T)
+        where, index = f"{case.name}, {bearing}", node["index"].values
+        yield Difference(
+            "reduction",
+            "reduction.histogram",
+            "largest load",
+            where,
+            "the full series",
+            _relative(load[index].max(), load.max()),
+        )
+        if "journal" in parts and not scene.journal.in_motion and bearing in scene.journal.bearings:
+            film = parts["journal"][bearing].to_dataset()
+            yield Difference(
+                "reduction",
+                "journal.film",
+                "eccentricity ratio",
+                where,
+                "the full series",
+                _severest(scene.journal, bearing, load, parts, film),
+            )
+
+
+def _severest(
+    options: Journal, bearing: str, load: np.ndarray, parts: Parts, film: xr.Dataset
+) -> float:
+    """Compare the largest ε with that at the largest load per speed of the full series."""
+    speed = parts["loads"]["speed"].values.astype(float)
+    turning = np.abs(speed) >= np.abs(film["speed"].values[film["converged"].values > 0]).min()
+    worst = int(np.argmax(np.where(turning, load / np.maximum(np.abs(speed), 1e-12), 0.0)))
+    at = parts["shaft"].sel(bearing=bearing).isel(time=[worst])
+    force = at["force"].transpose("time", "axis").values.astype(float)
+    line = shaft_line(options, at)
+    answer = equilibria(options, force, speed[worst : worst + 1], **line)
+    return _relative(
+        float(film["eccentricity_ratio"].max()), float(np.max(answer.eccentricity_ratio))
+    )
+
+
+def _better_films(scene: Scene, parts: Parts) -> Iterator[tuple[str, str, dict[str, Journal]]]:
+    """Stage, name and, by bearing, journal bearing of each model that the film is compared with."""
+    films = {b: parts["journal"][b].to_dataset() for b in scene.journal.bearings}
+    if scene.journal.heat is None:
+        warmer = {bearing: _warmer(scene.journal, film) for bearing, film in films.items()}
+        yield "heat", "oil warmed by its friction", warmer
+    better = finer(scene, "journal")
+    if better is not None:
+        options = dict.fromkeys(films, better.journal)
+        if better.journal.in_motion and better.journal.heat is not None:
+            options = {
+                bearing: better.journal.at_temperature(float(film["temperature"][0]))
+                for bearing, film in films.items()
+            }
+        yield "journal", f"the film {rung_of(better, 'journal')}", options
+
+
+def _warmer(options: Journal, film: xr.Dataset) -> Journal:
+    """The bearing with the oil as warm as the mean friction makes it, if the side flow takes all.
+
+    ΔT = P/(ρ c Q) of the energy balance, and the viscosity that is left after it.
+    """
+    oil = options.lubricant
+    carried = oil.density * HEAT_CAPACITY * float(film["side_flow"].mean())
+    warming = float(film["friction_power"].mean()) / carried if carried > 0 else 0.0
+    thinner = replace(oil, viscosity=oil.viscosity * float(np.exp(-THINNING * warming)))
+    return options.model_copy(update={"lubricant": thinner})
+
+
+def _films(
+    scene: Scene, case: Case, parts: Parts, stage: str, against: str, options: dict[str, Journal]
+) -> Iterator[Difference]:
+    """Equilibria of a few samples."""
+    for bearing, better in options.items():
+        film = parts["journal"][bearing].to_dataset().load()
+        places = _spread(film["eccentricity_ratio"].values)
+        some = film.isel(sample=places)
+        loads = parts["reduction"][bearing].to_dataset().isel(sample=places)
+        line = shaft_line(scene.journal, loads)
+        answer = equilibria(better, loads["force"].values, some["speed"].values, **line)
+        ours = {quantity: some[quantity].values for quantity in FILM}
+        where = f"{case.name}, {bearing}"
+        yield from _rows(stage, "journal.film", where, against, ours, vars(answer))
+
+
+def _orbits(
+    scene: Scene, case: Case, parts: Parts, stage: str, against: str, options: dict[str, Journal]
+) -> Iterator[Difference]:
+    """A stretch of the orbit around its largest eccentricity, from the place where it begins."""
+    for bearing, better in options.items():
+        film = parts["journal"][bearing].to_dataset().load()
+        worst = int(np.argmax(film["eccentricity_ratio"].values))
+        begin = max(0, min(worst - 3 * STEPS // 4, film.sizes["sample"] - STEPS))
+        stretch = slice(begin, begin + STEPS)
+        ours = film.isel(sample=stretch)
+        loads, shaft = (parts[name].isel(time=stretch).load() for name in ("loads", "shaft"))
+        place = film["eccentricity"].values[begin]
+        try:
+            path = follow(better, loads, shaft.sel(bearing=bearing), place)
+            theirs = _of_orbit(path)
+        except SolverError:
+            theirs = dict.fromkeys(FILM, np.nan)
+        where = f"{case.name}, {bearing}"
+        yield from _rows(stage, "journal.film", where, against, _of_orbit(ours), theirs)
+
+
+def _motion(scene: Scene, case: Case, parts: Parts) -> Iterator[Difference]:
+    """The whole series with the film in motion, where that is quick; a shaft at rest has none."""
+    journal = quick(scene.journal)
+    if journal is None:
+        return
+    for bearing in scene.journal.bearings:
+        film = parts["journal"][bearing].to_dataset().load()
+        loads, shaft = parts["loads"].load(), parts["shaft"].sel(bearing=bearing).load()
+        try:
+            path = follow(journal, loads, shaft)
+        except SolverError:
+            continue
+        ours = {quantity: _of_orbit(film)[quantity] for quantity in EXTREMES}
+        where = f"{case.name}, {bearing}"
+        yield from _rows(
+            "motion", "journal.film", where, "the film in motion", ours, _of_orbit(path)
+        )
+
+
+def _of_orbit(path: xr.Dataset) -> dict[str, float]:
+    """What users read of an orbit: the smallest film, the mean friction, else the largest value."""
+    found = {name: float(path[name].max()) for name in ("eccentricity_ratio", "maximum_pressure")}
+    smallest, friction = float(path["minimum_film"].min()), float(path["friction_power"].mean())
+    return found | {"minimum_film": smallest, "friction_power": friction}
+
+
+def _contacts(scene: Scene, case: Case, parts: Parts) -> Iterator[Difference]:
+    """Equilibria of a few samples of the first bearing, and the life under these alone."""
+    better = finer(scene, "rolling")
+    if better is None:
+        return
+    bearing = scene.rolling.bearing
+    reduced = parts["reduction"][bearing].to_dataset()
+    places = _spread(parts["rolling"]["maximum_force"].values)
+    some = reduced.isel(sample=places).load()
+    ours, theirs = (solve_bearing(one, bearing, some) for one in (scene, better))
+    where, against = f"{case.name}, {bearing}", f"rings {better.rolling.rings}"
+    forces, lives = (
+        [{q: getattr(answer, q) for q in CONTACT} for answer in (ours, theirs)],
+        [{"life": life_of(answer, some)} for answer in (ours, theirs)],
+    )
+    yield from _rows("rolling", "rolling.loads", where, against, *forces)
+    yield from _rows("rolling", "rolling.life", where, against, *lives)
+
+
+def _rows(
+    stage: str,
+    result: str,
+    where: str,
+    against: str,
+    ours: Mapping[str, Any],
+    theirs: Mapping[str, Any],
+) -> Iterator[Difference]:
+    """A difference for each quantity of `ours`."""
+    for name, values in ours.items():
+        change = _relative(values, theirs[name])
+        yield Difference(stage, result, name.replace("_", " "), where, against, change)
+
+
+def _spread(values: np.ndarray) -> np.ndarray:
+    """Places of `SAMPLES` finite values, from the smallest to the largest in even steps of rank."""
+    order = np.argsort(values)[: np.isfinite(values).sum()]
+    return np.unique(order[np.linspace(0, order.size - 1, SAMPLES).round().astype(int)])
+
+
+def _relative(ours: Any, theirs: Any) -> float:
+    """Largest relative change; infinite where only one of the two has an answer."""
+    ours, theirs = np.atleast_1d(ours).astype(float), np.atleast_1d(theirs).astype(float)
+    known = np.isfinite(ours) & np.isfinite(theirs)
+    if not np.array_equal(np.isfinite(ours), known) or not np.array_equal(
+        np.isfinite(theirs), known
+    ):
+        return float("inf")
+    scale = np.where(theirs[known] != 0, np.abs(theirs[known]), 1.0)
+    return float(np.max(np.abs(ours[known] - theirs[known]) / scale, initial=0.0))

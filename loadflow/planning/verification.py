@@ -1,0 +1,73 @@
+"""A few cases of the run itself, solved again by the next better models.
+
+The ladder tells the error of a model on its own set of cases; this tells it on the user's.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from loadflow.planning.comparisons import Difference, compare
+from loadflow.scene.cases import Case
+from loadflow.scene.scene import Scene
+
+WARN = 0.05
+"""Relative change above which a run warns, where its scene asks for no accuracy."""
+
+
+def differences(scene: Scene, cases: list[Case], inputs: Mapping[str, Any]) -> xr.Dataset:
+    """Compare what `cases` gave with the next better model of each stage; dimension ``check``."""
+    found = [row for case in cases for row in compare(scene, case, inputs[case.name])]
+    text = ("stage", "result", "quantity", "case", "against")
+    return xr.Dataset(
+        {
+            "difference": (
+                "check",
+                np.array([row.value for row in found]),
+                {"units": "1", "long_name": "largest relative change against the better model"},
+            ),
+            "allowed": (
+                "check",
+                np.array([_allowed(scene, row) for row in found]),
+                {"units": "1", "long_name": "accuracy asked for; NaN where none is"},
+            ),
+        },
+        {name: ("check", np.array([getattr(row, name) for row in found], str)) for name in text},
+    )
+
+
+def exceeded(tree: xr.DataTree) -> list[str]:
+    """Return the stages that differ from the better model by more than the accuracy asked for."""
+    if "check" not in tree.children:
+        return []
+    check = tree["check"].to_dataset()
+    stages = check["stage"].values[(check["difference"] > check["allowed"]).values]
+    return list(dict.fromkeys(map(str, stages)))
+
+
+def warnings(tree: xr.DataTree) -> list[str]:
+    """Return a sentence on each stage and quantity that differs by more than is allowed."""
+    if "check" not in tree.children:
+        return []
+    check = tree["check"].to_dataset()
+    check = check.isel(check=np.argsort(-check["difference"].values))
+    bad = check.isel(check=(check["difference"] > check["allowed"].fillna(WARN)).values)
+    worst: dict[tuple[str, str], str] = {}
+    for k in range(bad.sizes["check"]):
+        row = bad.isel(check=k)
+        stage, quantity = str(row["stage"].item()), str(row["quantity"].item())
+        worst.setdefault(
+            (stage, quantity),
+            f"{quantity} moves by {100 * row['difference'].item():.2g} % with "
+            f"{row['against'].item()} ({row['case'].item()})",
+        )
+    return [f"{stage}: {text}" for (stage, _), text in worst.items()]
+
+
+def _allowed(scene: Scene, row: Difference) -> float:
+    allowed = scene.allowed_error(row.result)
+    return np.nan if allowed is None else allowed

@@ -1,0 +1,1 @@
+"""Speeds, slip and inertia of rolling elements and cages."""

@@ -1,0 +1,250 @@
+"""Ball bearings at speed: centrifugal force and gyroscopic moment of every ball, after Harris.
+
+A ball then meets both rings at different angles. The loads of inertia are dead loads within one
+equilibrium and follow its contact angles from one to the next, with control by the outer raceway
+(λ_i = 0, λ_o = 2). Source: Harris & Kotzalas, Advanced Concepts of Bearing Technology, ch. 3.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from loadflow.errors import InputError, SolverError
+from loadflow.rolling.contacts import HEIGHT, NORMAL_R, NORMAL_Z, RADIUS, Contacts
+
+if TYPE_CHECKING:
+    from loadflow.rolling.bearings.ball import BallBearing
+    from loadflow.rolling.equilibrium import RingEquilibrium
+
+Array = NDArray[np.float64]
+
+STEEL_DENSITY = 7850.0
+_INNER_STEPS, _ROUNDS = 60, 50
+_WANTED, _ALLOWED = 1e-8, 1e-4  # change of the loads of inertia over the largest load
+
+
+@dataclass(frozen=True)
+class Spin:
+    """Balls of a bearing at speed; arrays (..., row, ball).
+
+    Attributes
+    ----------
+    inner_forces, outer_forces : ndarray
+        Contact forces at both raceways, N.
+    inner_angles, outer_angles : ndarray
+        Contact angles from the radial plane, rad.
+    centrifugal : ndarray
+        Centrifugal force, N.
+    gyroscopic : ndarray
+        Gyroscopic moment, N m.
+    """
+
+    inner_forces: Array
+    outer_forces: Array
+    inner_angles: Array
+    outer_angles: Array
+    centrifugal: Array
+    gyroscopic: Array
+
+
+@dataclass(frozen=True)
+class _Balls:
+    """Balls in their grooves, as numbers."""
+
+    inner_gap: float  # r_i - D/2
+    outer_gap: float
+    inner: float  # stiffness factors, N/m^1.5
+    outer: float
+    diameter: float
+    pitch: float
+    mass: float
+
+
+def spin_equilibrium(
+    bearing: BallBearing,
+    contacts: Contacts,
+    rest: RingEquilibrium,
+    speed: ArrayLike,
+    *,
+    density: float = STEEL_DENSITY,
+    tolerance: float = 1e-8,
+    max_iterations: int = 100,
+) -> tuple[dict[str, Array], Spin]:
+    """Equilibrium of rings and balls with the inertia of the balls.
+
+    Parameters
+    ----------
+    bearing : BallBearing
+        The bearing; its outer ring stands still.
+    contacts : Contacts
+        Its contacts.
+    rest : RingEquilibrium
+        Equilibrium without inertia, where the iteration starts.
+    speed : array_like
+        Of the inner ring, rad/s; broadcasts with the load cases.
+    density : float
+        Of the balls, kg/m³.
+    tolerance : float
+        Largest residual of the rings, as in `solve`.
+    max_iterations : int
+        Newton steps allowed between two updates of the loads of inertia.
+
+    Returns
+    -------
+    dict, Spin
+        What differs from `rest` (displacement, stiffness, convergence), and the balls.
+
+    Raises
+    ------
+    InputError
+        If the speed is not finite.
+    SolverError
+        If balls or rings do not come to rest, or the loads of inertia of a ball that is about to
+        leave the inner ring do not settle within 1e-4 of the largest load.
+    """
+    shape = rest.displacement.shape[:-1]
+    omega = np.abs(np.broadcast_to(np.asarray(speed, float), shape)).reshape(-1)
+    if not np.isfinite(omega).all():
+        raise InputError("speed: must be finite")
+    diameter = bearing.ball_diameter
+    balls = _Balls(
+        inner_gap=bearing.groove("inner") - diameter / 2,
+        outer_gap=bearing.groove("outer") - diameter / 2,
+        inner=bearing.contact_stiffness or float(bearing.raceway_contact("inner").stiffness),
+        outer=bearing.contact_stiffness or float(bearing.raceway_contact("outer").stiffness),
+        diameter=diameter,
+        pitch=bearing.pitch_diameter,
+        mass=density * np.pi / 6 * diameter**3,
+    )
+    load = np.concatenate([rest.force, rest.moment], axis=-1).reshape(-1, 5)
+    q = rest.displacement.reshape(-1, 5).copy()
+    jacobian, free = _directions(contacts), contacts.table[:, [NORMAL_R, NORMAL_Z]]
+    scale = contacts.scale
+    reference = np.maximum(np.abs(load * scale).max(axis=1), 1e-12)
+    reach = free[None, :, None] + np.einsum("kbij,nj->nkbi", jacobian, q)
+    seat = reach * balls.outer_gap / np.hypot(*np.moveaxis(reach, -1, 0))[..., None]
+    angles = (np.arctan2(reach[..., 1], reach[..., 0]),) * 2
+    push = np.zeros_like(reach)
+    total = 0
+    for turn in range(_ROUNDS):
+        fresh, centrifugal, gyroscopic = _inertia(balls, omega[:, None, None], *angles)
+        change = np.abs(fresh - push).max(axis=(1, 2, 3)) / reference
+        push = fresh if turn < 8 else (push + fresh) / 2  # lightly loaded balls may swing
+        for _ in range(max_iterations):
+            reach = free[None, :, None] + np.einsum("kbij,nj->nkbi", jacobian, q)
+            seat, pull, tangent, outer = _seats(balls, reach, push, seat, 1e-11 * reference)
+            rest_load = load - np.einsum("kbij,nkbi->nj", jacobian, pull)
+            hessian = np.einsum("kbia,nkbij,kbjc->nac", jacobian, tangent, jacobian, optimize=True)
+            residual = np.abs(rest_load * scale).max(axis=1) / reference
+            if (residual <= tolerance).all():
+                break
+            total += 1
+            scaled = hessian * scale[:, None] * scale
+            scaled += 1e-10 * np.trace(scaled, axis1=1, axis2=2)[:, None, None] * np.eye(5)
+            step = np.linalg.solve(scaled, (rest_load * scale)[..., None])[..., 0]
+            step *= np.minimum(1, 0.3 * contacts.cap / np.abs(step).max(axis=1, keepdims=True))
+            q += step * scale
+        away = reach - seat
+        angles = (
+            np.arctan2(away[..., 1], away[..., 0]),
+            np.arctan2(seat[..., 1], seat[..., 0]),
+        )
+        if (change <= _WANTED).all() and (residual <= tolerance).all():
+            break
+    if (change > _ALLOWED).any() or (residual > tolerance).any():
+        worst = int(np.argmax(np.maximum(residual, change)))
+        raise SolverError(
+            f"spinning balls: case {worst} at {omega[worst]:g} rad/s, residual "
+            f"{residual[worst]:.3g}, change of inertia {change[worst]:.3g} after {total} steps"
+        )
+    full = (*shape, *reach.shape[1:3])
+    spin = (np.hypot(*np.moveaxis(pull, -1, 0)), outer, *angles, centrifugal, gyroscopic)
+    rings = {
+        "displacement": q.reshape(*shape, 5),
+        "stiffness": hessian.reshape(*shape, 5, 5),
+        "residual": residual.reshape(shape),
+        "iterations": np.full(shape, total),
+        "converged": np.full(shape, True),
+    }
+    return rings, Spin(*(np.broadcast_to(v, reach.shape[:3]).reshape(full) for v in spin))
+
+
+def _directions(contacts: Contacts) -> Array:
+    """Motion (r, z) of the inner groove centre at each ball from that of the ring, (k, b, 2, 5)."""
+    cos, sin = np.cos(contacts.azimuth), np.sin(contacts.azimuth)
+    zero = np.zeros_like(cos)
+    rows = []
+    for line in contacts.table:
+        radius, height = line[RADIUS], line[HEIGHT]
+        out = np.stack([cos, sin, zero, -height * sin, height * cos], axis=-1)
+        up = np.stack([zero, zero, zero + 1, radius * sin, -radius * cos], axis=-1)
+        rows.append(np.stack([out, up], axis=1))
+    return np.array(rows)
+
+
+def _inertia(balls: _Balls, omega: Array, inner: Array, outer: Array) -> tuple[Array, Array, Array]:
+    """Dead load (r, z) on each ball, centrifugal force, gyroscopic moment.
+
+    With outer raceway control the friction that holds the gyroscopic moment acts there alone, so
+    that the inner ring feels none of it.
+    """
+    ratio = balls.diameter / balls.pitch
+    apart = np.cos(inner - outer)
+    orbit = omega * (apart - ratio * np.cos(outer)) / (1 + apart)
+    tan = np.sin(outer) / (np.cos(outer) + ratio)
+    pitch = np.arctan(tan)
+    sides = (np.cos(outer) + tan * np.sin(outer)) / (1 + ratio * np.cos(outer))
+    sides = sides + (np.cos(inner) + tan * np.sin(inner)) / (1 - ratio * np.cos(inner))
+    own = omega / (sides * ratio * np.cos(pitch))
+    centrifugal = balls.mass * balls.pitch / 2 * orbit**2
+    gyroscopic = balls.mass * balls.diameter**2 / 10 * own * orbit * np.sin(pitch)
+    friction = 2 * gyroscopic / balls.diameter
+    push = np.stack([centrifugal - friction * np.sin(outer), friction * np.cos(outer)], axis=-1)
+    return push, centrifugal, gyroscopic
+
+
+def _seats(
+    balls: _Balls, reach: Array, push: Array, seat: Array, quiet: Array
+) -> tuple[Array, Array, Array, Array]:
+    """Ball centres at rest, force on the inner ring and its slope, outer contact forces.
+
+    Everything counts from the outer groove centre; `reach` is the inner one. Newton's method from
+    `seat` with a cap on the step, until `quiet` (N) or nothing more moves.
+    """
+    limit = 0.2 * (balls.inner_gap + balls.outer_gap)
+    floor = 1e-9 * balls.outer * balls.outer_gap**0.5
+    b = seat.copy()
+    for _ in range(_INNER_STEPS):
+        pull, h_inner, _ = _spring(balls.inner, balls.inner_gap, reach - b)
+        back, h_outer, outer = _spring(balls.outer, balls.outer_gap, b)
+        wrong = pull - back + push
+        hessian = h_inner + h_outer + floor * np.eye(2)
+        step = np.linalg.solve(hessian, wrong[..., None])[..., 0]
+        size = np.hypot(step[..., 0], step[..., 1])
+        settled = size <= 1e-14 * balls.outer_gap
+        if (settled | (np.abs(wrong).max(axis=-1) <= quiet[:, None, None])).all():
+            break
+        b = b + step * np.minimum(1.0, 0.1 * limit / np.maximum(size, 1e-300))[..., None]
+    else:
+        raise SolverError(
+            f"spinning balls: a ball does not come to rest, {np.abs(wrong).max():.3g} N unbalanced"
+        )
+    tangent = h_inner - h_inner @ np.linalg.solve(hessian, h_inner)
+    return b, pull, tangent, outer
+
+
+def _spring(stiffness: float, gap: float, vector: Array) -> tuple[Array, Array, Array]:
+    """Force along `vector` when longer than `gap`, its Hessian, and its size."""
+    length = np.hypot(vector[..., 0], vector[..., 1])
+    unit = vector / length[..., None]
+    delta = np.maximum(length - gap, 0.0)
+    force = stiffness * delta**1.5
+    slope = 1.5 * stiffness * np.sqrt(delta)
+    along = unit[..., :, None] * unit[..., None, :]
+    across = np.eye(2) - along
+    hessian = slope[..., None, None] * along + (force / length)[..., None, None] * across
+    return force[..., None] * unit, hessian, force

@@ -1,0 +1,1 @@
+"""Flexible rings: sections, beams, finite elements, given matrices, condensation, dynamics."""

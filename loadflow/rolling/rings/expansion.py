@@ -1,0 +1,162 @@
+"""Axial deflection of a slewing bearing whose rings expand, [Ritzer 2018] ch. 2.4.1.
+
+The analytic rung between rigid and flexible rings: pure axial load, rings as plain cylinders that
+widen or shrink alike all round, no twist of the section and no support by the structure.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Literal
+
+import numpy as np
+from annotated_types import Gt
+from numpy.typing import ArrayLike
+
+from loadflow.errors import InputError
+from loadflow.numerics.fields import check_fields
+from loadflow.rolling.bearings.four_point import SlewingBearing
+from loadflow.rolling.contacts import Array
+
+
+@dataclass(frozen=True, kw_only=True)
+class RingSections:
+    """Diameters and height of the rings.
+
+    Attributes
+    ----------
+    outer_outside, outer_inside : float
+        Diameters D_Aa, D_Ai of the outer ring, m.
+    inner_outside, inner_inside : float
+        Diameters D_Ia, D_Ii of the inner ring, m.
+    height : float
+        Height H of both rings over all rows, m.
+
+    Raises
+    ------
+    InputError
+        If a field is not positive or a ring has no thickness.
+    """
+
+    outer_outside: Annotated[float, Gt(0)]
+    outer_inside: Annotated[float, Gt(0)]
+    inner_outside: Annotated[float, Gt(0)]
+    inner_inside: Annotated[float, Gt(0)]
+    height: Annotated[float, Gt(0)]
+
+    def __post_init__(self) -> None:
+        check_fields(self)
+        for ring in ("outer", "inner"):
+            outside, inside = getattr(self, f"{ring}_outside"), getattr(self, f"{ring}_inside")
+            if outside <= inside:
+                raise InputError(f"{ring}_outside: must be > {inside:g} m, got {outside:g}")
+
+
+@dataclass(frozen=True)
+class ExpansionResult:
+    """Axial equilibrium with expanding rings; arrays over the load cases.
+
+    Attributes
+    ----------
+    ball_force : ndarray
+        Force on each ball, N.
+    contact_angle : ndarray
+        Operating contact angle, rad.
+    displacement : ndarray
+        Axial displacement of the inner ring, m.
+    expansion : ndarray
+        Widening of the outer and shrinking of the inner ring on the radius, together, m.
+    residual : ndarray
+        Gap left in the closure of the groove centres over their distance R₀.
+    """
+
+    ball_force: Array
+    contact_angle: Array
+    displacement: Array
+    expansion: Array
+    residual: Array
+
+
+def axial_expansion(
+    bearing: SlewingBearing,
+    axial_force: ArrayLike,
+    sections: RingSections,
+    *,
+    flexible: Literal["none", "outer", "inner", "both"] = "both",
+    rings: Literal["thin", "thick"] = "thin",
+) -> ExpansionResult:
+    """Axial deflection with ring expansion, (2.12)–(2.18) with (2.12) put right.
+
+    Closes the triangle of groove centres cos α = (R₀ cos α₀ - Δr)/(R₀ + δ) for the contact angle by
+    bisection; each side of it has one sign change between α₀ and 90°.
+
+    Parameters
+    ----------
+    bearing : SlewingBearing
+        Without clearance or preload.
+    axial_force : array_like
+        Axial force on the inner ring, N; its sign is that of the displacement.
+    sections : RingSections
+        The rings.
+    flexible : {"none", "outer", "inner", "both"}
+        Which rings expand.
+    rings : {"thin", "thick"}
+        Thin rings of (2.13), (2.17), or thick-walled tubes.
+
+    Returns
+    -------
+    ExpansionResult
+        Over the shape of `axial_force`.
+
+    Raises
+    ------
+    InputError
+        If the bearing has clearance, the force is not finite or an option is unknown.
+    """
+    if bearing.clearance != 0:
+        raise InputError(f"clearance: must be 0 for ring expansion, got {bearing.clearance:g}")
+    load = np.asarray(axial_force, float)
+    if not np.isfinite(load).all():
+        raise InputError(f"axial_force: must be finite, got {load}")
+    balls = bearing.balls * bearing.rows
+    free, nominal = bearing.groove_distance, bearing.contact_angle
+    softness = _softness(bearing, sections, flexible, rings)
+
+    def closure(alpha: Array) -> tuple[Array, Array, Array, Array]:
+        force = np.abs(load) / (balls * np.sin(alpha))
+        approach = (force / bearing.series_stiffness) ** (2 / 3)
+        widening = softness * balls * force * np.cos(alpha)
+        gap = free * np.cos(nominal) - widening - (free + approach) * np.cos(alpha)
+        return gap, force, approach, widening
+
+    low, high = np.full(load.shape, nominal), np.full(load.shape, np.pi / 2)
+    for _ in range(60):
+        middle = (low + high) / 2
+        open_yet = closure(middle)[0] < 0
+        low, high = np.where(open_yet, middle, low), np.where(open_yet, high, middle)
+    alpha = (low + high) / 2
+    gap, force, approach, widening = closure(alpha)
+    shift = (free + approach) * np.sin(alpha) - free * np.sin(nominal)
+    return ExpansionResult(force, alpha, np.sign(load) * shift, widening, np.abs(gap) / free)
+
+
+def _softness(bearing: SlewingBearing, sections: RingSections, flexible: str, rings: str) -> float:
+    """Expansion of both rings on the radius for the sum of radial ball forces, m/N."""
+    parts = {"none": (), "outer": ("outer",), "inner": ("inner",), "both": ("outer", "inner")}
+    if flexible not in parts:
+        raise InputError(f"flexible: must be one of {', '.join(parts)}, got {flexible!r}")
+    if rings not in ("thin", "thick"):
+        raise InputError(f"rings: must be 'thin' or 'thick', got {rings!r}")
+    total = 0.0
+    for ring in parts[flexible]:
+        outside, inside = getattr(sections, f"{ring}_outside"), getattr(sections, f"{ring}_inside")
+        loaded = inside if ring == "outer" else outside
+        if rings == "thin":
+            per_pressure = loaded**2 / (2 * (outside - inside))
+        else:
+            ratio = (inside / outside) ** 2
+            sign = 1.0 if ring == "outer" else -1.0
+            tube = (1 + ratio) / (1 - ratio) + sign * bearing.poisson_ratio
+            per_pressure = loaded / 2 * tube
+        total += per_pressure / bearing.elastic_modulus / (np.pi * loaded * sections.height)
+    return total

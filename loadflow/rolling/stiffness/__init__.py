@@ -1,0 +1,1 @@
+"""Stiffness and damping of bearings and of their lubricated contacts."""

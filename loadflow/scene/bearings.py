@@ -1,0 +1,262 @@
+"""Rolling bearings in scenes: geometries of any kind, told apart by ``kind``, and their rings."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import (
+    BaseModel,
+    BeforeValidator,
+    Discriminator,
+    Tag,
+    WrapSerializer,
+    model_validator,
+)
+
+from loadflow.errors import InputError
+from loadflow.rolling import (
+    BallBearing,
+    CrossedRollerBearing,
+    FlexibleRings,
+    RingBeam,
+    RingSection,
+    RollerBearing,
+    SlewingBearing,
+    SphericalRollerBearing,
+    Support,
+    ThreeRowRollerBearing,
+    main_bearings,
+)
+from loadflow.scene.section import SECTION
+
+KINDS = {
+    "slewing": SlewingBearing,
+    "ball": BallBearing,
+    "roller": RollerBearing,
+    "spherical": SphericalRollerBearing,
+    "crossed": CrossedRollerBearing,
+    "three-row": ThreeRowRollerBearing,
+}
+
+
+def _kind(value: Any) -> str | None:
+    """Kind of a geometry: as stated, or of an object; a slewing bearing where nothing is said."""
+    if isinstance(value, dict):
+        return value.get("kind", "slewing")
+    return next((kind for kind, cls in KINDS.items() if type(value) is cls), None)
+
+
+def _without_kind(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {name: part for name, part in value.items() if name != "kind"}
+    return value
+
+
+def _with_kind(value: Any, handler: Any) -> Any:
+    return {"kind": _kind(value)} | handler(value)
+
+
+_PLAIN, _TOLD = BeforeValidator(_without_kind), WrapSerializer(_with_kind)
+
+Geometry = Annotated[
+    Annotated[SlewingBearing, _PLAIN, _TOLD, Tag("slewing")]
+    | Annotated[BallBearing, _PLAIN, _TOLD, Tag("ball")]
+    | Annotated[RollerBearing, _PLAIN, _TOLD, Tag("roller")]
+    | Annotated[SphericalRollerBearing, _PLAIN, _TOLD, Tag("spherical")]
+    | Annotated[CrossedRollerBearing, _PLAIN, _TOLD, Tag("crossed")]
+    | Annotated[ThreeRowRollerBearing, _PLAIN, _TOLD, Tag("three-row")],
+    Discriminator(
+        _kind,
+        custom_error_type="kind",
+        custom_error_message="kind must be one of " + ", ".join(KINDS),
+    ),
+]
+"""Geometry of a rolling bearing; ``kind`` says which, slewing if nothing is said."""
+
+
+def standing_ring(
+    width: float,
+    height: float,
+    radius: float,
+    wall: tuple[float, float] | None = None,
+    face: Literal["bottom", "top"] = "bottom",
+) -> RingBeam:
+    """Ring of rectangular section about the bearing's middle plane, on a cylindrical wall.
+
+    Parameters
+    ----------
+    width, height, radius : float
+        Of the section, radially and axially, and of its centroid, m.
+    wall : tuple of float, optional
+        Thickness and length of the wall, m; without it only the ring's mean motion is held.
+    face : {"bottom", "top"}
+        Which face stands on the wall.
+
+    Raises
+    ------
+    InputError
+        If a measure is not positive.
+    """
+    section = RingSection.rectangle(width, height)
+    if wall is None:
+        return RingBeam(section=section, radius=radius)
+    foot = height / 2 if face == "top" else -height / 2
+    return RingBeam(section=section, radius=radius, supports=(_wall(radius, foot, *wall),))
+
+
+def around(
+    bearing: SlewingBearing, inner: RingBeam | None, outer: RingBeam | None
+) -> FlexibleRings:
+    """Flexible rings of a bearing, one of them at least, on their sides of its balls.
+
+    Raises
+    ------
+    InputError
+        If there is no ring, or its centroid lies on the other side of the pitch circle.
+    """
+    pitch = bearing.pitch_diameter / 2
+    if inner is None and outer is None:
+        raise InputError("give inner_ring or outer_ring, of this geometry")
+    if inner is not None and inner.radius >= pitch:
+        raise InputError(f"inner_ring: radius must be < {pitch:g} m, got {inner.radius:g}")
+    if outer is not None and outer.radius <= pitch:
+        raise InputError(f"outer_ring: radius must be > {pitch:g} m, got {outer.radius:g}")
+    return FlexibleRings(inner=inner, outer=outer)
+
+
+def _wall(radius: float, height: float, thickness: float, length: float) -> Support:
+    for name, size in (("radius", radius), ("thickness", thickness), ("length", length)):
+        if not (math.isfinite(size) and size > 0):
+            raise InputError(f"{name} of the wall: must be > 0 m, got {size:g}")
+    return Support.wall(radius, height, thickness, length)
+
+
+_SECTION, _WALL = {"width", "height"}, {"radius", "height", "thickness", "length"}
+
+
+def _by_measures(ring: Any) -> Any:
+    """A ring whose section is stated as a rectangle, and its supports as walls."""
+
+    def stated(part: Any, names: set[str]) -> bool:
+        return (
+            isinstance(part, dict)
+            and set(part) == names
+            and all(isinstance(size, int | float) for size in part.values())
+        )
+
+    if not isinstance(ring, dict):
+        return ring
+    read = dict(ring)
+    if stated(ring.get("section"), _SECTION):
+        read["section"] = RingSection.rectangle(**ring["section"])
+    if isinstance(ring.get("supports"), list):
+        read["supports"] = [_wall(**s) if stated(s, _WALL) else s for s in ring["supports"]]
+    return read
+
+
+Ring = Annotated[RingBeam, BeforeValidator(_by_measures)]
+"""A flexible ring; ``section = {width, height}`` is a rectangle, and a support with ``radius``,
+``height``, ``thickness`` and ``length`` a wall."""
+
+
+class FurtherBearing(BaseModel):
+    """Another rolling bearing of the shaft: its name, its geometry and its rings.
+
+    ``rings = "flexible"`` takes `inner_ring` and `outer_ring`; one that is left out is rigid.
+    """
+
+    model_config = SECTION
+
+    bearing: str
+    geometry: Geometry
+    rings: Literal["rigid", "flexible"] = "rigid"
+    inner_ring: Ring | None = None
+    outer_ring: Ring | None = None
+
+    @model_validator(mode="after")
+    def _rings_fit(self) -> Self:
+        try:
+            _ = self.ring_model
+        except InputError as error:
+            raise ValueError(f'rings = "flexible": {error}') from error
+        return self
+
+    @property
+    def ring_model(self) -> Literal["rigid"] | FlexibleRings:
+        """What `SlewingBearing.equilibrium` takes as its rings."""
+        if self.rings == "rigid":
+            return "rigid"
+        if not isinstance(self.geometry, SlewingBearing):
+            raise InputError("for slewing bearings of balls only")
+        return around(self.geometry, self.inner_ring, self.outer_ring)
+
+
+class Rolling(FurtherBearing):
+    """Rolling bearing: which one of the shaft, its geometry, material and limits.
+
+    A scene may give several, as a list ``[[rolling]]`` or as an ``arrangement`` of
+    `loadflow.rolling.main_bearings`; those after the first are in ``further``. The key ``kind`` of
+    a geometry says which bearing it is: slewing (if nothing is said), ball, roller, spherical,
+    crossed or three-row.
+
+    ``rings = "flexible"`` takes `inner_ring` and `outer_ring`; one that is left out is rigid,
+    unless both and the geometry are. The rings of the default bearing have the diameters of
+    [Ritzer 2018] App. B; their height, and the walls of 60 mm and 1 m that they stand on, are
+    assumed.
+    """
+
+    bearing: str = "M"
+    geometry: Geometry = SlewingBearing(
+        balls=129,
+        rows=2,
+        ball_diameter=0.040,
+        pitch_diameter=1.9,
+        groove_radius=0.0205,
+        contact_angle=0.7853981633974483,
+        hardness=600.0,
+    )
+    inner_ring: Ring | None = standing_ring(0.094, 0.12, 0.897, wall=(0.06, 1.0), face="top")
+    outer_ring: Ring | None = standing_ring(0.099, 0.12, 1.0005, wall=(0.06, 1.0))
+    further: list[FurtherBearing] = []
+
+    @model_validator(mode="before")
+    @classmethod
+    def _one_of_several(cls, data: Any) -> Any:
+        """Turn a list, or the name of an arrangement, into the first bearing and further ones.
+
+        Beside a geometry or a ring of the scene, the default rings do not stay.
+        """
+        if isinstance(data, list) and data and all(isinstance(part, dict) for part in data):
+            data = data[0] | {"further": data[1:]}
+        if isinstance(data, dict) and "arrangement" in data:
+            if {"bearing", "geometry", "further"} & set(data):
+                raise ValueError("arrangement: gives bearing and geometry; leave them out")
+            chosen = main_bearings(data["arrangement"])
+            rest = {name: value for name, value in data.items() if name != "arrangement"}
+            first, *others = ({"bearing": b, "geometry": g} for b, g in chosen.items())
+            data = rest | first | {"further": others}
+        if isinstance(data, dict) and {"geometry", "inner_ring", "outer_ring"} & set(data):
+            return {"inner_ring": None, "outer_ring": None} | data
+        return data
+
+    @model_validator(mode="after")
+    def _names_differ(self) -> Self:
+        if len(self.geometries) != 1 + len(self.further):
+            raise ValueError("bearing: each must have a name of its own")
+        return self
+
+    @property
+    def bearings(self) -> dict[str, FurtherBearing]:
+        """All bearings by name, the first one first."""
+        return {part.bearing: part for part in (self, *self.further)}
+
+    @property
+    def geometries(self) -> dict[str, Geometry]:
+        """Geometry of all bearings by name."""
+        return {name: part.geometry for name, part in self.bearings.items()}
+
+    @property
+    def rung(self) -> Literal["rigid", "flexible"]:
+        """Model in the ladder: flexible if the rings of any bearing are."""
+        return "flexible" if any(b.rings == "flexible" for b in self.bearings.values()) else "rigid"

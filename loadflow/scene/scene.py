@@ -1,0 +1,456 @@
+"""A scene: one TOML file that says what is wanted, from which loads, for which bearings.
+
+`read_scene` is the only gate: what comes out is frozen and valid. The scene composes the options
+that each room owns; it knows no physics.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import tomllib
+from collections.abc import Iterator
+from dataclasses import fields
+from pathlib import Path
+from typing import Annotated, Any, Literal, Self, get_args
+
+from pydantic import BaseModel, Field, ValidationError, field_validator, model_validator
+
+from loadflow.errors import InputError
+from loadflow.journal import (
+    GasMixture,
+    Heat,
+    JournalBearing,
+    LinedShell,
+    LocalShell,
+    Lubricant,
+    Supply,
+    ThickShell,
+)
+from loadflow.rolling import SphericalRollerBearing
+from loadflow.scene.bearings import KINDS, Rolling
+from loadflow.scene.loads import Loads, check_simulation
+from loadflow.scene.section import Section
+from loadflow.shaft.beam import BearingSeat
+from loadflow.shaft.options import (
+    Concept,
+    DirectDrive,
+    Integrated,
+    MomentBearing,
+    ThreePoint,
+    TwoPoint,
+)
+from loadflow.turbines import load_turbine
+
+Result = Literal[
+    "loads.statistics",
+    "seeds.equality",
+    "reduction.histogram",
+    "journal.film",
+    "rolling.loads",
+    "rolling.life",
+    "rolling.friction",
+]
+
+Positive = Annotated[float, Field(gt=0)]
+
+
+class Turbine(Section, BaseModel):
+    """The turbine: a name that `loadflow.turbines` knows, or a path to a file of the same form."""
+
+    name: str = "nrel-5mw"
+
+    @field_validator("name")
+    @classmethod
+    def _readable(cls, name: str) -> str:
+        load_turbine(name)
+        return name
+
+
+class Shaft(Section, BaseModel):
+    """Suspensions to compute; a table that is left out costs nothing.
+
+    ``two_point``, ``integrated`` and ``direct_drive`` have the bearings N (floating) and N2
+    (locating), ``three_point`` the bearing N and the gearbox's torque arms G; one of these at most.
+    ``moment`` has the bearing M. With a ``beam`` in its table the shaft bends, and tilts in its
+    bearings; an empty one takes the defaults. A seat of the beam with ``stiffness = "journal"`` or
+    ``"rolling"`` gives under each load as the bearing of that kind that the scene has there.
+    """
+
+    two_point: TwoPoint | None = None
+    three_point: ThreePoint | None = None
+    integrated: Integrated | None = None
+    direct_drive: DirectDrive | None = None
+    moment: MomentBearing | None = None
+
+    @property
+    def concepts(self) -> tuple[Concept, ...]:
+        """The suspensions that the scene has."""
+        return tuple(concept for _, concept in self if concept)
+
+    @property
+    def bearings(self) -> tuple[str, ...]:
+        """Names of the bearings that these suspensions have."""
+        return tuple(name for concept in self.concepts for name in concept.bearings)
+
+    @model_validator(mode="after")
+    def _each_bearing_once(self) -> Self:
+        with_first = [name for name, concept in self if concept and "N" in concept.bearings]
+        if len(with_first) > 1:
+            raise ValueError(f"{' and '.join(with_first)} all have a bearing N; keep one of them")
+        return self
+
+    @property
+    def seated(self) -> dict[str, BearingSeat]:
+        """Seats, by bearing, whose stiffness comes from a journal or rolling bearing."""
+        return {
+            name: seat
+            for concept in self.concepts
+            for name, seat in zip(concept.bearings, concept.beam.seats if concept.beam else ())
+            if seat.stiffness != "given"
+        }
+
+    def leans(self, bearing: str) -> bool:
+        """Whether the shaft is a beam there, so that its tilt in the bearing is known."""
+        return any(c.beam is not None and bearing in c.bearings for c in self.concepts)
+
+
+class Seeds(Section, BaseModel):
+    """Tests of seed equality: level of significance, method, half width of the spectral band."""
+
+    alpha: Annotated[float, Field(gt=0, lt=1)] = 0.05
+    methods: list[Literal["as-printed", "calibrated"]] = ["as-printed", "calibrated"]
+    band: Annotated[float, Field(gt=0, lt=1)] = 0.025
+
+
+class Reduction(Section, BaseModel):
+    """Quasi-static histogram reduction: share of the samples kept, and how they are picked."""
+
+    size: Annotated[float, Field(gt=0, le=1)] = 0.1
+    pick: Literal["random", "extremes", "envelope"] = "extremes"
+    seed: Annotated[int, Field(ge=0)] = 0
+
+
+class Journal(Section, BaseModel):
+    """Journal bearings: which ones of the shaft, and one set of data for all of them.
+
+    ``motion = "quasi-static"`` solves the equilibrium of every sample of the reduced series;
+    ``"transient"`` follows the shaft through the whole series, step by step.
+    ``rung = "map"`` tabulates the film once, for long series (docs/journal-map.md).
+
+    With a table ``heat`` the friction of the film warms its oil, which takes the place of
+    ``lubricant``: each equilibrium for itself, a film in motion to one temperature for the whole
+    series, as its loads change faster than a bearing warms.
+
+    With ``tilt`` the shaft leans in them as the beam of its suspension does, tilted and bent; if it
+    has none, it tilts freely under the moment that the shaft stage gives. The film is then solved
+    over its full width.
+
+    A ``shell`` makes the bore elastic; its key ``kind`` says how: local, lined or thick.
+    """
+
+    bearings: Annotated[list[str], Field(min_length=1)] = ["N", "N2"]
+    geometry: JournalBearing = JournalBearing(diameter=3.0, width=2.25, relative_clearance=0.5e-3)
+    lubricant: Lubricant = Lubricant(viscosity=0.050)
+    cavitation: GasMixture = GasMixture(0.05e6)
+    edge_pressure: Annotated[float, Field(ge=0)] = 0.5e6
+    supply: Supply | None = None
+    grid: tuple[Annotated[int, Field(ge=12, le=720)], Annotated[int, Field(ge=4, le=240)]] = (
+        60,
+        20,
+    )
+    grading: Literal["auto", "uniform", "graded"] = "auto"
+    rung: Literal["map", "reduced", "grid"] = "grid"
+    heat: Heat | None = None
+    motion: Literal["quasi-static", "transient"] = "quasi-static"
+    tilt: bool = False
+    shell: LocalShell | LinedShell | ThickShell | None = None
+
+    @model_validator(mode="after")
+    def _elastic_on_the_grid(self) -> Self:
+        if self.shell is not None and self.rung != "grid":
+            raise ValueError(
+                f'rung "{self.rung}" has a rigid shell: set "grid", or leave out shell'
+            )
+        return self
+
+    @property
+    def in_motion(self) -> bool:
+        """Whether the film follows the whole series; it does not read the reduced one then."""
+        return self.motion == "transient"
+
+    @property
+    def film(self) -> dict[str, Any]:
+        """Keywords of `JournalBearing.equilibrium` and `orbit` that say what the film is."""
+        mesh = ("grid", "grading", "rung")
+        names = ("lubricant", "cavitation", "edge_pressure", "supply", *mesh, "shell")
+        return {name: getattr(self, name) for name in names}
+
+    def at_temperature(self, temperature: float) -> Journal:
+        """The bearing with its oil held at `temperature`, K."""
+        if self.heat is None:
+            return self
+        return self.model_copy(update={"lubricant": self.heat.lubricant(temperature), "heat": None})
+
+    @model_validator(mode="after")
+    def _one_oil(self) -> Self:
+        if self.heat is not None and "lubricant" in self.changed:
+            raise ValueError("lubricant: follows from heat.oil and its temperature; leave it out")
+        return self
+
+
+class Friction(Section, BaseModel):
+    """Lubricant and surfaces of the rolling bearings, for their friction and slip.
+
+    ``lubricant`` is a name of `loadflow.tribology.lubricant_names`; ``temperature`` (K),
+    ``roughness`` (m), ``starvation``, ``roller_drag`` (N m s) and ``seal_torque`` (N m) are those
+    of `loadflow.rolling.FrictionOptions`. Loads are taken every ``step`` (s); rollers have shorter
+    steps of their own.
+    """
+
+    lubricant: str = "lgep-2"
+    temperature: Annotated[float, Field(gt=200, le=500)] = 313.15
+    roughness: Positive = 0.6e-6
+    starvation: Annotated[float, Field(gt=0, le=1)] = 0.7
+    roller_drag: Annotated[float, Field(ge=0)] = 1e-3
+    seal_torque: Annotated[float, Field(ge=0)] = 0.0
+    step: Positive = 0.1
+
+    @field_validator("lubricant")
+    @classmethod
+    def _known(cls, name: str) -> str:
+        from loadflow.tribology import lubricant_names
+
+        if name not in lubricant_names():
+            raise ValueError(f"must be one of {', '.join(lubricant_names())}")
+        return name
+
+
+class Scene(Section, BaseModel):
+    """What is wanted, and from what; see the modules of the sections for units.
+
+    Attributes
+    ----------
+    name : str
+        Name of the run and of its folder.
+    results : list of str
+        What is wanted; the plan runs only the stages that these need. Left out: all, but those of
+        journal or rolling bearings of which the scene says nothing and the shaft has none.
+    accuracy : float or dict, optional
+        Largest relative error allowed, of every result or by result. The plan then takes the
+        cheapest models that hold it, wherever the scene names none; without it the defaults.
+    """
+
+    name: Annotated[str, Field(pattern=r"^[A-Za-z0-9_.-]+$")]
+    results: Annotated[list[Result], Field(min_length=1)] = list(get_args(Result))
+    accuracy: Positive | dict[Result, Positive] | None = None
+    turbine: Turbine = Turbine()
+    loads: Loads = Loads()
+    shaft: Shaft = Shaft(two_point=TwoPoint(), moment=MomentBearing())
+    seeds: Seeds = Seeds()
+    reduction: Reduction = Reduction()
+    journal: Journal = Journal()
+    rolling: Rolling = Rolling()
+    friction: Friction = Friction()
+
+    @model_validator(mode="before")
+    @classmethod
+    def _results_that_the_shaft_can_give(cls, data: Any) -> Any:
+        """Without `results`: all, but none of a default bearing that the shaft does not have."""
+        if not isinstance(data, dict) or "results" in data or "shaft" not in data:
+            return data
+        try:
+            there = set(Shaft.model_validate(data["shaft"]).bearings)
+        except ValidationError:  # told by the shaft's own check, with its key
+            return data
+        by_default = {"journal": {*Journal().bearings}, "rolling": {Rolling().bearing}}
+        absent = {room for room, own in by_default.items() if room not in data and own - there}
+        wanted = [name for name in get_args(Result) if name.split(".")[0] not in absent]
+        return data | {"results": wanted}
+
+    @model_validator(mode="after")
+    def _simulates(self) -> Self:
+        if self.loads.source == "simulate":
+            check_simulation(self.loads, self.turbine.name)
+        return self
+
+    @model_validator(mode="after")
+    def _bearings_exist(self) -> Self:
+        wanted = {
+            "journal.bearings": self.journal.bearings if self.wants("journal") else [],
+            "rolling.bearing": [*self.rolling.geometries] if self.wants("rolling") else [],
+        }
+        for key, bearings in wanted.items():
+            for bearing in bearings:
+                if bearing not in self.shaft.bearings:
+                    have = ", ".join(self.shaft.bearings) or "none"
+                    room = key.split(".")[0]
+                    raise ValueError(
+                        f"{key} = {bearing!r}: the shaft has the bearings {have}; set {key} to "
+                        f"what it has, or leave what begins with {room} out of results"
+                    )
+        return self
+
+    @model_validator(mode="after")
+    def _seats_have_bearings(self) -> Self:
+        there = {"journal": self.journal.bearings, "rolling": [*self.rolling.geometries]}
+        for name, seat in self.shaft.seated.items():
+            what = f'shaft: seat of bearing {name} with stiffness = "{seat.stiffness}"'
+            have = there[seat.stiffness]
+            if name not in have:
+                raise ValueError(
+                    f"{what}: the scene has {seat.stiffness} bearings at {', '.join(have)} only"
+                )
+            if seat.takes_moment and seat.stiffness == "journal" and not self.journal.tilt:
+                raise ValueError(
+                    f"{what} and takes_moment = true: only a tilted film takes a moment; set "
+                    "journal.tilt = true, or leave out takes_moment"
+                )
+            aligning = isinstance(self.rolling.geometries.get(name), SphericalRollerBearing)
+            if seat.takes_moment and seat.stiffness == "rolling" and aligning:
+                raise ValueError(f"{what}: it aligns itself; leave out takes_moment")
+        return self
+
+    @model_validator(mode="after")
+    def _leaning_at_rest(self) -> Self:
+        journal = self.journal
+        leaning = journal.tilt and any(map(self.shaft.leans, journal.bearings))
+        if leaning and journal.in_motion:
+            raise ValueError(
+                'journal.motion = "transient" does not know the tilt of a shaft with a beam; set '
+                '"quasi-static", or leave out journal.tilt or the beam'
+            )
+        return self
+
+    def wants(self, room: str) -> bool:
+        """Whether a result of `room` is wanted."""
+        return any(result.split(".")[0] == room for result in self.results)
+
+    def allowed_error(self, result: str) -> float | None:
+        """Largest relative error allowed of a result; None where nothing is asked."""
+        if isinstance(self.accuracy, dict):
+            return {str(name): value for name, value in self.accuracy.items()}.get(result)
+        return self.accuracy
+
+    def to_toml(self) -> str:
+        """Return the scene with all defaults, as TOML."""
+        import tomli_w
+
+        return tomli_w.dumps(self.model_dump(mode="json", exclude_none=True))
+
+    def digest(self, *sections: str) -> str:
+        """SHA-256 of the resolved scene, or of some of its sections."""
+        include = set(sections) if sections else None
+        return hashlib.sha256(self.model_dump_json(include=include).encode()).hexdigest()
+
+
+def read_scene(path: str | Path) -> Scene:
+    """Read and check a scene file.
+
+    Parameters
+    ----------
+    path : str or Path
+        TOML file. Load files in it are meant relative to the file.
+
+    Returns
+    -------
+    Scene
+        Frozen and valid.
+
+    Raises
+    ------
+    InputError
+        The file is missing, is not TOML, or holds a bad key or value; the message names file, key,
+        value and what is allowed.
+    """
+    path = Path(path)
+    try:
+        with path.open("rb") as stream:
+            data = tomllib.load(stream)
+    except OSError as error:
+        raise InputError(f"{path}: cannot read the scene: {error.strerror}") from error
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise InputError(f"{path}: not a TOML file: {error}") from error
+    return make_scene(_anchor_files(data, path.parent), str(path))
+
+
+def make_scene(data: dict[str, Any], source: str = "scene") -> Scene:
+    """Build a scene from a dictionary; `source` names it in messages.
+
+    Raises
+    ------
+    InputError
+        As `read_scene`.
+    """
+    data.setdefault("name", Path(source).stem)
+    try:
+        return Scene.model_validate(data)
+    except ValidationError as error:
+        raise InputError(_message(error, source)) from error
+
+
+def with_loads(scene: Scene, files: list[str]) -> Scene:
+    """Return the scene with its load series read from `files` (names or glob patterns)."""
+    loads = scene.loads.model_copy(update={"source": "files", "files": files})
+    return scene.model_copy(update={"loads": loads})
+
+
+def _anchor_files(data: dict[str, Any], folder: Path) -> dict[str, Any]:
+    """Make relative load files relative to the scene file, not to where the user stands."""
+    loads = data.get("loads")
+    if isinstance(loads, dict) and isinstance(loads.get("files"), list):
+        files = [str(folder / file) if isinstance(file, str) else file for file in loads["files"]]
+        return data | {"loads": loads | {"files": files}}
+    return data
+
+
+def _message(error: ValidationError, source: str) -> str:
+    """One line per bad key: file, key, value, what is allowed."""
+    lines = []
+    for item in _of_stated_kind(error.errors()):
+        key = ".".join(str(part) for part in _place(item["loc"])) or "scene"
+        reason = item["msg"].removeprefix("Value error, ").replace("Input should be", "must be")
+        if item["type"] in ("extra_forbidden", "unexpected_keyword_argument"):
+            lines.append(f"{source}: {key}: unknown key{_neighbours(item['loc'])}")
+        elif item["type"] == "missing":
+            lines.append(f"{source}: {key}: this key is missing")
+        elif item["type"] == "value_error":
+            lines.append(f"{source}: {key}: {reason}")
+        else:
+            lines.append(f"{source}: {key} = {item['input']!r}: {reason}")
+    return "\n".join(lines)
+
+
+def _place(location: tuple[int | str, ...]) -> Iterator[int | str]:
+    """Keys down to a value, without the tag that pydantic puts after a geometry."""
+    for before, part in zip(("", *location), location):
+        if not (before == "geometry" and part in KINDS):
+            yield part
+
+
+def _of_stated_kind(errors: list[Any]) -> list[Any]:
+    """Drop what is said of alternatives of another ``kind`` than the scene states."""
+    kinds = [e for e in errors if e["type"] == "literal_error" and e["loc"][-1] == "kind"]
+    others = {e["loc"][:-1] for e in kinds}
+
+    def other(location: tuple[Any, ...]) -> tuple[Any, ...] | None:
+        return next((o for o in others if location[: len(o)] == o), None)
+
+    right = {e["loc"] for e in errors if other(e["loc"]) is None}
+    shown = []
+    for item in errors:
+        owner = other(item["loc"])
+        known = owner is not None and any(loc[: len(owner) - 1] == owner[:-1] for loc in right)
+        if owner is None or (not known and item in kinds):
+            shown.append(item)
+    return shown
+
+
+def _neighbours(location: tuple[int | str, ...]) -> str:
+    """Name the keys that are known where an unknown one stands."""
+    if len(location) > 2 and location[-3] == "geometry" and location[-2] in KINDS:
+        known = ["kind", *(field.name for field in fields(KINDS[str(location[-2])]))]
+        return f"; known here: {', '.join(sorted(known))}"
+    data: Any = Scene(name="defaults").model_dump()
+    for part in [*_place(location)][:-1]:
+        data = data.get(part) if isinstance(data, dict) else None
+    return f"; known here: {', '.join(sorted(data))}" if isinstance(data, dict) else ""

@@ -1,0 +1,205 @@
+"""Lifetimes of bearings → tables as CSV, and a page."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from loadflow.reduction import LongTermExtreme
+from loadflow.report import Picture, Section, Table, load_figures, write_page
+from loadflow.studies.lifetime import COMPONENTS, YEAR, BearingLifetime, LifetimeOptions
+
+HEADS = ("bearing", "what", "value", "unit")
+LEVELS = 200  # points of a drawn tail
+
+
+def summary_rows(life: BearingLifetime, options: LifetimeOptions) -> list[list[str]]:
+    """What matters of a lifetime under `HEADS`."""
+    rows = [
+        [life.bearing, f"DEL of {name}, m = {m:g}, range at 1 Hz", f"{value / 1e3:.5g}", "kN"]
+        for m, loads in zip(options.exponents, life.lifetime_equivalent.tolist())
+        for name, value in zip(COMPONENTS, loads)
+    ]
+    turns = float(life.duration.revolutions.sum())
+    rows.append([life.bearing, f"revolutions in {options.years:g} years", f"{turns:.5g}", "1"])
+    if turns > 0:
+        for p, kind in ((3.0, "balls"), (10.0 / 3.0, "rollers")):
+            force = life.duration.equivalent_force(p)
+            what = f"equivalent radial force, {kind}"
+            rows.append([life.bearing, what, f"{force / 1e3:.5g}", "kN"])
+    if life.extreme is not None:
+        e: LongTermExtreme = life.extreme
+        what = f"radial force exceeded once in {options.return_period:g} years (95 %)"
+        value = f"{e.value / 1e3:.5g} ({e.low / 1e3:.5g} … {e.high / 1e3:.5g})"
+        rows.append([life.bearing, what, value, "kN"])
+    return rows
+
+
+def share_warnings(lives: Sequence[BearingLifetime]) -> list[str]:
+    """Say which design load cases the lifetimes leave out, and if shares exceed the lifetime."""
+    told = []
+    if dropped := list(dict.fromkeys(dlc for life in lives for dlc in life.left_out)):
+        told.append(
+            f"lifetime: no share of time, and so no fatigue, for DLC {', '.join(dropped)}; tell "
+            "how often a year it happens (per year), or give the shares"
+        )
+    if (total := max(float(life.shares.sum()) for life in lives)) > 1.001:
+        told.append(f"lifetime: the shares sum to {total:.4g} lifetimes")
+    return told
+
+
+def as_dict(life: BearingLifetime, options: LifetimeOptions) -> dict[str, Any]:
+    """A lifetime in plain values and SI units, for JSON."""
+    extreme = life.extreme
+    return {
+        "bearing": life.bearing,
+        "shares": dict(zip(life.cases, life.shares.tolist())),
+        "components": COMPONENTS,
+        "exponents": options.exponents,
+        "damage_equivalent_load": life.lifetime_equivalent,
+        "revolutions": float(life.duration.revolutions.sum()),
+        "tails": {f"{speed:g}": vars(tail) for speed, tail in life.tails.items()},
+        "extreme": None
+        if extreme is None
+        else {"value": extreme.value, "low": extreme.low, "high": extreme.high},
+    }
+
+
+def write_lifetime(
+    lives: Sequence[BearingLifetime], options: LifetimeOptions, folder: Path, source: str
+) -> Path:
+    """Write for each bearing the revolutions and the Markov matrix as CSV, and one page.
+
+    ``BEARING_revolutions.csv`` has a row for each class of speed and force that occurs: its edges
+    (rad/s, N), mean force (N), seconds and revolutions, as a rolling-bearing life wants them.
+    ``BEARING_markov.csv`` is the matrix, from (row) to (column), with the class edges (N) above.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    for life in lives:
+        _write_revolutions(life, folder / f"{life.bearing}_revolutions.csv")
+        np.savetxt(
+            folder / f"{life.bearing}_markov.csv",
+            life.markov.counts,
+            fmt="%d",
+            delimiter=",",
+            header="edges in N: " + ",".join(f"{e:.9g}" for e in life.markov.edges),
+        )
+    rows = [row for life in lives for row in summary_rows(life, options)]
+    sections = [Section("Lifetime", tables=[Table("", list(HEADS), rows)])]
+    sections += [
+        Section(
+            f"Bearing {life.bearing}",
+            tables=[_case_table(life, options), *_tail_table(life)],
+            pictures=_pictures(life, options),
+        )
+        for life in lives
+    ]
+    shares = "as the cube states"
+    if options.weights == "rayleigh":
+        shares = f"Weibull, shape {options.weibull_shape:g}, class {options.wind_class}"
+    facts = {"Lifetime": f"{options.years:g} years", "Shares of the cases": shares}
+    if options.per_year:
+        counts = (f"{dlc}: {number:g}" for dlc, number in options.per_year.items())
+        facts["Times a year"] = ", ".join(counts)
+    if warnings := share_warnings(lives):
+        facts["Left out"] = " ".join(warnings)
+    return write_page(folder / "lifetime.html", f"Lifetime of {source}", facts, sections)
+
+
+def _write_revolutions(life: BearingLifetime, path: Path) -> None:
+    import pandas as pd
+
+    d = life.duration
+    row, column = np.nonzero(d.seconds)
+    speed, force = d.edges
+    pd.DataFrame(
+        {
+            "speed_from": speed[row],
+            "speed_to": speed[row + 1],
+            "force_from": force[column],
+            "force_to": force[column + 1],
+            "force_mean": d.force[row, column],
+            "seconds": d.seconds[row, column],
+            "revolutions": d.revolutions[row, column],
+        }
+    ).to_csv(path, index=False)
+
+
+def _case_table(life: BearingLifetime, options: LifetimeOptions) -> Table:
+    heads = ["case", "share"]
+    heads += [f"{name}, m = {m:g}, kN" for m in options.exponents for name in COMPONENTS]
+    rows = [
+        [case, f"{share:.4%}", *(f"{v / 1e3:.4g}" for v in life.equivalent[..., k].ravel())]
+        for k, (case, share) in enumerate(zip(life.cases, life.shares.tolist()))
+    ]
+    return Table("Damage-equivalent loads of the cases", heads, rows)
+
+
+def _tail_table(life: BearingLifetime) -> list[Table]:
+    if life.extreme is None:
+        return []
+    heads = ["wind, m/s", "threshold, kN", "scale, kN", "shape", "rate, 1/h", "from", "share"]
+    rows = [
+        [
+            f"{speed:g}",
+            f"{tail.threshold / 1e3:.5g}",
+            f"{tail.scale / 1e3:.4g}",
+            f"{tail.shape:.3g}",
+            f"{tail.rate * 3600:.4g}",
+            str(tail.count),
+            f"{share:.1%}",
+        ]
+        for (speed, tail), share in zip(life.tails.items(), life.extreme.shares.tolist())
+    ]
+    return [Table("Tails of the radial force, and what each adds to the extreme", heads, rows)]
+
+
+def _pictures(life: BearingLifetime, options: LifetimeOptions) -> list[Picture]:
+    units = {"units": "N"}
+    duration = xr.Dataset(
+        {
+            "seconds": (("speed_class", "load_class"), life.duration.seconds),
+            "revolutions": (("speed_class", "load_class"), life.duration.revolutions),
+            "speed_edges": ("speed_edge", life.duration.edges[0], {"units": "rad/s"}),
+            "load_edges": ("load_edge", life.duration.edges[1], units),
+        }
+    )
+    matrix = xr.Dataset(
+        {
+            "counts": (("from", "to"), life.markov.counts),
+            "edges": ("edge", life.markov.edges, units),
+        }
+    )
+    pictures = [
+        Picture(load_figures.duration(duration), "Load duration and revolutions of the lifetime."),
+        Picture(load_figures.markov(matrix), "Markov matrix of Fx over the lifetime.", True),
+    ]
+    if life.extreme is not None:
+        caption = (
+            f"Exceedances of the radial force; dashed: once in {options.return_period:g} years, "
+            "shaded: 95 % confidence."
+        )
+        pictures.append(Picture(load_figures.tails(_rates(life, options)), caption))
+    return pictures
+
+
+def _rates(life: BearingLifetime, options: LifetimeOptions) -> xr.Dataset:
+    assert life.extreme is not None
+    low = min(tail.threshold for tail in life.tails.values())
+    level = np.linspace(low, 1.05 * max(life.extreme.high, low), LEVELS)
+    pairs = zip(life.tail_shares.tolist(), life.tails.values())
+    rates = [share * tail.rate_above(level) * YEAR for share, tail in pairs]
+    return xr.Dataset(
+        {"rate": (("wind_speed", "level"), rates), "total": ("level", np.sum(rates, axis=0))},
+        {"wind_speed": list(life.tails), "level": ("level", level, {"units": "N"})},
+        {
+            "value": life.extreme.value,
+            "low": life.extreme.low,
+            "high": life.extreme.high,
+            "years": options.return_period,
+        },
+    )

@@ -1,0 +1,119 @@
+"""Which share of the lifetime each load case takes, where a cube holds several design load cases.
+
+As the fatigue cases of IEC 61400-1 (table 2) have it: production (1.2, or 1.1 in the same wind)
+while the wind is between cut-in and cut-out, idling (6.4) otherwise, starts, stops and faults so
+many times a year. Cases of extreme loads alone have no share.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from loadflow.errors import InputError
+from loadflow.scene.cases import speed_shares
+from loadflow.wind import iec
+
+YEAR = 365.25 * 86_400.0
+PRODUCTION = ("1.1", "1.2")
+IDLING = ("6.4",)
+
+
+def lifetime_shares(
+    dlcs: Sequence[str],
+    wind_speeds: Sequence[float],
+    lengths: Sequence[float],
+    *,
+    wind_class: str = "I",
+    shape: float = 2.0,
+    operating: tuple[float, float] = (3.0, 25.0),
+    per_year: Mapping[str, float] | None = None,
+) -> np.ndarray:
+    """Share of the lifetime of each case.
+
+    A single design load case takes the whole lifetime, by its wind speeds. Of several, those of
+    `per_year` take their number times their length, and production and idling share the rest as
+    the wind is within or outside `operating`; the others get 0. Cases of one wind speed part
+    equally.
+
+    Parameters
+    ----------
+    dlcs : sequence of str, length k
+        Design load case of each case.
+    wind_speeds, lengths : sequence of float, length k
+        Mean wind speed, m/s, and length, s, of each case.
+    wind_class : str
+        I, II or III, which sets the annual mean (2.3).
+    shape : float
+        Of the Weibull distribution of the wind speeds (2.2).
+    operating : tuple of float
+        Cut-in and cut-out, m/s.
+    per_year : mapping of str to float
+        How often a year a design load case happens, over all its wind speeds.
+
+    Returns
+    -------
+    ndarray, shape (k,)
+        Their sum is 1, or less if the lifetime is nothing but counted events.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        No case has a share, the events take more than a year, or `per_year` names a load case that
+        is not there or a number that is not >= 0.
+    """
+    counted = dict(per_year or {})
+    _check_counts(counted, set(dlcs))
+    names, speeds = np.array(dlcs, dtype=str), np.array(wind_speeds, dtype=float)
+
+    def within(group: Sequence[str]) -> np.ndarray:
+        """Shares of the cases of a group among themselves; 0 for the others."""
+        inside = np.isin(names, group)
+        share = speed_shares(speeds[inside].tolist(), wind_class, shape) if inside.any() else {}
+        count = Counter(speeds[inside].tolist())
+        return np.array(
+            [share[v] / count[v] if i else 0.0 for v, i in zip(speeds.tolist(), inside)]
+        )
+
+    if len(set(dlcs)) == 1 and not counted:
+        return within(dlcs[:1])
+    events = np.zeros(names.size)
+    for dlc, number in counted.items():
+        events += number * within([dlc]) * np.array(lengths, dtype=float) / YEAR
+    if events.sum() > 1:
+        raise InputError(
+            f"per_year = {counted}: these events take {events.sum():.3g} years of each year"
+        )
+    below = iec.weibull_cdf(operating, iec.class_speeds(wind_class).v_ave, shape)
+    running = float(below[1] - below[0])
+    outside = (speeds < operating[0]) | (speeds > operating[1])
+    times = running * within([dlc for dlc in PRODUCTION if dlc not in counted])
+    idle = within([dlc for dlc in IDLING if dlc not in counted]) * outside
+    times += (1 - running) * idle / (idle.sum() or 1.0)
+    shares = events + (1 - events.sum()) * times / (times.sum() or 1.0)
+    if not shares.any():
+        raise InputError(
+            f"none of the load cases {', '.join(sorted(set(dlcs)))} has a share of the lifetime; "
+            "say how often a year they happen (per_year), or give the shares"
+        )
+    return shares
+
+
+def without_share(dlcs: Sequence[str], shares: np.ndarray) -> list[str]:
+    """Design load cases that the lifetime leaves out, in order."""
+    total = dict.fromkeys(dlcs, 0.0)
+    for dlc, share in zip(dlcs, shares.tolist()):
+        total[dlc] += share
+    return [dlc for dlc, share in total.items() if share == 0]
+
+
+def _check_counts(per_year: Mapping[str, float], there: set[str]) -> None:
+    for dlc, number in per_year.items():
+        if dlc not in there:
+            raise InputError(
+                f"per_year: no load case {dlc!r}; there are {', '.join(sorted(there))}"
+            )
+        if not 0 <= number < np.inf:
+            raise InputError(f"per_year: {dlc} = {number}; allowed: >= 0")

@@ -1,0 +1,205 @@
+"""One load on one rolling bearing → forces, pressures, life and verdicts, labelled."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+import xarray as xr
+
+from loadflow.errors import InputError
+from loadflow.rolling import (
+    FlexibleRings,
+    Lubrication,
+    SlewingBearing,
+    bearing_modification,
+    verdicts,
+)
+from loadflow.rolling.bearings.arrangements import MainBearing
+from loadflow.rolling.rating.life import life_hours
+from loadflow.rolling.rating.static import HOURS_20_YEARS
+from loadflow.scene.bearings import around, standing_ring
+from loadflow.scene.scene import read_scene
+from loadflow.stages.rolling import KEPT
+from loadflow.studies.journal_point import Load, quantities
+
+Rings = Literal["rigid"] | FlexibleRings
+Measures = tuple[float, float, float]
+
+NEEDED = ("balls", "ball_diameter", "pitch_diameter", "groove_radius")
+
+
+def slewing_bearing(
+    *,
+    contact_angle_deg: float = 45.0,
+    inner_ring: Measures | None = None,
+    outer_ring: Measures | None = None,
+    wall: tuple[float, float] | None = None,
+    **measures: Any,
+) -> tuple[SlewingBearing, Rings]:
+    """Return a slewing bearing and its rings from the measures that a command states.
+
+    Parameters
+    ----------
+    contact_angle_deg : float
+        Nominal contact angle, °.
+    inner_ring, outer_ring : tuple of float, optional
+        Width, height and radius of `standing_ring`, m; rigid if not given.
+    wall : tuple of float, optional
+        Thickness and length of the walls, m: the outer ring stands on its bottom, the inner ring
+        on its top face.
+    **measures
+        Fields of `SlewingBearing`.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        A measure is missing or out of its range.
+    """
+    if missing := [name for name in NEEDED if name not in measures]:
+        options = ", ".join(f"--{name.replace('_', '-')}" for name in missing)
+        raise InputError(f"give {options}, or a scene with --scene")
+    bearing = SlewingBearing(contact_angle=math.radians(contact_angle_deg), **measures)
+    if inner_ring is None and outer_ring is None:
+        if wall is not None:
+            raise InputError("--wall holds flexible rings: give --inner-ring or --outer-ring")
+        return bearing, "rigid"
+    inner = inner_ring and standing_ring(*inner_ring, wall=wall, face="top")
+    outer = outer_ring and standing_ring(*outer_ring, wall=wall)
+    return bearing, around(bearing, inner, outer)
+
+
+def bearing_of_scene(path: Path, name: str | None) -> tuple[MainBearing, Rings]:
+    """Return a rolling bearing of a scene, its first if no `name` is given, and its rings.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        No such scene or bearing.
+    """
+    bearings = read_scene(path).rolling.bearings
+    name = name or next(iter(bearings))
+    if name not in bearings:
+        raise InputError(f"{path}: no rolling bearing {name!r}; there are {', '.join(bearings)}")
+    return bearings[name].geometry, bearings[name].ring_model
+
+
+def rolling_point(
+    bearing: MainBearing,
+    rings: Rings,
+    force: Load,
+    moment: Load,
+    *,
+    speed: float | None = None,
+    lubrication: Lubrication | None = None,
+) -> xr.Dataset:
+    """Return what a bearing does under one `force` (N), `moment` (N m), turning at `speed` (rad/s).
+
+    With a `lubrication`, the modified life of ISO 281 at that speed too.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        A load that is not finite or that the bearing cannot take; a speed of 0; a lubrication
+        without a speed, or with a film too thin for ISO 281.
+    loadflow.errors.SolverError
+        No equilibrium.
+    """
+    if speed is not None and not (math.isfinite(speed) and speed):
+        raise InputError(f"speed: must be finite and not 0 for a life in hours, got {speed:g}")
+    if isinstance(bearing, SlewingBearing):
+        r: Any = bearing.equilibrium(force, moment, rings=rings)
+    else:
+        r = bearing.equilibrium(force, moment)
+    rows = {name: (getattr(r, name), units, meaning) for name, (units, meaning) in KEPT.items()}
+    solver = {name: rows.pop(name) for name in ("converged", "residual", "iterations")}
+    stiffness = np.diag(r.stiffness)
+    rows |= _life(r, speed) | _modified(r, speed, lubrication)
+    rows |= {
+        "displacement": (r.displacement[:3], "m", "of the inner ring: x, y, z"),
+        "tilt": (r.displacement[3:], "rad", "of the inner ring: about x, about y"),
+        "radial_stiffness": (stiffness[:2], "N/m", "tangent: x, y"),
+        "axial_stiffness": (stiffness[2], "N/m", "tangent: z"),
+        "tilting_stiffness": (stiffness[3:], "N m/rad", "tangent: about x, about y"),
+    }
+    if isinstance(rings, FlexibleRings):
+        for ring in ("inner", "outer"):
+            if getattr(rings, ring) is not None:
+                largest = np.linalg.norm(r.ring_displacement(ring), axis=-1).max()
+                about = f"largest displacement of the {ring} ring's raceways"
+                rows[f"{ring}_ring_displacement"] = (largest, "m", about)
+    return quantities(rows | _elements(r) | solver, model=_model(bearing, r, rings))
+
+
+def _life(r: Any, speed: float | None) -> dict[str, tuple[Any, str, str]]:
+    """Life, and what IEC 61400-1 asks of a main bearing; the life in hours only with a speed."""
+    hours = math.nan if speed is None else float(life_hours(r.rating_life, speed))
+    life, *static = verdicts(hours, float(r.static_safety))
+    limits = ", ".join(f"{verdict.limit:g}" for verdict in static)
+    rows: dict[str, tuple[Any, str, str]] = {
+        "rating_life": (r.rating_life, "1e6 rev", "basic rating life L10"),
+        "static_rating_holds": (
+            [verdict.holds for verdict in static],
+            "1",
+            f"whether the static safety reaches {limits}",
+        ),
+    }
+    if speed is not None:
+        rows["life_hours"] = (hours, "h", "basic rating life L10h at this load and speed")
+        rows["life_holds"] = (life.holds, "1", "whether it reaches 20 years")
+    if hasattr(r, "friction_torque"):
+        slewing = isinstance(r.bearing, SlewingBearing)
+        about = f"friction torque, from the {'ball forces' if slewing else 'loads'}"
+        rows["friction_torque"] = (r.friction_torque(), "N m", about)
+    return rows
+
+
+def _modified(
+    r: Any, speed: float | None, lubrication: Lubrication | None
+) -> dict[str, tuple[Any, str, str]]:
+    """Modified life with what leads to it, and which limits act."""
+    if lubrication is None:
+        return {}
+    if speed is None:
+        raise InputError("the modified life needs a speed: give --speed-rpm")
+    found = bearing_modification(r.bearing, r.equivalent_load, speed, lubrication)
+    hours = found.factor * life_hours(r.rating_life, speed)
+    return {
+        "viscosity_ratio": (found.viscosity_ratio, "1", "viscosity ratio κ"),
+        "contamination_factor": (found.contamination, "1", "contamination factor e_C"),
+        "fatigue_limit": (found.fatigue_limit, "N", "fatigue load limit C_u"),
+        "life_factor": (found.factor, "1", "life modification factor a_ISO"),
+        "modified_life_hours": (hours, "h", "modified rating life, 90 % reliability"),
+        "modified_life_holds": (hours >= HOURS_20_YEARS, "1", "whether it reaches 20 years"),
+        "limits_of_life_factor": (
+            [found.thick, found.capped],
+            "1",
+            "whether κ > 4 counts as 4, whether a_ISO stops at 50",
+        ),
+    }
+
+
+def _elements(r: Any) -> dict[str, tuple[Any, str, str]]:
+    """Forces on all rolling elements."""
+    if hasattr(r, "ball_forces"):
+        return {
+            "ball_forces": (r.ball_forces, "N", "contact forces (row, diagonal, ball)"),
+            "contact_angles": (r.contact_angles, "rad", "contact angles (row, diagonal, ball)"),
+        }
+    if isinstance(r.roller_forces, tuple):
+        parts = zip(("support", "retaining", "radial"), r.roller_forces)
+        return {f"{row}_forces": (f, "N", f"forces on the {row} rollers") for row, f in parts}
+    return {"roller_forces": (r.roller_forces, "N", "forces on the rollers (row, roller)")}
+
+
+def _model(bearing: MainBearing, r: Any, rings: Rings) -> str:
+    """What was solved, in words."""
+    if not isinstance(bearing, SlewingBearing):
+        return f"rigid rings, {type(bearing).__name__}"
+    stiff = "rigid rings"
+    if isinstance(rings, FlexibleRings):
+        soft = [ring for ring in ("inner", "outer") if getattr(rings, ring) is not None]
+        stiff = f"flexible {' and '.join(soft)} ring, {r.modes.size - 5} modes"
+    return f"{stiff}, Hertzian contacts, {bearing.rows} × {bearing.balls} balls"
