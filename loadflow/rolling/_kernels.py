@@ -1,7 +1,7 @@
 """Compiled loops of the rigid-ring equilibrium.
 
 Unknowns q = (ux, uy, uz, θx, θy): motion of the inner ring relative to the outer. The table of
-contacts is described in `loadflow.rolling.contact`. The elastic energy is convex in q for both
+contacts is described in `loadflow.rolling.contacts`. The elastic energy is convex in q for both
 laws, so that its minimum under a load is the one equilibrium.
 """
 

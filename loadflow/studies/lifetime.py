@@ -46,7 +46,7 @@ class LifetimeOptions:
         Wöhler exponents.
     weights : {"rayleigh", "given"}
         Shares from the distribution of wind speeds (2.2, 2.3), see
-        `loadflow.stages.shares.lifetime_shares`, or those that the cube states.
+        `loadflow.studies.lifetime_shares.lifetime_shares`, or those that the cube states.
     wind_class : str
         I, II or III.
     weibull_shape : float

@@ -70,7 +70,7 @@ def write_seed_page(
     groups : mapping
         What `groupings` found in it.
     margin, uncertainty : float
-        See `loadflow.stages.seed_verdicts.sufficiency`.
+        See `loadflow.studies.seeds.sufficiency`.
     source : str
         Name of the cube, for the title.
     """

@@ -40,7 +40,7 @@ def statistic_records(
     cube : Cube
         A cube.
     wanted : sequence of str
-        See `loadflow.stages.channels.choose_channels`.
+        See `loadflow.studies.channels.choose_channels`.
     source : str
         Name of the cube, for messages.
     """

@@ -27,7 +27,7 @@ class RollerState:
     inner_speed, outer_speed, cage_speed : float or ndarray
         rad/s.
     spin, spin_rate : float or ndarray
-        Of the roller against the cage, rad/s and rad/s²; signs as in `loadflow.rolling.kinematics`.
+        Of the roller against the cage, rad/s and rad/s²; signs as in `loadflow.rolling.motion.kinematics`.
     traction : tuple
         Friction on the roller at inner and outer ring in the sense of the spin, N.
     rolling : tuple
@@ -129,7 +129,7 @@ def energy_audit(
     --------
     A roller held back by drag alone, rolling without slip:
 
-    >>> from loadflow.rolling.kinematics import ideal_speeds
+    >>> from loadflow.rolling.motion.kinematics import ideal_speeds
     >>> d, big = 49.5e-3, 71.5e-3
     >>> cage, spin = ideal_speeds(100.0, 0.0, d, big)
     >>> state = RollerState(inner_speed=100.0, outer_speed=0.0, cage_speed=cage, spin=spin,

@@ -1,6 +1,6 @@
 """What the rollers of one row go through: speeds, loads, inertia and weight of each, over time.
 
-Rollers sit where an ideal cage carries them. Signs as in `loadflow.rolling.kinematics`.
+Rollers sit where an ideal cage carries them. Signs as in `loadflow.rolling.motion.kinematics`.
 """
 
 from __future__ import annotations

@@ -4,7 +4,7 @@ Unknowns x = (ux, uy, uz, R θx, R θy, a): motion of the inner ring's structure
 one's, all lengths, and the ring modes of unit stiffness. `basis` (3, contact, unknown) gives the
 relative shift (r, θ, z) of the two groove centres of each contact. `local` is the compliance of
 the rings right at a contact, along its force. Contacts are numbered kind by kind, the table is
-that of `loadflow.rolling.contact`. The potential is convex in x.
+that of `loadflow.rolling.contacts`. The potential is convex in x.
 """
 
 from __future__ import annotations

@@ -35,7 +35,7 @@ _FALL = 2.0  # harmonic n of the forces is taken to fall as 1/(1 + n)²
 class Ring(Protocol):
     """Anything that gives the compliance of a ring with its structure at the raceway patches.
 
-    Without what Hertz's law counts: see `loadflow.rolling.ring_local`.
+    Without what Hertz's law counts: see `loadflow.rolling.rings.local_compliance`.
     """
 
     def flexibility(self, points: PatchPoints) -> Array:

@@ -3,7 +3,7 @@
 `FiniteElementRing` meshes the section and takes the ring in Fourier harmonics; a force on a patch
 is spread evenly over a square of the groove, and its displacement is the mean over the same square,
 so that the compliance is symmetric. What a half-space yields under the square is taken off (see
-`loadflow.rolling.ring_local`).
+`loadflow.rolling.rings.local_compliance`).
 """
 
 from __future__ import annotations
