@@ -27,7 +27,8 @@ class RollerState:
     inner_speed, outer_speed, cage_speed : float or ndarray
         rad/s.
     spin, spin_rate : float or ndarray
-        Of the roller against the cage, rad/s and rad/s²; signs as in `loadflow.rolling.motion.kinematics`.
+        Of the roller against the cage, rad/s and rad/s²; signs as in
+        `loadflow.rolling.motion.kinematics`.
     traction : tuple
         Friction on the roller at inner and outer ring in the sense of the spin, N.
     rolling : tuple

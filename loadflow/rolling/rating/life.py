@@ -1,7 +1,8 @@
 """Rating life: equivalent load, load spectra, oscillation.
 
 The slewing-bearing rules of the NREL guideline DG03 as printed in [Ritzer 2018] ch. 2.5 and 4.4,
-and the reference life of ISO/TS 16281 per raceway; capacities are in `loadflow.rolling.rating.capacity`.
+and the reference life of ISO/TS 16281 per raceway; capacities are in
+`loadflow.rolling.rating.capacity`.
 Lives are in millions of revolutions, as in the standards, unless named otherwise.
 """
 

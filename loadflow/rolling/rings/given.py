@@ -83,8 +83,9 @@ class CompliantRing:
     Notes
     -----
     Hertz's law counts what a ring yields right under a ball: form the matrix with loads spread over
-    a patch and take off what a half-space yields under it (`loadflow.rolling.rings.local_compliance`), as
-    `FiniteElementRing` and `SolidRing` do; else it is counted twice, the more the finer the mesh.
+    a patch and take off what a half-space yields under it
+    (`loadflow.rolling.rings.local_compliance`), as `FiniteElementRing` and `SolidRing` do; else it
+    is counted twice, the more the finer the mesh.
 
     Balls sit where the matrix was formed, or whole ball pitches on: a structure that is not
     rotationally symmetric is turned by ball pitches without another condensation.
