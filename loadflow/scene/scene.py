@@ -11,7 +11,7 @@ import tomllib
 from collections.abc import Iterator
 from dataclasses import fields
 from pathlib import Path
-from typing import Annotated, Any, Literal, Self, get_args
+from typing import Annotated, Any, Literal, Self, cast, get_args
 
 from pydantic import BaseModel, Field, ValidationError, field_validator, model_validator
 
@@ -26,8 +26,8 @@ from loadflow.journal import (
     Supply,
     ThickShell,
 )
-from loadflow.rolling import SphericalRollerBearing
-from loadflow.scene.bearings import KINDS, Rolling
+from loadflow.rolling import KINDS
+from loadflow.scene.bearings import Rolling
 from loadflow.scene.loads import Loads, check_simulation
 from loadflow.scene.section import Section
 from loadflow.shaft.beam import BearingSeat
@@ -305,7 +305,8 @@ class Scene(Section, BaseModel):
                     f"{what} and takes_moment = true: only a tilted film takes a moment; set "
                     "journal.tilt = true, or leave out takes_moment"
                 )
-            aligning = isinstance(self.rolling.geometries.get(name), SphericalRollerBearing)
+            geometry = self.rolling.geometries.get(name)
+            aligning = geometry is not None and not geometry.takes_moment
             if seat.takes_moment and seat.stiffness == "rolling" and aligning:
                 raise ValueError(f"{what}: it aligns itself; leave out takes_moment")
         return self
@@ -448,7 +449,7 @@ def _of_stated_kind(errors: list[Any]) -> list[Any]:
 def _neighbours(location: tuple[int | str, ...]) -> str:
     """Name the keys that are known where an unknown one stands."""
     if len(location) > 2 and location[-3] == "geometry" and location[-2] in KINDS:
-        known = ["kind", *(field.name for field in fields(KINDS[str(location[-2])]))]
+        known = ["kind", *(field.name for field in fields(cast("Any", KINDS[str(location[-2])])))]
         return f"; known here: {', '.join(sorted(known))}"
     data: Any = Scene(name="defaults").model_dump()
     for part in [*_place(location)][:-1]:

@@ -10,7 +10,6 @@ import xarray as xr
 
 from loadflow.errors import SolverError
 from loadflow.rolling import SlewingBearing, system_life
-from loadflow.rolling.bearings.arrangements import life_exponent, weibull_slope
 from loadflow.rolling.rating import life, safety
 from loadflow.rolling.rating.static import HOURS_20_YEARS, STATIC_RATING
 from loadflow.scene.bearings import FurtherBearing
@@ -69,7 +68,7 @@ def balls(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
         "mean_speed": ((), _mean_speed(reduced), label("rad/s", "mean speed")),
     }
     worst = int(np.argmax(answer.maximum_force))
-    slope = min(weibull_slope(bearing) for bearing in scene.rolling.geometries.values())
+    slope = min(bearing.weibull_slope for bearing in scene.rolling.geometries.values())
     attrs = {
         "worst_sample": worst,
         "rated_capacity": answer.bearing.rated_capacity,
@@ -96,9 +95,7 @@ def rest(part: FurtherBearing, force: np.ndarray, moment: np.ndarray, strict: bo
     """Equilibrium of a bearing, with its rings, under loads (..., 3) in the frame of the cube."""
     bearing = part.geometry
     load = to_rolling(force), to_rolling(moment)[..., :2]
-    if isinstance(bearing, SlewingBearing):
-        return bearing.equilibrium(*load, rings=part.ring_model, strict=strict)
-    return bearing.equilibrium(*load, strict=strict)
+    return bearing.equilibrium(*load, rings=part.ring_model, strict=strict)
 
 
 def _of_bearing(answer: Any, reduced: xr.Dataset) -> tuple[float, float, float, float]:
@@ -141,7 +138,7 @@ def life_of(answer: Any, reduced: xr.Dataset) -> float:
     bearing = answer.bearing
     return float(
         life.rating_life_spectrum(
-            bearing.rated_capacity, answer.equivalent_load, revolutions, life_exponent(bearing)
+            bearing.rated_capacity, answer.equivalent_load, revolutions, bearing.life_exponent
         )
     )
 
