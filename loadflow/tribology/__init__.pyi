@@ -28,6 +28,7 @@ from .flow_factors import patir_cheng as patir_cheng
 from .hertz import effective_modulus as effective_modulus
 from .hertz import hertz_line as hertz_line
 from .hertz import hertz_point as hertz_point
+from .lubricants import ExponentialOil as ExponentialOil
 from .lubricants import Oil as Oil
 from .lubricants import lubricant as lubricant
 from .lubricants import lubricant_names as lubricant_names

@@ -83,7 +83,13 @@ def effective_modulus(
     second_modulus: ArrayLike | None = None,
     second_poisson: ArrayLike | None = None,
 ) -> Array:
-    """Contact modulus E* with 1/E* = (1 - ν₁²)/E₁ + (1 - ν₂²)/E₂, in Pa."""
+    """Contact modulus E* with 1/E* = (1 - ν₁²)/E₁ + (1 - ν₂²)/E₂, in Pa.
+
+    Examples
+    --------
+    >>> round(float(effective_modulus()) / 1e9, 2)
+    115.38
+    """
     e1, nu1 = np.asarray(modulus, float), np.asarray(poisson, float)
     e2 = e1 if second_modulus is None else np.asarray(second_modulus, float)
     nu2 = nu1 if second_poisson is None else np.asarray(second_poisson, float)
@@ -188,6 +194,11 @@ def stiffness_factor(coefficient: ArrayLike, curvature_sum: ArrayLike, e_star: A
         Sum Σk of the four curvatures, 1/m.
     e_star : array_like
         Contact modulus, Pa (`effective_modulus`).
+
+    Examples
+    --------
+    >>> round(float(stiffness_factor(1.0, 2.0, 115.38e9)) / 1e9, 2)
+    153.84
     """
     total, psi_xi = np.asarray(curvature_sum, float), np.asarray(coefficient, float)
     return np.asarray(e_star, float) / 1.5 * np.sqrt(8 / total) / psi_xi**1.5
@@ -196,7 +207,14 @@ def stiffness_factor(coefficient: ArrayLike, curvature_sum: ArrayLike, e_star: A
 def curvature_sum(
     r11: ArrayLike, r12: ArrayLike, r21: ArrayLike, r22: ArrayLike
 ) -> tuple[Array, Array]:
-    """Sum Σk of the four curvatures (1/m) and cos τ of their difference, (2.2), (2.3)."""
+    """Sum Σk of the four curvatures (1/m) and cos τ of their difference, (2.2), (2.3).
+
+    Examples
+    --------
+    >>> total, cosine = curvature_sum(50, 50, -1 / 20.5e-3, 1 / 0.93)
+    >>> round(float(total), 3), round(float(cosine), 4)
+    (52.295, 0.9534)
+    """
     plane1 = np.asarray(r11, float) + np.asarray(r21, float)
     plane2 = np.asarray(r12, float) + np.asarray(r22, float)
     total = plane1 + plane2
@@ -312,6 +330,11 @@ def line_factor(
     ------
     InputError
         If `law` is unknown.
+
+    Examples
+    --------
+    >>> round(float(line_factor(0.01)) / 1e9, 3)
+    1.295
     """
     if law == "iso":
         factor = 35_948.0 * 2 ** (10 / 9)
