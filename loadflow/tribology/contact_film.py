@@ -129,7 +129,8 @@ def nijenbanning_point(material: Value, speed: Value, load: Value, radius_ratio:
 
     Examples
     --------
-    >>> round(float(nijenbanning_point(5227.0, 2.154e-10, 7.63e-4, 0.03)) * 5.1093e-3 * 1e6, 3)  # μm
+    >>> film = nijenbanning_point(5227.0, 2.154e-10, 7.63e-4, 0.03) * 5.1093e-3
+    >>> round(float(film) * 1e6, 3)
     0.917
     """
     d, total = radius_ratio, 2.0 * speed
@@ -154,7 +155,8 @@ def hamrock_dowson_central(material: Value, speed: Value, load: Value, elliptici
 
     Examples
     --------
-    >>> round(float(hamrock_dowson_central(5227.0, 2.154e-10, 7.63e-4, 9.285)) * 5.1093e-3 * 1e6, 3)  # μm
+    >>> film = hamrock_dowson_central(5227.0, 2.154e-10, 7.63e-4, 9.285) * 5.1093e-3
+    >>> round(float(film) * 1e6, 3)
     0.693
     """
     side = 1.0 - 0.61 * np.exp(-0.73 * ellipticity)
@@ -166,7 +168,8 @@ def hamrock_dowson_minimum(material: Value, speed: Value, load: Value, elliptici
 
     Examples
     --------
-    >>> round(float(hamrock_dowson_minimum(5227.0, 2.154e-10, 7.63e-4, 9.285)) * 5.1093e-3 * 1e6, 3)  # μm
+    >>> film = hamrock_dowson_minimum(5227.0, 2.154e-10, 7.63e-4, 9.285) * 5.1093e-3
+    >>> round(float(film) * 1e6, 3)
     0.554
     """
     side = 1.0 - np.exp(-0.68 * ellipticity)
