@@ -17,7 +17,8 @@ def polynomials() -> Array:
     Quintic Hermite polynomials through value, slope and curvature at the ends of each piece.
     """
     step = 1.0 / PER_UNIT
-    u = LOWEST + step * np.arange(round((HIGHEST - LOWEST) * PER_UNIT) + 1)
+    pieces = round((HIGHEST - LOWEST) * PER_UNIT)
+    u = LOWEST + step * np.arange(pieces + 1, dtype=np.float64)
     half, three_halves, five_halves = _scaled_integrals(u)
     log = np.log(five_halves / np.sqrt(2 * np.pi))
     ratio = three_halves / five_halves

@@ -25,7 +25,7 @@ ASME J. Tribology 111 (1989) 188.
 from __future__ import annotations
 
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -137,7 +137,7 @@ def patir_cheng(
         )
     table = flow_factor_table(np.ravel(h), np.ravel(gamma), smooth)
     values, slopes = table.reshape(2, 6, *h.shape)
-    return FlowFactors(*values, slope=FlowFactors(*slopes))
+    return replace(FlowFactors(*values), slope=FlowFactors(*slopes))
 
 
 def mean_gap(film_parameter: ArrayLike) -> tuple[Array, Array]:
