@@ -1,4 +1,7 @@
-"""Polynomials of the integral F_5/2 of Greenwood and Tripp for the compiled kernels."""
+"""Polynomials of the integral F_5/2 of Greenwood and Tripp.
+
+Compiled into `loadflow.tribology.kernels`: clear its numba cache after a change.
+"""
 
 from __future__ import annotations
 

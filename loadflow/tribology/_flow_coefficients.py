@@ -1,5 +1,7 @@
 """Coefficients of the flow and friction factors of Patir and Cheng, as printed.
 
+Compiled into `loadflow.tribology.kernels`: clear its numba cache after a change.
+
 φ_x, Φ_s: [Patir and Cheng 1978]; Φ_fs, φ_fp: [Patir and Cheng 1979]. The pair (D, s) of φ_fp was
 confirmed in a second source for γ = 1 alone.
 """
