@@ -1,7 +1,7 @@
-from loadflow.tribology.hertz import LineContact as LineContact
-from loadflow.tribology.hertz import PointContact as PointContact
-from loadflow.tribology.hertz import hertz_line as hertz_line
-from loadflow.tribology.hertz import hertz_point as hertz_point
+from .hertz import LineContact as LineContact
+from .hertz import PointContact as PointContact
+from .hertz import hertz_line as hertz_line
+from .hertz import hertz_point as hertz_point
 
 from .bearings.arrangements import ARRANGEMENTS as ARRANGEMENTS
 from .bearings.arrangements import BearingLife as BearingLife
