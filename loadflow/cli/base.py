@@ -35,6 +35,30 @@ CubeFile = Annotated[
 TurbineName = Annotated[str, typer.Option(help="Turbine: a name, or a file.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON, for a machine to read.")]
 
+CaseList = Annotated[
+    Path | None,
+    typer.Option("--cases", help="List of cases: CSV with file, dlc, wind_speed, seed, weight."),
+]
+NamePattern = Annotated[
+    str | None,
+    typer.Option("--pattern", help="How names tell the case: 'run_{dlc}_{wind_speed}_{seed}'."),
+]
+OwnChannels = Annotated[
+    str | None,
+    typer.Option(
+        "--channels",
+        help="Channels by component: a TOML file, or 'speed=Omega, hub_force_x=-#23'.",
+    ),
+]
+GaugeDistance = Annotated[
+    float | None,
+    typer.Option("--gauge-distance", help="From the rotor apex to the shaft strain gauge, m."),
+]
+FrameOfChannels = Annotated[
+    str | None,
+    typer.Option("--frame", help="Frame of the y and z channels: auto, fixed or rotating."),
+]
+
 Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace a file that is there.")]
 
 WIDEST = 4  # values of one quantity that fit a line of a table; more are for --json

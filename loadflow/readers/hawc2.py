@@ -16,9 +16,9 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from loadflow.errors import InputError
-from loadflow.readers.table import Channels, Table, to_series
-
-CHANNELS = {"speed": ("Omega", "bea1 angle_speed", "shaft_rot angle speed")}
+from loadflow.readers.aliases import Channels, Frame, aliases
+from loadflow.readers.table import Table, to_series
+from loadflow.readers.text import number_rows, read_text
 
 
 @dataclass(frozen=True)
@@ -49,6 +49,7 @@ def read_hawc2(
     path: str | os.PathLike[str],
     channels: Channels | None = None,
     gauge_distance: float | None = None,
+    frame: Frame = "auto",
 ) -> xr.Dataset:
     """Read one HAWC2 run.
 
@@ -60,13 +61,16 @@ def read_hawc2(
         Component of the cube → name of the channel, or ``"#7"`` for channel 7 of the list; a
         leading minus turns the sign.
     gauge_distance : float, optional
-        Not used here; all readers are called alike.
+        Distance from the rotor apex to where ``gauge_moment_y`` and ``_z`` were taken, m.
+    frame : {"auto", "fixed", "rotating"}
+        "rotating" where the body turns with the rotor, as the shaft of the DTU 10 MW and IEA
+        turbines does; y and z channels are turned back with the azimuth (``shaft_rot angle``).
 
     Returns
     -------
     xarray.Dataset
-        Variables over time from 0, in SI units, single precision; scalar coordinates ``file``
-        and ``file_start``.
+        Variables over time from 0, in SI units, single precision; scalar coordinates ``file``,
+        ``file_start`` and ``doubts``.
 
     Raises
     ------
@@ -81,11 +85,11 @@ def read_hawc2(
     header = _read_header(listing)
     values = _read_binary(data, header) if header.binary else _read_text(data, header)
     table = Table(str(data), _stamps(data, values, header), header.names, header.units, values)
-    return to_series(table, {**CHANNELS, **(channels or {})})
+    return to_series(table, aliases("hawc2"), channels, gauge_distance, frame)
 
 
 def _read_header(path: Path) -> Header:
-    lines = path.read_text(errors="replace").splitlines()
+    lines = read_text(path).splitlines()
     at = next(
         (i for i, line in enumerate(lines) if line.split()[:2] == ["Scans", "Channels"]), None
     )
@@ -125,13 +129,10 @@ def _read_binary(path: Path, header: Header) -> NDArray[np.float64]:
 
 
 def _read_text(path: Path, header: Header) -> NDArray[np.float64]:
-    try:
-        values: NDArray[np.float64] = np.loadtxt(path, ndmin=2, dtype=float)
-    except ValueError as error:
-        raise InputError(f"{path}: {error}") from None
-    if values.shape != (header.scans, len(header.names)):
+    values = number_rows(read_text(path).splitlines(), 0, len(header.names), path, "its list has")
+    if len(values) != header.scans:
         raise InputError(
-            f"{path}: {values.shape[0]} × {values.shape[1]} values where its list says "
+            f"{path}: {len(values)} × {len(header.names)} values where its list says "
             f"{header.scans} × {len(header.names)}; truncated?"
         )
     return values

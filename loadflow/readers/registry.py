@@ -25,7 +25,7 @@ class Reader:
         Names of files it reads, lower case, as shell patterns.
     function : str
         ``"module:function"``, imported when used. Called as ``function(path, channels=…,
-        gauge_distance=…)``, it returns a Dataset over ``time`` in the frame of the cube.
+        gauge_distance=…, frame=…)``, it returns a Dataset over ``time`` in the frame of the cube.
     several_files : bool
         One run makes several files that differ in the suffix only.
     """
@@ -49,6 +49,7 @@ READERS: tuple[Reader, ...] = (
     Reader(("*.outb", "*.out"), "loadflow.readers.openfast:read_openfast"),
     Reader(("*.csv",), "loadflow.readers.csv_text:read_csv"),
     Reader(("*.sel", "*.dat"), "loadflow.readers.hawc2:read_hawc2", several_files=True),
+    Reader(("*.hdf5",), "loadflow.readers.gtsdf:read_gtsdf"),
     Reader(("*.%[0-9]*", "*.$[0-9]*", "*.$pj"), "loadflow.readers.bladed:read_bladed", True),
 )
 """All readers; the first whose pattern fits is used."""

@@ -52,6 +52,8 @@ class Case:
         Hash of the content of the file; empty without one (the scene says it all).
     steps : int
         Length of the series.
+    variant : str
+        End of the name where load case, wind speed and seed do not tell it apart.
     """
 
     dlc: str
@@ -63,11 +65,12 @@ class Case:
     wind: str = ""
     fingerprint: str = ""
     steps: int = 0
+    variant: str = ""
 
     @property
     def name(self) -> str:
         """Name of the case and of its files."""
-        return case_name(self.dlc, self.wind_speed, self.seed)
+        return case_name(self.dlc, self.wind_speed, self.seed) + self.variant
 
 
 def list_cases(scene: Scene) -> list[Case]:
@@ -181,14 +184,14 @@ def _cases_of(path: Path, loads: Loads) -> Iterator[Case]:
         cube = open_cube(path)
         check_cube(cube, source=str(path))
     else:
-        cube = read_loads(path, cases=loads.case_list, pattern=loads.pattern)
+        cube = read_loads(path, quiet=True, **loads.reading)  # the run tells of doubts
     fingerprint = _hash(path)
     for name, series in iter_cases(cube):
+        known = (str(series["dlc"].item()), float(series["wind_speed"]), int(series["seed"]))
         yield Case(
-            str(series["dlc"].item()),
-            float(series["wind_speed"].item()),
-            int(series["seed"].item()),
+            *known,
             float(series["weight"].item()),
+            variant=name.removeprefix(case_name(*known)) if "_wdir" in name else "",
             file=str(path),
             entry=name,
             fingerprint=fingerprint,
