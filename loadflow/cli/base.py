@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
+import warnings
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -13,7 +14,7 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
-from loadflow.errors import InputError
+from loadflow.errors import InputError, ValidityWarning
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -77,6 +78,16 @@ def check_free(path: Path, overwrite: bool) -> None:
     """Refuse to write over a file unless asked to."""
     if path.exists() and not overwrite:
         raise InputError(f"{path} exists already; give another name, or --overwrite")
+
+
+@contextmanager
+def caught_warnings() -> Iterator[list[str]]:
+    """Collect what the library warns of within the block, to be printed like other output."""
+    told: list[str] = []
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", ValidityWarning)
+        yield told
+    told += [str(warning.message) for warning in caught]
 
 
 def print_json(data: Any) -> None:

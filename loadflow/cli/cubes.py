@@ -17,6 +17,7 @@ from loadflow.cli.base import (
     OwnChannels,
     TurbineName,
     app,
+    caught_warnings,
     check_free,
     open_checked,
     out,
@@ -72,28 +73,30 @@ def convert(
     if output is None:
         raise InputError("-o/--output is missing: the file to write; or --list to see the names")
     check_free(output, overwrite)
+    told: list[str] = []
     paths = [Path(name) for name in files]
     if all(path.suffix in CUBES or _holds_cubes(path) for path in paths):
         cubes = [open_checked(path) for path in paths]
         parts = [case for cube in cubes for _, case in iter_cases(cube)]
         cube = cubes[0] if len(cubes) == 1 else make_cube(parts)
     else:
-        cube = read_loads(
-            files,
-            turbine=turbine,
-            cases=cases,
-            pattern=pattern,
-            channels=channels,
-            gauge_distance=gauge_distance,
-            frame=cast(Any, frame or "auto"),
-            quiet=True,
-        )
+        with caught_warnings() as told:
+            cube = read_loads(
+                files,
+                turbine=turbine,
+                cases=cases,
+                pattern=pattern,
+                channels=channels,
+                gauge_distance=gauge_distance,
+                frame=cast(Any, frame or "auto"),
+                quiet=True,
+            )
     if step is not None:
         cube = resample(cube, step)
     write = save_cube if output.suffix in CUBES else export_cube
     write(cube, output)
     found = [name for name, _ in iter_cases(cube)]
-    warnings = _doubts(cube)
+    warnings = [*told, *_doubts(cube)]
     if as_json:
         print_json({"path": str(output), "cases": found, "warnings": warnings})
         return
@@ -106,15 +109,19 @@ def _list_names(files: list[str], pattern: str | None, cases: Path | None, as_js
     from loadflow.readers import list_names
 
     fields = ("dlc", "wind_speed", "seed")
+    with caught_warnings() as told:
+        labels = list_names(files, pattern=pattern, cases=cases)
     rows = [
         {"file": file} | {field: getattr(label, field) for field in fields}
-        for file, label in list_names(files, pattern=pattern, cases=cases)
+        for file, label in labels
     ]
     if as_json:
         print_json(rows)
         return
     shown = [["-" if value is None else str(value) for value in row.values()] for row in rows]
     print_rows(("file", "dlc", "wind speed, m/s", "seed"), shown)
+    for warning in told:
+        out.print(f"warning  {warning}", soft_wrap=True, highlight=False, markup=False)
 
 
 def _holds_cubes(folder: Path) -> bool:

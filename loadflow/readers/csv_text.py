@@ -61,6 +61,14 @@ def read_csv(
     return to_series(table, aliases("csv"), channels, gauge_distance, frame)
 
 
+def is_series(path: Path) -> bool:
+    """Whether the heading of a CSV file has a column of the time, as a load series has."""
+    with path.open("rb") as file:
+        start = file.read(2**16).decode("latin-1")
+    lines = (line for line in start.splitlines() if line.strip() and line[0] != "#")
+    return re.search(r"(?:^|[,;\t])[ \"]*time\b", next(lines, "")) is not None
+
+
 def read_table(path: Path) -> Table:
     """Read all columns of a CSV file as they are."""
     if not path.is_file():

@@ -128,7 +128,7 @@ def _weight(case: xr.Dataset, turbine: Any) -> Iterator[str]:
 
 
 def _frame(case: xr.Dataset) -> Iterator[str]:
-    """Does the lateral force turn with the rotor?"""
+    """Tell of a lateral force that turns with the rotor."""
     time = case["time"].values
     force = case["hub_force"].astype(float)
     lateral = force.sel(axis="y").values + 1j * force.sel(axis="z").values
@@ -178,7 +178,7 @@ def _speed(case: xr.Dataset, turbine: Any, rated_speed: float) -> Iterator[str]:
 
 
 def _step(case: xr.Dataset, turbine: Any, rated_speed: float) -> Iterator[str]:
-    """Does the step resolve the passing of the blades?"""
+    """Tell of a step that does not resolve the passing of the blades."""
     time = case["time"].values
     step = float(time[1] - time[0])
     mean = abs(float(case["speed"].astype(float).mean()))

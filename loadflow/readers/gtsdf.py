@@ -66,6 +66,15 @@ def read_gtsdf(
     return to_series(table, aliases("hawc2"), channels, gauge_distance, frame)
 
 
+def is_series(path: Path) -> bool:
+    """Whether an HDF5 file says that it is gtsdf, or cannot be opened to say what it is."""
+    try:
+        with h5py.File(path, "r") as file:
+            return _text(file.attrs.get("type", "")).casefold() == KIND.casefold()
+    except Exception:  # a damaged file is for the reader to refuse
+        return True
+
+
 def _table(file: h5py.File, path: Path) -> Table:
     kind = _text(file.attrs.get("type", ""))
     if kind.casefold() != KIND.casefold():

@@ -88,6 +88,11 @@ def read_hawc2(
     return to_series(table, aliases("hawc2"), channels, gauge_distance, frame)
 
 
+def is_series(path: Path) -> bool:
+    """Whether a file has its list: what ends in ``.dat`` may be anything, as decks of OpenFAST."""
+    return path.with_suffix(".sel").exists()
+
+
 def _read_header(path: Path) -> Header:
     lines = read_text(path).splitlines()
     at = next(

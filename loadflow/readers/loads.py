@@ -183,9 +183,14 @@ def find_files(files: Files) -> list[Path]:
 
 def _expand(entry: Path) -> list[Path]:
     if entry.is_dir():
-        inside = sorted(p for p in entry.iterdir() if any(r.matches(p) for r in READERS))
+        fitting = sorted(p for p in entry.iterdir() if any(r.matches(p) for r in READERS))
+        inside = [p for p in fitting if find_reader(p).recognises(p)]
         if not inside:
             raise InputError(f"{entry}: the folder holds no load file")
+        if others := sorted({p.name for p in fitting} - {p.name for p in inside}):
+            told = ", ".join(others[:10]) + (", …" if len(others) > 10 else "")
+            message = f"{entry}: {len(others)} files are no load series, and left out: {told}"
+            warnings.warn(message, ValidityWarning, stacklevel=3)
         return inside
     if entry.exists():
         return [entry]

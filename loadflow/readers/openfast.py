@@ -64,6 +64,11 @@ def read_openfast(
     return to_series(table, aliases("openfast"), channels, gauge_distance, frame)
 
 
+def is_the_best(path: Path) -> bool:
+    """Whether a file has its run to itself: OpenFAST may write text beside the same in binary."""
+    return path.suffix.casefold() != ".out" or not path.with_suffix(".outb").exists()
+
+
 def read_table(path: Path) -> Table:
     """Read all channels of an OpenFAST file as they are."""
     if not path.is_file():
