@@ -76,7 +76,8 @@ def choose(
     for choice in choices:
         if not choice.missing:
             return choice
-    raise InputError(_message(table, known, choices[0], gauge_distance))
+    nearest = min(choices, key=lambda choice: len(choice.missing))
+    raise InputError(_message(table, known, nearest, gauge_distance))
 
 
 def _choose(
@@ -88,7 +89,10 @@ def _choose(
 ) -> Choice:
     looked_for = {**known.fixed, **(known.rotating if rotating else {}), **own}
     keys = (*COMPONENTS, *GAUGE.values(), POWER)
-    found = {key: _first(table, looked_for.get(key, ())) for key in keys}
+    found = {
+        key: _named(table, own[key]) if key in own else _known(table, looked_for.get(key, ()))
+        for key in keys
+    }
     names = {key: name for key, name in found.items() if name is not None}
     optional = {*OPTIONAL, *GAUGE.values()} - ({"azimuth"} if rotating else set())
     named = {key for key in own if key not in names}  # what a user names must be there
@@ -99,8 +103,14 @@ def _choose(
     return Choice(names, rotating, {key: looked_for.get(key, ()) for key in needed})
 
 
-def _first(table: Table, names: Sequence[str]) -> str | None:
+def _named(table: Table, names: Sequence[str]) -> str | None:
+    """Return the first name of the user's that the file has; several of one name are an error."""
     return next((name for name in names if table.find(name) is not None), None)
+
+
+def _known(table: Table, names: Sequence[str]) -> str | None:
+    """Return the first usual name that one channel of the file has."""
+    return next((name for name in names if len(table.columns(name)) == 1), None)
 
 
 def _message(table: Table, known: Aliases, choice: Choice, gauge_distance: float | None) -> str:
@@ -115,8 +125,8 @@ def _message(table: Table, known: Aliases, choice: Choice, gauge_distance: float
     text = f"{table.source}: {what} missing" + (f": {', '.join(looked)}" if count > 1 else "")
     text += f"; {table.listing()}"
     if set(GAUGE) & set(choice.missing) and gauge_distance is None:
-        gauges = [_first(table, known.fixed.get(key, ())) for key in GAUGE.values()]
-        turning = [_first(table, known.rotating.get(key, ())) for key in GAUGE.values()]
+        gauges = [_known(table, known.fixed.get(key, ())) for key in GAUGE.values()]
+        turning = [_known(table, known.rotating.get(key, ())) for key in GAUGE.values()]
         names = gauges if all(gauges) else turning
         if all(names):
             text += (

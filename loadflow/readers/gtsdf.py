@@ -95,7 +95,15 @@ def _table(file: h5py.File, path: Path) -> Table:
     units = _texts(file, "attribute_units", count)
     if not len(names) == len(units) == count:
         raise InputError(f"{path}: {count} channels, {len(names)} names, {len(units)} units")
-    return Table(str(path), np.concatenate(stamps), names, units, np.concatenate(values))
+    described = _texts(file, "attribute_descriptions", count)
+    return Table(
+        str(path),
+        np.concatenate(stamps),
+        names,
+        units,
+        np.concatenate(values),
+        descriptions=described if len(described) == count else (),
+    )
 
 
 def _values(block: Any) -> NDArray[np.float64]:
@@ -117,7 +125,11 @@ def _stamps(block: Any, count: int) -> NDArray[np.float64]:
     stamps = block["time"][:].astype(float) if "time" in block else np.arange(count, dtype=float)
     if len(stamps) != count:
         raise ValueError(f"{block.name}: {len(stamps)} stamps of {count} samples")
-    step, start = (float(block.attrs.get(k, d)) for k, d in (("time_step", 1), ("time_start", 0)))
+    # each is one number, or two that are added, for absolute times
+    step, start = (
+        float(np.sum(block.attrs.get(key, default)))
+        for key, default in (("time_step", 1.0), ("time_start", 0.0))
+    )
     found: NDArray[np.float64] = stamps * step + start
     return found
 

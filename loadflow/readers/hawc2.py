@@ -31,7 +31,7 @@ class Header:
         Number of time steps, and their length together, s.
     binary : bool
         Whether the ``.dat`` file holds 16-bit integers.
-    names, units : tuple of str
+    names, units, descriptions : tuple of str
         Of each channel.
     scales : ndarray, shape (channels,)
         Factors of binary channels; empty for text.
@@ -42,6 +42,7 @@ class Header:
     binary: bool
     names: tuple[str, ...]
     units: tuple[str, ...]
+    descriptions: tuple[str, ...]
     scales: NDArray[np.float64]
 
 
@@ -58,8 +59,8 @@ def read_hawc2(
     path : path
         The ``.sel`` or the ``.dat`` file; the other one lies beside it.
     channels : mapping
-        Component of the cube → name of the channel, or ``"#7"`` for channel 7 of the list; a
-        leading minus turns the sign.
+        Component of the cube → name of the channel, words of its description, or ``"#7"`` for
+        channel 7 of the list; a leading minus turns the sign.
     gauge_distance : float, optional
         Distance from the rotor apex to where ``gauge_moment_y`` and ``_z`` were taken, m.
     frame : {"auto", "fixed", "rotating"}
@@ -84,7 +85,10 @@ def read_hawc2(
             raise InputError(f"{file}: no such file; a HAWC2 run needs .sel and .dat")
     header = _read_header(listing)
     values = _read_binary(data, header) if header.binary else _read_text(data, header)
-    table = Table(str(data), _stamps(data, values, header), header.names, header.units, values)
+    stamps = _stamps(data, values, header)
+    table = Table(
+        str(data), stamps, header.names, header.units, values, descriptions=header.descriptions
+    )
     return to_series(table, aliases("hawc2"), channels, gauge_distance, frame)
 
 
@@ -114,7 +118,8 @@ def _read_header(path: Path) -> Header:
         raise InputError(f"{path}: no list of HAWC2 channels, or truncated: {error}") from None
     names = tuple(row[12:43].strip() for row in rows)
     units = tuple(row[43:54].strip() for row in rows)
-    return Header(int(scans), float(duration), binary, names, units, np.array(numbers))
+    described = tuple(row[54:].strip() for row in rows)
+    return Header(int(scans), float(duration), binary, names, units, described, np.array(numbers))
 
 
 def _scales(lines: list[str]) -> list[float]:

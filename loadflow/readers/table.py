@@ -49,6 +49,8 @@ class Table:
         Of each column, in the order of the file.
     values : ndarray, shape (n, columns)
         The series.
+    descriptions : tuple of str
+        Of each column, or nothing; channels are found by them too.
     doubts : tuple of str
         What is odd about the file although it can be read.
     """
@@ -58,6 +60,7 @@ class Table:
     names: tuple[str, ...]
     units: tuple[str, ...]
     values: NDArray[Any]
+    descriptions: tuple[str, ...] = ()
     doubts: tuple[str, ...] = ()
 
     def find(self, channel: str) -> int | None:
@@ -66,7 +69,8 @@ class Table:
         Parameters
         ----------
         channel : str
-            Name, or ``"#7"`` for the seventh column of the file; a leading minus is ignored. A
+            Name, as written or in other capitals; ``"#7"`` for the seventh column of the file; or
+            words of the description that only one channel has. A leading minus is ignored. A
             channel with the unit `UNKNOWN` does not count.
 
         Raises
@@ -74,19 +78,37 @@ class Table:
         loadflow.errors.InputError
             Several columns bear the name.
         """
-        name = channel.removeprefix("-")
-        if name.startswith("#") and name[1:].isdigit():
-            column = int(name[1:]) - 1
-            return column if 0 <= column < len(self.names) else None
-        columns = [i for i in self._valid if self.names[i] == name]
-        if not columns:  # OpenFAST writes a channel as the user spelt it
-            columns = [i for i in self._valid if self.names[i].casefold() == name.casefold()]
+        columns = self.columns(channel)
         if len(columns) > 1:
             numbers = ", ".join(f"#{i + 1}" for i in columns)
+            name = channel.removeprefix("-")
             raise InputError(
                 f"{self.source}: {len(columns)} channels {name!r}; name one: {numbers}"
             )
         return columns[0] if columns else None
+
+    def columns(self, channel: str) -> list[int]:
+        """Return all columns that a name may mean; see `find`."""
+        name = channel.removeprefix("-")
+        if name.startswith("#") and name[1:].isdigit():
+            column = int(name[1:]) - 1
+            return [column] if 0 <= column < len(self.names) else []
+        plain = " ".join(name.casefold().split())
+        rules = (
+            lambda i: self.names[i] == name,
+            lambda i: self.names[i].casefold() == name.casefold(),
+            lambda i: self._description(i) == plain,
+            lambda i: plain in self._description(i),
+        )
+        for rule in rules:
+            if columns := [i for i in self._valid if rule(i)]:
+                return columns
+        return []
+
+    def _description(self, column: int) -> str:
+        """Description in small letters with single blanks."""
+        text = self.descriptions[column] if self.descriptions else ""
+        return " ".join(text.casefold().split())
 
     def series(self, channel: str, si: str) -> NDArray[np.float64]:
         """Return one channel in SI units.
