@@ -77,6 +77,8 @@ def choose(
         if not choice.missing:
             return choice
     nearest = min(choices, key=lambda choice: len(choice.missing))
+    for names in nearest.missing.values():
+        _named(table, names)  # a name that several channels bear is not missing
     raise InputError(_message(table, known, nearest, gauge_distance))
 
 

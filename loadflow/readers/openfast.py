@@ -157,7 +157,7 @@ def _read_binary(path: Path) -> Table:
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
             values = (packed - header.offset.astype(float)) / header.scale.astype(float)
     columns = np.column_stack([stamps, values])
-    return Table(str(path), stamps, header.names, header.units, columns, tuple(doubts))
+    return Table(str(path), stamps, header.names, header.units, columns, doubts=tuple(doubts))
 
 
 def _header(data: bytes, path: Path) -> Header:
