@@ -42,11 +42,14 @@ class Choice:
         Whether the y and z channels turn with the rotor.
     missing : dict of str to tuple of str
         Components without a channel, and the names looked for.
+    spare : tuple of str
+        Components that could be left out: optional ones that no user named.
     """
 
     names: dict[str, str]
     rotating: bool
     missing: dict[str, tuple[str, ...]]
+    spare: tuple[str, ...] = ()
 
 
 def choose(
@@ -102,7 +105,8 @@ def _choose(
     if gauge_distance is not None and set(GAUGE.values()) <= set(names):
         needed = [key for key in needed if key not in GAUGE]
         names = {k: name for k, name in names.items() if k not in GAUGE or set(GAUGE) <= set(names)}
-    return Choice(names, rotating, {key: looked_for.get(key, ()) for key in needed})
+    spare = tuple(key for key in names if key in optional and key not in own)
+    return Choice(names, rotating, {key: looked_for.get(key, ()) for key in needed}, spare)
 
 
 def _named(table: Table, names: Sequence[str]) -> str | None:

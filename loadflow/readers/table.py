@@ -21,9 +21,18 @@ if TYPE_CHECKING:
 
 DEGREE = math.pi / 180.0
 UNITS: dict[str, dict[str, float]] = {
-    "rad/s": {"rad/s": 1.0, "rpm": math.pi / 30, "1/min": math.pi / 30, "deg/s": DEGREE},
+    "rad/s": {
+        "rad/s": 1.0,
+        "rad/sec": 1.0,
+        "rpm": math.pi / 30,
+        "1/min": math.pi / 30,
+        "rev/min": math.pi / 30,
+        "r/min": math.pi / 30,
+        "deg/s": DEGREE,
+        "deg/sec": DEGREE,
+    },
     "rad": {"rad": 1.0, "deg": DEGREE, "°": DEGREE},
-    "m/s": {"m/s": 1.0},
+    "m/s": {"m/s": 1.0, "m/sec": 1.0},
     "N": {"n": 1.0, "kn": 1e3, "mn": 1e6},
     "N m": {"nm": 1.0, "knm": 1e3, "mnm": 1e6},
     "W": {"w": 1.0, "kw": 1e3, "mw": 1e6},
@@ -139,6 +148,11 @@ class Table:
         sign = -1.0 if channel.startswith("-") else 1.0
         return sign * self._factor(column, si) * values
 
+    def has_unit(self, channel: str, si: str) -> bool:
+        """Whether a channel that the file has can be turned into an SI unit."""
+        column = self.find(channel)
+        return column is not None and _plain_unit(self.units[column]) in UNITS[si]
+
     def listing(self) -> str:
         """Return what channels there are, for messages."""
         valid = [self.names[i] for i in self._valid]
@@ -201,7 +215,9 @@ def to_series(
     step, stamps = regular_time(table.stamps, table.source)
     units = {**{c: _variable(c).units for c in COMPONENTS}, POWER: "W"}
     units |= dict.fromkeys(GAUGE.values(), "N m")
-    found = {key: table.series(name, units[key]) for key, name in chosen.names.items()}
+    odd = [key for key in chosen.spare if not table.has_unit(chosen.names[key], units[key])]
+    wanted = {key: name for key, name in chosen.names.items() if key not in odd}
+    found = {key: table.series(name, units[key]) for key, name in wanted.items()}
     if chosen.rotating:
         found |= turned(found, found["azimuth"])
     if gauge_distance is not None:
@@ -212,7 +228,8 @@ def to_series(
         if series:
             stacked = np.stack(series) if "axis" in variable.dims else series[0]
             data[name] = stacked.astype(np.float32)
-    doubts = [*table.doubts, *power_doubts(found)]
+    left = [f"channel {chosen.names[key]!r} is left out: its unit is unknown" for key in odd]
+    doubts = [*table.doubts, *left, *power_doubts(found)]
     coords = {
         "file": table.source,
         "file_start": ((), float(stamps[0]), {"units": "s"}),
