@@ -87,7 +87,7 @@ def read_loads(
     for path in paths:
         read = find_reader(path).load()
         series = read(path, channels=own, gauge_distance=gauge_distance, frame=frame)
-        label = label_from_name(path, pattern) if cases is None else _listed(path, listed, cases)
+        label = _label(path, pattern, listed, cases)
         case = _labelled(series, register.complete(label, series, path))
         case = with_doubts(case, turbine)
         doubts = str(case["doubts"].item())
@@ -138,8 +138,8 @@ def list_names(
     found = []
     for path in (path for entry in entries for path in _meant(Path(entry))):
         try:
-            label = label_from_name(path, pattern) if cases is None else listed[path.name]
-        except (InputError, KeyError):
+            label = _label(path, pattern, listed, cases)
+        except InputError:
             label = CaseLabel()
         found.append((str(path), label))
     return found
@@ -200,6 +200,16 @@ def _expand(entry: Path) -> list[Path]:
     if not matches:
         raise InputError(f"{entry}: no file matches")
     return matches
+
+
+def _label(
+    path: Path,
+    pattern: str | None,
+    listed: dict[str, CaseLabel],
+    cases: str | os.PathLike[str] | None,
+) -> CaseLabel:
+    """Return what the list says of a file, or its name where there is no list."""
+    return label_from_name(path, pattern) if cases is None else _listed(path, listed, cases)
 
 
 def _listed(path: Path, listed: dict[str, CaseLabel], cases: str | os.PathLike[str]) -> CaseLabel:
