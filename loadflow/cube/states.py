@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
 import xarray as xr
 
 STANDING = 0.1
@@ -38,7 +37,7 @@ def standing(case: xr.Dataset, rated_speed: float | None = None) -> xr.DataArray
     [False, False, True]
     """
     limit = SLOWEST if rated_speed is None else STANDING * rated_speed
-    return (np.abs(case["speed"]) < limit).assign_attrs(
+    return (abs(case["speed"]) < limit).assign_attrs(
         units="1", long_name="whether the rotor stands or idles"
     )
 

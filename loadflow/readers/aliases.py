@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 import tomllib
 from collections.abc import Mapping, Sequence
@@ -82,7 +83,7 @@ def aliases(program: str) -> Aliases:
     return Aliases(**frames, advice=ADVICE.get(program, ""))
 
 
-def read_channels(source: str | Path | Channels) -> dict[str, tuple[str, ...]]:
+def read_channels(source: str | os.PathLike[str] | Channels) -> dict[str, tuple[str, ...]]:
     """Return channels of one's own, from a file, a text or a mapping.
 
     Parameters

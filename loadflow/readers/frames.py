@@ -40,7 +40,7 @@ def turned(series: Series, azimuth: NDArray[np.float64]) -> dict[str, NDArray[np
     >>> fixed["hub_force_z"].round(9).tolist()
     [-1.0, -1.0]
     """
-    found = {}
+    found: dict[str, NDArray[np.float64]] = {}
     cos, sin = np.cos(azimuth), np.sin(azimuth)
     for name in PAIRS:
         keys = f"{name}_y", f"{name}_z"
