@@ -29,7 +29,7 @@ WIND = 0.25
 """Share by which the mean of the wind may differ from the wind speed of the load case."""
 SAMPLES_PER_3P = 8
 """Samples in a period of the blade-passing frequency below which its loads are cut."""
-NEIGHBOURS = {1e3: "kilo", 30 / math.pi: "rad/s and 1/min", 180 / math.pi: "rad and deg"}
+NEIGHBOURS = {1e3: "N and kN", 30 / math.pi: "rad/s and 1/min", 180 / math.pi: "rad and deg"}
 """Ratios that confused units make."""
 
 
@@ -207,5 +207,5 @@ def _hint(found: float, expected: float) -> str:
     for factor, units in NEIGHBOURS.items():
         for exponent in (1, -1):
             if abs(ratio / factor**exponent - 1) < 0.15:
-                return f" (a factor of {ratio:.3g}: is the unit right? {units})"
+                return f" (a factor of {ratio:.3g}, as between {units}: is the unit right?)"
     return ""
