@@ -63,8 +63,11 @@ def _read(scene: Scene, case: Case) -> xr.Dataset:
     return next(series for _, series in iter_cases(cube))
 
 
-def summary(parts: Mapping[Case, xr.Dataset]) -> xr.Dataset:
-    """When each case tripped (s, NaN if not), how long it stood, and what is doubtful about it."""
+def summary(parts: Mapping[Case, xr.Dataset]) -> xr.Dataset | None:
+    """When each case tripped (s, NaN if not), how long it stood, and what is doubtful about it.
+
+    None where the series were read and there is nothing of the kind to tell.
+    """
 
     def told(part: xr.Dataset) -> xr.Dataset:
         tripped = part.coords["tripped"].item() if "tripped" in part.coords else np.nan
@@ -72,7 +75,10 @@ def summary(parts: Mapping[Case, xr.Dataset]) -> xr.Dataset:
         attrs = {key: CASE_COORDS[key].attrs for key in ("standing_share", "doubts")}
         return xr.Dataset(found | {k: ((), part[k].item(), a) for k, a in attrs.items()})
 
-    return over_cases({case: told(part) for case, part in parts.items()})
+    known = all("tripped" in part.coords for part in parts.values())
+    found = over_cases({case: told(part) for case, part in parts.items()})
+    tells = (found["standing_share"] > 0) | (found["doubts"] != "")
+    return found if known or bool(tells.any()) else None
 
 
 def trips(groups: Mapping[str, Any]) -> dict[str, float]:
