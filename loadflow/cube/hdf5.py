@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 
 import h5py
+import numpy as np
 
 from loadflow.errors import InputError
 
@@ -33,20 +35,38 @@ def check_hdf5(path: Path) -> None:
         raise InputError(f"{path}: cannot be read as HDF5; the file is empty")
     try:
         with h5py.File(path, "r") as file:
-            found: list[tuple[str, int, int]] = []
-
-            def look(name: str, part: object) -> None:
-                if isinstance(part, h5py.Dataset):
-                    found.append((name, part.nbytes, part.id.get_storage_size()))
-
-            file.visititems(look)
+            found = [*_attributes("/", file)]
+            file.visititems(lambda name, part: found.extend(_parts(name, part)))
     except Exception as error:  # h5py raises of nearly every kind on damaged files
         raise InputError(
             f"{path}: cannot be read as HDF5; empty, truncated or of another kind ({error})"
         ) from None
-    for name, declared, stored in found:
-        if declared > SMALL and declared > PACKED * min(stored, size):
+    for name, declared, room in found:
+        if declared > max(SMALL, min(room, PACKED * size)):
             raise InputError(
-                f"{path}, {name}: says it holds {declared / 1e6:.4g} MB, but "
-                f"{min(stored, size) / 1e6:.4g} MB of it are in the file of {size / 1e6:.4g} MB"
+                f"{path}, {name}: says it holds {declared / 1e6:.4g} MB, but the file of "
+                f"{size / 1e6:.4g} MB has room for {min(room, PACKED * size) / 1e6:.4g} MB of it"
             )
+
+
+Part = tuple[str, int, int]
+"""Name, bytes that it says it holds, and bytes that can be stored for it."""
+
+
+def _parts(name: str, part: h5py.Group | h5py.Dataset) -> Iterator[Part]:
+    """Yield a dataset and the attributes of whatever it is."""
+    yield from _attributes(name, part)
+    if isinstance(part, h5py.Dataset):
+        stored = part.id.get_storage_size()
+        packed = part.chunks is not None and part.id.get_create_plist().get_nfilters() > 0
+        size = Path(part.file.filename).stat().st_size
+        yield name, part.nbytes, PACKED * stored if packed else min(stored, size)
+
+
+def _attributes(name: str, part: h5py.Group | h5py.Dataset) -> Iterator[Part]:
+    """Yield the attributes of a part; they are never packed."""
+    size = Path(part.file.filename).stat().st_size
+    for key in part.attrs:
+        attribute = h5py.h5a.open(part.id, key.encode())
+        declared = int(np.prod(attribute.shape, dtype=float)) * attribute.dtype.itemsize
+        yield f"{name}, attribute {key}", declared, size

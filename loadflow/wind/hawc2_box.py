@@ -98,8 +98,8 @@ def _jumps(values: NDArray[np.float32]) -> str:
     """Say where neighbours differ as if they were none; empty where none do.
 
     In homogeneous turbulence the mean square of the difference of two points depends on their
-    distance only, and grows with it. Lines that are cut at the wrong length show as steps that stand
-    out, or as neighbours that differ by more than points further apart.
+    distance only, and grows with it. Lines that are cut at the wrong length show as steps that
+    stand out, or as neighbours that differ by more than points further apart.
     """
     for axis, name in enumerate("xyz"):
         lines = np.moveaxis(values, axis, 0)

@@ -237,9 +237,11 @@ def small_cube(path):
 def test_a_small_file_that_asks_for_gigabytes_is_refused_before_it_is_read(tmp_path):
     path = small_cube(tmp_path / "a.h5")
     with h5py.File(path, "a") as file:
-        file.create_dataset("more", shape=(400_000_000,), dtype="f8", chunks=(1000,))
+        file.create_dataset("more", shape=(400_000_000,), dtype="f8", chunks=(1000,))  # no chunk
     assert path.stat().st_size < 50_000
-    with pytest.raises(InputError, match=r"a\.h5, more: says it holds 3200 MB, but 0 MB"):
+    with pytest.raises(
+        InputError, match=r"a\.h5, more: says it holds 3200 MB, but the file of .* 0 MB"
+    ):
         open_cube(path)
 
 
