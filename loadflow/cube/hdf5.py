@@ -12,6 +12,8 @@ from loadflow.errors import InputError
 
 PACKED = 1100
 """Largest ratio of values to stored bytes: deflate does not pack more densely than 1032 : 1."""
+REFERENCE = np.dtype([("length", "<u4"), ("heap", "<u8"), ("index", "<u4")])
+"""How HDF5 keeps a text of any length: the text itself lies in a heap."""
 SMALL = 2**20
 """Bytes of a dataset that nobody minds."""
 
@@ -61,6 +63,18 @@ def _parts(name: str, part: h5py.Group | h5py.Dataset) -> Iterator[Part]:
         packed = part.chunks is not None and part.id.get_create_plist().get_nfilters() > 0
         size = Path(part.file.filename).stat().st_size
         yield name, part.nbytes, PACKED * stored if packed else min(stored, size)
+        text = h5py.check_string_dtype(part.dtype)
+        if text is not None and text.length is None and part.id.get_offset() is not None:
+            yield f"{name}, longest text", _longest_text(part), size
+
+
+def _longest_text(part: h5py.Dataset) -> int:
+    """Length that texts of any length claim: HDF5 takes memory for it before it looks further."""
+    with Path(part.file.filename).open("rb") as file:
+        file.seek(part.id.get_offset())
+        raw = file.read(part.id.get_storage_size())
+    references = np.frombuffer(raw, REFERENCE, count=len(raw) // REFERENCE.itemsize)
+    return int(references["length"].max(initial=0))
 
 
 def _attributes(name: str, part: h5py.Group | h5py.Dataset) -> Iterator[Part]:
