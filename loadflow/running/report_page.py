@@ -17,7 +17,7 @@ from loadflow.report import Picture, Section, Table, figures, write_page
 from loadflow.report.style import readable
 from loadflow.rolling.rating.static import HOURS_20_YEARS, STATIC_RATING
 from loadflow.scene.scene import Scene, read_scene
-from loadflow.stages.loads import trips, when_tripped
+from loadflow.stages.loads import doubts, trips, when_tripped
 from loadflow.stages.statistics import SLOPE
 from loadflow.studies.extreme_loads import safety_factor
 
@@ -75,7 +75,7 @@ def _sections(
     shown = _shown_cases(tables, manifest)
     yield Section(
         "Loads",
-        tables=[*_trip_table(tables), *_load_tables(tables)],
+        tables=[*_trip_table(tables), *_doubt_table(tables), *_load_tables(tables)],
         pictures=[*_load_pictures(folder, shown)],
     )
     if "shaft" in tables:
@@ -198,6 +198,14 @@ def _trip_table(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
     """Cases that are no longer what their load case says; nothing if there are none."""
     if rows := [[name, when_tripped(time)] for name, time in trips(tables).items()]:
         yield Table("Tripped on overspeed, and stopped from then on", ["load case", "when"], rows)
+
+
+def _doubt_table(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
+    """What does not fit turbine, frame, unit or step; nothing if all does."""
+    rows = [[name, doubt] for name, said in doubts(tables).items() for doubt in said]
+    if rows:
+        marked = frozenset(range(len(rows)))
+        yield Table("Doubtful series", ["load case", "what does not fit"], rows, marked)
 
 
 def _load_tables(tables: dict[str, xr.Dataset]) -> Iterator[Table]:

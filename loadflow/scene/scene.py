@@ -389,19 +389,37 @@ def make_scene(data: dict[str, Any], source: str = "scene") -> Scene:
         raise InputError(_message(error, source)) from error
 
 
-def with_loads(scene: Scene, files: list[str]) -> Scene:
-    """Return the scene with its load series read from `files` (names or glob patterns)."""
-    loads = scene.loads.model_copy(update={"source": "files", "files": files})
-    return scene.model_copy(update={"loads": loads})
+def with_loads(scene: Scene, files: list[str], **reading: Any) -> Scene:
+    """Return the scene with its load series read from `files` (names or glob patterns).
+
+    `reading` are those keys of `Loads` that say how files are read; None leaves the scene's.
+
+    Raises
+    ------
+    InputError
+        A bad value among them.
+    """
+    given = {key: value for key, value in reading.items() if value is not None}
+    try:
+        read = Loads.model_validate({"source": "files", "files": files} | given)
+    except ValidationError as error:
+        raise InputError(_message(error, "loads")) from error
+    update = {key: getattr(read, key) for key in ("source", "files", *given)}
+    return scene.model_copy(update={"loads": scene.loads.model_copy(update=update)})
 
 
 def _anchor_files(data: dict[str, Any], folder: Path) -> dict[str, Any]:
     """Make relative load files relative to the scene file, not to where the user stands."""
     loads = data.get("loads")
-    if isinstance(loads, dict) and isinstance(loads.get("files"), list):
-        files = [str(folder / file) if isinstance(file, str) else file for file in loads["files"]]
-        return data | {"loads": loads | {"files": files}}
-    return data
+    if not isinstance(loads, dict):
+        return data
+    anchored = dict(loads)
+    for key in ("cases", "case_list", "channels"):
+        if isinstance(loads.get(key), str):
+            anchored[key] = str(folder / loads[key])
+    if isinstance(loads.get("files"), list):
+        anchored["files"] = [str(folder / f) if isinstance(f, str) else f for f in loads["files"]]
+    return data | {"loads": anchored}
 
 
 def _message(error: ValidationError, source: str) -> str:

@@ -94,10 +94,15 @@ LOADS = ("hub_force", "hub_moment", "force", "moment")
 
 
 def safety_factor(dlc: str) -> float:
-    """Partial safety factor for loads of a design load case; 1 for one not of the standard."""
+    """Partial safety factor for loads of a design load case; 1 for one not of the standard.
+
+    Variants have that of their load case: ``DLC6.2a``, ``62`` and ``6.2 EWM`` that of 6.2.
+    """
+    from loadflow.readers.names import standard_dlc
     from loadflow.wind.cases import LOAD_CASES
 
-    return LOAD_CASES[dlc].safety_factor if dlc in LOAD_CASES else 1.0
+    number = standard_dlc(dlc)
+    return LOAD_CASES[number].safety_factor if number in LOAD_CASES else 1.0
 
 
 def _dataset(
