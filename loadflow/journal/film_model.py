@@ -15,6 +15,7 @@ from loadflow.errors import InputError
 from loadflow.journal.cavitation import CavitationLaw, Reynolds
 from loadflow.journal.heat import Heat
 from loadflow.journal.lubricant import Lubricant
+from loadflow.journal.rungs import check_rung
 from loadflow.journal.shells import Shell
 from loadflow.journal.supply import Supply
 from loadflow.numerics.convergence import Control as Control
@@ -122,6 +123,7 @@ class Film:
             raise InputError("lubricant: not given; a film needs a Lubricant, or heat and its oil")
         if self.lubricant is not None and self.heat is not None:
             raise InputError("lubricant: not given with heat, as it follows from heat.oil")
+        check_rung(self.rung)
         require(self.inlet in ("auto", "widest gap", None), "inlet", self.inlet, _INLETS)
         require(self.grading in _GRADINGS, "grading", self.grading, " or ".join(_GRADINGS))
         if self.grid is not None:

@@ -25,7 +25,7 @@ from loadflow.journal.cavitation import DFILL, DP, DSLACK, FILL, LOAD, P
 G, E, H3, HM, COS, SIN, CELL3, HINV = range(8)
 
 
-@intrinsic  # type: ignore[untyped-decorator]
+@intrinsic
 def _call(typing_context, address, numbers, scale, count, u, state):
     """Call a compiled function of a law at its address; arrays by theirs."""
     signature = types.void(*[types.intp] * 2, types.float64, *[types.intp] * 3)

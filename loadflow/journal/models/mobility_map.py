@@ -13,13 +13,14 @@ from loadflow.errors import SolverError
 from loadflow.journal.film.discretise import build_film
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
+from loadflow.journal.line import Line
 from loadflow.journal.models import _mobility_kernels as kernel
 from loadflow.journal.models import mobility_films as row
 from loadflow.journal.models.mobility import MobilityMap, scaled, tabulate
+from loadflow.journal.models.model import Steps
 from loadflow.journal.results import operating_columns, without_supply
 from loadflow.journal.solvers.newton import refusal
 from loadflow.journal.solvers.transient import orbit_dataset
-from loadflow.numerics.fields import require
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -88,7 +89,6 @@ def _turned(matrices: Array, angle: Array) -> Array:
 
 def mapped(bearing: JournalGeometry, options: Film, force: Array) -> Mapped:
     """The map of a bearing and film, tabulated up to the largest of `force` (n, 2)."""
-    require(options.supply is None, "supply", options.supply, 'None with rung = "map"')
     if options.grading == "auto":
         options = replace(options, grading="graded")
     # refuses, in the user's units, what no film can have
@@ -106,7 +106,7 @@ def mapped(bearing: JournalGeometry, options: Film, force: Array) -> Mapped:
 
 
 def equilibrium(
-    bearing: JournalGeometry, options: Film, force: Array, speed: Array, control: Limits
+    bearing: JournalGeometry, options: Film, force: Array, speed: Array, line: Line, control: Limits
 ) -> dict[str, Any]:
     """Static equilibria: where the velocity of the map is zero.
 
@@ -168,8 +168,9 @@ def orbit(
     time: Array,
     force: Array,
     speed: Array,
-    start: Array | None,
+    line: Line,
     control: Limits,
+    steps: Steps,
 ) -> xr.Dataset:
     """Path of the shaft by an ordinary differential equation.
 
@@ -182,8 +183,9 @@ def orbit(
         No equilibrium to start from, or too many steps between two times.
     """
     film = mapped(bearing, options, force)
+    start = steps.start
     if start is None:
-        first = equilibrium(bearing, film.options, force[:1], speed[:1], control)
+        first = equilibrium(bearing, film.options, force[:1], speed[:1], line, control)
         start = first["eccentricity"][0] / bearing.clearance
     path, _, values = advance(
         film.table.motion, film.table.axes, film.units, time, force, speed, start, control

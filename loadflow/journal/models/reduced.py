@@ -20,9 +20,11 @@ from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.integrals import Integrals, in_units
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
+from loadflow.journal.line import Line
 from loadflow.journal.models import reduced_film as at
 from loadflow.journal.models._reduced_kernels import summarise
 from loadflow.journal.models._reduced_loops import finish, march, newton
+from loadflow.journal.models.model import Steps
 from loadflow.journal.models.reduced_film import Ring, Work, make_work
 from loadflow.journal.models.width_modes import lobatto
 from loadflow.journal.results import operating_columns, without_supply
@@ -31,7 +33,6 @@ from loadflow.journal.solvers.newton import refusal
 from loadflow.journal.solvers.statics import plain_rows
 from loadflow.journal.solvers.transient import orbit_dataset
 from loadflow.numerics.convergence import Limits
-from loadflow.numerics.fields import require
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -44,7 +45,7 @@ POINTS = 3  # across the half width; the largest pressure moves by 0.4 % at most
 
 
 def equilibrium(
-    bearing: JournalGeometry, options: Film, force: Array, speed: Array, control: Limits
+    bearing: JournalGeometry, options: Film, force: Array, speed: Array, line: Line, control: Limits
 ) -> dict[str, Any]:
     """Static equilibria; a load that fails or is not resolved here is solved on the grid."""
     force, speed = np.array(force), np.array(speed)  # of the layout that the kernels know
@@ -89,8 +90,9 @@ def orbit(
     time: Array,
     force: Array,
     speed: Array,
-    start: Array | None,
+    line: Line,
     control: Limits,
+    steps: Steps,
 ) -> xr.Dataset:
     """Path of the shaft; all steps in one compiled loop.
 
@@ -104,6 +106,7 @@ def orbit(
     film.raise_scale(float(np.hypot(*force.T).max()) / (bearing.width * bearing.diameter))
     ring, work = _discrete(film)
     work.u[:] = film.unknown_of(np.full(work.u.shape, film.p_edge))
+    start = steps.start
     first = _estimate(bearing, film, force[:1], speed[:1])[0] if start is None else start
     rows = np.zeros((time.size, at.RESULTS))
     begin = ring._replace(free=start is None)
@@ -160,11 +163,6 @@ class _Starts:
 
 def _film(bearing: JournalGeometry, options: Film, speed: Array) -> DiscreteFilm:
     """The grid's film on cells fixed to the shell: what the few unknowns take their data from."""
-    allowed = 'None with rung = "reduced"; take rung = "grid"'
-    require(options.supply is None, "supply", options.supply, allowed)
-    require(not options.inlet_line, "inlet", options.inlet, allowed)
-    allowed = 'uniform with rung = "reduced"'
-    require(options.grading != "graded", "grading", options.grading, allowed)
     fixed = replace(options, grading="uniform", inlet=None)
     film = build_film(bearing.diameter, bearing.width, bearing.relative_clearance, fixed)
     film.set_scale(float(np.abs(speed).max()))

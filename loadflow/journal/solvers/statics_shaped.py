@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from loadflow.errors import InputError, SolverError
 from loadflow.journal.film.discretise import build_shaped_film
@@ -16,6 +16,7 @@ from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.gap_shaped import Bore
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
+from loadflow.journal.line import Line
 from loadflow.journal.results import field_row, following, static_row
 from loadflow.journal.shapes import Cylindrical
 from loadflow.journal.solvers.estimate import closed_form_position
@@ -38,65 +39,6 @@ _ROOM = 0.02  # gap, in clearances, that the first position must leave
 _PAD_ROUNDS = 8  # solutions in which pads may come under load, or lose theirs
 _FLAT = 0.02  # curvature of a pad's gap, in clearances, that still holds it
 _NEAR = 0.3  # share of the narrowest gap that the estimate may move for a warm start
-
-
-@dataclass(frozen=True)
-class Line:
-    """What is given of the shaft's centre line, one row for each load.
-
-    Attributes
-    ----------
-    moment : array (n, 2) or None
-        N m; the shaft then tilts freely under it.
-    tilt : array (n, 2) or None
-        Rotation about the first and the second axis, rad, held.
-    bend : array (n, 2) or None
-        Curvature of the centre line, 1/m.
-    """
-
-    moment: Array | None = None
-    tilt: Array | None = None
-    bend: Array | None = None
-
-    @classmethod
-    def of(cls, shape: tuple[int, ...], **given: ArrayLike | None) -> Line:
-        """Broadcast what is given to loads of `shape`.
-
-        Raises
-        ------
-        loadflow.errors.InputError
-            Misshapen or not finite values, moment and tilt together.
-        """
-        rows = {name: _rows(name, value, shape) for name, value in given.items()}
-        line = cls(**rows)
-        if line.moment is not None and line.tilt is not None:
-            raise InputError("moment and tilt are both given: one follows from the other")
-        return line
-
-    def at(self, places: NDArray[np.int64]) -> Line:
-        """The same for the loads at `places` (m,) alone."""
-        given = vars(self).items()
-        return Line(**{name: None if rows is None else rows[places] for name, rows in given})
-
-    @property
-    def straight(self) -> bool:
-        """Whether the shaft stays aligned and straight."""
-        return self.moment is None and self.tilt is None and self.bend is None
-
-
-def _rows(name: str, value: ArrayLike | None, shape: tuple[int, ...]) -> Array | None:
-    if value is None:
-        return None
-    values = np.asarray(value, dtype=float)
-    bad = np.argwhere(~np.isfinite(values))
-    if bad.size:
-        raise InputError(f"{name}{bad[0].tolist()} = {values[tuple(bad[0])]}: must be finite")
-    try:
-        return np.broadcast_to(values, (*shape, 2)).reshape(-1, 2)
-    except ValueError as error:
-        raise InputError(
-            f"{name} {values.shape} does not broadcast with the loads {(*shape, 2)}"
-        ) from error
 
 
 def plain(bearing: JournalGeometry, line: Line) -> bool:
