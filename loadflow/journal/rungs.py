@@ -11,16 +11,18 @@ from typing import Literal
 
 from loadflow.errors import InputError
 
+_FULL_WIDTH = "a shaped bore, an elastic shell or a shaft that tilts or bends"
+
 FEATURES = {
-    "shape": "a shaped bore",
-    "relief": "a bore with a relief",
-    "moment": "a shaft that tilts under a moment",
-    "tilt": "a shaft that tilts",
-    "bend": "a shaft that bends",
+    "shape": _FULL_WIDTH,
+    "relief": _FULL_WIDTH,
+    "moment": _FULL_WIDTH,
+    "tilt": _FULL_WIDTH,
+    "bend": _FULL_WIDTH,
+    "shell": _FULL_WIDTH,
     "supply": "a supply",
     "inlet": "a line of fresh oil",
     "grading": "a graded mesh",
-    "shell": "an elastic shell",
     "heat": "heat",
     "contact": "contact of asperities",
     "step": "adaptive steps",

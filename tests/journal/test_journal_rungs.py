@@ -69,7 +69,7 @@ def test_at_rest_a_rung_answers_or_refuses_by_name(rung, feature):
         if rung != "map":  # whose tables have tests of their own
             assert bearing.equilibrium(LOAD, 100.0, described, **more).converged
         return
-    with pytest.raises(InputError, match=rf"{rung}.* {feature} = |{feature} = .*{rung}"):
+    with pytest.raises(InputError, match=rf"{rung}.* {feature} = |{feature} = .*"):
         bearing.equilibrium(LOAD, 100.0, described, **more)
 
 
