@@ -4,18 +4,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from loadflow.errors import InputError, SolverError
-from loadflow.journal.film.discretise import FilmOptions, build_shaped_film
-from loadflow.journal.film.film import Film
+from loadflow.journal.film.discretise import build_shaped_film
+from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.gap_shaped import Bore
-from loadflow.journal.models.model import Control
-from loadflow.journal.options import require
+from loadflow.journal.film_model import Film
+from loadflow.journal.geometry import JournalGeometry
+from loadflow.journal.line import Line
 from loadflow.journal.results import field_row, following, static_row
 from loadflow.journal.shapes import Cylindrical
 from loadflow.journal.solvers.estimate import closed_form_position
@@ -28,9 +29,8 @@ from loadflow.journal.solvers.newton import (
     solve_film,
     solve_patiently,
 )
-
-if TYPE_CHECKING:
-    from loadflow.journal.bearing import JournalBearing
+from loadflow.numerics.convergence import Limits
+from loadflow.numerics.fields import require
 
 Array = NDArray[np.float64]
 
@@ -41,72 +41,18 @@ _FLAT = 0.02  # curvature of a pad's gap, in clearances, that still holds it
 _NEAR = 0.3  # share of the narrowest gap that the estimate may move for a warm start
 
 
-@dataclass(frozen=True)
-class Line:
-    """What is given of the shaft's centre line, one row for each load.
-
-    Attributes
-    ----------
-    moment : array (n, 2) or None
-        N m; the shaft then tilts freely under it.
-    tilt : array (n, 2) or None
-        Rotation about the first and the second axis, rad, held.
-    bend : array (n, 2) or None
-        Curvature of the centre line, 1/m.
-    """
-
-    moment: Array | None = None
-    tilt: Array | None = None
-    bend: Array | None = None
-
-    @classmethod
-    def of(cls, shape: tuple[int, ...], **given: ArrayLike | None) -> Line:
-        """Broadcast what is given to loads of `shape`.
-
-        Raises
-        ------
-        loadflow.errors.InputError
-            Misshapen or not finite values, moment and tilt together.
-        """
-        rows = {name: _rows(name, value, shape) for name, value in given.items()}
-        line = cls(**rows)
-        if line.moment is not None and line.tilt is not None:
-            raise InputError("moment and tilt are both given: one follows from the other")
-        return line
-
-    @property
-    def straight(self) -> bool:
-        """Whether the shaft stays aligned and straight."""
-        return self.moment is None and self.tilt is None and self.bend is None
-
-
-def _rows(name: str, value: ArrayLike | None, shape: tuple[int, ...]) -> Array | None:
-    if value is None:
-        return None
-    values = np.asarray(value, dtype=float)
-    bad = np.argwhere(~np.isfinite(values))
-    if bad.size:
-        raise InputError(f"{name}{bad[0].tolist()} = {values[tuple(bad[0])]}: must be finite")
-    try:
-        return np.broadcast_to(values, (*shape, 2)).reshape(-1, 2)
-    except ValueError as error:
-        raise InputError(
-            f"{name} {values.shape} does not broadcast with the loads {(*shape, 2)}"
-        ) from error
-
-
-def plain(bearing: JournalBearing, line: Line) -> bool:
+def plain(bearing: JournalGeometry, line: Line) -> bool:
     """Whether the gap is that of a cylinder around an aligned, straight shaft."""
     return isinstance(bearing.shape, Cylindrical) and not bearing.relief and line.straight
 
 
 def equilibrium_rows(
-    bearing: JournalBearing,
-    options: FilmOptions,
+    bearing: JournalGeometry,
+    options: Film,
     loads: Array,
     speeds: Array,
     line: Line,
-    control: Control,
+    control: Limits,
     whirl: float,
 ) -> list[dict[str, Any]]:
     """Rows of `Equilibrium`."""
@@ -118,18 +64,18 @@ def equilibrium_rows(
         if not solution.converged and control.strict:
             raise SolverError(f"load {index}: {statics.refusal(load, solution)}")
         last = solution if solution.converged else last
-        rows.append(static_row(bearing, statics.film, load, options.lubricant, solution, whirl))
+        rows.append(static_row(bearing, statics.film, load, options.liquid, solution, whirl))
     return rows
 
 
 def field_rows(
-    bearing: JournalBearing,
-    options: FilmOptions,
+    bearing: JournalGeometry,
+    options: Film,
     places: Array,
     velocities: Array,
     speeds: Array,
     line: Line,
-    control: Control,
+    control: Limits,
 ) -> tuple[list[dict[str, Any]], Array]:
     """Rows of `FilmField` and axial places of the cells, m."""
     require(line.moment is None, "moment", "given", "tilt is given where the position is")
@@ -145,14 +91,14 @@ def field_rows(
 
 
 def orbit_start(
-    bearing: JournalBearing,
-    options: FilmOptions,
+    bearing: JournalGeometry,
+    options: Film,
     loads: Array,
     speeds: Array,
     line: Line,
     start: Array | None,
-    control: Control,
-) -> tuple[Film, Solution, Array, NDArray[np.int64]]:
+    control: Limits,
+) -> tuple[DiscreteFilm, Solution, Array, NDArray[np.int64]]:
     """Film, first state, generalised loads (n, m) and moving degrees of freedom of an orbit.
 
     It begins at `start`, in clearances, or at the equilibrium of the first load.
@@ -179,9 +125,7 @@ def orbit_start(
 class _Statics:
     """One film and what is given of the shaft's line, solved load by load."""
 
-    def __init__(
-        self, bearing: JournalBearing, options: FilmOptions, line: Line, rate: float
-    ) -> None:
+    def __init__(self, bearing: JournalGeometry, options: Film, line: Line, rate: float) -> None:
         self.bearing, self.line = bearing, line
         self.gap, self.film = build_shaped_film(
             bore_of(bearing), bearing.shape, options, line.straight
@@ -190,7 +134,7 @@ class _Statics:
         self.pads = np.arange(self.gap.shaft, self.gap.size)
 
     def solve(
-        self, index: int, load: Array, omega: float, last: Solution | None, control: Control
+        self, index: int, load: Array, omega: float, last: Solution | None, control: Limits
     ) -> Solution:
         """Equilibrium under load number `index`."""
         film, gap = self.film, self.gap
@@ -233,7 +177,7 @@ class _Statics:
         estimate: Array,
         last: Solution | None,
         free: NDArray[np.int64],
-        control: Control,
+        control: Limits,
     ) -> Solution:
         """Newton from the last solution, if that is near, and from the estimate."""
         limits = self._limits(control)
@@ -243,7 +187,7 @@ class _Statics:
                 break
         return solution
 
-    def _balanced(self, position: Array, pads: NDArray[np.int64], control: Control) -> Solution:
+    def _balanced(self, position: Array, pads: NDArray[np.int64], control: Limits) -> Solution:
         """Film at a given position of the shaft at rest, `pads` without moment."""
         limits = self._limits(control)
         film = self.film
@@ -270,7 +214,7 @@ class _Statics:
         return np.array(tilting, dtype=np.int64)
 
     def hold(
-        self, index: int, place: Array, velocity: Array, omega: float, control: Control
+        self, index: int, place: Array, velocity: Array, omega: float, control: Limits
     ) -> Solution:
         """Film at a given position; pads take the tilt without moment and follow the shaft."""
         film, gap = self.film, self.gap
@@ -315,7 +259,7 @@ class _Statics:
             f"{solution.iterations} steps, {self._where(solution.position)}"
         )
 
-    def _limits(self, control: Control) -> tuple[float, int]:
+    def _limits(self, control: Limits) -> tuple[float, int]:
         """Tolerance and Newton steps; the rupture of Reynolds moves by one cell in each."""
         cells = self.film.mesh.shape[0] if self.film.creeps else 0
         return control.tolerance, max(control.max_iterations, cells)
@@ -382,7 +326,7 @@ class _Statics:
         estimate: Array,
         last: Solution | None,
         free: NDArray[np.int64],
-        control: Control,
+        control: Limits,
     ) -> Iterator[tuple[Array, Array]]:
         """Where Newton may start: from the last solution if the estimate has moved little."""
         if (
@@ -413,7 +357,7 @@ def _turned(position: Array, angle: float) -> tuple[float, float]:
     return x * cos + y * sin, y * cos - x * sin
 
 
-def bore_of(bearing: JournalBearing) -> Bore:
+def bore_of(bearing: JournalGeometry) -> Bore:
     """Bore of a bearing."""
     return Bore(
         bearing.shape.segments, bearing.relief, bearing.radius, bearing.width, bearing.clearance
