@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, Literal, Protocol, cast, get_args
 import numpy as np
 from numpy.typing import NDArray
 
+from loadflow.errors import SolverError
 from loadflow.journal.options import require
 
 if TYPE_CHECKING:
@@ -92,3 +93,26 @@ def model(rung: str) -> Model:
     module, _, name = _PLACES[rung].partition(":")
     found = import_module(module)
     return cast("Model", getattr(found, name) if name else found)
+
+
+def solve_on_grid(
+    bearing: JournalBearing,
+    options: FilmOptions,
+    index: int,
+    answer: dict[str, Any],
+    control: Control,
+) -> None:
+    """Replace the row `index` of `answer` by that of the rung "grid".
+
+    Raises
+    ------
+    SolverError
+        If ``control.strict`` and the grid has no answer either.
+    """
+    force, speed = answer["force"][index], float(answer["speed"][index])
+    try:
+        state = bearing.equilibrium(force, speed, **vars(options), strict=control.strict)
+    except SolverError as error:
+        raise SolverError(str(error).replace("load 0:", f"load {index}:", 1)) from error
+    for name, values in answer.items():
+        values[index] = getattr(state, name)

@@ -21,13 +21,15 @@ from loadflow.journal.film.integrals import Integrals, in_units
 from loadflow.journal.models import reduced_film as at
 from loadflow.journal.models._reduced_kernels import summarise
 from loadflow.journal.models._reduced_loops import finish, march, newton
+from loadflow.journal.models.model import solve_on_grid
 from loadflow.journal.models.reduced_film import Ring, Work, make_work
 from loadflow.journal.models.width_modes import lobatto
 from loadflow.journal.options import Guembel, Reynolds, require
 from loadflow.journal.results import operating_columns, without_supply
 from loadflow.journal.solvers.estimate import NEAR, closed_form_position
-from loadflow.journal.solvers.newton import refusal
+from loadflow.journal.solvers.newton import not_found, refusal
 from loadflow.journal.solvers.transient import orbit_dataset
+from loadflow.numerics.convergence import unresolved
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -54,7 +56,7 @@ def equilibrium(
     for n in range(count):
         spent, converged = 0, False
         for x, y in starts.of(n):
-            x, y, residual, iterations, converged = newton(
+            x, y, residual, iterations, converged, rounding = newton(
                 ring, work, x, y, force[n, 0], force[n, 1], speed[n], 0.0,
                 control.tolerance, control.max_iterations,
             )  # fmt: skip
@@ -65,7 +67,7 @@ def equilibrium(
                 finish(ring, work, x, y, speed[n], rows[n], stiffness[n], damping[n])
                 starts.keep(n, (x, y))
                 break
-        rows[n, at.RESIDUAL :] = residual, spent, converged
+        rows[n, at.RESIDUAL :] = residual, spent, converged, rounding
     position = rows[:, [at.X, at.Y]]
     answer = {
         **operating_columns(bearing, force, speed, options.lubricant, position),
@@ -76,7 +78,7 @@ def equilibrium(
         "converged": rows[:, at.CONVERGED] > 0,
     }
     for index in np.flatnonzero(~answer["converged"]):
-        _from_grid(bearing, options, int(index), answer, control)
+        solve_on_grid(bearing, options, int(index), answer, control)
     return answer
 
 
@@ -104,15 +106,15 @@ def orbit(
     first = _estimate(bearing, film, force[:1], speed[:1])[0] if start is None else start
     rows = np.zeros((time.size, at.RESULTS))
     begin = ring._replace(free=start is None)
-    x, y, residual, iterations, converged = newton(
+    x, y, residual, iterations, converged, rounding = newton(
         begin, work, first[0], first[1], force[0, 0], force[0, 1], speed[0], 0.0,
         control.tolerance, 2 * control.max_iterations,
     )  # fmt: skip
     if not converged:
-        words = refusal(force[0], speed[0], residual, iterations, float(np.hypot(x, y)))
-        raise SolverError(f"orbit cannot start: {words}")
+        why = not_found(residual, rounding, iterations, float(np.hypot(x, y)))
+        raise SolverError(f"orbit cannot start: {refusal(force[0], speed[0], why)}")
     summarise(ring, work, x, y, rows[0])
-    rows[0, at.RESIDUAL :] = residual, iterations, converged
+    rows[0, at.RESIDUAL :] = residual, iterations, converged, rounding
     solved = march(
         ring, work, x, y, time, force, speed, control.tolerance, control.max_iterations, rows
     )
@@ -121,9 +123,8 @@ def orbit(
         raise SolverError(
             f"orbit stops at t = {time[last]:.6g} s: F = ({force[last, 0]:.6g}, "
             f"{force[last, 1]:.6g}) N, ω = {speed[last]:.6g} rad/s, "
-            f"ε = {np.hypot(rows[last, at.X], rows[last, at.Y]):.6g}; residual "
-            f"{rows[last, at.RESIDUAL]:.3g} after {rows[last, at.ITERATIONS]:g} Newton "
-            "steps"
+            f"ε = {np.hypot(rows[last, at.X], rows[last, at.Y]):.6g}; "
+            + unresolved(*rows[last, [at.RESIDUAL, at.ROUNDING, at.ITERATIONS]])
         )
     values = _results(film, rows, speed) | {"x": rows[:, at.X], "y": rows[:, at.Y]}
     return orbit_dataset(values, time, force, speed, bearing.clearance)
@@ -206,21 +207,3 @@ def _results(film: Film, rows: Array, speed: Array) -> dict[str, Any]:
         "iterations": rows[:, at.ITERATIONS].astype(int),
         **without_supply(len(rows)),
     }
-
-
-def _from_grid(
-    bearing: JournalBearing,
-    options: FilmOptions,
-    index: int,
-    answer: dict[str, Any],
-    control: Control,
-) -> None:
-    """Replace the row `index` of `answer` by that of the rung "grid"."""
-    force, speed = answer["force"][index], float(answer["speed"][index])
-    state = bearing.equilibrium(force, speed, **vars(options), strict=False)
-    if control.strict and not state.converged:
-        ratio, residual = float(state.eccentricity_ratio), float(state.residual)
-        words = refusal(force, speed, residual, int(state.iterations), ratio)
-        raise SolverError(f"load {index}: {words}")
-    for name, values in answer.items():
-        values[index] = getattr(state, name)

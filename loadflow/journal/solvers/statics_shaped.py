@@ -28,6 +28,7 @@ from loadflow.journal.solvers.newton import (
     solve_film,
     solve_patiently,
 )
+from loadflow.numerics.convergence import unresolved
 
 if TYPE_CHECKING:
     from loadflow.journal.bearing import JournalBearing
@@ -311,8 +312,9 @@ class _Statics:
         if self.film.room_left(solution.position) <= APART:
             return f"{head}: the shaft touches the elastic shell, {self._where(solution.position)}"
         return (
-            f"{head}: no equilibrium found; residual {solution.residual:.3g} after "
-            f"{solution.iterations} steps, {self._where(solution.position)}"
+            f"{head}: no equilibrium found; "
+            f"{unresolved(solution.residual, solution.rounding, solution.iterations)}, "
+            f"{self._where(solution.position)}"
         )
 
     def _limits(self, control: Control) -> tuple[float, int]:
