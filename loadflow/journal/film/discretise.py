@@ -15,7 +15,7 @@ from loadflow.journal.film.feed import Feed
 from loadflow.journal.film.film import Film
 from loadflow.journal.film.gap import PlainGap
 from loadflow.journal.film.gap_elastic import ElasticGap
-from loadflow.journal.film.gap_mesh import recess_marks, shaped_mesh
+from loadflow.journal.film.gap_mesh import crowded, recess_marks, shaped_mesh
 from loadflow.journal.film.gap_shaped import Bore, ShapedGap
 from loadflow.journal.film.groove_pressure import Pockets
 from loadflow.journal.film.grooves import groove_marks, groove_numbers
@@ -111,9 +111,12 @@ def build_film(diameter: float, width: float, clearance: float, options: FilmOpt
 
 
 def build_shaped_film(
-    bore: Bore, shape: Shape, options: FilmOptions, straight: bool
+    bore: Bore, shape: Shape, options: FilmOptions, straight: bool, crowd: float | None = None
 ) -> tuple[ShapedGap, Film]:
-    """Discrete film of a bearing of any shape; `straight`: around an aligned, straight shaft."""
+    """Discrete film of a bearing of any shape; `straight`: around an aligned, straight shaft.
+
+    Cells crowd at the angle `crowd`, rad, if there is one.
+    """
     law, supply = options.law, options.supply
     require(options.inlet != "widest gap", "inlet", options.inlet, "None but for a plain cylinder")
     pressure = getattr(shape, "groove_pressure", None)
@@ -130,6 +133,8 @@ def build_shaped_film(
     mesh = shaped_mesh(
         ratio, grid, half, graded, bore.segments, [*turns, *around], [*places, *ends, *-ends]
     )
+    if crowd is not None:
+        mesh = crowded(mesh, crowd)
     numbers = groove_numbers(mesh.angle, mesh.z, ratio, supply, int(grid[0]), bore.radius)
     mirrors = 2.0 if half else 1.0
     flow_unit = mirrors * bore.clearance**3 / (12.0 * options.lubricant.viscosity)

@@ -387,10 +387,14 @@ class Film:
         if self.pockets.free.size:
             worst = max(worst, self.pockets.missing(self.state[kernel.P], outflow, self.scale))
         if force is not None:
-            scale = max(math.hypot(*force), self.scale * self.radius**2 * 1e-3)
+            scale = self.load_scale(force)
             missing = force - frame @ self._load(around)
             worst = max(worst, math.hypot(*missing[free]) / scale)
         return worst
+
+    def load_scale(self, force: Array) -> float:
+        """Scale of what is missing of the load, N."""
+        return max(math.hypot(*force), self.scale * self.radius**2 * 1e-3)
 
     def rounding(
         self,
@@ -415,7 +419,7 @@ class Film:
         flux = (abs(self.wedge) + self.scale) * mesh.dz.max()
         worst = terms * (1.0 + 3.0 / narrow) / flux
         if force is not None:
-            scale = max(math.hypot(*force), self.scale * self.radius**2 * 1e-3)
+            scale = self.load_scale(force)
             pressed = float(np.abs(self.state[kernel.LOAD]).max()) * 2 * np.pi * mesh.dz.sum()
             reach = np.abs(gap.across).max(axis=1)
             carried = self.mirrors * self.radius**2 * pressed * reach

@@ -231,7 +231,7 @@ def solve_patiently(
     """
     rest = np.zeros(position.size)
     wanted, ease = force[free], film.gap.ease[free]
-    near = 1e-3 * max(math.hypot(*wanted), film.scale * film.radius**2 * 1e-3)
+    near = 1e-3 * film.load_scale(wanted)
     state = solve_film(film, film.start(), position, rest, tolerance, max_iterations)
     spent = state.iterations
     missing = wanted - state.linear.load[free]

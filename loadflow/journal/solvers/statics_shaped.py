@@ -19,14 +19,19 @@ from loadflow.journal.options import require
 from loadflow.journal.results import field_row, following, static_row
 from loadflow.journal.shapes import Cylindrical
 from loadflow.journal.solvers.estimate import closed_form_position
-from loadflow.journal.solvers.load_stepping import APART, solve_by_approach, solve_in_load_steps
+from loadflow.journal.solvers.load_stepping import (
+    APART,
+    TOUCHING,
+    solve_by_approach,
+    solve_from_held,
+    solve_in_load_steps,
+)
 from loadflow.journal.solvers.newton import (
     Motion,
     Solution,
     no_film,
     solve_equilibrium,
     solve_film,
-    solve_patiently,
 )
 from loadflow.numerics.convergence import unresolved
 
@@ -39,6 +44,8 @@ _LIFT = 0.3  # share of the gap over the pivot by which a pad is tilted at first
 _ROOM = 0.02  # gap, in clearances, that the first position must leave
 _PAD_ROUNDS = 8  # solutions in which pads may come under load, or lose theirs
 _FLAT = 0.02  # curvature of a pad's gap, in clearances, that still holds it
+_CROWDED = 2  # meshes that are tried beside the one asked for
+_NARROW = 0.2  # narrowest gap, in clearances, above which no mesh but that is tried
 _NEAR = 0.3  # share of the narrowest gap that the estimate may move for a warm start
 
 
@@ -115,11 +122,11 @@ def equilibrium_rows(
     rows = []
     last: Solution | None = None
     for index, (load, omega) in enumerate(zip(loads, speeds.tolist())):
-        solution = statics.solve(index, load, omega, last, control)
+        used, solution = statics.resolve(index, load, omega, last, control)
         if not solution.converged and control.strict:
-            raise SolverError(f"load {index}: {statics.refusal(load, solution)}")
-        last = solution if solution.converged else last
-        rows.append(static_row(bearing, statics.film, load, options.lubricant, solution, whirl))
+            raise SolverError(f"load {index}: {used.refusal(load, solution)}")
+        last = solution if solution.converged and used is statics else last
+        rows.append(static_row(bearing, used.film, load, options.lubricant, solution, whirl))
     return rows
 
 
@@ -181,14 +188,39 @@ class _Statics:
     """One film and what is given of the shaft's line, solved load by load."""
 
     def __init__(
-        self, bearing: JournalBearing, options: FilmOptions, line: Line, rate: float
+        self,
+        bearing: JournalBearing,
+        options: FilmOptions,
+        line: Line,
+        rate: float,
+        crowd: float | None = None,
     ) -> None:
-        self.bearing, self.line = bearing, line
+        self.bearing, self.line, self.options, self.rate = bearing, line, options, rate
         self.gap, self.film = build_shaped_film(
-            bore_of(bearing), bearing.shape, options, line.straight
+            bore_of(bearing), bearing.shape, options, line.straight, crowd
         )
         self.film.set_scale(rate)
         self.pads = np.arange(self.gap.shaft, self.gap.size)
+
+    def resolve(
+        self, index: int, load: Array, omega: float, last: Solution | None, control: Control
+    ) -> tuple[_Statics, Solution]:
+        """Equilibrium under load number `index`, and the film it was found on.
+
+        Where the gap closes between the cells of the mesh there may be none on it, so that cells
+        crowd where the gap was narrowest.
+        """
+        used, solution = self, self.solve(index, load, omega, last, control)
+        for _ in range(_CROWDED):
+            known = np.isfinite(solution.position).all()
+            if solution.converged or self.film.elastic or not known:
+                break
+            gap, angle, _ = used.gap.closest(solution.position)
+            if gap > _NARROW:
+                break
+            used = _Statics(self.bearing, self.options, self.line, self.rate, angle)
+            solution = used.solve(index, load, omega, None, control)
+        return used, solution
 
     def solve(
         self, index: int, load: Array, omega: float, last: Solution | None, control: Control
@@ -225,7 +257,7 @@ class _Statics:
             solution = solve_in_load_steps(film, force, estimate, control.tolerance, free)
         elif not solution.converged:
             limits = self._limits(control)
-            solution = solve_patiently(film, force, estimate, *limits, free)
+            solution = solve_from_held(film, force, estimate, *limits, free)
         return self._apart(replace(solution, estimate=estimate))
 
     def _newton(
@@ -309,6 +341,11 @@ class _Statics:
         head = f"F = ({load[0]:.6g}, {load[1]:.6g}) N at ω = {self.film.speed:.6g} rad/s"
         if self.film.speed == 0.0 and not self.film.pockets.lifts(self.film.p_edge):
             return f"{head}: without rotation and squeeze the film carries no load"
+        if self.gap.narrowest(solution.position) < TOUCHING and not self.film.elastic:
+            return (
+                f"{head}: the shaft touches the bore, {self._where(solution.position)}: the film "
+                f"does without {100 * min(solution.residual, 1.0):.3g} % of the load"
+            )
         if self.film.room_left(solution.position) <= APART:
             return f"{head}: the shaft touches the elastic shell, {self._where(solution.position)}"
         return (
