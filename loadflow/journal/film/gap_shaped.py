@@ -210,16 +210,24 @@ class ShapedGap:
         worst = float((closing / gaps).max())
         target = position + step * min(1.0, (1.0 - KEPT) / worst if worst > 0 else 1.0)
         for row in (self.shaft + np.flatnonzero(step[self.shaft :])).tolist():
-            before, after = self._lift(row, position), self._lift(row, target)
+            before, after = self.lift(row, position), self.lift(row, target)
             # a pad that tilts the other way has no film, and would stay so
             low, high = KEPT * abs(before), max(abs(before), _SMALL_LIFT) / KEPT
             kept = math.copysign(min(max(math.copysign(after, after * before), low), high), before)
             target[row] += kept - after
         return target
 
-    def _lift(self, row: int, position: Array) -> float:
+    def lift(self, row: int, position: Array) -> float:
         """Tilt of a pad against the shaft: its own less the way of the shaft past it."""
         return float(position[row] + position[:2] @ self._tangents[row - self.shaft])
+
+    def widest_lift(self, row: int, position: Array, sign: float) -> float:
+        """Lift of a pad, times `sign`, at which its one end meets the shaft."""
+        flat = position.copy()
+        flat[row] -= self.lift(row, position)
+        closing = sign * self._reach[row][:, None] * self._lengths[row]
+        closes = closing > 0.0
+        return float((self.gaps(flat)[closes] / closing[closes]).min())
 
     def narrowest(self, position: Array) -> float:
         """Narrowest gap over the clearance; ≤ 0 where the shaft would touch the bore."""

@@ -17,8 +17,9 @@ Array = NDArray[np.float64]
 _FIRST_LOAD = 0.2  # share of the load from which it is raised in steps
 _LOADS, _BRIEF = 12, 25  # number of those steps, and Newton steps of each
 _STRIDE = 0.25  # first share of the way from the load at the start to the one that is wanted
-_SHORTEST = 1e-3  # share below which such a step is given up
-_QUICK, _BUDGET = 15, 6  # Newton steps of each, and of all in multiples of those of a solution
+_SHORTEST = 1e-3  # of the lesser of both loads, below which such a step is given up
+_QUICK, _BUDGET = 14, 10  # Newton steps of each, and of all in multiples of those of a solution
+_EASY = 7  # Newton steps below which the next of these steps is twice as long
 _ROOM = 0.02  # gap, in clearances, that the first position leaves in the shell at rest
 _BACK = 0.7  # share of a step, or of the way, that is tried next
 _NEAREST = 0.01  # share of the way to a position from which it is approached at least
@@ -71,7 +72,9 @@ def solve_from_held(
     first, spent, share, stride = state.linear.load, state.iterations, 0.0, _STRIDE
     brief = max_iterations if film.creeps else _QUICK
     trial = state
-    while stride >= _SHORTEST and spent < _BUDGET * max_iterations:
+    lightest = math.hypot(*first[free]) / film.load_scale(force)
+    shortest = _SHORTEST * min(1.0, max(lightest, _SHORTEST))
+    while stride >= shortest and spent < _BUDGET * max_iterations:
         at = min(1.0, share + stride)
         load = force + (1.0 - at) * (first - force)
         steps = max_iterations if at == 1.0 else brief
@@ -79,11 +82,12 @@ def solve_from_held(
         trial = solve_equilibrium(film, load, *start, tolerance, steps, free=free)
         spent += trial.iterations
         if not trial.converged:
-            stride *= 0.3
+            stride *= 0.4
         elif at == 1.0:
             return replace(trial, iterations=spent)
         else:
-            state, share, stride = trial, at, 2.0 * stride
+            state, share = trial, at
+            stride *= 2.0 if trial.iterations < _EASY else 1.0
     missing = (1.0 - share) * math.hypot(*(force - first)[free]) / film.load_scale(force)
     if film.gap.narrowest(trial.position) < TOUCHING:  # what the steps have come to
         state = replace(state, position=trial.position)

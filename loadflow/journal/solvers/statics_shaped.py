@@ -33,6 +33,7 @@ from loadflow.journal.solvers.newton import (
     solve_equilibrium,
     solve_film,
 )
+from loadflow.journal.solvers.pads import solve_with_pads
 from loadflow.numerics.convergence import unresolved
 
 if TYPE_CHECKING:
@@ -45,6 +46,7 @@ _ROOM = 0.02  # gap, in clearances, that the first position must leave
 _PAD_ROUNDS = 8  # solutions in which pads may come under load, or lose theirs
 _FLAT = 0.02  # curvature of a pad's gap, in clearances, that still holds it
 _CROWDED = 2  # meshes that are tried beside the one asked for
+_SAME = 0.02  # angle, rad, by which the place of the narrowest gap must have moved for another
 _NARROW = 0.2  # narrowest gap, in clearances, above which no mesh but that is tried
 _NEAR = 0.3  # share of the narrowest gap that the estimate may move for a warm start
 
@@ -211,13 +213,15 @@ class _Statics:
         crowd where the gap was narrowest.
         """
         used, solution = self, self.solve(index, load, omega, last, control)
+        crowd = math.inf
         for _ in range(_CROWDED):
             known = np.isfinite(solution.position).all()
             if solution.converged or self.film.elastic or not known:
                 break
             gap, angle, _ = used.gap.closest(solution.position)
-            if gap > _NARROW:
+            if gap > _NARROW or abs(angle - crowd) < _SAME:
                 break
+            crowd = angle
             used = _Statics(self.bearing, self.options, self.line, self.rate, angle)
             solution = used.solve(index, load, omega, None, control)
         return used, solution
@@ -257,7 +261,13 @@ class _Statics:
             solution = solve_in_load_steps(film, force, estimate, control.tolerance, free)
         elif not solution.converged:
             limits = self._limits(control)
-            solution = solve_from_held(film, force, estimate, *limits, free)
+            if free[-1] >= gap.shaft:
+                shaft = free[free < gap.shaft]
+                solution = solve_with_pads(
+                    film, gap, force, estimate, shaft, self._held_pads, *limits
+                )
+            if not solution.converged:
+                solution = solve_from_held(film, force, estimate, *limits, free)
         return self._apart(replace(solution, estimate=estimate))
 
     def _newton(
@@ -291,6 +301,12 @@ class _Statics:
         if self.pads.size:
             idle = np.array(self.gap.bore.pads)[~np.isin(self.pads, free)]
             self.film.rest(np.isin(self.gap.mesh.segment, idle))
+
+    def _held_pads(self, position: Array) -> NDArray[np.int64]:
+        """Pads whose film can hold them; it is taken off the others."""
+        pads = self._tilting(position)
+        self._idle(pads)
+        return pads
 
     def _tilting(self, position: Array) -> NDArray[np.int64]:
         """Pads whose film can hold them: those toward which it narrows, so that it converges."""
@@ -343,8 +359,8 @@ class _Statics:
             return f"{head}: without rotation and squeeze the film carries no load"
         if self.gap.narrowest(solution.position) < TOUCHING and not self.film.elastic:
             return (
-                f"{head}: the shaft touches the bore, {self._where(solution.position)}: the film "
-                f"does without {100 * min(solution.residual, 1.0):.3g} % of the load"
+                f"{head}: the shaft touches the bore, {self._where(solution.position)}, before the "
+                f"film carries the last {100 * min(solution.residual, 1.0):.3g} % of the load"
             )
         if self.film.room_left(solution.position) <= APART:
             return f"{head}: the shaft touches the elastic shell, {self._where(solution.position)}"
