@@ -111,11 +111,11 @@ def build_film(diameter: float, width: float, clearance: float, options: FilmOpt
 
 
 def build_shaped_film(
-    bore: Bore, shape: Shape, options: FilmOptions, straight: bool, crowd: float | None = None
+    bore: Bore, shape: Shape, options: FilmOptions, straight: bool, crowd: tuple[float, ...] = ()
 ) -> tuple[ShapedGap, Film]:
     """Discrete film of a bearing of any shape; `straight`: around an aligned, straight shaft.
 
-    Cells crowd at the angle `crowd`, rad, if there is one.
+    Cells crowd at the angles `crowd`, rad.
     """
     law, supply = options.law, options.supply
     require(options.inlet != "widest gap", "inlet", options.inlet, "None but for a plain cylinder")
@@ -133,8 +133,8 @@ def build_shaped_film(
     mesh = shaped_mesh(
         ratio, grid, half, graded, bore.segments, [*turns, *around], [*places, *ends, *-ends]
     )
-    if crowd is not None:
-        mesh = crowded(mesh, crowd)
+    for angle in crowd:
+        mesh = crowded(mesh, angle)
     numbers = groove_numbers(mesh.angle, mesh.z, ratio, supply, int(grid[0]), bore.radius)
     mirrors = 2.0 if half else 1.0
     flow_unit = mirrors * bore.clearance**3 / (12.0 * options.lubricant.viscosity)

@@ -144,6 +144,7 @@ class ShapedGap:
         self._reach = np.einsum("jid,id->ji", self._shifts(segment), facing)
         self._lengths = self._lengthwise(z)
         self._facing, self._spots_angle, self._spots_z = facing, angle, z
+        self._spots_segment = segment
         self._spots_line = np.zeros((2, z.size))
 
     # --- the shaft's centre line -----------------------------------------------------------------
@@ -239,6 +240,17 @@ class ShapedGap:
         i, k = np.unravel_index(gaps.argmin(), gaps.shape)
         angle = math.atan2(self._facing[i, 1], self._facing[i, 0])
         return float(gaps[i, k]), angle, float(self._spots_z[k])
+
+    def closing(self, position: Array, limit: float) -> tuple[float, ...]:
+        """Angles, rad, of the narrowest gap of each segment where it is below `limit`."""
+        gaps = self.gaps(position).min(axis=1)
+        angles = []
+        for number in np.unique(self._spots_segment):
+            part = np.flatnonzero(self._spots_segment == number)
+            nearest = part[gaps[part].argmin()]
+            if gaps[nearest] < limit:
+                angles.append(float(self._spots_angle[nearest]))
+        return tuple(angles)
 
     def roomiest(self, position: Array, free: NDArray[np.int64]) -> Array:
         """Position with the widest narrowest gap, when only the degrees of freedom `free` move."""

@@ -25,22 +25,32 @@ Rows = NDArray[np.int64]
 _ROUNDS = 40  # films of a shaft that is held
 _FLATTEST, _STEEPEST = 1e-4, 0.999  # share of the lift at which a pad meets the shaft
 _BALANCED = 1e-6  # moment of a pad over load scale and arm, at which its tilt is good enough
+_BUDGET = 15  # Newton steps of all films together, in multiples of those of a solution
+_LEFT = 1e-4  # moment, in the same unit, above which a pad is not held
 _SHAFTS, _HALVINGS = 40, 12  # positions of the shaft, and how often a step to one is halved
+_LOOSE = 1e4  # condition of the stiffness above which a shaft may go aside
+_ASIDE = 1e-3  # stiffness that a shaft has sideways on a single pad, loads over clearance
 _NEAR = 1e-3  # share of the load that may be missing for Newton's method to take over
 
 
 def balance_pads(
     film: Film, gap: ShapedGap, start: Solution, pads: Rows, tolerance: float, max_iterations: int
-) -> Solution:
-    """Film at the position of `start`, the `pads` tilted until they have no moment."""
+) -> tuple[Solution, NDArray[np.bool_]]:
+    """Film at the position of `start`, the `pads` tilted until they have no moment, and which do.
+
+    A pad that its film turns the other way, even where it lies flat, has none that holds it.
+    """
     position, u, spent = start.position.copy(), start.u, 0
+    if not pads.size:
+        still = solve_film(film, film.start(), position, 0.0 * position, tolerance, max_iterations)
+        return still, np.ones(0, dtype=bool)
     sign = math.copysign(1.0, film.speed)
     most = np.array([gap.widest_lift(row, position, sign) for row in pads])
     low, high = _FLATTEST * most, _STEEPEST * most
     lifts = np.array([sign * gap.lift(row, position) for row in pads])
     lifts = np.where((lifts > low) & (lifts < high), lifts, np.sqrt(low * high))
     scale = film.load_scale(np.zeros(1))
-    state = start
+    state, moments = start, np.zeros(pads.size)
     for _ in range(_ROUNDS):
         for row, lift in zip(pads.tolist(), lifts.tolist()):
             position[row] += sign * lift - gap.lift(row, position)
@@ -61,8 +71,9 @@ def balance_pads(
         with np.errstate(divide="ignore", invalid="ignore"):
             aim = lifts - moments / slopes
         good = (slopes > 0) & (aim > low) & (aim < high)
-        lifts = np.where(good, aim, np.where(high > 4 * low, np.sqrt(low * high), 0.5 * (low + high)))
-    return replace(state, iterations=spent)
+        middle = np.where(high > 4 * low, np.sqrt(low * high), 0.5 * (low + high))
+        lifts = np.where(good, aim, middle)
+    return replace(state, iterations=spent), np.abs(moments) < _LEFT * scale
 
 
 def solve_with_pads(
@@ -72,6 +83,7 @@ def solve_with_pads(
     position: Array,
     shaft: Rows,
     tilting: Callable[[Array], Rows],
+    idle: Callable[[Rows], None],
     tolerance: float,
     max_iterations: int,
 ) -> Solution:
@@ -88,20 +100,28 @@ def solve_with_pads(
     shaft : array of int
         Degrees of freedom of the shaft that move.
     tilting : callable
-        Takes the film off the pads that it cannot hold at a position, and returns the others.
+        Pads that the film may hold at a position.
+    idle : callable
+        Takes the film off all pads but those given.
     tolerance, max_iterations
         Of each film.
     """
 
     def settled(start: Solution) -> tuple[Solution, Rows]:
-        pads = tilting(start.position)
-        return balance_pads(film, gap, start, pads, tolerance, max_iterations), pads
+        pads, spent = tilting(start.position), 0
+        while True:
+            idle(pads)
+            state, held = balance_pads(film, gap, start, pads, tolerance, max_iterations)
+            spent += state.iterations
+            if held.all() or not state.converged:
+                return replace(state, iterations=spent), pads
+            pads = pads[held]
 
     state, pads = settled(replace(no_film(film), position=position))
     spent, scale = state.iterations, film.load_scale(force)
     missing = force[shaft] - state.linear.load[shaft]
     for _ in range(_SHAFTS):
-        if not state.converged:
+        if not state.converged or spent > _BUDGET * max_iterations:
             break
         if math.hypot(*missing) < _NEAR * scale:
             every = np.append(shaft, pads)
@@ -109,14 +129,17 @@ def solve_with_pads(
             end = solve_equilibrium(film, force, *start, tolerance, max_iterations, free=every)
             if end.converged:
                 return replace(end, iterations=spent + end.iterations)
+        stiffness = _condensed(state, shaft, pads)
+        steady = np.linalg.cond(stiffness) < _LOOSE
         step = np.zeros(position.size)
-        step[shaft] = np.linalg.lstsq(_condensed(state, shaft, pads), missing)[0]
+        step[shaft] = np.linalg.lstsq(stiffness + _ASIDE * scale * np.eye(shaft.size), missing)[0]
         step = gap.advance(state.position, step) - state.position
         for _ in range(_HALVINGS):
             trial, some = settled(replace(state, position=state.position + step))
             spent += trial.iterations
             left = force[shaft] - trial.linear.load[shaft]
-            if trial.converged and math.hypot(*left) < math.hypot(*missing):
+            allowed = 1.0 if steady else 2.0
+            if trial.converged and math.hypot(*left) < allowed * math.hypot(*missing):
                 break
             step = 0.5 * step
         else:
@@ -130,5 +153,7 @@ def solve_with_pads(
 def _condensed(state: Solution, shaft: Rows, pads: Rows) -> Array:
     """Stiffness of the shaft while the pads follow it without moment."""
     k = state.linear.stiffness
+    if not pads.size:
+        return np.asarray(k[np.ix_(shaft, shaft)])
     follow = np.linalg.lstsq(k[np.ix_(pads, pads)], k[np.ix_(pads, shaft)])[0]
     return np.asarray(k[np.ix_(shaft, shaft)] - k[np.ix_(shaft, pads)] @ follow)

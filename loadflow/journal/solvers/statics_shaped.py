@@ -195,9 +195,10 @@ class _Statics:
         options: FilmOptions,
         line: Line,
         rate: float,
-        crowd: float | None = None,
+        crowd: tuple[float, ...] = (),
     ) -> None:
         self.bearing, self.line, self.options, self.rate = bearing, line, options, rate
+        self.crowd = crowd
         self.gap, self.film = build_shaped_film(
             bore_of(bearing), bearing.shape, options, line.straight, crowd
         )
@@ -213,16 +214,14 @@ class _Statics:
         crowd where the gap was narrowest.
         """
         used, solution = self, self.solve(index, load, omega, last, control)
-        crowd = math.inf
         for _ in range(_CROWDED):
             known = np.isfinite(solution.position).all()
             if solution.converged or self.film.elastic or not known:
                 break
-            gap, angle, _ = used.gap.closest(solution.position)
-            if gap > _NARROW or abs(angle - crowd) < _SAME:
+            crowd = used.gap.closing(solution.position, _NARROW)
+            if not crowd or _same(crowd, used.crowd):
                 break
-            crowd = angle
-            used = _Statics(self.bearing, self.options, self.line, self.rate, angle)
+            used = _Statics(self.bearing, self.options, self.line, self.rate, crowd)
             solution = used.solve(index, load, omega, None, control)
         return used, solution
 
@@ -252,7 +251,7 @@ class _Statics:
             self._idle(free)
             solution = self._newton(force, estimate, last, free, control)
             tilting = self._tilting(solution.position)
-            if np.array_equal(tilting, free[free >= gap.shaft]):
+            if not solution.converged or np.array_equal(tilting, free[free >= gap.shaft]):
                 break
             estimate[:2], last = solution.position[:2], None
             estimate = self._lifted(estimate)
@@ -263,10 +262,10 @@ class _Statics:
             limits = self._limits(control)
             if free[-1] >= gap.shaft:
                 shaft = free[free < gap.shaft]
-                solution = solve_with_pads(
-                    film, gap, force, estimate, shaft, self._held_pads, *limits
-                )
+                pads = (self._tilting, lambda pads: self._idle(np.append(shaft, pads)))
+                solution = solve_with_pads(film, gap, force, estimate, shaft, *pads, *limits)
             if not solution.converged:
+                self._idle(free)
                 solution = solve_from_held(film, force, estimate, *limits, free)
         return self._apart(replace(solution, estimate=estimate))
 
@@ -301,12 +300,6 @@ class _Statics:
         if self.pads.size:
             idle = np.array(self.gap.bore.pads)[~np.isin(self.pads, free)]
             self.film.rest(np.isin(self.gap.mesh.segment, idle))
-
-    def _held_pads(self, position: Array) -> NDArray[np.int64]:
-        """Pads whose film can hold them; it is taken off the others."""
-        pads = self._tilting(position)
-        self._idle(pads)
-        return pads
 
     def _tilting(self, position: Array) -> NDArray[np.int64]:
         """Pads whose film can hold them: those toward which it narrows, so that it converges."""
@@ -459,6 +452,11 @@ class _Statics:
         if first.converged:
             yield first.u, first.position
         yield self.film.start(), estimate
+
+
+def _same(crowd: tuple[float, ...], other: tuple[float, ...]) -> bool:
+    """Whether cells that crowd at either angles are about the same."""
+    return len(crowd) == len(other) and np.allclose(crowd, other, atol=_SAME)
 
 
 def _turned(position: Array, angle: float) -> tuple[float, float]:
