@@ -1,9 +1,11 @@
 from .bearings.arrangements import ARRANGEMENTS as ARRANGEMENTS
 from .bearings.arrangements import BearingLife as BearingLife
 from .bearings.arrangements import MainBearing as MainBearing
+from .bearings.arrangements import SpectrumLife as SpectrumLife
 from .bearings.arrangements import arrangement_lives as arrangement_lives
 from .bearings.arrangements import bearing_modification as bearing_modification
 from .bearings.arrangements import main_bearings as main_bearings
+from .bearings.arrangements import modified_spectrum_life as modified_spectrum_life
 from .bearings.ball import BallBearing as BallBearing
 from .bearings.ball import BallBearingResult as BallBearingResult
 from .bearings.ball import SpinningResult as SpinningResult
