@@ -1,12 +1,9 @@
-from .hertz import LineContact as LineContact
-from .hertz import PointContact as PointContact
-from .hertz import hertz_line as hertz_line
-from .hertz import hertz_point as hertz_point
-
 from .bearings.arrangements import ARRANGEMENTS as ARRANGEMENTS
 from .bearings.arrangements import BearingLife as BearingLife
+from .bearings.arrangements import SpectrumLife as SpectrumLife
 from .bearings.arrangements import arrangement_lives as arrangement_lives
 from .bearings.arrangements import main_bearings as main_bearings
+from .bearings.arrangements import modified_spectrum_life as modified_spectrum_life
 from .bearings.ball import BallBearing as BallBearing
 from .bearings.base import RollingBearing as RollingBearing
 from .bearings.base import RollingEquilibrium as RollingEquilibrium
@@ -32,6 +29,10 @@ from .friction import ball_friction as ball_friction
 from .friction import friction_torque_forces as friction_torque_forces
 from .friction import friction_torque_loads as friction_torque_loads
 from .friction import roller_friction as roller_friction
+from .hertz import LineContact as LineContact
+from .hertz import PointContact as PointContact
+from .hertz import hertz_line as hertz_line
+from .hertz import hertz_point as hertz_point
 from .motion.skidding import roller_slip as roller_slip
 from .rating.binning import bin_loads as bin_loads
 from .rating.life import rating_life_spectrum as rating_life_spectrum
