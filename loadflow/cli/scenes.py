@@ -77,11 +77,15 @@ def run(
     if as_json:
         paths = {"path": str(result.path), "report": str(result.report)}
         found = {"failures": result.failures, "flagged": result.flagged}
-        print_json(paths | found | {"warnings": result.warnings})
+        judged = {"verdicts": [verdict.as_dict() for verdict in result.verdicts]}
+        print_json(paths | found | judged | {"warnings": result.warnings})
     else:
         out.print(f"results  {result.path / 'result.h5'}\nreport   {result.report}", soft_wrap=True)
         for part, count in result.flagged.items():
             out.print(f"flagged  {part}: {count} samples have no answer", soft_wrap=True)
+        for verdict in result.verdicts:
+            if not verdict.holds:
+                out.print(f"verdict  {verdict.sentence}", soft_wrap=True, markup=False)
         for warning in result.warnings:
             out.print(f"warning  {warning}", soft_wrap=True, markup=False)
     if result.failures:

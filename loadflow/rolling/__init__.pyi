@@ -1,7 +1,9 @@
 from .bearings.arrangements import ARRANGEMENTS as ARRANGEMENTS
 from .bearings.arrangements import BearingLife as BearingLife
+from .bearings.arrangements import SpectrumLife as SpectrumLife
 from .bearings.arrangements import arrangement_lives as arrangement_lives
 from .bearings.arrangements import main_bearings as main_bearings
+from .bearings.arrangements import modified_spectrum_life as modified_spectrum_life
 from .bearings.ball import BallBearing as BallBearing
 from .bearings.base import RollingBearing as RollingBearing
 from .bearings.base import RollingEquilibrium as RollingEquilibrium

@@ -69,6 +69,11 @@ class RollingGeometry(ABC):
     def static_capacity(self) -> float:
         """Basic static capacity C₀ of ISO 76, N: radial, or axial of slewing rings."""
 
+    @property
+    def takes_thrust(self) -> bool:
+        """Whether it carries a force along its axis: all but rollers on cylinders do."""
+        return True
+
     @abstractmethod
     def element_forces(self, found: ContactForces) -> Array:
         """Forces on the rolling elements, N, (..., *groups, element)."""

@@ -27,6 +27,7 @@ from loadflow.rolling import (
     Support,
     main_bearings,
 )
+from loadflow.scene.limits import RollingLimits
 from loadflow.scene.section import SECTION
 
 
@@ -207,6 +208,7 @@ class Rolling(FurtherBearing):
     inner_ring: Ring | None = standing_ring(0.094, 0.12, 0.897, wall=(0.06, 1.0), face="top")
     outer_ring: Ring | None = standing_ring(0.099, 0.12, 1.0005, wall=(0.06, 1.0))
     further: list[FurtherBearing] = []
+    limits: RollingLimits = RollingLimits()
 
     @model_validator(mode="before")
     @classmethod

@@ -132,14 +132,13 @@ def rolling_point(
 def _life(r: Any, speed: float | None) -> dict[str, tuple[Any, str, str]]:
     """Life, and what IEC 61400-1 asks of a main bearing; the life in hours only with a speed."""
     hours = math.nan if speed is None else float(life_hours(r.rating_life, speed))
-    life, *static = verdicts(hours, float(r.static_safety))
-    limits = ", ".join(f"{verdict.limit:g}" for verdict in static)
+    life, static = verdicts(hours, float(r.static_safety))
     rows: dict[str, tuple[Any, str, str]] = {
         "rating_life": (r.rating_life, "1e6 rev", "basic rating life L10"),
         "static_rating_holds": (
-            [verdict.holds for verdict in static],
+            static.holds,
             "1",
-            f"whether the static safety reaches {limits}",
+            f"whether the static safety reaches {static.limit:g}, if these are design loads",
         ),
     }
     if speed is not None:

@@ -157,6 +157,10 @@ def test_static_capacity_of_a_slewing_bearing_is_reached_at_its_allowed_pressure
 
 
 def test_verdicts_after_the_standard():
-    found = list(verdicts(life_hours=20 * 8766.0, static_safety=1.2))
-    assert [v.holds for v in found] == [True, True, False]
-    assert found[2].limit == 1.5
+    life, static = verdicts(life_hours=20 * 8766.0, static_safety=1.2)
+    assert life.holds
+    assert static.holds
+    assert (static.limit, round(static.margin, 9)) == (1.0, 0.2)
+    stricter = list(verdicts(20 * 8766.0, 1.2, static_limit=1.5))[1]
+    assert not stricter.holds
+    assert "must be at least 1.5" in stricter.sentence

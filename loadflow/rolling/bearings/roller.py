@@ -56,6 +56,11 @@ class RollerBearing(RollerRaceways, BearingOfRollers):
         check_choice(self, "arrangement", ("back-to-back", "face-to-face", "tandem"))
 
     @property
+    def takes_thrust(self) -> bool:
+        """Tapered rollers do, cylindrical ones do not."""
+        return self.contact_angle > 0
+
+    @property
     def axial_clearance(self) -> float:
         """Total axial clearance s/tan α of a pair of rows, m; infinite for cylindrical rollers."""
         tan = math.tan(self.contact_angle)

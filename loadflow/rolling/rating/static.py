@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from loadflow.verdict import Verdict
+
 Array = NDArray[np.float64]
 
 HOURS_20_YEARS = 20 * 365.25 * 24  # L10h of IEC 61400-1
-STATIC_RATING = (1.0, 1.5)  # static rating over the extreme load: lowest, and wanted
+LIFE_SOURCE = "IEC 61400-1 as quoted by [Jonuschies 2015], (1.10): 20 years"
+STATIC_RATING = 1.0  # static rating over the design load
+STATIC_SOURCE = "IEC 61400-1 as quoted by [Jonuschies 2015], (1.11)"
 
 
 def static_load_slewing(
@@ -39,41 +42,42 @@ def static_load(radial: ArrayLike, axial: ArrayLike, x0: float, y0: float) -> Ar
     return np.asarray(np.maximum(x0 * r + y0 * a, r))
 
 
-@dataclass(frozen=True)
-class Verdict:
-    """What must hold, and whether it does.
-
-    Attributes
-    ----------
-    what : str
-        Name of the quantity.
-    value, limit : float
-        Found, and smallest allowed.
-    unit : str
-        Of both.
-    """
-
-    what: str
-    value: float
-    limit: float
-    unit: str = ""
-
-    @property
-    def holds(self) -> bool:
-        """Whether the value reaches the limit."""
-        return self.value >= self.limit
-
-
-def verdicts(life_hours: float, static_safety: float) -> Iterator[Verdict]:
-    """Yield the verdicts on a main bearing after IEC 61400-1.
+def verdicts(
+    life_hours: float,
+    static_safety: float,
+    *,
+    subject: str = "rolling bearing",
+    life_limit: float = HOURS_20_YEARS,
+    static_limit: float = STATIC_RATING,
+) -> Iterator[Verdict]:
+    """Yield the verdicts on a main bearing after IEC 61400-1: its life, its static safety.
 
     Parameters
     ----------
     life_hours : float
         Rating life L10h (or modified, or of the system) under the lifetime's loads, h.
     static_safety : float
-        Smallest ratio of allowed to acting force under the design loads.
+        Smallest ratio of allowed to acting force under the design loads, which have the partial
+        safety factor for loads in them.
+    subject : str
+        Name of the bearing.
+    life_limit, static_limit : float
+        Smallest of both allowed.
     """
-    yield Verdict("rating life L10h", life_hours, HOURS_20_YEARS, "h")
-    for limit in STATIC_RATING:
-        yield Verdict("static rating over load", static_safety, limit)
+    yield Verdict(
+        subject,
+        "rating life L10h",
+        life_hours,
+        life_limit,
+        "at least",
+        "h",
+        LIFE_SOURCE if life_limit == HOURS_20_YEARS else "stated",
+    )
+    yield Verdict(
+        subject,
+        "static rating over the design load",
+        static_safety,
+        static_limit,
+        "at least",
+        source=STATIC_SOURCE if static_limit == STATIC_RATING else "stated",
+    )
