@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError, SolverError
-from loadflow.journal.options import require
 from loadflow.journal.shapes import Cylindrical
+from loadflow.numerics.fields import require
 
 if TYPE_CHECKING:
     from loadflow.journal.bearing import JournalBearing
