@@ -13,21 +13,27 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self, get_args
 
+import numpy as np
 from pydantic import BaseModel, Field, ValidationError, field_validator, model_validator
 
 from loadflow.errors import InputError
 from loadflow.journal import (
+    Film,
     GasMixture,
     Heat,
     JournalBearing,
     LinedShell,
     LocalShell,
     Lubricant,
+    MatrixShell,
     Supply,
     ThickShell,
 )
+from loadflow.journal.line import Line
+from loadflow.journal.models.model import Verb, why_not
 from loadflow.rolling import SphericalRollerBearing
 from loadflow.scene.bearings import KINDS, Rolling
+from loadflow.scene.films import Law, RungName
 from loadflow.scene.loads import Loads, check_simulation
 from loadflow.scene.section import Section
 from loadflow.shaft.beam import BearingSeat
@@ -145,33 +151,31 @@ class Journal(Section, BaseModel):
     has none, it tilts freely under the moment that the shaft stage gives. The film is then solved
     over its full width.
 
-    A ``shell`` makes the bore elastic; its key ``kind`` says how: local, lined or thick.
+    ``cavitation`` is the law of the ruptured film; its key ``kind`` says which:
+    gas-mixture, sommerfeld, guembel, reynolds or mass-conserving. ``inlet`` replaces the oil on a
+    line at the widest gap, or does not; "auto" leaves it to the law.
+
+    A ``shell`` makes the bore elastic; its key ``kind`` says how: local, lined, thick, or matrix
+    with a ``matrix`` of influence numbers, or the name of a file that holds it.
     """
 
     bearings: Annotated[list[str], Field(min_length=1)] = ["N", "N2"]
     geometry: JournalBearing = JournalBearing(diameter=3.0, width=2.25, relative_clearance=0.5e-3)
     lubricant: Lubricant = Lubricant(viscosity=0.050)
-    cavitation: GasMixture = GasMixture(0.05e6)
+    cavitation: Law = GasMixture(0.05e6)
     edge_pressure: Annotated[float, Field(ge=0)] = 0.5e6
     supply: Supply | None = None
+    inlet: Literal["auto", "widest gap", "none"] = "auto"
     grid: tuple[Annotated[int, Field(ge=12, le=720)], Annotated[int, Field(ge=4, le=240)]] = (
         60,
         20,
     )
     grading: Literal["auto", "uniform", "graded"] = "auto"
-    rung: Literal["map", "reduced", "grid"] = "grid"
+    rung: RungName = "grid"
     heat: Heat | None = None
     motion: Literal["quasi-static", "transient"] = "quasi-static"
     tilt: bool = False
-    shell: LocalShell | LinedShell | ThickShell | None = None
-
-    @model_validator(mode="after")
-    def _elastic_on_the_grid(self) -> Self:
-        if self.shell is not None and self.rung != "grid":
-            raise ValueError(
-                f'rung "{self.rung}" has a rigid shell: set "grid", or leave out shell'
-            )
-        return self
+    shell: LocalShell | LinedShell | ThickShell | MatrixShell | None = None
 
     @property
     def in_motion(self) -> bool:
@@ -179,11 +183,15 @@ class Journal(Section, BaseModel):
         return self.motion == "transient"
 
     @property
-    def film(self) -> dict[str, Any]:
-        """Keywords of `JournalBearing.equilibrium` and `orbit` that say what the film is."""
-        mesh = ("grid", "grading", "rung")
-        names = ("lubricant", "cavitation", "edge_pressure", "supply", *mesh, "shell")
-        return {name: getattr(self, name) for name in names}
+    def film(self) -> Film:
+        """The film that these keys describe."""
+        names = ("cavitation", "edge_pressure", "supply", "grid", "grading", "rung", "shell")
+        return Film(
+            lubricant=None if self.heat is not None else self.lubricant,
+            heat=self.heat,
+            inlet=None if self.inlet == "none" else self.inlet,
+            **{name: getattr(self, name) for name in names},
+        )
 
     def at_temperature(self, temperature: float) -> Journal:
         """The bearing with its oil held at `temperature`, K."""
@@ -195,6 +203,16 @@ class Journal(Section, BaseModel):
     def _one_oil(self) -> Self:
         if self.heat is not None and "lubricant" in self.changed:
             raise ValueError("lubricant: follows from heat.oil and its temperature; leave it out")
+        return self
+
+    @model_validator(mode="after")
+    def _a_model_that_knows_the_film(self) -> Self:
+        film = self.film.isothermal() if self.in_motion else self.film
+        verb: Verb = "in_motion" if self.in_motion else "at_rest"
+        line = Line(moment=np.zeros((1, 2))) if self.tilt else Line()
+        why = why_not(verb, film, self.geometry, line)
+        if why is not None:
+            raise ValueError(why)
         return self
 
 
@@ -388,6 +406,20 @@ def make_scene(data: dict[str, Any], source: str = "scene") -> Scene:
         raise InputError(_message(error, source)) from error
 
 
+def make_journal(data: dict[str, Any], source: str = "journal") -> Journal:
+    """Build the section of the journal bearings alone; `source` names it in messages.
+
+    Raises
+    ------
+    InputError
+        As `read_scene`.
+    """
+    try:
+        return Journal.model_validate(data)
+    except ValidationError as error:
+        raise InputError(_message(error, source, "journal")) from error
+
+
 def with_loads(scene: Scene, files: list[str]) -> Scene:
     """Return the scene with its load series read from `files` (names or glob patterns)."""
     loads = scene.loads.model_copy(update={"source": "files", "files": files})
@@ -395,18 +427,23 @@ def with_loads(scene: Scene, files: list[str]) -> Scene:
 
 
 def _anchor_files(data: dict[str, Any], folder: Path) -> dict[str, Any]:
-    """Make relative load files relative to the scene file, not to where the user stands."""
-    loads = data.get("loads")
+    """Make relative files relative to the scene file, not to where the user stands."""
+    loads, journal = data.get("loads"), data.get("journal")
     if isinstance(loads, dict) and isinstance(loads.get("files"), list):
         files = [str(folder / file) if isinstance(file, str) else file for file in loads["files"]]
-        return data | {"loads": loads | {"files": files}}
+        data = data | {"loads": loads | {"files": files}}
+    shell = journal.get("shell") if isinstance(journal, dict) else None
+    if isinstance(shell, dict) and isinstance(shell.get("matrix"), str):
+        shell = shell | {"matrix": str(folder / shell["matrix"])}
+        data = data | {"journal": data["journal"] | {"shell": shell}}
     return data
 
 
-def _message(error: ValidationError, source: str) -> str:
-    """One line per bad key: file, key, value, what is allowed."""
+def _message(error: ValidationError, source: str, *section: str) -> str:
+    """One line per bad key: file, key, value, what is allowed; keys are those of a `section`."""
     lines = []
     for item in _of_stated_kind(error.errors()):
+        item = item | {"loc": (*section, *item["loc"])}
         key = ".".join(str(part) for part in _place(item["loc"])) or "scene"
         reason = item["msg"].removeprefix("Value error, ").replace("Input should be", "must be")
         if item["type"] in ("extra_forbidden", "unexpected_keyword_argument"):
