@@ -112,7 +112,7 @@ class _Result:
 class Equilibrium(_Result):
     """Static equilibrium of shaft and film.
 
-    Shapes are those of the input, `force` without its last axis broadcast with `speed`; plain
+    Shapes are those of the input, `force` without its last axis broadcast with `speed`;
     scalars for one load.
 
     Attributes
@@ -128,15 +128,15 @@ class Equilibrium(_Result):
     attitude_angle : array (…)
         From load to eccentricity, > 0 with rotation, rad; π/2 without load.
     minimum_film : array (…)
-        Narrowest gap, m; c (1 − ε) in a plain bearing.
+        Narrowest gap, m; c (1 − ε) in a cylindrical, aligned bearing.
     maximum_pressure : array (…)
         Largest pressure of the film, Pa, absolute.
     sommerfeld_number : array (…)
-        So = p_m ψ²/(η |ω|), (1.13) of the source [Jonuschies 2015].
+        So = p_m ψ²/(η |ω|), (1.13) of [Jonuschies 2015].
     friction_power : array (…)
-        (3.34) of the source: pure liquid over the whole film, W.
+        (3.34) of [Jonuschies 2015]: pure liquid over the whole film, W.
     side_flow : array (…)
-        Oil that leaves through the rims, (3.31–3.33), m³/s.
+        Oil that leaves through the bearing ends, (3.31–3.33), m³/s.
     supply_flow : array (…)
         Oil that the grooves give to the film, net, m³/s; 0 without a supply.
     supply_power : array (…)
@@ -169,7 +169,7 @@ class Equilibrium(_Result):
     pad_tilt : array (…, pads)
         Rotation of the pads about their pivots, rad, from the first axis toward the second.
     shell_deformation : array (…)
-        Largest growth of the gap by the give of the shell, m; 0 where it is rigid.
+        Largest growth of the gap by the elastic shell, m; 0 where it is rigid.
     temperature : array (…), optional
         Effective temperature of the film, K; None without heat.
     """
@@ -250,7 +250,7 @@ supply_power, groove_flow, groove_pressure, starved, total_fill, stiffness, damp
 iterations, residual, moment, tilt, pad_tilt, shell_deformation
         As in `Equilibrium`.
     deformation : array (…, nx, nz)
-        Growth of the gap of the cells by the give of the shell, m.
+        Growth of the gap of the cells by the elastic shell, m.
     """
 
     film_force: Array

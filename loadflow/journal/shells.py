@@ -1,6 +1,6 @@
 """What a user states about the elasticity of the shell. Options only, no solver.
 
-The pressure of the film above that of its rims widens the gap. A shell gives way where it is
+The pressure of the film above that of its ends widens the gap. A shell gives way where it is
 pressed (`LocalShell`, `LinedShell`), or all over (`ThickShell`, `MatrixShell`).
 """
 
@@ -28,7 +28,7 @@ def _require_solid(modulus: float, poisson_ratio: float) -> None:
 
 @dataclass(frozen=True)
 class LocalShell:
-    """Shell that gives way where it is pressed alone (Winkler), (3.36, 3.37) of the source.
+    """Shell that gives way where it is pressed alone (Winkler), (3.36, 3.37) of [Jonuschies 2015].
 
     Attributes
     ----------
@@ -136,7 +136,7 @@ class ThickShell:
 
 @dataclass(frozen=True, eq=False)
 class MatrixShell:
-    """Shell whose influence numbers are given, (3.52–3.56) of the source.
+    """Shell whose influence numbers are given, (3.52–3.56) of [Jonuschies 2015].
 
     Attributes
     ----------

@@ -58,7 +58,12 @@ def build_shaped_film(
 ) -> tuple[ShapedGap, DiscreteFilm]:
     """Discrete film of a bearing of any shape; `straight`: around an aligned, straight shaft."""
     law, supply = options.law, options.supply
-    require(options.inlet != "widest gap", "inlet", options.inlet, "None but for a plain cylinder")
+    require(
+        options.inlet != "widest gap",
+        "inlet",
+        options.inlet,
+        "None but for a cylindrical, aligned bearing",
+    )
     pressure = getattr(shape, "groove_pressure", None)
     pressure = options.edge_pressure if pressure is None else pressure
     options.check_oil(pressure)
