@@ -70,7 +70,7 @@ def check(run: Path, options: Journal, bearing: str, found: dict[str, Any]) -> d
 
 
 def _orbit(options: Journal, rung: str, *history: np.ndarray) -> Any:
-    return options.geometry.orbit(*history, replace(options.film, rung=rung))
+    return options.geometry.orbit(*history, replace(options.film_model, rung=rung))
 
 
 def main() -> None:

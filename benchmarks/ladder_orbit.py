@@ -95,7 +95,7 @@ def solve(
         time,
         force,
         speed,
-        replace(options.film, **keys),
+        replace(options.film_model, **keys),
     )
 
 

@@ -161,13 +161,13 @@ def test_scene_and_command_line_build_the_same_film(kind, name, matrix, tmp_path
         assert bearing == journal.geometry
         if kind == "shell" and name == "MatrixShell":
             assert isinstance(film.shell, MatrixShell)
-            np.testing.assert_array_equal(film.shell.numbers, journal.film.shell.numbers)
+            np.testing.assert_array_equal(film.shell.numbers, journal.film_model.shell.numbers)
         else:
-            assert film == journal.film
+            assert film == journal.film_model
     again = make_scene(tomllib.loads(read_scene(file).to_toml())).journal
     assert again.geometry == journal.geometry
     if name != "MatrixShell":
-        assert again.film == journal.film
+        assert again.film_model == journal.film_model
 
 
 def test_a_toy_law_is_reached_by_its_row(monkeypatch, tmp_path, capsys):
@@ -178,7 +178,7 @@ def test_a_toy_law_is_reached_by_its_row(monkeypatch, tmp_path, capsys):
     file = tmp_path / "toy.toml"
     file.write_text(f"[journal]\n{geometry}{law}edge_pressure = 0.0\ngrid = [36, 8]\n")
     journal = read_scene(file).journal
-    assert journal.film.law == SoftGuembel(0.5)
+    assert journal.film_model.law == SoftGuembel(0.5)
     with pytest.raises(SystemExit) as end:
         main(["journal", "--scene", str(file), "--force-x", "8e3", "--speed-rpm", "900", "--json"])
     assert end.value.code in (0, None)

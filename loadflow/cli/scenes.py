@@ -9,7 +9,18 @@ from typing import Annotated, Any
 import typer
 from rich.table import Table
 
-from loadflow.cli.base import AsJson, app, out, print_json, progress
+from loadflow.cli.base import (
+    AsJson,
+    CaseList,
+    FrameOfChannels,
+    GaugeDistance,
+    NamePattern,
+    OwnChannels,
+    app,
+    out,
+    print_json,
+    progress,
+)
 from loadflow.errors import InputError, LoadflowError
 
 SceneFile = Annotated[Path, typer.Argument(help="Scene, a TOML file.", show_default=False)]
@@ -19,11 +30,12 @@ LoadFiles = Annotated[
 ]
 
 
-def _read(path: Path, loads: list[str] | None, name: str | None = None) -> Any:
+def _read(path: Path, loads: list[str] | None, name: str | None = None, **reading: Any) -> Any:
     from loadflow.scene.scene import read_scene, with_loads
 
     scene = read_scene(path)
-    scene = with_loads(scene, loads) if loads else scene
+    if loads or any(value is not None for value in reading.values()):
+        scene = with_loads(scene, loads or scene.loads.files, **reading)
     return scene.model_copy(update={"name": name}) if name else scene
 
 
@@ -36,14 +48,26 @@ def run(
     workers: Annotated[int, typer.Option(min=0, help="Processes; 0: one for each core.")] = 0,
     scheduler: Annotated[str | None, typer.Option(help="Dask scheduler, tcp://host:port.")] = None,
     overwrite: Annotated[bool, typer.Option(help="Replace parts of other settings.")] = False,
+    cases: CaseList = None,
+    pattern: NamePattern = None,
+    channels: OwnChannels = None,
+    gauge_distance: GaugeDistance = None,
+    frame: FrameOfChannels = None,
     as_json: AsJson = False,
 ) -> None:
     """Carry a scene out; a run that was killed goes on where it was."""
     from loadflow.running.runner import run as carry_out
 
+    reading = {
+        "cases": None if cases is None else str(cases),
+        "pattern": pattern,
+        "channels": channels,
+        "gauge_distance": gauge_distance,
+        "frame": frame,
+    }
     with progress(quiet=as_json) as show:
         result = carry_out(
-            _read(scene, loads, name),
+            _read(scene, loads, name, **reading),
             out=out_folder,
             workers=workers or len(os.sched_getaffinity(0)),
             scheduler=scheduler,
@@ -53,13 +77,17 @@ def run(
     if as_json:
         paths = {"path": str(result.path), "report": str(result.report)}
         found = {"failures": result.failures, "flagged": result.flagged}
-        print_json(paths | found | {"warnings": result.warnings})
+        judged = {"verdicts": [verdict.as_dict() for verdict in result.verdicts]}
+        print_json(paths | found | judged | {"warnings": result.warnings})
     else:
         out.print(f"results  {result.path / 'result.h5'}\nreport   {result.report}", soft_wrap=True)
         for part, count in result.flagged.items():
             out.print(f"flagged  {part}: {count} samples have no answer", soft_wrap=True)
+        for verdict in result.verdicts:
+            if not verdict.holds:
+                out.print(f"verdict  {verdict.sentence}", soft_wrap=True, markup=False)
         for warning in result.warnings:
-            out.print(f"warning  {warning}", soft_wrap=True)
+            out.print(f"warning  {warning}", soft_wrap=True, markup=False)
     if result.failures:
         lines = "\n".join(f"  {case}: {why}" for case, why in result.failures.items())
         raise LoadflowError(f"{len(result.failures)} parts have no answer:\n{lines}")

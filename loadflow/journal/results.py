@@ -414,7 +414,13 @@ def without_pads(
 
 def following(stiffness: NDArray[Any], shaft: int) -> NDArray[Any]:
     """How far pads tilt with the shaft, (pads, shaft)."""
-    return np.asarray(np.linalg.solve(stiffness[shaft:, shaft:], stiffness[shaft:, :shaft]))
+    pads, by_shaft = stiffness[shaft:, shaft:], stiffness[shaft:, :shaft]
+    if not (np.isfinite(pads).all() and np.isfinite(by_shaft).all()):
+        return np.full_like(by_shaft, np.nan)
+    size = np.sqrt(np.maximum(np.abs(np.diag(pads)), np.finfo(float).tiny))
+    scaled = pads / np.outer(size, size)
+    # least squares: a pad that its film does not hold stays
+    return np.asarray(np.linalg.lstsq(scaled, by_shaft / size[:, None])[0] / size[:, None])
 
 
 def _nothing(value: Any) -> Any:

@@ -8,7 +8,7 @@ from memory, so a run that was killed and started again gives the same numbers.
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import partial
 from importlib import import_module
@@ -28,6 +28,7 @@ from loadflow.running.report_page import write_report
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
 from loadflow.stages import loads, shaft
+from loadflow.verdict import Verdict, from_dataset, to_dataset
 
 Report = Callable[[str, int, int], None]
 """Told of progress: what is being done, units done, units in all."""
@@ -62,6 +63,13 @@ class Run:
                 for case in per_case["case"].values[per_case.to_numpy() > 0]:
                     found[f"{case}, {stage}"] = int(per_case.sel(case=case))
         return found
+
+    @property
+    def verdicts(self) -> tuple[Verdict, ...]:
+        """What the bearings must hold, and whether they do."""
+        if "verdicts" not in self.tree.children:
+            return ()
+        return tuple(from_dataset(self.tree["verdicts"].to_dataset()))
 
     @property
     def warnings(self) -> list[str]:
@@ -244,6 +252,7 @@ def _collect(plan: Plan, folder: Path) -> xr.DataTree:
             found = module.summary(parts) if parts else None
             if found is not None:
                 groups[step.stage.name] = found
+    groups |= _judged(plan.scene, groups)
     return xr.DataTree.from_dict(
         {
             f"{name}/{path}".rstrip("/"): node
@@ -251,6 +260,17 @@ def _collect(plan: Plan, folder: Path) -> xr.DataTree:
             for path, node in _nodes(data)
         }
     )
+
+
+def _judged(scene: Scene, groups: Mapping[str, Any]) -> dict[str, xr.Dataset]:
+    """Lifetime and verdicts of what was found; nothing where no bearing was solved."""
+    from loadflow.studies.run_lifetime import run_lifetime
+    from loadflow.studies.verdicts import verdicts
+
+    lifetime = run_lifetime(scene, groups)
+    found = verdicts(scene, groups, lifetime)
+    judged = {"verdicts": to_dataset(found)} if found else {}
+    return judged | ({} if lifetime is None else {"lifetime": lifetime})
 
 
 def _nodes(data: xr.Dataset | xr.DataTree) -> Iterator[tuple[str, xr.Dataset]]:

@@ -11,7 +11,7 @@ import tomllib
 from collections.abc import Iterator
 from dataclasses import fields
 from pathlib import Path
-from typing import Annotated, Any, Literal, Self, get_args
+from typing import Annotated, Any, Literal, Self, cast, get_args
 
 import numpy as np
 from pydantic import BaseModel, Field, ValidationError, field_validator, model_validator
@@ -31,9 +31,10 @@ from loadflow.journal import (
 )
 from loadflow.journal.line import Line
 from loadflow.journal.models.model import Verb, why_not
-from loadflow.rolling import SphericalRollerBearing
-from loadflow.scene.bearings import KINDS, Rolling
+from loadflow.rolling import KINDS
+from loadflow.scene.bearings import Rolling
 from loadflow.scene.films import Law, RungName
+from loadflow.scene.limits import JournalLimits
 from loadflow.scene.loads import Loads, check_simulation
 from loadflow.scene.section import Section
 from loadflow.shaft.beam import BearingSeat
@@ -157,6 +158,12 @@ class Journal(Section, BaseModel):
 
     A ``shell`` makes the bore elastic; its key ``kind`` says how: local, lined, thick, or matrix
     with a ``matrix`` of influence numbers, or the name of a file that holds it.
+
+    ``shaft_roughness`` and ``shell_roughness`` are R_z, m, about 6.3 R_a of the 0.2 and 0.4 µm that
+    Autodesk Inventor's plain bearing calculator recommends. Where a smooth film would be thinner
+    than both together the surfaces touch: such samples have no film and are counted as
+    ``in_contact``. There the shaft rubs with ``boundary_friction``: bronze [Jonuschies 2015, Table
+    3-1]. ``limits`` are what the verdicts hold the bearing against.
     """
 
     bearings: Annotated[list[str], Field(min_length=1)] = ["N", "N2"]
@@ -176,6 +183,30 @@ class Journal(Section, BaseModel):
     motion: Literal["quasi-static", "transient"] = "quasi-static"
     tilt: bool = False
     shell: LocalShell | LinedShell | ThickShell | MatrixShell | None = None
+    shaft_roughness: Positive = 1.3e-6
+    shell_roughness: Positive = 2.5e-6
+    boundary_friction: Annotated[float, Field(gt=0, le=1)] = 0.15
+    limits: JournalLimits = JournalLimits()
+
+    @model_validator(mode="after")
+    def _smoother_than_the_gap(self) -> Self:
+        if self.contact_film >= self.geometry.clearance:
+            raise ValueError(
+                f"shaft_roughness and shell_roughness: together {self.contact_film:g} m, must be "
+                f"< the radial clearance {self.geometry.clearance:g} m"
+            )
+        return self
+
+    @property
+    def contact_film(self) -> float:
+        """Film, m, below which the surfaces touch: the sum of their R_z."""
+        return self.shaft_roughness + self.shell_roughness
+
+    @property
+    def least_film(self) -> float:
+        """Smallest film allowed, m: as stated, or R_z + W_t of both surfaces and a margin (3.1)."""
+        stated = self.limits.minimum_film
+        return stated or self.contact_film + self.limits.waviness + self.limits.margin
 
     @property
     def in_motion(self) -> bool:
@@ -183,15 +214,18 @@ class Journal(Section, BaseModel):
         return self.motion == "transient"
 
     @property
-    def film(self) -> Film:
+    def film_model(self) -> Film:
         """The film that these keys describe."""
-        names = ("cavitation", "edge_pressure", "supply", "grid", "grading", "rung", "shell")
-        return Film(
-            lubricant=None if self.heat is not None else self.lubricant,
-            heat=self.heat,
-            inlet=None if self.inlet == "none" else self.inlet,
-            **{name: getattr(self, name) for name in names},
-        )
+        heat = self.heat
+        return Film(heat=heat, **self.film | ({} if heat is None else {"lubricant": None}))
+
+    @property
+    def film(self) -> dict[str, Any]:
+        """The film at the temperature of its lubricant, as keywords of the verbs."""
+        mesh = ("grid", "grading", "rung")
+        names = ("lubricant", "cavitation", "edge_pressure", "supply", *mesh, "shell")
+        inlet = None if self.inlet == "none" else self.inlet
+        return {name: getattr(self, name) for name in names} | {"inlet": inlet}
 
     def at_temperature(self, temperature: float) -> Journal:
         """The bearing with its oil held at `temperature`, K."""
@@ -207,7 +241,7 @@ class Journal(Section, BaseModel):
 
     @model_validator(mode="after")
     def _a_model_that_knows_the_film(self) -> Self:
-        film = self.film.isothermal() if self.in_motion else self.film
+        film = self.film_model.isothermal() if self.in_motion else self.film_model
         verb: Verb = "in_motion" if self.in_motion else "at_rest"
         line = Line(moment=np.zeros((1, 2))) if self.tilt else Line()
         why = why_not(verb, film, self.geometry, line)
@@ -221,7 +255,9 @@ class Friction(Section, BaseModel):
 
     ``lubricant`` is a name of `loadflow.tribology.lubricant_names`; ``temperature`` (K),
     ``roughness`` (m), ``starvation``, ``roller_drag`` (N m s) and ``seal_torque`` (N m) are those
-    of `loadflow.rolling.FrictionOptions`. Loads are taken every ``step`` (s); rollers have shorter
+    of `loadflow.rolling.FrictionOptions`. ``cleanliness`` is one of
+    `loadflow.rolling.rating.modified_life.CLEANLINESS`; with lubricant and temperature it gives the
+    modified life of the rolling bearings. Loads are taken every ``step`` (s); rollers have shorter
     steps of their own.
     """
 
@@ -232,6 +268,16 @@ class Friction(Section, BaseModel):
     roller_drag: Annotated[float, Field(ge=0)] = 1e-3
     seal_torque: Annotated[float, Field(ge=0)] = 0.0
     step: Positive = 0.1
+    cleanliness: str = "grease, normal cleanliness"
+
+    @field_validator("cleanliness")
+    @classmethod
+    def _clean(cls, name: str) -> str:
+        from loadflow.rolling.rating.modified_life import CLEANLINESS
+
+        if name not in CLEANLINESS:
+            raise ValueError(f"must be one of {'; '.join(CLEANLINESS)}")
+        return name
 
     @field_validator("lubricant")
     @classmethod
@@ -323,7 +369,8 @@ class Scene(Section, BaseModel):
                     f"{what} and takes_moment = true: only a tilted film takes a moment; set "
                     "journal.tilt = true, or leave out takes_moment"
                 )
-            aligning = isinstance(self.rolling.geometries.get(name), SphericalRollerBearing)
+            geometry = self.rolling.geometries.get(name)
+            aligning = geometry is not None and not geometry.takes_moment
             if seat.takes_moment and seat.stiffness == "rolling" and aligning:
                 raise ValueError(f"{what}: it aligns itself; leave out takes_moment")
         return self
@@ -420,23 +467,41 @@ def make_journal(data: dict[str, Any], source: str = "journal") -> Journal:
         raise InputError(_message(error, source, "journal")) from error
 
 
-def with_loads(scene: Scene, files: list[str]) -> Scene:
-    """Return the scene with its load series read from `files` (names or glob patterns)."""
-    loads = scene.loads.model_copy(update={"source": "files", "files": files})
-    return scene.model_copy(update={"loads": loads})
+def with_loads(scene: Scene, files: list[str], **reading: Any) -> Scene:
+    """Return the scene with its load series read from `files` (names or glob patterns).
+
+    `reading` are those keys of `Loads` that say how files are read; None leaves the scene's.
+
+    Raises
+    ------
+    InputError
+        A bad value among them.
+    """
+    given = {key: value for key, value in reading.items() if value is not None}
+    try:
+        read = Loads.model_validate({"source": "files", "files": files} | given)
+    except ValidationError as error:
+        raise InputError(_message(error, "loads")) from error
+    update = {key: getattr(read, key) for key in ("source", "files", *given)}
+    return scene.model_copy(update={"loads": scene.loads.model_copy(update=update)})
 
 
 def _anchor_files(data: dict[str, Any], folder: Path) -> dict[str, Any]:
     """Make relative files relative to the scene file, not to where the user stands."""
     loads, journal = data.get("loads"), data.get("journal")
-    if isinstance(loads, dict) and isinstance(loads.get("files"), list):
-        files = [str(folder / file) if isinstance(file, str) else file for file in loads["files"]]
-        data = data | {"loads": loads | {"files": files}}
     shell = journal.get("shell") if isinstance(journal, dict) else None
     if isinstance(shell, dict) and isinstance(shell.get("matrix"), str):
         shell = shell | {"matrix": str(folder / shell["matrix"])}
         data = data | {"journal": data["journal"] | {"shell": shell}}
-    return data
+    if not isinstance(loads, dict):
+        return data
+    anchored = dict(loads)
+    for key in ("cases", "case_list", "channels"):
+        if isinstance(loads.get(key), str):
+            anchored[key] = str(folder / loads[key])
+    if isinstance(loads.get("files"), list):
+        anchored["files"] = [str(folder / f) if isinstance(f, str) else f for f in loads["files"]]
+    return data | {"loads": anchored}
 
 
 def _message(error: ValidationError, source: str, *section: str) -> str:
@@ -485,7 +550,7 @@ def _of_stated_kind(errors: list[Any]) -> list[Any]:
 def _neighbours(location: tuple[int | str, ...]) -> str:
     """Name the keys that are known where an unknown one stands."""
     if len(location) > 2 and location[-3] == "geometry" and location[-2] in KINDS:
-        known = ["kind", *(field.name for field in fields(KINDS[str(location[-2])]))]
+        known = ["kind", *(field.name for field in fields(cast("Any", KINDS[str(location[-2])])))]
         return f"; known here: {', '.join(sorted(known))}"
     data: Any = Scene(name="defaults").model_dump()
     for part in [*_place(location)][:-1]:

@@ -47,7 +47,7 @@ def film_response(journal: Journal, speed: float) -> Response:
             phase / (2.0 * np.pi * frequency),
             mean + np.outer(np.sin(phase), amplitude),
             speed,
-            replace(held.film, rung="grid"),  # the only one that closes an orbit
+            replace(held.film_model, rung="grid"),  # the only one that closes an orbit
             periodic=True,
         )
         return float(orbit["eccentricity_ratio"].max())

@@ -69,7 +69,7 @@ def journal_film(
     data = _merged(data, {"geometry": sizes} if sizes else {}) | oil | _given(keys)
     data |= _law(law) | _supply(grooves, float(data.get("edge_pressure", 0.5e6)))
     section = make_journal(_merged(data, more), "journal")
-    film = section.film
+    film = section.film_model
     if scene is None and keys.get("grid") is None and "grid" not in more:
         film = replace(film, grid=None)
     return section.geometry, film

@@ -83,13 +83,13 @@ def solve_films(series: BearingSeries, journal: Journal, transient: bool = True)
     bearing, force, speed = journal.geometry, series.radial, series.speed
     temperature = mean_temperature(journal, force, speed)
     journal = journal if temperature is None else journal.at_temperature(temperature)
-    film = bearing.equilibrium(force, speed, journal.film, strict=False)
+    film = bearing.equilibrium(force, speed, journal.film_model, strict=False)
     found = np.asarray(film.converged, dtype=bool)
     drag = journal.lubricant.viscosity * np.where(found, np.abs(speed), np.nan)
     orbit = np.empty(0)
     if transient and found.all():
         try:
-            path = bearing.orbit(series.time, force, speed, journal.film)
+            path = bearing.orbit(series.time, force, speed, journal.film_model)
             orbit = path["eccentricity_ratio"].values
         except SolverError:  # the static films stand for themselves; the table says "-"
             orbit = np.empty(0)
@@ -108,7 +108,7 @@ def for_long_series(journal: Journal) -> Journal:
 
 def quick(journal: Journal) -> Journal | None:
     """The bearing with the film that is quick over a long series; None where it does not fit."""
-    film = replace(journal.film.isothermal(), rung="reduced")
+    film = replace(journal.film_model.isothermal(), rung="reduced")
     if why_not("in_motion", film, journal.geometry, Line()) is None:
         return journal.model_copy(update={"rung": "reduced"})
     return None

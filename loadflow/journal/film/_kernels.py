@@ -19,7 +19,7 @@ from llvmlite import ir
 from numba import njit, types
 from numba.extending import intrinsic
 
-from loadflow.journal.cavitation import DFILL, DP, DSLACK, FILL, LOAD, P
+from loadflow.journal.cavitation import DFILL, DP, DSLACK, FILL, LOAD, SLACK, P
 
 # coefficients of the gap: on the faces around, on the faces across (H3), on cells; CELL3 is ∫H³ of
 # cells, from which the faces across of a gap that changes along the axis follow
@@ -134,6 +134,35 @@ def balance(state, coef, dz, gz, closed, wedge, p_edge, p_line, f_line, mass, gr
             out[i, k] += q
             if k + 1 < nz:
                 out[i, k + 1] -= q
+
+
+@njit(cache=True, nogil=True)
+def largest_terms(state, coef, dz, gz, closed, wedge, p_edge, p_line, mass, groove):
+    """Largest sum of the magnitudes of the terms of `balance` in a cell; grooves have none."""
+    _, nx, nz = state.shape
+    row = 1 if coef.shape[2] > 1 else 0
+    p = state[P]
+    fill = state[FILL]
+    most = 0.0
+    for i in range(nx):
+        before = i - 1 if i > 0 else nx - 1
+        after = i + 1 if i + 1 < nx else 0
+        for k in range(nz):
+            if groove[i, k]:
+                continue
+            p_before = p[before, k] if closed or i > 0 else p_line
+            p_after = p[after, k] if closed or i + 1 < nx else p_line
+            here = abs(p[i, k])
+            total = coef[G, i, row * k] * (abs(p_before) + here)
+            total += coef[G, i + 1, row * k] * (abs(p_after) + here)
+            total += abs(wedge) * (coef[E, i, row * k] + coef[E, i + 1, row * k])
+            total = dz[k] * (total + fill[i, k] * abs(mass[i, row * k]))
+            low = abs(p[i, k - 1]) if k > 0 else abs(p_edge)
+            high = abs(p[i, k + 1]) if k + 1 < nz else abs(p_edge)
+            total += coef[H3, i, row * k] * gz[k] * (low + here)
+            total += coef[H3, i, row * (k + 1)] * gz[k + 1] * (high + here)
+            most = max(most, total + abs(state[SLACK, i, k]))
+    return most
 
 
 @njit(cache=True, nogil=True)

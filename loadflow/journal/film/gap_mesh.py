@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -17,6 +17,8 @@ Array = NDArray[np.float64]
 _TURN = 2 * np.pi
 _SLIVER = 1e-7  # share of a groove in its outermost cells, so that its pressure acts at its edge
 _FEWEST = 4  # cells around of a segment
+_CLOSEST = 0.004  # width of the narrowest cells where they crowd, rad
+_GROWTH = 0.25  # width of the others there over their distance
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,6 +111,37 @@ def shaped_mesh(
         marks=(np.abs(away) < 1e-9).any(axis=1),
         graded=graded and not marks_across,
     )
+
+
+def crowded(mesh: ShapedMesh, angle: float) -> ShapedMesh:
+    """The same with its cells halved toward `angle`, rad, so that they resolve a gap that closes.
+
+    A gap that is h clearances at its narrowest is about √(2 h) rad wide.
+    """
+    parts = []
+    for low, high, groove in zip(mesh.edges[:-1], mesh.edges[1:], mesh.groove):
+        whole = np.array([low, high])
+        parts.append((whole if groove else _halved(float(low), float(high), angle))[1:])
+    counts = np.array([part.size for part in parts])
+    marks = np.zeros(counts.sum() + 1, dtype=bool)
+    marks[np.append(0, np.cumsum(counts))] = mesh.marks
+    return replace(
+        mesh,
+        edges=np.concatenate([mesh.edges[:1], *parts]),
+        segment=np.repeat(mesh.segment, counts),
+        groove=np.repeat(mesh.groove, counts),
+        marks=marks,
+    )
+
+
+def _halved(low: float, high: float, angle: float) -> Array:
+    """Edges from `low` to `high`, closer together the nearer they are to `angle`."""
+    away = (0.5 * (low + high) - angle + np.pi) % _TURN - np.pi
+    distance = max(abs(away) - 0.5 * (high - low), 0.0)
+    if high - low <= max(_CLOSEST, _GROWTH * distance):
+        return np.array([low, high])
+    middle = 0.5 * (low + high)
+    return np.append(_halved(low, middle, angle)[:-1], _halved(middle, high, angle))
 
 
 def _rim_distance(edges: Array) -> float:

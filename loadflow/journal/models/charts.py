@@ -94,8 +94,9 @@ class Chart:
         found = np.isfinite(ratio)
         if control.strict and not found.all():
             bad = int(np.flatnonzero(~found)[0])
-            words = refusal(force[bad], speed[bad], np.inf, 0, self.largest)
-            raise SolverError(f"load {bad}: {words}: the chart ends there")
+            end = f"the chart ends there, at ε = {self.largest:.6g}"
+            why = f"So = {number[bad]:.6g}: {end}"
+            raise SolverError(f"load {bad}: {refusal(force[bad], speed[bad], why)}")
         turn = np.arctan2(force[:, 1], force[:, 0]) + np.sign(speed) * attitude
         position = ratio[:, None] * np.stack([np.cos(turn), np.sin(turn)], axis=-1)
         known = np.nan_to_num(ratio)

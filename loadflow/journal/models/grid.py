@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from loadflow.errors import SolverError
 from loadflow.journal.film.film import EVERY
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
@@ -41,6 +42,8 @@ if TYPE_CHECKING:
     import xarray as xr
 
 Array = NDArray[np.float64]
+
+_TOLERANCE, _STEPS = 1e-10, 60  # of a load that a coarser model leaves to the grid
 
 
 def equilibrium(
@@ -115,6 +118,26 @@ def orbit(
         del values["steps"]
     about["mass_balance"] = mass_balance(*ends, rows, time)
     return orbit_dataset(values, time, force, speed, bearing.clearance).assign_attrs(about)
+
+
+def solve_on_grid(
+    bearing: JournalGeometry, film: Film, index: int, answer: dict[str, Any], limits: Limits
+) -> None:
+    """Replace the row `index` of the `answer` of a coarser model by that of the grid.
+
+    Raises
+    ------
+    SolverError
+        If ``limits.strict`` and the grid has no answer either.
+    """
+    force, speed = answer["force"][index], answer["speed"][index]
+    own = Limits(_TOLERANCE, _STEPS, limits.strict)
+    try:
+        [state] = plain_rows(bearing, film, force[None], np.array([speed]), own)
+    except SolverError as error:
+        raise SolverError(str(error).replace("load 0:", f"load {index}:", 1)) from error
+    for name, values in answer.items():
+        values[index] = state[name]
 
 
 def _aligned(bearing: JournalGeometry, film: Film, line: Line) -> bool:

@@ -16,10 +16,10 @@ from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
 from loadflow.journal.models import _mobility_kernels as kernel
 from loadflow.journal.models import mobility_films as row
+from loadflow.journal.models.grid import solve_on_grid
 from loadflow.journal.models.mobility import MobilityMap, scaled, tabulate
 from loadflow.journal.models.model import Steps
 from loadflow.journal.results import operating_columns, without_supply
-from loadflow.journal.solvers.newton import refusal
 from loadflow.journal.solvers.transient import orbit_dataset
 from loadflow.quantities import FILM
 
@@ -111,38 +111,30 @@ def equilibrium(
 ) -> dict[str, Any]:
     """Static equilibria: where the velocity of the map is zero.
 
+    A load that the map does not cover is solved on the grid that the map is made of: ambient
+    pressure may feed a film at one end of a cell of the map, and leave it empty at the other.
+
     Raises
     ------
     SolverError
-        A load at ω = 0, or one that the map does not cover; names the first such load.
+        A load at ω = 0, or one that the grid does not carry either; names the first such load.
     """
+    force, speed = np.array(force), np.array(speed)  # rows are replaced
     film = mapped(bearing, options, force)
     position, iterations = _at_rest(film, force, speed)
+    found = film.results(position, force, speed)
+    covered = found.pop("in_range") & (~force.any(axis=-1) | (iterations > 0))
     answer = {
         **operating_columns(bearing, force, speed, options.liquid, position),
-        **film.results(position, force, speed),
+        **found,
         "eccentricity_ratio": np.hypot(*position.T),
         "iterations": iterations,
+        "converged": covered,
+        "residual": np.zeros(speed.size),
     }
-    idle = ~force.any(axis=-1)
-    found = answer.pop("in_range") & (idle | (iterations > 0))
-    residual = np.where(found, 0.0, np.inf)
-    if control.strict and not found.all():
-        bad = int(np.flatnonzero(~found)[0])
-        ratio = float(answer["eccentricity_ratio"][bad])
-        words = refusal(force[bad], speed[bad], residual[bad], iterations[bad], ratio)
-        raise SolverError(f"load {bad}: {words}: the map ends there")
-    for name in ("eccentricity", "attitude_angle", "eccentricity_ratio", *_FROM_FILM):
-        answer[name] = np.where(
-            found.reshape(-1, *[1] * (answer[name].ndim - 1)), answer[name], np.nan
-        )
-    return answer | {"converged": found, "residual": residual}
-
-
-_FROM_FILM = (
-    "minimum_film", "maximum_pressure", "friction_power", "side_flow", "total_fill", "stiffness",
-    "damping",
-)  # fmt: skip
+    for index in np.flatnonzero(~covered):
+        solve_on_grid(bearing, film.options, int(index), answer, control)
+    return answer
 
 
 def _at_rest(film: Mapped, force: Array, speed: Array) -> tuple[Array, NDArray[np.int64]]:

@@ -19,12 +19,13 @@ from loadflow.journal.solvers.estimate import NEAR, closed_form_position
 from loadflow.journal.solvers.newton import (
     Solution,
     no_film,
+    not_found,
     refusal,
     solve_equilibrium,
     solve_film,
     solve_patiently,
 )
-from loadflow.numerics.convergence import Limits
+from loadflow.numerics.convergence import Limits, unresolved
 
 Array = NDArray[np.float64]
 
@@ -89,8 +90,8 @@ def plain_fields(
             raise SolverError(f"film {index} at ε = {np.hypot(*place):.6g}: {_STARVED}")
         if control.strict and not solution.converged:
             raise SolverError(
-                f"film {index} at ε = {np.hypot(*place):.6g}, ω = {omega:.6g} rad/s: residual "
-                f"{solution.residual:.3g} after {solution.iterations} steps"
+                f"film {index} at ε = {np.hypot(*place):.6g}, ω = {omega:.6g} rad/s: "
+                + unresolved(solution.residual, solution.rounding, solution.iterations)
             )
         rows.append(field_row(film, solution))
     return rows, film.mesh.z * bearing.radius
@@ -188,7 +189,8 @@ def _refusal(film: DiscreteFilm, load: Array, solution: Solution) -> str:
             return f"{head}: without rotation and squeeze the film carries no load"
         return f"{head}: the supply carries no more than {_lift(film, load):.6g} N, at ε = {_HIGH}"
     ratio = float(np.hypot(*solution.position))
-    return refusal(load, film.speed, solution.residual, solution.iterations, ratio)
+    reached = (solution.residual, solution.rounding, solution.iterations)
+    return refusal(load, film.speed, not_found(*reached, ratio))
 
 
 def _steps(film: DiscreteFilm, max_iterations: int) -> int:

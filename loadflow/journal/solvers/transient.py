@@ -14,6 +14,7 @@ from loadflow.journal.film.film import EVERY, DiscreteFilm
 from loadflow.journal.film.integrals import summary
 from loadflow.journal.results import attitude_angle
 from loadflow.journal.solvers.newton import Motion, Solution, solve_equilibrium
+from loadflow.numerics.convergence import unresolved
 from loadflow.quantities import FILM
 
 if TYPE_CHECKING:
@@ -179,8 +180,8 @@ def march(
         if not solution.converged:
             raise SolverError(
                 f"orbit stops at t = {now:.6g} s: F = ({force[i, 0]:.6g}, {force[i, 1]:.6g}) N, "
-                f"ω = {speed[i]:.6g} rad/s, ε = {math.hypot(*solution.position):.6g}; residual "
-                f"{solution.residual:.3g} after {solution.iterations} Newton steps"
+                f"ω = {speed[i]:.6g} rad/s, ε = {math.hypot(*solution.position[:2]):.6g}; "
+                + unresolved(solution.residual, solution.rounding, solution.iterations)
             )
         rows.append(orbit_row(marcher.film, solution, steps))
     return rows, past

@@ -12,7 +12,8 @@ from loadflow.numerics.convergence import Convergence
 from loadflow.rolling.friction.bearing import BearingFriction
 from loadflow.rolling.friction.options import FrictionOptions
 from loadflow.rolling.friction.roller_losses import roller_friction
-from loadflow.rolling.roller_result import RollerResult
+from loadflow.rolling.results import ContactResult
+from loadflow.rolling.roller_raceways import RollerRaceways
 
 _HOTTEST = 200.0  # K above the surroundings that are searched
 
@@ -37,7 +38,7 @@ class HeatBalance:
 
 
 def balanced_temperature(
-    result: RollerResult,
+    result: ContactResult[RollerRaceways],
     speed: ArrayLike,
     options: FrictionOptions,
     conductance: float,
