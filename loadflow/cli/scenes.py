@@ -17,6 +17,7 @@ from loadflow.cli.base import (
     NamePattern,
     OwnChannels,
     app,
+    err,
     out,
     print_json,
     progress,
@@ -103,6 +104,7 @@ def plan(
     """Show which stages and models a scene needs, their expected time and error."""
     from loadflow.planning.plan import make_plan
     from loadflow.running.folder import climbs, finished_parts
+    from loadflow.scene.unused import unused_keys, unused_warnings
 
     wanted = _read(scene, loads)
     folder = out_folder / wanted.name
@@ -123,6 +125,7 @@ def plan(
     if as_json:
         cases = [case.name for case in made.cases]
         found = {"steps": steps, "cases": cases, "left_out": made.left_out}
+        found |= {"unused": unused_keys(wanted)}
         print_json(found | {"errors": made.errors, "accurate": made.accurate})
         return
     heads = ("stage", "model", "chosen", "runs", "on disk", "expected time, one core", "error")
@@ -153,6 +156,8 @@ def plan(
         out.print(f"the accuracy that the scene asks for is {why}", soft_wrap=True)
     for stage, why in made.left_out.items():
         out.print(f"left out: {stage} ({why})")
+    for warning in unused_warnings(wanted):
+        out.print(f"warning: {warning}", soft_wrap=True, markup=False)
 
 
 @app.command("scene")
@@ -161,8 +166,12 @@ def show_scene(
     show: Annotated[bool, typer.Option("--show", help="Print it with all defaults.")] = False,
 ) -> None:
     """Check a scene; with --show print it as resolved."""
+    from loadflow.scene.unused import unused_warnings
+
     resolved = _read(scene, None)
     print(resolved.to_toml() if show else f"{scene}: valid")
+    for warning in unused_warnings(resolved):
+        err.print(f"warning: {warning}", soft_wrap=True, markup=False)
 
 
 @app.command()

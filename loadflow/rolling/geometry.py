@@ -91,6 +91,11 @@ class RollingGeometry(ABC):
         """Reference life L10r of ISO/TS 16281, millions of revolutions; the inner ring turns."""
 
     # --- the same unless a kind says otherwise ---------------------------------------------------
+    @property
+    def rib_guided(self) -> bool:
+        """Whether its rollers are pressed on a rib, as tapered ones are."""
+        return False
+
     def contact_angles(self, found: ContactForces) -> Array:
         """Operating contact angles, rad, (..., *groups, element); of balls, whose angle moves."""
         raise InputError(f"contact_angles: fixed by the geometry of a {type(self).__name__}")

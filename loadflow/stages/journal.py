@@ -401,7 +401,7 @@ def mixed_friction(samples: xr.Dataset) -> xr.Dataset:
     rubbing = about["boundary_friction"] * about["radius"] * samples["load"].values * speed
     lost = np.where(touching, rubbing, samples["friction_power"].values)
     when, at = _transition(time, speed, ratio, critical)
-    values = {
+    values: dict[str, tuple[float, str, str]] = {
         "duration": (seconds.sum(), "s", "length of the series"),
         "contact_time": (seconds[touching & turning].sum(), "s", "time in contact while turning"),
         "mixed_friction_time": (seconds[mixed].sum(), "s", "time above E_krit while turning"),
@@ -412,7 +412,7 @@ def mixed_friction(samples: xr.Dataset) -> xr.Dataset:
         "transition_time": (when, "s", "time of the transition at E_krit"),
         "transition_speed": (at, "rad/s", "speed of the transition at E_krit"),
     }  # fmt: skip
-    return labelled({name: (xr.DataArray(v), *said) for name, (v, *said) in values.items()})
+    return labelled({name: (xr.DataArray(v), *about) for name, (v, *about) in values.items()})
 
 
 def _transition(
@@ -426,4 +426,5 @@ def _transition(
     last = int(np.flatnonzero(above[1:] != above[:-1])[-1])
     i, j = known[last], known[last + 1]
     share = (critical - ratio[i]) / (ratio[j] - ratio[i])
-    return tuple(float(x[i] + share * (x[j] - x[i])) for x in (time, speed))
+    when, at = (float(x[i] + share * (x[j] - x[i])) for x in (time, speed))
+    return when, at

@@ -145,8 +145,8 @@ def _design_safety(
     """Smallest static safety under the loads times `factor`, and its time, s; NaN without one."""
     hardest = np.argsort(answer.static_safety)[:_HARDEST]
     some = reduced.isel(sample=hardest)
-    loads = (factor * some[name].values for name in ("force", "moment"))
-    designed = rest(part, *loads, strict=False)
+    force, moment = (factor * some[name].values for name in ("force", "moment"))
+    designed = rest(part, force, moment, strict=False)
     safety = np.where(designed.converged, designed.static_safety, np.nan)
     if np.isnan(safety).any():
         return np.nan, float(some["time"].values[np.argmax(np.isnan(safety))])

@@ -17,7 +17,7 @@ from loadflow.rolling.rating.static import (
 from loadflow.scene.limits import JournalLimits
 from loadflow.scene.scene import Scene
 from loadflow.verdict import Verdict
-from loadflow.wind.cases import LOAD_CASES, STANDING
+from loadflow.wind.cases import LOAD_CASES
 
 Tables = Mapping[str, xr.Dataset]
 
@@ -77,9 +77,7 @@ def _of_journal(scene: Scene, name: str, table: xr.Dataset) -> Iterator[Verdict]
 
 def _starts_or_stands(dlc: str) -> bool:
     """Whether the shaft stands, starts or stops in a load case, so that it must touch the shell."""
-    if dlc not in LOAD_CASES:
-        return False
-    return LOAD_CASES[dlc].events[0] in (*STANDING, "start", "stop", "emergency stop")
+    return dlc in LOAD_CASES and LOAD_CASES[dlc].stands_or_starts
 
 
 def _answered(subject: str, table: xr.Dataset) -> Verdict:

@@ -174,6 +174,8 @@ class RollingBearing(RollingGeometry):
     ----------
     kind : str
         Name in scenes and on the command line.
+    friction_model : {"balls", "rollers"}, optional
+        Model of the friction of its contacts; None where there is none.
     torque_models : mapping
         Friction factor of each rule of thumb for its torque, the preferred one first.
     element_inertia : bool
@@ -183,6 +185,7 @@ class RollingBearing(RollingGeometry):
     """
 
     kind: ClassVar[str]
+    friction_model: ClassVar[Literal["balls", "rollers"] | None] = None
     torque_models: ClassVar[Mapping[TorqueModel, float]] = MappingProxyType({})
     element_inertia: ClassVar[bool] = False
     flexible_rings: ClassVar[bool] = False
@@ -394,6 +397,8 @@ class RollingBearing(RollingGeometry):
 class BearingOfBalls(RollingBearing):
     """Verbs of bearings whose balls roll in grooves."""
 
+    friction_model: ClassVar[Literal["balls", "rollers"] | None] = "balls"
+
     def losses(
         self, result: RollingEquilibrium[RollingBearing], speed: ArrayLike, options: FrictionOptions
     ) -> BearingFriction:
@@ -403,6 +408,8 @@ class BearingOfBalls(RollingBearing):
 
 class BearingOfRollers(RollingBearing):
     """Verbs of bearings whose rollers roll straight on."""
+
+    friction_model: ClassVar[Literal["balls", "rollers"] | None] = "rollers"
 
     def losses(
         self, result: RollingEquilibrium[RollingBearing], speed: ArrayLike, options: FrictionOptions

@@ -61,6 +61,11 @@ class RollerBearing(RollerRaceways, BearingOfRollers):
         return self.contact_angle > 0
 
     @property
+    def rib_guided(self) -> bool:
+        """Whether the rollers are tapered, and so pressed on a rib."""
+        return self.contact_angle > 0
+
+    @property
     def axial_clearance(self) -> float:
         """Total axial clearance s/tan α of a pair of rows, m; infinite for cylindrical rollers."""
         tan = math.tan(self.contact_angle)
