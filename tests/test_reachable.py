@@ -8,9 +8,10 @@ from dataclasses import fields
 
 import numpy as np
 import pytest
-from toy_film import SoftGuembel
+from toy_film import TENTH, TENTH_RUNG, SoftGuembel
 
 from loadflow.cli import main
+from loadflow.errors import InputError
 from loadflow.journal import Film, JournalBearing, MatrixShell
 from loadflow.journal.cavitation import LAWS
 from loadflow.journal.film_model import Inlet
@@ -20,6 +21,7 @@ from loadflow.journal.shells import Shell
 from loadflow.journal.supply import Restrictor
 from loadflow.scene import read_scene
 from loadflow.scene.scene import Journal, make_scene
+from loadflow.stages.journal import equilibria
 from loadflow.studies import journal_point
 
 BARE = {"diameter": 0.2, "width": 0.1, "relative_clearance": 1e-3}
@@ -187,3 +189,20 @@ def test_a_toy_law_is_reached_by_its_row(monkeypatch, tmp_path, capsys):
     film = Film(journal.lubricant, SoftGuembel(0.5), grid=(36, 8))
     direct = bearing.equilibrium((8e3, 0.0), 900 * np.pi / 30, film)
     assert answer["eccentricity_ratio"]["value"] == float(direct.eccentricity_ratio)
+
+
+def test_a_toy_rung_is_reached_by_its_row(monkeypatch, tmp_path, capsys):
+    """One object and one row: the model runs from a scene and from the command line."""
+    monkeypatch.setitem(RUNGS, TENTH_RUNG.name, TENTH_RUNG)
+    scene = make_scene({"journal": {"rung": "tenth"}})
+    force = np.array([[0.0, 1e6, -2e6], [0.0, -1e6, -2e6]])
+    answer = equilibria(scene.journal, force, np.array([1.2, 1.3]))
+    np.testing.assert_allclose(answer.eccentricity_ratio, TENTH)
+    with pytest.raises(InputError, match="not for time"):
+        make_scene({"journal": {"rung": "tenth", "motion": "transient"}})
+    file = tmp_path / "toy.toml"
+    file.write_text("[journal]\nrung = 'tenth'\n")
+    with pytest.raises(SystemExit) as end:
+        main(["journal", "--scene", str(file), "--force-x", "1e6", "--speed-rpm", "9", "--json"])
+    assert end.value.code in (0, None)
+    assert json.loads(capsys.readouterr().out)["eccentricity_ratio"]["value"] == TENTH
