@@ -412,7 +412,7 @@ def mixed_friction(samples: xr.Dataset) -> xr.Dataset:
         "transition_time": (when, "s", "time of the transition at E_krit"),
         "transition_speed": (at, "rad/s", "speed of the transition at E_krit"),
     }  # fmt: skip
-    return labelled({name: (xr.DataArray(v), *about) for name, (v, *about) in values.items()})
+    return labelled({name: (xr.DataArray(v), u, what) for name, (v, u, what) in values.items()})
 
 
 def _transition(
