@@ -133,6 +133,8 @@ def test_a_run_needs_nothing_but_speed_and_loads(capsys, tmp_path):
     scene.write_text(SCENE)
     loads = ["--loads", f"{tmp_path}/own_*.csv", "--cases", tmp_path / "cases.txt"]
     loads += ["--channels", tmp_path / "channels.toml", "--workers", 1]
+    code, out, err = call(capsys, "plan", scene, *loads[:-2], "--json")
+    assert json.loads(out)["cases"] == ["dlc1.1_v8_s1", "dlc2.3_v8_s1"], err
     code, out, err = call(capsys, "run", scene, *loads, "--out", tmp_path / "runs", "--json")
     assert code == 0, err
     assert json.loads(out)["failures"] == {}

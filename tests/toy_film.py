@@ -18,8 +18,8 @@ from loadflow.journal.cavitation import (
     CavitationLaw,
     P,
 )
+from loadflow.journal.models.model import Rung
 from loadflow.journal.results import operating_columns, without_supply
-from loadflow.journal.rungs import Rung
 
 
 def _soft(numbers, scale, count, u, state):

@@ -40,6 +40,23 @@ def _read(path: Path, loads: list[str] | None, name: str | None = None, **readin
     return scene.model_copy(update={"name": name}) if name else scene
 
 
+def _reading(
+    cases: Path | None,
+    pattern: str | None,
+    channels: str | None,
+    gauge_distance: float | None,
+    frame: str | None,
+) -> dict[str, Any]:
+    """How load files are read, as keys of `[loads]`; None where the scene is not overruled."""
+    return {
+        "cases": None if cases is None else str(cases),
+        "pattern": pattern,
+        "channels": channels,
+        "gauge_distance": gauge_distance,
+        "frame": frame,
+    }
+
+
 @app.command()
 def run(
     scene: SceneFile,
@@ -59,13 +76,7 @@ def run(
     """Carry a scene out; a run that was killed goes on where it was."""
     from loadflow.running.runner import run as carry_out
 
-    reading = {
-        "cases": None if cases is None else str(cases),
-        "pattern": pattern,
-        "channels": channels,
-        "gauge_distance": gauge_distance,
-        "frame": frame,
-    }
+    reading = _reading(cases, pattern, channels, gauge_distance, frame)
     with progress(quiet=as_json) as show:
         result = carry_out(
             _read(scene, loads, name, **reading),
@@ -99,6 +110,11 @@ def plan(
     scene: SceneFile,
     loads: LoadFiles = None,
     out_folder: Annotated[Path, typer.Option("--out", help="Folder for runs.")] = Path("runs"),
+    cases: CaseList = None,
+    pattern: NamePattern = None,
+    channels: OwnChannels = None,
+    gauge_distance: GaugeDistance = None,
+    frame: FrameOfChannels = None,
     as_json: AsJson = False,
 ) -> None:
     """Show which stages and models a scene needs, their expected time and error."""
@@ -106,7 +122,8 @@ def plan(
     from loadflow.running.folder import climbs, finished_parts
     from loadflow.scene.unused import unused_keys, unused_warnings
 
-    wanted = _read(scene, loads)
+    reading = _reading(cases, pattern, channels, gauge_distance, frame)
+    wanted = _read(scene, loads, **reading)
     folder = out_folder / wanted.name
     made = make_plan(wanted, climbs(folder, wanted))
     there = finished_parts(folder, made)
@@ -123,8 +140,8 @@ def plan(
         for step in made.steps
     ]
     if as_json:
-        cases = [case.name for case in made.cases]
-        found = {"steps": steps, "cases": cases, "left_out": made.left_out}
+        names = [case.name for case in made.cases]
+        found = {"steps": steps, "cases": names, "left_out": made.left_out}
         found |= {"unused": unused_keys(wanted)}
         print_json(found | {"errors": made.errors, "accurate": made.accurate})
         return

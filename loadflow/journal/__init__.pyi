@@ -14,7 +14,6 @@ from .film_model import Film as Film
 from .geometry import JournalGeometry as JournalGeometry
 from .grid_error import GridError as GridError
 from .grid_error import grid_error as grid_error
-from .heat import Heat as Heat
 from .lubricant import Lubricant as Lubricant
 from .results import Equilibrium as Equilibrium
 from .results import FilmField as FilmField
@@ -36,3 +35,4 @@ from .supply import Groove as Groove
 from .supply import Orifice as Orifice
 from .supply import Pump as Pump
 from .supply import Supply as Supply
+from .thermal import Heat as Heat

@@ -11,8 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError
 from loadflow.journal.bearing import JournalBearing
-from loadflow.journal.heat import Heat
 from loadflow.journal.results import WarmEquilibrium
+from loadflow.journal.thermal import Heat
 
 Array = NDArray[np.float64]
 

@@ -13,11 +13,11 @@ from typing import Any, Literal, TypedDict
 
 from loadflow.errors import InputError
 from loadflow.journal.cavitation import CavitationLaw, Reynolds
-from loadflow.journal.heat import Heat
 from loadflow.journal.lubricant import Lubricant
-from loadflow.journal.rungs import check_rung
+from loadflow.journal.models.model import check_rung
 from loadflow.journal.shells import Shell
 from loadflow.journal.supply import Supply
+from loadflow.journal.thermal import Heat
 from loadflow.numerics.convergence import Control as Control
 from loadflow.numerics.fields import require
 

@@ -21,8 +21,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError, SolverError
 from loadflow.journal.film_model import Film
-from loadflow.journal.heat import HOTTEST, Heat
 from loadflow.journal.supply import Capillary
+from loadflow.journal.thermal import HOTTEST, Heat
 from loadflow.numerics.fields import require
 
 Array = NDArray[np.float64]

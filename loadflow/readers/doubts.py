@@ -27,7 +27,7 @@ ABOVE_RATED = 1.25
 SPEED_FACTOR = 1.6
 WIND = 0.25
 """Share by which the mean of the wind may differ from the wind speed of the load case."""
-SAMPLES_PER_3P = 8
+SAMPLES_PER_3P = 5
 """Samples in a period of the blade-passing frequency below which its loads are cut."""
 NEIGHBOURS = {1e3: "N and kN", 30 / math.pi: "rad/s and 1/min", 180 / math.pi: "rad and deg"}
 """Ratios that confused units make."""

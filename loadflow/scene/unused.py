@@ -175,7 +175,7 @@ def _of_journal(scene: Scene) -> Iterator[tuple[str, str]]:
     if journal.tilt and not any(_tilts(scene, name) for name in journal.bearings):
         yield (
             "tilt",
-            "the shaft is rigid and brings no moment to these bearings; give its suspension a beam",
+            ("the shaft is rigid and brings these bearings no moment; give its suspension a beam"),
         )
     if "grading" not in RUNGS[journal.rung].at_rest:
         yield "grading", f'rung "{journal.rung}" has no graded mesh'

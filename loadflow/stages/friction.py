@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import xarray as xr
@@ -139,7 +139,7 @@ def _at_its_temperature(
         return found
     some = np.unique(np.linspace(0, speed.size - 1, CHUNK).round().astype(int))
     balance = balanced_temperature(
-        bearing.equilibrium(force[some], moment[some, :2]),
+        cast("Any", bearing.equilibrium(force[some], moment[some, :2])),
         speed[some],
         found,
         options.conductance,

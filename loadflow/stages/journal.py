@@ -401,7 +401,7 @@ def mixed_friction(samples: xr.Dataset) -> xr.Dataset:
     rubbing = about["boundary_friction"] * about["radius"] * samples["load"].values * speed
     lost = np.where(touching, rubbing, samples["friction_power"].values)
     when, at = _transition(time, speed, ratio, critical)
-    values: dict[str, tuple[float, str, str]] = {
+    values: dict[str, tuple[Any, str, str]] = {
         "duration": (seconds.sum(), "s", "length of the series"),
         "contact_time": (seconds[touching & turning].sum(), "s", "time in contact while turning"),
         "mixed_friction_time": (seconds[mixed].sum(), "s", "time above E_krit while turning"),
@@ -412,7 +412,7 @@ def mixed_friction(samples: xr.Dataset) -> xr.Dataset:
         "transition_time": (when, "s", "time of the transition at E_krit"),
         "transition_speed": (at, "rad/s", "speed of the transition at E_krit"),
     }  # fmt: skip
-    return labelled({name: (xr.DataArray(v), u, what) for name, (v, u, what) in values.items()})
+    return labelled({n: (xr.DataArray(v), unit, text) for n, (v, unit, text) in values.items()})
 
 
 def _transition(

@@ -22,7 +22,7 @@ from loadflow.journal import (
     Sommerfeld,
     Supply,
 )
-from loadflow.journal.rungs import FEATURES, RUNGS
+from loadflow.journal.models.model import FEATURES, RUNGS
 
 SIZE = {"diameter": 0.2, "width": 0.1, "relative_clearance": 1e-3}
 BEARING = JournalBearing(**SIZE)

@@ -13,7 +13,7 @@ from loadflow.errors import InputError
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
-from loadflow.journal.rungs import FEATURES, RUNGS, Rung
+from loadflow.journal.models.model import FEATURES, RUNGS, Rung
 from loadflow.numerics.convergence import Limits
 from loadflow.numerics.fields import require
 
