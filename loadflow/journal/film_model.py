@@ -103,7 +103,7 @@ class Film:
     >>> film = Film(Lubricant(0.05), GasMixture(0.05e6), edge_pressure=0.5e6, grid=(60, 20))
     >>> bearing = JournalBearing(diameter=3.0, width=2.25, relative_clearance=0.5e-3)
     >>> round(float(bearing.equilibrium((2e6, 0.4e6), 1.2, film).eccentricity_ratio), 2)
-    0.6
+    0.61
     """
 
     lubricant: Lubricant | None = None

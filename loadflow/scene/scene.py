@@ -13,22 +13,28 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self, cast, get_args
 
+import numpy as np
 from pydantic import BaseModel, Field, ValidationError, field_validator, model_validator
 
 from loadflow.errors import InputError
 from loadflow.journal import (
+    Film,
     GasMixture,
     Heat,
     JournalBearing,
     LinedShell,
     LocalShell,
     Lubricant,
+    MatrixShell,
     Supply,
     ThickShell,
 )
+from loadflow.journal.line import Line
+from loadflow.journal.models.model import Verb, why_not
 from loadflow.rolling import KINDS
 from loadflow.rolling.friction import Churning
 from loadflow.scene.bearings import Rolling
+from loadflow.scene.films import Law, RungName
 from loadflow.scene.limits import JournalLimits
 from loadflow.scene.loads import Loads, check_simulation
 from loadflow.scene.section import Section
@@ -147,7 +153,12 @@ class Journal(Section, BaseModel):
     has none, it tilts freely under the moment that the shaft stage gives. The film is then solved
     over its full width.
 
-    A ``shell`` makes the bore elastic; its key ``kind`` says how: local, lined or thick.
+    ``cavitation`` is the law of the ruptured film; its key ``kind`` says which:
+    gas-mixture, sommerfeld, guembel, reynolds or mass-conserving. ``inlet`` replaces the oil on a
+    line at the widest gap, or does not; "auto" leaves it to the law.
+
+    A ``shell`` makes the bore elastic; its key ``kind`` says how: local, lined, thick, or matrix
+    with a ``matrix`` of influence numbers, or the name of a file that holds it.
 
     ``shaft_roughness`` and ``shell_roughness`` are R_z, m, about 6.3 R_a of the 0.2 and 0.4 µm that
     Autodesk Inventor's plain bearing calculator recommends. Where a smooth film would be thinner
@@ -159,19 +170,20 @@ class Journal(Section, BaseModel):
     bearings: Annotated[list[str], Field(min_length=1)] = ["N", "N2"]
     geometry: JournalBearing = JournalBearing(diameter=3.0, width=2.25, relative_clearance=0.5e-3)
     lubricant: Lubricant = Lubricant(viscosity=0.050)
-    cavitation: GasMixture = GasMixture(0.05e6)
+    cavitation: Law = GasMixture(0.05e6)
     edge_pressure: Annotated[float, Field(ge=0)] = 0.5e6
     supply: Supply | None = None
+    inlet: Literal["auto", "widest gap", "none"] = "auto"
     grid: tuple[Annotated[int, Field(ge=12, le=720)], Annotated[int, Field(ge=4, le=240)]] = (
         60,
         20,
     )
     grading: Literal["auto", "uniform", "graded"] = "auto"
-    rung: Literal["map", "reduced", "grid"] = "grid"
+    rung: RungName = "grid"
     heat: Heat | None = None
     motion: Literal["quasi-static", "transient"] = "quasi-static"
     tilt: bool = False
-    shell: LocalShell | LinedShell | ThickShell | None = None
+    shell: LocalShell | LinedShell | ThickShell | MatrixShell | None = None
     shaft_roughness: Positive = 1.3e-6
     shell_roughness: Positive = 2.5e-6
     boundary_friction: Annotated[float, Field(gt=0, le=1)] = 0.15
@@ -197,25 +209,24 @@ class Journal(Section, BaseModel):
         stated = self.limits.minimum_film
         return stated or self.contact_film + self.limits.waviness + self.limits.margin
 
-    @model_validator(mode="after")
-    def _elastic_on_the_grid(self) -> Self:
-        if self.shell is not None and self.rung != "grid":
-            raise ValueError(
-                f'rung "{self.rung}" has a rigid shell: set "grid", or leave out shell'
-            )
-        return self
-
     @property
     def in_motion(self) -> bool:
         """Whether the film follows the whole series; it does not read the reduced one then."""
         return self.motion == "transient"
 
     @property
+    def film_model(self) -> Film:
+        """The film that these keys describe."""
+        heat = self.heat
+        return Film(heat=heat, **self.film | ({} if heat is None else {"lubricant": None}))
+
+    @property
     def film(self) -> dict[str, Any]:
-        """Keywords of `JournalBearing.equilibrium` and `orbit` that say what the film is."""
+        """The film at the temperature of its lubricant, as keywords of the verbs."""
         mesh = ("grid", "grading", "rung")
         names = ("lubricant", "cavitation", "edge_pressure", "supply", *mesh, "shell")
-        return {name: getattr(self, name) for name in names}
+        inlet = None if self.inlet == "none" else self.inlet
+        return {name: getattr(self, name) for name in names} | {"inlet": inlet}
 
     def at_temperature(self, temperature: float) -> Journal:
         """The bearing with its oil held at `temperature`, K."""
@@ -227,6 +238,16 @@ class Journal(Section, BaseModel):
     def _one_oil(self) -> Self:
         if self.heat is not None and "lubricant" in self.changed:
             raise ValueError("lubricant: follows from heat.oil and its temperature; leave it out")
+        return self
+
+    @model_validator(mode="after")
+    def _a_model_that_knows_the_film(self) -> Self:
+        film = self.film_model.isothermal() if self.in_motion else self.film_model
+        verb: Verb = "in_motion" if self.in_motion else "at_rest"
+        line = Line(moment=np.zeros((1, 2))) if self.tilt else Line()
+        why = why_not(verb, film, self.geometry, line)
+        if why is not None:
+            raise ValueError(why)
         return self
 
 
@@ -449,6 +470,20 @@ def make_scene(data: dict[str, Any], source: str = "scene") -> Scene:
         raise InputError(_message(error, source)) from error
 
 
+def make_journal(data: dict[str, Any], source: str = "journal") -> Journal:
+    """Build the section of the journal bearings alone; `source` names it in messages.
+
+    Raises
+    ------
+    InputError
+        As `read_scene`.
+    """
+    try:
+        return Journal.model_validate(data)
+    except ValidationError as error:
+        raise InputError(_message(error, source, "journal")) from error
+
+
 def with_loads(scene: Scene, files: list[str], **reading: Any) -> Scene:
     """Return the scene with its load series read from `files` (names or glob patterns).
 
@@ -469,8 +504,12 @@ def with_loads(scene: Scene, files: list[str], **reading: Any) -> Scene:
 
 
 def _anchor_files(data: dict[str, Any], folder: Path) -> dict[str, Any]:
-    """Make relative load files relative to the scene file, not to where the user stands."""
-    loads = data.get("loads")
+    """Make relative files relative to the scene file, not to where the user stands."""
+    loads, journal = data.get("loads"), data.get("journal")
+    shell = journal.get("shell") if isinstance(journal, dict) else None
+    if isinstance(shell, dict) and isinstance(shell.get("matrix"), str):
+        shell = shell | {"matrix": str(folder / shell["matrix"])}
+        data = data | {"journal": data["journal"] | {"shell": shell}}
     if not isinstance(loads, dict):
         return data
     anchored = dict(loads)
@@ -482,10 +521,11 @@ def _anchor_files(data: dict[str, Any], folder: Path) -> dict[str, Any]:
     return data | {"loads": anchored}
 
 
-def _message(error: ValidationError, source: str) -> str:
-    """One line per bad key: file, key, value, what is allowed."""
+def _message(error: ValidationError, source: str, *section: str) -> str:
+    """One line per bad key: file, key, value, what is allowed; keys are those of a `section`."""
     lines = []
     for item in _of_stated_kind(error.errors()):
+        item = item | {"loc": (*section, *item["loc"])}
         key = ".".join(str(part) for part in _place(item["loc"])) or "scene"
         reason = item["msg"].removeprefix("Value error, ").replace("Input should be", "must be")
         if item["type"] in ("extra_forbidden", "unexpected_keyword_argument"):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
+from loadflow.journal.rungs import RUNGS
 from loadflow.rolling import RollerBearing, SphericalRollerBearing
 from loadflow.scene.loads import Loads
 from loadflow.scene.scene import Scene
@@ -176,7 +177,7 @@ def _of_journal(scene: Scene) -> Iterator[tuple[str, str]]:
             "tilt",
             ("the shaft is rigid and brings these bearings no moment; give its suspension a beam"),
         )
-    if journal.rung != "grid":
+    if "grading" not in RUNGS[journal.rung].at_rest:
         yield "grading", f'rung "{journal.rung}" has no graded mesh'
     if journal.heat is None:
         for key in ("limits.oil", "limits.oil_hours", "limits.temperature"):

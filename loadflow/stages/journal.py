@@ -3,42 +3,44 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from loadflow.errors import SolverError
-from loadflow.journal import Equilibrium, Heat, JournalBearing, Lubricant
+from loadflow.journal import Equilibrium
 from loadflow.journal.transition import load_capacity
 from loadflow.journal.validity import critical_reynolds_number, reynolds_number
+from loadflow.quantities import table
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Journal, Scene
 from loadflow.stages.frames import to_film
 from loadflow.stages.labelling import label, labelled, of_samples
 from loadflow.stages.summary import over_cases
 
-# what is kept of every sample: units and meaning
-KEPT = {
-    "eccentricity_ratio": ("1", "eccentricity ratio"),
-    "attitude_angle": ("rad", "attitude angle"),
-    "minimum_film": ("m", "smallest film thickness"),
-    "maximum_pressure": ("Pa", "largest film pressure, absolute"),
-    "sommerfeld_number": ("1", "Sommerfeld number"),
-    "friction_power": ("W", "friction power"),
-    "side_flow": ("m3/s", "side flow"),
-    "supply_flow": ("m3/s", "flow of the grooves into the film"),
-    "supply_power": ("W", "power that lifts the oil to supply pressure"),
-    "converged": ("1", "whether the equilibrium was found"),
-    "residual": ("1", "scaled residual of film and load"),
-    "iterations": ("1", "iterations"),
-}
-WARM = {"temperature": ("K", "effective temperature of the film")}
+KEPT = table(
+    "eccentricity_ratio",
+    "attitude_angle",
+    "minimum_film",
+    "maximum_pressure",
+    "sommerfeld_number",
+    "friction_power",
+    "side_flow",
+    "supply_flow",
+    "supply_power",
+    "converged",
+    "residual",
+    "iterations",
+)
+"""What is kept of every sample: units and meaning."""
+WARM = table("temperature")
 """What is kept too where there is a heat balance."""
 
 TEMPERED = 64
 """Samples of a series whose mean friction and flow give the temperature of a film in motion."""
-GIVING = {"shell_deformation": ("m", "largest growth of the gap by the give of the shell")}
+GIVING = table("shell_deformation")
 """What is kept too of an elastic shell."""
 
 _CERTAIN = 1.2  # times the load that a film as thin as the roughness carries: no film is asked
@@ -164,16 +166,16 @@ def surely_touching(options: Journal, force: np.ndarray, speed: np.ndarray) -> n
     At standstill, and where the load is far above what the film of the coldest oil carries when it
     is as thin as both surfaces are rough. The others have to be solved.
     """
-    film = {name: value for name, value in options.film.items() if name != "rung"}
+    film = options.film_model.isothermal()
     if options.heat is not None:
         cold = options.heat.inlet_temperature
         if options.heat.transfer:
             cold = min(cold, options.heat.ambient_temperature)
-        film["lubricant"] = options.heat.lubricant(cold)
+        film = replace(film, lubricant=options.heat.lubricant(cold))
     load, turning = np.hypot(*to_film(force).T), np.abs(speed) > 0
     touching = np.asarray(~turning)
     if turning.any():
-        capacity = load_capacity(options.geometry, options.contact_film, speed[turning], **film)
+        capacity = load_capacity(options.geometry, options.contact_film, speed[turning], film)
         touching[turning] = load[turning] > _CERTAIN * capacity
     return touching
 
@@ -221,14 +223,12 @@ def mean_temperature(options: Journal, force: np.ndarray, speed: np.ndarray) -> 
     if options.heat is None:
         return None
     some = np.unique(np.linspace(0, speed.size - 1, TEMPERED).round().astype(int))
-    film = {name: value for name, value in options.film.items() if name != "lubricant"}
     warm = options.geometry.equilibrium(
         force[some],
         speed[some],
-        heat=options.heat,
+        options.film_model,
         weights=np.ones(some.size),
         strict=False,
-        **film,
     )
     if not np.any(warm.converged):
         raise SolverError("orbit cannot start: no heat balance of its mean friction and flow")
@@ -255,8 +255,8 @@ def follow(
     time, speed = (loads[name].values.astype(float) for name in ("time", "speed"))
     freeing = moment if options.tilt else None
     temperature = mean_temperature(options, force, speed)
-    film = (options if temperature is None else options.at_temperature(temperature)).film
-    path = options.geometry.orbit(time, force, speed, moment=freeing, start=start, **film)
+    film = (options if temperature is None else options.at_temperature(temperature)).film_model
+    path = options.geometry.orbit(time, force, speed, film, moment=freeing, start=start)
     if temperature is None:
         return path
     return path.assign(temperature=("time", np.full(time.size, temperature)))
@@ -286,22 +286,10 @@ def equilibria(
     With a `moment` (n, 3), N m, the shaft tilts under it; with a `tilt` (n, 3), rad, and a `bend`,
     1/m, it lies as they say; without, it stays aligned.
     """
-    film = options.film | {name: to_film(vectors) for name, vectors in line.items()}
-    oil = film.pop("lubricant")
-    return rest(options.geometry, to_film(force), speed, options.heat or oil, strict=False, **film)
-
-
-def rest(
-    bearing: JournalBearing,
-    force: np.ndarray,
-    speed: np.ndarray | float,
-    oil: Lubricant | Heat,
-    **film: Any,
-) -> Equilibrium:
-    """Equilibrium with oil of one viscosity, or with that which its heat balance leaves."""
-    if isinstance(oil, Heat):
-        return bearing.equilibrium(force, speed, heat=oil, **film)
-    return bearing.equilibrium(force, speed, oil, **film)
+    lying: dict[str, Any] = {name: to_film(vectors) for name, vectors in line.items()}
+    return options.geometry.equilibrium(
+        to_film(force), speed, options.film_model, strict=False, **lying
+    )
 
 
 def _placed(options: Journal, samples: xr.Dataset, eccentricity: np.ndarray) -> xr.Dataset:

@@ -5,7 +5,8 @@ clearance and pressures in Pa. The balance of a film cell is then ::
 
     sum of outflows (wedge · F · H − H³ ∂p) + storage = 0,   wedge = 6 η ω / ψ²
 
-which is (3.51) of the source times 12 η / ψ² …. A symmetric gap is solved over half of the width.
+which is (3.51) of [Jonuschies 2015] times 12 η / ψ² …. A symmetric gap is solved over half of
+the width.
 
 Coefficients of the gap have the shape (8, nx + 1, rows): one row where the gap does not change
 along the axis, else one for each row of cells and a last one for the far rim.
@@ -281,7 +282,7 @@ def integrals(state, coef, dz, gz, closed, p_edge, p_line, groove):
     """Integrals over the solved film, in the units of this module.
 
     Returns the largest pressure, the dissipation Σ H³ |∂p|², the shear ∫ 1/H outside grooves, the
-    outflow over the rims (where it leaves), and ∫ F H and ∫ H.
+    outflow over the bearing ends (where it leaves), and ∫ F H and ∫ H.
     """
     _, nx, nz = state.shape
     row = 1 if coef.shape[2] > 1 else 0

@@ -61,7 +61,12 @@ def build_shaped_film(
     Cells crowd at the angles `crowd`, rad.
     """
     law, supply = options.law, options.supply
-    require(options.inlet != "widest gap", "inlet", options.inlet, "None but for a plain cylinder")
+    require(
+        options.inlet != "widest gap",
+        "inlet",
+        options.inlet,
+        "None but for a cylindrical, aligned bearing",
+    )
     pressure = getattr(shape, "groove_pressure", None)
     pressure = options.edge_pressure if pressure is None else pressure
     options.check_oil(pressure)

@@ -63,7 +63,7 @@ class DiscreteFilm:
     viscosity, relative_clearance, radius : float
         η (Pa s), ψ, shaft radius (m).
     edge_pressure : float
-        Pressure at the rims and on the inlet line, Pa, absolute.
+        Pressure at the bearing ends and on the inlet line, Pa, absolute.
     pockets : Pockets
         Grooves and what feeds them.
     end_pressure : float, optional

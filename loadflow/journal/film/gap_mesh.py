@@ -34,7 +34,7 @@ class ShapedMesh(Mesh):
     marks : array of bool (nx + 1,)
         Cell edges at which the gap may step.
     graded : bool
-        Whether cells crowd at the rims.
+        Whether cells crowd at the bearing ends.
     """
 
     segment: NDArray[np.int64]
@@ -44,7 +44,7 @@ class ShapedMesh(Mesh):
 
     @property
     def rims(self) -> tuple[float, float]:
-        """Distances of the outermost cell centres to the rims, as exact as graded cells allow."""
+        """Distances of the outermost cell centres to the ends, as exact as graded cells allow."""
         if not self.graded:
             return super().rims
         distance = _rim_distance(self.z_edges[self.z_edges >= 0.0])
@@ -83,7 +83,7 @@ def shaped_mesh(
     half : bool
         Whether one half of the width stands for both.
     graded : bool
-        Whether cells crowd at the rims.
+        Whether cells crowd at the bearing ends.
     segments : tuple of Segment
         Lobes or pads; none for a bore that runs round.
     marks, marks_across : sequence of float
@@ -145,9 +145,9 @@ def _halved(low: float, high: float, angle: float) -> Array:
 
 
 def _rim_distance(edges: Array) -> float:
-    """Distance from the outermost cell centre to the rim that makes a parabola's load exact.
+    """Distance from the outermost cell centre to the end that makes a parabola's load exact.
 
-    `edges` run from mid-plane 0 to the rim b. Cells of p'' = −1 have the exact flow p' = −z at
+    `edges` run from mid-plane 0 to the end b. Cells of p'' = −1 have the exact flow p' = −z at
     their edges; what is free is p of the outermost cell, which Σ p dz = b³/3 asks for. Half a cell
     leaves the load too large by more than all other errors across the width.
     """
@@ -204,7 +204,7 @@ def _filled(breaks: Array, cells: int) -> Array:
 def _across(
     width_ratio: float, cells: int, half: bool, graded: bool, marks: Sequence[float]
 ) -> Array:
-    """Cell edges across, in shaft radii, from mid-plane or from rim to rim."""
+    """Cell edges across, in shaft radii, from mid-plane or from end to end."""
     inside = [z for z in marks if not half or z > 0]
     if inside:
         low = 0.0 if half else -width_ratio

@@ -21,11 +21,12 @@ from loadflow.journal.models.mobility import MobilityMap, scaled, tabulate
 from loadflow.journal.models.model import Steps
 from loadflow.journal.results import operating_columns, without_supply
 from loadflow.journal.solvers.transient import orbit_dataset
+from loadflow.quantities import FILM
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from loadflow.numerics.convergence import Limits
+from loadflow.numerics.convergence import Limits
 
 Array = NDArray[np.float64]
 
@@ -184,8 +185,7 @@ def orbit(
     )
     values |= film.results(path, force, speed)
     data = orbit_dataset(values, time, force, speed, bearing.clearance)
-    flag = {"units": "1", "long_name": "whether the map covers position and load"}
-    return data.assign(in_range=("time", values["in_range"], flag))
+    return data.assign(in_range=("time", values["in_range"], FILM["in_range"].attributes))
 
 
 def advance(

@@ -99,6 +99,27 @@ class Model(Protocol):
         """Return the Dataset of `JournalBearing.orbit`."""
 
 
+def why_not(
+    verb: Verb, film: Film, bearing: JournalGeometry, line: Line, steps: Steps | None = None
+) -> str | None:
+    """Say why the rung of a film cannot do what it is asked for; None where it can.
+
+    The words name what the rung does not know, and the rungs that do.
+    """
+    rung = RUNGS[film.rung]
+    known: frozenset[str] | None = getattr(rung, verb)
+    if known is None:
+        why = rung.words if verb == "in_motion" else f"{_having(verb)} for a field of pressure"
+        return f'rung = "{rung.name}" is not allowed: {why}'
+    for name, value in _asked(film, bearing, line, steps or Steps()).items():
+        if name not in known:
+            return (
+                f"rung = {rung.name!r} is not allowed: {_having(verb, name)} for "
+                f"{FEATURES[name]}; {name} = {value!r}"
+            )
+    return None if rung.law is None else _not_its_own(rung, film)
+
+
 def model_of(
     verb: Verb, film: Film, bearing: JournalGeometry, line: Line, steps: Steps | None = None
 ) -> Model:
@@ -107,23 +128,12 @@ def model_of(
     Raises
     ------
     loadflow.errors.InputError
-        Names what the rung does not know, and the rungs that do.
+        As `why_not` says.
     """
-    rung = RUNGS[film.rung]
-    known: frozenset[str] | None = getattr(rung, verb)
-    asked = _asked(film, bearing, line, steps or Steps())
-    if known is None:
-        why = rung.words if verb == "in_motion" else f"{_having(verb)} for a field of pressure"
-        raise InputError(f'rung = "{rung.name}" is not allowed: {why}')
-    for name, value in asked.items():
-        if name not in known:
-            raise InputError(
-                f"rung = {rung.name!r} is not allowed: {_having(verb, name)} for "
-                f"{FEATURES[name]}; {name} = {value!r}"
-            )
-    if rung.law is not None:
-        _check_own_law(rung, film)
-    module, _, name = rung.place.partition(":")
+    why = why_not(verb, film, bearing, line, steps)
+    if why is not None:
+        raise InputError(why)
+    module, _, name = RUNGS[film.rung].place.partition(":")
     found = import_module(module)
     return cast("Model", getattr(found, name) if name else found)
 
@@ -162,13 +172,15 @@ def _having(verb: Verb, feature: str | None = None) -> str:
     return " or ".join(having) or "no rung serves"
 
 
-def _check_own_law(rung: Rung, film: Film) -> None:
-    """Refuse a law, an ambient pressure or an inlet that a model with a film of its own ignores."""
-    name = f'with rung = "{rung.name}"'
-    if film.cavitation is not None:
-        same = film.law.kind == rung.law and film.law.floor == film.edge_pressure
-        allowed = f"{rung.law} with its cavitation pressure at the edge pressure, or None, {name}"
-        require(same, "cavitation", film.cavitation, allowed)
-    if film.inlet != "auto":
-        allowed = f'{rung.inlet!r} or "auto" {name}'
-        require(film.inlet == rung.inlet, "inlet", film.inlet, allowed)
+def _not_its_own(rung: Rung, film: Film) -> str | None:
+    """Words for a law, ambient pressure or inlet that is not that of a model with its own film."""
+    law = film.cavitation
+    if law is not None and not (law.kind == rung.law and law.floor == film.edge_pressure):
+        return (
+            f"cavitation = {law!r} is not allowed: {rung.law} with its cavitation pressure at the "
+            f'edge pressure, or None, with rung = "{rung.name}"'
+        )
+    if film.inlet not in ("auto", rung.inlet):
+        allowed = f'{rung.inlet!r} or "auto" with rung = "{rung.name}"'
+        return f"inlet = {film.inlet!r} is not allowed: {allowed}"
+    return None

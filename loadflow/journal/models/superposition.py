@@ -26,6 +26,7 @@ from loadflow.journal.models.mobility_map import advance
 from loadflow.journal.models.model import Steps
 from loadflow.journal.solvers.transient import orbit_dataset
 from loadflow.numerics.splines import spline
+from loadflow.quantities import FILM
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -97,8 +98,8 @@ class Superposed:
             "friction_power": friction_power(bearing, viscosity, path, force, speed, slip),
         }
         data = orbit_dataset(values, time, force, speed, bearing.clearance)
-        flag = {"units": "1", "long_name": "whether the chart covers the position"}
-        return data.assign(in_range=("time", gap >= 1 - self.chart.largest, flag))
+        covered = gap >= 1 - self.chart.largest
+        return data.assign(in_range=("time", covered, FILM["in_range"].attributes))
 
 
 @lru_cache(maxsize=16)

@@ -15,6 +15,7 @@ from loadflow.journal.film.integrals import summary
 from loadflow.journal.results import attitude_angle
 from loadflow.journal.solvers.newton import Motion, Solution, solve_equilibrium
 from loadflow.numerics.convergence import unresolved
+from loadflow.quantities import FILM
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -210,27 +211,22 @@ def mass_balance(first: Past, last: Past, rows: list[dict[str, Any]], time: Arra
     return float((last.gained - first.gained - stored) / max(left, last.volume))
 
 
-_VARIABLES = {
-    "eccentricity_ratio": ("1", "eccentricity ratio |e|/c"),
-    "minimum_film": ("m", "minimum film thickness"),
-    "maximum_pressure": ("Pa", "largest film pressure, absolute"),
-    "friction_power": ("W", "friction power of the film"),
-    "side_flow": ("m3/s", "oil that leaves through the rims"),
-    "supply_flow": ("m3/s", "oil that the grooves give, net"),
-    "supply_power": ("W", "what lifts that oil from tank to supply pressure"),
-    "total_fill": ("1", "share of liquid in the gap"),
-    "shell_deformation": ("m", "largest growth of the gap by the give of the shell"),
-    "residual": ("1", "largest imbalance of cell and load, scaled"),
-    "iterations": ("1", "Newton steps"),
-    "steps": ("1", "implicit steps since the time before"),
-}
-_GROOVES = {
-    "groove_flow": ("m3/s", "oil that each groove gives to the film"),
-    "groove_pressure": ("Pa", "pressure of each groove, absolute"),
-}
-
-
-_TILTS = {"tilt": ("rad", "rotation of the shaft about both axes")}
+_VARIABLES = (
+    "eccentricity_ratio",
+    "minimum_film",
+    "maximum_pressure",
+    "friction_power",
+    "side_flow",
+    "supply_flow",
+    "supply_power",
+    "total_fill",
+    "shell_deformation",
+    "residual",
+    "iterations",
+    "steps",
+)
+_GROOVES = ("groove_flow", "groove_pressure")
+_TILTS = ("tilt",)
 
 
 def orbit_dataset(
@@ -242,13 +238,13 @@ def orbit_dataset(
     path = np.stack([values["x"], values["y"]], axis=-1)
     values = values | {"eccentricity_ratio": np.hypot(path[:, 0], path[:, 1])}
     data = {
-        name: (dims, values[name], {"units": units, "long_name": text})
+        name: (dims, values[name], FILM[name].attributes)
         for dims, names in (
             ("time", _VARIABLES),
             (("time", "groove"), _GROOVES),
             (("time", "axis"), _TILTS),
         )
-        for name, (units, text) in names.items()
+        for name in names
         if name in values
     }
     return xr.Dataset(
@@ -256,12 +252,12 @@ def orbit_dataset(
             "eccentricity": (
                 ("time", "axis"),
                 path * clearance,
-                {"units": "m", "long_name": "shaft centre relative to the shell"},
+                FILM["eccentricity"].attributes,
             ),
             "attitude_angle": (
                 "time",
                 attitude_angle(force, path, speed),
-                {"units": "rad", "long_name": "angle from load to eccentricity, > 0 with rotation"},
+                FILM["attitude_angle"].attributes,
             ),
             **data,
         },
