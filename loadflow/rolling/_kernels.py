@@ -319,8 +319,8 @@ def _newton(
     Newton with the exact Hessian, a Levenberg shift where it is singular, a cap on the step, and
     halving until energy or residual falls. `scale` turns rotations into lengths. The residual is
     the largest unbalanced component over the largest load (or 1e-4 of the sum of contact forces,
-    below which rounding rules). Each unbalanced component is small by the rule of `convergence`, its
-    rounding that of the last digits of the displacement.
+    below which rounding rules). Each unbalanced component is small by the rule of `convergence`,
+    its rounding that of the last digits of the displacement.
     """
     gradient, trial, step = np.zeros(5), np.zeros(5), np.zeros(5)
     rhs, q_new = np.zeros(5), np.zeros(5)

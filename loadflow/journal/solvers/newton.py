@@ -195,7 +195,7 @@ def solve_equilibrium(
         if share < _STUCK or not np.isfinite(target).all():
             break
         change = film.correct(u, linear.columns, weights)
-        change = max(change, math.hypot(*(target - position)) / gap)
+        change = max(change, math.hypot(*(target - position)) / max(gap, _PRESSED))
         position, gap = target, film.gap.narrowest(target)
         if not gap > _PRESSED and not film.elastic:
             break

@@ -24,6 +24,7 @@ from loadflow.journal.solvers.newton import (
     solve_film,
     solve_patiently,
 )
+from loadflow.journal.solvers.statics_shaped import Line, equilibrium_rows
 from loadflow.numerics.convergence import unresolved
 
 if TYPE_CHECKING:
@@ -58,12 +59,27 @@ def plain_rows(
     last: Solution | None = None
     for index, (load, omega) in enumerate(zip(loads, speeds.tolist())):
         used, solution = _settle(bearing, film, finer, load, omega, last, control)
+        crowds = options.supply is not None and omega != 0.0 and not used.dry(solution.u)
+        if not solution.converged and crowds:
+            row = _on_crowded_cells(bearing, options, load, omega, control)
+            if row["converged"]:
+                rows.append(row)
+                continue
         if not solution.converged and control.strict:
             raise SolverError(f"load {index}: {_refusal(used, load, solution)}")
         if solution.converged and used is film:
             last = solution
         rows.append(static_row(bearing, used, load, options.lubricant, solution))
     return rows
+
+
+def _on_crowded_cells(
+    bearing: JournalBearing, options: FilmOptions, load: Array, speed: float, control: Control
+) -> dict[str, Any]:
+    """Row of a load at which the gap closes between cells that the grooves hold in their places."""
+    loads, speeds = load[None], np.array([speed])
+    calm = replace(control, strict=False)
+    return equilibrium_rows(bearing, options, loads, speeds, Line(), calm, whirl=0.0)[0]
 
 
 def plain_fields(
