@@ -12,7 +12,7 @@ iteration ends, never whether it has an answer. The rule:
 
 What fails it is unresolved, and says which residual it reached and which one rounding allows.
 
-Compiled loops take the functions by ``njit(small)``; nothing here needs numba.
+Compiled loops take the functions by ``njit(is_small)``; nothing here needs numba.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ DIGITS = 16.0
 """Roundings, of the size of the largest one, that may add up in a sum or a step."""
 
 COARSEST = 1e-6
-"""Rounding level, over the scale of the residual, above which nothing is left of an answer."""
+"""Rounding level of a film's residual, over its scale, above which nothing is left of an answer."""
 
 
 @dataclass(frozen=True)
@@ -116,15 +116,26 @@ def rounding_level(terms: float) -> float:
     return DIGITS * EPS * terms
 
 
-def small(residual: float, tolerance: float, rounding: float) -> bool:
+def is_small(residual: float, tolerance: float, rounding: float) -> bool:
     """Whether a scaled residual is within its tolerance, or at the rounding level; never if NaN.
 
     Examples
     --------
-    >>> small(1e-9, 1e-10, 1e-12), small(1e-9, 1e-10, 2e-9), small(float("nan"), 1.0, 1.0)
+    >>> is_small(1e-9, 1e-10, 1e-12), is_small(1e-9, 1e-10, 2e-9), is_small(float("nan"), 1.0, 1.0)
     (False, True, False)
     """
-    return residual <= max(tolerance, min(rounding, COARSEST))
+    return residual <= max(tolerance, rounding)
+
+
+def stalled(step: float, finest: float) -> bool:
+    """Whether a step is no longer than the finest, so that none that follows it is.
+
+    Examples
+    --------
+    >>> stalled(1e-17, rounding_level(1.0)), stalled(1e-3, rounding_level(1.0))
+    (True, False)
+    """
+    return step <= finest
 
 
 def answered(
@@ -151,9 +162,9 @@ def answered(
     >>> answered(3e-16, 1e-10, 1e-15, 4e-16, step=1e-3, asked=1e-7, finest=1e-9)
     True
     """
-    if not small(residual, tolerance, rounding):
+    if not is_small(residual, tolerance, rounding):
         return False
-    return step <= max(asked, finest) or small(before, 0.0, rounding)
+    return step <= max(asked, finest) or is_small(before, 0.0, rounding)
 
 
 def unresolved(residual: float, rounding: float, iterations: float) -> str:

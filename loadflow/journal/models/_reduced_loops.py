@@ -34,8 +34,9 @@ _CALM = 0.5  # change of the film over its pressure, up to which the shaft goes 
 _SMALLEST = 1.0 / 256  # of a given step, to which a step that fails may be cut
 _LATE = 8  # Newton steps after which a residual is asked whether it is that of rounding
 
+_COARSEST = convergence.COARSEST
 rounding_level = njit(cache=True, nogil=True)(convergence.rounding_level)
-small = njit(cache=True, nogil=True)(convergence.small)
+is_small = njit(cache=True, nogil=True)(convergence.is_small)
 
 
 @njit(cache=True, nogil=True)
@@ -105,8 +106,9 @@ def newton(ring, work, x, y, fx, fy, speed, rate, tolerance, max_iterations):
         if not residual < tolerance and (done or spent >= _LATE):
             cells, load = magnitudes(ring, work, wedge, rate)
             rounding = rounding_level(max(cells / flux, load / force_scale if ring.free else 0.0))
-        if done or small(residual, tolerance, rounding):
-            return x, y, residual, spent, small(residual, tolerance, rounding), rounding
+        answered = is_small(residual, tolerance, min(rounding, _COARSEST))
+        if done or answered:
+            return x, y, residual, spent, answered, rounding
         spent += 1
         matrix(ring, work, wedge, rate)
         if not factorise(work.band):

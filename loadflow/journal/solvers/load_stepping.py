@@ -10,12 +10,13 @@ from numpy.typing import NDArray
 
 from loadflow.journal.film.film import EVERY, DiscreteFilm
 from loadflow.journal.film.gap import KEPT
-from loadflow.journal.solvers.newton import Solution, solve_equilibrium, solve_film
+from loadflow.journal.solvers.newton import Solution, no_film, solve_equilibrium, solve_film
 
 Array = NDArray[np.float64]
 
 _FIRST_LOAD = 0.2  # share of the load from which it is raised in steps
-_LOADS, _BRIEF = 12, 25  # number of those steps, and Newton steps of each
+_LEAST_LOAD = 1e-3  # share below which a step of the load is given up
+_STEPS, _BRIEF = 400, 25  # Newton steps of all of them, and of each
 _STRIDE = 0.25  # first share of the way from the load at the start to the one that is wanted
 _SHORTEST = 1e-3  # of the lesser of both loads, below which such a step is given up
 _QUICK, _BUDGET = 14, 10  # Newton steps of each, and of all in multiples of those of a solution
@@ -37,20 +38,24 @@ def solve_in_load_steps(
 ) -> Solution:
     """As `solve_equilibrium`, from a light load on: for shells that the load itself must open."""
     film.relax()
-    u, place = film.start(), position.copy()
-    place[free] = _FIRST_LOAD * position[free]
+    u, place, state = film.start(), position.copy(), no_film(film)
     done, step, spent = 0.0, _FIRST_LOAD, 0
-    for _ in range(_LOADS):
+    while step >= _LEAST_LOAD and spent < _STEPS:
         share = min(1.0, done + step)
+        if done == 0.0:
+            place[free] = share * position[free]
         state = solve_equilibrium(film, share * force, u, place, tolerance, _BRIEF, free=free)
         spent += state.iterations
         if not state.converged:
             step *= 0.5
-        elif share < 1.0:
-            done, step, u, place = share, 1.5 * step, state.u, state.position
+        elif share == 1.0:
+            return replace(state, iterations=spent)
         else:
-            break
-    return replace(state, converged=state.converged and share == 1.0, iterations=spent)
+            done, u, place = share, state.u, state.position
+            step *= 1.5 if state.iterations < _BRIEF // 2 else 1.0
+    film.place(state.u, state.position)
+    missing = (1.0 - done) * math.hypot(*force[free]) / film.load_scale(force)
+    return replace(state, converged=False, iterations=spent, residual=missing)
 
 
 def solve_from_held(

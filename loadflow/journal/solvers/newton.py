@@ -107,8 +107,8 @@ class _Verdict:
         self.weigh(u, position, linear)
         if change >= _QUADRATIC:
             finest = self._finest(u, position, linear)
-        level, steps = (self.tolerance, self.rounding), (change, _QUADRATIC, finest)
-        return answered(self.residual, *level, before, *steps)
+        level = (self.tolerance, min(self.rounding, COARSEST))
+        return answered(self.residual, *level, before, change, _QUADRATIC, finest)
 
     def _finest(self, u: Array, position: Array, linear: Linear) -> float:
         """Step of film and shaft that the last digits of unknowns and gap make."""
@@ -195,7 +195,7 @@ def solve_equilibrium(
         if share < _STUCK or not np.isfinite(target).all():
             break
         change = film.correct(u, linear.columns, weights)
-        change = max(change, math.hypot(*(target - position)) / gap)
+        change = max(change, math.hypot(*(target - position)) / max(gap, _PRESSED))
         position, gap = target, film.gap.narrowest(target)
         if not gap > _PRESSED and not film.elastic:
             break

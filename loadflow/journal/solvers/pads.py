@@ -25,7 +25,8 @@ Rows = NDArray[np.int64]
 _ROUNDS = 40  # films of a shaft that is held
 _FLATTEST, _STEEPEST = 1e-4, 0.999  # share of the lift at which a pad meets the shaft
 _BALANCED = 1e-6  # moment of a pad over load scale and arm, at which its tilt is good enough
-_BUDGET = 15  # Newton steps of all films together, in multiples of those of a solution
+_TOUCHING = 1e-9  # gap, in clearances, that is none
+_BUDGET = 5  # Newton steps of all films together, in multiples of those of a solution
 _LEFT = 1e-4  # moment, in the same unit, above which a pad is not held
 _SHAFTS, _HALVINGS = 40, 12  # positions of the shaft, and how often a step to one is halved
 _LOOSE = 1e4  # condition of the stiffness above which a shaft may go aside
@@ -126,7 +127,8 @@ def solve_with_pads(
     spent, scale = state.iterations, film.load_scale(force)
     missing = force[shaft] - state.linear.load[shaft]
     for _ in range(_SHAFTS):
-        if not state.converged or spent > _BUDGET * max_iterations:
+        touching = not gap.narrowest(state.position) > _TOUCHING
+        if not state.converged or touching or spent > _BUDGET * max_iterations:
             break
         if math.hypot(*missing) < _NEAR * scale:
             every = np.append(shaft, pads)

@@ -14,6 +14,7 @@ from loadflow.journal.film.discretise import build_film
 from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
+from loadflow.journal.line import Line
 from loadflow.journal.results import field_row, static_row
 from loadflow.journal.solvers.estimate import NEAR, closed_form_position
 from loadflow.journal.solvers.newton import (
@@ -25,6 +26,7 @@ from loadflow.journal.solvers.newton import (
     solve_film,
     solve_patiently,
 )
+from loadflow.journal.solvers.statics_shaped import equilibrium_rows
 from loadflow.numerics.convergence import Limits, unresolved
 
 Array = NDArray[np.float64]
@@ -56,12 +58,27 @@ def plain_rows(
     last: Solution | None = None
     for index, (load, omega) in enumerate(zip(loads, speeds.tolist())):
         used, solution = _settle(bearing, film, finer, load, omega, last, control)
+        crowds = options.supply is not None and omega != 0.0 and not used.dry(solution.u)
+        if not solution.converged and crowds:
+            row = _on_crowded_cells(bearing, options, load, omega, control)
+            if row["converged"]:
+                rows.append(row)
+                continue
         if not solution.converged and control.strict:
             raise SolverError(f"load {index}: {_refusal(used, load, solution)}")
         if solution.converged and used is film:
             last = solution
         rows.append(static_row(bearing, used, load, options.liquid, solution))
     return rows
+
+
+def _on_crowded_cells(
+    bearing: JournalGeometry, options: Film, load: Array, speed: float, control: Limits
+) -> dict[str, Any]:
+    """Row of a load at which the gap closes between cells that the grooves hold in their places."""
+    loads, speeds = load[None], np.array([speed])
+    calm = replace(control, strict=False)
+    return equilibrium_rows(bearing, options, loads, speeds, Line(), calm, whirl=0.0)[0]
 
 
 def plain_fields(

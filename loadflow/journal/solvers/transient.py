@@ -121,7 +121,7 @@ class Marcher:
             ratio = step / (past[-1].time - past[-2].time)
             known = step * (1 + ratio) / (1 + 2 * ratio)
             share = known / (known - times[0])
-        error = share * math.hypot(*left) / self.film.gap.narrowest(position)
+        error = share * math.hypot(*left) / max(self.film.gap.narrowest(position), 1e-300)
         return min(2.0, max(0.2, _SAFETY * (self.accuracy / max(error, 1e-300)) ** (1 / 3)))
 
     def _try(self, past: list[Past], time: float, force: Array) -> Solution:

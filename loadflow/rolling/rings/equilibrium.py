@@ -195,7 +195,7 @@ def solve_flexible(
         strict=False,
         chunk=control.chunk,
     )
-    x, stiffness, converged, residual, iterations, singular = _ring_kernels.solve_series(
+    x, stiffness, converged, residual, iterations, singular, rounding = _ring_kernels.solve_series(
         loads * contacts.scale,
         (rigid.displacement / contacts.scale).reshape(-1, 5),
         modes.basis,
@@ -209,7 +209,7 @@ def solve_flexible(
     )
     if control.strict and not converged.all():
         _refuse_exit(loads, converged, residual, control.tolerance)
-        complain(loads, converged, residual, iterations, shape)
+        complain(loads, converged, residual, rounding, iterations, shape)
     per_length = 1 / contacts.scale
     displacement = (x[:, :5] * contacts.scale).reshape(*shape, 5)
     found = RingEquilibrium(
