@@ -6,6 +6,8 @@ clearance and pressures in Pa. The balance of a film cell is then ::
     sum of outflows (wedge · F · H − H³ ∂p) + storage = 0,   wedge = 6 η ω / ψ²
 
 which is (3.51) of the source times 12 η / ψ² …. A symmetric gap is solved over half of the width.
+On a cone or a plane ring the same balance holds in isothermal coordinates: only the surface of a
+cell, `area`, then differs from its width `dz`; it scales what the surface drags along and stores.
 
 Coefficients of the gap have the shape (8, nx + 1, rows): one row where the gap does not change
 along the axis, else one for each row of cells and a last one for the far rim.
@@ -113,7 +115,9 @@ def gap_coefficients(cos_face, sin_face, w_face, cos_cell, sin_cell, w_cell, str
 
 
 @njit(cache=True, nogil=True)
-def balance(state, coef, dz, gz, closed, wedge, p_edge, p_line, f_line, mass, groove, out):
+def balance(
+    state, coef, dz, area, gz, closed, wedge, p_edge, p_line, f_line, mass, groove, out
+):
     """Add the outflow of each cell to `out` (nx, nz); linear in `coef` and `mass` (nx, rows).
 
     A groove that reaches a rim is closed there.
@@ -136,7 +140,7 @@ def balance(state, coef, dz, gz, closed, wedge, p_edge, p_line, f_line, mass, gr
                     p_l, f_l = p_line, f_line
                 elif i == nx:
                     p_r, f_r = p_line, f_line
-            q = dz[k] * (e * (f_l if wedge > 0 else f_r) - g * (p_r - p_l))
+            q = area[k] * e * (f_l if wedge > 0 else f_r) - dz[k] * g * (p_r - p_l)
             if closed or i > 0:
                 out[left, k] += q
             if closed or i < nx:
@@ -145,7 +149,7 @@ def balance(state, coef, dz, gz, closed, wedge, p_edge, p_line, f_line, mass, gr
         if not groove[i, 0]:
             out[i, 0] -= coef[H3, i, 0] * gz[0] * (p_edge - p[i, 0])
         for k in range(nz):
-            out[i, k] += fill[i, k] * mass[i, row * k] * dz[k]
+            out[i, k] += fill[i, k] * mass[i, row * k] * area[k]
             if k + 1 == nz and groove[i, k]:
                 continue
             g = coef[H3, i, row * (k + 1)] * gz[k + 1]
@@ -156,7 +160,7 @@ def balance(state, coef, dz, gz, closed, wedge, p_edge, p_line, f_line, mass, gr
 
 
 @njit(cache=True, nogil=True)
-def jacobian(state, coef, dz, gz, closed, wedge, mass, order, fixed, ab):
+def jacobian(state, coef, dz, area, gz, closed, wedge, mass, order, fixed, ab):
     """Band matrix ∂(balance + slack)/∂u in LAPACK's layout, `ab` (n, 3 kl + 1), column by row."""
     _, nx, nz = state.shape
     row = 1 if coef.shape[2] > 1 else 0
@@ -180,13 +184,13 @@ def jacobian(state, coef, dz, gz, closed, wedge, mass, order, fixed, ab):
             e_r = e if wedge <= 0 else 0.0
             if has_l:
                 col = order[left] * nz + k
-                d = dz[k] * (e_l * df[left, k] + g * dp[left, k])
+                d = area[k] * e_l * df[left, k] + dz[k] * g * dp[left, k]
                 ab[col, mid] += d
                 if has_r:
                     ab[col, mid + shift] -= d
             if has_r:
                 col = order[right] * nz + k
-                d = dz[k] * (e_r * df[right, k] - g * dp[right, k])
+                d = area[k] * e_r * df[right, k] - dz[k] * g * dp[right, k]
                 ab[col, mid] -= d
                 if has_l:
                     ab[col, mid - shift] += d
@@ -194,7 +198,7 @@ def jacobian(state, coef, dz, gz, closed, wedge, mass, order, fixed, ab):
         base = order[i] * nz
         ab[base, mid] += coef[H3, i, 0] * gz[0] * dp[i, 0]
         for k in range(nz):
-            ab[base + k, mid] += df[i, k] * mass[i, row * k] * dz[k] + state[DSLACK, i, k]
+            ab[base + k, mid] += df[i, k] * mass[i, row * k] * area[k] + state[DSLACK, i, k]
             g = coef[H3, i, row * (k + 1)] * gz[k + 1]
             ab[base + k, mid] += g * dp[i, k]
             if k + 1 < nz:
