@@ -10,8 +10,9 @@ from annotated_types import Gt
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.journal.bearing import JournalBearing
-from loadflow.journal.options import Lubricant, require
+from loadflow.journal.lubricant import Lubricant
 from loadflow.journal.results import Equilibrium, FilmField
+from loadflow.numerics.fields import require
 
 _CLEARANCE = 1e-3  # relative clearance of the bearing that stands for all; it cancels
 

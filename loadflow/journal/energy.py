@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from loadflow.journal.options import require
 from loadflow.journal.results import Equilibrium
+from loadflow.numerics.fields import require
 
 Array = NDArray[np.float64]
 

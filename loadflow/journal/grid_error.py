@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.journal.bearing import JournalBearing
+from loadflow.journal.cavitation import GasMixture
 from loadflow.journal.film.discretise import SHARP_GRID, SOURCE_GRID
-from loadflow.journal.options import GasMixture, Lubricant
+from loadflow.journal.lubricant import Lubricant
 
 Array = NDArray[np.float64]
 

@@ -10,12 +10,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from loadflow.journal.film.groove_pressure import UNSUPPLIED
 from loadflow.journal.film.integrals import summary
+from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.validity import critical_reynolds_number, reynolds_number
 
 if TYPE_CHECKING:
-    from loadflow.journal.bearing import JournalBearing
-    from loadflow.journal.film.film import Film, Linear
-    from loadflow.journal.options import Lubricant
+    from loadflow.journal.film.film import DiscreteFilm, Linear
+    from loadflow.journal.lubricant import Lubricant
     from loadflow.journal.solvers.newton import Solution
 
 Array = NDArray[np.float64]
@@ -84,7 +84,7 @@ class Equilibrium:
     shell_deformation : array (…)
         Largest growth of the gap by the give of the shell, m; 0 where it is rigid.
     temperature : array (…), optional
-        Effective temperature of the film, K; None without a heat balance.
+        Effective temperature of the film, K; None without heat.
     """
 
     force: Array
@@ -116,6 +116,28 @@ class Equilibrium:
     pad_tilt: Array = field(default_factory=lambda: np.zeros(0))
     shell_deformation: Array = field(default_factory=lambda: np.zeros(()))
     temperature: Array | None = None
+
+
+@dataclass(frozen=True)
+class WarmEquilibrium(Equilibrium):
+    """Static equilibrium of shaft, film and heat; `converged` counts them all.
+
+    Attributes
+    ----------
+    outlet_temperature : array (…)
+        Of the oil that leaves, K.
+    viscosity : array (…)
+        At the effective temperature, Pa s.
+    heat_residual : array (…)
+        What is left of the heat balance, K.
+    heat_iterations : array of int (…)
+        Temperatures tried.
+    """
+
+    outlet_temperature: Array = field(default_factory=lambda: np.zeros(()))
+    viscosity: Array = field(default_factory=lambda: np.zeros(()))
+    heat_residual: Array = field(default_factory=lambda: np.zeros(()))
+    heat_iterations: NDArray[np.int64] = field(default_factory=lambda: np.zeros((), dtype=int))
 
 
 @dataclass(frozen=True)
@@ -175,7 +197,12 @@ iterations, residual, moment, tilt, pad_tilt, shell_deformation
 
 def stack(rows: list[dict[str, Any]], shape: tuple[int, ...]) -> dict[str, Any]:
     """Turn a list of rows into arrays of leading `shape`; one row of shape () into scalars."""
-    return shaped({name: np.array([row[name] for row in rows]) for name in rows[0]}, shape)
+    return shaped(columns_of(rows), shape)
+
+
+def columns_of(rows: list[dict[str, Any]]) -> dict[str, Any]:
+    """Turn a list of rows into arrays that lead with the rows."""
+    return {name: np.array([row[name] for row in rows]) for name in rows[0]}
 
 
 def shaped(columns: dict[str, Any], shape: tuple[int, ...]) -> dict[str, Any]:
@@ -187,8 +214,8 @@ def shaped(columns: dict[str, Any], shape: tuple[int, ...]) -> dict[str, Any]:
 
 
 def static_row(
-    bearing: JournalBearing,
-    film: Film,
+    bearing: JournalGeometry,
+    film: DiscreteFilm,
     load: Array,
     lubricant: Lubricant,
     solution: Solution,
@@ -203,7 +230,7 @@ def static_row(
 
 
 def operating_columns(
-    bearing: JournalBearing,
+    bearing: JournalGeometry,
     force: Array,
     speed: Any,
     lubricant: Lubricant,
@@ -233,7 +260,7 @@ def without_supply(count: int) -> dict[str, Any]:
     return {name: np.array([value] * count) for name, value in UNSUPPLIED.items()}
 
 
-def field_row(film: Film, solution: Solution) -> dict[str, Any]:
+def field_row(film: DiscreteFilm, solution: Solution) -> dict[str, Any]:
     """One row of `FilmField`, but for z; the half film is mirrored."""
     *cells, angle, load = film.field(solution.u, solution.position)
     cells.append(film.deformation)
@@ -251,7 +278,7 @@ def field_row(film: Film, solution: Solution) -> dict[str, Any]:
     }
 
 
-def _common_row(film: Film, solution: Solution, whirl: float = 0.0) -> dict[str, Any]:
+def _common_row(film: DiscreteFilm, solution: Solution, whirl: float = 0.0) -> dict[str, Any]:
     clearance = film.relative_clearance * film.radius
     row: dict[str, Any] = summary(film, solution.u, solution.position)
     shaft, lengths = film.gap.shaft, np.ones(film.gap.shaft)

@@ -16,7 +16,7 @@ import numpy as np
 from annotated_types import Ge, Gt, Le, Lt
 from numpy.typing import NDArray
 
-from loadflow.journal.options import require
+from loadflow.numerics.fields import require
 
 Array = NDArray[np.float64]
 _TURN = 2 * np.pi

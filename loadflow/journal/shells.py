@@ -14,7 +14,7 @@ import numpy as np
 from annotated_types import Ge, Gt, Lt
 from numpy.typing import NDArray
 
-from loadflow.journal.options import require
+from loadflow.numerics.fields import require
 
 _LOCAL = 0.1  # deviation of a lining from the local law that is let pass
 

@@ -9,15 +9,15 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import ValidityWarning
+from loadflow.journal.geometry import JournalGeometry
 
 if TYPE_CHECKING:
-    from loadflow.journal.bearing import JournalBearing
-    from loadflow.journal.options import Lubricant
+    from loadflow.journal.lubricant import Lubricant
 
 Array = NDArray[np.float64]
 
 
-def reynolds_number(bearing: JournalBearing, speed: ArrayLike, lubricant: Lubricant) -> Array:
+def reynolds_number(bearing: JournalGeometry, speed: ArrayLike, lubricant: Lubricant) -> Array:
     """Re = ρ |ω| R c/η of a concentric gap."""
     surface = np.abs(speed) * bearing.radius
     return np.asarray(lubricant.density * surface * bearing.clearance / lubricant.viscosity)
@@ -34,7 +34,7 @@ def critical_reynolds_number(relative_clearance: float) -> float:
     return float(41.3 * relative_clearance**-0.5)
 
 
-def warn_if_turbulent(bearing: JournalBearing, speed: ArrayLike, lubricant: Lubricant) -> None:
+def warn_if_turbulent(bearing: JournalGeometry, speed: ArrayLike, lubricant: Lubricant) -> None:
     """Warn of speeds at which the flow is not laminar.
 
     Warns

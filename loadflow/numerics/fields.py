@@ -10,6 +10,12 @@ import annotated_types as at
 from loadflow.errors import InputError
 
 
+def require(condition: bool, name: str, value: object, allowed: str) -> None:
+    """Raise an `InputError` that names field, value and allowed range unless `condition` holds."""
+    if not condition:
+        raise InputError(f"{name} = {value!r} is not allowed: {allowed}")
+
+
 def check_fields(instance: Any) -> None:
     """Check every annotated field of a dataclass against its range.
 

@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from loadflow.errors import SolverError
-from loadflow.journal import Equilibrium, Heat, JournalBearing, Lubricant, warm_equilibrium
+from loadflow.journal import Equilibrium, Heat, JournalBearing, Lubricant
 from loadflow.journal.validity import critical_reynolds_number, reynolds_number
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Journal, Scene
@@ -135,18 +135,17 @@ def mean_temperature(options: Journal, force: np.ndarray, speed: np.ndarray) -> 
         return None
     some = np.unique(np.linspace(0, speed.size - 1, TEMPERED).round().astype(int))
     film = {name: value for name, value in options.film.items() if name != "lubricant"}
-    warm = warm_equilibrium(
-        options.geometry,
+    warm = options.geometry.equilibrium(
         force[some],
         speed[some],
-        options.heat,
+        heat=options.heat,
         weights=np.ones(some.size),
         strict=False,
         **film,
     )
-    if not np.any(warm.film.converged):
+    if not np.any(warm.converged):
         raise SolverError("orbit cannot start: no heat balance of its mean friction and flow")
-    return float(warm.temperature[0])
+    return float(np.asarray(warm.temperature)[0])
 
 
 def _kept(options: Journal) -> dict[str, tuple[str, str]]:
@@ -214,7 +213,7 @@ def rest(
 ) -> Equilibrium:
     """Equilibrium with oil of one viscosity, or with that which its heat balance leaves."""
     if isinstance(oil, Heat):
-        return warm_equilibrium(bearing, force, speed, oil, **film).film
+        return bearing.equilibrium(force, speed, heat=oil, **film)
     return bearing.equilibrium(force, speed, oil, **film)
 
 

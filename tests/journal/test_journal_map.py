@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 from loadflow.errors import InputError, SolverError
 from loadflow.journal import (
+    Film,
     GasMixture,
     Groove,
     Guembel,
@@ -17,7 +18,6 @@ from loadflow.journal import (
     Sommerfeld,
     Supply,
 )
-from loadflow.journal.film.discretise import FilmOptions
 from loadflow.journal.models import mobility
 from loadflow.numerics.splines import spline
 
@@ -79,7 +79,7 @@ def test_equilibrium_is_that_of_the_grid(name):
 def test_map_between_its_nodes(name):
     """Held-out sample of loads within 90° of the eccentricity, up to ε = 0.95."""
     film = {k: v for k, v in LAWS[name].items() if k != "lubricant"}
-    options, _ = mobility.scaled(FilmOptions(OIL, grading="graded", **film))
+    options, _ = mobility.scaled(Film(OIL, grading="graded", **film))
     table = mobility.tabulate(0.75, options, 1.0 if name == "mixture" else 0.0)
     points = np.random.default_rng(7).uniform((0, 0, 0.1), (0.95, np.pi / 2, 1), (40, 3))
     errors = mobility.held_out(table, 0.75, options, points)

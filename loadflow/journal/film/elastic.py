@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from loadflow.journal.film import _kernels as kernel
 from loadflow.journal.film import _shell_kernels as shell_kernel
 from loadflow.journal.film.compliance import Compliance
-from loadflow.journal.film.film import Film
+from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.gap import KEPT
 from loadflow.journal.film.gap_elastic import ElasticGap
 
@@ -26,8 +26,8 @@ _KRYLOV = 60  # steps of GMRES that are tried
 _SMALLEST = 1.0 / 2**20  # share of a step below which it has no room
 
 
-class ElasticFilm(Film):
-    """Film between a shaft and a shell with `compliance`; the other parameters are those of `Film`.
+class ElasticFilm(DiscreteFilm):
+    """Film between shaft and elastic shell; other parameters than `compliance`: `DiscreteFilm`.
 
     The shell is at its nominal size under the edge pressure, inside and outside.
     """

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.journal.options import Lubricant
+from loadflow.journal.lubricant import Lubricant
 from loadflow.journal.supply import Capillary, ConstantFlow, Orifice, Pump, Restrictor, Supply
 
 Array = NDArray[np.float64]

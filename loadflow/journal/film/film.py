@@ -10,10 +10,7 @@ from numpy.typing import NDArray
 from scipy.linalg.lapack import dgbtrf, dgbtrs
 
 from loadflow.errors import SolverError
-from loadflow.journal.film import _kernels as kernel
-from loadflow.journal.film.gap import Gap, turning_frame
-from loadflow.journal.film.groove_pressure import Pockets
-from loadflow.journal.options import (
+from loadflow.journal.cavitation import (
     Cavitation,
     GasMixture,
     Guembel,
@@ -21,6 +18,9 @@ from loadflow.journal.options import (
     Reynolds,
     Sommerfeld,
 )
+from loadflow.journal.film import _kernels as kernel
+from loadflow.journal.film.gap import Gap, turning_frame
+from loadflow.journal.film.groove_pressure import Pockets
 
 Array = NDArray[np.float64]
 
@@ -52,7 +52,7 @@ class Linear:
     stiffness, damping : array (m, m)
         Derivatives of `load` by position (per clearance) and velocity (clearances per second).
     columns : array (l, n)
-        Newton step of the unknowns, and their derivatives by what `Film.weights` lists.
+        Newton step of the unknowns, and their derivatives by what `DiscreteFilm.weights` lists.
     """
 
     load: Array
@@ -61,7 +61,7 @@ class Linear:
     columns: Array
 
 
-class Film:
+class DiscreteFilm:
     """Film of one bearing, lubricant and law on one mesh; holds the work arrays.
 
     Positions are in clearances, velocities in clearances per second, pressures in Pa.

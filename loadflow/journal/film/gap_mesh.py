@@ -9,7 +9,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.journal.film.mesh import Mesh, check_grid, graded_share
+from loadflow.journal.film.mesh import Mesh, graded_share
+from loadflow.journal.film_model import check_grid
 from loadflow.journal.shapes import Recess, Relief, Segment
 
 Array = NDArray[np.float64]

@@ -11,7 +11,7 @@ from loadflow.journal.film import _kernels as kernel
 from loadflow.journal.film.groove_pressure import UNSUPPLIED
 
 if TYPE_CHECKING:
-    from loadflow.journal.film.film import Film
+    from loadflow.journal.film.film import DiscreteFilm
 
 Array = NDArray[np.float64]
 
@@ -29,7 +29,7 @@ class Integrals(NamedTuple):
     fill: Any
 
 
-def summary(film: Film, u: Array, position: Array) -> dict[str, Any]:
+def summary(film: DiscreteFilm, u: Array, position: Array) -> dict[str, Any]:
     """Integral results at `u`, in SI units, named as in `Equilibrium`."""
     film.place(u, position)
     mesh = film.mesh
@@ -44,7 +44,7 @@ def summary(film: Film, u: Array, position: Array) -> dict[str, Any]:
     }
 
 
-def in_units(film: Film, found: Integrals, speed: Any, narrowest: Any) -> dict[str, Any]:
+def in_units(film: DiscreteFilm, found: Integrals, speed: Any, narrowest: Any) -> dict[str, Any]:
     """Name `found` at `speed` and `narrowest` gap as in `Equilibrium`, in SI units."""
     clearance = film.relative_clearance * film.radius
     flow = film.pockets.flow_unit
@@ -58,7 +58,7 @@ def in_units(film: Film, found: Integrals, speed: Any, narrowest: Any) -> dict[s
     }
 
 
-def _supplied(film: Film, u: Array) -> dict[str, Any]:
+def _supplied(film: DiscreteFilm, u: Array) -> dict[str, Any]:
     """Flow and pressure of the grooves at the state last placed, named as in `Equilibrium`."""
     pockets = film.pockets
     if not film.ends_supply and not film.fixed.any():
@@ -78,7 +78,7 @@ def _supplied(film: Film, u: Array) -> dict[str, Any]:
     }
 
 
-def _from_ends(film: Film) -> float:
+def _from_ends(film: DiscreteFilm) -> float:
     """Flow in at both ends of the film, where these are grooves."""
     if not film.ends_supply:
         return 0.0

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.journal.film.grooves import edges_across, edges_around
-from loadflow.journal.options import require
+from loadflow.journal.film_model import check_grid
 from loadflow.journal.supply import Supply
 
 Array = NDArray[np.float64]
@@ -125,14 +125,6 @@ def _gauss(edges: Array, nodes: int) -> tuple[Array, Array, Array]:
     half = 0.5 * np.diff(edges)[:, None]
     a = 0.5 * (edges[1:] + edges[:-1])[:, None] + half * x
     return np.cos(a), np.sin(a), np.ascontiguousarray(half * w)
-
-
-def check_grid(grid: tuple[int, int]) -> tuple[int, int]:
-    """Cells around and across the full width, if they are possible."""
-    nx, nz = int(grid[0]), int(grid[1])
-    require(nx >= 8, "grid[0]", nx, "at least 8 cells around")
-    require(nz >= 2 and nz % 2 == 0, "grid[1]", nz, "an even number of cells across the width")
-    return nx, nz
 
 
 def graded_share(cells: int) -> Array:

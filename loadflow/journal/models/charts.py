@@ -16,17 +16,17 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError, SolverError
-from loadflow.journal.film.discretise import FilmOptions
-from loadflow.journal.options import require
+from loadflow.journal.film_model import Film
+from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.results import operating_columns, without_supply
 from loadflow.journal.solvers.newton import refusal
+from loadflow.numerics.fields import require
 from loadflow.tribology import film, film_tables
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from loadflow.journal.bearing import JournalBearing
-    from loadflow.journal.models.model import Control
+    from loadflow.numerics.convergence import Limits
 
 Array = NDArray[np.float64]
 
@@ -67,11 +67,11 @@ class Chart:
 
     def equilibrium(
         self,
-        bearing: JournalBearing,
-        options: FilmOptions,
+        bearing: JournalGeometry,
+        options: Film,
         force: Array,
         speed: Array,
-        control: Control,
+        control: Limits,
     ) -> dict[str, Any]:
         """Static equilibria from the chart.
 
@@ -83,7 +83,7 @@ class Chart:
             A load at ω = 0 or beyond the chart; names the first such load.
         """
         width_ratio = width_of(bearing, options, self.name)
-        viscosity = options.lubricant.viscosity
+        viscosity = options.liquid.viscosity
         number = np.array(
             [
                 bearing.sommerfeld_number(*point, viscosity)
@@ -105,7 +105,7 @@ class Chart:
         mean = np.hypot(*force.T) / (bearing.width * bearing.diameter)
         slip = 0.5 * speed[:, None] * np.stack([position[:, 1], -position[:, 0]], axis=-1)
         return {
-            **operating_columns(bearing, force, speed, options.lubricant, position),
+            **operating_columns(bearing, force, speed, options.liquid, position),
             **without_supply(speed.size),
             "eccentricity_ratio": ratio,
             "minimum_film": bearing.clearance * (1 - ratio),
@@ -137,7 +137,7 @@ class Chart:
         )
 
 
-def width_of(bearing: JournalBearing, options: FilmOptions, rung: str) -> float:
+def width_of(bearing: JournalGeometry, options: Film, rung: str) -> float:
     """B/D of a bearing that a chart knows."""
     require(options.supply is None, "supply", options.supply, f'None with rung = "{rung}"')
     width_ratio = bearing.width / bearing.diameter
@@ -147,7 +147,7 @@ def width_of(bearing: JournalBearing, options: FilmOptions, rung: str) -> float:
 
 
 def friction_power(
-    bearing: JournalBearing,
+    bearing: JournalGeometry,
     viscosity: float,
     position: Array,
     force: Array,

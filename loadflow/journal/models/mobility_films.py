@@ -8,11 +8,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.journal.film.discretise import FilmOptions, build_film
+from loadflow.journal.cavitation import GasMixture, MassConserving
+from loadflow.journal.film.discretise import build_film
 from loadflow.journal.film.film import Linear
 from loadflow.journal.film.integrals import summary
+from loadflow.journal.film_model import Film
 from loadflow.journal.models import _mobility_kernels as kernel
-from loadflow.journal.options import GasMixture, MassConserving
 
 Array = NDArray[np.float64]
 Node = tuple[float, float]  # ε, s
@@ -42,7 +43,7 @@ class Found(NamedTuple):
 class MovingFilm:
     """Film of unit radius, clearance and squeeze pressure, to be carried along at velocity u."""
 
-    def __init__(self, width_ratio: float, options: FilmOptions) -> None:
+    def __init__(self, width_ratio: float, options: Film) -> None:
         self.film = build_film(2.0, 2.0 * width_ratio, 1.0, options)
         self.film.raise_scale(1.0)
         self.fills = isinstance(options.law, GasMixture | MassConserving)

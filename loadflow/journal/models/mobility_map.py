@@ -10,20 +10,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import SolverError
-from loadflow.journal.film.discretise import FilmOptions, build_film
+from loadflow.journal.film.discretise import build_film
+from loadflow.journal.film_model import Film
+from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.models import _mobility_kernels as kernel
 from loadflow.journal.models import mobility_films as row
 from loadflow.journal.models.mobility import MobilityMap, scaled, tabulate
-from loadflow.journal.options import require
 from loadflow.journal.results import operating_columns, without_supply
 from loadflow.journal.solvers.newton import refusal
 from loadflow.journal.solvers.transient import orbit_dataset
+from loadflow.numerics.fields import require
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from loadflow.journal.bearing import JournalBearing
-    from loadflow.journal.models.model import Control
+    from loadflow.numerics.convergence import Limits
 
 Array = NDArray[np.float64]
 
@@ -44,8 +45,8 @@ class Mapped:
         Unit of pressure, Pa.
     """
 
-    bearing: JournalBearing
-    options: FilmOptions
+    bearing: JournalGeometry
+    options: Film
     table: MobilityMap
     units: Array
     pressure: float
@@ -55,7 +56,7 @@ class Mapped:
 
         `in_range` tells where the map covers them.
         """
-        bearing, viscosity = self.bearing, self.options.lubricant.viscosity
+        bearing, viscosity = self.bearing, self.options.liquid.viscosity
         place, found = self.table.results_at(position, force / self.units[kernel.LOAD])
         gap = place[:, 0]
         flow = self.pressure * bearing.clearance**3 / (12 * viscosity)
@@ -85,7 +86,7 @@ def _turned(matrices: Array, angle: Array) -> Array:
     return frame @ matrices.reshape(-1, 2, 2) @ frame.swapaxes(-1, -2)
 
 
-def mapped(bearing: JournalBearing, options: FilmOptions, force: Array) -> Mapped:
+def mapped(bearing: JournalGeometry, options: Film, force: Array) -> Mapped:
     """The map of a bearing and film, tabulated up to the largest of `force` (n, 2)."""
     require(options.supply is None, "supply", options.supply, 'None with rung = "map"')
     if options.grading == "auto":
@@ -100,12 +101,12 @@ def mapped(bearing: JournalBearing, options: FilmOptions, force: Array) -> Mappe
         largest = 2.0 ** math.ceil(math.log2(max(most, 0.25)))
     table = tabulate(bearing.width / bearing.diameter, plain, largest)
     pressure = unit or 1.0
-    velocity = pressure * bearing.relative_clearance**2 / (12 * options.lubricant.viscosity)
+    velocity = pressure * bearing.relative_clearance**2 / (12 * options.liquid.viscosity)
     return Mapped(bearing, options, table, np.array([pressure * area, velocity]), pressure)
 
 
 def equilibrium(
-    bearing: JournalBearing, options: FilmOptions, force: Array, speed: Array, control: Control
+    bearing: JournalGeometry, options: Film, force: Array, speed: Array, control: Limits
 ) -> dict[str, Any]:
     """Static equilibria: where the velocity of the map is zero.
 
@@ -117,7 +118,7 @@ def equilibrium(
     film = mapped(bearing, options, force)
     position, iterations = _at_rest(film, force, speed)
     answer = {
-        **operating_columns(bearing, force, speed, options.lubricant, position),
+        **operating_columns(bearing, force, speed, options.liquid, position),
         **film.results(position, force, speed),
         "eccentricity_ratio": np.hypot(*position.T),
         "iterations": iterations,
@@ -162,13 +163,13 @@ def _at_rest(film: Mapped, force: Array, speed: Array) -> tuple[Array, NDArray[n
 
 
 def orbit(
-    bearing: JournalBearing,
-    options: FilmOptions,
+    bearing: JournalGeometry,
+    options: Film,
     time: Array,
     force: Array,
     speed: Array,
     start: Array | None,
-    control: Control,
+    control: Limits,
 ) -> xr.Dataset:
     """Path of the shaft by an ordinary differential equation.
 
@@ -201,7 +202,7 @@ def advance(
     force: Array,
     speed: Array,
     start: Array,
-    control: Control,
+    control: Limits,
 ) -> tuple[Array, Array, dict[str, Any]]:
     """Path of the shaft and its velocity u against the oil, (n, 2), and values for the orbit.
 

@@ -1,25 +1,25 @@
 """Models of the film behind one signature: the table of rungs, and what each must offer.
 
-The finite volumes ("grid") are `JournalBearing`'s own; every other rung is a module, or an object,
+The finite volumes ("grid") are `JournalGeometry`'s own; every other rung is a module, or an object,
 with the two functions of `Model`, imported when it is used.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, Literal, Protocol, cast, get_args
 
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.journal.options import require
+from loadflow.journal.geometry import JournalGeometry
+from loadflow.numerics.convergence import Limits
+from loadflow.numerics.fields import require
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from loadflow.journal.bearing import JournalBearing
-    from loadflow.journal.film.discretise import FilmOptions
+    from loadflow.journal.film_model import Film
 
 Array = NDArray[np.float64]
 
@@ -37,40 +37,28 @@ _PLACES = {
 }
 
 
-@dataclass(frozen=True)
-class Control:
-    """When a solver stops: tolerance of the scaled residual, Newton steps, and what then.
-
-    `strict` raises for the first load without an answer; else its results are NaN.
-    """
-
-    tolerance: float
-    max_iterations: int
-    strict: bool = True
-
-
 class Model(Protocol):
     """What a rung offers."""
 
     def equilibrium(
         self,
-        bearing: JournalBearing,
-        options: FilmOptions,
+        bearing: JournalGeometry,
+        options: Film,
         force: Array,
         speed: Array,
-        control: Control,
+        control: Limits,
     ) -> dict[str, Any]:
         """Return the fields of `Equilibrium` for `force` (n, 2) and `speed` (n,), n leading."""
 
     def orbit(
         self,
-        bearing: JournalBearing,
-        options: FilmOptions,
+        bearing: JournalGeometry,
+        options: Film,
         time: Array,
         force: Array,
         speed: Array,
         start: Array | None,
-        control: Control,
+        control: Limits,
     ) -> xr.Dataset:
         """Return the Dataset of `JournalBearing.orbit`; `start` is in clearances."""
 

@@ -15,33 +15,37 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import SolverError
-from loadflow.journal.film.discretise import FilmOptions, build_film
-from loadflow.journal.film.film import Film
+from loadflow.journal.cavitation import Guembel, Reynolds
+from loadflow.journal.film.discretise import build_film
+from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.integrals import Integrals, in_units
+from loadflow.journal.film_model import Film
+from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.models import reduced_film as at
 from loadflow.journal.models._reduced_kernels import summarise
 from loadflow.journal.models._reduced_loops import finish, march, newton
 from loadflow.journal.models.reduced_film import Ring, Work, make_work
 from loadflow.journal.models.width_modes import lobatto
-from loadflow.journal.options import Guembel, Reynolds, require
 from loadflow.journal.results import operating_columns, without_supply
 from loadflow.journal.solvers.estimate import NEAR, closed_form_position
 from loadflow.journal.solvers.newton import refusal
+from loadflow.journal.solvers.statics import plain_rows
 from loadflow.journal.solvers.transient import orbit_dataset
+from loadflow.numerics.convergence import Limits
+from loadflow.numerics.fields import require
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from loadflow.journal.bearing import JournalBearing
-    from loadflow.journal.models.model import Control
 
 Array = NDArray[np.float64]
 
+_GRID_LIMITS = Limits(1e-10, 60, strict=False)  # of a load that is solved on the grid instead
 POINTS = 3  # across the half width; the largest pressure moves by 0.4 % at most with more of them
 
 
 def equilibrium(
-    bearing: JournalBearing, options: FilmOptions, force: Array, speed: Array, control: Control
+    bearing: JournalGeometry, options: Film, force: Array, speed: Array, control: Limits
 ) -> dict[str, Any]:
     """Static equilibria; a load that fails or is not resolved here is solved on the grid."""
     force, speed = np.array(force), np.array(speed)  # of the layout that the kernels know
@@ -68,7 +72,7 @@ def equilibrium(
         rows[n, at.RESIDUAL :] = residual, spent, converged
     position = rows[:, [at.X, at.Y]]
     answer = {
-        **operating_columns(bearing, force, speed, options.lubricant, position),
+        **operating_columns(bearing, force, speed, options.liquid, position),
         **_results(film, rows, speed),
         "eccentricity_ratio": np.hypot(*position.T),
         "stiffness": stiffness / bearing.clearance,
@@ -81,13 +85,13 @@ def equilibrium(
 
 
 def orbit(
-    bearing: JournalBearing,
-    options: FilmOptions,
+    bearing: JournalGeometry,
+    options: Film,
     time: Array,
     force: Array,
     speed: Array,
     start: Array | None,
-    control: Control,
+    control: Limits,
 ) -> xr.Dataset:
     """Path of the shaft; all steps in one compiled loop.
 
@@ -132,7 +136,7 @@ def orbit(
 class _Starts:
     """Where Newton may start: from the last film if the closed form has moved little."""
 
-    def __init__(self, film: Film, work: Work, estimate: Array) -> None:
+    def __init__(self, film: DiscreteFilm, work: Work, estimate: Array) -> None:
         self.work = work
         self.estimate = estimate
         self.cold = film.unknown_of(np.full(work.u.shape, film.p_edge))
@@ -155,7 +159,7 @@ class _Starts:
         self.last = n, position
 
 
-def _film(bearing: JournalBearing, options: FilmOptions, speed: Array) -> Film:
+def _film(bearing: JournalGeometry, options: Film, speed: Array) -> DiscreteFilm:
     """The grid's film on cells fixed to the shell: what the few unknowns take their data from."""
     allowed = 'None with rung = "reduced"; take rung = "grid"'
     require(options.supply is None, "supply", options.supply, allowed)
@@ -169,7 +173,7 @@ def _film(bearing: JournalBearing, options: FilmOptions, speed: Array) -> Film:
     return film
 
 
-def _discrete(film: Film) -> tuple[Ring, Work]:
+def _discrete(film: DiscreteFilm) -> tuple[Ring, Work]:
     """Constants and work arrays of the compiled loops."""
     angle = film.mesh.angle
     face = angle + np.pi / angle.size
@@ -182,7 +186,7 @@ def _discrete(film: Film) -> tuple[Ring, Work]:
     return ring, make_work(angle.size, POINTS)
 
 
-def _estimate(bearing: JournalBearing, film: Film, force: Array, speed: Array) -> Array:
+def _estimate(bearing: JournalGeometry, film: DiscreteFilm, force: Array, speed: Array) -> Array:
     load = np.hypot(*force.T)
     numbers = [
         bearing.sommerfeld_number(*point, film.viscosity)
@@ -192,7 +196,7 @@ def _estimate(bearing: JournalBearing, film: Film, force: Array, speed: Array) -
     return closed_form_position(ratio, numbers, force, speed, film.ruptures)
 
 
-def _results(film: Film, rows: Array, speed: Array) -> dict[str, Any]:
+def _results(film: DiscreteFilm, rows: Array, speed: Array) -> dict[str, Any]:
     found = Integrals(
         peak=rows[:, at.PEAK],
         dissipation=rows[:, at.DISSIPATION],
@@ -209,18 +213,18 @@ def _results(film: Film, rows: Array, speed: Array) -> dict[str, Any]:
 
 
 def _from_grid(
-    bearing: JournalBearing,
-    options: FilmOptions,
+    bearing: JournalGeometry,
+    options: Film,
     index: int,
     answer: dict[str, Any],
-    control: Control,
+    control: Limits,
 ) -> None:
     """Replace the row `index` of `answer` by that of the rung "grid"."""
     force, speed = answer["force"][index], float(answer["speed"][index])
-    state = bearing.equilibrium(force, speed, **vars(options), strict=False)
-    if control.strict and not state.converged:
-        ratio, residual = float(state.eccentricity_ratio), float(state.residual)
-        words = refusal(force, speed, residual, int(state.iterations), ratio)
+    [state] = plain_rows(bearing, options, force[None], np.array([speed]), _GRID_LIMITS)
+    if control.strict and not state["converged"]:
+        ratio, residual = float(state["eccentricity_ratio"]), float(state["residual"])
+        words = refusal(force, speed, residual, int(state["iterations"]), ratio)
         raise SolverError(f"load {index}: {words}")
     for name, values in answer.items():
-        values[index] = getattr(state, name)
+        values[index] = state[name]

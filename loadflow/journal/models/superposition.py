@@ -16,19 +16,19 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.journal.film.discretise import FilmOptions
+from loadflow.journal.cavitation import Guembel
+from loadflow.journal.film_model import Film
+from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.models import mobility_map as mapped
 from loadflow.journal.models.charts import CLOSED, TABLE, Chart, friction_power, width_of
 from loadflow.journal.models.mobility_map import advance
-from loadflow.journal.options import Guembel
 from loadflow.journal.solvers.transient import orbit_dataset
 from loadflow.numerics.splines import spline
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from loadflow.journal.bearing import JournalBearing
-    from loadflow.journal.models.model import Control
+    from loadflow.numerics.convergence import Limits
 
 Array = NDArray[np.float64]
 
@@ -52,11 +52,11 @@ class Superposed:
 
     def equilibrium(
         self,
-        bearing: JournalBearing,
-        options: FilmOptions,
+        bearing: JournalGeometry,
+        options: Film,
         force: Array,
         speed: Array,
-        control: Control,
+        control: Limits,
     ) -> dict[str, Any]:
         """Static equilibria: those of the chart."""
         return replace(self.chart, name=self.name).equilibrium(
@@ -65,13 +65,13 @@ class Superposed:
 
     def orbit(
         self,
-        bearing: JournalBearing,
-        options: FilmOptions,
+        bearing: JournalGeometry,
+        options: Film,
         time: Array,
         force: Array,
         speed: Array,
         start: Array | None,
-        control: Control,
+        control: Limits,
     ) -> xr.Dataset:
         """Path of the shaft by an ordinary differential equation, as of the rung "map".
 
@@ -82,7 +82,7 @@ class Superposed:
             first = self.equilibrium(bearing, options, force[:1], speed[:1], control)
             start = first["eccentricity"][0] / bearing.clearance
         motion, axes = _vectors(self.chart, width_ratio)
-        viscosity = options.lubricant.viscosity
+        viscosity = options.liquid.viscosity
         per_load = bearing.relative_clearance**2 / (12 * viscosity)
         units = np.array([bearing.width * bearing.diameter, per_load])
         path, slip, values = advance(motion, axes, units, time, force, speed, start, control)
@@ -117,30 +117,30 @@ class Hahn:
     """Superposed pressures: the Gümbel film without an inlet, by its map."""
 
     @staticmethod
-    def _film(options: FilmOptions) -> FilmOptions:
+    def _film(options: Film) -> Film:
         law = Guembel(cavitation_pressure=options.edge_pressure)
         return replace(options, cavitation=law, inlet=None)
 
     def equilibrium(
         self,
-        bearing: JournalBearing,
-        options: FilmOptions,
+        bearing: JournalGeometry,
+        options: Film,
         force: Array,
         speed: Array,
-        control: Control,
+        control: Limits,
     ) -> dict[str, Any]:
         """Static equilibria of the Gümbel film."""
         return mapped.equilibrium(bearing, self._film(options), force, speed, control)
 
     def orbit(
         self,
-        bearing: JournalBearing,
-        options: FilmOptions,
+        bearing: JournalGeometry,
+        options: Film,
         time: Array,
         force: Array,
         speed: Array,
         start: Array | None,
-        control: Control,
+        control: Limits,
     ) -> xr.Dataset:
         """Path of the shaft in the Gümbel film."""
         film = self._film(options)

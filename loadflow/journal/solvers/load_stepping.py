@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.journal.film.film import EVERY, Film
+from loadflow.journal.film.film import EVERY, DiscreteFilm
 from loadflow.journal.film.gap import KEPT
 from loadflow.journal.solvers.newton import Solution, solve_equilibrium, solve_film
 
@@ -23,7 +23,7 @@ APART = 1e-6  # gap, in clearances, below which an elastic shell has met the sha
 
 
 def solve_in_load_steps(
-    film: Film,
+    film: DiscreteFilm,
     force: Array,
     position: Array,
     tolerance: float,
@@ -48,7 +48,7 @@ def solve_in_load_steps(
 
 
 def solve_by_approach(
-    film: Film, position: Array, velocity: Array, tolerance: float, max_iterations: int
+    film: DiscreteFilm, position: Array, velocity: Array, tolerance: float, max_iterations: int
 ) -> Solution:
     """As `solve_film`; where the shell at rest would leave no room, the shaft comes in steps."""
     gap, limits = film.gap, (tolerance, max_iterations)
@@ -73,7 +73,9 @@ def solve_by_approach(
     return replace(state, converged=state.converged and share == 1.0, iterations=spent)
 
 
-def _settled(film: Film, position: Array, tolerance: float, max_iterations: int) -> Solution:
+def _settled(
+    film: DiscreteFilm, position: Array, tolerance: float, max_iterations: int
+) -> Solution:
     """Film at a place with room, from a start at rest or, if that closes it, from a rigid shell."""
     rest, limits = 0.0 * position, (tolerance, max_iterations)
     first = solve_film(film, film.start(), position, rest, *limits)

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.journal.film.film import EVERY, Film, Linear, SingularFilm
+from loadflow.journal.film.film import EVERY, DiscreteFilm, Linear, SingularFilm
 
 Array = NDArray[np.float64]
 
@@ -68,7 +68,12 @@ REST = Motion()
 
 
 def solve_film(
-    film: Film, u: Array, position: Array, velocity: Array, tolerance: float, max_iterations: int
+    film: DiscreteFilm,
+    u: Array,
+    position: Array,
+    velocity: Array,
+    tolerance: float,
+    max_iterations: int,
 ) -> Solution:
     """Pressure of the film at a given position and velocity."""
     u = u.copy()
@@ -92,7 +97,7 @@ def solve_film(
 
 
 def solve_equilibrium(
-    film: Film,
+    film: DiscreteFilm,
     force: Array,
     u: Array,
     position: Array,
@@ -140,7 +145,7 @@ def solve_equilibrium(
 
 
 def _moved(
-    film: Film, u: Array, linear: Linear, position: Array, step: Array, motion: Motion
+    film: DiscreteFilm, u: Array, linear: Linear, position: Array, step: Array, motion: Motion
 ) -> tuple[Array, Array, float]:
     """Position after the share of `step` that leaves a film, weights of the columns, the share."""
     target = film.target(position, step)
@@ -153,7 +158,7 @@ def _moved(
 
 
 def solve_patiently(
-    film: Film,
+    film: DiscreteFilm,
     force: Array,
     position: Array,
     tolerance: float,
@@ -205,7 +210,7 @@ def _solve(matrix: Array, rhs: Array, ease: Array) -> Array:
     return np.array([(d * rhs[0] - b * rhs[1]) / det, (a * rhs[1] - c * rhs[0]) / det])
 
 
-def no_film(film: Film) -> Solution:
+def no_film(film: DiscreteFilm) -> Solution:
     """The answer where there is none: NaN, not converged."""
     nothing = np.full((film.gap.size, film.gap.size), np.nan)
     linear = Linear(nothing[0], nothing, nothing, nothing)

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import InputError, SolverError
-from loadflow.journal.film.discretise import FilmOptions, build_film
-from loadflow.journal.film.film import Film
-from loadflow.journal.models.model import Control
+from loadflow.journal.film.discretise import build_film
+from loadflow.journal.film.film import DiscreteFilm
+from loadflow.journal.film_model import Film
+from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.results import field_row, static_row
 from loadflow.journal.solvers.estimate import NEAR, closed_form_position
 from loadflow.journal.solvers.newton import (
@@ -23,9 +24,7 @@ from loadflow.journal.solvers.newton import (
     solve_film,
     solve_patiently,
 )
-
-if TYPE_CHECKING:
-    from loadflow.journal.bearing import JournalBearing
+from loadflow.numerics.convergence import Limits
 
 Array = NDArray[np.float64]
 
@@ -37,7 +36,7 @@ _STARVED = (
 )
 
 
-def plain_film(bearing: JournalBearing, options: FilmOptions, rates: Array) -> Film:
+def plain_film(bearing: JournalGeometry, options: Film, rates: Array) -> DiscreteFilm:
     """Film of a plain bearing, scaled to the largest of `rates`, 1/s."""
     film = build_film(bearing.diameter, bearing.width, bearing.relative_clearance, options)
     film.set_scale(float(np.abs(rates).max()))
@@ -45,7 +44,7 @@ def plain_film(bearing: JournalBearing, options: FilmOptions, rates: Array) -> F
 
 
 def plain_rows(
-    bearing: JournalBearing, options: FilmOptions, loads: Array, speeds: Array, control: Control
+    bearing: JournalGeometry, options: Film, loads: Array, speeds: Array, control: Limits
 ) -> list[dict[str, Any]]:
     """Rows of `Equilibrium`."""
     film = plain_film(bearing, options, speeds)
@@ -60,17 +59,17 @@ def plain_rows(
             raise SolverError(f"load {index}: {_refusal(used, load, solution)}")
         if solution.converged and used is film:
             last = solution
-        rows.append(static_row(bearing, used, load, options.lubricant, solution))
+        rows.append(static_row(bearing, used, load, options.liquid, solution))
     return rows
 
 
 def plain_fields(
-    bearing: JournalBearing,
-    options: FilmOptions,
+    bearing: JournalGeometry,
+    options: Film,
     places: Array,
     velocities: Array,
     speeds: Array,
-    control: Control,
+    control: Limits,
 ) -> tuple[list[dict[str, Any]], Array]:
     """Rows of `FilmField` and axial places of the cells of one half, m."""
     ratio = np.hypot(places[:, 0], places[:, 1])
@@ -98,12 +97,12 @@ def plain_fields(
 
 
 def plain_start(
-    bearing: JournalBearing,
-    film: Film,
+    bearing: JournalGeometry,
+    film: DiscreteFilm,
     loads: Array,
     speeds: Array,
     place: Array | None,
-    control: Control,
+    control: Limits,
 ) -> Solution:
     """First state of an orbit, at `place` (clearances) or at the equilibrium of the first load."""
     film.raise_scale(_mean_pressure(bearing, loads))
@@ -118,20 +117,20 @@ def plain_start(
     return first
 
 
-def _mean_pressure(bearing: JournalBearing, loads: Array) -> float:
+def _mean_pressure(bearing: JournalGeometry, loads: Array) -> float:
     """Largest load over the projected area, Pa."""
     return float(np.hypot(*loads.T).max()) / (bearing.width * bearing.diameter)
 
 
 def _settle(
-    bearing: JournalBearing,
-    film: Film,
-    finer: Film | None,
+    bearing: JournalGeometry,
+    film: DiscreteFilm,
+    finer: DiscreteFilm | None,
     load: Array,
     speed: float,
     last: Solution | None,
-    control: Control,
-) -> tuple[Film, Solution]:
+    control: Limits,
+) -> tuple[DiscreteFilm, Solution]:
     """Equilibrium from the closed form, robustly; the film it was found on comes with it."""
     tolerance, max_iterations = control.tolerance, control.max_iterations
     film.set_speed(speed)
@@ -159,7 +158,9 @@ def _settle(
     return used, replace(solution, estimate=position)
 
 
-def _starts(film: Film, position: Array, last: Solution | None) -> Iterator[tuple[Array, Array]]:
+def _starts(
+    film: DiscreteFilm, position: Array, last: Solution | None
+) -> Iterator[tuple[Array, Array]]:
     """Where Newton may start: from the last solution if the closed form has moved little."""
     if last is not None and last.estimate is not None:
         moved = position - last.estimate
@@ -168,7 +169,7 @@ def _starts(film: Film, position: Array, last: Solution | None) -> Iterator[tupl
     yield film.start(), position
 
 
-def _estimate(bearing: JournalBearing, load: Array, film: Film) -> Array:
+def _estimate(bearing: JournalGeometry, load: Array, film: DiscreteFilm) -> Array:
     """Position by Butenschön's closed form, in clearances."""
     if film.speed == 0.0:
         return np.zeros(2)
@@ -177,7 +178,7 @@ def _estimate(bearing: JournalBearing, load: Array, film: Film) -> Array:
     return closed_form_position(ratio, wanted, load, film.speed, film.ruptures)
 
 
-def _refusal(film: Film, load: Array, solution: Solution) -> str:
+def _refusal(film: DiscreteFilm, load: Array, solution: Solution) -> str:
     """Why no film carries `load`, in words."""
     head = f"F = ({load[0]:.6g}, {load[1]:.6g}) N at ω = {film.speed:.6g} rad/s"
     if film.dry(solution.u):
@@ -190,12 +191,14 @@ def _refusal(film: Film, load: Array, solution: Solution) -> str:
     return refusal(load, film.speed, solution.residual, solution.iterations, ratio)
 
 
-def _steps(film: Film, max_iterations: int) -> int:
+def _steps(film: DiscreteFilm, max_iterations: int) -> int:
     """Newton steps that a load may take; the rupture of Reynolds moves by one cell in each."""
     return max(max_iterations, film.mesh.shape[0] if film.creeps else 0)
 
 
-def _floating(film: Film, load: Array, position: Array) -> tuple[Film, Array, Array]:
+def _floating(
+    film: DiscreteFilm, load: Array, position: Array
+) -> tuple[DiscreteFilm, Array, Array]:
     """Start for a shaft that its supply carries: well off the shell, the film settled."""
     ratio = float(np.hypot(*position))
     if film.speed == 0.0 or ratio > _AFLOAT:
@@ -204,7 +207,7 @@ def _floating(film: Film, load: Array, position: Array) -> tuple[Film, Array, Ar
     return film, state.u, position
 
 
-def _lift(film: Film, load: Array) -> float:
+def _lift(film: DiscreteFilm, load: Array) -> float:
     """Load that the supply carries against `load` with the shaft nearly on the shell, N."""
     way = load / (float(np.hypot(*load)) or 1.0)
     state = solve_film(film, film.start(), _HIGH * way, np.zeros(2), 1e-6, 100)

@@ -5,17 +5,17 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError, SolverError
-from loadflow.journal.film.discretise import FilmOptions, build_shaped_film
-from loadflow.journal.film.film import Film
+from loadflow.journal.film.discretise import build_shaped_film
+from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.gap_shaped import Bore
-from loadflow.journal.models.model import Control
-from loadflow.journal.options import require
+from loadflow.journal.film_model import Film
+from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.results import field_row, following, static_row
 from loadflow.journal.shapes import Cylindrical
 from loadflow.journal.solvers.estimate import closed_form_position
@@ -28,9 +28,8 @@ from loadflow.journal.solvers.newton import (
     solve_film,
     solve_patiently,
 )
-
-if TYPE_CHECKING:
-    from loadflow.journal.bearing import JournalBearing
+from loadflow.numerics.convergence import Limits
+from loadflow.numerics.fields import require
 
 Array = NDArray[np.float64]
 
@@ -74,6 +73,11 @@ class Line:
             raise InputError("moment and tilt are both given: one follows from the other")
         return line
 
+    def at(self, places: NDArray[np.int64]) -> Line:
+        """The same for the loads at `places` (m,) alone."""
+        given = vars(self).items()
+        return Line(**{name: None if rows is None else rows[places] for name, rows in given})
+
     @property
     def straight(self) -> bool:
         """Whether the shaft stays aligned and straight."""
@@ -95,18 +99,18 @@ def _rows(name: str, value: ArrayLike | None, shape: tuple[int, ...]) -> Array |
         ) from error
 
 
-def plain(bearing: JournalBearing, line: Line) -> bool:
+def plain(bearing: JournalGeometry, line: Line) -> bool:
     """Whether the gap is that of a cylinder around an aligned, straight shaft."""
     return isinstance(bearing.shape, Cylindrical) and not bearing.relief and line.straight
 
 
 def equilibrium_rows(
-    bearing: JournalBearing,
-    options: FilmOptions,
+    bearing: JournalGeometry,
+    options: Film,
     loads: Array,
     speeds: Array,
     line: Line,
-    control: Control,
+    control: Limits,
     whirl: float,
 ) -> list[dict[str, Any]]:
     """Rows of `Equilibrium`."""
@@ -118,18 +122,18 @@ def equilibrium_rows(
         if not solution.converged and control.strict:
             raise SolverError(f"load {index}: {statics.refusal(load, solution)}")
         last = solution if solution.converged else last
-        rows.append(static_row(bearing, statics.film, load, options.lubricant, solution, whirl))
+        rows.append(static_row(bearing, statics.film, load, options.liquid, solution, whirl))
     return rows
 
 
 def field_rows(
-    bearing: JournalBearing,
-    options: FilmOptions,
+    bearing: JournalGeometry,
+    options: Film,
     places: Array,
     velocities: Array,
     speeds: Array,
     line: Line,
-    control: Control,
+    control: Limits,
 ) -> tuple[list[dict[str, Any]], Array]:
     """Rows of `FilmField` and axial places of the cells, m."""
     require(line.moment is None, "moment", "given", "tilt is given where the position is")
@@ -145,14 +149,14 @@ def field_rows(
 
 
 def orbit_start(
-    bearing: JournalBearing,
-    options: FilmOptions,
+    bearing: JournalGeometry,
+    options: Film,
     loads: Array,
     speeds: Array,
     line: Line,
     start: Array | None,
-    control: Control,
-) -> tuple[Film, Solution, Array, NDArray[np.int64]]:
+    control: Limits,
+) -> tuple[DiscreteFilm, Solution, Array, NDArray[np.int64]]:
     """Film, first state, generalised loads (n, m) and moving degrees of freedom of an orbit.
 
     It begins at `start`, in clearances, or at the equilibrium of the first load.
@@ -179,9 +183,7 @@ def orbit_start(
 class _Statics:
     """One film and what is given of the shaft's line, solved load by load."""
 
-    def __init__(
-        self, bearing: JournalBearing, options: FilmOptions, line: Line, rate: float
-    ) -> None:
+    def __init__(self, bearing: JournalGeometry, options: Film, line: Line, rate: float) -> None:
         self.bearing, self.line = bearing, line
         self.gap, self.film = build_shaped_film(
             bore_of(bearing), bearing.shape, options, line.straight
@@ -190,7 +192,7 @@ class _Statics:
         self.pads = np.arange(self.gap.shaft, self.gap.size)
 
     def solve(
-        self, index: int, load: Array, omega: float, last: Solution | None, control: Control
+        self, index: int, load: Array, omega: float, last: Solution | None, control: Limits
     ) -> Solution:
         """Equilibrium under load number `index`."""
         film, gap = self.film, self.gap
@@ -233,7 +235,7 @@ class _Statics:
         estimate: Array,
         last: Solution | None,
         free: NDArray[np.int64],
-        control: Control,
+        control: Limits,
     ) -> Solution:
         """Newton from the last solution, if that is near, and from the estimate."""
         limits = self._limits(control)
@@ -243,7 +245,7 @@ class _Statics:
                 break
         return solution
 
-    def _balanced(self, position: Array, pads: NDArray[np.int64], control: Control) -> Solution:
+    def _balanced(self, position: Array, pads: NDArray[np.int64], control: Limits) -> Solution:
         """Film at a given position of the shaft at rest, `pads` without moment."""
         limits = self._limits(control)
         film = self.film
@@ -270,7 +272,7 @@ class _Statics:
         return np.array(tilting, dtype=np.int64)
 
     def hold(
-        self, index: int, place: Array, velocity: Array, omega: float, control: Control
+        self, index: int, place: Array, velocity: Array, omega: float, control: Limits
     ) -> Solution:
         """Film at a given position; pads take the tilt without moment and follow the shaft."""
         film, gap = self.film, self.gap
@@ -315,7 +317,7 @@ class _Statics:
             f"{solution.iterations} steps, {self._where(solution.position)}"
         )
 
-    def _limits(self, control: Control) -> tuple[float, int]:
+    def _limits(self, control: Limits) -> tuple[float, int]:
         """Tolerance and Newton steps; the rupture of Reynolds moves by one cell in each."""
         cells = self.film.mesh.shape[0] if self.film.creeps else 0
         return control.tolerance, max(control.max_iterations, cells)
@@ -382,7 +384,7 @@ class _Statics:
         estimate: Array,
         last: Solution | None,
         free: NDArray[np.int64],
-        control: Control,
+        control: Limits,
     ) -> Iterator[tuple[Array, Array]]:
         """Where Newton may start: from the last solution if the estimate has moved little."""
         if (
@@ -413,7 +415,7 @@ def _turned(position: Array, angle: float) -> tuple[float, float]:
     return x * cos + y * sin, y * cos - x * sin
 
 
-def bore_of(bearing: JournalBearing) -> Bore:
+def bore_of(bearing: JournalGeometry) -> Bore:
     """Bore of a bearing."""
     return Bore(
         bearing.shape.segments, bearing.relief, bearing.radius, bearing.width, bearing.clearance

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import SolverError
-from loadflow.journal.film.film import EVERY, Film
+from loadflow.journal.film.film import EVERY, DiscreteFilm
 from loadflow.journal.film.integrals import summary
 from loadflow.journal.results import attitude_angle
 from loadflow.journal.solvers.newton import Motion, Solution, solve_equilibrium
@@ -53,7 +53,7 @@ class Marcher:
     degrees of freedom `free` move.
     """
 
-    film: Film
+    film: DiscreteFilm
     tolerance: float
     max_iterations: int
     accuracy: float = math.inf
@@ -185,7 +185,7 @@ def march(
     return rows, past
 
 
-def orbit_row(film: Film, solution: Solution, steps: int) -> dict[str, Any]:
+def orbit_row(film: DiscreteFilm, solution: Solution, steps: int) -> dict[str, Any]:
     """What an orbit says of one time, after `steps` implicit steps."""
     row = summary(film, solution.u, solution.position)
     if film.elastic:

@@ -1,39 +1,13 @@
-"""What a user states about a film: lubricant and cavitation law. Options only, no solver."""
+"""Laws of the ruptured film."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Literal
+from typing import Annotated
 
 from annotated_types import Gt
 
-from loadflow.errors import InputError
-
-
-def require(condition: bool, name: str, value: object, allowed: str) -> None:
-    """Raise an `InputError` that names field, value and allowed range unless `condition` holds."""
-    if not condition:
-        raise InputError(f"{name} = {value!r} is not allowed: {allowed}")
-
-
-@dataclass(frozen=True)
-class Lubricant:
-    """Isoviscous liquid.
-
-    Attributes
-    ----------
-    viscosity : float
-        Dynamic viscosity, Pa s.
-    density : float
-        Density, kg/m³; only used for the Reynolds number.
-    """
-
-    viscosity: Annotated[float, Gt(0)]
-    density: Annotated[float, Gt(0)] = 870.0
-
-    def __post_init__(self) -> None:
-        require(self.viscosity > 0, "viscosity", self.viscosity, "Pa s, > 0")
-        require(self.density > 0, "density", self.density, "kg/m³, > 0")
+from loadflow.numerics.fields import require
 
 
 @dataclass(frozen=True)
@@ -99,4 +73,3 @@ class MassConserving:
 
 
 Cavitation = GasMixture | Sommerfeld | Guembel | Reynolds | MassConserving
-Inlet = Literal["widest gap"] | None
