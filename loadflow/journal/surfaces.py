@@ -15,7 +15,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.journal.options import require
+from loadflow.numerics.fields import require
 
 Array = NDArray[np.float64]
 

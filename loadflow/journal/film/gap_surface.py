@@ -13,11 +13,11 @@ from loadflow.journal.film import _surface_kernels as surface_kernel
 from loadflow.journal.film.gap import KEPT
 from loadflow.journal.film.gap_mesh import even_cells
 from loadflow.journal.film.mesh import Mesh
-from loadflow.journal.options import require
+from loadflow.numerics.fields import require
 from loadflow.journal.surfaces import Profile, Surface
 
 Array = NDArray[np.float64]
-_POINTS = 2  # Gauss points of a smooth piece of the gap
+_COARSEST = 10  # cells that are shared out between kinks, so that finer meshes are nested
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,7 +130,12 @@ def surface_mesh(
     nx, nz = int(grid[0]), int(grid[1])
     require(nx >= 8, "grid[0]", nx, "at least 8 cells along the motion")
     require(nz >= 4, "grid[1]", nz, "at least 4 cells across the width")
-    around = angle * (even_cells(np.array([0.0, *kinks, 1.0]), nx) - 0.5)
+    twice, coarse = 1, nx
+    while coarse % 2 == 0 and coarse // 2 >= _COARSEST:
+        twice, coarse = 2 * twice, coarse // 2
+    shares = even_cells(np.array([0.0, *kinks, 1.0]), coarse)
+    inner = shares[:-1, None] + np.diff(shares)[:, None] * np.arange(twice) / twice
+    around = angle * (np.append(inner, 1.0) - 0.5)
     across = surface.nodes(nz)
     middles = 0.5 * (around[1:] + around[:-1])
     return SurfaceMesh(
@@ -139,7 +144,7 @@ def surface_mesh(
         closed=closed,
         polar=False,
         strength=0.0,
-        nodes=_POINTS,
+        nodes=1,
         surface=surface,
         nodes_around=around,
         nodes_across=across,
@@ -179,24 +184,20 @@ class SurfaceGap:
         self.size = self.shaft = len(factors)
         self.ease = np.ones(self.size)
 
-        points, weights = np.polynomial.legendre.leggauss(_POINTS)
-
         def sampled(start: Array, end: Array) -> tuple[Array, Array, Array]:
-            half = 0.5 * (end - start)[:, None]
-            angle = start[:, None] + half * (1.0 + points)
-            return surface.basis(angle), half * weights, gap(angle)
+            angle = 0.5 * (start + end)
+            return surface.basis(angle), end - start, gap(angle)
 
         middles = 0.5 * (nodes[1:] + nodes[:-1])
         whole = sampled(nodes[:-1], nodes[1:])
         before, after = sampled(middles, nodes[1:]), sampled(nodes[:-1], middles)
         if mesh.closed:
-            whole = tuple(np.concatenate([v[..., -1:, :], v], axis=-2) for v in whole)
-            before = tuple(np.roll(v, 1, axis=-2) for v in before)
+            whole = tuple(np.concatenate([v[..., -1:], v], axis=-1) for v in whole)
+            before = tuple(np.roll(v, 1, axis=-1) for v in before)
         else:
-            before = tuple(v[..., :-1, :] for v in before)
-            after = tuple(v[..., 1:, :] for v in after)
+            before, after = tuple(v[..., :-1] for v in before), tuple(v[..., 1:] for v in after)
         self._between = tuple(np.ascontiguousarray(v) for v in whole)
-        self._round = tuple(np.concatenate(pair, axis=-1) for pair in zip(before, after))
+        self._round = tuple(np.stack(pair, axis=-1) for pair in zip(before, after))
         self.around = np.ascontiguousarray(
             factors @ np.einsum("biq,iq->bi", self._round[0], self._round[1])
         )

@@ -7,13 +7,13 @@ from numpy.typing import NDArray
 
 from loadflow.journal.film import _kernels as kernel
 from loadflow.journal.film import _surface_kernels as surface_kernel
-from loadflow.journal.film.film import Film
+from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.gap_surface import SurfaceGap
 
 Array = NDArray[np.float64]
 
 
-class SurfaceFilm(Film):
+class SurfaceFilm(DiscreteFilm):
     """Film whose unknowns lie on the nodes of a `SurfaceMesh`.
 
     Loads are those of the pressure above that at the edges.
@@ -25,7 +25,7 @@ class SurfaceFilm(Film):
         super()._apply_law(u)
         if self.kind != kernel.GUEMBEL:
             return
-        self._slope = np.empty((3, *u.shape))
+        self._slope = np.empty((5, *u.shape))
         mesh = self.gap.mesh
         surface_kernel.cut(
             mesh.closed, self.p_cav, self.p_line, mesh.between, self.state, self._slope
@@ -45,7 +45,7 @@ class SurfaceFilm(Film):
         out = np.empty((columns.shape[0], gap.size))
         words = (gap.pressed, gap.across, mesh.carrying, mesh.order, columns, out)
         if self.kind == kernel.GUEMBEL:
-            surface_kernel.carried_by_cut(mesh.closed, self._slope, *words)
+            surface_kernel.carried_by_cut(self._slope, *words)
         else:
             kernel.carried_by(self.state[kernel.DLOAD], *words)
         return out
