@@ -12,12 +12,7 @@ from dataclasses import dataclass, fields, replace
 from typing import Any, Literal, TypedDict
 
 from loadflow.errors import InputError
-from loadflow.journal.cavitation import (
-    Cavitation,
-    GasMixture,
-    MassConserving,
-    Reynolds,
-)
+from loadflow.journal.cavitation import CavitationLaw, Reynolds
 from loadflow.journal.heat import Heat
 from loadflow.journal.lubricant import Lubricant
 from loadflow.journal.shells import Shell
@@ -28,6 +23,7 @@ from loadflow.numerics.fields import require
 Grading = Literal["auto", "uniform", "graded"]
 Inlet = Literal["auto", "widest gap"] | None
 
+SMOOTH_GRID = (60, 20)  # of [Jonuschies 2015], enough for a smooth law
 SHARP_GRID = (120, 40)  # graded, for laws with a sharp rupture
 
 
@@ -35,7 +31,7 @@ class FilmKeywords(TypedDict, total=False):
     """The fields of `Film`, as keywords of a verb."""
 
     lubricant: Lubricant | None
-    cavitation: Cavitation | None
+    cavitation: CavitationLaw | None
     edge_pressure: float
     supply: Supply | None
     inlet: Inlet
@@ -110,7 +106,7 @@ class Film:
     """
 
     lubricant: Lubricant | None = None
-    cavitation: Cavitation | None = None
+    cavitation: CavitationLaw | None = None
     edge_pressure: float = 0.0
     supply: Supply | None = None
     inlet: Inlet = "auto"
@@ -133,12 +129,12 @@ class Film:
         name, pressure = "edge_pressure", self.edge_pressure
         require(math.isfinite(pressure), name, pressure, "Pa, absolute, finite")
         lowest = min([pressure, *self._groove_pressures()])
-        floor = self._floor
+        floor = self.law.floor
         allowed = f"Pa, absolute, not below the cavitation pressure {floor:g} Pa"
         require(lowest >= floor, name, lowest, allowed)
 
     @property
-    def law(self) -> Cavitation:
+    def law(self) -> CavitationLaw:
         """The law of the ruptured film."""
         return Reynolds() if self.cavitation is None else self.cavitation
 
@@ -153,8 +149,19 @@ class Film:
     @property
     def may_grade(self) -> bool:
         """Whether a load that the uniform mesh cannot resolve may be tried on a graded one."""
-        uniform = isinstance(self.law, GasMixture) and self.supply is None
-        return self.grading == "auto" and uniform
+        return self.grading == "auto" and self.law.smooth and self.supply is None
+
+    @property
+    def cells(self) -> tuple[int, int]:
+        """Cells around and across, by default those that suit the law."""
+        return self.grid or (SMOOTH_GRID if self.law.smooth else SHARP_GRID)
+
+    @property
+    def inlet_line(self) -> bool:
+        """Whether the oil is replaced on a line at the widest gap."""
+        if self.inlet == "auto":
+            return self.law.inlet_line and self.supply is None
+        return self.inlet is not None
 
     def graded(self) -> Film:
         """The same on a graded mesh, fine enough for a gap of a thousandth of the clearance."""
@@ -164,7 +171,7 @@ class Film:
 
     def for_history(self) -> Film:
         """The same on a mesh that can keep the fill of its cells, if the law has one."""
-        if not isinstance(self.law, GasMixture | MassConserving):
+        if not self.law.keeps_fill:
             return self
         require(self.grading != "graded", "grading", self.grading, "uniform where fill has a past")
         require(self.inlet != "widest gap", "inlet", self.inlet, "None where fill has a past")
@@ -187,21 +194,15 @@ class Film:
         loadflow.errors.InputError
             Names the pressure and the cavitation pressure.
         """
-        floor, name = self._floor, "edge_pressure"
+        floor, name = self.law.floor, "edge_pressure"
         pressures = [self.edge_pressure, *other, *self._groove_pressures()]
         allowed = f"Pa, absolute, not below the cavitation pressure {floor:g} Pa"
         require(min(pressures) >= floor, name, min(pressures), allowed)
         grooves = self.supply.grooves if self.supply else ()
         fed = bool(self.supply and self.supply.pump) or any(g.restrictor for g in grooves)
-        if isinstance(self.law, GasMixture | MassConserving) and not fed:
+        if self.law.keeps_fill and not fed:
             allowed = f"above {floor:g} Pa at a bearing end or in a groove, or no oil enters"
             require(max(pressures) > floor, name, self.edge_pressure, allowed)
-
-    @property
-    def _floor(self) -> float:
-        if isinstance(self.law, GasMixture):
-            return 0.0
-        return float(getattr(self.law, "cavitation_pressure", -math.inf))
 
     def _groove_pressures(self) -> list[float]:
         """Given pressures of grooves, Pa, absolute."""

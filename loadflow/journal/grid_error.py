@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
-from typing import Any
+from dataclasses import dataclass, fields, replace
+from typing import Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.journal.bearing import JournalBearing
-from loadflow.journal.cavitation import GasMixture
-from loadflow.journal.film.discretise import SHARP_GRID, SOURCE_GRID
+from loadflow.journal.film_model import Film, Keywords, film_and_control
 from loadflow.journal.lubricant import Lubricant
 
 Array = NDArray[np.float64]
@@ -32,9 +31,9 @@ def grid_error(
     bearing: JournalBearing,
     force: ArrayLike,
     speed: ArrayLike,
-    lubricant: Lubricant,
+    film: Film | Lubricant | None = None,
     grid: tuple[int, int] | None = None,
-    **film: Any,
+    **keywords: Unpack[Keywords],
 ) -> GridError:
     """Estimate what the cells of `grid` do to a static equilibrium.
 
@@ -47,8 +46,10 @@ def grid_error(
     ----------
     bearing : JournalBearing
         The bearing.
-    force, speed, lubricant, grid, **film
+    force, speed, film, **keywords
         As in `JournalBearing.equilibrium`.
+    grid : tuple of int, optional
+        In place of that of the film.
 
     Returns
     -------
@@ -67,10 +68,12 @@ def grid_error(
     >>> bool(error.eccentricity_ratio < 1e-3)
     True
     """
-    default = SOURCE_GRID if isinstance(film.get("cavitation"), GasMixture) else SHARP_GRID
-    around, across = grid or default
+    film, control = film_and_control(film, (), None, keywords)
+    around, across = grid or film.cells
     half = (around // 2, max(2 * (across // 4), 2))
-    fine = bearing.equilibrium(force, speed, lubricant, grid=(around, across), **film)
-    coarse = bearing.equilibrium(force, speed, lubricant, grid=half, **film)
+    fine, coarse = (
+        bearing.equilibrium(force, speed, replace(film, grid=cells), control=control)
+        for cells in ((around, across), half)
+    )
     names = [part.name for part in fields(GridError)]
     return GridError(*(np.abs(getattr(fine, name) - getattr(coarse, name)) for name in names))

@@ -1,4 +1,4 @@
-"""Compiled loops of the film: laws, gap coefficients, assembly, integrals.
+"""Compiled loops of the film: gap coefficients, assembly, integrals.
 
 Everything is written for lengths in units of the shaft radius R, the gap in units of the radial
 clearance and pressures in Pa. The balance of a film cell is then ::
@@ -16,63 +16,43 @@ along the axis, else one for each row of cells and a last one for the far rim.
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
+from llvmlite import ir
+from numba import njit, types
+from numba.extending import intrinsic
 
-FULL, GUEMBEL, REYNOLDS, MASS_CONSERVING, GAS_MIXTURE = range(5)
+from loadflow.journal.cavitation import DFILL, DP, DSLACK, FILL, LOAD, P
 
-# rows of the state of the cells
-P, DP, FILL, DFILL, SLACK, DSLACK, LOAD, DLOAD = range(8)
 # coefficients of the gap: on the faces around, on the faces across (H3), on cells; CELL3 is ∫H³ of
 # cells, from which the faces across of a gap that changes along the axis follow
 G, E, H3, HM, COS, SIN, CELL3, HINV = range(8)
 
 
-@njit(cache=True, nogil=True)
-def apply_law(kind, mixing, p_cav, scale, u, state):
-    """Fill `state` (8, nx, nz) from the unknowns `u` (nx, nz).
+@intrinsic  # type: ignore[untyped-decorator]
+def _call(typing_context, address, numbers, scale, count, u, state):
+    """Call a compiled function of a law at its address; arrays by theirs."""
+    signature = types.void(*[types.intp] * 2, types.float64, *[types.intp] * 3)
 
-    The unknown is the pressure in the full film and a measure of its lack in the ruptured film:
-    for the mass-conserving law u = p_cav − scale (1 − F); for the mixture u = p − scale (1 − F),
-    which tends to the same as c → 0, so that Newton needs no continuation and p > −c by itself; for
-    Reynolds the slack of the complementarity.
+    def code(context, builder, signature, args):
+        where, numbers, scale, count, u, state = args
+        real = ir.DoubleType()
+        kinds = [real.as_pointer(), real, count.type, real.as_pointer(), real.as_pointer()]
+        function = ir.FunctionType(ir.IntType(8).as_pointer(), kinds)
+        numbers, u, state = (builder.inttoptr(a, kinds[0]) for a in (numbers, u, state))
+        builder.call(
+            builder.inttoptr(where, function.as_pointer()), [numbers, scale, count, u, state]
+        )
+        return context.get_dummy_value()
+
+    return signature, code
+
+
+@njit(cache=True, nogil=True)
+def apply_law(address, numbers, scale, u, state):
+    """Fill `state` (8, nx, nz) from the unknowns `u` (nx, nz) by the law at `address`.
+
+    `numbers` (m,) are those of the law. All arrays are contiguous.
     """
-    nx, nz = u.shape
-    for i in range(nx):
-        for k in range(nz):
-            v = u[i, k]
-            p, dp, fill, dfill, slack, dslack = v, 1.0, 1.0, 0.0, 0.0, 0.0
-            if kind == GAS_MIXTURE:
-                root = np.sqrt((v + mixing) ** 2 + 4.0 * mixing * scale)
-                if v > mixing:
-                    p = 0.5 * (v - mixing + root)
-                else:
-                    p = 2.0 * mixing * (v + scale) / (mixing - v + root)
-                # (p + c)(p − u) = c · scale; p + c without cancellation
-                lift = 0.5 * (v + mixing + root)
-                if v + mixing < 0.0:
-                    lift = 2.0 * mixing * scale / (root - v - mixing)
-                fill = p / lift
-                slope = mixing / (lift * lift)
-                dp = 1.0 / (1.0 + scale * slope)
-                dfill = slope * dp
-            elif kind >= REYNOLDS and v < p_cav:
-                p, dp = p_cav, 0.0
-                if kind == REYNOLDS:
-                    slack, dslack = v - p_cav, 1.0
-                else:
-                    fill, dfill = 1.0 + (v - p_cav) / scale, 1.0 / scale
-            state[P, i, k] = p
-            state[DP, i, k] = dp
-            state[FILL, i, k] = fill
-            state[DFILL, i, k] = dfill
-            state[SLACK, i, k] = slack
-            state[DSLACK, i, k] = dslack
-            if kind == GUEMBEL and p < p_cav:
-                state[LOAD, i, k] = p_cav
-                state[DLOAD, i, k] = 0.0
-            else:
-                state[LOAD, i, k] = p
-                state[DLOAD, i, k] = dp
+    _call(address, numbers.ctypes.data, scale, u.size, u.ctypes.data, state.ctypes.data)
 
 
 @njit(cache=True, nogil=True)

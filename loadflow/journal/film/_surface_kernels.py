@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from numba import njit
 
-from loadflow.journal.film._kernels import DLOAD, H3, HINV, HM, LOAD, E, G, P
+from loadflow.journal.cavitation import DLOAD, LOAD, P
+from loadflow.journal.film._kernels import H3, HINV, HM, E, G
 
 
 @njit(cache=True, nogil=True)

@@ -6,7 +6,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError
-from loadflow.journal.cavitation import GasMixture, Guembel, Reynolds
 from loadflow.journal.film.compliance import compliance_of
 from loadflow.journal.film.elastic import ElasticFilm
 from loadflow.journal.film.feed import Feed
@@ -18,14 +17,13 @@ from loadflow.journal.film.gap_shaped import Bore, ShapedGap
 from loadflow.journal.film.groove_pressure import Pockets
 from loadflow.journal.film.grooves import groove_marks, groove_numbers
 from loadflow.journal.film.mesh import build_mesh
-from loadflow.journal.film_model import SHARP_GRID, Film
+from loadflow.journal.film_model import Film
 from loadflow.journal.shapes import Arc, Shape
 from loadflow.journal.supply import Supply
 from loadflow.numerics.fields import require
 
 Array = NDArray[np.float64]
 
-SOURCE_GRID = (60, 20)  # the grid of the source, enough for its smooth law
 FULL_GRID = (120, 24)  # the same where both halves of the width differ
 
 
@@ -33,16 +31,13 @@ def build_film(diameter: float, width: float, clearance: float, options: Film) -
     """Discrete film of a bearing (m, m, relative clearance)."""
     law, supply = options.law, options.supply
     options.check_oil()
-    smooth = isinstance(law, GasMixture)
-    inlet = options.inlet == "widest gap"
-    if options.inlet == "auto":
-        inlet = isinstance(law, Reynolds | Guembel) and supply is None
+    smooth = law.smooth
+    inlet = options.inlet_line
     require(not (inlet and supply), "inlet", options.inlet, "None where a supply is given")
     graded = options.grading == "graded"
     if options.grading == "auto":
         graded = not smooth and supply is None
-    around, across = options.grid or (SOURCE_GRID if smooth else SHARP_GRID)
-    grid, radius = (int(around), int(across)), 0.5 * diameter
+    grid, radius = options.cells, 0.5 * diameter
     mesh = build_mesh(width / diameter, grid, graded, inlet, supply, radius)
     numbers = groove_numbers(mesh.angle, mesh.z, width / diameter, supply, grid[0], radius)
     mirrors = 2.0 if mesh.half else 1.0
@@ -67,18 +62,17 @@ def build_shaped_film(
     pressure = getattr(shape, "groove_pressure", None)
     pressure = options.edge_pressure if pressure is None else pressure
     options.check_oil(pressure)
-    smooth = isinstance(law, GasMixture)
+    smooth = law.smooth
     half = straight and all(part.symmetric(bore.width) for part in bore.relief)
-    sharp_grid = SHARP_GRID if half else FULL_GRID
-    grid = options.grid or (SOURCE_GRID if smooth else sharp_grid)
+    grid = options.cells if half or smooth or options.grid else FULL_GRID
     graded = options.grading == "graded" or (options.grading == "auto" and not smooth)
     turns, places = recess_marks(bore.relief, bore.radius, bore.width)
-    around, ends = groove_marks(supply.grooves if supply else (), int(grid[0]), bore.radius)
+    around, ends = groove_marks(supply.grooves if supply else (), grid[0], bore.radius)
     ratio = bore.width / (2 * bore.radius)
     mesh = shaped_mesh(
         ratio, grid, half, graded, bore.segments, [*turns, *around], [*places, *ends, *-ends]
     )
-    numbers = groove_numbers(mesh.angle, mesh.z, ratio, supply, int(grid[0]), bore.radius)
+    numbers = groove_numbers(mesh.angle, mesh.z, ratio, supply, grid[0], bore.radius)
     mirrors = 2.0 if half else 1.0
     flow_unit = mirrors * bore.clearance**3 / (12.0 * options.liquid.viscosity)
     words = (

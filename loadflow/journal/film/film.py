@@ -10,14 +10,7 @@ from numpy.typing import NDArray
 from scipy.linalg.lapack import dgbtrf, dgbtrs
 
 from loadflow.errors import SolverError
-from loadflow.journal.cavitation import (
-    Cavitation,
-    GasMixture,
-    Guembel,
-    MassConserving,
-    Reynolds,
-    Sommerfeld,
-)
+from loadflow.journal.cavitation import DFILL, DLOAD, DP, FILL, LOAD, SLACK, CavitationLaw, P
 from loadflow.journal.film import _kernels as kernel
 from loadflow.journal.film.gap import Gap, turning_frame
 from loadflow.journal.film.groove_pressure import Pockets
@@ -26,13 +19,6 @@ Array = NDArray[np.float64]
 
 _CELLS = 0.6  # of the width of the narrowest gap, the widest cell around that resolves it
 
-_KIND = {
-    Sommerfeld: kernel.FULL,
-    Guembel: kernel.GUEMBEL,
-    Reynolds: kernel.REYNOLDS,
-    MassConserving: kernel.MASS_CONSERVING,
-    GasMixture: kernel.GAS_MIXTURE,
-}
 EVERY = slice(None)  # all degrees of freedom
 _TURN = np.array([[0.0, -1.0], [1.0, 0.0]])  # a quarter turn with the rotation
 
@@ -70,7 +56,7 @@ class DiscreteFilm:
     ----------
     gap : Gap
         Gap on its mesh.
-    law : Cavitation
+    law : CavitationLaw
         Law of the ruptured film.
     viscosity, relative_clearance, radius : float
         η (Pa s), ψ, shaft radius (m).
@@ -86,7 +72,7 @@ class DiscreteFilm:
     def __init__(
         self,
         gap: Gap,
-        law: Cavitation,
+        law: CavitationLaw,
         viscosity: float,
         relative_clearance: float,
         radius: float,
@@ -96,16 +82,14 @@ class DiscreteFilm:
     ) -> None:
         self.gap = gap
         self.mesh = mesh = gap.mesh
-        self.kind = _KIND[type(law)]
-        self.ruptures = self.kind != kernel.FULL
-        self.creeps = self.kind == kernel.REYNOLDS  # its rupture moves by a cell a step
-        self.mixing = law.mixing_constant if isinstance(law, GasMixture) else 0.0
-        self.p_cav = getattr(law, "cavitation_pressure", 0.0)
+        self.law = law
+        self._address, self._numbers = law.address, np.array(law.numbers, dtype=float)
+        self.ruptures = law.ruptures
+        self.creeps = law.moves_by_cells
         self.p_edge = edge_pressure
         self.p_line = edge_pressure if end_pressure is None else end_pressure
         self.ends_supply = end_pressure is not None and not gap.mesh.closed
-        wet = self.p_line + self.mixing
-        self.line_fill = self.p_line / wet if self.mixing and wet > 0 else 1.0
+        self.line_fill = law.fill_at(self.p_line)
         self.radius = radius
         self.relative_clearance = relative_clearance
         self.viscosity = viscosity
@@ -151,9 +135,7 @@ class DiscreteFilm:
     # --- state -----------------------------------------------------------------------------------
     def unknown_of(self, pressure: Array) -> Array:
         """Unknowns of a (not ruptured) pressure field."""
-        if self.kind != kernel.GAS_MIXTURE:
-            return np.array(pressure, dtype=float)
-        return pressure - self.scale * self.mixing / (pressure + self.mixing)
+        return self.law.unknown_of(pressure, self.scale)
 
     def start(self) -> Array:
         """Unknowns of a film at edge pressure everywhere but in the grooves."""
@@ -166,16 +148,17 @@ class DiscreteFilm:
 
     def _apply_law(self, u: Array) -> None:
         """Fill `state` from the unknowns `u`."""
-        kernel.apply_law(self.kind, self.mixing, self.p_cav, self.scale, u, self.state)
-        if self.kind == kernel.REYNOLDS and self.pockets.free.size:
+        u = np.ascontiguousarray(u)
+        kernel.apply_law(self._address, self._numbers, self.scale, u, self.state)
+        if self.law.moves_by_cells and self.pockets.free.size:
             self._keep_full(u)
 
     def _keep_full(self, u: Array) -> None:
         """Keep the free grooves full: the complementarity has no row for their pressure."""
         cells = self.pockets.free_cells
-        for row, value in ((kernel.P, u[cells]), (kernel.DP, 1.0), (kernel.SLACK, 0.0)):
+        for row, value in ((P, u[cells]), (DP, 1.0), (SLACK, 0.0)):
             self.state[row][cells] = value
-        self.state[kernel.LOAD][cells], self.state[kernel.DLOAD][cells] = u[cells], 1.0
+        self.state[LOAD][cells], self.state[DLOAD][cells] = u[cells], 1.0
 
     # --- balance ---------------------------------------------------------------------------------
     def _storage(self, coef: Array, around: Array, velocity: Array, rate: float) -> Array:
@@ -199,7 +182,7 @@ class DiscreteFilm:
 
     def _residual(self, outflow: Array) -> Array:
         """Balance of every cell (nx, nz) of which `outflow` leaves, after `place`."""
-        field = outflow + self.state[kernel.SLACK]
+        field = outflow + self.state[SLACK]
         field[self.fixed] = 0.0
         return field
 
@@ -239,7 +222,7 @@ class DiscreteFilm:
         outflow = self.balance(gap.coef, mass) - old
         fields = [self._residual(outflow)]
         fields += [self.balance(c, self._storage(c, a, local, rate)) for c, a in slopes]
-        squeeze = -self.slope * self.state[kernel.FILL] * mesh.area
+        squeeze = -self.slope * self.state[FILL] * mesh.area
         fields += [squeeze * np.outer(a, b) for a, b in zip(around, across)]
         free = self.pockets.free
         flows = [self.pockets.flows(f)[free] for f in (outflow, *fields[1:])] if free.size else []
@@ -297,27 +280,27 @@ class DiscreteFilm:
         through = np.empty((columns.shape[0], pockets.free.size))
         for row, column in zip(through, columns):
             field = column.reshape(mesh.shape)[mesh.order]
-            change[kernel.P] = self.state[kernel.DP] * field
-            change[kernel.FILL] = self.state[kernel.DFILL] * field
-            change[kernel.LOAD] = self.state[kernel.DLOAD] * field
+            change[P] = self.state[DP] * field
+            change[FILL] = self.state[DFILL] * field
+            change[LOAD] = self.state[DLOAD] * field
             outflow = self.balance(self.gap.coef, mass, change)
             row[:] = pockets.flows(outflow)[pockets.free]
-        pressure = pockets.of_free(self.state[kernel.P])
-        slope = pockets.of_free(self.state[kernel.DP])
+        pressure = pockets.of_free(self.state[P])
+        slope = pockets.of_free(self.state[DP])
         return pockets.settle(columns, direct, through, pressure, slope, self.scale)
 
     def _carried(self, columns: Array) -> Array:
         """Change of ∫ p N_j dA by each of `columns` (l, n), (l, m), in units of R²."""
         gap, mesh = self.gap, self.mesh
         carried = np.empty((columns.shape[0], gap.size))
-        slope = self.state[kernel.DLOAD]
+        slope = self.state[DLOAD]
         kernel.carried_by(slope, gap.around, gap.across, mesh.dz, mesh.order, columns, carried)
         return carried
 
     def _load(self, around: Array) -> Array:
         """∫ p N_j dA at the state last placed, whole film, in the mesh's frame, N."""
         out = np.empty(self.gap.size)
-        load = self.state[kernel.LOAD]
+        load = self.state[LOAD]
         kernel.load_of(load, around, self.gap.across, self.mesh.dz, out)
         return self.mirrors * self.radius**2 * out - self.ambient
 
@@ -332,7 +315,7 @@ class DiscreteFilm:
 
     def size(self, column: Array) -> float:
         """Largest entry of a change of the unknowns over the pressure of the film."""
-        peak = float(self.state[kernel.LOAD].max())
+        peak = float(self.state[LOAD].max())
         return float(np.abs(column).max()) / max(self.scale, peak)
 
     def correct(self, u: Array, columns: Array, weights: Array) -> float:
@@ -383,7 +366,7 @@ class DiscreteFilm:
         outflow = self.balance(self.gap.coef, mass) - old
         worst = float(np.abs(self._residual(outflow)).max()) / flux
         if self.pockets.free.size:
-            worst = max(worst, self.pockets.missing(self.state[kernel.P], outflow, self.scale))
+            worst = max(worst, self.pockets.missing(self.state[P], outflow, self.scale))
         if force is not None:
             scale = max(math.hypot(*force), self.scale * self.radius**2 * 1e-3)
             missing = force - frame @ self._load(around)
@@ -393,8 +376,13 @@ class DiscreteFilm:
     def liquid(self) -> Array:
         """Liquid in each cell (nx, nz) times the squeeze pressure, Pa s, at the last state."""
         rows = self.gap.across.shape[1]
+<<<<<<< HEAD
         volume = self.gap.coef[kernel.HM, :-1, :rows] * self.mesh.area
         return self.slope * self.state[kernel.FILL] * volume
+=======
+        volume = self.gap.coef[kernel.HM, :-1, :rows] * self.mesh.dz
+        return self.slope * self.state[FILL] * volume
+>>>>>>> 2dab9f4
 
     def stock(self) -> tuple[float, float]:
         """Liquid outside the grooves, m³, and what it gains over rims and grooves, m³/s."""
@@ -416,9 +404,9 @@ class DiscreteFilm:
     # --- results ---------------------------------------------------------------------------------
     def dry(self, u: Array) -> bool:
         """Whether a fed groove would have to rupture, which only laws with fill can follow."""
-        if self.kind in (kernel.MASS_CONSERVING, kernel.GAS_MIXTURE):
+        if self.law.keeps_fill:
             return False
-        return bool(np.any(self.pockets.of_free(u) < self.p_cav))
+        return bool(np.any(self.pockets.of_free(u) < self.law.floor))
 
     def field(self, u: Array, position: Array) -> tuple[Array, Array, Array, Array]:
         """Pressure (Pa) and fill of the cells (nx, nz), their angle (nx,), and the load (N)."""
@@ -431,4 +419,4 @@ class DiscreteFilm:
             angle = 2 * np.arctan(narrow * np.tan(0.5 * angle)) + np.arctan2(
                 frame[1, 0], frame[0, 0]
             )
-        return self.state[kernel.LOAD].copy(), self.state[kernel.FILL].copy(), angle, load
+        return self.state[LOAD].copy(), self.state[FILL].copy(), angle, load

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from loadflow.journal.cavitation import FILL, P
 from loadflow.journal.film import _kernels as kernel
 from loadflow.journal.film.groove_pressure import UNSUPPLIED
 
@@ -67,7 +68,7 @@ def _supplied(film: DiscreteFilm, u: Array) -> dict[str, Any]:
     outflow = film.balance(film.gap.coef, mass)
     flows = pockets.flows(outflow)
     shaped = float(outflow[film.fixed & ~pockets.fixed].sum()) + _from_ends(film)
-    pressure = film.state[kernel.P].ravel()[pockets.samples]
+    pressure = film.state[P].ravel()[pockets.samples]
     lack = film.unknown_of(np.array(film.p_edge)) - pockets.of_free(u)
     return {
         "supply_flow": float(flows.sum()) + pockets.flow_unit * shaped,
@@ -84,7 +85,7 @@ def _from_ends(film: DiscreteFilm) -> float:
         return 0.0
     total = 0.0
     for cell, sign in ((0, 1.0), (-1, -1.0)):
-        pressure, fill = (film.state[row, cell] for row in (kernel.P, kernel.FILL))
+        pressure, fill = (film.state[row, cell] for row in (P, FILL))
         upstream = film.line_fill if sign * film.wedge > 0 else fill
         g, e = film.gap.coef[[kernel.G, kernel.E], cell, : film.mesh.z.size]
         flow = g * (film.p_line - pressure) + sign * film.wedge * e * upstream

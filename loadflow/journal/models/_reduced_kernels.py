@@ -13,24 +13,15 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from loadflow.journal.film._kernels import (
-    DFILL,
-    DLOAD,
-    DP,
-    DSLACK,
-    FILL,
-    LOAD,
-    SLACK,
-    P,
-    apply_law,
-)
+from loadflow.journal.cavitation import DFILL, DLOAD, DP, DSLACK, FILL, LOAD, SLACK, P
+from loadflow.journal.film._kernels import apply_law
 from loadflow.journal.models.reduced_film import DISSIPATION, FILLED, OUTFLOW, PEAK, SHEAR, X, Y
 
 
 @njit(cache=True, nogil=True)
 def place(ring, work, x, y):
     """Evaluate law and gap at the unknowns and the position (x, y)."""
-    apply_law(ring.kind, ring.mixing, ring.p_cav, ring.scale, work.u, work.state)
+    apply_law(ring.law, ring.numbers, ring.scale, work.u, work.state)
     for i in range(ring.cos.size):
         work.gap[i] = 1.0 - x * ring.cos[i] - y * ring.sin[i]
         work.gap_face[i] = 1.0 - x * ring.cos_face[i] - y * ring.sin_face[i]
@@ -220,9 +211,6 @@ def summarise(ring, work, x, y, row):
     step = 2.0 * np.pi / nx
     axial = ring.axial
     p = work.state[LOAD]
-    fill_rim = 1.0
-    if ring.mixing > 0.0:
-        fill_rim = ring.p_edge / (ring.p_edge + ring.mixing)
     peak, dissipation, shear, outflow, liquid = -np.inf, 0.0, 0.0, 0.0, 0.0
     half_width = axial.weights.sum() + axial.rim_weight
     for i in range(nx):
@@ -230,7 +218,7 @@ def summarise(ring, work, x, y, row):
         h = work.gap[i]
         h3 = step * h * h * h
         g = work.gap_face[i] ** 3 / step
-        middle, leak, inside = 0.0, 0.0, fill_rim * axial.rim_weight
+        middle, leak, inside = 0.0, 0.0, ring.edge_fill * axial.rim_weight
         for k in range(m):
             q = p[i, k] - ring.p_edge
             middle += axial.middle[k] * q

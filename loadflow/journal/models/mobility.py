@@ -23,7 +23,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import SolverError
-from loadflow.journal.cavitation import GasMixture, Sommerfeld
 from loadflow.journal.film_model import Film
 from loadflow.journal.lubricant import Lubricant
 from loadflow.journal.models import _mobility_kernels as kernel
@@ -117,10 +116,8 @@ class MobilityMap:
 def scaled(options: Film) -> tuple[Film, float]:
     """The film without dimensions, and its unit of pressure, Pa; 0 where the load is the unit."""
     law = options.law
-    unit = options.edge_pressure - getattr(law, "cavitation_pressure", 0.0)
-    if isinstance(law, Sommerfeld):
-        unit = 0.0
-    plain = GasMixture(law.mixing_constant / unit) if isinstance(law, GasMixture) else type(law)()
+    unit = law.pressure_unit(options.edge_pressure)
+    plain = law.scaled(unit)
     edge = 1.0 if unit else 0.0
     lubricant = Lubricant(1.0 / 12.0)
     return replace(options, lubricant=lubricant, cavitation=plain, edge_pressure=edge), unit

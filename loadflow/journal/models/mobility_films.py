@@ -8,7 +8,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.journal.cavitation import GasMixture, MassConserving
 from loadflow.journal.film.discretise import build_film
 from loadflow.journal.film.film import Linear
 from loadflow.journal.film.integrals import summary
@@ -46,7 +45,7 @@ class MovingFilm:
     def __init__(self, width_ratio: float, options: Film) -> None:
         self.film = build_film(2.0, 2.0 * width_ratio, 1.0, options)
         self.film.raise_scale(1.0)
-        self.fills = isinstance(options.law, GasMixture | MassConserving)
+        self.fills = options.law.keeps_fill
         self.area = 4.0 * width_ratio
         self.solved = 0
 

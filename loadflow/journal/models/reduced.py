@@ -15,7 +15,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import SolverError
-from loadflow.journal.cavitation import Guembel, Reynolds
 from loadflow.journal.film.discretise import build_film
 from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.integrals import Integrals, in_units
@@ -163,8 +162,7 @@ def _film(bearing: JournalGeometry, options: Film, speed: Array) -> DiscreteFilm
     """The grid's film on cells fixed to the shell: what the few unknowns take their data from."""
     allowed = 'None with rung = "reduced"; take rung = "grid"'
     require(options.supply is None, "supply", options.supply, allowed)
-    lined = options.inlet == "auto" and isinstance(options.law, Reynolds | Guembel)
-    require(not lined and options.inlet != "widest gap", "inlet", options.inlet, allowed)
+    require(not options.inlet_line, "inlet", options.inlet, allowed)
     allowed = 'uniform with rung = "reduced"'
     require(options.grading != "graded", "grading", options.grading, allowed)
     fixed = replace(options, grading="uniform", inlet=None)
@@ -180,7 +178,8 @@ def _discrete(film: DiscreteFilm) -> tuple[Ring, Work]:
     axial = lobatto(float(film.mesh.z_edges[-1]), POINTS)
     ring = Ring(
         np.cos(angle), np.sin(angle), np.cos(face), np.sin(face), film.mesh.order, axial,
-        film.kind, film.mixing, film.p_cav, film.scale, film.p_edge, film.slope,
+        film.law.address, np.array(film.law.numbers), film.law.fill_at(film.p_edge), film.scale,
+        film.p_edge, film.slope,
         2.0 * film.radius**2, True,
     )  # fmt: skip
     return ring, make_work(angle.size, POINTS)
