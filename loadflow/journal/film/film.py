@@ -376,13 +376,8 @@ class DiscreteFilm:
     def liquid(self) -> Array:
         """Liquid in each cell (nx, nz) times the squeeze pressure, Pa s, at the last state."""
         rows = self.gap.across.shape[1]
-<<<<<<< HEAD
         volume = self.gap.coef[kernel.HM, :-1, :rows] * self.mesh.area
-        return self.slope * self.state[kernel.FILL] * volume
-=======
-        volume = self.gap.coef[kernel.HM, :-1, :rows] * self.mesh.dz
         return self.slope * self.state[FILL] * volume
->>>>>>> 2dab9f4
 
     def stock(self) -> tuple[float, float]:
         """Liquid outside the grooves, m³, and what it gains over rims and grooves, m³/s."""
