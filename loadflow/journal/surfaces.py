@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +18,31 @@ from numpy.typing import NDArray
 from loadflow.numerics.fields import require
 
 Array = NDArray[np.float64]
+
+
+class Frame(NamedTuple):
+    """A point of a surface, seen from the point about which the shaft turns, and three axes there.
+
+    Attributes
+    ----------
+    point : array (3,)
+        m.
+    normal, generator, tangent : array (3,)
+        Out of the shaft; away from apex or axis; with the motion.
+    """
+
+    point: Array
+    normal: Array
+    generator: Array
+    tangent: Array
+
+    def turning(self, axis: Array) -> Array:
+        """Displacements and rotations (5,) of the shaft that turn it by 1 rad about the point."""
+        return np.concatenate([np.cross(axis, -self.point), axis[:2]])
+
+    def along(self, axis: Array) -> Array:
+        """Displacements and rotations (5,) of the shaft that shift it by 1 m."""
+        return np.append(axis, [0.0, 0.0])
 
 
 class Surface(Protocol):
@@ -52,6 +77,9 @@ class Surface(Protocol):
 
     def motions(self, z: Array) -> tuple[Array, Array]:
         """Motions of the shaft that close the gap: factors of `basis` (5, 3), and of ζ (5, n)."""
+
+    def frame(self, angle: float, place: float) -> Frame:
+        """Point and axes of the surface at an angle and a distance from apex or axis, m."""
 
 
 @dataclass(frozen=True)
@@ -127,6 +155,19 @@ class Cone:
         return factors, across
 
 
+    def frame(self, angle: float, place: float) -> Frame:
+        """Point and axes at an angle and a distance from the apex, m."""
+        cos, sin = math.cos(self.half_angle), math.sin(self.half_angle)
+        x, y = math.cos(angle), math.sin(angle)
+        height = place * cos - self.middle * cos
+        return Frame(
+            point=np.array([place * sin * x, place * sin * y, height]),
+            normal=np.array([cos * x, cos * y, -sin]),
+            generator=np.array([sin * x, sin * y, cos]),
+            tangent=np.array([-y, x, 0.0]),
+        )
+
+
 @dataclass(frozen=True)
 class Strip:
     """Straight pad whose middle runs at `radius`: a piece of a plane ring without curvature.
@@ -179,8 +220,13 @@ class Strip:
         factors = np.zeros((5, 3))
         factors[2, 2], factors[3, 1], factors[4, 0] = -1.0, -1.0, 1.0
         across = np.ones((5, z.size))
-        across[3, :], across[4, :] = 1.0, 1.0 + z
+        across[4] = 1.0 + z
         return factors, across
+
+    def frame(self, angle: float, place: float) -> Frame:
+        """Point and axes at a distance along the motion over R, and from the axis, m."""
+        normal, generator, tangent = -np.eye(3)[2], np.eye(3)[0], np.eye(3)[1]
+        return Frame(np.array([place, self.radius * angle, 0.0]), normal, generator, tangent)
 
 
 # --- profiles ------------------------------------------------------------------------------------

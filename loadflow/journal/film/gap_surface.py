@@ -264,3 +264,20 @@ class SurfaceGap:
             closing = np.einsum("bi,bi->i", basis, moved[:, inside])
             least = min(least, float((self._gap_of(angle[inside]) - closing).min()))
         return least
+
+    def shear(self, position: Array) -> float:
+        """∫ (r/R)² / H dA over the whole surface, in units of R² per clearance."""
+        mesh, surface = self.mesh, self.mesh.surface
+        basis, width, gap = self._between
+        if mesh.closed:
+            basis, width, gap = basis[:, 1:], width[1:], gap[1:]
+        places = mesh.nodes_across if surface.open_ends else mesh.z
+        closing = (self._factors.T * position) @ self.motions(places)[1]
+        gaps = gap[:, None] - basis.T @ closing
+        if surface.open_ends:
+            weights = np.zeros(places.size)
+            weights[:-1] = weights[1:] = 0.5 * np.diff(places)
+            weights[1:-1] = 0.5 * (places[2:] - places[:-2])
+        else:
+            weights = mesh.dz
+        return float(width @ (1.0 / gaps) @ (weights * surface.metric(places) ** 2))

@@ -1,0 +1,1 @@
+ConicalBearing = ConicalPair = None
