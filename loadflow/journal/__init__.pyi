@@ -20,6 +20,7 @@ from .heat import Heat as Heat
 from .lubricant import Lubricant as Lubricant
 from .pad_results import ConicalResult as ConicalResult
 from .pad_results import PadResult as PadResult
+from .pad_results import PairResult as PairResult
 from .pad_results import ThrustResult as ThrustResult
 from .pads import Pivot as Pivot
 from .results import Equilibrium as Equilibrium

@@ -217,6 +217,66 @@ class ConicalResult(PadResult):
         return self.damping_matrix
 
 
+@dataclass(frozen=True, repr=False)
+class PairResult:
+    """Films of two cones against each other.
+
+    Attributes
+    ----------
+    left, right : ConicalResult
+        Each in the frame of its cone.
+    force, moment : array (3,), (2,)
+        What the shaft applies to both, N and N m about the origin of the pair.
+    eccentricity, tilt : array (3,), (2,)
+        Of the shaft at the origin, m and rad.
+    load_share : array (2,)
+        Shares of left and right in the sum of the normal forces.
+    minimum_film, maximum_pressure, friction_torque, friction_power : float
+        Of both.
+    stiffness, damping : array (5, 5)
+        Derivatives of force and moment by position and velocity (x, y, z, about x, about y).
+    speed, converged, residual, iterations
+        As in `PadResult`.
+    """
+
+    left: ConicalResult
+    right: ConicalResult
+    force: Array
+    moment: Array
+    eccentricity: Array
+    tilt: Array
+    load_share: Array
+    minimum_film: float
+    maximum_pressure: float
+    friction_torque: float
+    friction_power: float
+    stiffness: Array
+    damping: Array
+    speed: float
+    converged: bool
+    residual: float
+    iterations: int
+
+    _table: ClassVar[Table] = {
+        "force": (("space",), "N", "force of the shaft on the bearing"),
+        "moment": (("axis",), "N m", "moment of the shaft on the bearing about both axes"),
+        "eccentricity": (("space",), "m", "shaft relative to the bearing"),
+        "tilt": (("axis",), "rad", "rotation of the shaft about both axes"),
+        "load_share": (("cone",), "1", "share of each cone in the sum of the normal forces"),
+        "stiffness": (("load", "motion"), "SI", "derivative of the load by the position"),
+        "damping": (("load", "motion"), "SI", "derivative of the load by the velocity"),
+    } | {
+        name: _PADS[name]
+        for name in (
+            "minimum_film", "maximum_pressure", "friction_torque", "friction_power", "speed",
+            "converged", "residual", "iterations",
+        )
+    }  # fmt: skip
+
+    to_dataset = PadResult.to_dataset
+    __repr__ = PadResult.__repr__
+
+
 def common(described: dict[str, Any]) -> dict[str, Any]:
     """Those of the `described` results of pads that `PadResult` has by the same name."""
     names = {part.name for part in fields(PadResult)}

@@ -97,7 +97,7 @@ class Pads:
         radius = self.surface.radius
         unit = np.array([clearance] * 3 + [clearance / radius] * 2)[self.surface.rigid]
         rigid = np.eye(BODY)[self.surface.rigid]
-        gives, support = self._support()
+        gives, support, normal = self._support()
         turns = [_turn(0.0 if self.closed else centre) for centre in self.centres]
         members = []
         for group in [turns] if alike else [[turn] for turn in turns]:
@@ -118,15 +118,22 @@ class Pads:
             own.set_speed(speed)
             own.set_scale(rate)
             members.append(
-                Member(own, rigid / unit[:, None], rigid @ gives / unit[:, None], support, tuple(group))
+                Member(
+                    own,
+                    attached=rigid / unit[:, None],
+                    gives=rigid @ gives / unit[:, None],
+                    support=support,
+                    normal=rigid @ normal / unit,
+                    turns=tuple(group),
+                )
             )
         return members
 
-    def _support(self) -> tuple[Array, Array]:
-        """Motions of a pad as those of the shaft (5, k), and the stiffness of its support (k, k)."""
+    def _support(self) -> tuple[Array, Array, Array]:
+        """Motions of a pad as those of the shaft (5, k), stiffness of its support (k, k), normal."""
         pivot = self.pivot
         if pivot is None:
-            return np.zeros((BODY, 0)), np.zeros((0, 0))
+            return np.zeros((BODY, 0)), np.zeros((0, 0)), np.zeros(BODY)
         nodes = self.surface.place(self.surface.nodes(4))
         place = float(nodes[0] + pivot.across * (nodes[-1] - nodes[0]))
         frame = self.surface.frame((pivot.share - 0.5) * self.angle, place)
@@ -137,7 +144,8 @@ class Pads:
         if math.isfinite(pivot.tilt_stiffness):
             motions += [frame.turning(frame.generator), frame.turning(frame.tangent)]
             stiffness += [pivot.tilt_stiffness] * 2
-        return np.array(motions).reshape(-1, BODY).T, np.diag(stiffness)
+        columns = np.array(motions).reshape(-1, BODY).T
+        return columns, np.diag(stiffness), frame.along(frame.normal)
 
     @property
     def tilting(self) -> bool:

@@ -176,6 +176,16 @@ class _PadThrust:
         if not row.tilting and not row.profile.depth(share).any():
             raise SolverError(f"{head}: flat pads that do not tilt have no wedge and carry no load")
 
+    def _reason(self) -> str:
+        """Why a film carries nothing."""
+        pivot = self.row.pivot
+        if self.row.tilting and pivot is not None:
+            return (
+                "the pads find no tilt at which the centre of pressure meets the pivot at "
+                f"{pivot.share:g} of their length and {pivot.across:g} of their width"
+            )
+        return "the film diverges in this sense of rotation and carries no load"
+
     def _first_gap(
         self, head: str, force: float, speed: float, film: Film, tilt: Array, limits: Limits
     ) -> float:
@@ -197,8 +207,7 @@ class _PadThrust:
             state = assembly.solve(start, np.zeros(BODY), _HELD, limits)
             load = -sum(part[2] for pads in assembly.loads(state) for part in pads)
             if not state.converged or load <= 0.0:
-                reason = "the film diverges in this sense of rotation and carries no load"
-                raise SolverError(f"{head}: {reason}, {load:.4g} N at a gap of {gap:.4g} m")
+                raise SolverError(f"{head}: {self._reason()}; {load:.4g} N at a gap of {gap:.4g} m")
             if 1.0 / _NEAR < load / force < _NEAR:
                 break
             tried.append((math.log(gap), math.log(load / force)))

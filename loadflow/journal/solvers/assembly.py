@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import SolverError
+from loadflow.journal.film import _kernels as kernel
 from loadflow.journal.film.film import Linear, SingularFilm
 from loadflow.journal.film.surface_film import SurfaceFilm
 from loadflow.numerics.convergence import Limits
@@ -23,7 +24,9 @@ Array = NDArray[np.float64]
 
 BODY = 5  # degrees of freedom of the shaft
 _QUADRATIC = 1e-7  # a step this small leaves an error near its square
-_CALM = 0.5  # change of the film, over the scale of pressure, up to which the shaft goes all the way
+_CALM = 0.5  # change of the film, over its pressure, up to which the shaft goes all the way
+_LARGEST = 3.0  # factor of a pad's Newton step toward the pivot
+_ALONE = 4  # first steps in which a film that changes more is corrected with the shaft held
 _FINEST = 1.0 / 64  # smallest load step
 _STEPS = 60  # load steps at most
 
@@ -42,6 +45,8 @@ class Member:
         Position of the film by the k motions of the pad (m, rad).
     support : array (k, k)
         Stiffness of the pad's support, N/m and N m/rad; 0 where the pad tilts freely.
+    normal : array (m,)
+        Position of the film by a shift of the shaft along the normal at the pivot.
     turns : tuple of array (5, 5)
         Axes of the shaft as seen by each pad that shares this film because it sees the same gap;
         one pad, not turned, by default.
@@ -51,7 +56,12 @@ class Member:
     attached: Array
     gives: Array
     support: Array
+    normal: Array
     turns: tuple[Array, ...] = (np.eye(BODY),)
+
+    def seen(self, turns: tuple[Array, ...]) -> Member:
+        """The same, seen by a shaft in other axes."""
+        return replace(self, turns=turns)
 
     @property
     def sees(self) -> Array:
@@ -156,7 +166,14 @@ class Assembly:
             scaled = matrix / np.outer(sizes, sizes)
             return np.asarray((_solve(scaled, (rhs.T / sizes).T).T / sizes).T)
 
-        first = follow(gives.T @ load - member.support @ state.pad)
+        missing = gives.T @ load - member.support @ state.pad
+        pressed = float(member.normal @ load)
+        first = follow(missing)
+        if pressed > 0.0 and not member.support.any():
+            # the centre of pressure shall meet the pivot: a pad without film has no moment, either
+            lost = member.normal @ stiffness @ gives
+            share = float(lost @ first) / pressed
+            first /= max(1.0 - share, 1.0 / _LARGEST)
         by_place = follow(gives.T @ stiffness @ attached)
         left = attached - gives @ by_place
         by_speed = follow(gives.T @ damping @ left)
@@ -168,20 +185,16 @@ class Assembly:
             by_place,
         )
 
-    def _sums(self, parts: Sequence[_Condensed]) -> tuple[Array, Array, Array]:
-        """Load, stiffness and damping of all films; pads that share a film are turned copies."""
-        load, stiffness, damping = np.zeros(BODY), np.zeros((BODY, BODY)), np.zeros((BODY, BODY))
-        for member, part in zip(self.members, parts):
-            for turn in member.turns:
-                load += turn.T @ part.load
-                stiffness += turn.T @ part.stiffness @ turn
-                damping += turn.T @ part.damping @ turn
-        return load, stiffness, damping
+    def coefficients(
+        self, state: AssemblyState, members: slice = slice(None)
+    ) -> tuple[Array, Array]:
+        """Stiffness and damping −∂F_film/∂q, −∂F_film/∂q̇ of the shaft, pads following (5, 5).
 
-    def coefficients(self, state: AssemblyState) -> tuple[Array, Array]:
-        """Stiffness and damping −∂F_film/∂q, −∂F_film/∂q̇ of the shaft, pads following (5, 5)."""
-        parts = [self._condensed(m, s) for m, s in zip(self.members, state.members)]
-        return self._sums(parts)[1:]
+        Of all films, or of those `members` alone.
+        """
+        some = self.members[members]
+        parts = [self._condensed(m, s) for m, s in zip(some, state.members[members])]
+        return _sums(some, parts)[1:]
 
     def loads(self, state: AssemblyState) -> list[list[Array]]:
         """What the shaft applies to every pad of every film at a solved state, N, N m."""
@@ -219,7 +232,7 @@ class Assembly:
         for iteration in range(1, most + 1):
             try:
                 state = self._linearised(state)
-                state, change = self._step(state, force, free)
+                state, change = self._step(state, force, free, iteration <= _ALONE)
             except (SingularFilm, np.linalg.LinAlgError, FloatingPointError):
                 break
             if not math.isfinite(change):
@@ -243,15 +256,18 @@ class Assembly:
         return replace(state, members=tuple(members))
 
     def _step(
-        self, state: AssemblyState, force: Array, free: NDArray[np.int64]
+        self, state: AssemblyState, force: Array, free: NDArray[np.int64], alone: bool
     ) -> tuple[AssemblyState, float]:
-        """One Newton step, as far as a film is left everywhere, and its size."""
+        """One Newton step, as far as a film is left everywhere, and its size.
+
+        The stiffness of a film that has no pressure yet is none: `alone` it is corrected first.
+        """
         parts = [self._condensed(m, s) for m, s in zip(self.members, state.members)]
-        load, stiffness, _ = self._sums(parts)
-        calm = 1.0
-        for member, own in zip(self.members, state.members):
-            assert own.linear is not None
-            calm = min(calm, _CALM / max(member.film.size(own.linear.columns[0]), 1e-300))
+        load, stiffness, _ = _sums(self.members, parts)
+        change = max(_change(m.film, s) for m, s in zip(self.members, state.members))
+        calm = min(1.0, _CALM / max(change, 1e-300))
+        if calm < 1.0 and alone:
+            calm = 0.0
         step = np.zeros(BODY)
         if free.size:
             scale = self.scale[free]
@@ -259,11 +275,11 @@ class Assembly:
             step[free] = calm * scale * _solve(matrix, scale * (force - load)[free])
         moves, share = [], 1.0
         for member, own, part in zip(self.members, state.members, parts):
-            pad = calm * part.first + part.follow @ member.turns[0] @ step
+            pad = calm * part.first + part.follow @ (member.turns[0] @ step)
             move = member.sees @ step - member.gives @ pad
             share = min(share, member.film.gap.share(self.place(member, own, state.position), move))
             moves.append((pad, move))
-        members, change = [], 0.0
+        members, change = [], 1.0 if calm == 0.0 else 0.0
         for member, own, (pad, move) in zip(self.members, state.members, moves):
             gap = member.film.gap
             assert own.linear is not None
@@ -343,6 +359,27 @@ class Assembly:
                 if step < _FINEST:
                     break
         return replace(state, converged=False, iterations=spent)
+
+
+def _sums(members: Sequence[Member], parts: Sequence[_Condensed]) -> tuple[Array, Array, Array]:
+    """Load, stiffness and damping of `members`; pads that share a film are turned copies."""
+    load, stiffness, damping = np.zeros(BODY), np.zeros((BODY, BODY)), np.zeros((BODY, BODY))
+    for member, part in zip(members, parts):
+        for turn in member.turns:
+            load += turn.T @ part.load
+            stiffness += turn.T @ part.stiffness @ turn
+            damping += turn.T @ part.damping @ turn
+    return load, stiffness, damping
+
+
+def _change(film: SurfaceFilm, state: MemberState) -> float:
+    """Size of the Newton step of a film over the pressure to which it leads."""
+    assert state.linear is not None
+    step = state.linear.columns[0]
+    flat = np.empty_like(step)
+    kernel.gather(state.u, film.mesh.order, flat)
+    peak = float(np.abs(flat - step - film.p_edge).max())
+    return float(np.abs(step).max()) / max(peak, 1e-12 * film.scale)
 
 
 def _solve(matrix: Array, rhs: Array) -> Array:
