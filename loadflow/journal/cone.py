@@ -236,8 +236,8 @@ class ConicalBearing:
         return Assembly(self.members(film, speed, rate), self.row.surface.radius)
 
     def _started(self, assembly: Assembly, position: Array, speed: float) -> AssemblyState:
-        row = self.row
-        return assembly.start(position, [row.lifted(self.clearance, speed)] * len(assembly.members))
+        pads = self.row.lifted_at(assembly.members, position, speed)
+        return assembly.start(position, pads)
 
     def _refuse_hopeless(self, head: str, load: Array, speed: float) -> None:
         """Name the reason why no film can carry `load`."""
@@ -472,12 +472,16 @@ class ConicalPair:
         return Assembly(members, max(cone.row.surface.radius for cone in self.cones))
 
     def _started(self, assembly: Assembly, position: Array, speed: float) -> AssemblyState:
-        pads = []
-        for cone, view in zip(self.cones, self.views()):
+        pads: list[Array] = []
+        for cone, view, part in zip(self.cones, self.views(), self._parts()):
             own = math.copysign(1.0, view[2, 2]) * speed
-            row = cone.row
-            pads += [row.lifted(cone.clearance, own)] * len(row.centres)
+            pads += cone.row.lifted_at(assembly.members[part], position, own)
         return assembly.start(position, pads)
+
+    def _parts(self) -> tuple[slice, slice]:
+        """Members of the left and of the right cone."""
+        count = len(self.left.row.centres)
+        return slice(0, count), slice(count, None)
 
     def _first_places(self, wanted: Array, tilt: Array, speed: float) -> list[Array]:
         """Positions across the clearance toward the load (n, 5)."""
@@ -494,10 +498,8 @@ class ConicalPair:
         return places
 
     def _result(self, assembly: Assembly, state: AssemblyState, speed: float) -> PairResult:
-        count = len(self.left.row.centres)
-        parts = (slice(0, count), slice(count, None))
         results, total = [], np.zeros(BODY)
-        for cone, view, part in zip(self.cones, self.views(), parts):
+        for cone, view, part in zip(self.cones, self.views(), self._parts()):
             own = view @ state.position
             turned = math.copysign(1.0, view[2, 2]) * speed
             fields = cone.described(assembly, part, state, own, turned)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -20,6 +21,8 @@ from loadflow.journal.surfaces import Flat, Profile, Surface
 from loadflow.numerics.fields import require
 
 Array = NDArray[np.float64]
+
+LIFTS = (0.5, 1.0, 2.0, 0.25)  # tilts of pads from which Newton starts
 
 
 @dataclass(frozen=True)
@@ -152,14 +155,28 @@ class Pads:
         """Whether the pads tilt."""
         return self.pivot is not None and math.isfinite(self.pivot.tilt_stiffness)
 
-    def lifted(self, gap: float, speed: float) -> Array:
-        """Motion of a pad (k,) with which its film of height `gap`, m, converges."""
+    def lifted(self, gap: float, speed: float, lift: float = LIFTS[0]) -> Array:
+        """Motion of a pad (k,) with which its film of height `gap`, m, converges.
+
+        Over the length of the pad it falls by the share `lift` of that height.
+        """
         motions = self._support()[1].shape[0]
         start = np.zeros(motions)
         if self.tilting:
             length = self.angle * self.surface.radius
-            start[-2] = math.copysign(0.5 * gap / length, speed)
+            start[-2] = math.copysign(lift * gap / length, speed)
         return start
+
+    def lifted_at(self, members: Sequence[Member], position: Array, speed: float) -> list[Array]:
+        """Motions of the pads of `members` with which their films converge at a shaft's position.
+
+        Over its length each falls by half the narrowest gap that the pad would have unmoved.
+        """
+        found = []
+        for member in members:
+            room = member.unit * member.film.gap.narrowest(member.sees @ position)
+            found.append(self.lifted(max(room, 0.0), speed))
+        return found
 
     def describe(self, assembly: Assembly, members: slice, state: AssemblyState) -> dict[str, Any]:
         """Results of these pads, which are `members` of the assembly, in the order of `centres`."""

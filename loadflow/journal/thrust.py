@@ -13,7 +13,7 @@ from loadflow.errors import InputError, SolverError
 from loadflow.journal.film_model import Control, Film, Keywords, film_and_control
 from loadflow.journal.lubricant import Lubricant
 from loadflow.journal.pad_results import ThrustResult, common
-from loadflow.journal.pads import Pads, Pivot, check_film, even_pads, finite
+from loadflow.journal.pads import LIFTS, Pads, Pivot, check_film, even_pads, finite
 from loadflow.journal.solvers.assembly import (
     BODY,
     Assembly,
@@ -94,13 +94,8 @@ class _PadThrust:
         turned = finite("tilt", tilt, 2)
         require(gap > 0, "gap", gap, "m, > 0")
         assembly = self._assembly(film, gap, speed, velocity, alike=not turned.any())
-        state = self._started(assembly, 0.0, turned, gap, speed)
-        moving = np.zeros(BODY)
-        moving[2] = velocity
-        state = AssemblyState(state.position, moving, state.members)
-        self._check_room(assembly, state)
         limits = control.limits(1e-10, 60)
-        state = assembly.solve(state, np.zeros(BODY), _HELD, limits)
+        state = self._held(assembly, np.array([0.0, 0.0, 0.0, *turned]), velocity, gap, speed, limits)
         if not state.converged and limits.strict:
             raise_not_converged(f"gap {gap:.6g} m, ω = {speed:.6g} rad/s", state, assembly.narrowest(state))
         return self._result(assembly, state, gap, speed)
@@ -160,7 +155,8 @@ class _PadThrust:
         if moment is not None:
             wanted[3:] = finite("moment", moment, 2)
         free = _AXIAL if moment is None else _WITH_TILT
-        start = self._started(assembly, 0.0, turned, first, speed)
+        place = np.array([0.0, 0.0, 0.0, *turned])
+        start = self._held(assembly, place, 0.0, first, speed, limits)
         state = assembly.equilibrium([start], wanted, free, limits)
         if not state.converged and limits.strict:
             raise_not_converged(head, state, assembly.narrowest(state))
@@ -203,9 +199,8 @@ class _PadThrust:
         tried: list[tuple[float, float]] = []
         for _ in range(_ROUNDS):
             assembly = self._assembly(film, gap, speed, 0.0, alike=True)
-            start = self._started(assembly, 0.0, np.zeros(2), gap, speed)
-            state = assembly.solve(start, np.zeros(BODY), _HELD, limits)
-            load = -sum(part[2] for pads in assembly.loads(state) for part in pads)
+            state = self._held(assembly, np.zeros(BODY), 0.0, gap, speed, limits)
+            load = _axial(assembly, state)
             if not state.converged or load <= 0.0:
                 raise SolverError(f"{head}: {self._reason()}; {load:.4g} N at a gap of {gap:.4g} m")
             if 1.0 / _NEAR < load / force < _NEAR:
@@ -225,16 +220,31 @@ class _PadThrust:
         members = self.row.members(film, gap, gap, speed, rate, alike)
         return Assembly(members, self.row.surface.radius)
 
-    def _started(
-        self, assembly: Assembly, lift: float, tilt: Array, gap: float, speed: float
+    def _held(
+        self,
+        assembly: Assembly,
+        position: Array,
+        velocity: float,
+        gap: float,
+        speed: float,
+        limits: Limits,
     ) -> AssemblyState:
-        position = np.array([0.0, 0.0, lift, *tilt])
-        return assembly.start(position, [self.row.lifted(gap, speed) for _ in assembly.members])
-
-    def _check_room(self, assembly: Assembly, state: AssemblyState) -> None:
-        narrowest = assembly.narrowest(state)
-        if narrowest <= 0.0:
-            raise InputError(f"the runner touches the pads: narrowest gap {narrowest:.6g} m")
+        """Films at a given position; pads that tilt carry, if they can."""
+        moving = np.zeros(BODY)
+        moving[2] = velocity
+        for lift in LIFTS if self.row.tilting else LIFTS[:1]:
+            pads = [self.row.lifted(gap, speed, lift)] * len(assembly.members)
+            start = assembly.start(position, pads)
+            narrowest = assembly.narrowest(start)
+            if narrowest <= 0.0:
+                if self.row.tilting and lift != LIFTS[0]:
+                    continue
+                raise InputError(f"the runner touches the pads: narrowest gap {narrowest:.6g} m")
+            start = AssemblyState(position, moving, start.members)
+            state = assembly.solve(start, np.zeros(BODY), _HELD, limits)
+            if state.converged and _axial(assembly, state) > 0.0:
+                break
+        return state
 
     def _result(
         self, assembly: Assembly, state: AssemblyState, base: float, speed: float
@@ -249,11 +259,11 @@ class _PadThrust:
         alike = len(assembly.members) == 1
         return ThrustResult(
             **common(found | {"stiffness_matrix": stiffness, "damping_matrix": damping}),
-            force=float(-total[2]),
+            force=float(-total[2]) + 0.0,
             moment=total[3:],
             gap=base + float(state.position[2]),
             tilt=state.position[3:],
-            pad_force=float(-loads[0, 2]) if alike else -loads[:, 2],
+            pad_force=float(-loads[0, 2]) + 0.0 if alike else -loads[:, 2] + 0.0,
             centre=(float(centre[0, 0]), float(centre[0, 1])) if alike else centre,
             stiffness=float(stiffness[0, 0]),
             damping=float(damping[0, 0]),
@@ -380,6 +390,11 @@ class RectangularThrustBearing(_PadThrust):
         """The pads."""
         surface: Surface = Strip(self.mean_radius, self.width)
         return _row(self, surface, self.length / self.mean_radius)
+
+
+def _axial(assembly: Assembly, state: AssemblyState) -> float:
+    """Axial force of all pads, N."""
+    return -float(sum(part[2] for pads in assembly.loads(state) for part in pads))
 
 
 def _row(bearing: ThrustBearing | RectangularThrustBearing, surface: Surface, angle: float) -> Pads:

@@ -23,12 +23,16 @@ from loadflow.numerics.convergence import Limits
 Array = NDArray[np.float64]
 
 BODY = 5  # degrees of freedom of the shaft
+_SHIFTS = np.arange(3)
 _QUADRATIC = 1e-7  # a step this small leaves an error near its square
 _CALM = 0.5  # change of the film, over its pressure, up to which the shaft goes all the way
 _LARGEST = 3.0  # factor of a pad's Newton step toward the pivot
 _ALONE = 4  # first steps in which a film that changes more is corrected with the shaft held
 _FINEST = 1.0 / 64  # smallest load step
-_STEPS = 60  # load steps at most
+_STEPS = 40  # load steps at most
+_SHORT = 15  # Newton steps of one load step
+_SPENT = 250  # Newton steps after which an equilibrium is given up
+_PRESSED = 1e-12  # narrowest gap, in clearances, that is none
 
 
 @dataclass(frozen=True)
@@ -240,9 +244,8 @@ class Assembly:
             if change < _QUADRATIC:
                 residual = self.imbalance(state, force, free)
                 if residual < limits.tolerance:
-                    done = self._linearised(state)
                     return replace(
-                        done, converged=True, iterations=iteration, residual=residual
+                        state, converged=True, iterations=iteration, residual=residual
                     )
         return replace(state, converged=False, iterations=iteration, residual=residual)
 
@@ -264,6 +267,9 @@ class Assembly:
         """
         parts = [self._condensed(m, s) for m, s in zip(self.members, state.members)]
         load, stiffness, _ = _sums(self.members, parts)
+        for member, own in zip(self.members, state.members):
+            if member.film.gap.gaps(self.place(member, own, state.position)).min() < _PRESSED:
+                return state, math.nan
         change = max(_change(m.film, s) for m, s in zip(self.members, state.members))
         calm = min(1.0, _CALM / max(change, 1e-300))
         if calm < 1.0 and alone:
@@ -322,33 +328,45 @@ class Assembly:
         free: NDArray[np.int64],
         limits: Limits,
     ) -> AssemblyState:
-        """Equilibrium by Newton from each of `starts`, then by load steps from the first."""
+        """Equilibrium by Newton from each of `starts`, then by load steps from each."""
         spent = 0
         found = starts[0]
-        for start in starts:
-            found = self.solve(start, force, free, limits)
+        tilts = free.size > _SHIFTS.size
+        for start in starts:  # without the moment first, at the given tilt
+            found = self.solve(start, force, _SHIFTS if tilts else free, limits)
             spent += found.iterations
-            if found.converged:
+            if found.converged and tilts:
+                found = self._in_load_steps(found, force, free, limits, spent, 1.0)
+                spent = found.iterations
+            if found.converged or spent > _SPENT:
                 return replace(found, iterations=spent)
         for start in starts:
             held = self.solve(start, force, np.array([], dtype=np.int64), limits)
             spent += held.iterations
             if held.converged:
-                stepped = self._in_load_steps(held, force, free, limits)
-                spent += stepped.iterations
-                if stepped.converged:
-                    return replace(stepped, iterations=spent)
-        return replace(found, converged=False, iterations=spent)
+                found = self._in_load_steps(held, force, free, limits, spent, 0.25)
+                spent = found.iterations
+                if found.converged or spent > _SPENT:
+                    break
+        return replace(found, iterations=spent)
 
     def _in_load_steps(
-        self, state: AssemblyState, force: Array, free: NDArray[np.int64], limits: Limits
+        self,
+        state: AssemblyState,
+        force: Array,
+        free: NDArray[np.int64],
+        limits: Limits,
+        spent: int,
+        step: float,
     ) -> AssemblyState:
         """From the load that `state` carries to `force` in steps that Newton can follow."""
         first = np.sum([load for pads in self.loads(state) for load in pads], axis=0)
-        done, step, spent = 0.0, 0.25, 0
+        done, residual = 0.0, state.residual
+        short = replace(limits, max_iterations=_SHORT)
         for _ in range(_STEPS):
             at = min(1.0, done + step)
-            trial = self.solve(state, first + at * (force - first), free, limits)
+            trial = self.solve(state, first + at * (force - first), free, short)
+            residual = trial.residual
             spent += trial.iterations
             if trial.converged:
                 state, done, step = trial, at, 2.0 * step
@@ -356,9 +374,9 @@ class Assembly:
                     return replace(state, iterations=spent)
             else:
                 step *= 0.5
-                if step < _FINEST:
-                    break
-        return replace(state, converged=False, iterations=spent)
+            if step < _FINEST or spent > _SPENT:
+                break
+        return replace(state, converged=False, iterations=spent, residual=residual)
 
 
 def _sums(members: Sequence[Member], parts: Sequence[_Condensed]) -> tuple[Array, Array, Array]:
