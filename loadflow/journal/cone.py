@@ -517,7 +517,8 @@ class ConicalPair:
             load_share=normal / normal.sum() if normal.sum() else np.full(2, math.nan),
             minimum_film=min(r.minimum_film for r in results),
             maximum_pressure=max(r.maximum_pressure for r in results),
-            friction_torque=results[1].friction_torque * math.copysign(1.0, results[1].speed * speed)
+            friction_torque=results[1].friction_torque
+            * math.copysign(1.0, results[1].speed * speed)
             + results[0].friction_torque * math.copysign(1.0, results[0].speed * speed),
             friction_power=sum(r.friction_power for r in results),
             stiffness=stiffness,

@@ -122,7 +122,7 @@ class PadResult:
             value: Any = getattr(self, part.name)
             if isinstance(value, np.ndarray) and value.size > 5:
                 value = f"array {value.shape}"
-            elif isinstance(value, PadResult):
+            elif isinstance(value, PadResult):  # of a pair
                 value = type(value).__name__
             elif not isinstance(value, bool | int):
                 value = np.array2string(np.asarray(value), precision=6)

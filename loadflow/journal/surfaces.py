@@ -154,7 +154,6 @@ class Cone:
         across[3:] = (np.expm1(sin * z) + sin**2) / sin
         return factors, across
 
-
     def frame(self, angle: float, place: float) -> Frame:
         """Point and axes at an angle and a distance from the apex, m."""
         cos, sin = math.cos(self.half_angle), math.sin(self.half_angle)

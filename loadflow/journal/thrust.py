@@ -90,14 +90,22 @@ class _PadThrust:
         """
         film, control = film_and_control(film, more, control, keywords)
         check_film(film)
-        gap, speed, velocity = finite("gap", gap), finite("speed", speed), finite("velocity", velocity)
+        gap, speed, velocity = (
+            finite("gap", gap),
+            finite("speed", speed),
+            finite("velocity", velocity),
+        )
         turned = finite("tilt", tilt, 2)
         require(gap > 0, "gap", gap, "m, > 0")
         assembly = self._assembly(film, gap, speed, velocity, alike=not turned.any())
         limits = control.limits(1e-10, 60)
-        state = self._held(assembly, np.array([0.0, 0.0, 0.0, *turned]), velocity, gap, speed, limits)
+        state = self._held(
+            assembly, np.array([0.0, 0.0, 0.0, *turned]), velocity, gap, speed, limits
+        )
         if not state.converged and limits.strict:
-            raise_not_converged(f"gap {gap:.6g} m, ω = {speed:.6g} rad/s", state, assembly.narrowest(state))
+            raise_not_converged(
+                f"gap {gap:.6g} m, ω = {speed:.6g} rad/s", state, assembly.narrowest(state)
+            )
         return self._result(assembly, state, gap, speed)
 
     def equilibrium(

@@ -95,9 +95,7 @@ def gap_coefficients(cos_face, sin_face, w_face, cos_cell, sin_cell, w_cell, str
 
 
 @njit(cache=True, nogil=True)
-def balance(
-    state, coef, dz, area, gz, closed, wedge, p_edge, p_line, f_line, mass, groove, out
-):
+def balance(state, coef, dz, area, gz, closed, wedge, p_edge, p_line, f_line, mass, groove, out):
     """Add the outflow of each cell to `out` (nx, nz); linear in `coef` and `mass` (nx, rows).
 
     A groove that reaches a rim is closed there.

@@ -155,7 +155,9 @@ class Assembly:
         """What the shaft feels of a film, once the pad has followed."""
         assert state.linear is not None
         load = member.unit * state.linear.load
-        stiffness, damping = (member.unit * x for x in (state.linear.stiffness, state.linear.damping))
+        stiffness, damping = (
+            member.unit * x for x in (state.linear.stiffness, state.linear.damping)
+        )
         attached, gives = member.attached, member.gives
         if not gives.shape[1]:
             nothing = np.zeros((0, BODY))
@@ -244,9 +246,7 @@ class Assembly:
             if change < _QUADRATIC:
                 residual = self.imbalance(state, force, free)
                 if residual < limits.tolerance:
-                    return replace(
-                        state, converged=True, iterations=iteration, residual=residual
-                    )
+                    return replace(state, converged=True, iterations=iteration, residual=residual)
         return replace(state, converged=False, iterations=iteration, residual=residual)
 
     def _linearised(self, state: AssemblyState) -> AssemblyState:
@@ -314,11 +314,15 @@ class Assembly:
             if own.pad.size:
                 size = np.abs(member.gives).max(axis=0)
                 missing = (member.gives.T @ load - member.support @ own.pad) / size
-                pressed = max(float(np.abs(load).max()), 1e-3 * member.unit * film.scale * film.radius**2)
+                pressed = max(
+                    float(np.abs(load).max()), 1e-3 * member.unit * film.scale * film.radius**2
+                )
                 worst = max(worst, float(np.abs(missing).max()) / pressed)
         if free.size:
             missing = (arms * (force - total))[free]
-            worst = max(worst, float(np.abs(missing).max()) / max(math.hypot(*(arms * force)), least))
+            worst = max(
+                worst, float(np.abs(missing).max()) / max(math.hypot(*(arms * force)), least)
+            )
         return worst
 
     def equilibrium(
@@ -411,7 +415,9 @@ def _solve(matrix: Array, rhs: Array) -> Array:
 
 def raise_not_converged(head: str, state: AssemblyState, narrowest: float) -> None:
     """Say with numbers why there is no answer."""
+    loose = any(m.pad.size for m in state.members)
+    hint = "; a pad that carries nothing stays in place only with tilt_stiffness" if loose else ""
     raise SolverError(
         f"{head}: no equilibrium found; residual {state.residual:.3g} after {state.iterations} "
-        f"Newton steps, narrowest film {narrowest:.3g} m"
+        f"Newton steps, narrowest film {narrowest:.3g} m{hint}"
     )
