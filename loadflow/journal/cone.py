@@ -21,7 +21,7 @@ from loadflow.journal.solvers.assembly import (
     Member,
     raise_not_converged,
 )
-from loadflow.journal.surfaces import Cone, Flat, Profile
+from loadflow.journal.surfaces import FLAT, Cone, Flat, Profile
 from loadflow.numerics.convergence import Limits
 from loadflow.numerics.fields import require
 
@@ -80,7 +80,7 @@ class ConicalBearing:
     pads: int | None = None
     pad_angle: float | None = None
     first_pad: float = 0.0
-    profile: Profile = Flat()
+    profile: Profile = FLAT
     pivot: Pivot | None = None
 
     def __post_init__(self) -> None:

@@ -17,7 +17,7 @@ from loadflow.journal.film.surface_film import SurfaceFilm
 from loadflow.journal.film_model import Film
 from loadflow.journal.solvers.assembly import BODY, Assembly, AssemblyState, Member
 from loadflow.journal.supply import Supply
-from loadflow.journal.surfaces import Flat, Profile, Surface
+from loadflow.journal.surfaces import FLAT, Profile, Surface
 from loadflow.numerics.fields import require
 
 Array = NDArray[np.float64]
@@ -78,7 +78,7 @@ class Pads:
     angle: float
     centres: tuple[float, ...]
     closed: bool = False
-    profile: Profile = Flat()
+    profile: Profile = FLAT
     pivot: Pivot | None = None
 
     def members(
@@ -133,7 +133,7 @@ class Pads:
         return members
 
     def _support(self) -> tuple[Array, Array, Array]:
-        """Motions of a pad as those of the shaft (5, k), stiffness of its support (k, k), normal."""
+        """Motions of a pad as the shaft's (5, k), stiffness of its support (k, k), normal (5,)."""
         pivot = self.pivot
         if pivot is None:
             return np.zeros((BODY, 0)), np.zeros((0, 0)), np.zeros(BODY)
@@ -148,7 +148,7 @@ class Pads:
             motions += [frame.turning(frame.generator), frame.turning(frame.tangent)]
             stiffness += [pivot.tilt_stiffness] * 2
         columns = np.array(motions).reshape(-1, BODY).T
-        return columns, np.diag(stiffness), frame.along(frame.normal)
+        return columns, np.diag(np.array(stiffness)), frame.along(frame.normal)
 
     @property
     def tilting(self) -> bool:

@@ -48,6 +48,9 @@ class Frame(NamedTuple):
 class Surface(Protocol):
     """What the film asks of the surface on which it lies."""
 
+    def __hash__(self) -> int:
+        """Surfaces are keys of the meshes on them."""
+
     @property
     def radius(self) -> float:
         """Reference radius R, m: unit of length of the film."""
@@ -120,8 +123,8 @@ class Cone:
 
     def nodes(self, cells: int) -> Array:
         """Nodes at even steps of ln s, (cells + 1,)."""
-        ends = np.log(np.array([self.inner, self.outer]) / self.middle)
-        return np.linspace(*ends, cells + 1) / math.sin(self.half_angle)
+        inner, outer = (math.log(s / self.middle) for s in (self.inner, self.outer))
+        return np.linspace(inner, outer, cells + 1) / math.sin(self.half_angle)
 
     def metric(self, z: Array) -> Array:
         """Square of the radius at ζ over R²."""
@@ -252,6 +255,9 @@ class Flat:
     def depth(self, share: Array) -> Array:
         """Zero."""
         return np.zeros_like(share)
+
+
+FLAT = Flat()
 
 
 @dataclass(frozen=True)

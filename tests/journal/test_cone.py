@@ -70,7 +70,7 @@ def test_full_film_has_no_axial_force():
 def test_signs_of_the_frame():
     """The shaft presses toward the apex; the film stands before the narrowest gap."""
     force = CONE.pressure((5e-5, 0.0, 0.0), 10.0, FILM).force
-    assert force[0] > 0 and force[1] < 0 and force[2] < 0
+    assert list(np.sign(force)) == [1, -1, -1]
     back = CONE.pressure((5e-5, 0.0, 0.0), -10.0, FILM).force
     np.testing.assert_allclose(back, force * [1, -1, 1], rtol=1e-9)
     wider = CONE.pressure((5e-5, 0.0, 2e-5), 10.0, FILM).force
@@ -86,11 +86,13 @@ def test_a_slender_cone_is_the_cylinder(law):
     bearing = JournalBearing(2 * radius, width, c / radius)
     place = np.array([2.5e-4, 1e-4])
     found, expected = cone.pressure([*place, 0.0], 10.0, film), bearing.pressure(place, 10.0, film)
-    np.testing.assert_allclose(found.force[:2], expected.force, rtol=2e-3)
+    # the cylinder's load is 0.25 % above the converged one on this mesh, the cone's 0.05 % below
+    np.testing.assert_allclose(found.force[:2], expected.force, rtol=4e-3)
     assert found.friction_power == pytest.approx(float(expected.friction_power), rel=2e-3)
     tilted = cone.pressure([*place, 0.0], 10.0, film, tilt=(1e-4, -2e-4))
-    other = bearing.pressure(place, 10.0, film, tilt=(1e-4, -2e-4))
-    np.testing.assert_allclose(tilted.force[:2], other.force, rtol=3e-3)
+    finer = Film(Lubricant(0.05), law, inlet=None, grid=(120, 60), grading="uniform")
+    other = bearing.pressure(place, 10.0, finer, tilt=(1e-4, -2e-4))
+    np.testing.assert_allclose(tilted.force[:2], other.force, rtol=4e-3)
     np.testing.assert_allclose(tilted.moment, other.moment, rtol=5e-3)
 
 
@@ -98,7 +100,8 @@ def test_a_slender_cone_is_the_cylinder(law):
 def test_oil_is_conserved_and_the_film_converges(law):
     film = Film(Lubricant(0.05), law, edge_pressure=1e5, inlet=None, grid=(60, 12))
     found = CONE.pressure((4e-5, 3e-5, -1e-5), 10.0, film)
-    assert found.converged and found.residual < 1e-10
+    assert found.converged
+    assert found.residual < 1e-10
     if not isinstance(law, Reynolds):  # its rupture loses oil by definition
         assert abs(found.mass_balance) < 1e-9
     assert found.force[2] <= 1e-6 * abs(found.force[0])
@@ -133,7 +136,8 @@ def test_position_load_position_closes(bearing, place):
     held = bearing.pressure(place, 10.0, FILM)
     for words in ({}, {"moment": held.moment}):
         state = bearing.equilibrium(held.force, 10.0, FILM, **words)
-        assert state.converged and state.residual < 1e-10
+        assert state.converged
+        assert state.residual < 1e-10
         np.testing.assert_allclose(state.eccentricity, place, atol=1e-6 * bearing.clearance)
         np.testing.assert_allclose(state.tilt, 0.0, atol=1e-12)
 
@@ -164,9 +168,14 @@ def test_pads_on_springs_follow_their_load():
     np.testing.assert_allclose(carried, held.normal_force, rtol=0.05, atol=1e-6)
     state = bearing.equilibrium(held.force, 10.0, film, moment=held.moment)
     np.testing.assert_allclose(state.eccentricity, (4e-5, -2e-5, 1e-5), rtol=1e-6)
-    rigid = ConicalBearing(0.5, (1.0, 1.4), 1e-4, pads=8, pad_angle=0.7)
-    stiffer = rigid.pressure((4e-5, -2e-5, 1e-5), 10.0, film)
-    assert np.abs(held.stiffness).max() < np.abs(stiffer.stiffness).max()
+    at = np.array([4e-5, -2e-5, 1e-5, 0.0, 0.0])
+
+    def load(position):
+        return loads(bearing.pressure(position[:3], 10.0, film, tilt=position[3:]))
+
+    differences = np.array([(load(at + d) - load(at - d)) / 2e-10 for d in 1e-10 * np.eye(5)]).T
+    allowed = 1e-4 * np.abs(held.stiffness).max()
+    np.testing.assert_allclose(differences, held.stiffness, atol=allowed)
 
 
 @pytest.mark.parametrize("arrangement", ["O", "X"])
@@ -179,7 +188,7 @@ def test_two_cones_carry_force_and_moment_both_ways(arrangement):
     state = pair.equilibrium(held.force, held.moment, 1.0, film)
     np.testing.assert_allclose(state.eccentricity, place, rtol=1e-6)
     np.testing.assert_allclose(state.tilt, tilt, rtol=1e-6)
-    assert state.left.force[2] < 0 and state.right.force[2] < 0  # each toward its own apex
+    assert max(state.left.force[2], state.right.force[2]) < 0  # each toward its own apex
     outward = 1.0 if arrangement == "O" else -1.0
     axial = outward * (state.right.force[2] - state.left.force[2])
     assert state.force[2] == pytest.approx(axial, rel=1e-9)

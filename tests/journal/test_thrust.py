@@ -105,7 +105,7 @@ def test_oil_is_conserved_by_every_law_that_keeps_it(law, speed):
 def test_flow_in_is_flow_out():
     """What enters at the leading edge leaves at the sides and at the trailing edge, there h U / 2
     and what the pressure adds."""
-    found = LANDS.pressure(1e-4, 10.0, Film(Lubricant(0.05), grid=(160, 80)))
+    found = LANDS.pressure(1e-4, 10.0, Film(Lubricant(0.05), grid=(80, 40)))
     drag = 0.5 * 10.0 * 1e-4 * 0.5 * (1.0**2 - 0.5**2) * 6
     assert found.flow > found.side_flow.sum() + drag  # pressure drives oil out at the trailing edge
     assert found.side_flow.min() > 0
@@ -115,7 +115,8 @@ def test_flow_in_is_flow_out():
 
 def test_force_gap_force_closes():
     state = LANDS.equilibrium(1e6, 10.0, FILM)
-    assert state.converged and state.residual < 1e-10
+    assert state.converged
+    assert state.residual < 1e-10
     assert LANDS.pressure(state.gap, 10.0, FILM).force == pytest.approx(1e6, rel=1e-9)
     again = LANDS.equilibrium(LANDS.pressure(8e-5, 10.0, FILM).force, 10.0, FILM)
     assert again.minimum_film == pytest.approx(8e-5, rel=1e-6)

@@ -8,13 +8,12 @@ from functools import cached_property, lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.journal.film import _kernels as kernel
 from loadflow.journal.film import _surface_kernels as surface_kernel
 from loadflow.journal.film.gap import KEPT
 from loadflow.journal.film.gap_mesh import even_cells
 from loadflow.journal.film.mesh import Mesh
-from loadflow.numerics.fields import require
 from loadflow.journal.surfaces import Profile, Surface
+from loadflow.numerics.fields import require
 
 Array = NDArray[np.float64]
 _COARSEST = 10  # cells that are shared out between kinks, so that finer meshes are nested
@@ -191,13 +190,15 @@ class SurfaceGap:
         middles = 0.5 * (nodes[1:] + nodes[:-1])
         whole = sampled(nodes[:-1], nodes[1:])
         before, after = sampled(middles, nodes[1:]), sampled(nodes[:-1], middles)
+        self._between: tuple[Array, ...]
+        self._round: tuple[Array, ...]
         if mesh.closed:
-            whole = tuple(np.concatenate([v[..., -1:], v], axis=-1) for v in whole)
-            before = tuple(np.roll(v, 1, axis=-1) for v in before)
+            self._between = tuple(np.concatenate([v[..., -1:], v], axis=-1) for v in whole)
+            pairs = [(np.roll(a, 1, axis=-1), b) for a, b in zip(before, after)]
         else:
-            before, after = tuple(v[..., :-1] for v in before), tuple(v[..., 1:] for v in after)
-        self._between = tuple(np.ascontiguousarray(v) for v in whole)
-        self._round = tuple(np.stack(pair, axis=-1) for pair in zip(before, after))
+            self._between = whole
+            pairs = [(a[..., :-1], b[..., 1:]) for a, b in zip(before, after)]
+        self._round = tuple(np.stack(pair, axis=-1) for pair in pairs)
         self.around = np.ascontiguousarray(
             factors @ np.einsum("biq,iq->bi", self._round[0], self._round[1])
         )
