@@ -93,7 +93,7 @@ def test_a_slender_cone_is_the_cylinder(law):
     finer = Film(Lubricant(0.05), law, inlet=None, grid=(120, 60), grading="uniform")
     other = bearing.pressure(place, 10.0, finer, tilt=(1e-4, -2e-4))
     np.testing.assert_allclose(tilted.force[:2], other.force, rtol=4e-3)
-    np.testing.assert_allclose(tilted.moment, other.moment, rtol=5e-3)
+    np.testing.assert_allclose(tilted.moment, other.moment, rtol=8e-3)
 
 
 @pytest.mark.parametrize("law", LAWS, ids=lambda law: law.kind)

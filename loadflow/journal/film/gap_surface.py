@@ -224,8 +224,10 @@ class SurfaceGap:
         """Evaluate `coef` at `position`; the frame of the mesh is that of the shell."""
         shift = self._factors.T * position
         moved, ends = (np.ascontiguousarray(shift @ z) for z in (self.across, self._ends))
-        surface_kernel.between_nodes(*self._between, moved, self.coef, self._by)
-        surface_kernel.around_nodes(*self._round, moved, ends, self.coef, self._by)
+        basis, width, gap = self._between
+        surface_kernel.between_nodes(basis, width, gap, moved, self.coef, self._by)
+        basis, width, gap = self._round
+        surface_kernel.around_nodes(basis, width, gap, moved, ends, self.coef, self._by)
         return self.unmoved
 
     def slopes(self, position: Array) -> list[tuple[Array, Array]]:
