@@ -6,6 +6,8 @@ from .cavitation import Guembel as Guembel
 from .cavitation import MassConserving as MassConserving
 from .cavitation import Reynolds as Reynolds
 from .cavitation import Sommerfeld as Sommerfeld
+from .cone import ConicalBearing as ConicalBearing
+from .cone import ConicalPair as ConicalPair
 from .dimensionless import UnitBearing as UnitBearing
 from .energy import EnergyBalance as EnergyBalance
 from .energy import energy_balance as energy_balance
@@ -16,6 +18,11 @@ from .grid_error import GridError as GridError
 from .grid_error import grid_error as grid_error
 from .heat import Heat as Heat
 from .lubricant import Lubricant as Lubricant
+from .pad_results import ConicalResult as ConicalResult
+from .pad_results import PadResult as PadResult
+from .pad_results import PairResult as PairResult
+from .pad_results import ThrustResult as ThrustResult
+from .pads import Pivot as Pivot
 from .results import Equilibrium as Equilibrium
 from .results import FilmField as FilmField
 from .results import WarmEquilibrium as WarmEquilibrium
@@ -36,3 +43,8 @@ from .supply import Groove as Groove
 from .supply import Orifice as Orifice
 from .supply import Pump as Pump
 from .supply import Supply as Supply
+from .surfaces import Flat as Flat
+from .surfaces import Step as Step
+from .surfaces import Taper as Taper
+from .thrust import RectangularThrustBearing as RectangularThrustBearing
+from .thrust import ThrustBearing as ThrustBearing

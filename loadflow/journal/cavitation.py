@@ -61,6 +61,8 @@ class CavitationLaw:
         Whether the oil is replaced on a line at the widest gap (ISO 7902) if nothing else is said.
     moves_by_cells : bool
         Whether the law is a complementarity, whose rupture moves by one cell in a Newton step.
+    cuts_load : bool
+        Whether pressures below the floor stay in the film and only carry nothing.
     """
 
     kind: ClassVar[str]
@@ -69,6 +71,7 @@ class CavitationLaw:
     keeps_fill: ClassVar[bool] = False
     inlet_line: ClassVar[bool] = False
     moves_by_cells: ClassVar[bool] = False
+    cuts_load: ClassVar[bool] = False
     cells: ClassVar[Cells]
 
     @property
@@ -260,6 +263,7 @@ class Guembel(_AtPressure):
 
     kind: ClassVar[str] = "guembel"
     inlet_line: ClassVar[bool] = True
+    cuts_load: ClassVar[bool] = True
     cells: ClassVar[Cells] = _guembel
 
 

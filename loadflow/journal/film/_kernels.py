@@ -6,7 +6,9 @@ clearance and pressures in Pa. The balance of a film cell is then ::
     sum of outflows (wedge · F · H − H³ ∂p) + storage = 0,   wedge = 6 η ω / ψ²
 
 which is (3.51) of [Jonuschies 2015] times 12 η / ψ² …. A symmetric gap is solved over half of
-the width.
+the width. On a cone or a plane ring the same balance holds in isothermal coordinates: only the
+surface of a cell, `area`, then differs from its width `dz`; it scales what the surface drags along
+and stores.
 
 Coefficients of the gap have the shape (8, nx + 1, rows): one row where the gap does not change
 along the axis, else one for each row of cells and a last one for the far rim.
@@ -94,7 +96,7 @@ def gap_coefficients(cos_face, sin_face, w_face, cos_cell, sin_cell, w_cell, str
 
 
 @njit(cache=True, nogil=True)
-def balance(state, coef, dz, gz, closed, wedge, p_edge, p_line, f_line, mass, groove, out):
+def balance(state, coef, dz, area, gz, closed, wedge, p_edge, p_line, f_line, mass, groove, out):
     """Add the outflow of each cell to `out` (nx, nz); linear in `coef` and `mass` (nx, rows).
 
     A groove that reaches a rim is closed there.
@@ -117,7 +119,7 @@ def balance(state, coef, dz, gz, closed, wedge, p_edge, p_line, f_line, mass, gr
                     p_l, f_l = p_line, f_line
                 elif i == nx:
                     p_r, f_r = p_line, f_line
-            q = dz[k] * (e * (f_l if wedge > 0 else f_r) - g * (p_r - p_l))
+            q = area[k] * e * (f_l if wedge > 0 else f_r) - dz[k] * g * (p_r - p_l)
             if closed or i > 0:
                 out[left, k] += q
             if closed or i < nx:
@@ -126,7 +128,7 @@ def balance(state, coef, dz, gz, closed, wedge, p_edge, p_line, f_line, mass, gr
         if not groove[i, 0]:
             out[i, 0] -= coef[H3, i, 0] * gz[0] * (p_edge - p[i, 0])
         for k in range(nz):
-            out[i, k] += fill[i, k] * mass[i, row * k] * dz[k]
+            out[i, k] += fill[i, k] * mass[i, row * k] * area[k]
             if k + 1 == nz and groove[i, k]:
                 continue
             g = coef[H3, i, row * (k + 1)] * gz[k + 1]
@@ -137,7 +139,7 @@ def balance(state, coef, dz, gz, closed, wedge, p_edge, p_line, f_line, mass, gr
 
 
 @njit(cache=True, nogil=True)
-def largest_terms(state, coef, dz, gz, closed, wedge, p_edge, p_line, mass, groove):
+def largest_terms(state, coef, dz, area, gz, closed, wedge, p_edge, p_line, mass, groove):
     """Largest sum of the magnitudes of the terms of `balance` in a cell; grooves have none."""
     _, nx, nz = state.shape
     row = 1 if coef.shape[2] > 1 else 0
@@ -155,8 +157,9 @@ def largest_terms(state, coef, dz, gz, closed, wedge, p_edge, p_line, mass, groo
             here = abs(p[i, k])
             total = coef[G, i, row * k] * (abs(p_before) + here)
             total += coef[G, i + 1, row * k] * (abs(p_after) + here)
-            total += abs(wedge) * (coef[E, i, row * k] + coef[E, i + 1, row * k])
-            total = dz[k] * (total + fill[i, k] * abs(mass[i, row * k]))
+            dragged = abs(wedge) * (coef[E, i, row * k] + coef[E, i + 1, row * k])
+            total = dz[k] * total
+            total += area[k] * (dragged + fill[i, k] * abs(mass[i, row * k]))
             low = abs(p[i, k - 1]) if k > 0 else abs(p_edge)
             high = abs(p[i, k + 1]) if k + 1 < nz else abs(p_edge)
             total += coef[H3, i, row * k] * gz[k] * (low + here)
@@ -166,7 +169,7 @@ def largest_terms(state, coef, dz, gz, closed, wedge, p_edge, p_line, mass, groo
 
 
 @njit(cache=True, nogil=True)
-def jacobian(state, coef, dz, gz, closed, wedge, mass, order, fixed, ab):
+def jacobian(state, coef, dz, area, gz, closed, wedge, mass, order, fixed, ab):
     """Band matrix ∂(balance + slack)/∂u in LAPACK's layout, `ab` (n, 3 kl + 1), column by row."""
     _, nx, nz = state.shape
     row = 1 if coef.shape[2] > 1 else 0
@@ -190,13 +193,13 @@ def jacobian(state, coef, dz, gz, closed, wedge, mass, order, fixed, ab):
             e_r = e if wedge <= 0 else 0.0
             if has_l:
                 col = order[left] * nz + k
-                d = dz[k] * (e_l * df[left, k] + g * dp[left, k])
+                d = area[k] * e_l * df[left, k] + dz[k] * g * dp[left, k]
                 ab[col, mid] += d
                 if has_r:
                     ab[col, mid + shift] -= d
             if has_r:
                 col = order[right] * nz + k
-                d = dz[k] * (e_r * df[right, k] - g * dp[right, k])
+                d = area[k] * e_r * df[right, k] - dz[k] * g * dp[right, k]
                 ab[col, mid] -= d
                 if has_l:
                     ab[col, mid - shift] += d
@@ -204,7 +207,7 @@ def jacobian(state, coef, dz, gz, closed, wedge, mass, order, fixed, ab):
         base = order[i] * nz
         ab[base, mid] += coef[H3, i, 0] * gz[0] * dp[i, 0]
         for k in range(nz):
-            ab[base + k, mid] += df[i, k] * mass[i, row * k] * dz[k] + state[DSLACK, i, k]
+            ab[base + k, mid] += df[i, k] * mass[i, row * k] * area[k] + state[DSLACK, i, k]
             g = coef[H3, i, row * (k + 1)] * gz[k + 1]
             ab[base + k, mid] += g * dp[i, k]
             if k + 1 < nz:

@@ -177,7 +177,7 @@ class DiscreteFilm:
         if change is not None:
             state, rim, line, full = change, 0.0, 0.0, 0.0
         kernel.balance(
-            state, coef, mesh.dz, mesh.gz, mesh.closed, self.wedge,
+            state, coef, mesh.dz, mesh.area, mesh.gz, mesh.closed, self.wedge,
             rim, line, full, mass, self.fixed, field,
         )  # fmt: skip
         return field
@@ -224,7 +224,7 @@ class DiscreteFilm:
         outflow = self.balance(gap.coef, mass) - old
         fields = [self._residual(outflow)]
         fields += [self.balance(c, self._storage(c, a, local, rate)) for c, a in slopes]
-        squeeze = -self.slope * self.state[FILL] * mesh.dz
+        squeeze = -self.slope * self.state[FILL] * mesh.area
         fields += [squeeze * np.outer(a, b) for a, b in zip(around, across)]
         free = self.pockets.free
         flows = [self.pockets.flows(f)[free] for f in (outflow, *fields[1:])] if free.size else []
@@ -239,10 +239,7 @@ class DiscreteFilm:
         if free.size:
             columns = self._settle(columns, np.array(flows), mass)
 
-        carried = np.empty((columns.shape[0], gap.size))
-        slope = self.state[DLOAD]
-        kernel.carried_by(slope, around, across, mesh.dz, mesh.order, columns, carried)
-        carried *= self.mirrors * self.radius**2
+        carried = self.mirrors * self.radius**2 * self._carried(columns)
         load = self._load(around) - carried[0]
         by_gap = [self._load(a) + self.ambient for _, a in slopes]
         damping = -carried[-gap.size :].T
@@ -266,8 +263,8 @@ class DiscreteFilm:
         """Write the Newton matrix at the state last placed into the band."""
         mesh = self.mesh
         kernel.jacobian(
-            self.state, self.gap.coef, mesh.dz, mesh.gz, mesh.closed, self.wedge, mass,
-            mesh.order, self.fixed, self.ab,
+            self.state, self.gap.coef, mesh.dz, mesh.area, mesh.gz, mesh.closed, self.wedge,
+            mass, mesh.order, self.fixed, self.ab,
         )  # fmt: skip
 
     def _solve(self, factors: tuple[Array, NDArray[np.int32]], columns: Array) -> None:
@@ -298,6 +295,14 @@ class DiscreteFilm:
         pressure = pockets.of_free(self.state[P])
         slope = pockets.of_free(self.state[DP])
         return pockets.settle(columns, direct, through, pressure, slope, self.scale)
+
+    def _carried(self, columns: Array) -> Array:
+        """Change of ∫ p N_j dA by each of `columns` (l, n), (l, m), in units of R²."""
+        gap, mesh = self.gap, self.mesh
+        carried = np.empty((columns.shape[0], gap.size))
+        slope = self.state[DLOAD]
+        kernel.carried_by(slope, gap.around, gap.across, mesh.dz, mesh.order, columns, carried)
+        return carried
 
     def _load(self, around: Array) -> Array:
         """∫ p N_j dA at the state last placed, whole film, in the mesh's frame, N."""
@@ -364,7 +369,7 @@ class DiscreteFilm:
         frame = self.place(u, position)
         around = self.gap.around
         mass = self._storage(self.gap.coef, around, frame.T @ velocity, rate)
-        flux = (abs(self.wedge) + self.scale) * self.mesh.dz.max()
+        flux = (abs(self.wedge) + self.scale) * self.mesh.area.max()
         outflow = self.balance(self.gap.coef, mass) - old
         worst = float(np.abs(self._residual(outflow)).max()) / flux
         if self.pockets.free.size:
@@ -395,7 +400,7 @@ class DiscreteFilm:
         mesh, gap = self.mesh, self.gap
         mass = self._storage(gap.coef, gap.around, velocity, 0.0)
         terms = kernel.largest_terms(
-            self.state, gap.coef, mesh.dz, mesh.gz, mesh.closed, self.wedge,
+            self.state, gap.coef, mesh.dz, mesh.area, mesh.gz, mesh.closed, self.wedge,
             self.p_edge, self.p_line, mass, self.fixed,
         )  # fmt: skip
         narrow = min(max(gap.narrowest(position), EPS), 1.0)
@@ -413,7 +418,7 @@ class DiscreteFilm:
     def liquid(self) -> Array:
         """Liquid in each cell (nx, nz) times the squeeze pressure, Pa s, at the last state."""
         rows = self.gap.across.shape[1]
-        volume = self.gap.coef[kernel.HM, :-1, :rows] * self.mesh.dz
+        volume = self.gap.coef[kernel.HM, :-1, :rows] * self.mesh.area
         return self.slope * self.state[FILL] * volume
 
     def stock(self) -> tuple[float, float]:

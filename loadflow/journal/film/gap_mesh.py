@@ -191,10 +191,10 @@ def _between(start: float, end: float, marks: Array, cells: int) -> Array:
     """About `cells` even cells from `start` to `end`, with edges on the `marks` between them."""
     inside = start + (marks - start) % _TURN
     inside = inside[(inside > start + 1e-9) & (inside < end - 1e-9)]
-    return _filled(np.concatenate([[start], np.unique(np.round(inside, 12)), [end]]), cells)
+    return even_cells(np.concatenate([[start], np.unique(np.round(inside, 12)), [end]]), cells)
 
 
-def _filled(breaks: Array, cells: int) -> Array:
+def even_cells(breaks: Array, cells: int) -> Array:
     """Even cells between `breaks`, about `cells` in all."""
     counts = np.maximum(np.rint(np.diff(breaks) / np.ptp(breaks) * cells).astype(int), 1)
     parts = [np.linspace(a, b, n + 1)[:-1] for a, b, n in zip(breaks[:-1], breaks[1:], counts)]
@@ -209,7 +209,7 @@ def _across(
     if inside:
         low = 0.0 if half else -width_ratio
         breaks = np.unique(np.round([low, *inside, width_ratio], 12))
-        return _filled(breaks, cells // 2 if half else cells)
+        return even_cells(breaks, cells // 2 if half else cells)
     share = graded_share(cells // 2) if graded else np.linspace(0.0, 1.0, cells // 2 + 1)
     if not half:
         share = np.concatenate([-share[:0:-1], share])

@@ -69,6 +69,11 @@ class Mesh:
         return np.diff(self.z_edges)
 
     @property
+    def area(self) -> Array:
+        """Surface of the cells over their width around: the cell widths across of a cylinder."""
+        return self.dz
+
+    @property
     def half(self) -> bool:
         """Whether only the half from mid-plane to one bearing end is solved."""
         return bool(self.z_edges[0] == 0.0)
