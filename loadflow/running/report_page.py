@@ -130,7 +130,8 @@ def _overview(scene: Scene, tables: dict[str, xr.Dataset], manifest: dict[str, A
         without = [[part, why] for part, why in failures.items()]
         notes.append(Table("Without an answer", ["part", "why"], without))
     if unused := unused_keys(scene):
-        notes.append(Table("Keys without effect", ["key", "why"], [[*row] for row in unused.items()]))
+        rows = [[key, why] for key, why in unused.items()]
+        notes.append(Table("Keys without effect", ["key", "why"], rows))
     return Section("Overview", tables=notes, pictures=pictures)
 
 

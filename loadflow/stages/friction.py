@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -21,7 +21,7 @@ from loadflow.rolling import (
     roller_slip,
 )
 from loadflow.rolling.bearings.arrangements import MainBearing
-from loadflow.rolling.friction import balanced_temperature
+from loadflow.rolling.friction import BearingFriction, balanced_temperature
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Friction, Scene
 from loadflow.stages.frames import to_rolling
@@ -73,10 +73,10 @@ def losses(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
         options = friction_options(scene.friction, bearing)
         try:
             options = _at_its_temperature(scene.friction, bearing, load, moment, speed, options)
-            if isinstance(bearing, RollerBearing | SphericalRollerBearing):
-                found.append(_rollers(bearing, load, moment[:, :2], time, speed, options))
-            else:
+            if isinstance(bearing, BallBearing | SlewingBearing):
                 found.append(_balls(bearing, load, moment[:, :2], speed, options))
+            elif isinstance(bearing, RollerBearing | SphericalRollerBearing):
+                found.append(_rollers(bearing, load, moment[:, :2], time, speed, options))
             temperatures.append(options.temperature)
         except SolverError as error:
             raise SolverError(f"bearing {name}: {error}") from error
@@ -146,8 +146,11 @@ def _at_its_temperature(
     loadflow.errors.SolverError
         There is no friction model for the bearing, or no such temperature.
     """
-    rollers = isinstance(bearing, RollerBearing | SphericalRollerBearing)
-    if not rollers and not isinstance(bearing, BallBearing | SlewingBearing):
+    if isinstance(bearing, RollerBearing | SphericalRollerBearing):
+        model: Callable[..., BearingFriction] = roller_friction
+    elif isinstance(bearing, BallBearing | SlewingBearing):
+        model = ball_friction
+    else:
         raise SolverError(
             f"no model of friction for the contacts of a {type(bearing).__name__}; "
             "rolling.friction_torque_loads estimates its torque from the loads"
@@ -161,7 +164,7 @@ def _at_its_temperature(
         found,
         options.conductance,
         options.ambient_temperature,
-        model=roller_friction if rollers else ball_friction,
+        model=model,
     )
     return replace(found, temperature=balance.temperature)
 
@@ -202,6 +205,8 @@ def _balls(
         found = ball_friction(result, speed[some], options)
         least = _least(found.film_parameter, result.ball_forces)
         slip = found.losses["differential slip"] + found.losses["spin"]
+        assert found.sliding is not None
+        assert found.slip_power_density is not None
         mean = _mean_of_loaded(found.sliding, result.ball_forces)
         density = found.slip_power_density.max(axis=(-2, -1))
         parts.append((found.power, found.torque, least, slip, mean, density))

@@ -100,7 +100,10 @@ def ball_friction(
     curved = [_HEATHCOTE * g.coefficient * force * g.slip for g in both]
     inside = moments[0] <= moments[1]  # the ring on which the ball spins
     spinning = [np.where(here, m * turning, 0.0) for here, m in zip((inside, ~inside), moments)]
-    special = {"differential slip": sum(curved, np.zeros(shape)), "spin": sum(spinning)}
+    special = {
+        "differential slip": np.asarray(curved[0] + curved[1]),
+        "spin": np.asarray(spinning[0] + spinning[1]),
+    }
     found = sum_losses(
         omega, u, bearing.ball_diameter, [g.contact for g in both], special, options
     )
