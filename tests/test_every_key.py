@@ -311,8 +311,10 @@ FOUND = {
 }  # fmt: skip
 
 
-CONFLICT = ("leave", "set ", "takes the place", "follows from", "give ", "missing", "unknown key",
-            "and only it, takes", "; only", "keep one", "without reference_intensity")  # fmt: skip
+CONFLICT = (
+    "leave", "set ", "takes the place", "follows from", "give ", "missing", "unknown key",
+    "and only it, takes", "; only", "keep one", "for a circle", "not given with",
+)  # fmt: skip
 """Words with which a scene is refused that says two things which do not go together."""
 
 
@@ -326,7 +328,7 @@ def outcome(base, place, section, path, value):
     try:
         scene = scene_of(data, place)
     except InputError as error:
-        known = any(str(part) in str(error) for part in (first, *path[-2:]))
+        known = section in str(error) and first in str(error)
         return "refused" if known and any(w in str(error) for w in CONFLICT) else "illegal"
     if any(key == known or key.startswith(f"{known}.") for known in unused_keys(scene)):
         return "told"

@@ -18,7 +18,7 @@ _SIMULATED = (
     "wind_grid", "rung", "dynamic_inflow", "dynamic_stall", "bend_twist", "individual_pitch",
     "mass_imbalance", "pitch_imbalance",
 )  # fmt: skip
-_TURBULENCE = ("seeds", "first_seed", "spectrum", "scaling", "lateral")
+_TURBULENCE = ("seeds", "first_seed", "spectrum", "scaling", "lateral", "wind_grid")
 _WITH_SIGMA = ("NTM", "ETM", "EOG", "EDC", "EWS")
 _RESULTS = {
     "seeds": ("seeds",),
@@ -141,13 +141,6 @@ def _of_wind(loads: Loads, rows: list[LoadCase]) -> Iterator[tuple[str, str]]:
         yield "v_ref", "no load case of this scene has an extreme wind"
     if all(row.extreme for row in rows):
         yield "shear_exponent", "extreme winds have 0.11"
-    if not any(turbulent) and not any(_is_uneven(row) for row in rows):
-        yield "wind_grid", "the wind is the same over the rotor, but for its profile"
-
-
-def _is_uneven(row: LoadCase) -> bool:
-    """Whether a gust differs over the rotor."""
-    return row.wind == "EWS"
 
 
 def _of_rotor(loads: Loads, rows: list[LoadCase]) -> Iterator[tuple[str, str]]:
@@ -194,8 +187,9 @@ def _of_reduction(scene: Scene) -> Iterator[tuple[str, str]]:
 def _of_journal(scene: Scene) -> Iterator[tuple[str, str]]:
     journal = scene.journal
     if journal.tilt and not any(_tilts(scene, name) for name in journal.bearings):
-        yield "tilt", (
-            "the shaft is rigid and brings no moment to these bearings; give its suspension a beam"
+        yield (
+            "tilt",
+            "the shaft is rigid and brings no moment; give its suspension a beam",
         )
     if journal.rung != "grid":
         yield "grading", f'rung "{journal.rung}" has no graded mesh'

@@ -104,9 +104,7 @@ def ball_friction(
         "differential slip": np.asarray(curved[0] + curved[1]),
         "spin": np.asarray(spinning[0] + spinning[1]),
     }
-    found = sum_losses(
-        omega, u, bearing.ball_diameter, [g.contact for g in both], special, options
-    )
+    found = sum_losses(omega, u, bearing.ball_diameter, [g.contact for g in both], special, options)
     arm = np.where(inside, inner.across, outer.across)
     sliding = _HEATHCOTE * np.maximum(inner.slip, outer.slip) + 3 / 8 * arm * turning
     loaded = (force > 0) & (u > 0)
