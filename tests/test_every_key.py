@@ -6,7 +6,7 @@ key, or the scene is refused with its name.
 """
 
 import hashlib
-from functools import cache
+import re
 
 import numpy as np
 import pytest
@@ -22,7 +22,7 @@ from loadflow.stages import friction, journal, loads, reduction, rolling, seeds,
 from loadflow.studies.run_lifetime import run_lifetime
 from loadflow.studies.verdicts import verdicts
 
-WIND = {"wind_speeds": [12.0], "duration": 3.0, "step": 0.1}
+WIND = {"wind_speeds": [12.0, 14.0], "duration": 3.0, "step": 0.1}
 BALLS = {"balls": 60, "rows": 1, "ball_diameter": 0.06, "pitch_diameter": 2.0,
          "groove_radius": 0.0312, "contact_angle": 0.8, "shoulder_angle": 1.2}  # fmt: skip
 FILM = {"grid": [24, 8], "bearings": ["N"]}
@@ -31,7 +31,7 @@ BASES = {
     "turbulence": {"loads": WIND | {"seeds": 1, "rung": "flap"}},
     "gust": {"loads": WIND | {"dlc": "1.5", "rung": "flap"}},
     "tables": {"loads": WIND | {"seeds": 1, "rung": "tables"}},
-    "start": {"loads": WIND | {"dlc": "3.1", "rung": "tables"}},
+    "stop": {"loads": WIND | {"dlc": "4.1", "rung": "tables"}},
     "parked": {"loads": {"dlc": "6.1", "seeds": 1, "duration": 3.0, "step": 0.1}},
     "class S": {
         "loads": WIND | {"seeds": 1, "rung": "tables", "wind_class": "S", "v_ref": 45.0,
@@ -44,7 +44,9 @@ BASES = {
                                                    "pressure": 6e5}]}},
         "rolling": {"bearing": "M", "geometry": BALLS},
     },
-    "warm film": {"journal": FILM | {"heat": {"transfer": 100.0}}},
+    "warm film": {
+        "journal": FILM | {"heat": {"transfer": 100.0}}, "reduction": {"size": 0.03},
+    },
     "elastic film": {"journal": FILM | {"shell": {"kind": "local", "compliance": 1e-12}}},
     "film in motion": {
         "journal": FILM | {"motion": "transient", "rung": "reduced"},
@@ -69,7 +71,7 @@ READERS = {
     "turbulence": ("loads", "turbine"),
     "gust": ("loads",),
     "tables": ("loads",),
-    "start": ("loads",),
+    "stop": ("loads",),
     "parked": ("loads",),
     "class S": ("loads",),
     "files": ("loads", "seeds", "reduction"),
@@ -89,6 +91,11 @@ READERS = {
 OTHERS = {
     "turbine.name": ["iea-15mw"],
     "loads.files": [["OTHER"]],
+    "seeds.alpha": [0.99],
+    "seeds.methods": [["calibrated"]],
+    "loads.rung": ["bem", "flap"],
+    "loads.wind_class": ["II"],
+    "friction.step": [0.5],
     "loads.winds": [["none.bts"]],
     "loads.case_list": ["none.csv"],
     "loads.pattern": [r"v(?P<wind_speed>\d+)"],
@@ -112,6 +119,16 @@ OTHERS = {
     "shaft.integrated": [{}],
     "shaft.direct_drive": [{}],
     "shaft.moment": [{}],
+    "shaft.two_point.beam": [{}],
+    "shaft.three_point.beam": [{}],
+    "shaft.integrated.beam": [{}],
+    "shaft.direct_drive.beam": [{}],
+    "shaft.moment.beam": [{}],
+    "journal.geometry.relief": [[{"kind": "crown", "height": 2e-5}]],
+    "journal.supply.grooves.0.shape": ["circle"],
+    "journal.supply.grooves.0.restrictor": [{"diameter": 0.004, "length": 0.05}],
+    "journal.supply.pump": [{"flow": [0.0, 0.01], "pressure": [8e5, 2e5]}],
+    "rolling.geometry.kind": ["ball", "roller"],
     "rolling.further": [[{"bearing": "N", "geometry": BALLS}]],
     "rolling.bearing": ["N2", "N"],
     "rolling.inner_ring": [{"section": {"width": 0.1, "height": 0.15}, "radius": 0.9}],
@@ -146,8 +163,6 @@ def literals(path):
         make_scene(changed({"name": "x"}, path, "nothing"))
     except InputError as error:
         said = str(error)
-        import re
-
         yield from re.findall(r"'([^']+)'", said.split("must be", 1)[-1])
 
 
@@ -156,8 +171,6 @@ def leaves(value, path=()):
     if isinstance(value, dict):
         for name, part in value.items():
             yield from leaves(part, (*path, name))
-        if path and path[-1] in ("heat", "supply", "shell", "beam"):
-            return
     elif isinstance(value, list) and value and isinstance(value[0], dict):
         for k, part in enumerate(value):
             yield from leaves(part, (*path, k))
@@ -176,16 +189,11 @@ def changed(data, path, value):
     return dict(data or {}) | {first: changed(inner, rest, value)}
 
 
-@cache
-def folder(tmp):
-    return tmp
-
-
 @pytest.fixture(scope="module")
 def place(tmp_path_factory):
     tmp = tmp_path_factory.mktemp("walk")
-    cube_file(tmp / "loads.h5", wind_speeds=(8.0,), seeds=(1, 2), steps=200)
-    cube_file(tmp / "other.h5", wind_speeds=(9.0,), seeds=(1, 2), steps=200)
+    cube_file(tmp / "loads.h5", wind_speeds=(8.0, 9.0), seeds=(1, 2), steps=200)
+    cube_file(tmp / "other.h5", wind_speeds=(10.0, 11.0), seeds=(1, 2), steps=200)
     return tmp
 
 
@@ -203,6 +211,7 @@ def scene_of(data, place):
 
 
 HUB = case(8.0, 1, steps=120)
+HUB["speed"][:20] = np.linspace(0.0, 0.012, 20)  # the surfaces touch at first
 
 
 def numbers(scene, section):
@@ -214,6 +223,7 @@ def numbers(scene, section):
         for node in nodes:
             for name in sorted(map(str, node.data_vars)):
                 print_.update(name.encode() + np.ascontiguousarray(node[name].values).tobytes())
+            print_.update(repr(sorted(node.attrs.items())).encode())
 
     print_.update(repr([(c.name, c.weight) for c in FOUND[section](scene, add) or ()]).encode())
     return print_.hexdigest()
@@ -301,14 +311,25 @@ FOUND = {
 }  # fmt: skip
 
 
+CONFLICT = (
+    "leave", "set ", "takes the place", "follows from", "give ", "missing", "unknown key",
+    "and only it, takes", "; only", "keep one", "for a circle", "not given with",
+)  # fmt: skip
+"""Words with which a scene is refused that says two things which do not go together."""
+
+
 def outcome(base, place, section, path, value):
     """What happens when a key has another value: "refused", "told", "changed", "illegal" or ""."""
-    data = changed(base, (section, *path), value)
+    first, *rest = path
+    table = getattr(scene_of(base, place), section).model_dump(mode="json")
+    part = changed(table[first], rest, value)
+    data = base | {section: base.get(section, {}) | {first: part}}
     key = ".".join(map(str, (section, *path)))
     try:
         scene = scene_of(data, place)
     except InputError as error:
-        return "refused" if key in str(error) else "illegal"
+        known = section in str(error) and first in str(error)
+        return "refused" if known and any(w in str(error) for w in CONFLICT) else "illegal"
     if any(key == known or key.startswith(f"{known}.") for known in unused_keys(scene)):
         return "told"
     try:
@@ -339,7 +360,7 @@ def test_every_key_of_a_section_does_something_or_is_told(name, section, place):
         tried = []
         for other in others((section, *path), value):
             tried.append(outcome(base, place, section, path, other))
-            if tried[-1] in ("refused", "told", "changed") and other != value:
+            if tried[-1] in ("refused", "told", "changed"):
                 break
         else:
             (silent if "" in tried else stuck).append(".".join(map(str, path)))

@@ -130,9 +130,8 @@ def _overview(scene: Scene, tables: dict[str, xr.Dataset], manifest: dict[str, A
         without = [[part, why] for part, why in failures.items()]
         notes.append(Table("Without an answer", ["part", "why"], without))
     if unused := unused_keys(scene):
-        notes.append(
-            Table("Keys without effect", ["key", "why"], [[*row] for row in unused.items()])
-        )
+        rows = [[key, why] for key, why in unused.items()]
+        notes.append(Table("Keys without effect", ["key", "why"], rows))
     return Section("Overview", tables=notes, pictures=pictures)
 
 
@@ -388,6 +387,7 @@ def _rolling_tables(data: xr.Dataset) -> list[Table]:
 def _case_table(data: xr.Dataset) -> Table:
     """One row for each case (and bearing), one column for each number."""
     names = [str(n) for n in data.data_vars if set(data[n].dims) <= {"case", "bearing"}]
+    names = [n for n in names if not (n.endswith("_time") and n.removesuffix("_time") in names)]
     shown = {n: readable(data[n], "µm" if "film" in n else None) for n in names}
     heads = ["case"] + [f"{data[n].attrs['long_name']}, {unit}" for n, (_, unit) in shown.items()]
     bearings = data["bearing"].values if "bearing" in data.dims else [""]

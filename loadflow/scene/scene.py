@@ -252,7 +252,7 @@ class Journal(Section, BaseModel):
 
 
 class Friction(Section, BaseModel):
-    """Lubricant, surfaces and cooling of the rolling bearings: friction, slip, modified life.
+    """Lubricant, surfaces, cooling of the rolling bearings, for friction, slip and modified life.
 
     ``lubricant`` is a name of `loadflow.tribology.lubricant_names`; ``temperature`` (K),
     ``roughness`` (m), ``starvation``, ``hysteresis``, ``boundary_friction``, ``roller_drag``

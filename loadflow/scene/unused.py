@@ -9,6 +9,7 @@ from loadflow.journal.rungs import RUNGS
 from loadflow.rolling import RollerBearing, SphericalRollerBearing
 from loadflow.scene.loads import Loads
 from loadflow.scene.scene import Scene
+from loadflow.scene.section import Section
 from loadflow.wind.cases import LOAD_CASES, STANDING, LoadCase
 
 _CUBES = (".h5", ".nc")
@@ -18,7 +19,7 @@ _SIMULATED = (
     "wind_grid", "rung", "dynamic_inflow", "dynamic_stall", "bend_twist", "individual_pitch",
     "mass_imbalance", "pitch_imbalance",
 )  # fmt: skip
-_TURBULENCE = ("seeds", "first_seed", "spectrum", "scaling", "lateral")
+_TURBULENCE = ("seeds", "first_seed", "spectrum", "scaling", "lateral", "wind_grid")
 _WITH_SIGMA = ("NTM", "ETM", "EOG", "EDC", "EWS")
 _RESULTS = {
     "seeds": ("seeds",),
@@ -65,9 +66,11 @@ def _all(scene: Scene) -> Iterator[tuple[str, str]]:
     for key, reason in _of_loads(scene):
         if key in scene.loads.changed:
             yield f"loads.{key}", reason
+    yield from _of_shaft(scene)
     for section, rules in (
         ("reduction", _of_reduction),
         ("journal", _of_journal),
+        ("rolling", _of_rolling),
         ("friction", _of_friction),
     ):
         for key, reason in rules(scene) if section not in unread else ():
@@ -87,7 +90,7 @@ def _differs(scene: Scene, section: str, key: str) -> bool:
     *tables, last = key.split(".")
     for table in tables:
         part = getattr(part, table)
-    return last in part.changed if hasattr(part, "changed") else getattr(part, last) is not None
+    return last in part.changed if isinstance(part, Section) else bool(getattr(part, last))
 
 
 # --- loads ------------------------------------------------------------------------------------
@@ -135,15 +138,10 @@ def _of_wind(loads: Loads, rows: list[LoadCase]) -> Iterator[tuple[str, str]]:
     if not any(row.wind in _WITH_SIGMA for row in rows):
         for key in ("category", "reference_intensity"):
             yield key, "no load case of this scene depends on the intensity of turbulence"
+    if not any(row.wind in ("EWM50", "EWM1", "EOG") for row in rows):
+        yield "v_ref", "no load case of this scene has an extreme wind"
     if all(row.extreme for row in rows):
         yield "shear_exponent", "extreme winds have 0.11"
-    if not any(turbulent) and not any(_is_uneven(row) for row in rows):
-        yield "wind_grid", "the wind is the same over the rotor, but for its profile"
-
-
-def _is_uneven(row: LoadCase) -> bool:
-    """Whether a gust differs over the rotor."""
-    return row.wind == "EWS"
 
 
 def _of_rotor(loads: Loads, rows: list[LoadCase]) -> Iterator[tuple[str, str]]:
@@ -154,6 +152,23 @@ def _of_rotor(loads: Loads, rows: list[LoadCase]) -> Iterator[tuple[str, str]]:
         for key in ("individual_pitch", "dynamic_inflow"):
             yield key, "the rotor stands or idles in every load case"
 
+
+def _of_shaft(scene: Scene) -> Iterator[tuple[str, str]]:
+    """Places of masses that are zero."""
+    for name, concept in scene.shaft:
+        for place, mass in _PLACES.items() if concept else ():
+            if not hasattr(concept, place) or getattr(concept, mass) > 0:
+                continue
+            if getattr(concept, place) != getattr(type(concept)(), place):
+                yield f"shaft.{name}.{place}", f"{mass} is 0"
+
+
+_PLACES = {
+    "hub_to_shaft_centre": "shaft_mass",
+    "hub_to_generator": "generator_mass",
+    "second_to_gearbox": "gearbox_mass",
+    "gearbox_offset": "gearbox_mass",
+}
 
 # --- bearings ---------------------------------------------------------------------------------
 
@@ -175,7 +190,7 @@ def _of_journal(scene: Scene) -> Iterator[tuple[str, str]]:
     if journal.tilt and not any(_tilts(scene, name) for name in journal.bearings):
         yield (
             "tilt",
-            ("the shaft is rigid and brings these bearings no moment; give its suspension a beam"),
+            "the shaft is rigid and brings no moment; give its suspension a beam",
         )
     if "grading" not in RUNGS[journal.rung].at_rest:
         yield "grading", f'rung "{journal.rung}" has no graded mesh'
@@ -198,6 +213,12 @@ def _tilts(scene: Scene, bearing: str) -> bool:
 
 def _starts(dlc: str) -> bool:
     return dlc in LOAD_CASES and LOAD_CASES[dlc].stands_or_starts
+
+
+def _of_rolling(scene: Scene) -> Iterator[tuple[str, str]]:
+    geometry = scene.rolling.geometry
+    if getattr(geometry, "rows", None) == 1 and getattr(geometry, "row_spacing", 0.0) != 0.0:
+        yield "geometry.row_spacing", "the bearing has one row"
 
 
 def _of_friction(scene: Scene) -> Iterator[tuple[str, str]]:

@@ -63,9 +63,8 @@ def losses(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
         options = friction_options(scene.friction, bearing)
         try:
             options = _at_its_temperature(scene.friction, bearing, load, moment, speed, options)
-            found.append(
-                _FOLLOW[bearing.friction_model](bearing, load, moment[:, :2], time, speed, options)
-            )
+            follow = _FOLLOW[bearing.friction_model]
+            found.append(follow(bearing, load, moment[:, :2], time, speed, options))
             temperatures.append(options.temperature)
         except SolverError as error:
             raise SolverError(f"bearing {name}: {error}") from error
@@ -186,8 +185,9 @@ def _balls(
         found = result.friction(speed[some], options)
         least = _least(found.film_parameter, result.ball_forces)
         slip = found.losses["differential slip"] + found.losses["spin"]
-        mean = _mean_of_loaded(found.sliding, result.ball_forces)
+        assert found.sliding is not None
         assert found.slip_power_density is not None
+        mean = _mean_of_loaded(found.sliding, result.ball_forces)
         density = found.slip_power_density.max(axis=(-2, -1))
         parts.append((found.power, found.torque, least, slip, mean, density))
     return dict(zip(KEPT, (np.concatenate(values) for values in zip(*parts))))
@@ -203,9 +203,8 @@ def _unknown(bearing: RollingBearing, *_: Any) -> dict[str, np.ndarray]:
 _FOLLOW = {"rollers": _rollers, "balls": _balls, None: _unknown}
 
 
-def _mean_of_loaded(sliding: np.ndarray | None, forces: np.ndarray) -> np.ndarray:
+def _mean_of_loaded(sliding: np.ndarray, forces: np.ndarray) -> np.ndarray:
     """Mean over the loaded contacts of the row that slides most; 0 without load."""
-    assert sliding is not None  # balls have it
     loaded = forces.reshape(sliding.shape) > 0
     count = np.maximum(loaded.sum(axis=-1), 1)
     return np.asarray(((sliding * loaded).sum(axis=-1) / count).max(axis=-1))

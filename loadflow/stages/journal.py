@@ -164,7 +164,8 @@ def surely_touching(options: Journal, force: np.ndarray, speed: np.ndarray) -> n
     """Whether shaft and shell touch under each load (n, 3), N, in the cube's frame, for certain.
 
     At standstill, and where the load is far above what the film of the coldest oil carries when it
-    is as thin as both surfaces are rough. The others have to be solved.
+    is as thin as both surfaces are rough. The others have to be solved, and so have those of an
+    elastic shell, which carries more the more it gives way.
     """
     film = options.film_model.isothermal()
     if options.heat is not None:
@@ -174,7 +175,7 @@ def surely_touching(options: Journal, force: np.ndarray, speed: np.ndarray) -> n
         film = replace(film, lubricant=options.heat.lubricant(cold))
     load, turning = np.hypot(*to_film(force).T), np.abs(speed) > 0
     touching = np.asarray(~turning)
-    if turning.any():
+    if turning.any() and options.shell is None:
         capacity = load_capacity(options.geometry, options.contact_film, speed[turning], film)
         touching[turning] = load[turning] > _CERTAIN * capacity
     return touching
@@ -412,7 +413,9 @@ def mixed_friction(samples: xr.Dataset) -> xr.Dataset:
         "transition_time": (when, "s", "time of the transition at E_krit"),
         "transition_speed": (at, "rad/s", "speed of the transition at E_krit"),
     }  # fmt: skip
-    return labelled({n: (xr.DataArray(v), unit, text) for n, (v, unit, text) in values.items()})
+    return labelled(
+        {name: (xr.DataArray(v), units, meaning) for name, (v, units, meaning) in values.items()}
+    )
 
 
 def _transition(

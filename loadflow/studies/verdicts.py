@@ -234,6 +234,14 @@ def _of_rolling(scene: Scene, table: xr.Dataset, lifetime: xr.Dataset | None) ->
         part, subject = table.sel(bearing=name), f"rolling {name}"
         yield _static(scene, subject, part)
         yield from _lives(scene, subject, lifetime, name, part)
+        value, case, _ = _worst(part, "bearing_truncated", "most")
+        if case:
+            yield Verdict(
+                subject, "time with a contact cut off at a shoulder", value, 0.0, "at most",
+                source="the Hertzian contact must lie within the raceway",
+                case=case if value else "",
+                note="share of the time of the load case",
+            )  # fmt: skip
         value, case, _ = _worst(part, "bearing_axial_force", "most")
         if value > _SLIGHT * float(part["bearing_force"].max()):
             carried = bearing.takes_thrust

@@ -102,8 +102,8 @@ def ball_friction(
     inside = moments[0] <= moments[1]  # the ring on which the ball spins
     spinning = [np.where(here, m * turning, 0.0) for here, m in zip((inside, ~inside), moments)]
     special = {
-        "differential slip": sum(curved, np.zeros(shape)),
-        "spin": sum(spinning, np.zeros(shape)),
+        "differential slip": np.asarray(curved[0] + curved[1]),
+        "spin": np.asarray(spinning[0] + spinning[1]),
     }
     found = sum_losses(omega, u, bearing.ball_diameter, [g.contact for g in both], special, options)
     arm = np.where(inside, inner.across, outer.across)
