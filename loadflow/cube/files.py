@@ -10,9 +10,13 @@ import xarray as xr
 
 from loadflow.cube.build import Cube, make_cube
 from loadflow.errors import InputError
+from loadflow.storage import check_room, written_whole
 
 ENGINE: Literal["h5netcdf"] = "h5netcdf"
 SUFFIXES = (".h5", ".nc")
+
+IN_MEMORY = 512 * 2**20
+"""Largest cube, bytes, that is put together in memory and then written in one piece."""
 
 
 def save_cube(cube: Cube, path: str | os.PathLike[str]) -> Path:
@@ -32,20 +36,44 @@ def save_cube(cube: Cube, path: str | os.PathLike[str]) -> Path:
     -------
     pathlib.Path
         The file.
+
+    Raises
+    ------
+    OSError
+        The disk is full, or refuses; a file that was there is left as it was.
     """
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
-    temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
-    try:
-        if isinstance(cube, xr.DataTree):
-            encoding = {leaf.path: _encoding(leaf.to_dataset()) for leaf in cube.leaves}
-            cube.to_netcdf(temporary, engine=ENGINE, encoding=encoding)
-        else:
-            cube.drop_encoding().to_netcdf(temporary, engine=ENGINE, encoding=_encoding(cube))
-        os.replace(temporary, path)
-    finally:
-        temporary.unlink(missing_ok=True)
+    with written_whole(path) as temporary:
+        write_cube(cube, temporary)
     return path
+
+
+def write_cube(cube: Cube, path: Path) -> None:
+    """Write a cube to a file that nobody reads yet.
+
+    HDF5 that meets a full disk ends the process, without a message. So a cube is put together in
+    memory, and a large one is begun only where there is room for it.
+
+    Raises
+    ------
+    OSError
+        The disk is full, or refuses.
+    """
+    if isinstance(cube, xr.DataTree):
+        keys: dict[str, Any] = {
+            "encoding": {leaf.path: _encoding(leaf.to_dataset()) for leaf in cube.leaves}
+        }
+    else:
+        cube = cube.drop_encoding()
+        keys = {"encoding": _encoding(cube)}
+    if cube.nbytes > IN_MEMORY:
+        check_room(path.parent, cube.nbytes)
+        cube.to_netcdf(path, engine=ENGINE, **keys)
+    else:
+        image = cube.to_netcdf(engine=ENGINE, **keys)
+        with path.open("wb") as stream:
+            stream.write(image)
 
 
 def open_cube(path: str | os.PathLike[str], chunks: Any = None) -> Cube:

@@ -39,6 +39,7 @@ from loadflow.shaft.options import (
     ThreePoint,
     TwoPoint,
 )
+from loadflow.storage import check_name
 from loadflow.turbines import load_turbine
 
 Result = Literal[
@@ -252,6 +253,11 @@ class Scene(Section, BaseModel):
     rolling: Rolling = Rolling()
     friction: Friction = Friction()
 
+    @field_validator("name")
+    @classmethod
+    def _names_a_folder(cls, name: str) -> str:
+        return check_name(name)
+
     @model_validator(mode="before")
     @classmethod
     def _results_that_the_shaft_can_give(cls, data: Any) -> Any:
@@ -392,6 +398,12 @@ def with_loads(scene: Scene, files: list[str]) -> Scene:
     """Return the scene with its load series read from `files` (names or glob patterns)."""
     loads = scene.loads.model_copy(update={"source": "files", "files": files})
     return scene.model_copy(update={"loads": loads})
+
+
+def with_name(scene: Scene, name: str) -> Scene:
+    """Return the scene under another name, which is checked as that of a file is."""
+    make_scene({"name": name}, "name of the run")
+    return scene.model_copy(update={"name": name})
 
 
 def _anchor_files(data: dict[str, Any], folder: Path) -> dict[str, Any]:
