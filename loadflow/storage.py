@@ -23,8 +23,8 @@ _TEMPORARY = re.compile(r"\.(?P<name>.+)\.\d+\.loadflow-tmp")
 def written_whole(path: Path) -> Iterator[Path]:
     """Yield a temporary name beside `path`; what was written there takes its place, or nothing.
 
-    The folder must be there. The content is on the disk before the name is: a machine that loses power leaves the old file
-    or the new one.
+    The folder must be there. The content is on the disk before the name is: a machine that loses
+    power leaves the old file or the new one. (The rename itself may be lost, which is no harm.)
 
     Examples
     --------
@@ -44,7 +44,6 @@ def written_whole(path: Path) -> Iterator[Path]:
     finally:
         with suppress(OSError):  # the disk may be gone, and the first error is the one to tell
             temporary.unlink(missing_ok=True)
-    _sync_folder(path.parent)
 
 
 def write_text(path: Path, text: str) -> Path:
@@ -106,13 +105,3 @@ def check_room(folder: Path, size: int) -> None:
     if free < size:
         said = f"{os.strerror(errno.ENOSPC)}: {size / 1e6:.0f} MB wanted, {free / 1e6:.0f} MB free"
         raise OSError(errno.ENOSPC, said, str(folder))
-
-
-def _sync_folder(folder: Path) -> None:
-    """Put the rename on the disk too, where the system lets a folder be opened."""
-    with suppress(OSError):
-        handle = os.open(folder, os.O_RDONLY)
-        try:
-            os.fsync(handle)
-        finally:
-            os.close(handle)

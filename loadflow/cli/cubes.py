@@ -16,8 +16,8 @@ from loadflow.cli.base import (
     open_checked,
     out,
     print_json,
-    progress,
 )
+from loadflow.cli.progress import progress
 
 CUBES = (".h5", ".nc")
 

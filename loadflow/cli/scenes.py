@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-import os
+import json
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 from rich.table import Table
 
-from loadflow.cli.base import AsJson, app, out, print_json, progress
+from loadflow.cli.base import AsJson, app, out, print_json
+from loadflow.cli.progress import log_shown, progress
 from loadflow.errors import InputError, LoadflowError
 
 SceneFile = Annotated[Path, typer.Argument(help="Scene, a TOML file.", show_default=False)]
@@ -20,11 +21,11 @@ LoadFiles = Annotated[
 
 
 def _read(path: Path, loads: list[str] | None, name: str | None = None) -> Any:
-    from loadflow.scene.scene import read_scene, with_loads
+    from loadflow.scene.scene import read_scene, with_loads, with_name
 
     scene = read_scene(path)
     scene = with_loads(scene, loads) if loads else scene
-    return scene.model_copy(update={"name": name}) if name else scene
+    return scene if name is None else with_name(scene, name)
 
 
 @app.command()
@@ -36,19 +37,28 @@ def run(
     workers: Annotated[int, typer.Option(min=0, help="Processes; 0: one for each core.")] = 0,
     scheduler: Annotated[str | None, typer.Option(help="Dask scheduler, tcp://host:port.")] = None,
     overwrite: Annotated[bool, typer.Option(help="Replace parts of other settings.")] = False,
+    profile: Annotated[
+        bool, typer.Option("--profile", help="Write and print where the time went.")
+    ] = False,
+    verbose: Annotated[
+        bool, typer.Option("--verbose", "-v", help="Show what the run writes into its run.log.")
+    ] = False,
     as_json: AsJson = False,
 ) -> None:
     """Carry a scene out; a run that was killed goes on where it was."""
-    from loadflow.running.runner import run as carry_out
+    with progress(quiet=as_json) as show, log_shown(verbose):
+        show(f"reading {scene}", 0, 1)
+        from loadflow.running.executor import usable_cores
+        from loadflow.running.runner import run as carry_out
 
-    with progress(quiet=as_json) as show:
         result = carry_out(
             _read(scene, loads, name),
             out=out_folder,
-            workers=workers or len(os.sched_getaffinity(0)),
+            workers=workers or usable_cores(),
             scheduler=scheduler,
             overwrite=overwrite,
             progress=show,
+            profile=profile,
         )
     if as_json:
         paths = {"path": str(result.path), "report": str(result.report)}
@@ -60,9 +70,27 @@ def run(
             out.print(f"flagged  {part}: {count} samples have no answer", soft_wrap=True)
         for warning in result.warnings:
             out.print(f"warning  {warning}", soft_wrap=True)
+        if profile:
+            _print_profile(result.path / "profile.json")
     if result.failures:
         lines = "\n".join(f"  {case}: {why}" for case, why in result.failures.items())
         raise LoadflowError(f"{len(result.failures)} parts have no answer:\n{lines}")
+
+
+def _print_profile(path: Path) -> None:
+    """Print where the time of a run went."""
+    found = json.loads(path.read_text(encoding="utf-8"))
+    phases = Table("phase", "time, s", "share", box=None)
+    for phase, row in found["phases"].items():
+        phases.add_row(phase, f"{row['wall_seconds']:.1f}", f"{100 * row['share']:.0f} %")
+    out.print(phases)
+    heads = ("load cases, stage", "all processes, s", "share", "compiling, s", "writing, s")
+    stages = Table(*heads, box=None)
+    for stage, row in found["stages_of_load_cases"].items():
+        numbers = (f"{row[key]:.1f}" for key in ("compiling", "writing"))
+        share = f"{100 * row['share']:.0f} %"
+        stages.add_row(stage, f"{row['process_seconds']:.1f}", share, *numbers)
+    out.print(stages)
 
 
 @app.command()

@@ -6,11 +6,12 @@ worker that is lost costs its own cases only.
 
 from __future__ import annotations
 
+import asyncio
 import logging
 import os
 import signal
 from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures import CancelledError, ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
@@ -82,7 +83,7 @@ def executor(workers: int, scheduler: str | None) -> Iterator[Executor]:
 
 
 class _Here:
-    """This process, one item after another."""
+    """One item after another in this process."""
 
     workers = 1
     shares_disk = True
@@ -198,7 +199,7 @@ class _Cluster:
                     yield futures[future], future.result()
                 except KilledWorker:
                     yield futures[future], Lost("its Dask workers were killed; is memory short?")
-        except (CommClosedError, *_cancelled()) as error:
+        except (CommClosedError, CancelledError, asyncio.CancelledError) as error:
             raise LoadflowError(
                 f"lost the Dask scheduler {self._address}; "
                 "started again, the run goes on where it was"
@@ -206,14 +207,6 @@ class _Cluster:
         finally:
             with suppress(Exception):  # the scheduler may be gone; nothing of it is waited for
                 self._client.cancel(list(futures))
-
-
-def _cancelled() -> tuple[type[BaseException], ...]:
-    """What Dask raises of a future whose scheduler is gone; its name changed in 2025."""
-    import asyncio
-    from concurrent.futures import CancelledError
-
-    return (CancelledError, asyncio.CancelledError)
 
 
 @contextmanager

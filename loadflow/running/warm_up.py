@@ -20,6 +20,7 @@ from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import replace
 from functools import partial
+from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
@@ -137,18 +138,16 @@ def made_up_loads(scene: Scene, case: Case) -> xr.Dataset:
 
 def _marks(plan: Plan) -> list[Path]:
     """Where the mark of these kernels may be, in the order in which numba chooses its folder."""
-    import numba
-
     root = Path(loadflow.__file__).parent
     told = hashlib.sha256()
     for file in sorted(root.rglob("*.py")):
         found = file.stat()
         told.update(f"{file.relative_to(root)} {found.st_size} {found.st_mtime_ns}".encode())
     needed = [(step.stage.name, step.stage.function, step.rung) for step in plan.steps]
-    machine = (platform.machine(), platform.processor(), sys.version, numba.__version__)
+    machine = (platform.machine(), platform.processor(), sys.version, version("numba"))
     told.update(repr((needed, sorted(plan.left_out), machine)).encode())
     name = f"loadflow-{told.hexdigest()[:24]}.compiled"
-    if numba.config.CACHE_DIR:
-        return [Path(numba.config.CACHE_DIR) / name]
+    if chosen := os.environ.get("NUMBA_CACHE_DIR"):
+        return [Path(chosen) / name]
     inside = root / "running" / "__pycache__"
     return [inside / name] if os.access(inside, os.W_OK) else []
