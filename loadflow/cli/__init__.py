@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from loadflow.cli import cubes, lifetimes, points, processing, scenes  # noqa: F401  they register their commands
 from loadflow.cli.base import app, err
-from loadflow.cli.signals import Stopped, stoppable, tell_stopped
+from loadflow.cli.signals import Stopped, leave, stoppable, tell_stopped
 from loadflow.errors import InputError, LoadflowError
 
 
@@ -33,7 +33,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         sys.exit(1)
     except Stopped as stop:
         tell_stopped(stop.number)
-        sys.exit(stop.code)
+        leave(stop.code)
 
 
 def _plain(error: Exception) -> str:

@@ -5,15 +5,16 @@ from __future__ import annotations
 import os
 import signal
 import socket
+import sys
 import threading
 from collections.abc import Iterator
-from contextlib import contextmanager
-from multiprocessing import active_children
-from time import sleep
+from contextlib import contextmanager, suppress
+from multiprocessing import active_children, util
+from typing import NoReturn
 
 from loadflow.cli.base import err
 
-PATIENCE = 1.2
+PATIENCE = 1.0
 """Time to end in order, s; after it the process is ended where it stands, as kill does."""
 
 _SIGNALS = [
@@ -38,6 +39,16 @@ def tell_stopped(number: int) -> None:
     """Say it, in one sentence."""
     name = signal.Signals(number).name
     err.print(f"stopped by {name}; started again, a run goes on where it was", soft_wrap=True)
+
+
+def leave(code: int) -> NoReturn:
+    """End at once; Python would wait for threads that look after processes already killed."""
+    with suppress(Exception):
+        util._exit_function()  # gives back the semaphores of a pool, which no public function does
+    for stream in (sys.stdout, sys.stderr):
+        with suppress(OSError, ValueError):
+            stream.flush()
+    os._exit(code)
 
 
 @contextmanager
@@ -82,5 +93,4 @@ def _watch(reader: socket.socket, ended: threading.Event) -> None:
         child.kill()
     err.show_cursor()
     tell_stopped(told[0])
-    sleep(0.05)  # the line is on its way
-    os._exit(128 + told[0])
+    leave(128 + told[0])

@@ -157,7 +157,7 @@ class _Processes:
             processes = [*(getattr(pool, "_processes", None) or {}).values()]
             for process in processes:
                 process.kill()
-            pool.shutdown(wait=True, cancel_futures=True)
+            pool.shutdown(wait=False, cancel_futures=True)
 
 
 def _start_worker() -> None:

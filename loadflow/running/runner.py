@@ -151,10 +151,15 @@ def run(
         ) from error
 
 
+class _LogFile(logging.FileHandler):
+    def handleError(self, record: logging.LogRecord) -> None:
+        """Go on without the log: a disk that refuses is told of by what matters more."""
+
+
 @contextmanager
 def _logged(folder: Path) -> Iterator[None]:
     """Write what is said of the run into its folder as well."""
-    handler = logging.FileHandler(folder / "run.log", encoding="utf-8")
+    handler = _LogFile(folder / "run.log", encoding="utf-8")
     handler.setFormatter(logging.Formatter("%(asctime)s %(levelname)-7s %(message)s"))
     level = log.level
     log.addHandler(handler)
