@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 import os
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from threading import Lock
 from typing import Any, Literal
 
 import xarray as xr
@@ -71,9 +75,25 @@ def write_cube(cube: Cube, path: Path) -> None:
         check_room(path.parent, cube.nbytes)
         cube.to_netcdf(path, engine=ENGINE, **keys)
     else:
-        image = cube.to_netcdf(engine=ENGINE, **keys)
+        with _not_distributed():
+            image = cube.to_netcdf(engine=ENGINE, **keys)
         with path.open("wb") as stream:
             stream.write(image)
+
+
+_AT_A_TIME = Lock()
+
+
+@contextmanager
+def _not_distributed() -> Iterator[None]:
+    """Keep xarray in a Dask worker from asking its scheduler for a lock: memory needs none."""
+    if "dask" not in sys.modules:
+        yield
+        return
+    import dask
+
+    with _AT_A_TIME, dask.config.set(scheduler="synchronous"):  # the setting is of all threads
+        yield
 
 
 def open_cube(path: str | os.PathLike[str], chunks: Any = None) -> Cube:
