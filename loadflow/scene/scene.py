@@ -29,7 +29,7 @@ from loadflow.journal import (
 from loadflow.rolling import SphericalRollerBearing
 from loadflow.scene.bearings import KINDS, Rolling
 from loadflow.scene.loads import Loads, check_simulation
-from loadflow.scene.section import Section
+from loadflow.scene.section import LARGEST_INTEGER, Section, too_large
 from loadflow.shaft.beam import BearingSeat
 from loadflow.shaft.options import (
     Concept,
@@ -388,6 +388,10 @@ def make_scene(data: dict[str, Any], source: str = "scene") -> Scene:
         As `read_scene`.
     """
     data.setdefault("name", Path(source).stem)
+    for key, value in too_large(data):
+        raise InputError(
+            f"{source}: {key} = {_shown(value)}: must be within ±{LARGEST_INTEGER} (64 bits)"
+        )
     try:
         return Scene.model_validate(data)
     except ValidationError as error:
@@ -428,8 +432,16 @@ def _message(error: ValidationError, source: str) -> str:
         elif item["type"] == "value_error":
             lines.append(f"{source}: {key}: {reason}")
         else:
-            lines.append(f"{source}: {key} = {item['input']!r}: {reason}")
+            lines.append(f"{source}: {key} = {_shown(item['input'])}: {reason}")
     return "\n".join(lines)
+
+
+def _shown(value: Any) -> str:
+    """A value as it stands in a message: not all of a number of 400 digits."""
+    if isinstance(value, int) and abs(value) > LARGEST_INTEGER:
+        return f"an integer of {value.bit_length()} bits"
+    text = repr(value)
+    return text if len(text) <= 200 else f"{text[:200]}…"
 
 
 def _place(location: tuple[int | str, ...]) -> Iterator[int | str]:

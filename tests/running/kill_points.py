@@ -2,8 +2,9 @@
 
     python kill_points.py FOLDER first step
 
-With a step of 1 the report page is written as well. A process of its own for each run, forked before HDF5 or numba have done anything. Prints a line of
-JSON: the points, and those at which the run that was taken up again differs from one never killed.
+With a step of 1 the report page is written as well. A process of its own for each run, forked
+before HDF5 or numba have done anything. Prints a line of JSON: the points, and those at which the
+run that was taken up again differs from one never killed.
 """
 
 import json

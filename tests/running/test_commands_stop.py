@@ -66,7 +66,7 @@ def test_workers_do_not_outlive_a_killed_parent(tmp_path):
     slow = {"results": ["journal.film"], "journal": {"grid": [360, 120]}}
     process = subprocess.Popen(command(tmp_path, "--workers", "2", **slow), stderr=subprocess.PIPE)
     parent = psutil.Process(process.pid)
-    children = wait_until(lambda: len(c := parent.children(recursive=True)) >= 3 and c)
+    children = wait_until(lambda: len(c := parent.children(recursive=True)) >= 2 and c)
     wait_until(lambda: (tmp_path / "runs/small/loads").exists())
     process.kill()
     process.wait()
@@ -148,9 +148,7 @@ def test_a_cluster_that_loses_a_worker_gives_the_bits_of_one_process(tmp_path, c
             killed.append(process)
 
     address = cluster.scheduler_address
-    shared = run(
-        scene, out=tmp_path / "shared", scheduler=address, report=False, progress=kill_one
-    )
+    shared = run(scene, out=tmp_path / "shared", scheduler=address, report=False, progress=kill_one)
     assert killed
     assert shared.failures == {}
     assert contents(shared.path / "result.h5") == contents(alone.path / "result.h5")

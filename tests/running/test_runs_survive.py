@@ -88,7 +88,15 @@ def test_a_damaged_part_is_made_again_and_said(finished, copied, caplog, harm):
 
 @pytest.mark.parametrize(
     "content",
-    [b"", b'{"wanted": ', b"[1, 2]", b'{"stages": 3}', b'{"climbed": {}}', b"\xff\xfe\x00", b"null"],
+    [
+        b"",
+        b'{"wanted": ',
+        b"[1, 2]",
+        b'{"stages": 3}',
+        b'{"climbed": {}}',
+        b"\xff\xfe\x00",
+        b"null",
+    ],
 )
 def test_a_damaged_manifest_is_said_and_made_again_from_the_parts(
     finished, copied, caplog, content
@@ -147,8 +155,24 @@ def test_a_part_says_which_settings_it_belongs_to(finished, tmp_path):
 
 @pytest.mark.parametrize(
     "name",
-    ["..", ".", "", "a/b", "a\\b", "/abs", "C:x", "con", "NUL.txt", "Com1", "a.", ".hidden", "a\n"]
-    + ["x" * 300, "a b", "é"],
+    [
+        "..",
+        ".",
+        "",
+        "a/b",
+        "a\\b",
+        "/abs",
+        "C:x",
+        "con",
+        "NUL.txt",
+        "Com1",
+        "a.",
+        ".hidden",
+        "a\n",
+        "x" * 300,
+        "a b",
+        "é",
+    ],
 )
 def test_a_run_cannot_have_a_name_that_leads_elsewhere(finished, tmp_path, name):
     scene = small_scene(finished)
@@ -225,7 +249,7 @@ def test_a_full_disk_is_one_sentence_and_the_run_goes_on(finished, tmp_path, mon
 
     with monkeypatch.context() as patch:
         patch.setattr(parts, "write_cube", full)
-        with pytest.raises(LoadflowError, match="No space left on device.*goes on") as caught:
+        with pytest.raises(LoadflowError, match=r"No space left on device.*goes on") as caught:
             again(finished, out)
     assert "\n" not in str(caught.value)
     assert list(out.rglob(".*tmp")) == []
@@ -267,7 +291,7 @@ def test_room_is_looked_for_before_a_large_cube_is_written(finished, tmp_path, m
 
 def test_a_place_that_takes_no_folder_is_named(finished, tmp_path):
     (tmp_path / "file").write_text("")
-    with pytest.raises(LoadflowError, match="Not a directory: .*file"):
+    with pytest.raises(LoadflowError, match=r"Not a directory: .*file"):
         again(finished, tmp_path / "file")
 
 
