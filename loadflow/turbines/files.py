@@ -272,10 +272,13 @@ def _airfoil(name: str, entry: Any, folder: Path) -> Airfoil:
 
 def _polars(folder: Path, file: str, column: str, where: str) -> list[np.ndarray]:
     shipped = Path(str(resources.files("loadflow.data"))) / "polars" / file
-    path = folder / file if (folder / file).is_file() else shipped
-    if not path.is_file():
-        raise InputError(f"{where}: polars {file!r} lie neither beside the turbine nor in loadflow")
-    head, *lines = path.read_text(encoding="utf-8").split()
+    try:
+        path = folder / file if (folder / file).is_file() else shipped
+        head, *lines = path.read_text(encoding="utf-8").split()
+    except (OSError, ValueError) as error:  # none there, no name of a file, no text, nothing in it
+        raise InputError(
+            f"{where}: polars {file!r:.200}: no table of text beside the turbine or in loadflow"
+        ) from error
     names = head.split(",")
     wanted = ["angle_of_attack_deg", f"{column}_cl", f"{column}_cd"]
     missing = [name for name in wanted if name not in names]
