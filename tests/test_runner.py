@@ -108,11 +108,11 @@ def test_a_run_that_was_killed_goes_on_and_gives_identical_results(cube, finishe
         (folder / name).unlink()
     for name in ("seeds.h5", "result.h5"):
         (folder / name).unlink()
-    (folder / "journal" / ".dlc1.1_v8_s2.h5.99.tmp").write_bytes(b"half")
+    (folder / "journal" / ".dlc1.1_v8_s2.h5.99.loadflow-tmp").write_bytes(b"half")
     again = lf.run(scene, out=tmp_path, report=False)
     assert_same(again.tree, finished.tree)
     assert (folder / "journal" / "dlc1.1_v8_s1.h5").stat().st_mtime_ns == stamp
-    assert not list(folder.rglob(".*.tmp"))
+    assert not list(folder.rglob(".*.loadflow-tmp"))
 
 
 def test_two_processes_give_the_numbers_of_one(cube, finished, tmp_path):

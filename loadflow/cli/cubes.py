@@ -23,8 +23,8 @@ from loadflow.cli.base import (
     out,
     print_json,
     print_rows,
-    progress,
 )
+from loadflow.cli.progress import progress
 from loadflow.errors import InputError
 
 if TYPE_CHECKING:

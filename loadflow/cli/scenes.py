@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import os
+import json
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -20,8 +20,8 @@ from loadflow.cli.base import (
     err,
     out,
     print_json,
-    progress,
 )
+from loadflow.cli.progress import log_shown, progress
 from loadflow.errors import InputError, LoadflowError
 
 SceneFile = Annotated[Path, typer.Argument(help="Scene, a TOML file.", show_default=False)]
@@ -32,12 +32,12 @@ LoadFiles = Annotated[
 
 
 def _read(path: Path, loads: list[str] | None, name: str | None = None, **reading: Any) -> Any:
-    from loadflow.scene.scene import read_scene, with_loads
+    from loadflow.scene.scene import read_scene, with_loads, with_name
 
     scene = read_scene(path)
     if loads or any(value is not None for value in reading.values()):
         scene = with_loads(scene, loads or scene.loads.files, **reading)
-    return scene.model_copy(update={"name": name}) if name else scene
+    return scene if name is None else with_name(scene, name)
 
 
 def _reading(
@@ -71,20 +71,29 @@ def run(
     channels: OwnChannels = None,
     gauge_distance: GaugeDistance = None,
     frame: FrameOfChannels = None,
+    profile: Annotated[
+        bool, typer.Option("--profile", help="Write and print where the time went.")
+    ] = False,
+    verbose: Annotated[
+        bool, typer.Option("--verbose", "-v", help="Show what the run writes into its run.log.")
+    ] = False,
     as_json: AsJson = False,
 ) -> None:
     """Carry a scene out; a run that was killed goes on where it was."""
-    from loadflow.running.runner import run as carry_out
+    with progress(quiet=as_json) as show, log_shown(verbose):
+        show(f"reading {scene}", 0, 1)
+        from loadflow.running.executor import usable_cores
+        from loadflow.running.runner import run as carry_out
 
-    reading = _reading(cases, pattern, channels, gauge_distance, frame)
-    with progress(quiet=as_json) as show:
+        reading = _reading(cases, pattern, channels, gauge_distance, frame)
         result = carry_out(
             _read(scene, loads, name, **reading),
             out=out_folder,
-            workers=workers or len(os.sched_getaffinity(0)),
+            workers=workers or usable_cores(),
             scheduler=scheduler,
             overwrite=overwrite,
             progress=show,
+            profile=profile,
         )
     if as_json:
         paths = {"path": str(result.path), "report": str(result.report)}
@@ -100,9 +109,27 @@ def run(
                 out.print(f"verdict  {verdict.sentence}", soft_wrap=True, markup=False)
         for warning in result.warnings:
             out.print(f"warning  {warning}", soft_wrap=True, markup=False)
+        if profile:
+            _print_profile(result.path / "profile.json")
     if result.failures:
         lines = "\n".join(f"  {case}: {why}" for case, why in result.failures.items())
         raise LoadflowError(f"{len(result.failures)} parts have no answer:\n{lines}")
+
+
+def _print_profile(path: Path) -> None:
+    """Print where the time of a run went."""
+    found = json.loads(path.read_text(encoding="utf-8"))
+    phases = Table("phase", "time, s", "share", box=None)
+    for phase, row in found["phases"].items():
+        phases.add_row(phase, f"{row['wall_seconds']:.1f}", f"{100 * row['share']:.0f} %")
+    out.print(phases)
+    heads = ("load cases, stage", "all processes, s", "share", "compiling, s", "writing, s")
+    stages = Table(*heads, box=None)
+    for stage, row in found["stages_of_load_cases"].items():
+        numbers = (f"{row[key]:.1f}" for key in ("compiling", "writing"))
+        share = f"{100 * row['share']:.0f} %"
+        stages.add_row(stage, f"{row['process_seconds']:.1f}", share, *numbers)
+    out.print(stages)
 
 
 @app.command()

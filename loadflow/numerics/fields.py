@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import math
+import sys
 from typing import Any, get_args, get_type_hints
 
 import annotated_types as at
@@ -35,7 +35,7 @@ def check_fields(instance: Any) -> None:
         bounds = _bounds(hint)
         if not bounds or value is None:
             continue
-        if not isinstance(value, (int, float)) or not math.isfinite(value):
+        if not isinstance(value, (int, float)) or not abs(value) <= sys.float_info.max:
             raise InputError(f"{name}: must be a finite number, got {value!r}")
         for bound in bounds:
             if not _holds(bound, value):

@@ -18,6 +18,7 @@ from pydantic import (
 
 from loadflow.errors import InputError
 from loadflow.rolling import (
+    ARRANGEMENTS,
     KINDS,
     FlexibleRings,
     RingBeam,
@@ -222,6 +223,8 @@ class Rolling(FurtherBearing):
         if isinstance(data, dict) and "arrangement" in data:
             if {"bearing", "geometry", "further"} & set(data):
                 raise ValueError("arrangement: gives bearing and geometry; leave them out")
+            if not isinstance(data["arrangement"], str):
+                raise ValueError(f"arrangement: must be one of {', '.join(ARRANGEMENTS)}")
             chosen = main_bearings(data["arrangement"])
             rest = {name: value for name, value in data.items() if name != "arrangement"}
             first, *others = ({"bearing": b, "geometry": g} for b, g in chosen.items())

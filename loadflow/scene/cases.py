@@ -20,6 +20,7 @@ from loadflow.readers.loads import find_files
 from loadflow.scene.given_winds import wind_files
 from loadflow.scene.loads import Loads
 from loadflow.scene.scene import Scene
+from loadflow.storage import check_name
 
 if TYPE_CHECKING:
     from loadflow.wind import Condition, Machine, iec
@@ -210,6 +211,7 @@ def _distinct(cases: Iterable[Case]) -> list[Case]:
     """Number the cases of which nothing is known; two known ones of the same name are an error."""
     taken: dict[str, Case] = {}
     for case in cases:
+        check_name(case.name, f"{_source(case)}: case")
         while case.name in taken:
             if case.dlc != "unknown" and not case.numbered:
                 first = _source(taken[case.name])

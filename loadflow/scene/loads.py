@@ -16,6 +16,9 @@ from loadflow.wind.options import CategoryName, ClassName, Lateral, Scaling, Spe
 
 Positive = Annotated[float, Field(gt=0)]
 
+LONGEST = 7200.0
+"""Longest series, s: a wind field of more would fill the memory of most machines."""
+
 
 class Loads(Section, BaseModel):
     """Where the load series come from.
@@ -68,7 +71,7 @@ class Loads(Section, BaseModel):
     yaw_errors: Annotated[list[float], Field(min_length=1)] | None = None
     azimuths: Annotated[list[float], Field(min_length=1)] = [0.0]
     steady: bool = False
-    duration: Positive | None = None
+    duration: Annotated[float, Field(gt=0, le=LONGEST)] | None = None
     step: Annotated[float, Field(ge=STEPS[0], le=STEPS[1])] = 0.025
     wind_class: ClassName = "I"
     v_ref: Positive | None = None

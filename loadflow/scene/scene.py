@@ -37,7 +37,7 @@ from loadflow.scene.bearings import Rolling
 from loadflow.scene.films import Law, RungName
 from loadflow.scene.limits import JournalLimits
 from loadflow.scene.loads import Loads, check_simulation
-from loadflow.scene.section import Section
+from loadflow.scene.section import LARGEST_INTEGER, Section, too_large
 from loadflow.shaft.beam import BearingSeat
 from loadflow.shaft.options import (
     Concept,
@@ -47,6 +47,7 @@ from loadflow.shaft.options import (
     ThreePoint,
     TwoPoint,
 )
+from loadflow.storage import check_name
 from loadflow.turbines import load_turbine
 
 Result = Literal[
@@ -333,6 +334,11 @@ class Scene(Section, BaseModel):
     rolling: Rolling = Rolling()
     friction: Friction = Friction()
 
+    @field_validator("name")
+    @classmethod
+    def _names_a_folder(cls, name: str) -> str:
+        return check_name(name)
+
     @model_validator(mode="before")
     @classmethod
     def _results_that_the_shaft_can_give(cls, data: Any) -> Any:
@@ -464,6 +470,10 @@ def make_scene(data: dict[str, Any], source: str = "scene") -> Scene:
         As `read_scene`.
     """
     data.setdefault("name", Path(source).stem)
+    for key, value in too_large(data):
+        raise InputError(
+            f"{source}: {key} = {_shown(value)}: must be within ±{LARGEST_INTEGER} (64 bits)"
+        )
     try:
         return Scene.model_validate(data)
     except ValidationError as error:
@@ -503,6 +513,12 @@ def with_loads(scene: Scene, files: list[str], **reading: Any) -> Scene:
     return scene.model_copy(update={"loads": scene.loads.model_copy(update=update)})
 
 
+def with_name(scene: Scene, name: str) -> Scene:
+    """Return the scene under another name, which is checked as that of a file is."""
+    make_scene({"name": name}, "name of the run")
+    return scene.model_copy(update={"name": name})
+
+
 def _anchor_files(data: dict[str, Any], folder: Path) -> dict[str, Any]:
     """Make relative files relative to the scene file, not to where the user stands."""
     loads, journal = data.get("loads"), data.get("journal")
@@ -535,8 +551,16 @@ def _message(error: ValidationError, source: str, *section: str) -> str:
         elif item["type"] == "value_error":
             lines.append(f"{source}: {key}: {reason}")
         else:
-            lines.append(f"{source}: {key} = {item['input']!r}: {reason}")
+            lines.append(f"{source}: {key} = {_shown(item['input'])}: {reason}")
     return "\n".join(lines)
+
+
+def _shown(value: Any) -> str:
+    """A value as it stands in a message: not all of a number of 400 digits."""
+    if isinstance(value, int) and abs(value) > LARGEST_INTEGER:
+        return f"an integer of {value.bit_length()} bits"
+    text = repr(value)
+    return text if len(text) <= 200 else f"{text[:200]}…"
 
 
 def _place(location: tuple[int | str, ...]) -> Iterator[int | str]:
