@@ -8,7 +8,8 @@ from typing import Any, Literal
 
 import xarray as xr
 
-from loadflow.cube.build import Cube, make_cube
+from loadflow.cube.build import make_cube
+from loadflow.cube.parts import Cube
 from loadflow.errors import InputError
 
 ENGINE: Literal["h5netcdf"] = "h5netcdf"

@@ -20,6 +20,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from loadflow.tribology.contact_ellipse import exact_ellipse
+
 Array = NDArray[np.float64]
 
 SPLINE_LIMIT = 1e4
@@ -43,8 +45,6 @@ def power(ratio: Array) -> tuple[Array, Array, Array]:
 
 def spline(ratio: Array) -> tuple[Array, Array, Array]:
     """Cubic splines over the logarithm of the ratio; exact above `SPLINE_LIMIT`."""
-    from loadflow.tribology.hertz import exact_ellipse
-
     if np.max(ratio, initial=1.0) > SPLINE_LIMIT:
         return exact_ellipse(ratio)
     values = _splines()(np.log(ratio))
@@ -54,8 +54,6 @@ def spline(ratio: Array) -> tuple[Array, Array, Array]:
 @cache
 def _splines() -> Any:
     from scipy.interpolate import CubicSpline
-
-    from loadflow.tribology.hertz import exact_ellipse
 
     knots = np.linspace(0.0, math.log(SPLINE_LIMIT), _KNOTS)
     k, first, second = exact_ellipse(np.exp(knots))
