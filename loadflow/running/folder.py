@@ -11,20 +11,28 @@ from typing import Any
 
 import loadflow
 from loadflow.errors import InputError
-from loadflow.planning.plan import Plan, Stage
+from loadflow.planning.effects import Verdict
+from loadflow.planning.plan import Plan
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
 
 
-def part_file(folder: Path, stage: Stage, case: Case | None = None) -> Path:
+def part_file(folder: Path, stage: str, case: Case | None = None) -> Path:
     """Return the file of a stage, and of a case if the stage runs once for each."""
-    return folder / f"{stage.name}.h5" if case is None else folder / stage.name / f"{case.name}.h5"
+    return folder / f"{stage}.h5" if case is None else folder / stage / f"{case.name}.h5"
 
 
 def climbs(folder: Path, scene: Scene) -> list[str]:
     """Return the stages for which this scene has had to take a better model before, in order."""
     manifest = _manifest(folder)
     return manifest["climbed"] if manifest.get("wanted") == scene.digest() else []
+
+
+def known_verdict(folder: Path, scene: Scene) -> Verdict | None:
+    """Return what a pilot of this scene found before; None without one."""
+    manifest = _manifest(folder)
+    found = manifest.get("pilot") if manifest.get("wanted") == scene.digest() else None
+    return Verdict.from_json(found) if found else None
 
 
 def _manifest(folder: Path) -> dict[str, Any]:
@@ -36,9 +44,7 @@ def finished_parts(folder: Path, plan: Plan) -> dict[str, int]:
     """Return the number of parts of each stage that a run of this plan would find finished."""
     known = _manifest(folder).get("stages", {})
     return {
-        step.stage.name: len(_parts(folder, step.stage.name))
-        if known.get(step.stage.name) == step.digest
-        else 0
+        step.name: len(_parts(folder, step.name)) if known.get(step.name) == step.digest else 0
         for step in plan.steps
     }
 
@@ -48,14 +54,19 @@ def _parts(folder: Path, stage: str) -> list[Path]:
 
 
 def prepare(
-    folder: Path, scene: Scene, plan: Plan, climbed: list[str], overwrite: bool
+    folder: Path,
+    scene: Scene,
+    plan: Plan,
+    climbed: list[str],
+    overwrite: bool,
+    verdict: Verdict | None = None,
 ) -> dict[str, Any]:
     """Make the folder, or check that what is in it belongs to these settings."""
     folder.mkdir(parents=True, exist_ok=True)
     manifest = _manifest(folder)
-    digests = {step.stage.name: step.digest for step in plan.steps}
+    digests = {step.name: step.digest for step in plan.steps}
     known = manifest.get("stages", {})
-    samples = {step.stage.name for step in plan.steps if step.stage.sample}  # cheap: made anew
+    samples = {step.name for step in plan.steps if step.stage.sample}  # cheap: made anew
     for name, digest in digests.items():
         parts = _parts(folder, name)
         if not parts or known.get(name) == digest:
@@ -75,8 +86,8 @@ def prepare(
         "climbed": climbed,
         "stages": known | digests,
         "rungs": {
-            step.stage.name: {"rung": step.rung, "error": step.error or "not measured"}
-            | {"reason": plan.reasons.get(step.stage.name, "")}
+            step.name: {"rung": step.rung, "error": step.error or "not measured"}
+            | {"reason": plan.reasons.get(step.name, "")}
             for step in plan.steps
         },
         "expected_errors": {
@@ -84,6 +95,9 @@ def prepare(
             for result, errors in plan.errors.items()
         },
         "accurate": plan.accurate,
+        "shortfalls": plan.shortfalls,
+        "effects": [vars(effect) for effect in plan.effects],
+        "pilot": verdict.to_json() if verdict else None,
         "inputs": {c.file or c.wind: c.fingerprint for c in plan.cases if c.fingerprint},
         "cases": [case.name for case in plan.cases],
         "versions": {"python": platform.python_version(), "loadflow": loadflow.__version__}

@@ -11,7 +11,6 @@ import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import partial
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -20,14 +19,16 @@ import xarray as xr
 from loadflow.cube import open_cube, save_cube
 from loadflow.errors import SolverError
 from loadflow.planning import verification as check
-from loadflow.planning.accuracy import may_climb
-from loadflow.planning.plan import STAGES, Plan, Stage, make_plan
+from loadflow.planning.accuracy import can_refine
+from loadflow.planning.effects import Verdict
+from loadflow.planning.pilot import pilot
+from loadflow.planning.plan import Plan, Step, make_plan
 from loadflow.running.executor import executor, finished
-from loadflow.running.folder import climbs, part_file, prepare, record
+from loadflow.running.folder import climbs, known_verdict, part_file, prepare, record
 from loadflow.running.report_page import write_report
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
-from loadflow.stages import loads, shaft
+from loadflow.stages.registry import STAGES
 
 Report = Callable[[str, int, int], None]
 """Told of progress: what is being done, units done, units in all."""
@@ -45,11 +46,14 @@ class Run:
         What was wanted: one group for each stage.
     failures : dict
         Load cases that a solver could not answer, and why.
+    shortfalls : tuple of str
+        Results that are not expected to be as accurate as asked for: how far off, why, what helps.
     """
 
     path: Path
     tree: xr.DataTree
     failures: dict[str, str] = field(default_factory=dict)
+    shortfalls: tuple[str, ...] = ()
 
     @property
     def flagged(self) -> dict[str, int]:
@@ -66,7 +70,8 @@ class Run:
     @property
     def warnings(self) -> list[str]:
         """What the run found doubtful about its own models."""
-        return [said for stage in (loads, shaft, check) for said in stage.warnings(self.tree)]
+        stages = (*STAGES.values(), check.CHECK)
+        return [said for stage in stages for said in stage.warnings(self.tree)]
 
     @property
     def report(self) -> Path:
@@ -121,16 +126,17 @@ def run(
     folder = Path(out) / scene.name
     say = progress or (lambda stage, done, total: None)
     climbed = climbs(folder, scene)
+    verdict = known_verdict(folder, scene) or pilot(scene, say)
     while True:
         started = time.perf_counter()
-        plan = make_plan(scene, climbed)
-        manifest = prepare(folder, scene, plan, climbed, overwrite)
-        timing, failures = _carry_out(plan, folder, workers, scheduler, say)
+        plan = make_plan(scene, climbed, verdict)
+        manifest = prepare(folder, scene, plan, climbed, overwrite, verdict)
+        timing, failures = _carry_out(plan, folder, workers, scheduler, say, verdict)
         tree = _collect(plan, folder)
         save_cube(tree, folder / "result.h5")
         wall = time.perf_counter() - started
         record(folder, manifest, timing, failures, workers=workers, wall=wall)
-        higher = [stage for stage in check.exceeded(tree) if may_climb(scene, plan.scene, stage)]
+        higher = [stage for stage in check.exceeded(tree) if can_refine(scene, plan.scene, stage)]
         if not higher:
             break
         climbed = [*climbed, *higher]
@@ -139,11 +145,16 @@ def run(
         say("report", 0, 1)
         write_report(folder)
         say("report", 1, 1)
-    return Run(folder, tree, failures)
+    return Run(folder, tree, failures, plan.shortfalls)
 
 
 def _carry_out(
-    plan: Plan, folder: Path, workers: int, scheduler: str | None, say: Report
+    plan: Plan,
+    folder: Path,
+    workers: int,
+    scheduler: str | None,
+    say: Report,
+    verdict: Verdict | None,
 ) -> tuple[dict[str, float], dict[str, str]]:
     """Do what is missing of a plan; return seconds by stage, and what has no answer."""
     timing: dict[str, float] = {}
@@ -162,25 +173,33 @@ def _carry_out(
     if plan.cases and not any((folder / "loads").glob("*.h5")):
         raise SolverError("no load case could be answered:\n" + _lines(failures))
 
-    for whole in (step.stage for step in plan.of_scope("run")):
+    seen = verdict.cases if verdict else ()
+    for whole in plan.of_scope("run"):
         say(whole.name, 0, 1)
-        if not (target := part_file(folder, whole)).exists():
+        if not (target := part_file(folder, whole.name)).exists():
             begun = time.perf_counter()
-            cases = _looked_at(whole, plan.cases, folder)
+            cases = _looked_at(whole, plan.cases, folder, seen)
             inputs = {case.name: _open(whole, case, folder) for case in cases}
-            save_cube(_call(whole, plan.scene, cases, inputs), target)
+            save_cube(whole.stage.run(plan.scene, cases, inputs), target)
             timing[whole.name] = time.perf_counter() - begun
         say(whole.name, 1, 1)
     return timing, failures
 
 
-def _looked_at(stage: Stage, cases: tuple[Case, ...], folder: Path) -> list[Case]:
-    """Return the cases that a stage over all of them reads: those that are there, or a sample."""
-    there = [case for case in cases if _ready(stage, case, folder)]
-    if stage.sample is None or len(there) <= stage.sample:
+def _looked_at(
+    step: Step, cases: tuple[Case, ...], folder: Path, seen: tuple[str, ...]
+) -> list[Case]:
+    """Return the cases that a stage over all of them reads: those that are there, or a sample.
+
+    A sample is of other cases than the pilot has `seen`, where there are enough.
+    """
+    there, count = [case for case in cases if _ready(step, case, folder)], step.stage.sample
+    if count is None or len(there) <= count:
         return there
-    last, parts = len(there) - 1, stage.sample - 1
-    return [there[round(k * last / parts)] for k in range(stage.sample)]
+    others = [case for case in there if case.name not in seen]
+    some = others if len(others) >= count else there
+    last, parts = len(some) - 1, count - 1
+    return [some[round(k * last / parts)] for k in range(count)]
 
 
 # --- one load case ---------------------------------------------------------------------------
@@ -199,51 +218,45 @@ def _do_case(case: Case, scene: Scene, plan: Plan, folder: Path) -> _Outcome:
     seconds: dict[str, float] = {}
     failures: dict[str, str] = {}
     for step in plan.of_scope("case"):
-        target = part_file(folder, step.stage, case)
-        if target.exists() or not _ready(step.stage, case, folder):
+        target = part_file(folder, step.name, case)
+        if target.exists() or not _ready(step, case, folder):
             continue
         begun = time.perf_counter()
         try:
-            result = _call(step.stage, scene, case, _open(step.stage, case, folder))
+            result = step.stage.run(scene, case, _open(step, case, folder))
         except SolverError as error:
-            failures[f"{case.name}, {step.stage.name}"] = str(error)
+            failures[f"{case.name}, {step.name}"] = str(error)
             continue
         save_cube(result, target)
-        seconds[step.stage.name] = time.perf_counter() - begun
+        seconds[step.name] = time.perf_counter() - begun
     return _Outcome(seconds, failures)
 
 
-def _call(stage: Stage, *arguments: Any) -> Any:
-    module, function = stage.function.split(":")
-    return getattr(import_module(module), function)(*arguments)
-
-
 def _missing(plan: Plan, case: Case, folder: Path) -> bool:
-    return any(not part_file(folder, step.stage, case).exists() for step in plan.of_scope("case"))
+    return any(not part_file(folder, step.name, case).exists() for step in plan.of_scope("case"))
 
 
-def _open(stage: Stage, case: Case, folder: Path) -> dict[str, Any]:
-    return {need: open_cube(part_file(folder, STAGES[need], case)) for need in stage.needs}
+def _open(step: Step, case: Case, folder: Path) -> dict[str, Any]:
+    return {need: open_cube(part_file(folder, need, case)) for need in step.needs}
 
 
-def _ready(stage: Stage, case: Case, folder: Path) -> bool:
+def _ready(step: Step, case: Case, folder: Path) -> bool:
     """Whether all that the stage reads of this case is there."""
-    return all(part_file(folder, STAGES[need], case).exists() for need in stage.needs)
+    return all(part_file(folder, need, case).exists() for need in step.needs)
 
 
 def _collect(plan: Plan, folder: Path) -> xr.DataTree:
     """Join what the stages found, reduced to what a reader wants of each case."""
     groups: dict[str, xr.Dataset | xr.DataTree] = {}
     for step in plan.steps:
-        module = import_module(step.stage.function.split(":")[0])
         if step.stage.scope == "run":
-            groups[step.stage.name] = open_cube(part_file(folder, step.stage))
-        elif hasattr(module, "summary"):
-            files = {case: part_file(folder, step.stage, case) for case in plan.cases}
+            groups[step.name] = open_cube(part_file(folder, step.name))
+        elif step.stage.summarise:
+            files = {case: part_file(folder, step.name, case) for case in plan.cases}
             parts = {case: open_cube(file) for case, file in files.items() if file.exists()}
-            found = module.summary(parts) if parts else None
+            found = step.stage.summarise(parts) if parts else None
             if found is not None:
-                groups[step.stage.name] = found
+                groups[step.name] = found
     return xr.DataTree.from_dict(
         {
             f"{name}/{path}".rstrip("/"): node

@@ -10,11 +10,14 @@ import xarray as xr
 
 from loadflow.errors import SolverError
 from loadflow.journal import Equilibrium, Heat, JournalBearing, Lubricant, warm_equilibrium
+from loadflow.journal.shapes import CYLINDER
 from loadflow.journal.validity import critical_reynolds_number, reynolds_number
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Journal, Scene
 from loadflow.stages.frames import to_film
 from loadflow.stages.labelling import label, labelled, of_samples
+from loadflow.stages.reduction import kept_share
+from loadflow.stages.stage import Link, Links, Measured, Rungs, Stage, load_links, steps_of
 from loadflow.stages.summary import over_cases
 
 # what is kept of every sample: units and meaning
@@ -276,3 +279,86 @@ def extremes(samples: xr.Dataset) -> xr.Dataset:
         largest = samples["temperature"].max()
         found["largest_temperature"] = (largest, "K", "largest effective temperature")
     return labelled(found)
+
+
+FINEST_GRID = 480
+"""Cells around that a run goes up to by itself."""
+
+
+def film_key(scene: Scene) -> str:
+    """Name of the film in the ladder."""
+    journal = scene.journal
+    around, across = journal.grid
+    graded = ", graded" if journal.grading == "graded" else ""
+    elastic = ", elastic" if journal.shell is not None else ""
+    names = {"grid": f"grid, {around}x{across}{graded}{elastic}", "reduced": f"reduced, {around}"}
+    return names.get(journal.rung, journal.rung)
+
+
+def warm_films(options: Journal) -> float:
+    """Time of a film with its heat balance over that of an isothermal one; see docs/journal.md."""
+    return 7.0 if options.heat is not None and not options.in_motion else 1.0
+
+
+def fast_film(journal: Journal) -> Journal | None:
+    """The bearing with the film that is fast over a long series; None where it does not fit."""
+    bearing = journal.geometry
+    cylinder = bearing.shape == CYLINDER and not bearing.relief
+    rigid = cylinder and journal.shell is None
+    if rigid and journal.supply is None and journal.grading != "graded":
+        return journal.model_copy(update={"rung": "reduced"})
+    return None
+
+
+def _finer_grid(scene: Scene) -> dict[str, Any]:
+    """A film has no top: its grid is doubled, up to what a scene may ask for."""
+    around, across = scene.journal.grid
+    if 2 * around > FINEST_GRID:
+        return {}
+    return {"rung": "grid", "grid": (2 * around, 2 * across)}
+
+
+def _links(scene: Scene) -> Links:
+    """A film in motion reads the whole series, the others the reduced one."""
+    ends = {
+        "eccentricity ratio": "E_max",
+        "minimum film": "h_min",
+        "maximum pressure": "p_max",
+        "friction power": "friction power",
+    }
+    return {
+        quantity: (
+            *load_links("bearing load max"),
+            *(() if scene.journal.in_motion else (Link("reduction", end),)),
+            Link("journal", quantity),
+        )
+        for quantity, end in ends.items()
+    }
+
+
+def _work(scene: Scene, cases: tuple[Case, ...], measured: Measured) -> float:
+    share = 1.0 if scene.journal.in_motion else kept_share(scene, measured)
+    films = share * len(scene.journal.bearings) * steps_of(cases)
+    return films * warm_films(scene.journal)
+
+
+FILM = Rungs(
+    "journal",
+    section="journal",
+    key=film_key,
+    table=lambda scene: "journal, transient" if scene.journal.in_motion else "journal",
+    better=_finer_grid,
+)
+
+STAGE = Stage(
+    "journal",
+    run=lambda scene, case, inputs: (orbit if scene.journal.in_motion else film)(
+        scene, case, inputs
+    ),
+    results={"journal.film": _links},
+    needs=lambda scene: ("loads", "shaft") if scene.journal.in_motion else ("reduction",),
+    sections=lambda scene: ("journal",),
+    models=(FILM,),
+    summarise=summary,
+    work=_work,
+)

@@ -10,9 +10,8 @@ import numpy as np
 import xarray as xr
 
 from loadflow.errors import SolverError
-from loadflow.journal.shapes import CYLINDER
 from loadflow.scene.scene import Journal
-from loadflow.stages.journal import mean_temperature
+from loadflow.stages.journal import fast_film, mean_temperature
 from loadflow.studies.bearing_series import BearingSeries
 
 Floats = np.ndarray
@@ -102,17 +101,7 @@ def solve_films(series: BearingSeries, journal: Journal, transient: bool = True)
 
 def for_long_series(journal: Journal) -> Journal:
     """Take the film that is quick over a long series, where none is named and it knows the film."""
-    return journal if "rung" in journal.model_fields_set else quick(journal) or journal
-
-
-def quick(journal: Journal) -> Journal | None:
-    """The bearing with the film that is quick over a long series; None where it does not fit."""
-    bearing = journal.geometry
-    cylinder = bearing.shape == CYLINDER and not bearing.relief
-    rigid = cylinder and journal.shell is None
-    if rigid and journal.supply is None and journal.grading != "graded":
-        return journal.model_copy(update={"rung": "reduced"})
-    return None
+    return journal if "rung" in journal.model_fields_set else fast_film(journal) or journal
 
 
 @dataclass(frozen=True)
