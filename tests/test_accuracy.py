@@ -8,10 +8,11 @@ from synthetic import cube_file
 
 import loadflow as lf
 from loadflow.cli import main
-from loadflow.planning.accuracy import CHAINS, OPEN_STAGES, expected_errors
+from loadflow.planning.accuracy import expected_errors
 from loadflow.planning.ladder import expected_seconds, gains, ladder, rung_of
-from loadflow.planning.plan import GIVEN_BY, make_plan
-from loadflow.scene.scene import make_scene
+from loadflow.planning.plan import make_plan
+from loadflow.scene.scene import Scene, make_scene
+from loadflow.stages.registry import STAGES, giving
 
 
 def scene_of(**keys):
@@ -32,13 +33,24 @@ def given(cube, **keys):
     return make_scene({"name": "given", "loads": loads, "results": ["journal.film"]} | keys)
 
 
-def test_every_result_has_a_chain_of_errors():
-    assert set(CHAINS) == set(GIVEN_BY)
+def test_every_result_says_which_errors_reach_it():
+    scene = Scene(name="all")
+    given = [result for stage in STAGES.values() for result in stage.results]
+    assert sorted(given) == sorted(scene.results)
+    for result in scene.results:
+        links = giving(result).results[result](scene)
+        assert all(links.values())
+        assert bool(links) != (result == "seeds.equality")  # a verdict is no number
 
 
-def test_without_a_stated_accuracy_nothing_is_chosen():
-    scene = scene_of()
+def test_models_as_given_stay_as_they_are():
+    scene = scene_of(accuracy="given")
     assert make_plan(scene).scene == scene
+
+
+def test_an_accuracy_of_five_per_cent_holds_where_none_is_said():
+    assert scene_of().accuracy == 0.05
+    assert make_plan(scene_of()).scene == make_plan(scene_of(accuracy=0.05)).scene
 
 
 @pytest.mark.parametrize("accuracy", [0.3, 0.1, 0.05, 0.02, 0.01])
@@ -52,7 +64,7 @@ def test_a_lower_accuracy_never_costs_more():
     # all open stages together: a coarser wind can be worth a finer film
     plans = [make_plan(scene_of(accuracy=a)) for a in (0.01, 0.02, 0.05, 0.1, 0.3)]
     costs = [
-        sum(expected_seconds(plan.scene, stage, plan.cases) or 0.0 for stage in OPEN_STAGES)
+        sum(expected_seconds(plan.scene, stage, plan.cases) or 0.0 for stage in STAGES)
         for plan in plans
     ]
     assert costs == sorted(costs, reverse=True)
@@ -63,7 +75,10 @@ def test_an_accuracy_out_of_reach_is_said_and_the_best_is_taken():
     plan = make_plan(scene_of(accuracy=1e-6))
     assert not plan.accurate
     worst = {
-        name: max(entry["errors"][quantity]["max"] for quantity in CHAINS["journal.film"])
+        name: max(
+            entry["errors"][quantity]["max"]
+            for quantity in make_plan(scene_of()).errors["journal.film"]
+        )
         for name, entry in ladder()["journal"].items()
         if "settings" in entry
     }
@@ -162,7 +177,9 @@ def test_a_run_reports_how_far_better_models_move_it(cube, tmp_path):
     journal = {"grid": [24, 8], "bearings": ["N2"]}
     run = lf.run(given(cube, journal=journal, accuracy=1e-4), out=tmp_path)
     check = run.tree["check"].to_dataset()
-    assert {"journal", "reduction", "heat", "motion"} == set(check["stage"].values)
+    assert {"journal", "reduction", "heat of the film", "motion of the film"} == set(
+        check["stage"].values
+    )
     film = check["difference"].values[check["stage"].values == "journal"]
     assert np.all((film > 0) & (film < 0.2))
     assert "solved again by better models" in run.report.read_text(encoding="utf-8")

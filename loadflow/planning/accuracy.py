@@ -8,10 +8,12 @@ gain d ln(answer)/d ln(load) of that answer, which is measured too.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from itertools import product
 from typing import Any
+
+import numpy as np
 
 from loadflow.planning.effects import Estimates, concerned, switched
 from loadflow.planning.ladder import choices, expected_seconds, gains, measured
@@ -22,6 +24,7 @@ from loadflow.stages.effects.registry import EFFECTS
 from loadflow.stages.registry import STAGES, giving, models
 from loadflow.stages.stage import Link, Rungs
 
+Floats = np.ndarray
 Errors = dict[str, dict[str, float | None]]
 """By result and quantity; None where not measured."""
 
@@ -91,16 +94,20 @@ def contributions(
 ) -> Iterator[Part]:
     """What each rung, and each effect that is left out, adds to the error of an answer."""
     for link in links:
-        gain = gains()[result.split(".")[0]].get(quantity) if link.of_load else 1.0
-        rungs = models()[link.model]
-        share = _rung_error(scene, rungs, link.quantity)
-        if share != 0.0:
-            both = None if share is None or gain is None else share * gain
-            yield Part(link.model, None, both)
-        for effect in _left_out(scene, link.model):
-            size = known.size(effect, link.quantity)
-            if size:
-                yield Part(link.model, effect, None if gain is None else size * gain)
+        yield from _of_link(scene, result, quantity, link, known)
+
+
+def _of_link(
+    scene: Scene, result: str, quantity: str, link: Link, known: Estimates
+) -> Iterator[Part]:
+    gain = gains()[result.split(".")[0]].get(quantity) if link.of_load else 1.0
+    share = _rung_error(scene, models()[link.model], link.quantity)
+    if share != 0.0:
+        yield Part(link.model, None, None if share is None or gain is None else share * gain)
+    for effect in _left_out(scene, link.model):
+        size = known.size(effect, link.quantity)
+        if size:
+            yield Part(link.model, effect, None if gain is None else size * gain)
 
 
 def _rung_error(scene: Scene, rungs: Rungs, quantity: str) -> float | None:
@@ -210,27 +217,43 @@ class _Choosing:
     stages: tuple[str, ...]
     cases: tuple[Case, ...]
     known: Estimates
+    times: dict[Any, float | None] = field(default_factory=dict)
 
-    def with_section(self, name: str, section: Any) -> Scene:
-        return self.scene.model_copy(update={name: section})
+    def with_sections(self, changed: Mapping[str, Any]) -> Scene:
+        return self.scene.model_copy(update=dict(changed))
+
+    def links(self, scene: Scene) -> dict[tuple[str, str], tuple[Link, ...]]:
+        """What reaches each answer, by result and quantity."""
+        return {
+            (result, quantity): of
+            for result in scene.results
+            for quantity, of in giving(result).results[result](scene).items()
+        }
 
     def seconds(self, scene: Scene) -> tuple[int, float]:
         """How many times are not known, and the sum of those that are."""
-        costs = [expected_seconds(scene, stage, self.cases) for stage in self.stages]
+        costs = [self._seconds_of(scene, name) for name in self.stages]
         return costs.count(None), sum(cost for cost in costs if cost is not None)
+
+    def _seconds_of(self, scene: Scene, name: str) -> float | None:
+        """Time of a stage; candidates share their sections, and so most of their times."""
+        stage = STAGES[name]
+        near = (stage, *(STAGES[need] for need in stage.needs(scene)))
+        sections = dict.fromkeys(section for one in near for section in one.sections(scene))
+        place = name, *((section, id(getattr(scene, section))) for section in sections)
+        if place not in self.times:
+            self.times[place] = expected_seconds(scene, name, self.cases)
+        return self.times[place]
 
     def worthwhile(self, name: str, alternatives: list[Any]) -> list[Any]:
         """Alternatives of a section that no other one beats in time and in every error."""
         rated = []
         for section in alternatives:
-            scene = self.with_section(name, section)
-            links = tuple(
-                (result, quantity, of)
-                for result in scene.results
-                for quantity, of in giving(result).results[result](scene).items()
-            )
-            errors = tuple(
-                _or_infinite(total(contributions(scene, *link, self.known))) for link in links
+            scene = self.with_sections({name: section})
+            links = self.links(scene)
+            errors = (
+                _or_infinite(total(contributions(scene, *place, of, self.known)))
+                for place, of in links.items()
             )
             rated.append((section, links, (*map(float, self.seconds(scene)), *errors)))
         return [
@@ -247,63 +270,81 @@ class _Choosing:
 
     def best(self, alternatives: dict[str, list[Any]]) -> tuple[Scene, str]:
         """The cheapest combination that is accurate enough, and why."""
-        candidates = [
-            self.scene.model_copy(update=dict(zip(alternatives, picked)))
-            for picked in product(*alternatives.values())
-        ]
-        errors = [_Errors(self.scene, *self._split(one)) for one in candidates]
-        unknown = min(one.unknown for one in errors)
-        fewest = [k for k, one in enumerate(errors) if one.unknown == unknown]
-        floor = {
-            place: min(errors[k].known.get(place, 0.0) for k in fewest)
-            for place in errors[fewest[0]].known
-        }
-        good = [k for k in fewest if errors[k].excess(floor) <= 1.0 + 1e-9]
-        why = "cheapest that is accurate enough" if good else "most accurate that was measured"
-        if any(floor[place] > self.scene.allowed(place[0]) for place in floor):
+        picked, errors = self._candidates(alternatives)
+        allowed = np.array([self.scene.allowed(result) for result, _ in self.links(self.scene)])
+        missing = np.isnan(errors).sum(axis=1)
+        fewest = np.flatnonzero(missing == missing.min())
+        left = np.nan_to_num(errors[fewest])
+        least = left.min(axis=0, initial=np.inf)
+        beyond = least > allowed
+        excess = ((left - np.where(beyond, least, 0.0)) / allowed).max(axis=1, initial=0.0)
+        good = np.flatnonzero(excess <= 1.0 + 1e-9)
+        why = "cheapest that is accurate enough" if good.size else "most accurate that was measured"
+        if beyond.any():
             why = "cheapest beside what cannot be helped"
-        if unknown:
+        if missing.min():
             why += ", by the errors that are known"
-        best = (
-            min(good, key=lambda k: (*self.seconds(candidates[k]), errors[k].sum))
-            if good
-            else min(fewest, key=lambda k: (errors[k].excess(floor), errors[k].sum))
+
+        def scene_of(k: int) -> Scene:
+            return self.with_sections(dict(zip(alternatives, picked[fewest[k]])))
+
+        best = min(
+            good if good.size else range(fewest.size),
+            key=lambda k: (
+                self.seconds(scene_of(k)) if good.size else (0, excess[k]),
+                left[k].sum(),
+            ),
         )
-        return candidates[best], why
+        return scene_of(int(best)), why
 
-    def _split(self, scene: Scene) -> tuple[dict[tuple[str, str], float], int]:
-        known: dict[tuple[str, str], float] = {}
-        unknown = 0
-        for result in scene.results:
-            for quantity, links in giving(result).results[result](scene).items():
-                found = total(contributions(scene, result, quantity, links, self.known))
-                if found is None:
-                    unknown += 1
-                else:
-                    known[result, quantity] = found
-        return known, unknown
+    def _candidates(self, alternatives: dict[str, list[Any]]) -> tuple[list[Any], Floats]:
+        """All combinations, and their errors (n, answers); NaN where one is not measured.
 
+        A link's share depends on one section. Where the links themselves depend on a section, as on
+        that of a film that moves, its alternatives are gone through one by one.
+        """
+        plain = self.links(self.scene)
+        forking = {
+            name: found
+            for name, found in alternatives.items()
+            if any(self.links(self.with_sections({name: one})) != plain for one in found)
+        }
+        others = {name: found for name, found in alternatives.items() if name not in forking}
+        combined, errors = [], []
+        for fork in product(*forking.values()):
+            fixed = dict(zip(forking, fork))
+            scene = self.with_sections(fixed)
+            links = self.links(scene)
+            table = np.zeros((1, len(links)))
+            for name, found in others.items():
+                own = [
+                    self._shares(self.with_sections(fixed | {name: one}), links, name)
+                    for one in found
+                ]
+                table = (table[:, None] + np.array(own)).reshape(-1, len(links))
+            held = {*forking, *({rungs.section for rungs in models().values()} - {*others})}
+            for name in held:
+                table = table + self._shares(scene, links, name)
+            errors.append(table)
+            for rest in product(*others.values()):
+                whole = fixed | dict(zip(others, rest))
+                combined.append(tuple(whole[name] for name in alternatives))
+        return combined, np.concatenate(errors)
 
-@dataclass(frozen=True)
-class _Errors:
-    """Errors of a candidate, by result and quantity, and how many are not known."""
-
-    wanted: Scene
-    known: dict[tuple[str, str], float]
-    unknown: int
-
-    @property
-    def sum(self) -> float:
-        return sum(self.known.values())
-
-    def excess(self, floor: dict[tuple[str, str], float]) -> float:
-        """Largest error over what is allowed; of one out of reach, what is above its least."""
-        ratios = []
-        for place, error in self.known.items():
-            allowed = self.wanted.allowed(place[0])
-            least = floor.get(place, 0.0)
-            ratios.append((error - (least if least > allowed else 0.0)) / allowed)
-        return max(ratios, default=0.0)
+    def _shares(
+        self, scene: Scene, links: dict[tuple[str, str], tuple[Link, ...]], section: str
+    ) -> Floats:
+        """What the links to models of one section bring to each answer."""
+        found = [
+            total(
+                part
+                for link in of
+                if models()[link.model].section == section
+                for part in _of_link(scene, *place, link, self.known)
+            )
+            for place, of in links.items()
+        ]
+        return np.array([np.nan if share is None else share for share in found])
 
 
 def _or_infinite(error: float | None) -> float:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 from loadflow.stages import (
     friction,
     journal,
@@ -22,7 +24,12 @@ STAGES: dict[str, Stage] = {
 
 def models() -> dict[str, Rungs]:
     """Models of all stages that stand on rungs, by name."""
-    return {rungs.name: rungs for stage in STAGES.values() for rungs in stage.models}
+    return _models(tuple(STAGES.values()))
+
+
+@lru_cache(maxsize=8)
+def _models(stages: tuple[Stage, ...]) -> dict[str, Rungs]:
+    return {rungs.name: rungs for stage in stages for rungs in stage.models}
 
 
 def giving(result: str) -> Stage:

@@ -140,7 +140,7 @@ Links = Mapping[str, tuple[Link, ...]]
 """By quantity, what reaches it."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Stage:
     """One step of the flow.
 
