@@ -311,10 +311,16 @@ def fast_film(journal: Journal) -> Journal | None:
 
 
 def _finer_grid(scene: Scene) -> dict[str, Any]:
-    """A film has no top: its grid is doubled, up to what a scene may ask for."""
-    around, across = scene.journal.grid
+    """A film has no top: its grid is doubled, up to what a scene may ask for.
+
+    One in motion stays on the rung "reduced", which is nearest to the truth for its time.
+    """
+    journal = scene.journal
+    around, across = journal.grid
     if 2 * around > FINEST_GRID:
         return {}
+    if journal.in_motion and journal.rung == "reduced":
+        return {"grid": (2 * around, across)}
     return {"rung": "grid", "grid": (2 * around, 2 * across)}
 
 

@@ -222,7 +222,9 @@ TILT = Effect(
 
 
 def _shell(at: Situation) -> Sizes:
-    """Pressure × compliance / film: growth of the gap by a steel wall that is held outside.
+    """Pressure × compliance / film: growth of the gap by a wall that is held outside.
+
+    Without a shell, by a wall of steel of `WALL`.
 
     The shares of it in each answer are those of docs/journal.md, "Elastic shell".
     """
@@ -232,7 +234,8 @@ def _shell(at: Situation) -> Sizes:
     compliance = getattr(shell, "compliance", 0.2 * thickness / modulus)
     found = []
     for film in at.films.values():
-        share = float(np.nanmax(film.maximum_pressure * compliance / film.minimum_film))
+        above = film.maximum_pressure - at.scene.journal.edge_pressure
+        share = float(np.nanmax(above * compliance / film.minimum_film))
         names = ("eccentricity ratio", "minimum film", "maximum pressure", "friction power")
         found.append({name: min(0.25 * share, 1.0) for name in names})
     return _largest(found)
