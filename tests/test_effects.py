@@ -217,8 +217,8 @@ def test_a_run_remembers_its_pilot_and_gives_the_same_on_two_processes(cube, tmp
     one = lf.run(scene_of(cube, **keys), out=tmp_path / "one", report=False)
     manifest = json.loads((one.path / "manifest.json").read_text(encoding="utf-8"))
     assert manifest["pilot"]["sizes"]
-    kept = {effect["name"]: effect["kept"] for effect in manifest["effects"]}
-    assert kept["motion of the film"]
+    sizes = {effect["name"]: effect["size"] for effect in manifest["effects"]}
+    assert sizes["motion of the film"] == manifest["pilot"]["sizes"]["motion of the film"]
     again = lf.run(scene_of(cube, **keys), out=tmp_path / "one", report=False)
     after = json.loads((again.path / "manifest.json").read_text(encoding="utf-8"))
     assert after["pilot"] == manifest["pilot"]  # taken up, not measured anew

@@ -288,14 +288,12 @@ class _Choosing:
         def scene_of(k: int) -> Scene:
             return self.with_sections(dict(zip(alternatives, picked[fewest[k]])))
 
-        best = min(
-            good if good.size else range(fewest.size),
-            key=lambda k: (
-                self.seconds(scene_of(k)) if good.size else (0, excess[k]),
-                left[k].sum(),
-            ),
-        )
-        return scene_of(int(best)), why
+        def rank(k: int) -> tuple[tuple[float, float], float]:
+            cost = self.seconds(scene_of(k)) if good.size else (0.0, float(excess[k]))
+            return cost, float(left[k].sum())
+
+        best = min(good.tolist() or range(fewest.size), key=rank)
+        return scene_of(best), why
 
     def _candidates(self, alternatives: dict[str, list[Any]]) -> tuple[list[Any], Floats]:
         """All combinations, and their errors (n, answers); NaN where one is not measured.

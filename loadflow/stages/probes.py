@@ -63,7 +63,8 @@ def _of_shaft(scene: Scene, case: Case, inputs: Mapping[str, Any]) -> Answers:
 
 def _of_film(scene: Scene, case: Case, inputs: Mapping[str, Any]) -> Answers:
     """Extremes and mean friction of each film around its largest load per speed."""
-    journal, found = scene.journal, {}
+    journal = scene.journal
+    found: Answers = {}
     for bearing in journal.bearings:
         loads, shaft = inputs["loads"], inputs["shaft"].sel(bearing=bearing)
         force = to_film(shaft["force"].transpose("time", "axis").values.astype(float))
@@ -93,7 +94,7 @@ def _at_rest(scene: Scene, loads: xr.Dataset, shaft: xr.Dataset) -> xr.Dataset:
 
 def _of_contacts(scene: Scene, case: Case, inputs: Mapping[str, Any]) -> Answers:
     """Largest contact of a few samples of each bearing, and the life under these alone."""
-    found = {}
+    found: Answers = {}
     for bearing in scene.rolling.bearings:
         shaft = inputs["shaft"].sel(bearing=bearing)
         moment = shaft["moment"].transpose("time", "axis").values.astype(float)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -47,7 +48,7 @@ def _worst(film: Film, eccentricity: Floats, pressure: Floats, power: float = 0.
     }
 
 
-def _largest(found: list[Sizes]) -> Sizes:
+def _largest(found: Sequence[Sizes]) -> Sizes:
     """Of all bearings, by quantity."""
     return {name: max(sizes[name] for sizes in found) for name in found[0]}
 

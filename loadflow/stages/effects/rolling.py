@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from loadflow.data import ladder
 from loadflow.errors import InputError
-from loadflow.rolling import SlewingBearing
+from loadflow.rolling import BallBearing, SlewingBearing
 from loadflow.scene.bearings import FurtherBearing, Rolling
 from loadflow.scene.scene import Scene
 from loadflow.stages.effects.effect import Effect, Sizes
@@ -23,10 +25,11 @@ def _softness(part: FurtherBearing) -> float:
 
     Both rings in a row, of the sections stated or of squares with sides of `RING` elements.
     """
-    bearing = part.geometry
-    diameter = getattr(bearing, "ball_diameter", None) or getattr(bearing, "roller_diameter", 0.1)
-    count = getattr(bearing, "balls", None) or getattr(bearing, "rollers", 60)
-    pitch = getattr(bearing, "pitch_diameter", 2.0)
+    bearing: Any = part.geometry
+    balls = isinstance(bearing, SlewingBearing | BallBearing)
+    diameter = float(bearing.ball_diameter if balls else getattr(bearing, "roller_diameter", 0.1))
+    count = float(bearing.balls if balls else getattr(bearing, "rollers", 60))
+    pitch = float(getattr(bearing, "pitch_diameter", 2.0))
     side = RING * diameter
     square = side**4 / 12
     inertias = [
