@@ -29,7 +29,7 @@ class Verdict:
     cases : tuple of str
         Load cases that it looked at.
     seconds : float
-        Time that it took.
+        Processor time that it took, s.
     """
 
     sizes: Mapping[str, Sizes] = field(default_factory=dict)

@@ -59,7 +59,7 @@ def pilot(scene: Scene, say: Report = lambda stage, done, total: None) -> Verdic
     """
     if not scene.asks:
         return None
-    started, cases = time.perf_counter(), tuple(list_cases(scene))
+    started, cases = time.process_time(), tuple(list_cases(scene))
     chosen = chosen_models(scene, cases).scene
     effects = [*_worth_measuring(scene, chosen, cases)]
     if not effects:
@@ -79,7 +79,7 @@ def pilot(scene: Scene, say: Report = lambda stage, done, total: None) -> Verdic
                 for quantity in sorted({name for one in seen for name in one})
             }
     refused = {name: why for one in found for name, why in one.refused.items()}
-    seconds = round(time.perf_counter() - started, 2)
+    seconds = round(time.process_time() - started, 2)
     return Verdict(sizes, refused, tuple(case.name for case in looked_at), seconds)
 
 
@@ -138,9 +138,7 @@ def _measure(chosen: Scene, case: Case, effects: list[Effect]) -> _Found:
         def answers(one: Scene) -> Answers:
             return probe.answers(one, case, inputs)  # noqa: B023  used within this turn
 
-        full = _all_on(scene, ours, answers, refused)
-        scene = full if full is not None else scene
-        best = _try(answers, scene)
+        scene, best = _all_on(scene, ours, answers, refused)
         if isinstance(best, str):
             continue
         for effect in ours:
@@ -175,27 +173,26 @@ def _all_on(
     effects: list[Effect],
     answers: Callable[[Scene], Answers],
     refused: dict[str, str],
-) -> Scene | None:
-    """The scene with all effects that can be on together, those that it has on first."""
+) -> tuple[Scene, Answers | str]:
+    """The scene with all effects that can be on together, and its answers; those it has go first."""
     together = scene
     for effect in sorted(effects, key=lambda one: not one.is_on(scene)):
         together = switched(together, effect, True) or together
-    if not isinstance(_try(answers, together), str):
-        return together
+    best = _try(answers, together)
+    if not isinstance(best, str):
+        return together, best
     together = scene
     for effect in effects:  # one by one: which of them cannot be?
-        off = switched(together, effect, False)
-        together = off if off is not None else together
+        together = switched(together, effect, False) or together
+    best = _try(answers, together)
     for effect in effects:
         more = switched(together, effect, True)
-        if more is None:
-            continue
-        outcome = _try(answers, more)
-        if isinstance(outcome, str):
-            refused[effect.name] = outcome
-        else:
-            together = more
-    return together
+        outcome = _try(answers, more) if more is not None else ""
+        if more is not None and not isinstance(outcome, str):
+            together, best = more, outcome
+        elif outcome:
+            refused[effect.name] = str(outcome)
+    return together, best
 
 
 def _alone(scene: Scene, effect: Effect, others: list[Effect]) -> Scene | None:
