@@ -99,8 +99,11 @@ def run(
         paths = {"path": str(result.path), "report": str(result.report)}
         found = {"failures": result.failures, "flagged": result.flagged}
         judged = {"verdicts": [verdict.as_dict() for verdict in result.verdicts]}
-        print_json(paths | found | judged | {"warnings": result.warnings})
+        told = {"warnings": result.warnings, "shortfalls": result.shortfalls}
+        print_json(paths | found | judged | told)
     else:
+        for said in result.shortfalls:
+            out.print(f"not accurate enough: {said}", soft_wrap=True)
         out.print(f"results  {result.path / 'result.h5'}\nreport   {result.report}", soft_wrap=True)
         for part, count in result.flagged.items():
             out.print(f"flagged  {part}: {count} samples have no answer", soft_wrap=True)
@@ -142,26 +145,34 @@ def plan(
     channels: OwnChannels = None,
     gauge_distance: GaugeDistance = None,
     frame: FrameOfChannels = None,
+    measure: Annotated[
+        bool, typer.Option("--pilot", help="Measure the effects on a few samples first.")
+    ] = False,
     as_json: AsJson = False,
 ) -> None:
-    """Show which stages and models a scene needs, their expected time and error."""
+    """Show which stages, models and effects a scene needs, their expected time and error."""
+    from loadflow.planning.pilot import pilot
     from loadflow.planning.plan import make_plan
-    from loadflow.running.folder import climbs, finished_parts
+    from loadflow.running.folder import climbs, finished_parts, known_verdict
     from loadflow.scene.unused import unused_keys, unused_warnings
 
     reading = _reading(cases, pattern, channels, gauge_distance, frame)
     wanted = _read(scene, loads, **reading)
     folder = out_folder / wanted.name
-    made = make_plan(wanted, climbs(folder, wanted))
+    verdict = known_verdict(folder, wanted)
+    if verdict is None and measure:
+        with progress(quiet=as_json) as show:
+            verdict = pilot(wanted, show)
+    made = make_plan(wanted, climbs(folder, wanted), verdict)
     there = finished_parts(folder, made)
     steps = [
         {
-            "stage": step.stage.name,
+            "stage": step.name,
             "rung": step.rung,
-            "reason": made.reasons.get(step.stage.name, ""),
+            "reason": made.reasons.get(step.name, ""),
             "runs": step.runs,
-            "finished": there[step.stage.name],
-            "seconds": step.seconds and step.seconds * (1 - there[step.stage.name] / step.runs),
+            "finished": there[step.name],
+            "seconds": step.seconds and step.seconds * (1 - there[step.name] / step.runs),
             "error": step.error,
         }
         for step in made.steps
@@ -170,8 +181,11 @@ def plan(
         names = [case.name for case in made.cases]
         found = {"steps": steps, "cases": names, "left_out": made.left_out}
         found |= {"unused": unused_keys(wanted)}
-        print_json(found | {"errors": made.errors, "accurate": made.accurate})
+        told = {"errors": made.errors, "accurate": made.accurate, "shortfalls": made.shortfalls}
+        print_json(found | told | {"effects": [vars(effect) for effect in made.effects]})
         return
+    for said in made.shortfalls:
+        out.print(f"not accurate enough: {said}", soft_wrap=True)
     heads = ("stage", "model", "chosen", "runs", "on disk", "expected time, one core", "error")
     table = Table(*heads, box=None)
     for step in steps:
@@ -183,25 +197,47 @@ def plan(
         )
     out.print(table)
     out.print(f"{len(made.cases)} load cases")
+    _print_errors(made)
+    _print_effects(made, measured=verdict is not None)
+    for stage, why in made.left_out.items():
+        out.print(f"left out: {stage} ({why})", soft_wrap=True)
+    for warning in unused_warnings(wanted):
+        out.print(f"warning: {warning}", soft_wrap=True, markup=False)
+
+
+def _print_errors(made: Any) -> None:
     for result, errors in made.errors.items():
         sizes = (
             f"{quantity} " + ("not measured" if error is None else f"≤ {100 * error:.2g} %")
             for quantity, error in errors.items()
         )
         if errors:
-            out.print(f"expected error of {result}: {', '.join(sizes)}")
-    if not made.accurate:
-        unknown = any(None in errors.values() for errors in made.errors.values())
-        why = (
-            "not known to hold: some errors were not measured"
-            if unknown
-            else "not expected to hold"
+            out.print(f"expected error of {result}: {', '.join(sizes)}", soft_wrap=True)
+
+
+def _print_effects(made: Any, measured: bool) -> None:
+    """Each effect, kept or not, and what leaving it out changes most."""
+    if not made.effects:
+        return
+    table = Table("effect", "", "changes, measured", "changes, estimated", "why", box=None)
+    for effect in made.effects:
+        table.add_row(
+            effect.name,
+            "kept" if effect.kept else "left out",
+            *map(_largest, (effect.size, effect.indicator)),
+            effect.why,
         )
-        out.print(f"the accuracy that the scene asks for is {why}", soft_wrap=True)
-    for stage, why in made.left_out.items():
-        out.print(f"left out: {stage} ({why})")
-    for warning in unused_warnings(wanted):
-        out.print(f"warning: {warning}", soft_wrap=True, markup=False)
+    out.print(table)
+    if not measured:
+        out.print("Effects are estimated by indicators; --pilot measures them.", soft_wrap=True)
+
+
+def _largest(sizes: Any) -> str:
+    """Quantity that an effect moves most, and by how much."""
+    if not sizes:
+        return "-"
+    quantity = max(sizes, key=sizes.get)
+    return f"{quantity} {100 * sizes[quantity]:.2g} %" if sizes[quantity] else "nothing"
 
 
 @app.command("scene")

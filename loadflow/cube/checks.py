@@ -6,14 +6,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from loadflow.cube.parts import Cube, iter_cases
 from loadflow.cube.schema import VARIABLES
 from loadflow.errors import InputError
 
 if TYPE_CHECKING:
     import xarray as xr
     from numpy.typing import ArrayLike, NDArray
-
-    from loadflow.cube.build import Cube
 
 JITTER = 0.01  # share of the step within which all stamps must lie about the regular grid
 NOISE = 1e-9  # s, of arithmetic
@@ -35,8 +34,6 @@ def check_cube(cube: Cube, source: str = "") -> None:
         Empty cube, missing or wrong units, wrong dimensions, NaN or infinite value, time that
         does not rise in equal steps.
     """
-    from loadflow.cube.build import iter_cases
-
     names = set()
     for name, case in iter_cases(cube):
         if name in names:

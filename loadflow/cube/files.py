@@ -12,8 +12,9 @@ from typing import Any, Literal
 
 import xarray as xr
 
-from loadflow.cube.build import Cube, make_cube
+from loadflow.cube.build import make_cube
 from loadflow.cube.hdf5 import check_hdf5
+from loadflow.cube.parts import Cube
 from loadflow.errors import InputError
 from loadflow.storage import check_room, written_whole
 

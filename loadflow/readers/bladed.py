@@ -26,7 +26,8 @@ from loadflow.readers.aliases import (
     aliases,
     read_channels,
 )
-from loadflow.readers.table import Table, to_series
+from loadflow.readers.series import to_series
+from loadflow.readers.table import Table
 from loadflow.readers.text import read_text
 
 UNITS = {"F": "N", "FL": "N m", "A": "rad", "A/T": "rad/s", "L/T": "m/s", "T": "s", "P": "W"}

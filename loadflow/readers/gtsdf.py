@@ -19,7 +19,8 @@ from numpy.typing import NDArray
 from loadflow.cube.hdf5 import check_hdf5
 from loadflow.errors import InputError
 from loadflow.readers.aliases import Channels, Frame, aliases
-from loadflow.readers.table import Table, to_series
+from loadflow.readers.series import to_series
+from loadflow.readers.table import Table
 
 KIND = "General time series data format"
 

@@ -17,7 +17,8 @@ from numpy.typing import NDArray
 
 from loadflow.errors import InputError
 from loadflow.readers.aliases import Channels, Frame, aliases
-from loadflow.readers.table import Table, to_series
+from loadflow.readers.series import to_series
+from loadflow.readers.table import Table
 from loadflow.readers.text import number_rows, read_text
 
 SEARCHED_LINES = 40

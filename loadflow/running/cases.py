@@ -5,13 +5,12 @@ from __future__ import annotations
 import time
 import traceback
 from dataclasses import dataclass, field
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 from loadflow.cube import open_cube
 from loadflow.errors import InputError, SolverError
-from loadflow.planning.plan import STAGES, Plan, Stage
+from loadflow.planning.plan import Plan, Step
 from loadflow.running.folder import part_file
 from loadflow.running.parts import save_part
 from loadflow.running.profile import Compiling
@@ -48,13 +47,13 @@ def do_case(case: Case, scene: Scene, plan: Plan, folder: Path) -> Outcome:
     """
     done = Outcome()
     for step in plan.of_scope("case"):
-        name, target = step.stage.name, part_file(folder, step.stage, case)
-        if target.exists() or not is_ready(step.stage, case, folder):
+        name, target = step.name, part_file(folder, step.name, case)
+        if target.exists() or not is_ready(step, case, folder):
             continue
         begun = time.perf_counter()
         with Compiling() as compiling:
             try:
-                result = call(step.stage, scene, case, open_inputs(step.stage, case, folder))
+                result = step.stage.run(scene, case, open_inputs(step, case, folder))
             except SolverError as error:
                 done.failures[f"{case.name}, {name}"] = str(error)
                 continue
@@ -73,22 +72,16 @@ def do_case(case: Case, scene: Scene, plan: Plan, folder: Path) -> Outcome:
     return done
 
 
-def call(stage: Stage, *arguments: Any) -> Any:
-    """Call the function of a stage."""
-    module, function = stage.function.split(":")
-    return getattr(import_module(module), function)(*arguments)
-
-
 def is_missing(plan: Plan, case: Case, folder: Path) -> bool:
     """Whether a part of this case is yet to be done."""
-    return any(not part_file(folder, step.stage, case).exists() for step in plan.of_scope("case"))
+    return any(not part_file(folder, step.name, case).exists() for step in plan.of_scope("case"))
 
 
-def is_ready(stage: Stage, case: Case, folder: Path) -> bool:
+def is_ready(step: Step, case: Case, folder: Path) -> bool:
     """Whether all that the stage reads of this case is there."""
-    return all(part_file(folder, STAGES[need], case).exists() for need in stage.needs)
+    return all(part_file(folder, need, case).exists() for need in step.needs)
 
 
-def open_inputs(stage: Stage, case: Case, folder: Path) -> dict[str, Any]:
+def open_inputs(step: Step, case: Case, folder: Path) -> dict[str, Any]:
     """Open what the stage reads of this case."""
-    return {need: open_cube(part_file(folder, STAGES[need], case)) for need in stage.needs}
+    return {need: open_cube(part_file(folder, need, case)) for need in step.needs}

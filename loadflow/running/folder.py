@@ -12,10 +12,12 @@ from typing import Any
 
 import loadflow
 from loadflow.errors import InputError
-from loadflow.planning.plan import Plan, Stage
+from loadflow.planning.effects import Verdict
+from loadflow.planning.plan import Plan
 from loadflow.running.parts import digest_of, set_aside, unsound
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
+from loadflow.stages.stage import Stage
 from loadflow.storage import target_of, write_text
 
 FILES = ("scene.toml", "manifest.json", "result.h5", "report.html", "profile.json", "run.log")
@@ -31,28 +33,36 @@ _KINDS: dict[str, type | tuple[type, ...]] = {
     "versions": dict,
     "seconds": dict,
     "failures": dict,
+    "pilot": (dict, type(None)),
     "wall_seconds": (int, float),
 }
 
 log = logging.getLogger("loadflow.run")
 
 
-def part_file(folder: Path, stage: Stage, case: Case | None = None) -> Path:
+def part_file(folder: Path, stage: str, case: Case | None = None) -> Path:
     """Return the file of a stage, and of a case if the stage runs once for each."""
-    return folder / f"{stage.name}.h5" if case is None else folder / stage.name / f"{case.name}.h5"
+    return folder / f"{stage}.h5" if case is None else folder / stage / f"{case.name}.h5"
 
 
 def part_files(folder: Path, stage: Stage, cases: Iterable[Case]) -> list[Path]:
     """Return the files that a stage leaves when it is done."""
     if stage.scope == "run":
-        return [part_file(folder, stage)]
-    return [part_file(folder, stage, case) for case in cases]
+        return [part_file(folder, stage.name)]
+    return [part_file(folder, stage.name, case) for case in cases]
 
 
 def climbs(folder: Path, scene: Scene) -> list[str]:
     """Return the stages for which this scene has had to take a better model before, in order."""
     manifest = _manifest(folder)
     return manifest["climbed"] if manifest.get("wanted") == scene.digest() else []
+
+
+def known_verdict(folder: Path, scene: Scene) -> Verdict | None:
+    """Return what a pilot of this scene found before; None without one."""
+    manifest = _manifest(folder)
+    found = manifest.get("pilot") if manifest.get("wanted") == scene.digest() else None
+    return Verdict.from_json(found) if found else None
 
 
 def read_manifest(folder: Path) -> dict[str, Any]:
@@ -96,7 +106,7 @@ def _manifest(folder: Path) -> dict[str, Any]:
 def finished_parts(folder: Path, plan: Plan) -> dict[str, int]:
     """Return the number of parts of each stage that a run of this plan would find finished."""
     return {
-        step.stage.name: sum(
+        step.name: sum(
             path.is_file() and digest_of(path) == step.digest
             for path in part_files(folder, step.stage, plan.cases)
         )
@@ -109,7 +119,12 @@ def _parts(folder: Path, stage: str) -> list[Path]:
 
 
 def prepare(
-    folder: Path, scene: Scene, plan: Plan, climbed: list[str], overwrite: bool
+    folder: Path,
+    scene: Scene,
+    plan: Plan,
+    climbed: list[str],
+    overwrite: bool,
+    verdict: Verdict | None = None,
 ) -> dict[str, Any]:
     """Clear the folder of what a run left there that is of no use; return its manifest.
 
@@ -124,7 +139,7 @@ def prepare(
     for step in plan.steps:
         _check_own(folder, step.stage)
         if step.stage.scope == "case":
-            (folder / step.stage.name).mkdir(exist_ok=True)
+            (folder / step.name).mkdir(exist_ok=True)
         _clear(folder, step.stage, step.digest, plan.cases, overwrite)
     for rest in _left_by_killed(folder, plan):
         rest.unlink()
@@ -133,11 +148,10 @@ def prepare(
     manifest |= {
         "wanted": scene.digest(),
         "climbed": climbed,
-        "stages": manifest.get("stages", {})
-        | {step.stage.name: step.digest for step in plan.steps},
+        "stages": manifest.get("stages", {}) | {step.name: step.digest for step in plan.steps},
         "rungs": {
-            step.stage.name: {"rung": step.rung, "error": step.error or "not measured"}
-            | {"reason": plan.reasons.get(step.stage.name, "")}
+            step.name: {"rung": step.rung, "error": step.error or "not measured"}
+            | {"reason": plan.reasons.get(step.name, "")}
             for step in plan.steps
         },
         "expected_errors": {
@@ -145,6 +159,9 @@ def prepare(
             for result, errors in plan.errors.items()
         },
         "accurate": plan.accurate,
+        "shortfalls": plan.shortfalls,
+        "effects": [vars(effect) for effect in plan.effects],
+        "pilot": verdict.to_json() if verdict else None,
         "inputs": {c.file or c.wind: c.fingerprint for c in plan.cases if c.fingerprint},
         "cases": [case.name for case in plan.cases],
         "versions": {"python": platform.python_version(), "loadflow": loadflow.__version__}

@@ -58,7 +58,9 @@ def _facts(scene: Scene, manifest: dict[str, Any]) -> dict[str, str]:
         if loads.source == "simulate"
         else f"{len(manifest['inputs'])} files"
     )
+    short = manifest.get("shortfalls", [])
     return {
+        **({"Not accurate enough": "; ".join(short)} if short else {}),
         "Loads": source,
         "Load cases": str(len(manifest["cases"])),
         "Results": ", ".join(scene.results),

@@ -13,7 +13,6 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import partial
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -23,11 +22,20 @@ import loadflow
 from loadflow.cube import open_cube, save_cube
 from loadflow.errors import LoadflowError, SolverError
 from loadflow.planning import verification as check
-from loadflow.planning.accuracy import may_climb
-from loadflow.planning.plan import Plan, Stage, make_plan
-from loadflow.running.cases import Outcome, call, do_case, is_missing, is_ready, open_inputs
+from loadflow.planning.accuracy import can_refine
+from loadflow.planning.effects import Verdict as PilotVerdict
+from loadflow.planning.pilot import pilot
+from loadflow.planning.plan import Plan, Step, make_plan
+from loadflow.running.cases import Outcome, do_case, is_missing, is_ready, open_inputs
 from loadflow.running.executor import Executor, Lost, executor
-from loadflow.running.folder import climbs, part_file, part_files, prepare, record
+from loadflow.running.folder import (
+    climbs,
+    known_verdict,
+    part_file,
+    part_files,
+    prepare,
+    record,
+)
 from loadflow.running.lock import locked
 from loadflow.running.parts import save_part
 from loadflow.running.profile import COMPILING, Compiling, Profile
@@ -36,7 +44,7 @@ from loadflow.running.warm_up import compile_kernels
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
 from loadflow.scene.unused import unused_keys
-from loadflow.stages import loads, shaft
+from loadflow.stages.registry import STAGES
 from loadflow.storage import check_name
 from loadflow.verdict import Verdict, from_dataset, to_dataset
 
@@ -60,12 +68,15 @@ class Run:
         Load cases that a solver could not answer, and why.
     unused : dict
         Keys of the scene that are set but change nothing, and why.
+    shortfalls : tuple of str
+        Results that are not expected to be as accurate as asked for: how far off, why, what helps.
     """
 
     path: Path
     tree: xr.DataTree
     failures: dict[str, str] = field(default_factory=dict)
     unused: dict[str, str] = field(default_factory=dict)
+    shortfalls: tuple[str, ...] = ()
 
     @property
     def flagged(self) -> dict[str, int]:
@@ -90,7 +101,8 @@ class Run:
     def warnings(self) -> list[str]:
         """What the run found doubtful about its own models."""
         ignored = [f"{key}: has no effect, {why}" for key, why in self.unused.items()]
-        found = [said for stage in (loads, shaft, check) for said in stage.warnings(self.tree)]
+        stages = (*STAGES.values(), check.CHECK)
+        found = [said for stage in stages for said in stage.warnings(self.tree)]
         return [*ignored, *found]
 
     @property
@@ -205,11 +217,15 @@ def _run(
 ) -> Run:
     log.info("loadflow %s, %s, %d workers", loadflow.__version__, folder, where.workers)
     climbed = climbs(folder, scene)
+    begun = time.perf_counter()
+    pilot_verdict = known_verdict(folder, scene) or pilot(scene, say)
+    if profile:
+        profile.add_wall("pilot", time.perf_counter() - begun)
     while True:
         started = time.perf_counter()
-        plan = make_plan(scene, climbed)
-        manifest = prepare(folder, scene, plan, climbed, overwrite)
-        timing, failures = _carry_out(plan, folder, where, say, profile)
+        plan = make_plan(scene, climbed, pilot_verdict)
+        manifest = prepare(folder, scene, plan, climbed, overwrite, pilot_verdict)
+        timing, failures = _carry_out(plan, folder, where, say, profile, pilot_verdict)
         begun = time.perf_counter()
         tree = _collect(plan, folder)
         save_cube(tree, folder / "result.h5")
@@ -217,7 +233,7 @@ def _run(
         if profile:
             profile.add_wall("result", time.perf_counter() - begun)
         record(folder, manifest, timing, failures, workers=where.workers, wall=wall)
-        higher = [stage for stage in check.exceeded(tree) if may_climb(scene, plan.scene, stage)]
+        higher = [stage for stage in check.exceeded(tree) if can_refine(scene, plan.scene, stage)]
         if not higher:
             break
         log.info("not accurate enough, better models of: %s", ", ".join(higher))
@@ -233,11 +249,16 @@ def _run(
     if profile:
         profile.write(folder / "profile.json", where.workers)
     log.info("finished, %d parts have no answer", len(failures))
-    return Run(folder, tree, failures, unused_keys(scene))
+    return Run(folder, tree, failures, unused_keys(scene), plan.shortfalls)
 
 
 def _carry_out(
-    plan: Plan, folder: Path, where: Executor, say: Report, profile: Profile | None
+    plan: Plan,
+    folder: Path,
+    where: Executor,
+    say: Report,
+    profile: Profile | None,
+    pilot_verdict: PilotVerdict | None,
 ) -> tuple[dict[str, float], dict[str, str]]:
     """Do what is missing of a plan; return seconds by stage, and what has no answer."""
     timing: dict[str, float] = {}
@@ -266,15 +287,15 @@ def _carry_out(
         raise SolverError("no load case could be answered:\n" + _lines(failures))
     _check_there(plan, folder, failures)
 
-    for step in plan.of_scope("run"):
-        whole = step.stage
+    seen = pilot_verdict.cases if pilot_verdict else ()
+    for whole in plan.of_scope("run"):
         say(whole.name, 0, 1)
-        if not (target := part_file(folder, whole)).exists():
+        if not (target := part_file(folder, whole.name)).exists():
             begun = time.perf_counter()
-            cases = _looked_at(whole, plan.cases, folder)
+            cases = _looked_at(whole, plan.cases, folder, seen)
             inputs = {case.name: open_inputs(whole, case, folder) for case in cases}
             with Compiling() as compiling:
-                save_part(call(whole, plan.scene, cases, inputs), target, step.digest)
+                save_part(whole.stage.run(plan.scene, cases, inputs), target, whole.digest)
             timing[whole.name] = time.perf_counter() - begun
             if profile:
                 profile.add_wall(whole.name, timing[whole.name], compiling.seconds)
@@ -327,28 +348,34 @@ def _check_there(plan: Plan, folder: Path, failures: dict[str, str]) -> None:
         )
 
 
-def _looked_at(stage: Stage, cases: tuple[Case, ...], folder: Path) -> list[Case]:
-    """Return the cases that a stage over all of them reads: those that are there, or a sample."""
-    there = [case for case in cases if is_ready(stage, case, folder)]
-    if stage.sample is None or len(there) <= stage.sample:
+def _looked_at(
+    step: Step, cases: tuple[Case, ...], folder: Path, seen: tuple[str, ...]
+) -> list[Case]:
+    """Return the cases that a stage over all of them reads: those that are there, or a sample.
+
+    A sample is of other cases than the pilot has `seen`, where there are enough.
+    """
+    there, count = [case for case in cases if is_ready(step, case, folder)], step.stage.sample
+    if count is None or len(there) <= count:
         return there
-    last, parts = len(there) - 1, stage.sample - 1
-    return [there[round(k * last / parts)] for k in range(stage.sample)]
+    others = [case for case in there if case.name not in seen]
+    some = others if len(others) >= count else there
+    last, parts = len(some) - 1, count - 1
+    return [some[round(k * last / parts)] for k in range(count)]
 
 
 def _collect(plan: Plan, folder: Path) -> xr.DataTree:
     """Join what the stages found, reduced to what a reader wants of each case."""
     groups: dict[str, xr.Dataset | xr.DataTree] = {}
     for step in plan.steps:
-        module = import_module(step.stage.function.split(":")[0])
         if step.stage.scope == "run":
-            groups[step.stage.name] = open_cube(part_file(folder, step.stage))
-        elif hasattr(module, "summary"):
-            files = {case: part_file(folder, step.stage, case) for case in plan.cases}
+            groups[step.name] = open_cube(part_file(folder, step.name))
+        elif step.stage.summarise:
+            files = {case: part_file(folder, step.name, case) for case in plan.cases}
             parts = {case: open_cube(file) for case, file in files.items() if file.exists()}
-            found = module.summary(parts) if parts else None
+            found = step.stage.summarise(parts) if parts else None
             if found is not None:
-                groups[step.stage.name] = found
+                groups[step.name] = found
     groups |= _judged(plan.scene, groups)
     return xr.DataTree.from_dict(
         {

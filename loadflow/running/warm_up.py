@@ -29,7 +29,7 @@ import xarray as xr
 import loadflow
 from loadflow.cube import make_case
 from loadflow.planning.plan import Plan
-from loadflow.running.cases import call, do_case, is_ready, open_inputs
+from loadflow.running.cases import do_case, is_ready, open_inputs
 from loadflow.running.executor import Executor
 from loadflow.running.folder import part_file
 from loadflow.running.parts import save_part
@@ -81,20 +81,20 @@ def _in_miniature(job: str, plan: Plan, folders: dict[str, Path]) -> str:
     scene, case = _short(plan.scene), plan.cases[0]
     small = replace(plan, scene=scene, cases=(case,))
     for step in small.of_scope("case"):
-        (folder / step.stage.name).mkdir(parents=True)
+        (folder / step.name).mkdir(parents=True)
     try:
         if job == "loads":
-            steps = tuple(step for step in small.steps if not step.stage.needs)
+            steps = tuple(step for step in small.steps if not step.needs)
             told = do_case(case, scene, replace(small, steps=steps), folder).failures
             return "; ".join(told.values())
-        first = next(step for step in small.steps if not step.stage.needs)
+        first = next(step for step in small.steps if not step.needs)
         series = made_up_loads(scene, case)
-        save_part(series, part_file(folder, first.stage, case), first.digest)
+        save_part(series, part_file(folder, first.name, case), first.digest)
         failed = do_case(case, scene, small, folder).failures
         for step in small.of_scope("run"):
-            if is_ready(step.stage, case, folder):
-                inputs = {case.name: open_inputs(step.stage, case, folder)}
-                call(step.stage, scene, [case], inputs)
+            if is_ready(step, case, folder):
+                inputs = {case.name: open_inputs(step, case, folder)}
+                step.stage.run(scene, [case], inputs)
         return "; ".join(failed.values())
     except Exception as error:
         return f"{type(error).__name__}: {error}"
@@ -143,7 +143,7 @@ def _marks(plan: Plan) -> list[Path]:
     for file in sorted(root.rglob("*.py")):
         found = file.stat()
         told.update(f"{file.relative_to(root)} {found.st_size} {found.st_mtime_ns}".encode())
-    needed = [(step.stage.name, step.stage.function, step.rung) for step in plan.steps]
+    needed = [(step.name, step.rung) for step in plan.steps]
     machine = (platform.machine(), platform.processor(), sys.version, version("numba"))
     told.update(repr((needed, sorted(plan.left_out), machine)).encode())
     name = f"loadflow-{told.hexdigest()[:24]}.compiled"

@@ -10,6 +10,7 @@ import hashlib
 import tomllib
 from collections.abc import Iterator
 from dataclasses import fields
+from math import inf
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self, cast, get_args
 
@@ -317,14 +318,15 @@ class Scene(Section, BaseModel):
     results : list of str
         What is wanted; the plan runs only the stages that these need. Left out: all, but those of
         journal or rolling bearings of which the scene says nothing and the shaft has none.
-    accuracy : float or dict, optional
-        Largest relative error allowed, of every result or by result. The plan then takes the
-        cheapest models that hold it, wherever the scene names none; without it the defaults.
+    accuracy : float, dict or "given"
+        Largest relative error allowed, of every result or by result; 5 % if nothing is said. The
+        plan takes the cheapest models and effects that hold it, wherever the scene names none.
+        ``"given"`` leaves all models as the scene has them, the defaults where it names none.
     """
 
     name: Annotated[str, Field(pattern=r"^[A-Za-z0-9_.-]+$")]
     results: Annotated[list[Result], Field(min_length=1)] = list(get_args(Result))
-    accuracy: Positive | dict[Result, Positive] | None = None
+    accuracy: Positive | dict[Result, Positive] | Literal["given"] = 0.05
     turbine: Turbine = Turbine()
     loads: Loads = Loads()
     shaft: Shaft = Shaft(two_point=TwoPoint(), moment=MomentBearing())
@@ -413,11 +415,16 @@ class Scene(Section, BaseModel):
         """Whether a result of `room` is wanted."""
         return any(result.split(".")[0] == room for result in self.results)
 
-    def allowed_error(self, result: str) -> float | None:
-        """Largest relative error allowed of a result; None where nothing is asked."""
+    @property
+    def asks(self) -> bool:
+        """Whether an accuracy is asked for, and models are chosen by it."""
+        return self.accuracy != "given"
+
+    def allowed(self, result: str) -> float:
+        """Largest relative error allowed of a result; infinite where nothing is asked."""
         if isinstance(self.accuracy, dict):
-            return {str(name): value for name, value in self.accuracy.items()}.get(result)
-        return self.accuracy
+            return {str(name): value for name, value in self.accuracy.items()}.get(result, inf)
+        return inf if self.accuracy == "given" else self.accuracy
 
     def to_toml(self) -> str:
         """Return the scene with all defaults, as TOML."""

@@ -16,6 +16,7 @@ from loadflow.scene.cases import Case
 from loadflow.scene.scene import Friction, Scene
 from loadflow.stages.frames import to_rolling
 from loadflow.stages.labelling import label, labelled
+from loadflow.stages.stage import Link, Links, Rungs, Stage, always, load_links
 from loadflow.stages.summary import over_cases
 from loadflow.tribology import lubricant
 
@@ -240,3 +241,27 @@ def _extremes(samples: xr.Dataset) -> xr.Dataset:
             ),
         }
     )
+
+
+def friction_key(scene: Scene) -> str:
+    """Name of the friction in the ladder: rollers are followed one by one, balls roll ideally."""
+    followed = any(b.friction_model == "rollers" for b in scene.rolling.geometries.values())
+    return f"{'rollers' if followed else 'balls'}, every {scene.friction.step:g} s"
+
+
+def _links(scene: Scene) -> Links:
+    return {
+        quantity: (*load_links("bearing load max"), Link("friction", quantity))
+        for quantity in ("friction power", "film parameter", "slip")
+    }
+
+
+STAGE = Stage(
+    "friction",
+    run=losses,
+    results={"rolling.friction": _links},
+    needs=always("loads", "shaft"),
+    sections=always("rolling", "friction"),
+    models=(Rungs("friction", section="friction", key=friction_key),),
+    summarise=summary,
+)

@@ -11,6 +11,8 @@ import xarray as xr
 
 from loadflow.errors import SolverError
 from loadflow.journal import Equilibrium
+from loadflow.journal.line import Line
+from loadflow.journal.models.model import why_not
 from loadflow.journal.transition import load_capacity
 from loadflow.journal.validity import critical_reynolds_number, reynolds_number
 from loadflow.quantities import table
@@ -18,6 +20,8 @@ from loadflow.scene.cases import Case
 from loadflow.scene.scene import Journal, Scene
 from loadflow.stages.frames import to_film
 from loadflow.stages.labelling import label, labelled, of_samples
+from loadflow.stages.reduction import kept_share
+from loadflow.stages.stage import Link, Links, Measured, Rungs, Stage, load_links, steps_of
 from loadflow.stages.summary import over_cases
 
 KEPT = table(
@@ -431,3 +435,90 @@ def _transition(
     share = (critical - ratio[i]) / (ratio[j] - ratio[i])
     when, at = (float(x[i] + share * (x[j] - x[i])) for x in (time, speed))
     return when, at
+
+
+FINEST_GRID = 480
+"""Cells around that a run goes up to by itself."""
+
+
+def film_key(scene: Scene) -> str:
+    """Name of the film in the ladder."""
+    journal = scene.journal
+    around, across = journal.grid
+    graded = ", graded" if journal.grading == "graded" else ""
+    elastic = ", elastic" if journal.shell is not None else ""
+    names = {"grid": f"grid, {around}x{across}{graded}{elastic}", "reduced": f"reduced, {around}"}
+    return names.get(journal.rung, journal.rung)
+
+
+def warm_films(options: Journal) -> float:
+    """Time of a film with its heat balance over that of an isothermal one; see docs/journal.md."""
+    return 7.0 if options.heat is not None and not options.in_motion else 1.0
+
+
+def fast_film(journal: Journal) -> Journal | None:
+    """The bearing with the film that is fast over a long series; None where it does not fit."""
+    film = replace(journal.film_model.isothermal(), rung="reduced")
+    if why_not("in_motion", film, journal.geometry, Line()) is None:
+        return journal.model_copy(update={"rung": "reduced"})
+    return None
+
+
+def _finer_grid(scene: Scene) -> dict[str, Any]:
+    """A film has no top: its grid is doubled, up to what a scene may ask for.
+
+    One in motion stays on the rung "reduced", which is nearest to the truth for its time.
+    """
+    journal = scene.journal
+    around, across = journal.grid
+    if 2 * around > FINEST_GRID:
+        return {}
+    if journal.in_motion and journal.rung == "reduced":
+        return {"grid": (2 * around, across)}
+    return {"rung": "grid", "grid": (2 * around, 2 * across)}
+
+
+def _links(scene: Scene) -> Links:
+    """A film in motion reads the whole series, the others the reduced one."""
+    ends = {
+        "eccentricity ratio": "E_max",
+        "minimum film": "h_min",
+        "maximum pressure": "p_max",
+        "friction power": "friction power",
+    }
+    return {
+        quantity: (
+            *load_links("bearing load max"),
+            *(() if scene.journal.in_motion else (Link("reduction", end),)),
+            Link("journal", quantity),
+        )
+        for quantity, end in ends.items()
+    }
+
+
+def _work(scene: Scene, cases: tuple[Case, ...], measured: Measured) -> float:
+    share = 1.0 if scene.journal.in_motion else kept_share(scene, measured)
+    films = share * len(scene.journal.bearings) * steps_of(cases)
+    return films * warm_films(scene.journal)
+
+
+FILM = Rungs(
+    "journal",
+    section="journal",
+    key=film_key,
+    table=lambda scene: "journal, transient" if scene.journal.in_motion else "journal",
+    better=_finer_grid,
+)
+
+STAGE = Stage(
+    "journal",
+    run=lambda scene, case, inputs: (orbit if scene.journal.in_motion else film)(
+        scene, case, inputs
+    ),
+    results={"journal.film": _links},
+    needs=lambda scene: ("loads", "shaft") if scene.journal.in_motion else ("reduction",),
+    sections=lambda scene: ("journal",),
+    models=(FILM,),
+    summarise=summary,
+    work=_work,
+)

@@ -12,7 +12,9 @@ import xarray as xr
 from loadflow.cube import CASE_COORDS, iter_cases, open_cube
 from loadflow.scene.cases import CUBES, Case, wind_of
 from loadflow.scene.given_winds import RUN_IN, given_field
+from loadflow.scene.loads import Loads
 from loadflow.scene.scene import Scene
+from loadflow.stages.stage import Measured, Rungs, Stage
 from loadflow.stages.summary import over_cases
 
 
@@ -124,3 +126,69 @@ def when_tripped(time: float) -> str:
 
 
 _TRIPPED = CASE_COORDS["tripped"].attrs
+
+
+def finest_rung(scene: Scene) -> str:
+    """Return the finest model of the rotor that the scene's turbine allows."""
+    from loadflow.rotor.rungs import finest_rung as finest
+    from loadflow.turbines import load_turbine
+
+    return finest(load_turbine(scene.turbine.name))
+
+
+def _rotor_key(scene: Scene) -> str:
+    loads = scene.loads
+    return (loads.rung or finest_rung(scene)) if loads.source == "simulate" else "files"
+
+
+def _finest_rotor(scene: Scene) -> dict[str, Any]:
+    finest = finest_rung(scene)
+    return {} if _rotor_key(scene) in ("files", finest) else {"rung": finest}
+
+
+def wind_key(scene: Scene) -> str:
+    """Name of the scene's wind in the ladder."""
+    if not scene.loads.makes_wind:
+        return "files"
+    radii, angles = scene.loads.wind_grid
+    return f"{scene.loads.spectrum}, {radii}x{angles}"
+
+
+def _wind_seconds(scene: Scene, measured: Measured) -> float | None:
+    """Time of the wind beyond that of the usual grid, with which the rotor is measured."""
+    if not scene.loads.makes_wind:
+        return 0.0
+    usual = scene.model_copy(update={"loads": Loads()})
+    ours, theirs = (measured(one, WIND.name) for one in (scene, usual))
+    if ours is None or theirs is None:
+        return None
+    return float(ours["seconds_per_case"] - theirs["seconds_per_case"])
+
+
+WIND = Rungs("wind", section="loads", key=wind_key, exact=lambda scene: not scene.loads.makes_wind)
+ROTOR = Rungs(
+    "loads",
+    section="loads",
+    key=_rotor_key,
+    exact=lambda scene: scene.loads.source == "files",
+    better=_finest_rotor,
+    possible=lambda scene, settings: (
+        settings.get("rung") in (None, "tables", "bem", "flap")
+        or settings["rung"] == finest_rung(scene)
+    ),
+)
+
+STAGE = Stage(
+    "loads",
+    run=hub_loads,
+    sections=lambda scene: ("turbine", "loads"),
+    models=(WIND, ROTOR),
+    summarise=summary,
+    warnings=warnings,
+    more_seconds=_wind_seconds,
+    left_out=lambda scene: (
+        {"wind, rotor": "load series are given, nothing is simulated"}
+        if scene.loads.source == "files"
+        else {}
+    ),
+)

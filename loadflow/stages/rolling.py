@@ -16,6 +16,8 @@ from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
 from loadflow.stages.frames import to_rolling
 from loadflow.stages.labelling import label, labelled, of_samples
+from loadflow.stages.reduction import kept_share
+from loadflow.stages.stage import Link, Links, Measured, Rungs, Stage, always, load_links, steps_of
 from loadflow.stages.summary import over_cases
 from loadflow.tribology import lubricant
 from loadflow.wind.cases import factor_of_maximum
@@ -260,3 +262,47 @@ def _extremes(samples: xr.Dataset) -> xr.Dataset:
         ),
     }
     return labelled(found)
+
+
+def rings_key(scene: Scene) -> str:
+    """Name of the rings in the ladder."""
+    return scene.rolling.rung
+
+
+def _contact_links(scene: Scene) -> Links:
+    return {
+        quantity: (
+            *load_links("bearing load max"),
+            Link("reduction", "largest load", of_load=True),
+            Link("rolling", quantity),
+        )
+        for quantity in ("maximum force", "maximum pressure")
+    }
+
+
+def _life_links(scene: Scene) -> Links:
+    ends = (Link("reduction", "life"), Link("rolling", "life"))
+    return {"life": (*load_links("bearing force DEL"), *ends)}
+
+
+def _work(scene: Scene, cases: tuple[Case, ...], measured: Measured) -> float:
+    return kept_share(scene, measured) * steps_of(cases)
+
+
+STAGE = Stage(
+    "rolling",
+    run=balls,
+    results={"rolling.loads": _contact_links, "rolling.life": _life_links},
+    needs=always("reduction"),
+    sections=always("rolling"),
+    models=(
+        Rungs(
+            "rolling",
+            section="rolling",
+            key=rings_key,
+            error_key=lambda scene: "flexible",  # rigid rings leave out an effect
+        ),
+    ),
+    summarise=summary,
+    work=_work,
+)

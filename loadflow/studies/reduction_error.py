@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from loadflow.errors import SolverError
-from loadflow.journal.line import Line
-from loadflow.journal.models.model import why_not
 from loadflow.scene.scene import Journal
-from loadflow.stages.journal import mean_temperature
+from loadflow.stages.journal import fast_film, mean_temperature
 from loadflow.studies.bearing_series import BearingSeries
 
 Floats = np.ndarray
@@ -103,15 +101,7 @@ def solve_films(series: BearingSeries, journal: Journal, transient: bool = True)
 
 def for_long_series(journal: Journal) -> Journal:
     """Take the film that is quick over a long series, where none is named and it knows the film."""
-    return journal if "rung" in journal.model_fields_set else quick(journal) or journal
-
-
-def quick(journal: Journal) -> Journal | None:
-    """The bearing with the film that is quick over a long series; None where it does not fit."""
-    film = replace(journal.film_model.isothermal(), rung="reduced")
-    if why_not("in_motion", film, journal.geometry, Line()) is None:
-        return journal.model_copy(update={"rung": "reduced"})
-    return None
+    return journal if "rung" in journal.model_fields_set else fast_film(journal) or journal
 
 
 @dataclass(frozen=True)

@@ -15,9 +15,10 @@ import numpy as np
 from loadflow.errors import InputError
 from loadflow.rolling.contacts import Array
 from loadflow.rolling.raceways import Raceway
-from loadflow.rolling.rings.finite_element import FiniteElementRing, SolidSection
+from loadflow.rolling.rings.finite_element import FiniteElementRing
 from loadflow.rolling.rings.harmonics import RingWave, SectionSystem
 from loadflow.rolling.rings.patches import PatchPoints, patch_points
+from loadflow.rolling.rings.solid_section import SolidSection
 
 if TYPE_CHECKING:
     from loadflow.rolling.raceways import BallRaceways
