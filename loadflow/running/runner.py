@@ -25,11 +25,12 @@ from loadflow.planning import verification as check
 from loadflow.planning.accuracy import may_climb
 from loadflow.planning.plan import Plan, Stage, make_plan
 from loadflow.running.cases import Outcome, call, do_case, is_missing, is_ready, open_inputs
+from loadflow.running.compiling import Compiling
 from loadflow.running.executor import Executor, Lost, executor
 from loadflow.running.folder import climbs, part_file, part_files, prepare, record
 from loadflow.running.lock import locked
 from loadflow.running.parts import save_part
-from loadflow.running.profile import COMPILING, Compiling, Profile
+from loadflow.running.profile import COMPILING, Profile
 from loadflow.running.report_page import write_report
 from loadflow.running.warm_up import compile_kernels
 from loadflow.scene.cases import Case
