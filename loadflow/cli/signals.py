@@ -44,7 +44,8 @@ def tell_stopped(number: int) -> None:
 def leave(code: int) -> NoReturn:
     """End at once; Python would wait for threads that look after processes already killed."""
     with suppress(Exception):
-        util._exit_function()  # type: ignore[attr-defined]  # gives back the semaphores of a pool, which no public function does
+        # gives back the semaphores of a pool, which no public function does
+        util._exit_function()  # type: ignore[attr-defined]
     for stream in (sys.stdout, sys.stderr):
         with suppress(OSError, ValueError):
             stream.flush()

@@ -11,9 +11,9 @@ from typing import Any
 from loadflow.cube import open_cube
 from loadflow.errors import InputError, SolverError
 from loadflow.planning.plan import Plan, Step
+from loadflow.running.compiling import Compiling
 from loadflow.running.folder import part_file
 from loadflow.running.parts import save_part
-from loadflow.running.profile import Compiling
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
 

@@ -6,43 +6,10 @@ import json
 import time
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Self
+from typing import Any
 
-from numba.core import event
-
+from loadflow.running.cases import Outcome
 from loadflow.storage import write_text
-
-if TYPE_CHECKING:
-    from loadflow.running.cases import Outcome
-
-
-class Compiling(event.Listener):
-    """Seconds that this process spends on compiling kernels while the block runs."""
-
-    def __init__(self) -> None:
-        self.seconds = 0.0
-        self._depth = 0
-        self._since = 0.0
-
-    def __enter__(self) -> Self:
-        event.register("numba:compile", self)
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        event.unregister("numba:compile", self)
-
-    def on_start(self, event: event.Event) -> None:
-        """Begin to count with the outermost kernel: it compiles those that it calls."""
-        if self._depth == 0:
-            self._since = time.perf_counter()
-        self._depth += 1
-
-    def on_end(self, event: event.Event) -> None:
-        """Count when the outermost kernel is done."""
-        self._depth -= 1
-        if self._depth == 0:
-            self.seconds += time.perf_counter() - self._since
-
 
 COMPILING = "compiling kernels"
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -15,6 +14,7 @@ from loadflow.errors import InputError
 from loadflow.planning.verification import WARN
 from loadflow.report import Picture, Section, Table, figures, write_page
 from loadflow.report.style import readable
+from loadflow.running.folder import read_manifest
 from loadflow.scene.scene import Scene, read_scene
 from loadflow.scene.unused import unused_keys
 from loadflow.stages.loads import doubts, trips, when_tripped
@@ -41,7 +41,7 @@ def write_report(folder: Path) -> Path:
     if not (folder / "result.h5").exists():
         raise InputError(f"{folder}: no finished run here (result.h5 is missing)")
     scene = read_scene(folder / "scene.toml")
-    manifest = json.loads((folder / "manifest.json").read_text(encoding="utf-8"))
+    manifest = read_manifest(folder)
     results = open_cube(folder / "result.h5")
     groups = results.children if isinstance(results, xr.DataTree) else {}
     tables = {name: node.to_dataset() for name, node in groups.items()}

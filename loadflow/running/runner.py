@@ -27,6 +27,7 @@ from loadflow.planning.effects import Verdict as PilotVerdict
 from loadflow.planning.pilot import pilot
 from loadflow.planning.plan import Plan, Step, make_plan
 from loadflow.running.cases import Outcome, do_case, is_missing, is_ready, open_inputs
+from loadflow.running.compiling import Compiling
 from loadflow.running.executor import Executor, Lost, executor
 from loadflow.running.folder import (
     climbs,
@@ -38,7 +39,7 @@ from loadflow.running.folder import (
 )
 from loadflow.running.lock import locked
 from loadflow.running.parts import save_part
-from loadflow.running.profile import COMPILING, Compiling, Profile
+from loadflow.running.profile import COMPILING, Profile
 from loadflow.running.report_page import write_report
 from loadflow.running.warm_up import compile_kernels
 from loadflow.scene.cases import Case

@@ -37,8 +37,8 @@ def require_ranges(part: Any) -> None:
     for name, bounds in _ranges(type(part)).items():
         value = getattr(part, name)
         # an integer may have hundreds of digits, which isfinite does not take
-        number: Any = value
-        finite = np.isscalar(value) and bool(abs(number) <= np.finfo(float).max)
+        number = isinstance(value, int | float | np.number)
+        finite = number and bool(abs(value) <= np.finfo(float).max)
         ok = finite and all(_holds(bound, value) for bound in bounds)
         allowed = " and ".join([*map(_words, bounds), "finite"])
         require(ok, type(part).__name__, name, value, allowed)
