@@ -224,6 +224,7 @@ class ConicalBearing:
         ]
         state = assembly.equilibrium(starts, wanted, free, limits)
         if not state.converged and limits.strict:
+            head += self._hint(load)
             raise_not_converged(head, state, assembly.narrowest(state))
         return self._result(assembly, state, speed)
 
@@ -321,6 +322,16 @@ class ConicalBearing:
                 f"of the force below −|F_radial| tan α = {-least:.6g} N"
             )
 
+    def _hint(self, load: Array) -> str:
+        """What directions of load a whole ring carries, in words."""
+        least = math.hypot(load[0], load[1]) * math.tan(self.half_angle)
+        if self.pads is not None:
+            return ""
+        return (
+            f", F_axial {-load[2]:.4g} N beside |F_radial| tan α = {least:.4g} N (the half film of an "
+            "aligned whole ring carries 1 to 1.27 times that)"
+        )
+
     def _first_places(
         self, assembly: Assembly, wanted: Array, speed: float, tilt: Array
     ) -> list[Array]:
@@ -397,6 +408,7 @@ def loading(
 
 
 def check_room(assembly: Assembly, state: AssemblyState) -> None:
+    """Refuse a position at which the shaft touches the bearing."""
     narrowest = assembly.narrowest(state)
     if narrowest <= 0.0:
         raise InputError(f"the shaft touches the bearing: narrowest gap {narrowest:.6g} m")

@@ -162,7 +162,7 @@ def series(time: Any, force: Any, speed: Any, moment: Any, axes: int) -> tuple[A
         bad = np.argwhere(~np.isfinite(array))
         if bad.size:
             raise InputError(f"{name}{bad[0].tolist()} = {array[tuple(bad[0])]}: must be finite")
-    bad = np.flatnonzero(~(np.diff(times) > 0))
-    if bad.size:
-        raise InputError(f"time[{bad[0] + 1}] = {times[bad[0] + 1]} does not increase")
+    late = np.flatnonzero(~(np.diff(times) > 0))
+    if late.size:
+        raise InputError(f"time[{late[0] + 1}] = {times[late[0] + 1]} does not increase")
     return times, found["force"], found["speed"], found["moment"]
