@@ -328,8 +328,8 @@ class ConicalBearing:
         if self.pads is not None:
             return ""
         return (
-            f", F_axial {-load[2]:.4g} N beside |F_radial| tan α = {least:.4g} N (the half film of an "
-            "aligned whole ring carries 1 to 1.27 times that)"
+            f", F_axial {-load[2]:.4g} N beside |F_radial| tan α = {least:.4g} N (the half film of "
+            "an aligned whole ring carries 1 to 1.27 times that)"
         )
 
     def _first_places(
