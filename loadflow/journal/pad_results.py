@@ -281,3 +281,33 @@ def common(described: dict[str, Any]) -> dict[str, Any]:
     """Those of the `described` results of pads that `PadResult` has by the same name."""
     names = {part.name for part in fields(PadResult)}
     return {name: value for name, value in described.items() if name in names}
+
+
+_ORBIT: Table = {
+    "minimum_film": (("time",), "m", "minimum film thickness"),
+    "maximum_pressure": (("time",), "Pa", "largest film pressure, absolute"),
+    "friction_power": (("time",), "W", "friction power of the film"),
+    "load_share": (("time", "pad"), "1", "share of each pad in the sum of the normal forces"),
+    "residual": (("time",), "1", "largest imbalance of cells, pads and shaft, scaled"),
+    "iterations": (("time",), "1", "Newton steps"),
+}
+
+
+def orbit_dataset(time: Array, positions: Array, rows: list[dict[str, Any]]) -> xr.Dataset:
+    """A path as a Dataset: positions (n, 5) and what the films say at every time."""
+    import xarray as xr
+
+    data = {
+        name: (dims, np.array([row[name] for row in rows]), {"units": units, "long_name": text})
+        for name, (dims, units, text) in _ORBIT.items()
+    }
+    place = {"units": "m", "long_name": "shaft relative to the bearing"}
+    tilt = {"units": "rad", "long_name": "rotation of the shaft about both axes"}
+    return xr.Dataset(
+        {
+            "eccentricity": (("time", "space"), positions[:, :3], place),
+            "tilt": (("time", "axis"), positions[:, 3:], tilt),
+            **data,
+        },
+        coords={"time": ("time", time, {"units": "s", "long_name": "time"})},
+    )

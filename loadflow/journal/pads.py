@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,11 +14,22 @@ from loadflow.journal.film.feed import Feed
 from loadflow.journal.film.gap_surface import SurfaceGap, surface_mesh
 from loadflow.journal.film.groove_pressure import Pockets
 from loadflow.journal.film.surface_film import SurfaceFilm
-from loadflow.journal.film_model import Film
-from loadflow.journal.solvers.assembly import BODY, Assembly, AssemblyState, Member
+from loadflow.journal.film_model import Control, Film
+from loadflow.journal.pad_results import orbit_dataset
+from loadflow.journal.solvers.assembly import (
+    BODY,
+    Assembly,
+    AssemblyState,
+    Member,
+    raise_not_converged,
+)
+from loadflow.journal.solvers.assembly_orbit import march
 from loadflow.journal.supply import Supply
 from loadflow.journal.surfaces import FLAT, Profile, Surface
 from loadflow.numerics.fields import require
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 Array = NDArray[np.float64]
 
@@ -177,6 +188,36 @@ class Pads:
             room = member.unit * member.film.gap.narrowest(member.sees @ position)
             found.append(self.lifted(max(room, 0.0), speed))
         return found
+
+    def orbit(
+        self,
+        assembly: Assembly,
+        start: AssemblyState,
+        times: Array,
+        loads: Array,
+        speeds: Array,
+        free: NDArray[np.int64],
+        control: Control,
+    ) -> xr.Dataset:
+        """Path from the position of `start` under `loads` (n, 5); see the verbs of the bearings."""
+        largest = float(np.linalg.norm(loads[:, :3], axis=1).max())
+        for member in assembly.members:
+            film = member.film
+            film.set_speed(member.sense * float(speeds[0]))
+            film.raise_scale(largest / (film.radius**2 * self.angle * len(self.centres)))
+        first = assembly.solve(start, np.zeros(BODY), np.array([], int), control.limits(1e-10, 60))
+        if not first.converged:
+            raise_not_converged("orbit cannot start", first, assembly.narrowest(first))
+        first = assembly.wetted(first)
+        limits = control.limits(1e-8, 30)
+        states = march(assembly, first, times, loads, speeds, free, limits)
+        rows = []
+        for state, speed in zip(states, speeds.tolist()):
+            for member in assembly.members:
+                member.film.set_speed(member.sense * speed)
+            row = self.describe(assembly, slice(None), state)
+            rows.append(row | {"residual": state.residual, "iterations": state.iterations})
+        return orbit_dataset(times, np.array([s.position for s in states]), rows)
 
     def describe(self, assembly: Assembly, members: slice, state: AssemblyState) -> dict[str, Any]:
         """Results of these pads, which are `members` of the assembly, in the order of `centres`."""

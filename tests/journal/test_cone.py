@@ -272,3 +272,47 @@ def test_results_are_labelled():
     pair = ConicalPair(cone, cone, 1.0).pressure((5e-5, 0, 0), 1.0, FILM)
     assert pair.to_dataset().load_share.shape == (2,)
     assert "left = ConicalResult" in repr(pair)
+
+
+def test_orbit_stays_in_equilibrium_and_returns_to_it():
+    film = Film(Lubricant(0.05), Guembel(), inlet=None, grid=(24, 8))
+    place = np.array([5e-5, 1e-5, 0.0])
+    force = CONE.pressure(place, 10.0, film).force
+    time = np.linspace(0.0, 12.0, 61)
+    for start in (None, 0.8 * place):
+        path = CONE.orbit(time, force, 10.0, film, start=start)
+        np.testing.assert_allclose(path.eccentricity[-1], place, atol=1e-3 * CONE.clearance)
+        assert float(path.residual.max()) < 1e-8
+    still = CONE.orbit(time[:3], force, 10.0, film, start=place)
+    np.testing.assert_allclose(still.eccentricity, [place] * 3, atol=1e-8 * CONE.clearance)
+
+
+def test_mass_conserving_film_keeps_its_history():
+    """With suction below the edge pressure, the shaft drifts off on the way out of its balance."""
+    film = Film(Lubricant(0.05), MassConserving(), edge_pressure=1e5, inlet=None, grid=(24, 8))
+    place = np.array([5e-5, 1e-5, 0.0])
+    force = CONE.pressure(place, 10.0, film).force
+    still = CONE.orbit(np.linspace(0.0, 1.0, 6), force, 10.0, film, start=place)
+    np.testing.assert_allclose(still.eccentricity, [place] * 6, atol=1e-6 * CONE.clearance)
+    gone = CONE.orbit(np.linspace(0.0, 1.0, 6), force, 10.0, film, start=0.8 * place)
+    assert float(gone.residual.max()) < 1e-8
+    assert float(gone.eccentricity[-1, 2]) > 1e-5
+
+
+def test_steps_in_time_are_of_second_order():
+    film = Film(Lubricant(0.05), Guembel(), inlet=None, grid=(24, 8))
+    force = CONE.pressure((5e-5, 1e-5, 0.0), 10.0, film).force
+    ends = []
+    for count in (41, 81, 161):
+        time = np.linspace(0.0, 1.0, count)
+        load = force * (1 + 0.3 * np.sin(2 * np.pi * time) ** 2)[:, None]
+        ends.append(CONE.orbit(time, load, 10.0, film).eccentricity.values[-1])
+    first, second = np.linalg.norm(np.diff(ends, axis=0), axis=1)
+    assert math.log2(first / second) == pytest.approx(2.0, abs=0.25)
+
+
+def test_bad_series_are_refused_by_name():
+    with pytest.raises(InputError, match="does not increase"):
+        CONE.orbit([0.0, 1.0, 1.0], (1e5, 0.0, -1e6), 10.0, FILM)
+    with pytest.raises(InputError, match="force"):
+        CONE.orbit([0.0, 1.0, 2.0], np.ones((2, 3)), 10.0, FILM)

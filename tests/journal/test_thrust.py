@@ -257,3 +257,25 @@ def test_results_are_labelled():
     assert isinstance(
         RectangularThrustBearing(1, 10.0, 1.0, 1.0, profile=Step(1e-4)).row.angle, float
     )
+
+
+@pytest.mark.parametrize("law", LAWS[:4], ids=lambda law: law.kind)
+def test_squeeze_out_without_rotation_is_the_closed_form(law):
+    """An infinitely wide parallel pad sinks as 1/h² = 1/h0² + 2 F t/(η L³) per width."""
+    pad = RectangularThrustBearing(1, 10.0, 1.0, math.inf)
+    time = np.linspace(0.0, 50.0, 81)
+    edge = 1e3 if law.keeps_fill else 0.0
+    film = Film(Lubricant(1.0), law, edge_pressure=edge, grid=(80, 4))
+    path = pad.orbit(time, 1e6, 0.0, film, start=1e-4)
+    gap = (1e8 + 2 * 1e6 * time) ** -0.5
+    np.testing.assert_allclose(path.gap, gap, rtol=2e-4)
+    assert float(path.gap[-1]) < 0.8e-4
+
+
+def test_orbit_returns_to_the_equilibrium():
+    state = LANDS.equilibrium(1e6, 10.0, FILM)
+    time = np.linspace(0.0, 2.0, 41)
+    for start in (None, 1.1 * state.gap):
+        path = LANDS.orbit(time, 1e6, 10.0, FILM, start=start)
+        assert float(path.gap[-1]) == pytest.approx(state.gap, rel=1e-4)
+    assert all({"units", "long_name"} <= set(v.attrs) for v in path.data_vars.values())

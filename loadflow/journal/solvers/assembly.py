@@ -27,11 +27,13 @@ _SHIFTS = np.arange(3)
 _QUADRATIC = 1e-7  # a step this small leaves an error near its square
 _CALM = 0.5  # change of the film, over its pressure, up to which the shaft goes all the way
 _LARGEST = 3.0  # factor of a pad's Newton step toward the pivot
+_CYCLE = 10  # Newton steps after which half of them are halved, so that ruptures do not alternate
 _ALONE = 4  # first steps in which a film that changes more is corrected with the shaft held
 _FINEST = 1.0 / 64  # smallest load step
 _STEPS = 40  # load steps at most
 _SHORT = 15  # Newton steps of one load step
 _SPENT = 250  # Newton steps after which an equilibrium is given up
+_NOTHING = 1e-6  # share of the scale of pressure that is none
 _PRESSED = 1e-12  # narrowest gap, in clearances, that is none
 
 
@@ -54,6 +56,8 @@ class Member:
     turns : tuple of array (5, 5)
         Axes of the shaft as seen by each pad that shares this film because it sees the same gap;
         one pad, not turned, by default.
+    sense : float
+        −1 where the shaft turns the other way in the axes of the film.
     """
 
     film: SurfaceFilm
@@ -62,10 +66,11 @@ class Member:
     support: Array
     normal: Array
     turns: tuple[Array, ...] = (np.eye(BODY),)
+    sense: float = 1.0
 
-    def seen(self, turns: tuple[Array, ...]) -> Member:
+    def seen(self, turns: tuple[Array, ...], sense: float) -> Member:
         """The same, seen by a shaft in other axes."""
-        return replace(self, turns=turns)
+        return replace(self, turns=turns, sense=sense)
 
     @property
     def sees(self) -> Array:
@@ -80,16 +85,20 @@ class Member:
 
 @dataclass(frozen=True)
 class MemberState:
-    """Unknowns of a film, position of its pad, and the last linearisation."""
+    """Unknowns of a film, position of its pad, the last linearisation, storage of earlier times."""
 
     u: Array
     pad: Array
     linear: Linear | None = None
+    old: Array | float = 0.0
 
 
 @dataclass(frozen=True)
 class AssemblyState:
-    """Shaft and films: position (m, rad), velocity, states of the films, convergence."""
+    """Shaft and films: position (m, rad), velocity, states of the films, convergence.
+
+    With a `rate`, 1/s, the films store ``rate · F h`` less `MemberState.old`: an implicit step.
+    """
 
     position: Array
     velocity: Array
@@ -97,6 +106,7 @@ class AssemblyState:
     converged: bool = False
     iterations: int = 0
     residual: float = math.inf
+    rate: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -138,6 +148,17 @@ class Assembly:
             MemberState(m.film.start(), pad) for m, pad in zip(self.members, pads or rest)
         )
         return AssemblyState(position, np.zeros(BODY), members)
+
+    def wetted(self, state: AssemblyState) -> AssemblyState:
+        """The same with films at edge pressure lifted a little: at the floor of a law they are
+        full and ruptured at once, and have no stiffness.
+        """
+        members = []
+        for member, own in zip(self.members, state.members):
+            film = member.film
+            empty = float(np.abs(own.u - film.start()).max()) < _NOTHING * film.scale
+            members.append(replace(own, u=own.u + _NOTHING * film.scale) if empty else own)
+        return replace(state, members=tuple(members))
 
     def place(self, member: Member, state: MemberState, position: Array) -> Array:
         """Position of a film, in its clearances."""
@@ -238,12 +259,14 @@ class Assembly:
         for iteration in range(1, most + 1):
             try:
                 state = self._linearised(state)
-                state, change = self._step(state, force, free, iteration <= _ALONE)
+                damped = iteration > _CYCLE and iteration % _CYCLE < _CYCLE // 2
+                share = 0.5 if damped else 1.0
+                state, change = self._step(state, force, free, iteration <= _ALONE, share)
             except (SingularFilm, np.linalg.LinAlgError, FloatingPointError):
                 break
             if not math.isfinite(change):
                 break
-            if change < _QUADRATIC:
+            if change < _QUADRATIC and not damped:
                 residual = self.imbalance(state, force, free)
                 if residual < limits.tolerance:
                     return replace(state, converged=True, iterations=iteration, residual=residual)
@@ -255,11 +278,15 @@ class Assembly:
         for member, own in zip(self.members, state.members):
             place = self.place(member, own, state.position)
             moving = member.sees @ state.velocity
-            members.append(replace(own, linear=member.film.linearise(own.u, place, moving)))
+            members.append(
+                replace(
+                    own, linear=member.film.linearise(own.u, place, moving, state.rate, own.old)
+                )
+            )
         return replace(state, members=tuple(members))
 
     def _step(
-        self, state: AssemblyState, force: Array, free: NDArray[np.int64], alone: bool
+        self, state: AssemblyState, force: Array, free: NDArray[np.int64], alone: bool, share: float
     ) -> tuple[AssemblyState, float]:
         """One Newton step, as far as a film is left everywhere, and its size.
 
@@ -271,7 +298,7 @@ class Assembly:
             if member.film.gap.gaps(self.place(member, own, state.position)).min() < _PRESSED:
                 return state, math.nan
         change = max(_change(m.film, s) for m, s in zip(self.members, state.members))
-        calm = min(1.0, _CALM / max(change, 1e-300))
+        calm, whole = min(1.0, _CALM / max(change, 1e-300)), share
         if calm < 1.0 and alone:
             calm = 0.0
         step = np.zeros(BODY)
@@ -279,7 +306,7 @@ class Assembly:
             scale = self.scale[free]
             matrix = stiffness[np.ix_(free, free)] * np.outer(scale, scale)
             step[free] = calm * scale * _solve(matrix, scale * (force - load)[free])
-        moves, share = [], 1.0
+        moves = []
         for member, own, part in zip(self.members, state.members, parts):
             pad = calm * part.first + part.follow @ (member.turns[0] @ step)
             move = member.sees @ step - member.gives @ pad
@@ -289,7 +316,7 @@ class Assembly:
         for member, own, (pad, move) in zip(self.members, state.members, moves):
             gap = member.film.gap
             assert own.linear is not None
-            weights = np.concatenate([[1.0], share * move, np.zeros(gap.size)])
+            weights = np.concatenate([[whole], share * move, np.zeros(gap.size)])
             u = own.u.copy()
             change = max(change, member.film.correct(u, own.linear.columns, weights))
             members.append(replace(own, u=u, pad=own.pad + share * pad))
@@ -307,7 +334,7 @@ class Assembly:
             film = member.film
             place = self.place(member, own, state.position)
             moving = member.sees @ state.velocity
-            worst = max(worst, film.imbalance(own.u, place, moving))
+            worst = max(worst, film.imbalance(own.u, place, moving, None, state.rate, own.old))
             load = member.unit * film.field(own.u, place)[3]
             total += sum(turn.T @ member.attached.T @ load for turn in member.turns)
             least += 1e-3 * film.scale * film.radius**2
