@@ -248,6 +248,7 @@ def _ready(stage: Stage, case: Case, folder: Path) -> bool:
 def _collect(plan: Plan, folder: Path) -> xr.DataTree:
     """Join what the stages found, reduced to what a reader wants of each case."""
     groups: dict[str, xr.Dataset | xr.DataTree] = {}
+    missing: dict[str, list[str]] = {}
     for step in plan.steps:
         module = import_module(step.stage.function.split(":")[0])
         if step.stage.scope == "run":
@@ -255,10 +256,11 @@ def _collect(plan: Plan, folder: Path) -> xr.DataTree:
         elif hasattr(module, "summary"):
             files = {case: part_file(folder, step.stage, case) for case in plan.cases}
             parts = {case: open_cube(file) for case, file in files.items() if file.exists()}
+            missing[step.stage.name] = [case.name for case in files if case not in parts]
             found = module.summary(parts) if parts else None
             if found is not None:
                 groups[step.stage.name] = found
-    groups |= _judged(plan.scene, groups)
+    groups |= _judged(plan.scene, groups, missing)
     return xr.DataTree.from_dict(
         {
             f"{name}/{path}".rstrip("/"): node
@@ -268,13 +270,15 @@ def _collect(plan: Plan, folder: Path) -> xr.DataTree:
     )
 
 
-def _judged(scene: Scene, groups: Mapping[str, Any]) -> dict[str, xr.Dataset]:
+def _judged(
+    scene: Scene, groups: Mapping[str, Any], missing: Mapping[str, list[str]]
+) -> dict[str, xr.Dataset]:
     """Lifetime and verdicts of what was found; nothing where no bearing was solved."""
     from loadflow.studies.run_lifetime import run_lifetime
     from loadflow.studies.verdicts import verdicts
 
     lifetime = run_lifetime(scene, groups)
-    found = verdicts(scene, groups, lifetime)
+    found = verdicts(scene, groups, lifetime, missing)
     judged = {"verdicts": to_dataset(found)} if found else {}
     return judged | ({} if lifetime is None else {"lifetime": lifetime})
 
