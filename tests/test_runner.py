@@ -186,6 +186,8 @@ def test_a_case_without_an_answer_is_reported_and_the_others_are_kept(tmp_path):
     assert result.tree["journal"].sizes["case"] == 3
     assert result.tree["rolling"].sizes["case"] == 4
     assert "no film carries any" in result.report.read_text()
+    (verdict,) = (v for v in result.verdicts if v.quantity == "load cases not answered")
+    assert (verdict.subject, verdict.value, verdict.answer) == ("journal", 1, "broken")
 
 
 def test_samples_at_standstill_are_counted_and_the_rest_of_the_series_is_answered(tmp_path):

@@ -368,16 +368,18 @@ def _looked_at(
 def _collect(plan: Plan, folder: Path) -> xr.DataTree:
     """Join what the stages found, reduced to what a reader wants of each case."""
     groups: dict[str, xr.Dataset | xr.DataTree] = {}
+    missing: dict[str, list[str]] = {}
     for step in plan.steps:
         if step.stage.scope == "run":
             groups[step.name] = open_cube(part_file(folder, step.name))
         elif step.stage.summarise:
             files = {case: part_file(folder, step.name, case) for case in plan.cases}
             parts = {case: open_cube(file) for case, file in files.items() if file.exists()}
+            missing[step.name] = [case.name for case in files if case not in parts]
             found = step.stage.summarise(parts) if parts else None
             if found is not None:
                 groups[step.name] = found
-    groups |= _judged(plan.scene, groups)
+    groups |= _judged(plan.scene, groups, missing)
     return xr.DataTree.from_dict(
         {
             f"{name}/{path}".rstrip("/"): node
@@ -387,13 +389,15 @@ def _collect(plan: Plan, folder: Path) -> xr.DataTree:
     )
 
 
-def _judged(scene: Scene, groups: Mapping[str, Any]) -> dict[str, xr.Dataset]:
+def _judged(
+    scene: Scene, groups: Mapping[str, Any], missing: Mapping[str, list[str]]
+) -> dict[str, xr.Dataset]:
     """Lifetime and verdicts of what was found; nothing where no bearing was solved."""
     from loadflow.studies.run_lifetime import run_lifetime
     from loadflow.studies.verdicts import verdicts
 
     lifetime = run_lifetime(scene, groups)
-    found = verdicts(scene, groups, lifetime)
+    found = verdicts(scene, groups, lifetime, missing)
     judged = {"verdicts": to_dataset(found)} if found else {}
     return judged | ({} if lifetime is None else {"lifetime": lifetime})
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Literal
 
 import numpy as np
@@ -25,7 +25,12 @@ _SLIGHT = 1e-6  # of the radial load: a force along the shaft below this is none
 _STATED = "as the scene states"
 
 
-def verdicts(scene: Scene, tables: Tables, lifetime: xr.Dataset | None) -> list[Verdict]:
+def verdicts(
+    scene: Scene,
+    tables: Tables,
+    lifetime: xr.Dataset | None,
+    missing: Mapping[str, Sequence[str]] | None = None,
+) -> list[Verdict]:
     """Verdicts on the bearings of a run.
 
     Parameters
@@ -36,8 +41,18 @@ def verdicts(scene: Scene, tables: Tables, lifetime: xr.Dataset | None) -> list[
         Results by stage, each over ``bearing`` and ``case``: journal, rolling.
     lifetime : xarray.Dataset or None
         Of `loadflow.studies.run_lifetime.run_lifetime`.
+    missing : mapping, optional
+        By stage, the load cases that it could not answer at all.
     """
-    found: list[Verdict] = []
+    found = [
+        Verdict(
+            stage, "load cases not answered", len(missing[stage]), 0.0, "at most", "cases",
+            "extremes need every case", missing[stage][0],
+            note=f"not answered: {len(missing[stage])} cases; the extremes lack them",
+        )
+        for stage in ("journal", "rolling", "friction")
+        if missing and missing.get(stage)
+    ]  # fmt: skip
     if "journal" in tables:
         table = tables["journal"].load()
         for name in table["bearing"].values.tolist():
