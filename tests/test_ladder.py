@@ -70,6 +70,20 @@ def test_each_suspension_is_measured(shaft):
     assert all(step.seconds for step in plan.steps)
 
 
+def test_benchmarks_and_plan_name_a_rung_by_the_same_function(monkeypatch):
+    monkeypatch.syspath_prepend(BENCHMARKS)
+    from measuring import rung_key
+
+    named = 0
+    for table, rungs in ladder().items():
+        for name, entry in rungs.items():
+            if "settings" in entry:
+                model = table.removesuffix(", transient")
+                assert rung_key(make_scene({"name": "r"}), model, **entry["settings"]) == name
+                named += 1
+    assert named > 30
+
+
 def test_what_was_not_measured_says_so():
     steps = {step.name: step for step in plan_of(journal={"grid": [48, 16]}).steps}
     step = steps["journal"]

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from loadflow.errors import LoadflowError
+from loadflow.errors import LoadflowError, SolverError
 from loadflow.planning.effects import Verdict, concerned, estimates, switched
 from loadflow.planning.plan import chosen_models, needed_stages
 from loadflow.scene.cases import Case, list_cases
@@ -131,9 +131,12 @@ def _measure(chosen: Scene, case: Case, effects: list[Effect]) -> _Found:
         ours = [effect for effect in effects if effect.model == model]
         if not ours:
             continue
-        for name in probe.reads:
-            if name not in inputs:
-                inputs[name] = STAGES[name].run(scene, case, inputs)
+        try:
+            for name in probe.reads:
+                if name not in inputs:
+                    inputs[name] = STAGES[name].run(scene, case, inputs)
+        except SolverError:
+            break  # the run itself says so of this case
 
         def answers(one: Scene) -> Answers:
             return probe.answers(one, case, inputs)  # noqa: B023  used within this turn
@@ -174,9 +177,9 @@ def _all_on(
     answers: Callable[[Scene], Answers],
     refused: dict[str, str],
 ) -> tuple[Scene, Answers | str]:
-    """Scene with all effects that can be on together, and its answers; those it has go first."""
+    """The scene with all effects that can be on together, and its answers."""
     together = scene
-    for effect in sorted(effects, key=lambda one: not one.is_on(scene)):
+    for effect in sorted(effects, key=lambda one: not one.is_on(scene)):  # those that it has first
         together = switched(together, effect, True) or together
     best = _try(answers, together)
     if not isinstance(best, str):
