@@ -115,7 +115,7 @@ def _rollers(
     return {
         "friction_power": found.friction.power,
         "friction_torque": found.friction.torque,
-        "film_parameter": _least(found.friction.film_parameter, result.roller_forces),
+        "film_parameter": least_film_parameter(found.friction.film_parameter, result.roller_forces),
         "slip_power": found.friction.losses["slip"],
         "slip": found.slip.mean(axis=-1).max(axis=-1),
         "slip_power_density": found.slip_power_density.max(axis=(-2, -1)),
@@ -135,14 +135,14 @@ def _balls(
         some = slice(start, start + CHUNK)
         result = bearing.equilibrium(force[some], moment[some])
         found = ball_friction(result, speed[some], options)
-        least = _least(found.film_parameter, result.ball_forces)
+        least = least_film_parameter(found.film_parameter, result.ball_forces)
         parts.append((found.power, found.torque, least))
     power, torque, least = (np.concatenate(values) for values in zip(*parts))
     none = np.zeros_like(power)
     return dict(zip(KEPT, (power, torque, least, none, none, none)))
 
 
-def _least(parameter: np.ndarray, forces: np.ndarray) -> np.ndarray:
+def least_film_parameter(parameter: np.ndarray, forces: np.ndarray) -> np.ndarray:
     """Least Λ of the loaded contacts of each sample, infinite where there are none."""
     loaded = forces.reshape(parameter.shape[:-1])[..., None] > 0
     kept = np.where(loaded, parameter, np.inf)

@@ -59,8 +59,8 @@ def film(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
     """
     return xr.DataTree.from_dict(
         {
-            bearing: _resting(scene.journal, bearing, inputs["reduction"][bearing].to_dataset())
-            for bearing in scene.journal.bearings
+            name: _resting(scene.journal.at(name), name, inputs["reduction"][name].to_dataset())
+            for name in scene.journal.bearings
         }
     )
 
@@ -76,7 +76,7 @@ def orbit(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
     loads, shaft = inputs["loads"].load(), inputs["shaft"].load()
     return xr.DataTree.from_dict(
         {
-            bearing: _moving(scene.journal, bearing, loads, shaft.sel(bearing=bearing))
+            bearing: _moving(scene.journal.at(bearing), bearing, loads, shaft.sel(bearing=bearing))
             for bearing in scene.journal.bearings
         }
     )
@@ -319,7 +319,7 @@ def _placed(options: Journal, samples: xr.Dataset, eccentricity: np.ndarray) -> 
         motion=options.motion,
         radius=bearing.radius,
         boundary_friction=options.boundary_friction,
-        critical_eccentricity_ratio=options.limits.eccentricity_ratio,
+        critical_eccentricity_ratio=options.critical_eccentricity_ratio,
         radial_clearance=bearing.clearance,
         laminar=int(reynolds < critical_reynolds_number(bearing.relative_clearance)),
         largest_reynolds_number=reynolds,
