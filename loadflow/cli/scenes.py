@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -19,7 +18,8 @@ LoadFiles = Annotated[
 ]
 
 
-def _read(path: Path, loads: list[str] | None, name: str | None = None) -> Any:
+def read(path: Path, loads: list[str] | None, name: str | None = None) -> Any:
+    """Read a scene, with other load files and under another name if they are given."""
     from loadflow.scene.scene import read_scene, with_loads
 
     scene = read_scene(path)
@@ -39,13 +39,14 @@ def run(
     as_json: AsJson = False,
 ) -> None:
     """Carry a scene out; a run that was killed goes on where it was."""
+    from loadflow.running.executor import processes
     from loadflow.running.runner import run as carry_out
 
     with progress(quiet=as_json) as show:
         result = carry_out(
-            _read(scene, loads, name),
+            read(scene, loads, name),
             out=out_folder,
-            workers=workers or len(os.sched_getaffinity(0)),
+            workers=workers or processes(),
             scheduler=scheduler,
             overwrite=overwrite,
             progress=show,
@@ -80,7 +81,7 @@ def plan(
     from loadflow.planning.plan import make_plan
     from loadflow.running.folder import climbs, finished_parts
 
-    wanted = _read(scene, loads)
+    wanted = read(scene, loads)
     folder = out_folder / wanted.name
     made = make_plan(wanted, climbs(folder, wanted))
     there = finished_parts(folder, made)
@@ -133,12 +134,33 @@ def plan(
 
 @app.command("scene")
 def show_scene(
-    scene: SceneFile,
+    scene: Annotated[Path | None, typer.Argument(help="Scene, a TOML file.")] = None,
     show: Annotated[bool, typer.Option("--show", help="Print it with all defaults.")] = False,
+    schema: Annotated[
+        bool, typer.Option("--schema", help="Print the JSON Schema of scenes, for editors.")
+    ] = False,
 ) -> None:
-    """Check a scene; with --show print it as resolved."""
-    resolved = _read(scene, None)
+    """Check a scene; with --show print it as resolved, in the form of today."""
+    if schema:
+        import json
+
+        from loadflow.scene.schema import json_schema
+
+        print(json.dumps(json_schema(), indent=1))
+        return
+    if scene is None:
+        raise InputError("give a scene, or --schema")
+    from loadflow.scene.scene import former_sections
+
+    resolved = read(scene, None)
     print(resolved.to_toml() if show else f"{scene}: valid")
+    if not show and (former := former_sections(scene)):
+        names = " and ".join(f"[{name}]" for name in former)
+        out.print(
+            f"{names}: still read; today's form is [bearings.PLACE], as `loadflow scene --show` "
+            "prints it",
+            soft_wrap=True, markup=False,
+        )  # fmt: skip
 
 
 @app.command()

@@ -5,6 +5,7 @@ No scheduler of our own: cases are independent, so any executor that maps a func
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Future, ProcessPoolExecutor, as_completed
 from contextlib import contextmanager
@@ -38,6 +39,15 @@ def executor(workers: int, scheduler: str | None) -> Iterator[Submit | None]:
             yield pool.submit
     else:
         yield None
+
+
+def processes() -> int:
+    """Cores that this process may use."""
+    if hasattr(os, "process_cpu_count"):  # from Python 3.13
+        return os.process_cpu_count() or 1
+    if hasattr(os, "sched_getaffinity"):  # Linux only
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
 
 
 def _one_thread() -> None:

@@ -503,6 +503,19 @@ def make_scene(data: dict[str, Any], source: str = "scene") -> Scene:
         raise InputError(message(error, source, _origins(data), defaults)) from error
 
 
+def former_sections(path: str | Path) -> list[str]:
+    """Sections of a scene file that are written as ``[bearings.PLACE]`` today.
+
+    Raises
+    ------
+    OSError
+        It cannot be read.
+    """
+    with Path(path).open("rb") as stream:
+        data = tomllib.load(stream)
+    return [name for name in ("journal", "rolling") if name in data]
+
+
 def with_loads(scene: Scene, files: list[str]) -> Scene:
     """Return the scene with its load series read from `files` (names or glob patterns)."""
     absolute = [str(Path(file).absolute()) for file in files]

@@ -42,6 +42,7 @@ GIVING = {"shell_deformation": ("m", "largest growth of the gap by the give of t
 """What is kept too of an elastic shell."""
 
 _CERTAIN = 1.2  # times the load that a film as thin as the roughness carries: no film is asked
+_LIGHT = 10.0  # Sommerfeld number below which the film is asked in any case
 _TRIES = 200  # samples of a start that are asked for the first film
 
 
@@ -172,9 +173,14 @@ def surely_touching(options: Journal, force: np.ndarray, speed: np.ndarray) -> n
         film["lubricant"] = options.heat.lubricant(cold)
     load, turning = np.hypot(*to_film(force).T), np.abs(speed) > 0
     touching = np.asarray(~turning)
-    if turning.any():
-        capacity = load_capacity(options.geometry, options.contact_film, speed[turning], **film)
-        touching[turning] = load[turning] > _CERTAIN * capacity
+    doubtful = np.zeros_like(turning)
+    doubtful[turning] = [
+        options.geometry.sommerfeld_number(*point, film["lubricant"].viscosity) > _LIGHT
+        for point in zip(load[turning].tolist(), np.abs(speed[turning]).tolist())
+    ]
+    if doubtful.any():
+        capacity = load_capacity(options.geometry, options.contact_film, speed[doubtful], **film)
+        touching[doubtful] = load[doubtful] > _CERTAIN * capacity
     return touching
 
 
