@@ -8,6 +8,7 @@ import xarray as xr
 from synthetic import case, cube_file
 
 import loadflow as lf
+from loadflow.cli import app
 from loadflow.cube import make_cube, save_cube
 from loadflow.errors import InputError
 from loadflow.rolling import main_bearings
@@ -248,6 +249,19 @@ def test_energy_a_year_is_mean_power_over_the_winds_of_production(run):
     friction = data["friction"]["mean_friction_power"].transpose("bearing", "case").values
     expected = (friction * share).sum(axis=1) * running * 8766 * 3600
     assert lifetime["rolling_energy"].values == pytest.approx(expected, rel=1e-9)
+
+
+def test_a_key_without_effect_is_told_by_plan_and_run(cube, tmp_path, capsys):
+    file = tmp_path / "told.toml"
+    file.write_text(
+        f'results = ["loads.statistics"]\n[loads]\nsource = "files"\nfiles = ["{cube}"]\n'
+        "seeds = 3\n[reduction]\nsize = 0.5\n"
+    )
+    told = lf.run(lf.read_scene(file), out=tmp_path, report=False).warnings
+    assert [said.partition(":")[0] for said in told] == ["reduction", "loads.seeds"]
+    app(["plan", str(file), "--json"], standalone_mode=False)
+    planned = json.loads(capsys.readouterr().out)
+    assert list(planned["unused"]) == ["reduction", "loads.seeds"]
 
 
 def test_report_and_json_show_the_same_verdicts(run):

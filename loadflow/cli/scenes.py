@@ -8,7 +8,7 @@ from typing import Annotated, Any
 import typer
 from rich.table import Table
 
-from loadflow.cli.base import AsJson, app, out, print_json, progress
+from loadflow.cli.base import AsJson, app, err, out, print_json, progress
 from loadflow.errors import InputError, LoadflowError
 
 SceneFile = Annotated[Path, typer.Argument(help="Scene, a TOML file.", show_default=False)]
@@ -80,6 +80,7 @@ def plan(
     """Show which stages and models a scene needs, their expected time and error."""
     from loadflow.planning.plan import make_plan
     from loadflow.running.folder import climbs, finished_parts
+    from loadflow.scene.unused import unused_keys, unused_warnings
 
     wanted = read(scene, loads)
     folder = out_folder / wanted.name
@@ -100,6 +101,7 @@ def plan(
     if as_json:
         cases = [case.name for case in made.cases]
         found = {"steps": steps, "cases": cases, "left_out": made.left_out}
+        found |= {"unused": unused_keys(wanted)}
         print_json(found | {"errors": made.errors, "accurate": made.accurate})
         return
     heads = ("stage", "model", "chosen", "runs", "on disk", "expected time, one core", "error")
@@ -130,6 +132,8 @@ def plan(
         out.print(f"the accuracy that the scene asks for is {why}", soft_wrap=True)
     for stage, why in made.left_out.items():
         out.print(f"left out: {stage} ({why})")
+    for warning in unused_warnings(wanted):
+        out.print(f"warning: {warning}", soft_wrap=True, markup=False)
 
 
 @app.command("scene")
@@ -151,6 +155,7 @@ def show_scene(
     if scene is None:
         raise InputError("give a scene, or --schema")
     from loadflow.scene.scene import former_sections
+    from loadflow.scene.unused import unused_warnings
 
     resolved = read(scene, None)
     print(resolved.to_toml() if show else f"{scene}: valid")
@@ -161,6 +166,8 @@ def show_scene(
             "prints it",
             soft_wrap=True, markup=False,
         )  # fmt: skip
+    for warning in unused_warnings(resolved):
+        err.print(f"warning: {warning}", soft_wrap=True, markup=False)
 
 
 @app.command()

@@ -16,6 +16,7 @@ from loadflow.planning.verification import WARN
 from loadflow.report import Picture, Section, Table, figures, write_page
 from loadflow.report.style import readable
 from loadflow.scene.scene import Scene, read_scene
+from loadflow.scene.unused import unused_keys
 from loadflow.stages.loads import trips, when_tripped
 from loadflow.stages.statistics import SLOPE
 from loadflow.studies.extreme_loads import safety_factor
@@ -69,7 +70,7 @@ def _facts(scene: Scene, manifest: dict[str, Any]) -> dict[str, str]:
 def _sections(
     folder: Path, scene: Scene, manifest: dict[str, Any], tables: dict[str, xr.Dataset]
 ) -> Iterator[Section]:
-    yield _overview(tables, manifest)
+    yield _overview(scene, tables, manifest)
     shown = _shown_cases(tables, manifest)
     yield Section(
         "Loads",
@@ -120,7 +121,7 @@ def _sections(
     yield _provenance(manifest)
 
 
-def _overview(tables: dict[str, xr.Dataset], manifest: dict[str, Any]) -> Section:
+def _overview(scene: Scene, tables: dict[str, xr.Dataset], manifest: dict[str, Any]) -> Section:
     failures = manifest.get("failures", {})
     drawing = figures.over_wind_speed(tables.get("journal"), tables.get("rolling"))
     pictures = [Picture(drawing, "Every load case over wind speed.")] if drawing else []
@@ -128,6 +129,9 @@ def _overview(tables: dict[str, xr.Dataset], manifest: dict[str, Any]) -> Sectio
     if failures:
         without = [[part, why] for part, why in failures.items()]
         notes.append(Table("Without an answer", ["part", "why"], without))
+    if unused := unused_keys(scene):
+        rows = [[key, why] for key, why in unused.items()]
+        notes.append(Table("Keys without effect", ["key", "why"], rows))
     return Section("Overview", tables=notes, pictures=pictures)
 
 
@@ -375,6 +379,7 @@ def _rolling_tables(data: xr.Dataset) -> list[Table]:
 def _case_table(data: xr.Dataset) -> Table:
     """One row for each case (and bearing), one column for each number."""
     names = [str(n) for n in data.data_vars if set(data[n].dims) <= {"case", "bearing"}]
+    names = [n for n in names if not (n.endswith("_time") and n.removesuffix("_time") in names)]
     shown = {n: readable(data[n], "µm" if "film" in n else None) for n in names}
     heads = ["case"] + [f"{data[n].attrs['long_name']}, {unit}" for n, (_, unit) in shown.items()]
     bearings = data["bearing"].values if "bearing" in data.dims else [""]

@@ -27,6 +27,7 @@ from loadflow.running.folder import climbs, part_file, prepare, record
 from loadflow.running.report_page import write_report
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
+from loadflow.scene.unused import unused_keys
 from loadflow.stages import loads, shaft
 from loadflow.verdict import Verdict, from_dataset, to_dataset
 
@@ -46,11 +47,14 @@ class Run:
         What was wanted: one group for each stage.
     failures : dict
         Load cases that a solver could not answer, and why.
+    unused : dict
+        Keys of the scene that are set but change nothing, and why.
     """
 
     path: Path
     tree: xr.DataTree
     failures: dict[str, str] = field(default_factory=dict)
+    unused: dict[str, str] = field(default_factory=dict)
 
     @property
     def flagged(self) -> dict[str, int]:
@@ -74,7 +78,9 @@ class Run:
     @property
     def warnings(self) -> list[str]:
         """What the run found doubtful about its own models."""
-        return [said for stage in (loads, shaft, check) for said in stage.warnings(self.tree)]
+        ignored = [f"{key}: has no effect, {why}" for key, why in self.unused.items()]
+        found = [said for stage in (loads, shaft, check) for said in stage.warnings(self.tree)]
+        return [*ignored, *found]
 
     @property
     def report(self) -> Path:
@@ -147,7 +153,7 @@ def run(
         say("report", 0, 1)
         write_report(folder)
         say("report", 1, 1)
-    return Run(folder, tree, failures)
+    return Run(folder, tree, failures, unused_keys(scene))
 
 
 def _carry_out(

@@ -163,7 +163,8 @@ def surely_touching(options: Journal, force: np.ndarray, speed: np.ndarray) -> n
     """Whether shaft and shell touch under each load (n, 3), N, in the cube's frame, for certain.
 
     At standstill, and where the load is far above what the film of the coldest oil carries when it
-    is as thin as both surfaces are rough. The others have to be solved.
+    is as thin as both surfaces are rough. The others have to be solved, and so have those of an
+    elastic shell, which carries more the more it gives way.
     """
     film = {name: value for name, value in options.film.items() if name != "rung"}
     if options.heat is not None:
@@ -174,10 +175,11 @@ def surely_touching(options: Journal, force: np.ndarray, speed: np.ndarray) -> n
     load, turning = np.hypot(*to_film(force).T), np.abs(speed) > 0
     touching = np.asarray(~turning)
     doubtful = np.zeros_like(turning)
-    doubtful[turning] = [
-        options.geometry.sommerfeld_number(*point, film["lubricant"].viscosity) > _LIGHT
-        for point in zip(load[turning].tolist(), np.abs(speed[turning]).tolist())
-    ]
+    if options.shell is None:
+        doubtful[turning] = [
+            options.geometry.sommerfeld_number(*point, film["lubricant"].viscosity) > _LIGHT
+            for point in zip(load[turning].tolist(), np.abs(speed[turning]).tolist())
+        ]
     if doubtful.any():
         capacity = load_capacity(options.geometry, options.contact_film, speed[doubtful], **film)
         touching[doubtful] = load[doubtful] > _CERTAIN * capacity
@@ -420,7 +422,7 @@ def mixed_friction(samples: xr.Dataset) -> xr.Dataset:
     rubbing = about["boundary_friction"] * about["radius"] * samples["load"].values * speed
     lost = np.where(touching, rubbing, samples["friction_power"].values)
     when, at = _transition(time, speed, ratio, critical)
-    values = {
+    values: dict[str, tuple[float, str, str]] = {
         "duration": (seconds.sum(), "s", "length of the series"),
         "contact_time": (seconds[touching & turning].sum(), "s", "time in contact while turning"),
         "mixed_friction_time": (seconds[mixed].sum(), "s", "time above E_krit while turning"),
@@ -431,7 +433,9 @@ def mixed_friction(samples: xr.Dataset) -> xr.Dataset:
         "transition_time": (when, "s", "time of the transition at E_krit"),
         "transition_speed": (at, "rad/s", "speed of the transition at E_krit"),
     }  # fmt: skip
-    return labelled({name: (xr.DataArray(v), *said) for name, (v, *said) in values.items()})
+    return labelled(
+        {name: (xr.DataArray(v), units, meaning) for name, (v, units, meaning) in values.items()}
+    )
 
 
 def _transition(
@@ -445,4 +449,5 @@ def _transition(
     last = int(np.flatnonzero(above[1:] != above[:-1])[-1])
     i, j = known[last], known[last + 1]
     share = (critical - ratio[i]) / (ratio[j] - ratio[i])
-    return tuple(float(x[i] + share * (x[j] - x[i])) for x in (time, speed))
+    when, at = (float(x[i] + share * (x[j] - x[i])) for x in (time, speed))
+    return when, at

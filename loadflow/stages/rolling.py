@@ -43,6 +43,7 @@ EACH = {
     "bearing_design_safety": ("1", "smallest static safety, by force, design loads"),
     "bearing_design_time": ("s", "time of the smallest static safety"),
     "bearing_load_factor": ("1", "partial safety factor for loads"),
+    "bearing_truncated": ("1", "share of time with a contact cut off at a shoulder"),
     "bearing_axial_force": ("N", "largest force along the shaft"),
     "bearing_pressure": ("Pa", "largest pressure"),
     "bearing_force": ("N", "largest force on a rolling element"),
@@ -133,10 +134,18 @@ def _of_bearing(
         "bearing_design_safety": safety,
         "bearing_design_time": time,
         "bearing_load_factor": factor,
+        "bearing_truncated": _truncated_share(answer, weight),
         "bearing_axial_force": float(np.abs(reduced["force"].values[:, 0]).max()),
         "bearing_pressure": float(np.max(answer.maximum_pressure)),
         "bearing_force": float(np.max(answer.maximum_force)),
     }
+
+
+def _truncated_share(answer: Any, weight: np.ndarray) -> float:
+    """Share of time in which a contact ellipse reaches over a shoulder; NaN if none is given."""
+    if getattr(answer.bearing, "shoulder_angle", None) is None:
+        return np.nan
+    return float(np.average(answer.truncated, weights=weight))
 
 
 def _design_safety(
@@ -145,8 +154,8 @@ def _design_safety(
     """Smallest static safety under the loads times `factor`, and its time, s; NaN without one."""
     hardest = np.argsort(answer.static_safety)[:_HARDEST]
     some = reduced.isel(sample=hardest)
-    loads = (factor * some[name].values for name in ("force", "moment"))
-    designed = rest(part, *loads, strict=False)
+    force, moment = (factor * some[name].values for name in ("force", "moment"))
+    designed = rest(part, force, moment, strict=False)
     safety = np.where(designed.converged, designed.static_safety, np.nan)
     if np.isnan(safety).any():
         return np.nan, float(some["time"].values[np.argmax(np.isnan(safety))])

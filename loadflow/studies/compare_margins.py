@@ -311,9 +311,10 @@ def rolling_losses(scene: Scene, folder: Path) -> Losses | None:
 
     None where there is no model of friction for one of them.
     """
-    options, power = friction_options(scene.friction), {}
+    power: dict[tuple[str, str], float] = {}
     films: dict[str, list[tuple[float, float, str, float]]] = {}
-    for place in scene.rolling.geometries:
+    for place, bearing in scene.rolling.geometries.items():
+        options = friction_options(scene.friction, bearing)
         for case, some in _looked_at(folder, place):
             speed = some["speed"].values.astype(float)
             answer = _solved(scene, place, some)

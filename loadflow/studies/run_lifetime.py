@@ -54,7 +54,7 @@ def run_lifetime(scene: Scene, tables: Tables) -> xr.Dataset | None:
 
 def _shares(scene: Scene, table: xr.Dataset) -> np.ndarray | None:
     """Share of the lifetime of each case, of 1 in all; None where none has one."""
-    if scene.loads.weights == "given":
+    if scene.loads.weights == "given" and scene.loads.source == "files":
         given = table["weight"].values.astype(float)
         return given / given.sum() if given.sum() > 0 else None
     try:
@@ -133,7 +133,8 @@ def energy_per_year(
     """
     seconds = HOURS_PER_YEAR * 3600
     dlcs = set(table["dlc"].values.tolist())
-    if scene.loads.weights == "rayleigh" and dlcs & {*PRODUCTION} and not dlcs & {*IDLING}:
+    by_wind = scene.loads.weights == "rayleigh" or scene.loads.source == "simulate"
+    if by_wind and dlcs & {*PRODUCTION} and not dlcs & {*IDLING}:
         below = iec.weibull_cdf(_operating(scene), iec.class_speeds(wind_class(scene)).v_ave, 2.0)
         seconds *= float(below[1] - below[0])
     weighted = power * xr.DataArray(share, dims="case")

@@ -17,7 +17,7 @@ from loadflow.rolling.rating.static import (
 from loadflow.scene.limits import JournalLimits, RollingLimits
 from loadflow.scene.scene import Journal, Scene
 from loadflow.verdict import Verdict
-from loadflow.wind.cases import LOAD_CASES, STANDING
+from loadflow.wind.cases import LOAD_CASES
 
 Tables = Mapping[str, xr.Dataset]
 
@@ -78,9 +78,7 @@ def _of_journal(scene: Scene, name: str, table: xr.Dataset) -> Iterator[Verdict]
 
 def _starts_or_stands(dlc: str) -> bool:
     """Whether the shaft stands, starts or stops in a load case, so that it must touch the shell."""
-    if dlc not in LOAD_CASES:
-        return False
-    return LOAD_CASES[dlc].events[0] in (*STANDING, "start", "stop", "emergency stop")
+    return dlc in LOAD_CASES and LOAD_CASES[dlc].stands_or_starts
 
 
 def _answered(subject: str, table: xr.Dataset) -> Verdict:
@@ -239,6 +237,14 @@ def _of_rolling(scene: Scene, table: xr.Dataset, lifetime: xr.Dataset | None) ->
         part, subject = table.sel(bearing=name), f"rolling {name}"
         yield _static(scene.rolling.bearings[name].limits, subject, part)
         yield from _lives(scene, subject, lifetime, name, part)
+        value, case, _ = _worst(part, "bearing_truncated", "most")
+        if case:
+            yield Verdict(
+                subject, "time with a contact cut off at a shoulder", value, 0.0, "at most",
+                source="the Hertzian contact must lie within the raceway",
+                case=case if value else "",
+                note="share of the time of the load case",
+            )  # fmt: skip
         value, case, _ = _worst(part, "bearing_axial_force", "most")
         if value > _SLIGHT * float(part["bearing_force"].max()):
             carried = bearing.takes_thrust

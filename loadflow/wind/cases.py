@@ -95,6 +95,11 @@ class LoadCase:
         return self.events[0] not in STANDING
 
     @property
+    def stands_or_starts(self) -> bool:
+        """Whether the shaft stands, starts or stops, so that its speed goes through zero."""
+        return self.events[0] in (*STANDING, "start", "stop", "emergency stop")
+
+    @property
     def safety_factor(self) -> float:
         """Partial safety factor for loads γ_f; that of 1.1 is for extrapolated loads."""
         return SAFETY[self.safety]

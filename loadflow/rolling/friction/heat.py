@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,7 +15,6 @@ from loadflow.rolling.friction.bearing import BearingFriction
 from loadflow.rolling.friction.options import FrictionOptions
 from loadflow.rolling.friction.roller_losses import roller_friction
 from loadflow.rolling.results import ContactResult
-from loadflow.rolling.roller_raceways import RollerRaceways
 
 _HOTTEST = 200.0  # K above the surroundings that are searched
 
@@ -38,12 +39,13 @@ class HeatBalance:
 
 
 def balanced_temperature(
-    result: ContactResult[RollerRaceways],
+    result: ContactResult[Any],
     speed: ArrayLike,
     options: FrictionOptions,
     conductance: float,
     ambient: float,
     weights: ArrayLike | None = None,
+    model: Callable[..., BearingFriction] = roller_friction,
 ) -> HeatBalance:
     """Find the temperature of a bearing over a duty of many cases.
 
@@ -59,6 +61,8 @@ def balanced_temperature(
         Temperature around it, K.
     weights : array_like, optional
         Share of time of each case; equal if not given.
+    model : callable
+        `roller_friction`, or `ball_friction` for balls.
 
     Raises
     ------
@@ -73,7 +77,7 @@ def balanced_temperature(
         raise InputError(f"conductance: must be > 0 W/K, got {conductance}")
 
     def friction(temperature: float) -> BearingFriction:
-        return roller_friction(result, speed, replace(options, temperature=temperature))
+        return model(result, speed, replace(options, temperature=temperature))
 
     def surplus(temperature: float) -> float:
         power = friction(temperature).power
