@@ -31,7 +31,8 @@ LoadFiles = Annotated[
 ]
 
 
-def _read(path: Path, loads: list[str] | None, name: str | None = None, **reading: Any) -> Any:
+def read(path: Path, loads: list[str] | None, name: str | None = None, **reading: Any) -> Any:
+    """Read a scene, with other load files and under another name if they are given."""
     from loadflow.scene.scene import read_scene, with_loads, with_name
 
     scene = read_scene(path)
@@ -87,7 +88,7 @@ def run(
 
         reading = _reading(cases, pattern, channels, gauge_distance, frame)
         result = carry_out(
-            _read(scene, loads, name, **reading),
+            read(scene, loads, name, **reading),
             out=out_folder,
             workers=workers or usable_cores(),
             scheduler=scheduler,
@@ -157,7 +158,7 @@ def plan(
     from loadflow.scene.unused import unused_keys, unused_warnings
 
     reading = _reading(cases, pattern, channels, gauge_distance, frame)
-    wanted = _read(scene, loads, **reading)
+    wanted = read(scene, loads, **reading)
     folder = out_folder / wanted.name
     verdict = known_verdict(folder, wanted)
     if verdict is None and measure:
@@ -242,14 +243,34 @@ def _largest(sizes: Any) -> str:
 
 @app.command("scene")
 def show_scene(
-    scene: SceneFile,
+    scene: Annotated[Path | None, typer.Argument(help="Scene, a TOML file.")] = None,
     show: Annotated[bool, typer.Option("--show", help="Print it with all defaults.")] = False,
+    schema: Annotated[
+        bool, typer.Option("--schema", help="Print the JSON Schema of scenes, for editors.")
+    ] = False,
 ) -> None:
-    """Check a scene; with --show print it as resolved."""
+    """Check a scene; with --show print it as resolved, in the form of today."""
+    if schema:
+        import json
+
+        from loadflow.scene.schema import json_schema
+
+        print(json.dumps(json_schema(), indent=1))
+        return
+    if scene is None:
+        raise InputError("give a scene, or --schema")
+    from loadflow.scene.scene import former_sections
     from loadflow.scene.unused import unused_warnings
 
-    resolved = _read(scene, None)
+    resolved = read(scene, None)
     print(resolved.to_toml() if show else f"{scene}: valid")
+    if not show and (former := former_sections(scene)):
+        names = " and ".join(f"[{name}]" for name in former)
+        out.print(
+            f"{names}: still read; today's form is [bearings.PLACE], as `loadflow scene --show` "
+            "prints it",
+            soft_wrap=True, markup=False,
+        )  # fmt: skip
     for warning in unused_warnings(resolved):
         err.print(f"warning: {warning}", soft_wrap=True, markup=False)
 

@@ -34,6 +34,8 @@ class RollingGeometry(ABC):
         Whether its capacities are axial (slewing rings) or radial.
     takes_moment : bool
         Whether it resists a tilting moment.
+    allowed_tilt : float or None
+        Tilt of the shaft in it that its contacts bear, rad; None of bearings for moments.
     """
 
     element: ClassVar[Literal["ball", "roller"]]
@@ -43,6 +45,7 @@ class RollingGeometry(ABC):
     static_exponent: ClassVar[int]
     rated_axially: ClassVar[bool] = False
     takes_moment: ClassVar[bool] = True
+    allowed_tilt: ClassVar[float | None] = None
 
     if TYPE_CHECKING:  # a field of most kinds, so that no property may stand before it
 

@@ -163,6 +163,7 @@ class FurtherBearing(BaseModel):
     rings: Literal["rigid", "flexible"] = "rigid"
     inner_ring: Ring | None = None
     outer_ring: Ring | None = None
+    limits: RollingLimits = RollingLimits()
 
     @model_validator(mode="after")
     def _rings_fit(self) -> Self:
@@ -209,7 +210,6 @@ class Rolling(FurtherBearing):
     inner_ring: Ring | None = standing_ring(0.094, 0.12, 0.897, wall=(0.06, 1.0), face="top")
     outer_ring: Ring | None = standing_ring(0.099, 0.12, 1.0005, wall=(0.06, 1.0))
     further: list[FurtherBearing] = []
-    limits: RollingLimits = RollingLimits()
 
     @model_validator(mode="before")
     @classmethod

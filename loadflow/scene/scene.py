@@ -7,12 +7,11 @@ that each room owns; it knows no physics.
 from __future__ import annotations
 
 import hashlib
+import math
 import tomllib
-from collections.abc import Iterator
-from dataclasses import fields
 from math import inf
 from pathlib import Path
-from typing import Annotated, Any, Literal, Self, cast, get_args
+from typing import Annotated, Any, Literal, Self, get_args
 
 import numpy as np
 from pydantic import BaseModel, Field, ValidationError, field_validator, model_validator
@@ -32,12 +31,14 @@ from loadflow.journal import (
 )
 from loadflow.journal.line import Line
 from loadflow.journal.models.model import Verb, why_not
-from loadflow.rolling import KINDS
 from loadflow.rolling.friction import Churning
 from loadflow.scene.bearings import Rolling
+from loadflow.scene.candidates import ABOUT, candidates_of, machine
 from loadflow.scene.films import Law, RungName
 from loadflow.scene.limits import JournalLimits
 from loadflow.scene.loads import Loads, check_simulation
+from loadflow.scene.messages import message, shown
+from loadflow.scene.places import Location, places_of, sections_of
 from loadflow.scene.section import LARGEST_INTEGER, Section, too_large
 from loadflow.shaft.beam import BearingSeat
 from loadflow.shaft.options import (
@@ -49,7 +50,7 @@ from loadflow.shaft.options import (
     TwoPoint,
 )
 from loadflow.storage import check_name
-from loadflow.turbines import load_turbine
+from loadflow.turbines import load_turbine, turbine_names
 
 Result = Literal[
     "loads.statistics",
@@ -62,6 +63,10 @@ Result = Literal[
 ]
 
 Positive = Annotated[float, Field(gt=0)]
+
+SCHEMA = 2
+"""Version of the form of scenes. 2: ``[bearings.PLACE]`` and ``[candidates.NAME]``; 1, or nothing:
+``[journal]`` and ``[rolling]``, which are still read."""
 
 
 class Turbine(Section, BaseModel):
@@ -143,6 +148,9 @@ class Reduction(Section, BaseModel):
 class Journal(Section, BaseModel):
     """Journal bearings: which ones of the shaft, and one set of data for all of them.
 
+    Bearings with data of their own are in ``own``, by place; `at` gives the data of each. Motion,
+    tilt, rung and grid are those of all.
+
     ``motion = "quasi-static"`` solves the equilibrium of every sample of the reduced series;
     ``"transient"`` follows the shaft through the whole series, step by step.
     ``rung = "map"`` tabulates the film once, for long series (docs/journal-map.md).
@@ -170,6 +178,7 @@ class Journal(Section, BaseModel):
     """
 
     bearings: Annotated[list[str], Field(min_length=1)] = ["N", "N2"]
+    own: dict[str, Journal] = {}
     geometry: JournalBearing = JournalBearing(diameter=3.0, width=2.25, relative_clearance=0.5e-3)
     lubricant: Lubricant = Lubricant(viscosity=0.050)
     cavitation: Law = GasMixture(0.05e6)
@@ -192,6 +201,23 @@ class Journal(Section, BaseModel):
     limits: JournalLimits = JournalLimits()
 
     @model_validator(mode="after")
+    def _one_model_for_all(self) -> Self:
+        for place, other in self.own.items():
+            for name in _OF_ALL:
+                if getattr(other, name) != getattr(self, name):
+                    raise ValueError(
+                        f"{name}: all journal bearings of a scene have one, but {place} has "
+                        f"{getattr(other, name)!r} beside {getattr(self, name)!r}"
+                    )
+        return self
+
+    def at(self, place: str) -> Journal:
+        """The data of one of the bearings."""
+        if place not in self.own:
+            return self
+        return self.own[place].model_copy(update={name: getattr(self, name) for name in _OF_ALL})
+
+    @model_validator(mode="after")
     def _smoother_than_the_gap(self) -> Self:
         if self.contact_film >= self.geometry.clearance:
             raise ValueError(
@@ -204,6 +230,11 @@ class Journal(Section, BaseModel):
     def contact_film(self) -> float:
         """Film, m, below which the surfaces touch: the sum of their R_z."""
         return self.shaft_roughness + self.shell_roughness
+
+    @property
+    def critical_eccentricity_ratio(self) -> float:
+        """ε above which friction is mixed; infinite for bores whose gap closes at no certain ε."""
+        return math.inf if self.geometry.shape.segments else self.limits.eccentricity_ratio
 
     @property
     def least_film(self) -> float:
@@ -251,6 +282,33 @@ class Journal(Section, BaseModel):
         if why is not None:
             raise ValueError(why)
         return self
+
+
+_OF_ALL = ("motion", "tilt", "rung", "grid", "grading")
+"""What all journal bearings of a scene share: how the film is modelled."""
+
+
+class Candidate(Section, BaseModel):
+    """An arrangement of bearings that is compared with others: what stands at its places.
+
+    Attributes
+    ----------
+    title, source : str
+        What it is called, and where its measures are from.
+    journal, rolling
+        Its bearings, as sections.
+    """
+
+    title: str = ""
+    source: str = ""
+    journal: Journal | None = None
+    rolling: Rolling | None = None
+
+    @property
+    def places(self) -> tuple[str, ...]:
+        """Places on the shaft that it needs."""
+        journal = self.journal.bearings if self.journal else []
+        return (*journal, *(self.rolling.geometries if self.rolling else ()))
 
 
 class Friction(Section, BaseModel):
@@ -335,6 +393,7 @@ class Scene(Section, BaseModel):
     journal: Journal = Journal()
     rolling: Rolling = Rolling()
     friction: Friction = Friction()
+    candidates: dict[str, Candidate] = {}
 
     @field_validator("name")
     @classmethod
@@ -343,18 +402,11 @@ class Scene(Section, BaseModel):
 
     @model_validator(mode="before")
     @classmethod
-    def _results_that_the_shaft_can_give(cls, data: Any) -> Any:
-        """Without `results`: all, but none of a default bearing that the shaft does not have."""
-        if not isinstance(data, dict) or "results" in data or "shaft" not in data:
+    def _in_sections(cls, data: Any) -> Any:
+        if not isinstance(data, dict):
             return data
-        try:
-            there = set(Shaft.model_validate(data["shaft"]).bearings)
-        except ValidationError:  # told by the shaft's own check, with its key
-            return data
-        by_default = {"journal": {*Journal().bearings}, "rolling": {Rolling().bearing}}
-        absent = {room for room, own in by_default.items() if room not in data and own - there}
-        wanted = [name for name in get_args(Result) if name.split(".")[0] not in absent]
-        return data | {"results": wanted}
+        stated = {*data} & {"journal", "rolling"}
+        return _results_that_the_shaft_can_give(in_sections(data), stated)
 
     @model_validator(mode="after")
     def _simulates(self) -> Self:
@@ -376,6 +428,17 @@ class Scene(Section, BaseModel):
                     raise ValueError(
                         f"{key} = {bearing!r}: the shaft has the bearings {have}; set {key} to "
                         f"what it has, or leave what begins with {room} out of results"
+                    )
+        return self
+
+    @model_validator(mode="after")
+    def _candidates_have_places(self) -> Self:
+        for name, candidate in self.candidates.items():
+            for place in candidate.places:
+                if place not in self.shaft.bearings:
+                    have = ", ".join(self.shaft.bearings) or "none"
+                    raise ValueError(
+                        f"candidates.{name}.{place}: the shaft has the bearings {have}"
                     )
         return self
 
@@ -427,10 +490,17 @@ class Scene(Section, BaseModel):
         return inf if self.accuracy == "given" else self.accuracy
 
     def to_toml(self) -> str:
-        """Return the scene with all defaults, as TOML."""
+        """Return the scene with all defaults, as TOML, in the form of today."""
         import tomli_w
 
-        return tomli_w.dumps(self.model_dump(mode="json", exclude_none=True))
+        data = self.model_dump(mode="json", exclude_none=True)
+        data["bearings"] = places_of(data.pop("journal"), data.pop("rolling"))
+        data["candidates"] = {
+            name: {key: candidate[key] for key in ABOUT if candidate[key]}
+            | places_of(candidate.get("journal"), candidate.get("rolling"))
+            for name, candidate in data["candidates"].items()
+        }
+        return tomli_w.dumps({"schema": SCHEMA} | data)
 
     def digest(self, *sections: str) -> str:
         """SHA-256 of the resolved scene, or of some of its sections."""
@@ -444,7 +514,7 @@ def read_scene(path: str | Path) -> Scene:
     Parameters
     ----------
     path : str or Path
-        TOML file. Load files in it are meant relative to the file.
+        TOML file. Paths in it are meant relative to the file.
 
     Returns
     -------
@@ -465,7 +535,7 @@ def read_scene(path: str | Path) -> Scene:
         raise InputError(f"{path}: cannot read the scene: {error.strerror}") from error
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise InputError(f"{path}: not a TOML file: {error}") from error
-    return make_scene(_anchor_files(data, path.parent), str(path))
+    return make_scene(_anchored(data, path.parent.absolute()), str(path))
 
 
 def make_scene(data: dict[str, Any], source: str = "scene") -> Scene:
@@ -476,15 +546,29 @@ def make_scene(data: dict[str, Any], source: str = "scene") -> Scene:
     InputError
         As `read_scene`.
     """
-    data.setdefault("name", Path(source).stem)
+    data = {"name": Path(source).stem} | data
     for key, value in too_large(data):
         raise InputError(
-            f"{source}: {key} = {_shown(value)}: must be within ±{LARGEST_INTEGER} (64 bits)"
+            f"{source}: {key} = {shown(value)}: must be within ±{LARGEST_INTEGER} (64 bits)"
         )
     try:
         return Scene.model_validate(data)
     except ValidationError as error:
-        raise InputError(_message(error, source)) from error
+        defaults = Scene(name="defaults").model_dump() | {"bearings": {}}
+        raise InputError(message(error, source, _origins(data), defaults)) from error
+
+
+def former_sections(path: str | Path) -> list[str]:
+    """Sections of a scene file that are written as ``[bearings.PLACE]`` today.
+
+    Raises
+    ------
+    OSError
+        It cannot be read.
+    """
+    with Path(path).open("rb") as stream:
+        data = tomllib.load(stream)
+    return [name for name in ("journal", "rolling") if name in data]
 
 
 def make_journal(data: dict[str, Any], source: str = "journal") -> Journal:
@@ -498,7 +582,8 @@ def make_journal(data: dict[str, Any], source: str = "journal") -> Journal:
     try:
         return Journal.model_validate(data)
     except ValidationError as error:
-        raise InputError(_message(error, source, "journal")) from error
+        defaults = Journal().model_dump()
+        raise InputError(message(error, source, {(): ("journal",)}, defaults)) from error
 
 
 def with_loads(scene: Scene, files: list[str], **reading: Any) -> Scene:
@@ -512,10 +597,11 @@ def with_loads(scene: Scene, files: list[str], **reading: Any) -> Scene:
         A bad value among them.
     """
     given = {key: value for key, value in reading.items() if value is not None}
+    absolute = [str(Path(file).absolute()) for file in files]
     try:
-        read = Loads.model_validate({"source": "files", "files": files} | given)
+        read = Loads.model_validate({"source": "files", "files": absolute} | given)
     except ValidationError as error:
-        raise InputError(_message(error, "loads")) from error
+        raise InputError(message(error, "loads", {}, Loads().model_dump())) from error
     update = {key: getattr(read, key) for key in ("source", "files", *given)}
     return scene.model_copy(update={"loads": scene.loads.model_copy(update=update)})
 
@@ -526,81 +612,126 @@ def with_name(scene: Scene, name: str) -> Scene:
     return scene.model_copy(update={"name": name})
 
 
-def _anchor_files(data: dict[str, Any], folder: Path) -> dict[str, Any]:
-    """Make relative files relative to the scene file, not to where the user stands."""
-    loads, journal = data.get("loads"), data.get("journal")
-    shell = journal.get("shell") if isinstance(journal, dict) else None
-    if isinstance(shell, dict) and isinstance(shell.get("matrix"), str):
-        shell = shell | {"matrix": str(folder / shell["matrix"])}
-        data = data | {"journal": data["journal"] | {"shell": shell}}
-    if not isinstance(loads, dict):
+def in_sections(data: dict[str, Any]) -> dict[str, Any]:
+    """Data of a scene with its places as the sections that the rooms read.
+
+    What it does not say of shaft and rolling bearings is that of its turbine, where the package has
+    sized ones (`loadflow.scene.candidates.machine`).
+
+    Raises
+    ------
+    ValueError
+        A version of the form that is not known, or places that are no bearings.
+    """
+    read = dict(data)
+    version = read.pop("schema", SCHEMA)
+    if version not in range(1, SCHEMA + 1):
+        raise ValueError(
+            f"schema = {version!r}: must be 1 … {SCHEMA}; a newer version of loadflow wrote it"
+        )
+    turbine = _turbine_of(read)
+    ours = machine(turbine)
+    if "shaft" not in read and "shaft" in ours:
+        read["shaft"] = ours["shaft"]
+    if "bearings" in read:
+        sections = sections_of(read.pop("bearings")).data
+        if twice := sorted(set(sections) & set(read)):
+            raise ValueError(
+                f"bearings: beside [{twice[0]}]; write all of them as [bearings.PLACE]"
+            )
+        if "results" not in read:
+            rooms = {"journal", "rolling"} - set(sections)
+            names = get_args(Result)
+            read["results"] = [name for name in names if name.split(".")[0] not in rooms]
+        read |= sections
+    elif "rolling" not in read and "rolling" in ours:
+        read |= {"rolling": sections_of(_bare(ours["candidates"][ours["rolling"]])).data["rolling"]}
+    if isinstance(read.get("candidates"), dict):
+        read["candidates"] = {
+            name: _candidate(name, stated, turbine) for name, stated in read["candidates"].items()
+        }
+    return read
+
+
+def _candidate(name: str, stated: Any, turbine: str) -> Any:
+    """Data of a candidate in sections; one without places is that of the package."""
+    if not isinstance(stated, dict):
+        return stated
+    if {"journal", "rolling"} & {k for k, v in stated.items() if not _is_place(v)}:
+        return stated  # in sections already
+    places, about = _bare(stated), {key: stated[key] for key in ABOUT if key in stated}
+    if not places:
+        known = candidates_of(turbine)
+        if name not in known:
+            raise ValueError(
+                f"candidates.{name}: says nothing, and is none of those sized for {turbine}: "
+                f"{', '.join(known) or 'there are none'}"
+            )
+        places, about = _bare(known[name]), {k: known[name][k] for k in ABOUT} | about
+    return about | sections_of(places, ("candidates", name)).data
+
+
+def _is_place(value: Any) -> bool:
+    return isinstance(value, dict) and bool({"kind", "like"} & set(value))
+
+
+def _bare(candidate: dict[str, Any]) -> dict[str, Any]:
+    """The places of a candidate."""
+    return {key: value for key, value in candidate.items() if key not in ABOUT}
+
+
+def _turbine_of(data: dict[str, Any]) -> str:
+    turbine = data.get("turbine", {})
+    name = turbine.get("name", "nrel-5mw") if isinstance(turbine, dict) else turbine.name
+    return str(name)
+
+
+def _results_that_the_shaft_can_give(data: dict[str, Any], stated: set[str]) -> dict[str, Any]:
+    """Without `results`: all, but none of a bearing by default that the shaft does not have."""
+    if "results" in data or "shaft" not in data:
         return data
-    anchored = dict(loads)
-    for key in ("cases", "case_list", "channels"):
-        if isinstance(loads.get(key), str):
-            anchored[key] = str(folder / loads[key])
-    if isinstance(loads.get("files"), list):
-        anchored["files"] = [str(folder / f) if isinstance(f, str) else f for f in loads["files"]]
-    return data | {"loads": anchored}
+    try:
+        there = set(Shaft.model_validate(data["shaft"]).bearings)
+    except ValidationError:  # told by the shaft's own check, with its key
+        return data
+    by_default = {"journal": {*Journal().bearings}, "rolling": {Rolling().bearing}}
+    absent = {room for room, own in by_default.items() if room not in stated and own - there}
+    wanted = [name for name in get_args(Result) if name.split(".")[0] not in absent]
+    return data | {"results": wanted}
 
 
-def _message(error: ValidationError, source: str, *section: str) -> str:
-    """One line per bad key: file, key, value, what is allowed; keys are those of a `section`."""
-    lines = []
-    for item in _of_stated_kind(error.errors()):
-        item = item | {"loc": (*section, *item["loc"])}
-        key = ".".join(str(part) for part in _place(item["loc"])) or "scene"
-        reason = item["msg"].removeprefix("Value error, ").replace("Input should be", "must be")
-        if item["type"] in ("extra_forbidden", "unexpected_keyword_argument"):
-            lines.append(f"{source}: {key}: unknown key{_neighbours(item['loc'])}")
-        elif item["type"] == "missing":
-            lines.append(f"{source}: {key}: this key is missing")
-        elif item["type"] == "value_error":
-            lines.append(f"{source}: {key}: {reason}")
-        else:
-            lines.append(f"{source}: {key} = {_shown(item['input'])}: {reason}")
-    return "\n".join(lines)
+def _origins(data: dict[str, Any]) -> dict[Location, Location]:
+    """Where the data of sections was written, of a scene that has its places."""
+    found: dict[Location, Location] = {}
+    try:
+        if "bearings" in data:
+            found |= sections_of(data["bearings"]).origins
+        for name, stated in data.get("candidates", {}).items():
+            where = ("candidates", name)
+            own = sections_of(_bare(stated), where).origins if _bare(stated) else {}
+            found |= {(*where, *section): location for section, location in own.items()}
+    except (ValueError, AttributeError):  # told already
+        pass
+    return found
 
 
-def _shown(value: Any) -> str:
-    """A value as it stands in a message: not all of a number of 400 digits."""
-    if isinstance(value, int) and abs(value) > LARGEST_INTEGER:
-        return f"an integer of {value.bit_length()} bits"
-    text = repr(value)
-    return text if len(text) <= 200 else f"{text[:200]}…"
+def _anchored(data: dict[str, Any], folder: Path) -> dict[str, Any]:
+    """Make the paths of a scene relative to its file, not to where the user stands."""
 
+    def path(value: Any) -> Any:
+        return str(folder / value) if isinstance(value, str) else value
 
-def _place(location: tuple[int | str, ...]) -> Iterator[int | str]:
-    """Keys down to a value, without the tag that pydantic puts after a geometry."""
-    for before, part in zip(("", *location), location):
-        if not (before == "geometry" and part in KINDS):
-            yield part
-
-
-def _of_stated_kind(errors: list[Any]) -> list[Any]:
-    """Drop what is said of alternatives of another ``kind`` than the scene states."""
-    kinds = [e for e in errors if e["type"] == "literal_error" and e["loc"][-1] == "kind"]
-    others = {e["loc"][:-1] for e in kinds}
-
-    def other(location: tuple[Any, ...]) -> tuple[Any, ...] | None:
-        return next((o for o in others if location[: len(o)] == o), None)
-
-    right = {e["loc"] for e in errors if other(e["loc"]) is None}
-    shown = []
-    for item in errors:
-        owner = other(item["loc"])
-        known = owner is not None and any(loc[: len(owner) - 1] == owner[:-1] for loc in right)
-        if owner is None or (not known and item in kinds):
-            shown.append(item)
-    return shown
-
-
-def _neighbours(location: tuple[int | str, ...]) -> str:
-    """Name the keys that are known where an unknown one stands."""
-    if len(location) > 2 and location[-3] == "geometry" and location[-2] in KINDS:
-        known = ["kind", *(field.name for field in fields(cast("Any", KINDS[str(location[-2])])))]
-        return f"; known here: {', '.join(sorted(known))}"
-    data: Any = Scene(name="defaults").model_dump()
-    for part in [*_place(location)][:-1]:
-        data = data.get(part) if isinstance(data, dict) else None
-    return f"; known here: {', '.join(sorted(data))}" if isinstance(data, dict) else ""
+    found = dict(data)
+    if isinstance(loads := data.get("loads"), dict):
+        several = {
+            key: [path(file) for file in loads[key]]
+            for key in ("files", "winds")
+            if isinstance(loads.get(key), list)
+        }
+        keys = [key for key in ("cases", "case_list", "channels") if key in loads]
+        found["loads"] = loads | several | {key: path(loads[key]) for key in keys}
+    turbine = data.get("turbine")
+    if isinstance(turbine, dict) and isinstance(name := turbine.get("name"), str):
+        file = name if name in turbine_names() or not Path(name).suffix else path(name)
+        found["turbine"] = turbine | {"name": file}
+    return found

@@ -123,7 +123,7 @@ def _reduction(scene: Scene, case: Case, parts: Parts) -> Iterator[Difference]:
                 "eccentricity ratio",
                 where,
                 "the full series",
-                _severest(scene.journal, bearing, load, parts, film),
+                _severest(scene.journal.at(bearing), bearing, load, parts, film),
             )
 
 
@@ -152,14 +152,14 @@ def _better_films(scene: Scene, parts: Parts) -> Iterator[tuple[str, str, dict[s
     """Stage, name and, by bearing, journal bearing of each model that the film is compared with."""
     films = {b: parts["journal"][b].to_dataset() for b in _answered(parts)}
     if scene.journal.heat is None:
-        warmer = {bearing: _warmer(scene.journal, film) for bearing, film in films.items()}
+        warmer = {b: _warmer(scene.journal.at(b), film) for b, film in films.items()}
         yield HEAT.name, "oil warmed by its friction", warmer
     better = FILM_MODEL.finer(scene)
     if better is not None:
-        options = dict.fromkeys(films, better.journal)
+        options = {bearing: better.journal.at(bearing) for bearing in films}
         if better.journal.in_motion and better.journal.heat is not None:
             options = {
-                bearing: better.journal.at_temperature(float(film["temperature"][0]))
+                bearing: options[bearing].at_temperature(float(film["temperature"][0]))
                 for bearing, film in films.items()
             }
         yield FILM_MODEL.name, f"the film {FILM_MODEL.key(better)}", options
@@ -216,10 +216,10 @@ def _orbits(
 
 def _motion(scene: Scene, case: Case, parts: Parts) -> Iterator[Difference]:
     """The whole series with the film in motion, where that is cheap; a shaft at rest has none."""
-    journal = fast_film(scene.journal)
-    if journal is None:
-        return
     for bearing in _answered(parts):
+        journal = fast_film(scene.journal.at(bearing))
+        if journal is None:
+            return
         film = parts["journal"][bearing].to_dataset().load()
         loads, shaft = parts["loads"].load(), parts["shaft"].sel(bearing=bearing).load()
         try:

@@ -163,7 +163,7 @@ def _rollers(
     return {
         "friction_power": found.friction.power,
         "friction_torque": found.friction.torque,
-        "film_parameter": _least(found.friction.film_parameter, result.roller_forces),
+        "film_parameter": least_film_parameter(found.friction.film_parameter, result.roller_forces),
         "slip_power": found.friction.losses["slip"],
         "slip": found.slip.mean(axis=-1).max(axis=-1),
         "slip_power_density": found.slip_power_density.max(axis=(-2, -1)),
@@ -184,7 +184,7 @@ def _balls(
         some = slice(start, start + CHUNK)
         result = bearing.equilibrium(force[some], moment[some])
         found = result.friction(speed[some], options)
-        least = _least(found.film_parameter, result.ball_forces)
+        least = least_film_parameter(found.film_parameter, result.ball_forces)
         slip = found.losses["differential slip"] + found.losses["spin"]
         assert found.sliding is not None
         assert found.slip_power_density is not None
@@ -211,7 +211,7 @@ def _mean_of_loaded(sliding: np.ndarray, forces: np.ndarray) -> np.ndarray:
     return np.asarray(((sliding * loaded).sum(axis=-1) / count).max(axis=-1))
 
 
-def _least(parameter: np.ndarray, forces: np.ndarray) -> np.ndarray:
+def least_film_parameter(parameter: np.ndarray, forces: np.ndarray) -> np.ndarray:
     """Least Λ of the loaded contacts of each sample, infinite where there are none."""
     loaded = forces.reshape(parameter.shape[:-1])[..., None] > 0
     kept = np.where(loaded, parameter, np.inf)

@@ -48,6 +48,7 @@ GIVING = table("shell_deformation")
 """What is kept too of an elastic shell."""
 
 _CERTAIN = 1.2  # times the load that a film as thin as the roughness carries: no film is asked
+_LIGHT = 10.0  # Sommerfeld number below which the film is asked in any case
 _TRIES = 200  # samples of a start that are asked for the first film
 
 
@@ -65,8 +66,8 @@ def film(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
     """
     return xr.DataTree.from_dict(
         {
-            bearing: _resting(scene.journal, bearing, inputs["reduction"][bearing].to_dataset())
-            for bearing in scene.journal.bearings
+            name: _resting(scene.journal.at(name), name, inputs["reduction"][name].to_dataset())
+            for name in scene.journal.bearings
         }
     )
 
@@ -82,7 +83,7 @@ def orbit(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
     loads, shaft = inputs["loads"].load(), inputs["shaft"].load()
     return xr.DataTree.from_dict(
         {
-            bearing: _moving(scene.journal, bearing, loads, shaft.sel(bearing=bearing))
+            bearing: _moving(scene.journal.at(bearing), bearing, loads, shaft.sel(bearing=bearing))
             for bearing in scene.journal.bearings
         }
     )
@@ -179,9 +180,16 @@ def surely_touching(options: Journal, force: np.ndarray, speed: np.ndarray) -> n
         film = replace(film, lubricant=options.heat.lubricant(cold))
     load, turning = np.hypot(*to_film(force).T), np.abs(speed) > 0
     touching = np.asarray(~turning)
-    if turning.any() and options.shell is None:
-        capacity = load_capacity(options.geometry, options.contact_film, speed[turning], film)
-        touching[turning] = load[turning] > _CERTAIN * capacity
+    doubtful = np.zeros_like(turning)
+    if options.shell is None:
+        viscosity = film.liquid.viscosity
+        doubtful[turning] = [
+            options.geometry.sommerfeld_number(*point, viscosity) > _LIGHT
+            for point in zip(load[turning].tolist(), np.abs(speed[turning]).tolist())
+        ]
+    if doubtful.any():
+        capacity = load_capacity(options.geometry, options.contact_film, speed[doubtful], film)
+        touching[doubtful] = load[doubtful] > _CERTAIN * capacity
     return touching
 
 
@@ -311,7 +319,7 @@ def _placed(options: Journal, samples: xr.Dataset, eccentricity: np.ndarray) -> 
         motion=options.motion,
         radius=bearing.radius,
         boundary_friction=options.boundary_friction,
-        critical_eccentricity_ratio=options.limits.eccentricity_ratio,
+        critical_eccentricity_ratio=options.critical_eccentricity_ratio,
         radial_clearance=bearing.clearance,
         laminar=int(reynolds < critical_reynolds_number(bearing.relative_clearance)),
         largest_reynolds_number=reynolds,

@@ -294,7 +294,7 @@ STAGE = Stage(
     run=balls,
     results={"rolling.loads": _contact_links, "rolling.life": _life_links},
     needs=always("reduction"),
-    sections=always("rolling"),
+    sections=always("rolling", "friction"),
     models=(
         Rungs(
             "rolling",

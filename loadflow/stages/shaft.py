@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 
 from loadflow.scene.cases import Case
-from loadflow.scene.scene import Scene
+from loadflow.scene.scene import Journal, Scene
 from loadflow.shaft import Concept, Seated, seated_loads
 from loadflow.shaft import bearing_loads as reactions
 from loadflow.stages.labelling import labelled
@@ -58,7 +58,7 @@ def _suspended(
     rigid = reactions(replace(concept, beam=None), force, moment, tilt=tilt)
     thrust = dict(zip(concept.bearings, rigid["force"].values[:, 0]))
     bearings = {
-        name: _film(scene, speed, seat.takes_moment)
+        name: _film(scene.journal.at(name), speed, seat.takes_moment)
         if seat.stiffness == "journal"
         else _rolling(scene, name, thrust[name], seat.takes_moment)
         for name, seat in seats.items()
@@ -76,12 +76,12 @@ def _worst(parts: list[xr.Dataset]) -> dict[str, float]:
     return {name: pick.get(name, max)(values) for name, values in told.items() if values}
 
 
-def _film(scene: Scene, speed: Floats, tilting: bool) -> Seated:
+def _film(options: Journal, speed: Floats, tilting: bool) -> Seated:
     from loadflow.stages.film_support import film_model
 
     fastest = float(np.abs(speed).max())
     return Seated(
-        lambda rows: film_model(scene.journal, speed[rows], tilting=tilting, strict=False),
+        lambda rows: film_model(options, speed[rows], tilting=tilting, strict=False),
         state=np.arcsinh(speed / (_GLIDING * fastest or 1.0)),
         idle=np.abs(speed) <= STILL * fastest,
     )

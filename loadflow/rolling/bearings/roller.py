@@ -47,6 +47,8 @@ class RollerBearing(RollerRaceways, BearingOfRollers):
     """
 
     kind: ClassVar[str] = "roller"
+    allowed_tilt: ClassVar[float | None] = math.radians(3 / 60)
+    """3′ of tapered rollers, as in NREL's WISDEM (`drive_components.py`); cylindrical ones 4′."""
 
     contact_angle: Annotated[float, Ge(0), Lt(math.pi / 2)] = 0.0
     arrangement: Literal["back-to-back", "face-to-face", "tandem"] = "back-to-back"
