@@ -189,7 +189,7 @@ def solve(options: Journal, load: np.ndarray, speed: np.ndarray | float, **keys:
     return options.geometry.equilibrium(
         force=np.stack([load, np.zeros_like(load)], axis=-1),
         speed=speed,
-        **options.film | keys,
+        film=replace(options.film_model, **keys),
     )
 
 

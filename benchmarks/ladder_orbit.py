@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -94,7 +95,7 @@ def solve(
         time,
         force,
         speed,
-        **options.film | keys,
+        replace(options.film_model, **keys),
     )
 
 

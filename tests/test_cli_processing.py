@@ -200,7 +200,7 @@ def test_statistics_of_every_case_and_the_loads_beside_each_extreme(loadflow, hu
         r for r in answer["extremes"] if (r["which"], r["of"]) == ("min", "hub_moment.z")
     )
     assert extreme["hub_moment.z"] == pytest.approx(float(every.min()), rel=1e-12)
-    assert extreme["safety_factor"] == 1.25
+    assert extreme["safety_factor"] == 1.35
     beside = cube.sel(case=extreme["case"], time=extreme["time"])
     for axis in "xyz":
         expected_force = float(beside["hub_force"].sel(axis=axis))

@@ -40,14 +40,28 @@ def test_a_film_in_motion_reads_the_whole_series(tmp_path):
     np.testing.assert_allclose(power, rest["mean_friction_power"], rtol=0.05)
 
 
-def test_a_film_that_cannot_start_is_a_failure_of_its_case(tmp_path):
+def test_a_shaft_that_stands_is_in_contact_and_its_case_has_an_answer(tmp_path):
     standing = case(8.0, 1)
     standing["speed"][:] = 0.0
     file = save_cube(make_cube([standing, case(8.0, 2)]), tmp_path / "loads.h5")
     scene = scene_of(file, journal=FILM | {"motion": "transient"})
     result = lf.run(scene, out=tmp_path, report=False)
-    (reason,) = result.failures.values()
-    assert "bearing N2: orbit cannot start" in reason
+    assert result.failures == {}
+    table = result.tree["journal"].to_dataset().sel(bearing="N2")
+    assert table["in_contact"].values.tolist() == [standing.sizes["time"], 0]
+    assert table["not_converged"].values.tolist() == [0, 0]
+    assert np.isnan(table["largest_eccentricity_ratio"].values[0])
+
+
+def test_a_film_in_motion_begins_where_the_surfaces_part(tmp_path):
+    start = case(8.0, 1)
+    start["speed"][:] = np.linspace(0.0, 1.2, start.sizes["time"])
+    file = save_cube(make_cube([start]), tmp_path / "loads.h5")
+    scene = scene_of(file, journal=FILM | {"motion": "transient"})
+    table = lf.run(scene, out=tmp_path, report=False).tree["journal"].to_dataset().squeeze()
+    assert table["in_contact"] > 0
+    assert 0 < table["contact_time"] < table["mixed_friction_time"] < table["duration"]
+    assert table["smallest_film"] >= scene.journal.contact_film
 
 
 def test_a_film_in_motion_is_planned_by_its_own_rungs():

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
+import warnings
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -13,7 +14,7 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
-from loadflow.errors import InputError
+from loadflow.errors import InputError, ValidityWarning
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -35,6 +36,30 @@ CubeFile = Annotated[
 TurbineName = Annotated[str, typer.Option(help="Turbine: a name, or a file.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON, for a machine to read.")]
 
+CaseList = Annotated[
+    Path | None,
+    typer.Option("--cases", help="List of cases: CSV with file, dlc, wind_speed, seed, weight."),
+]
+NamePattern = Annotated[
+    str | None,
+    typer.Option("--pattern", help="How names tell the case: 'run_{dlc}_{wind_speed}_{seed}'."),
+]
+OwnChannels = Annotated[
+    str | None,
+    typer.Option(
+        "--channels",
+        help="Channels by component: a TOML file, or 'speed=Omega, hub_force_x=-#23'.",
+    ),
+]
+GaugeDistance = Annotated[
+    float | None,
+    typer.Option("--gauge-distance", help="From the rotor apex to the shaft strain gauge, m."),
+]
+FrameOfChannels = Annotated[
+    str | None,
+    typer.Option("--frame", help="Frame of the y and z channels: auto, fixed or rotating."),
+]
+
 Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace a file that is there.")]
 
 WIDEST = 4  # values of one quantity that fit a line of a table; more are for --json
@@ -53,6 +78,16 @@ def check_free(path: Path, overwrite: bool) -> None:
     """Refuse to write over a file unless asked to."""
     if path.exists() and not overwrite:
         raise InputError(f"{path} exists already; give another name, or --overwrite")
+
+
+@contextmanager
+def caught_warnings() -> Iterator[list[str]]:
+    """Collect what the library warns of within the block, to be printed like other output."""
+    told: list[str] = []
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", ValidityWarning)
+        yield told
+    told += [str(warning.message) for warning in caught]
 
 
 def print_json(data: Any) -> None:

@@ -9,7 +9,19 @@ from typing import Annotated, Any
 import typer
 from rich.table import Table
 
-from loadflow.cli.base import AsJson, app, out, print_json, progress
+from loadflow.cli.base import (
+    AsJson,
+    CaseList,
+    FrameOfChannels,
+    GaugeDistance,
+    NamePattern,
+    OwnChannels,
+    app,
+    err,
+    out,
+    print_json,
+    progress,
+)
 from loadflow.errors import InputError, LoadflowError
 
 SceneFile = Annotated[Path, typer.Argument(help="Scene, a TOML file.", show_default=False)]
@@ -19,12 +31,30 @@ LoadFiles = Annotated[
 ]
 
 
-def _read(path: Path, loads: list[str] | None, name: str | None = None) -> Any:
+def _read(path: Path, loads: list[str] | None, name: str | None = None, **reading: Any) -> Any:
     from loadflow.scene.scene import read_scene, with_loads
 
     scene = read_scene(path)
-    scene = with_loads(scene, loads) if loads else scene
+    if loads or any(value is not None for value in reading.values()):
+        scene = with_loads(scene, loads or scene.loads.files, **reading)
     return scene.model_copy(update={"name": name}) if name else scene
+
+
+def _reading(
+    cases: Path | None,
+    pattern: str | None,
+    channels: str | None,
+    gauge_distance: float | None,
+    frame: str | None,
+) -> dict[str, Any]:
+    """How load files are read, as keys of `[loads]`; None where the scene is not overruled."""
+    return {
+        "cases": None if cases is None else str(cases),
+        "pattern": pattern,
+        "channels": channels,
+        "gauge_distance": gauge_distance,
+        "frame": frame,
+    }
 
 
 @app.command()
@@ -36,14 +66,20 @@ def run(
     workers: Annotated[int, typer.Option(min=0, help="Processes; 0: one for each core.")] = 0,
     scheduler: Annotated[str | None, typer.Option(help="Dask scheduler, tcp://host:port.")] = None,
     overwrite: Annotated[bool, typer.Option(help="Replace parts of other settings.")] = False,
+    cases: CaseList = None,
+    pattern: NamePattern = None,
+    channels: OwnChannels = None,
+    gauge_distance: GaugeDistance = None,
+    frame: FrameOfChannels = None,
     as_json: AsJson = False,
 ) -> None:
     """Carry a scene out; a run that was killed goes on where it was."""
     from loadflow.running.runner import run as carry_out
 
+    reading = _reading(cases, pattern, channels, gauge_distance, frame)
     with progress(quiet=as_json) as show:
         result = carry_out(
-            _read(scene, loads, name),
+            _read(scene, loads, name, **reading),
             out=out_folder,
             workers=workers or len(os.sched_getaffinity(0)),
             scheduler=scheduler,
@@ -53,13 +89,17 @@ def run(
     if as_json:
         paths = {"path": str(result.path), "report": str(result.report)}
         found = {"failures": result.failures, "flagged": result.flagged}
-        print_json(paths | found | {"warnings": result.warnings})
+        judged = {"verdicts": [verdict.as_dict() for verdict in result.verdicts]}
+        print_json(paths | found | judged | {"warnings": result.warnings})
     else:
         out.print(f"results  {result.path / 'result.h5'}\nreport   {result.report}", soft_wrap=True)
         for part, count in result.flagged.items():
             out.print(f"flagged  {part}: {count} samples have no answer", soft_wrap=True)
+        for verdict in result.verdicts:
+            if not verdict.holds:
+                out.print(f"verdict  {verdict.sentence}", soft_wrap=True, markup=False)
         for warning in result.warnings:
-            out.print(f"warning  {warning}", soft_wrap=True)
+            out.print(f"warning  {warning}", soft_wrap=True, markup=False)
     if result.failures:
         lines = "\n".join(f"  {case}: {why}" for case, why in result.failures.items())
         raise LoadflowError(f"{len(result.failures)} parts have no answer:\n{lines}")
@@ -70,13 +110,20 @@ def plan(
     scene: SceneFile,
     loads: LoadFiles = None,
     out_folder: Annotated[Path, typer.Option("--out", help="Folder for runs.")] = Path("runs"),
+    cases: CaseList = None,
+    pattern: NamePattern = None,
+    channels: OwnChannels = None,
+    gauge_distance: GaugeDistance = None,
+    frame: FrameOfChannels = None,
     as_json: AsJson = False,
 ) -> None:
     """Show which stages and models a scene needs, their expected time and error."""
     from loadflow.planning.plan import make_plan
     from loadflow.running.folder import climbs, finished_parts
+    from loadflow.scene.unused import unused_keys, unused_warnings
 
-    wanted = _read(scene, loads)
+    reading = _reading(cases, pattern, channels, gauge_distance, frame)
+    wanted = _read(scene, loads, **reading)
     folder = out_folder / wanted.name
     made = make_plan(wanted, climbs(folder, wanted))
     there = finished_parts(folder, made)
@@ -93,8 +140,9 @@ def plan(
         for step in made.steps
     ]
     if as_json:
-        cases = [case.name for case in made.cases]
-        found = {"steps": steps, "cases": cases, "left_out": made.left_out}
+        names = [case.name for case in made.cases]
+        found = {"steps": steps, "cases": names, "left_out": made.left_out}
+        found |= {"unused": unused_keys(wanted)}
         print_json(found | {"errors": made.errors, "accurate": made.accurate})
         return
     heads = ("stage", "model", "chosen", "runs", "on disk", "expected time, one core", "error")
@@ -125,6 +173,8 @@ def plan(
         out.print(f"the accuracy that the scene asks for is {why}", soft_wrap=True)
     for stage, why in made.left_out.items():
         out.print(f"left out: {stage} ({why})")
+    for warning in unused_warnings(wanted):
+        out.print(f"warning: {warning}", soft_wrap=True, markup=False)
 
 
 @app.command("scene")
@@ -133,8 +183,12 @@ def show_scene(
     show: Annotated[bool, typer.Option("--show", help="Print it with all defaults.")] = False,
 ) -> None:
     """Check a scene; with --show print it as resolved."""
+    from loadflow.scene.unused import unused_warnings
+
     resolved = _read(scene, None)
     print(resolved.to_toml() if show else f"{scene}: valid")
+    for warning in unused_warnings(resolved):
+        err.print(f"warning: {warning}", soft_wrap=True, markup=False)
 
 
 @app.command()

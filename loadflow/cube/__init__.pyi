@@ -16,3 +16,5 @@ from .schema import CASE_COORDS as CASE_COORDS
 from .schema import VARIABLES as VARIABLES
 from .schema import Variable as Variable
 from .schema import case_name as case_name
+from .states import standing as standing
+from .states import standing_share as standing_share

@@ -165,7 +165,10 @@ def _check_variable(array: xr.DataArray, name: str, where: str) -> None:
     if array.size == 0:
         raise InputError(f"{where}: the variable is empty, shape {array.shape}")
     if array.dtype.kind == "f":
-        values = array.values
+        try:
+            values = array.values
+        except Exception as error:  # values are read now; h5py raises of nearly every kind
+            raise InputError(f"{where}: cannot be read, the file is damaged ({error})") from None
         bad = ~np.isfinite(values)
         if bad.any():
             index = tuple(int(i) for i in np.argwhere(bad)[0])

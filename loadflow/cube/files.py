@@ -9,6 +9,7 @@ from typing import Any, Literal
 import xarray as xr
 
 from loadflow.cube.build import Cube, make_cube
+from loadflow.cube.hdf5 import check_hdf5
 from loadflow.errors import InputError
 
 ENGINE: Literal["h5netcdf"] = "h5netcdf"
@@ -107,15 +108,14 @@ def _need_dask() -> None:
 
 
 def _open(path: Path, chunks: Any) -> Cube:
+    check_hdf5(path)
     try:
         tree = xr.open_datatree(path, engine=ENGINE, chunks=chunks)
-    except OSError as error:
-        raise InputError(
-            f"{path}: cannot be read as HDF5; empty, truncated or of another kind ({error})"
-        ) from error
-    if tree.children:
-        return tree.map_over_datasets(_labels_loaded)
-    return _labels_loaded(tree.to_dataset())
+        if tree.children:
+            return tree.map_over_datasets(_labels_loaded)
+        return _labels_loaded(tree.to_dataset())
+    except Exception as error:  # h5py and h5netcdf raise of nearly every kind on damaged files
+        raise InputError(f"{path}: cannot be read as HDF5; a part is damaged ({error})") from error
 
 
 def _order(case: xr.Dataset) -> tuple[str, float, int]:

@@ -10,51 +10,21 @@ from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError
 from loadflow.journal.film.discretise import operating_points
-from loadflow.journal.film.film import EVERY
 from loadflow.journal.film_model import Film, Keywords, film_and_control
 from loadflow.journal.geometry import JournalGeometry
+from loadflow.journal.line import Line
 from loadflow.journal.lubricant import Lubricant
-from loadflow.journal.models.model import check_rung, model
-from loadflow.journal.results import (
-    Equilibrium,
-    FilmField,
-    WarmEquilibrium,
-    columns_of,
-    shaped,
-    stack,
-)
-from loadflow.journal.solvers.periodic import (
-    Method,
-    check_period,
-    close_orbit,
-    refuse_half_speed_whirl,
-)
-from loadflow.journal.solvers.statics import plain_fields, plain_film, plain_rows, plain_start
-from loadflow.journal.solvers.statics_shaped import (
-    Line,
-    equilibrium_rows,
-    field_rows,
-    orbit_start,
-    plain,
-)
-from loadflow.journal.solvers.transient import (
-    Marcher,
-    march,
-    mass_balance,
-    orbit_dataset,
-    orbit_row,
-)
+from loadflow.journal.models.model import Steps, model_of
+from loadflow.journal.results import Equilibrium, FilmField, WarmEquilibrium, shaped
 from loadflow.journal.thermal import shares, warm_film
 from loadflow.journal.validity import warn_if_turbulent
-from loadflow.numerics.convergence import Control, Limits
+from loadflow.numerics.convergence import Control
 from loadflow.numerics.fields import require
 
 if TYPE_CHECKING:
     import xarray as xr
 
 Array = NDArray[np.float64]
-
-_METHODS = (False, True, "direct", "marching")
 
 
 @dataclass(frozen=True)
@@ -147,20 +117,19 @@ class JournalBearing(JournalGeometry):
         """
         film, control = film_and_control(film, more, control, keywords)
         limits = control.limits(tolerance=1e-10, max_iterations=60)
-        check_rung(film.rung)
-        _refuse_contact(film)
         loads, speeds, shape = operating_points(force, speed, "force")
-        line = Line.of(shape, moment=moment, tilt=tilt, bend=bend)
+        line = Line.of(shape, whirl, moment=moment, tilt=tilt, bend=bend)
+        model = model_of("at_rest", film, self, line)
         if film.heat is None:
             require(weights is None, "weights", weights, "None without heat")
             warn_if_turbulent(self, speeds, film.liquid)
-            answer = self._at_rest(film, loads, speeds, line, limits, whirl)
+            answer = model.equilibrium(self, film, loads, speeds, line, limits)
             return Equilibrium(**shaped(answer, shape))
 
         cold, each = film.isothermal(), replace(limits, strict=False)
 
         def at_rest(force: Array, speed: Array, places: NDArray[np.int64]) -> dict[str, Any]:
-            return self._at_rest(cold, force, speed, line.at(places), each, whirl)
+            return model.equilibrium(self, cold, force, speed, line.at(places), each)
 
         share = shares(weights, shape)
         answer = warm_film(at_rest, loads, speeds, film, share, strict=limits.strict)
@@ -210,9 +179,6 @@ class JournalBearing(JournalGeometry):
         """
         film, control = film_and_control(film, more, control, keywords)
         limits = control.limits(tolerance=1e-10, max_iterations=100)
-        require(film.rung == "grid", "rung", film.rung, '"grid" for a field of pressure')
-        _refuse_contact(film)
-        _refuse_heat(film)
         both = np.broadcast_arrays(
             np.asarray(eccentricity, dtype=float), np.asarray(velocity, dtype=float)
         )
@@ -220,11 +186,9 @@ class JournalBearing(JournalGeometry):
         velocities, _, _ = operating_points(both[1], speed, "velocity")
         places, velocities = places / self.clearance, velocities / self.clearance
         line = Line.of(shape, tilt=tilt, bend=bend)
-        if not self._plain(line, film):
-            found, z = field_rows(self, film, places, velocities, speeds, line, limits)
-            return FilmField(z=z if z[0] < 0 else np.append(-z[::-1], z), **stack(found, shape))
-        found, z = plain_fields(self, film, places, velocities, speeds, limits)
-        return FilmField(z=np.concatenate([-z[::-1], z]), **stack(found, shape))
+        model = model_of("at_position", film, self, line)
+        found, z = model.pressure(self, film, places, velocities, speeds, line, limits)
+        return FilmField(z=z, **shaped(found, shape))
 
     def orbit(
         self,
@@ -306,10 +270,6 @@ class JournalBearing(JournalGeometry):
         """
         film, control = film_and_control(film, more, control, keywords)
         limits = control.limits(tolerance=1e-8, max_iterations=30)
-        rung = film.rung
-        check_rung(rung)
-        _refuse_contact(film)
-        _refuse_heat(film)
         loads, speeds, shape = operating_points(force, speed, "force")
         warn_if_turbulent(self, speeds, film.liquid)
         times = np.asarray(time, dtype=float)
@@ -319,74 +279,7 @@ class JournalBearing(JournalGeometry):
         if bad.size:
             raise InputError(f"time[{bad[0] + 1}] = {times[bad[0] + 1]} does not increase")
         place = None if start is None else np.asarray(start, dtype=float) / self.clearance
+        steps = Steps(place, step, step_tolerance, periodic, closure, max_periods)
         line = Line.of(shape, moment=moment)
-        aligned = self._plain(line, film)
-        if place is not None and aligned:
-            require(bool(np.hypot(*place) < 1), "start", start, f"|start| < c = {self.clearance} m")
-        require(step in ("given", "adaptive"), "step", step, '"given" or "adaptive"')
-        require(step_tolerance > 0, "step_tolerance", step_tolerance, "> 0")
-        require(periodic in _METHODS, "periodic", periodic, 'False, True, "direct" or "marching"')
-        if rung != "grid":
-            require(step == "given", "step", step, f'"given" for rung = "{rung}"')
-            require(not periodic, "periodic", periodic, f'False for rung = "{rung}"')
-            return model(rung).orbit(self, film, times, loads, speeds, place, limits)
-        if periodic:
-            check_period(times, loads, speeds)
-        first_limits = replace(limits, max_iterations=2 * limits.max_iterations)
-        free: slice | NDArray[np.int64] = EVERY
-        if aligned:
-            discrete = plain_film(self, film.for_history(), speeds)
-            if periodic and not discrete.pockets.lifts(discrete.p_edge):
-                refuse_half_speed_whirl(times, loads, speeds)
-            first = plain_start(self, discrete, loads, speeds, place, first_limits)
-            forces = loads
-        else:
-            discrete, first, forces, free = orbit_start(
-                self, film, loads, speeds, line, place, first_limits
-            )
-        accuracy = step_tolerance if step == "adaptive" else np.inf
-        marcher = Marcher(discrete, limits.tolerance, limits.max_iterations, accuracy, free)
-        if periodic:
-            way: Method = "marching" if periodic == "marching" else "direct"
-            rows, ends, about = close_orbit(
-                marcher, first, times, forces, speeds, way, closure, max_periods
-            )
-        else:
-            past = marcher.begin(float(times[0]), first)
-            rows, end = march(marcher, past, times, forces, speeds)
-            rows, ends, about = [orbit_row(discrete, first, 0), *rows], (past[-1], end[-1]), {}
-        values = {name: np.array([row[name] for row in rows]) for name in rows[0]}
-        if step == "given":
-            del values["steps"]
-        about["mass_balance"] = mass_balance(*ends, rows, times)
-        orbit = orbit_dataset(values, times, loads, speeds, self.clearance)
-        return orbit.assign_attrs(about)
-
-    # --- inside ----------------------------------------------------------------------------------
-    def _at_rest(
-        self, film: Film, loads: Array, speeds: Array, line: Line, limits: Limits, whirl: float
-    ) -> dict[str, Any]:
-        """Fields of `Equilibrium`, (n, …), of an isothermal film."""
-        if not self._plain(line, film):
-            rows = equilibrium_rows(self, film, loads, speeds, line, limits, whirl)
-            return columns_of(rows)
-        if film.rung != "grid":
-            return model(film.rung).equilibrium(self, film, loads, speeds, limits)
-        return columns_of(plain_rows(self, film, loads, speeds, limits))
-
-    def _plain(self, line: Line, film: Film) -> bool:
-        """Whether a rigid cylinder surrounds an aligned shaft; if not, only the grid serves."""
-        if plain(self, line) and film.shell is None:
-            return True
-        allowed = '"grid" for a shaped bore, an elastic shell or a shaft that tilts or bends'
-        require(film.rung == "grid", "rung", film.rung, allowed)
-        return False
-
-
-def _refuse_contact(film: Film) -> None:
-    require(film.contact is None, "contact", film.contact, "None, no model of a film has it")
-
-
-def _refuse_heat(film: Film) -> None:
-    allowed = "None but in `equilibrium`: give the lubricant at its temperature"
-    require(film.heat is None, "heat", film.heat, allowed)
+        model = model_of("in_motion", film, self, line, steps)
+        return model.orbit(self, film, times, loads, speeds, line, limits, steps)

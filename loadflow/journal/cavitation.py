@@ -114,7 +114,7 @@ def _compiled(cells: Cells) -> int:
     signature = types.void(double, types.float64, types.intp, double, double)
     function = cfunc(signature, cache=True, error_model="numpy")(cells)
     _KEPT.append(function)
-    return int(function.address)
+    return int(function.address)  # type: ignore[arg-type]
 
 
 _KEPT: list[Any] = []  # compiled functions live as long as their addresses

@@ -15,7 +15,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class EnergyBalance:
-    """Energy balance of a bearing, as Table 5-23 of the source [Jonuschies 2015] draws it up.
+    """Energy balance of a bearing, as Table 5-23 of [Jonuschies 2015] draws it up.
 
     Attributes
     ----------

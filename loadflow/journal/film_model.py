@@ -15,6 +15,7 @@ from loadflow.errors import InputError
 from loadflow.journal.cavitation import CavitationLaw, Reynolds
 from loadflow.journal.heat import Heat
 from loadflow.journal.lubricant import Lubricant
+from loadflow.journal.rungs import check_rung
 from loadflow.journal.shells import Shell
 from loadflow.journal.supply import Supply
 from loadflow.numerics.convergence import Control as Control
@@ -102,7 +103,7 @@ class Film:
     >>> film = Film(Lubricant(0.05), GasMixture(0.05e6), edge_pressure=0.5e6, grid=(60, 20))
     >>> bearing = JournalBearing(diameter=3.0, width=2.25, relative_clearance=0.5e-3)
     >>> round(float(bearing.equilibrium((2e6, 0.4e6), 1.2, film).eccentricity_ratio), 2)
-    0.6
+    0.61
     """
 
     lubricant: Lubricant | None = None
@@ -122,6 +123,7 @@ class Film:
             raise InputError("lubricant: not given; a film needs a Lubricant, or heat and its oil")
         if self.lubricant is not None and self.heat is not None:
             raise InputError("lubricant: not given with heat, as it follows from heat.oil")
+        check_rung(self.rung)
         require(self.inlet in ("auto", "widest gap", None), "inlet", self.inlet, _INLETS)
         require(self.grading in _GRADINGS, "grading", self.grading, " or ".join(_GRADINGS))
         if self.grid is not None:

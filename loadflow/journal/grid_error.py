@@ -32,7 +32,6 @@ def grid_error(
     force: ArrayLike,
     speed: ArrayLike,
     film: Film | Lubricant | None = None,
-    grid: tuple[int, int] | None = None,
     **keywords: Unpack[Keywords],
 ) -> GridError:
     """Estimate what the cells of `grid` do to a static equilibrium.
@@ -48,8 +47,6 @@ def grid_error(
         The bearing.
     force, speed, film, **keywords
         As in `JournalBearing.equilibrium`.
-    grid : tuple of int, optional
-        In place of that of the film.
 
     Returns
     -------
@@ -69,7 +66,7 @@ def grid_error(
     True
     """
     film, control = film_and_control(film, (), None, keywords)
-    around, across = grid or film.cells
+    around, across = film.cells
     half = (around // 2, max(2 * (across // 4), 2))
     fine, coarse = (
         bearing.equilibrium(force, speed, replace(film, grid=cells), control=control)

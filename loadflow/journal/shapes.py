@@ -197,7 +197,7 @@ class Crown:
     Attributes
     ----------
     height : float
-        Growth of the gap at the rims, m.
+        Growth of the gap at the bearing ends, m.
     length : float, optional
         Axial length of either crown, m; default half of the width.
     exponent : float
@@ -266,7 +266,7 @@ class Recess:
         return self.angle - 0.5 * self.arc, self.angle + 0.5 * self.arc
 
     def across(self, width: float) -> tuple[float, float]:
-        """Axial places of both ends, m; beyond the rims where it is as long as the bearing."""
+        """Axial places of both ends, m; beyond the ends where it is as long as the bearing."""
         half = width if self.length is None else 0.5 * self.length
         return self.z - half, self.z + half
 

@@ -1,7 +1,7 @@
 """Heat balance of the film: how warm the oil gets, and how thin.
 
 One effective temperature stands for the whole film, as in ISO 7902-1: the friction power leaves
-with the oil at the rims, which enters at T_in and leaves at T_out, and through the housing,
+with the oil at the bearing ends, which enters at T_in and leaves at T_out, and through the housing,
 
     P = ρ c_p Q (T_out − T_in) + K (T − T_ambient),    T = (T_in + T_out)/2.
 

@@ -24,7 +24,7 @@ def reynolds_number(bearing: JournalGeometry, speed: ArrayLike, lubricant: Lubri
 
 
 def critical_reynolds_number(relative_clearance: float) -> float:
-    """Re_cr = 41.3 √(D/s), (3.14) of the source [Jonuschies 2015]; D/s = 1/ψ.
+    """Re_cr = 41.3 √(D/s), (3.14) of [Jonuschies 2015]; D/s = 1/ψ.
 
     Examples
     --------

@@ -114,7 +114,7 @@ def _reduction(scene: Scene, case: Case, parts: Parts) -> Iterator[Difference]:
             "the full series",
             _relative(load[index].max(), load.max()),
         )
-        if "journal" in parts and not scene.journal.in_motion and bearing in scene.journal.bearings:
+        if "journal" in parts and not scene.journal.in_motion and bearing in _answered(parts):
             film = parts["journal"][bearing].to_dataset()
             yield Difference(
                 "reduction",
@@ -142,9 +142,14 @@ def _severest(
     )
 
 
+def _answered(parts: Parts) -> list[str]:
+    """Journal bearings that have a film in some sample; in the others the surfaces touch in all."""
+    return [name for name, node in parts["journal"].children.items() if node["converged"].any()]
+
+
 def _better_films(scene: Scene, parts: Parts) -> Iterator[tuple[str, str, dict[str, Journal]]]:
     """Stage, name and, by bearing, journal bearing of each model that the film is compared with."""
-    films = {b: parts["journal"][b].to_dataset() for b in scene.journal.bearings}
+    films = {b: parts["journal"][b].to_dataset() for b in _answered(parts)}
     if scene.journal.heat is None:
         warmer = {bearing: _warmer(scene.journal, film) for bearing, film in films.items()}
         yield "heat", "oil warmed by its friction", warmer
@@ -193,12 +198,12 @@ def _orbits(
     """A stretch of the orbit around its largest eccentricity, from the place where it begins."""
     for bearing, better in options.items():
         film = parts["journal"][bearing].to_dataset().load()
-        worst = int(np.argmax(film["eccentricity_ratio"].values))
+        worst = int(np.nanargmax(film["eccentricity_ratio"].values))
         begin = max(0, min(worst - 3 * STEPS // 4, film.sizes["sample"] - STEPS))
-        stretch = slice(begin, begin + STEPS)
+        begin += int(np.argmax(np.isfinite(film["eccentricity"].values[begin:, 0])))  # the film
+        stretch, place = slice(begin, begin + STEPS), film["eccentricity"].values[begin]
         ours = film.isel(sample=stretch)
         loads, shaft = (parts[name].isel(time=stretch).load() for name in ("loads", "shaft"))
-        place = film["eccentricity"].values[begin]
         try:
             path = follow(better, loads, shaft.sel(bearing=bearing), place)
             theirs = _of_orbit(path)
@@ -213,7 +218,7 @@ def _motion(scene: Scene, case: Case, parts: Parts) -> Iterator[Difference]:
     journal = quick(scene.journal)
     if journal is None:
         return
-    for bearing in scene.journal.bearings:
+    for bearing in _answered(parts):
         film = parts["journal"][bearing].to_dataset().load()
         loads, shaft = parts["loads"].load(), parts["shaft"].sel(bearing=bearing).load()
         try:

@@ -57,7 +57,7 @@ STAGES = {
             "reduction", ("loads", "shaft"), "case", ("reduction",), f"{_S}.reduction:reduced_loads"
         ),
         Stage("journal", ("reduction",), "case", ("journal",), f"{_S}.journal:film"),
-        Stage("rolling", ("reduction",), "case", ("rolling",), f"{_S}.rolling:balls"),
+        Stage("rolling", ("reduction",), "case", ("rolling", "friction"), f"{_S}.rolling:balls"),
         Stage(
             "friction", ("loads", "shaft"), "case", ("rolling", "friction"), f"{_S}.friction:losses"
         ),

@@ -15,14 +15,13 @@ from loadflow.errors import InputError
 from loadflow.planning.verification import WARN
 from loadflow.report import Picture, Section, Table, figures, write_page
 from loadflow.report.style import readable
-from loadflow.rolling.rating.static import HOURS_20_YEARS, STATIC_RATING
 from loadflow.scene.scene import Scene, read_scene
-from loadflow.stages.loads import trips, when_tripped
+from loadflow.scene.unused import unused_keys
+from loadflow.stages.loads import doubts, trips, when_tripped
 from loadflow.stages.statistics import SLOPE
 from loadflow.studies.extreme_loads import safety_factor
+from loadflow.verdict import Verdict, from_dataset
 
-CRITICAL_RATIO = 0.95  # eccentricity ratio E_krit at which mixed friction begins (5.2)
-MIXED_FRICTION = 10.0  # Sommerfeld number above which friction is mixed (1.13)
 LOAD_ROWS = (
     ("speed", "speed"),
     ("hub_force", "hub force"),
@@ -71,11 +70,11 @@ def _facts(scene: Scene, manifest: dict[str, Any]) -> dict[str, str]:
 def _sections(
     folder: Path, scene: Scene, manifest: dict[str, Any], tables: dict[str, xr.Dataset]
 ) -> Iterator[Section]:
-    yield _overview(tables, manifest)
+    yield _overview(scene, tables, manifest)
     shown = _shown_cases(tables, manifest)
     yield Section(
         "Loads",
-        tables=[*_trip_table(tables), *_load_tables(tables)],
+        tables=[*_trip_table(tables), *_doubt_table(tables), *_load_tables(tables)],
         pictures=[*_load_pictures(folder, shown)],
     )
     if "shaft" in tables:
@@ -122,49 +121,62 @@ def _sections(
     yield _provenance(manifest)
 
 
-def _overview(tables: dict[str, xr.Dataset], manifest: dict[str, Any]) -> Section:
+def _overview(scene: Scene, tables: dict[str, xr.Dataset], manifest: dict[str, Any]) -> Section:
     failures = manifest.get("failures", {})
     drawing = figures.over_wind_speed(tables.get("journal"), tables.get("rolling"))
     pictures = [Picture(drawing, "Every load case over wind speed.")] if drawing else []
-    rows = [*_verdicts(tables)]
-    bad = frozenset(k for k, row in enumerate(rows) if row[-1] == "no")
-    notes = [Table("Verdicts", ["bearing", "worst value", "limit", "holds"], rows, bad)]
+    notes = [*_verdict_table(tables), *_lifetime_table(tables)]
     if failures:
         without = [[part, why] for part, why in failures.items()]
         notes.append(Table("Without an answer", ["part", "why"], without))
-    return Section("Overview", tables=notes if rows or failures else [], pictures=pictures)
+    if unused := unused_keys(scene):
+        rows = [[key, why] for key, why in unused.items()]
+        notes.append(Table("Keys without effect", ["key", "why"], rows))
+    return Section("Overview", tables=notes, pictures=pictures)
 
 
-def _verdicts(tables: dict[str, xr.Dataset]) -> Iterator[list[str]]:
-    """Yield what the bearings must hold (1.10–1.13, 5.2 of the source) and whether they do."""
+def _verdict_table(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
+    """All verdicts of the run, the broken ones marked; nothing if there are none."""
+    if "verdicts" not in tables:
+        return
+    found = [*from_dataset(tables["verdicts"])]
+    rows = [_verdict_row(verdict) for verdict in found]
+    bad = frozenset(k for k, verdict in enumerate(found) if not verdict.holds)
+    heads = ["bearing", "what", "value", "limit", "margin", "verdict", "governed by", "limit from"]
+    yield Table("Verdicts", [*heads, "remarks"], rows, bad)
 
-    def row(what: str, value: float, limit: float, most: bool, unit: str = "") -> list[str]:
-        holds = value <= limit if most else value >= limit
-        sign = "≤" if most else "≥"
-        word = "yes" if holds else "no"
-        return [what, f"{value:.4g} {unit}", f"{sign} {limit:g} {unit}", word]
 
-    if "journal" in tables:
-        data = tables["journal"]
-        for bearing in data["bearing"].values:
-            part = data.sel(bearing=bearing)
-            ratio = float(part["largest_eccentricity_ratio"].max())
-            number = float(part["largest_sommerfeld_number"].max())
-            yield row(f"journal {bearing}: eccentricity ratio", ratio, CRITICAL_RATIO, True)
-            yield row(f"journal {bearing}: Sommerfeld number", number, MIXED_FRICTION, True)
-    if "rolling" in tables:
-        data = tables["rolling"]
-        for name, part in data.groupby("bearing"):
-            what = f"rolling {name}: static safety over the design load"
-            for limit in STATIC_RATING:
-                yield row(what, float(part["bearing_static_safety"].min()), limit, False)
-            for dlc, hours in zip(part["load_case"].values, part["bearing_life_hours"].values.flat):
-                what = f"rolling {name}: rating life under DLC {dlc}"
-                yield row(what, float(hours), HOURS_20_YEARS, False, "h")
-        if data.sizes["bearing"] > 1:
-            for dlc, hours in zip(data["load_case"].values, data["system_life_hours"].values):
-                what = f"rolling, all as a system: rating life under DLC {dlc}"
-                yield row(what, float(hours), HOURS_20_YEARS, False, "h")
+def _verdict_row(verdict: Verdict) -> list[str]:
+    limit, at = "", verdict.case
+    if np.isfinite(verdict.limit):
+        limit = f"{'≤' if verdict.sense == 'at most' else '≥'} {verdict.limit:.4g} {verdict.unit}"
+    if np.isfinite(verdict.time):
+        at += f", {verdict.time:.1f} s"
+    value, margin = (
+        "-" if np.isnan(number) else f"{number:.4g} {verdict.unit}"
+        for number in (verdict.value, verdict.margin)
+    )
+    said = (limit, margin, verdict.answer, at, verdict.source, verdict.note)
+    return [verdict.subject, verdict.quantity, value, *said]
+
+
+def _lifetime_table(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
+    """Life and energy a year of each bearing over all load cases."""
+    if "lifetime" not in tables:
+        return
+    data, rows = tables["lifetime"], []
+    for kind in ("journal", "rolling"):
+        for name in data[kind].values.tolist() if kind in data.dims else ():
+            own = {n: data[n].sel({kind: name}) for n in data.data_vars if kind in data[n].dims}
+            life, modified = (
+                f"{float(own[n]):.4g}" if n in own else "-"
+                for n in ("life_hours", "modified_life_hours")
+            )
+            energy = own.get(f"{kind}_energy")
+            spent = "-" if energy is None else f"{float(energy) / 3.6e6:.4g}"
+            rows.append([f"{kind} {name}", life, modified, spent])
+    heads = ["over all load cases", "life L10h, h", "modified life L10mh, h", "energy, kW h a year"]
+    yield Table("Lifetime", heads, rows)
 
 
 def _shown_cases(tables: dict[str, xr.Dataset], manifest: dict[str, Any]) -> list[str]:
@@ -198,6 +210,14 @@ def _trip_table(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
     """Cases that are no longer what their load case says; nothing if there are none."""
     if rows := [[name, when_tripped(time)] for name, time in trips(tables).items()]:
         yield Table("Tripped on overspeed, and stopped from then on", ["load case", "when"], rows)
+
+
+def _doubt_table(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
+    """What does not fit turbine, frame, unit or step; nothing if all does."""
+    rows = [[name, doubt] for name, said in doubts(tables).items() for doubt in said]
+    if rows:
+        marked = frozenset(range(len(rows)))
+        yield Table("Doubtful series", ["load case", "what does not fit"], rows, marked)
 
 
 def _load_tables(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
@@ -367,6 +387,7 @@ def _rolling_tables(data: xr.Dataset) -> list[Table]:
 def _case_table(data: xr.Dataset) -> Table:
     """One row for each case (and bearing), one column for each number."""
     names = [str(n) for n in data.data_vars if set(data[n].dims) <= {"case", "bearing"}]
+    names = [n for n in names if not (n.endswith("_time") and n.removesuffix("_time") in names)]
     shown = {n: readable(data[n], "µm" if "film" in n else None) for n in names}
     heads = ["case"] + [f"{data[n].attrs['long_name']}, {unit}" for n, (_, unit) in shown.items()]
     bearings = data["bearing"].values if "bearing" in data.dims else [""]

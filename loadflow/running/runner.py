@@ -8,7 +8,7 @@ from memory, so a run that was killed and started again gives the same numbers.
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import partial
 from importlib import import_module
@@ -27,7 +27,9 @@ from loadflow.running.folder import climbs, part_file, prepare, record
 from loadflow.running.report_page import write_report
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
+from loadflow.scene.unused import unused_keys
 from loadflow.stages import loads, shaft
+from loadflow.verdict import Verdict, from_dataset, to_dataset
 
 Report = Callable[[str, int, int], None]
 """Told of progress: what is being done, units done, units in all."""
@@ -45,11 +47,14 @@ class Run:
         What was wanted: one group for each stage.
     failures : dict
         Load cases that a solver could not answer, and why.
+    unused : dict
+        Keys of the scene that are set but change nothing, and why.
     """
 
     path: Path
     tree: xr.DataTree
     failures: dict[str, str] = field(default_factory=dict)
+    unused: dict[str, str] = field(default_factory=dict)
 
     @property
     def flagged(self) -> dict[str, int]:
@@ -64,9 +69,18 @@ class Run:
         return found
 
     @property
+    def verdicts(self) -> tuple[Verdict, ...]:
+        """What the bearings must hold, and whether they do."""
+        if "verdicts" not in self.tree.children:
+            return ()
+        return tuple(from_dataset(self.tree["verdicts"].to_dataset()))
+
+    @property
     def warnings(self) -> list[str]:
         """What the run found doubtful about its own models."""
-        return [said for stage in (loads, shaft, check) for said in stage.warnings(self.tree)]
+        ignored = [f"{key}: has no effect, {why}" for key, why in self.unused.items()]
+        found = [said for stage in (loads, shaft, check) for said in stage.warnings(self.tree)]
+        return [*ignored, *found]
 
     @property
     def report(self) -> Path:
@@ -139,7 +153,7 @@ def run(
         say("report", 0, 1)
         write_report(folder)
         say("report", 1, 1)
-    return Run(folder, tree, failures)
+    return Run(folder, tree, failures, unused_keys(scene))
 
 
 def _carry_out(
@@ -244,6 +258,7 @@ def _collect(plan: Plan, folder: Path) -> xr.DataTree:
             found = module.summary(parts) if parts else None
             if found is not None:
                 groups[step.stage.name] = found
+    groups |= _judged(plan.scene, groups)
     return xr.DataTree.from_dict(
         {
             f"{name}/{path}".rstrip("/"): node
@@ -251,6 +266,17 @@ def _collect(plan: Plan, folder: Path) -> xr.DataTree:
             for path, node in _nodes(data)
         }
     )
+
+
+def _judged(scene: Scene, groups: Mapping[str, Any]) -> dict[str, xr.Dataset]:
+    """Lifetime and verdicts of what was found; nothing where no bearing was solved."""
+    from loadflow.studies.run_lifetime import run_lifetime
+    from loadflow.studies.verdicts import verdicts
+
+    lifetime = run_lifetime(scene, groups)
+    found = verdicts(scene, groups, lifetime)
+    judged = {"verdicts": to_dataset(found)} if found else {}
+    return judged | ({} if lifetime is None else {"lifetime": lifetime})
 
 
 def _nodes(data: xr.Dataset | xr.DataTree) -> Iterator[tuple[str, xr.Dataset]]:

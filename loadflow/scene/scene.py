@@ -11,23 +11,31 @@ import tomllib
 from collections.abc import Iterator
 from dataclasses import fields
 from pathlib import Path
-from typing import Annotated, Any, Literal, Self, get_args
+from typing import Annotated, Any, Literal, Self, cast, get_args
 
+import numpy as np
 from pydantic import BaseModel, Field, ValidationError, field_validator, model_validator
 
 from loadflow.errors import InputError
 from loadflow.journal import (
+    Film,
     GasMixture,
     Heat,
     JournalBearing,
     LinedShell,
     LocalShell,
     Lubricant,
+    MatrixShell,
     Supply,
     ThickShell,
 )
-from loadflow.rolling import SphericalRollerBearing
-from loadflow.scene.bearings import KINDS, Rolling
+from loadflow.journal.line import Line
+from loadflow.journal.models.model import Verb, why_not
+from loadflow.rolling import KINDS
+from loadflow.rolling.friction import Churning
+from loadflow.scene.bearings import Rolling
+from loadflow.scene.films import Law, RungName
+from loadflow.scene.limits import JournalLimits
 from loadflow.scene.loads import Loads, check_simulation
 from loadflow.scene.section import Section
 from loadflow.shaft.beam import BearingSeat
@@ -145,33 +153,61 @@ class Journal(Section, BaseModel):
     has none, it tilts freely under the moment that the shaft stage gives. The film is then solved
     over its full width.
 
-    A ``shell`` makes the bore elastic; its key ``kind`` says how: local, lined or thick.
+    ``cavitation`` is the law of the ruptured film; its key ``kind`` says which:
+    gas-mixture, sommerfeld, guembel, reynolds or mass-conserving. ``inlet`` replaces the oil on a
+    line at the widest gap, or does not; "auto" leaves it to the law.
+
+    A ``shell`` makes the bore elastic; its key ``kind`` says how: local, lined, thick, or matrix
+    with a ``matrix`` of influence numbers, or the name of a file that holds it.
+
+    ``shaft_roughness`` and ``shell_roughness`` are R_z, m, about 6.3 R_a of the 0.2 and 0.4 µm that
+    Autodesk Inventor's plain bearing calculator recommends. Where a smooth film would be thinner
+    than both together the surfaces touch: such samples have no film and are counted as
+    ``in_contact``. There the shaft rubs with ``boundary_friction``: bronze [Jonuschies 2015, Table
+    3-1]. ``limits`` are what the verdicts hold the bearing against.
     """
 
     bearings: Annotated[list[str], Field(min_length=1)] = ["N", "N2"]
     geometry: JournalBearing = JournalBearing(diameter=3.0, width=2.25, relative_clearance=0.5e-3)
     lubricant: Lubricant = Lubricant(viscosity=0.050)
-    cavitation: GasMixture = GasMixture(0.05e6)
+    cavitation: Law = GasMixture(0.05e6)
     edge_pressure: Annotated[float, Field(ge=0)] = 0.5e6
     supply: Supply | None = None
+    inlet: Literal["auto", "widest gap", "none"] = "auto"
     grid: tuple[Annotated[int, Field(ge=12, le=720)], Annotated[int, Field(ge=4, le=240)]] = (
         60,
         20,
     )
     grading: Literal["auto", "uniform", "graded"] = "auto"
-    rung: Literal["map", "reduced", "grid"] = "grid"
+    rung: RungName = "grid"
     heat: Heat | None = None
     motion: Literal["quasi-static", "transient"] = "quasi-static"
     tilt: bool = False
-    shell: LocalShell | LinedShell | ThickShell | None = None
+    shell: LocalShell | LinedShell | ThickShell | MatrixShell | None = None
+    shaft_roughness: Positive = 1.3e-6
+    shell_roughness: Positive = 2.5e-6
+    boundary_friction: Annotated[float, Field(gt=0, le=1)] = 0.15
+    limits: JournalLimits = JournalLimits()
 
     @model_validator(mode="after")
-    def _elastic_on_the_grid(self) -> Self:
-        if self.shell is not None and self.rung != "grid":
+    def _smoother_than_the_gap(self) -> Self:
+        if self.contact_film >= self.geometry.clearance:
             raise ValueError(
-                f'rung "{self.rung}" has a rigid shell: set "grid", or leave out shell'
+                f"shaft_roughness and shell_roughness: together {self.contact_film:g} m, must be "
+                f"< the radial clearance {self.geometry.clearance:g} m"
             )
         return self
+
+    @property
+    def contact_film(self) -> float:
+        """Film, m, below which the surfaces touch: the sum of their R_z."""
+        return self.shaft_roughness + self.shell_roughness
+
+    @property
+    def least_film(self) -> float:
+        """Smallest film allowed, m: as stated, or R_z + W_t of both surfaces and a margin (3.1)."""
+        stated = self.limits.minimum_film
+        return stated or self.contact_film + self.limits.waviness + self.limits.margin
 
     @property
     def in_motion(self) -> bool:
@@ -179,11 +215,18 @@ class Journal(Section, BaseModel):
         return self.motion == "transient"
 
     @property
+    def film_model(self) -> Film:
+        """The film that these keys describe."""
+        heat = self.heat
+        return Film(heat=heat, **self.film | ({} if heat is None else {"lubricant": None}))
+
+    @property
     def film(self) -> dict[str, Any]:
-        """Keywords of `JournalBearing.equilibrium` and `orbit` that say what the film is."""
+        """The film at the temperature of its lubricant, as keywords of the verbs."""
         mesh = ("grid", "grading", "rung")
         names = ("lubricant", "cavitation", "edge_pressure", "supply", *mesh, "shell")
-        return {name: getattr(self, name) for name in names}
+        inlet = None if self.inlet == "none" else self.inlet
+        return {name: getattr(self, name) for name in names} | {"inlet": inlet}
 
     def at_temperature(self, temperature: float) -> Journal:
         """The bearing with its oil held at `temperature`, K."""
@@ -197,23 +240,61 @@ class Journal(Section, BaseModel):
             raise ValueError("lubricant: follows from heat.oil and its temperature; leave it out")
         return self
 
+    @model_validator(mode="after")
+    def _a_model_that_knows_the_film(self) -> Self:
+        film = self.film_model.isothermal() if self.in_motion else self.film_model
+        verb: Verb = "in_motion" if self.in_motion else "at_rest"
+        line = Line(moment=np.zeros((1, 2))) if self.tilt else Line()
+        why = why_not(verb, film, self.geometry, line)
+        if why is not None:
+            raise ValueError(why)
+        return self
+
 
 class Friction(Section, BaseModel):
-    """Lubricant and surfaces of the rolling bearings, for their friction and slip.
+    """Lubricant, surfaces, cooling of the rolling bearings, for friction, slip and modified life.
 
     ``lubricant`` is a name of `loadflow.tribology.lubricant_names`; ``temperature`` (K),
-    ``roughness`` (m), ``starvation``, ``roller_drag`` (N m s) and ``seal_torque`` (N m) are those
-    of `loadflow.rolling.FrictionOptions`. Loads are taken every ``step`` (s); rollers have shorter
-    steps of their own.
+    ``roughness`` (m), ``starvation``, ``hysteresis``, ``boundary_friction``, ``roller_drag``
+    (N m s), ``churning`` and ``seal_torque`` (N m) are those of `loadflow.rolling.FrictionOptions`,
+    as are ``rib_angle`` (rad), ``rib_height`` (m), ``rib_radius`` (m) and ``rib_friction``. The
+    first three follow from the bearing where they are left out, see `loadflow.stages.friction`.
+    Churning and seals have no values of their own: they count only if they are given.
+
+    With a ``conductance`` (W/K) to ``ambient_temperature`` (K) each bearing has the temperature in
+    a load case at which that carries off its mean friction; else it is ``temperature``.
+
+    ``cleanliness`` is one of `loadflow.rolling.rating.modified_life.CLEANLINESS`; with lubricant
+    and temperature it gives the modified life. Loads are taken every ``step`` (s); rollers have
+    shorter steps of their own.
     """
 
     lubricant: str = "lgep-2"
     temperature: Annotated[float, Field(gt=200, le=500)] = 313.15
+    conductance: Positive | None = None
+    ambient_temperature: Annotated[float, Field(gt=200, le=400)] = 293.15
     roughness: Positive = 0.6e-6
     starvation: Annotated[float, Field(gt=0, le=1)] = 0.7
+    hysteresis: Annotated[float, Field(ge=0, le=0.1)] = 0.01
+    boundary_friction: Annotated[float, Field(ge=0, le=1)] = 0.12
+    rib_angle: Annotated[float, Field(ge=0, le=0.5)] | None = None
+    rib_height: Annotated[float, Field(ge=0)] | None = None
+    rib_radius: Positive | None = None
+    rib_friction: Annotated[float, Field(ge=0, le=1)] = 0.05
     roller_drag: Annotated[float, Field(ge=0)] = 1e-3
+    churning: Churning = Churning()
     seal_torque: Annotated[float, Field(ge=0)] = 0.0
     step: Positive = 0.1
+    cleanliness: str = "grease, normal cleanliness"
+
+    @field_validator("cleanliness")
+    @classmethod
+    def _clean(cls, name: str) -> str:
+        from loadflow.rolling.rating.modified_life import CLEANLINESS
+
+        if name not in CLEANLINESS:
+            raise ValueError(f"must be one of {'; '.join(CLEANLINESS)}")
+        return name
 
     @field_validator("lubricant")
     @classmethod
@@ -305,7 +386,8 @@ class Scene(Section, BaseModel):
                     f"{what} and takes_moment = true: only a tilted film takes a moment; set "
                     "journal.tilt = true, or leave out takes_moment"
                 )
-            aligning = isinstance(self.rolling.geometries.get(name), SphericalRollerBearing)
+            geometry = self.rolling.geometries.get(name)
+            aligning = geometry is not None and not geometry.takes_moment
             if seat.takes_moment and seat.stiffness == "rolling" and aligning:
                 raise ValueError(f"{what}: it aligns itself; leave out takes_moment")
         return self
@@ -388,25 +470,62 @@ def make_scene(data: dict[str, Any], source: str = "scene") -> Scene:
         raise InputError(_message(error, source)) from error
 
 
-def with_loads(scene: Scene, files: list[str]) -> Scene:
-    """Return the scene with its load series read from `files` (names or glob patterns)."""
-    loads = scene.loads.model_copy(update={"source": "files", "files": files})
-    return scene.model_copy(update={"loads": loads})
+def make_journal(data: dict[str, Any], source: str = "journal") -> Journal:
+    """Build the section of the journal bearings alone; `source` names it in messages.
+
+    Raises
+    ------
+    InputError
+        As `read_scene`.
+    """
+    try:
+        return Journal.model_validate(data)
+    except ValidationError as error:
+        raise InputError(_message(error, source, "journal")) from error
+
+
+def with_loads(scene: Scene, files: list[str], **reading: Any) -> Scene:
+    """Return the scene with its load series read from `files` (names or glob patterns).
+
+    `reading` are those keys of `Loads` that say how files are read; None leaves the scene's.
+
+    Raises
+    ------
+    InputError
+        A bad value among them.
+    """
+    given = {key: value for key, value in reading.items() if value is not None}
+    try:
+        read = Loads.model_validate({"source": "files", "files": files} | given)
+    except ValidationError as error:
+        raise InputError(_message(error, "loads")) from error
+    update = {key: getattr(read, key) for key in ("source", "files", *given)}
+    return scene.model_copy(update={"loads": scene.loads.model_copy(update=update)})
 
 
 def _anchor_files(data: dict[str, Any], folder: Path) -> dict[str, Any]:
-    """Make relative load files relative to the scene file, not to where the user stands."""
-    loads = data.get("loads")
-    if isinstance(loads, dict) and isinstance(loads.get("files"), list):
-        files = [str(folder / file) if isinstance(file, str) else file for file in loads["files"]]
-        return data | {"loads": loads | {"files": files}}
-    return data
+    """Make relative files relative to the scene file, not to where the user stands."""
+    loads, journal = data.get("loads"), data.get("journal")
+    shell = journal.get("shell") if isinstance(journal, dict) else None
+    if isinstance(shell, dict) and isinstance(shell.get("matrix"), str):
+        shell = shell | {"matrix": str(folder / shell["matrix"])}
+        data = data | {"journal": data["journal"] | {"shell": shell}}
+    if not isinstance(loads, dict):
+        return data
+    anchored = dict(loads)
+    for key in ("cases", "case_list", "channels"):
+        if isinstance(loads.get(key), str):
+            anchored[key] = str(folder / loads[key])
+    if isinstance(loads.get("files"), list):
+        anchored["files"] = [str(folder / f) if isinstance(f, str) else f for f in loads["files"]]
+    return data | {"loads": anchored}
 
 
-def _message(error: ValidationError, source: str) -> str:
-    """One line per bad key: file, key, value, what is allowed."""
+def _message(error: ValidationError, source: str, *section: str) -> str:
+    """One line per bad key: file, key, value, what is allowed; keys are those of a `section`."""
     lines = []
     for item in _of_stated_kind(error.errors()):
+        item = item | {"loc": (*section, *item["loc"])}
         key = ".".join(str(part) for part in _place(item["loc"])) or "scene"
         reason = item["msg"].removeprefix("Value error, ").replace("Input should be", "must be")
         if item["type"] in ("extra_forbidden", "unexpected_keyword_argument"):
@@ -448,7 +567,7 @@ def _of_stated_kind(errors: list[Any]) -> list[Any]:
 def _neighbours(location: tuple[int | str, ...]) -> str:
     """Name the keys that are known where an unknown one stands."""
     if len(location) > 2 and location[-3] == "geometry" and location[-2] in KINDS:
-        known = ["kind", *(field.name for field in fields(KINDS[str(location[-2])]))]
+        known = ["kind", *(field.name for field in fields(cast("Any", KINDS[str(location[-2])])))]
         return f"; known here: {', '.join(sorted(known))}"
     data: Any = Scene(name="defaults").model_dump()
     for part in [*_place(location)][:-1]:

@@ -3,21 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from dataclasses import replace
+from typing import Any, cast
 
 import numpy as np
 import xarray as xr
 
 from loadflow.errors import SolverError
-from loadflow.rolling import (
-    BallBearing,
-    FrictionOptions,
-    RollerBearing,
-    SlewingBearing,
-    SphericalRollerBearing,
-    ball_friction,
-    roller_slip,
-)
+from loadflow.rolling import FrictionOptions, RollingBearing, roller_slip
+from loadflow.rolling.friction import balanced_temperature
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Friction, Scene
 from loadflow.stages.frames import to_rolling
@@ -32,8 +26,8 @@ KEPT = {
     "friction_power": ("W", "friction power"),
     "friction_torque": ("N m", "friction torque"),
     "film_parameter": ("1", "least Λ of the loaded contacts"),
-    "slip_power": ("W", "power lost in slip of rollers"),
-    "slip": ("1", "mean slip of the rollers of the slower row; balls roll ideally"),
+    "slip_power": ("W", "power lost in slip"),
+    "slip": ("1", "slip of the slower row: missing spin of rollers, mean sliding of balls"),
     "slip_power_density": ("W/m2", "largest slip power over contact area"),
 }
 
@@ -41,8 +35,8 @@ KEPT = {
 def losses(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
     """Losses, film and slip of each rolling bearing of the scene over (bearing, sample).
 
-    Every roller is followed through the whole series; balls and rings take ideal rolling and rigid
-    rings.
+    Every roller is followed through the whole series; balls slide where their contacts are curved
+    and where they spin. Rings are rigid. With a conductance each bearing finds its own temperature.
 
     Raises
     ------
@@ -50,12 +44,11 @@ def losses(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
         A sample has no equilibrium, the motion of rollers does not settle, or there is no friction
         model for the bearing.
     """
-    options = friction_options(scene.friction)
     time = inputs["loads"]["time"].values.astype(float)
     stride = max(1, round(scene.friction.step / (time[1] - time[0])))
     time = time[::stride]
     speed = inputs["loads"]["speed"].values.astype(float)[::stride]
-    found = []
+    found, temperatures = [], []
     for name, bearing in scene.rolling.geometries.items():
         load, moment = (
             to_rolling(
@@ -67,16 +60,12 @@ def losses(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
             )
             for what in ("force", "moment")
         )
+        options = friction_options(scene.friction, bearing)
         try:
-            if isinstance(bearing, RollerBearing | SphericalRollerBearing):
-                found.append(_rollers(bearing, load, moment[:, :2], time, speed, options))
-            elif isinstance(bearing, BallBearing | SlewingBearing):
-                found.append(_balls(bearing, load, moment[:, :2], speed, options))
-            else:
-                raise SolverError(
-                    f"no model of friction for the contacts of a {type(bearing).__name__}; "
-                    "rolling.friction_torque_loads estimates its torque from the loads"
-                )
+            options = _at_its_temperature(scene.friction, bearing, load, moment, speed, options)
+            follow = _FOLLOW[bearing.friction_model]
+            found.append(follow(bearing, load, moment[:, :2], time, speed, options))
+            temperatures.append(options.temperature)
         except SolverError as error:
             raise SolverError(f"bearing {name}: {error}") from error
     kept = {
@@ -84,25 +73,83 @@ def losses(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
         for name, about in KEPT.items()
     }
     return xr.Dataset(
-        kept | {"speed": ("sample", speed, label("rad/s", "speed"))},
+        kept
+        | {
+            "speed": ("sample", speed, label("rad/s", "speed")),
+            "temperature": ("bearing", temperatures, label("K", "temperature of the bearing")),
+        },
         {"sample": time, "bearing": list(scene.rolling.geometries)},
     )
 
 
-def friction_options(options: Friction) -> FrictionOptions:
-    """Options of the room, of a scene's section."""
+TAPERED_RIB = 0.04
+"""Angle between both contact normals of tapered rollers, rad, where a scene gives none: the middle
+of 0.02 … 0.06."""
+
+_RIB_HEIGHT, _RIB_RADIUS = 0.075, 50.0  # of a roller's diameter, where a scene gives none
+
+
+def friction_options(options: Friction, bearing: RollingBearing) -> FrictionOptions:
+    """Options of the room for a bearing, of a scene's section.
+
+    Where the scene says nothing of ribs, tapered rollers press on theirs with `TAPERED_RIB`, at a
+    height of 0.075 and with a reduced radius of 50 of a roller's diameter; others on none.
+    """
+    tapered = bearing.rib_guided
+    diameter = getattr(bearing, "roller_diameter", 0.0)
+    radius = options.rib_radius or (_RIB_RADIUS * diameter if tapered else None)
     return FrictionOptions(
         oil=lubricant(options.lubricant),
         temperature=options.temperature,
         roughness=options.roughness,
+        hysteresis=options.hysteresis,
         starvation=options.starvation,
+        boundary_friction=options.boundary_friction,
+        rib_angle=_given(options.rib_angle, TAPERED_RIB if tapered else 0.0),
+        rib_height=_given(options.rib_height, _RIB_HEIGHT * diameter),
+        rib_friction=options.rib_friction,
+        rib_radius=radius,
         roller_drag=options.roller_drag,
+        churning=options.churning,
         seal_torque=options.seal_torque,
     )
 
 
+def _given(value: float | None, default: float) -> float:
+    return default if value is None else value
+
+
+def _at_its_temperature(
+    options: Friction,
+    bearing: RollingBearing,
+    force: np.ndarray,
+    moment: np.ndarray,
+    speed: np.ndarray,
+    found: FrictionOptions,
+) -> FrictionOptions:
+    """Options at the temperature at which the cooling carries off the mean friction of a case.
+
+    Raises
+    ------
+    loadflow.errors.SolverError
+        There is no friction model for the bearing, or no such temperature.
+    """
+    if options.conductance is None:
+        return found
+    some = np.unique(np.linspace(0, speed.size - 1, CHUNK).round().astype(int))
+    balance = balanced_temperature(
+        cast("Any", bearing.equilibrium(force[some], moment[some, :2])),
+        speed[some],
+        found,
+        options.conductance,
+        options.ambient_temperature,
+        model=bearing.losses,
+    )
+    return replace(found, temperature=balance.temperature)
+
+
 def _rollers(
-    bearing: RollerBearing | SphericalRollerBearing,
+    bearing: RollingBearing,
     force: np.ndarray,
     moment: np.ndarray,
     time: np.ndarray,
@@ -110,7 +157,7 @@ def _rollers(
     options: FrictionOptions,
 ) -> dict[str, np.ndarray]:
     """What is kept of a roller bearing, its rollers followed one by one."""
-    result = bearing.equilibrium(force, moment)
+    result: Any = bearing.equilibrium(force, moment)
     found = roller_slip(result, time, speed, options)
     return {
         "friction_power": found.friction.power,
@@ -123,23 +170,44 @@ def _rollers(
 
 
 def _balls(
-    bearing: BallBearing | SlewingBearing,
+    bearing: RollingBearing,
     force: np.ndarray,
     moment: np.ndarray,
+    time: np.ndarray,
     speed: np.ndarray,
     options: FrictionOptions,
 ) -> dict[str, np.ndarray]:
-    """What is kept of a ball bearing in ideal rolling."""
+    """What is kept of a ball bearing, whose balls keep up with the cage."""
     parts = []
     for start in range(0, speed.size, CHUNK):
         some = slice(start, start + CHUNK)
         result = bearing.equilibrium(force[some], moment[some])
-        found = ball_friction(result, speed[some], options)
+        found = result.friction(speed[some], options)
         least = _least(found.film_parameter, result.ball_forces)
-        parts.append((found.power, found.torque, least))
-    power, torque, least = (np.concatenate(values) for values in zip(*parts))
-    none = np.zeros_like(power)
-    return dict(zip(KEPT, (power, torque, least, none, none, none)))
+        slip = found.losses["differential slip"] + found.losses["spin"]
+        assert found.sliding is not None
+        assert found.slip_power_density is not None
+        mean = _mean_of_loaded(found.sliding, result.ball_forces)
+        density = found.slip_power_density.max(axis=(-2, -1))
+        parts.append((found.power, found.torque, least, slip, mean, density))
+    return dict(zip(KEPT, (np.concatenate(values) for values in zip(*parts))))
+
+
+def _unknown(bearing: RollingBearing, *_: Any) -> dict[str, np.ndarray]:
+    raise SolverError(
+        f"no model of friction for the contacts of a {type(bearing).__name__}; "
+        "rolling.friction_torque_loads estimates its torque from the loads"
+    )
+
+
+_FOLLOW = {"rollers": _rollers, "balls": _balls, None: _unknown}
+
+
+def _mean_of_loaded(sliding: np.ndarray, forces: np.ndarray) -> np.ndarray:
+    """Mean over the loaded contacts of the row that slides most; 0 without load."""
+    loaded = forces.reshape(sliding.shape) > 0
+    count = np.maximum(loaded.sum(axis=-1), 1)
+    return np.asarray(((sliding * loaded).sum(axis=-1) / count).max(axis=-1))
 
 
 def _least(parameter: np.ndarray, forces: np.ndarray) -> np.ndarray:
@@ -164,6 +232,7 @@ def _extremes(samples: xr.Dataset) -> xr.Dataset:
             "mean_slip_power": (mean["slip_power"], "W", "mean power lost in slip"),
             "median_film_parameter": (least, "1", "median of the least Λ"),
             "mean_slip": (mean["slip"], "1", "mean slip of the slower row"),
+            "temperature": (samples["temperature"], "K", "temperature of the bearing"),
             "largest_slip_power_density": (
                 largest["slip_power_density"],
                 "W/m2",

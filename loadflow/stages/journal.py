@@ -3,54 +3,61 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from loadflow.errors import SolverError
-from loadflow.journal import Equilibrium, Heat, JournalBearing, Lubricant
+from loadflow.journal import Equilibrium
+from loadflow.journal.transition import load_capacity
 from loadflow.journal.validity import critical_reynolds_number, reynolds_number
+from loadflow.quantities import table
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Journal, Scene
 from loadflow.stages.frames import to_film
 from loadflow.stages.labelling import label, labelled, of_samples
 from loadflow.stages.summary import over_cases
 
-# what is kept of every sample: units and meaning
-KEPT = {
-    "eccentricity_ratio": ("1", "eccentricity ratio"),
-    "attitude_angle": ("rad", "attitude angle"),
-    "minimum_film": ("m", "smallest film thickness"),
-    "maximum_pressure": ("Pa", "largest film pressure, absolute"),
-    "sommerfeld_number": ("1", "Sommerfeld number"),
-    "friction_power": ("W", "friction power"),
-    "side_flow": ("m3/s", "side flow"),
-    "supply_flow": ("m3/s", "flow of the grooves into the film"),
-    "supply_power": ("W", "power that lifts the oil to supply pressure"),
-    "converged": ("1", "whether the equilibrium was found"),
-    "residual": ("1", "scaled residual of film and load"),
-    "iterations": ("1", "iterations"),
-}
-WARM = {"temperature": ("K", "effective temperature of the film")}
+KEPT = table(
+    "eccentricity_ratio",
+    "attitude_angle",
+    "minimum_film",
+    "maximum_pressure",
+    "sommerfeld_number",
+    "friction_power",
+    "side_flow",
+    "supply_flow",
+    "supply_power",
+    "converged",
+    "residual",
+    "iterations",
+)
+"""What is kept of every sample: units and meaning."""
+WARM = table("temperature")
 """What is kept too where there is a heat balance."""
 
 TEMPERED = 64
 """Samples of a series whose mean friction and flow give the temperature of a film in motion."""
-GIVING = {"shell_deformation": ("m", "largest growth of the gap by the give of the shell")}
+GIVING = table("shell_deformation")
 """What is kept too of an elastic shell."""
+
+_CERTAIN = 1.2  # times the load that a film as thin as the roughness carries: no film is asked
+_TRIES = 200  # samples of a start that are asked for the first film
 
 
 def film(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
     """Solve the film for every sample of the reduced series; one group per bearing.
 
-    A sample that no film carries, such as a load at standstill, has ``converged`` 0 and no values:
-    a start-up passes through such samples, and the rest of it still has an answer.
+    Where a smooth film would be thinner than both surfaces are rough, such as at standstill, shaft
+    and shell are ``in_contact``, and the sample has no values. A sample whose film was not found
+    has none either, and ``converged`` 0.
 
     Raises
     ------
     loadflow.errors.SolverError
-        No sample at all has an equilibrium.
+        No sample at all has an equilibrium or is in contact.
     """
     return xr.DataTree.from_dict(
         {
@@ -78,38 +85,53 @@ def orbit(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
 
 
 def _resting(options: Journal, bearing: str, reduced: xr.Dataset) -> xr.Dataset:
-    speed = reduced["speed"].values
-    answer = equilibria(options, reduced["force"].values, speed, **shaft_line(options, reduced))
-    if not np.any(answer.converged):
+    speed, force = reduced["speed"].values, reduced["force"].values
+    line, kept = shaft_line(options, reduced), _kept(options)
+    touching = surely_touching(options, force, speed)
+    found = _nothing(options, speed.size)
+    if np.any(asked := ~touching):
+        some = {name: vectors[asked] for name, vectors in line.items()}
+        answer = equilibria(options, force[asked], speed[asked], **some)
+        for name, values in found.items():
+            values[asked] = getattr(answer, name)
+    _drop_contact(options, found, touching)
+    if not np.any(found["converged"] | touching):
         raise SolverError(
             f"bearing {bearing}: no film carries any of the {speed.size} samples; speed "
             f"{np.abs(speed).min():.4g} … {np.abs(speed).max():.4g} rad/s"
         )
-    samples = of_samples(vars(answer), _kept(options))
+    samples = of_samples(found, kept) | _loaded(force, touching)
     if options.tilt:
         meaning = label("rad", "rotation of the shaft: about down, about left")
-        samples["tilt"] = ("sample", "component"), answer.tilt, meaning
+        samples["tilt"] = ("sample", "component"), found["tilt"], meaning
     given = reduced[["time", "speed", "weight"]]
-    return _placed(options, given.assign(samples), answer.eccentricity)
+    return _placed(options, given.assign(samples), found["eccentricity"])
 
 
 def _moving(options: Journal, bearing: str, loads: xr.Dataset, reactions: xr.Dataset) -> xr.Dataset:
-    force = to_film(reactions["force"].transpose("time", "axis").values.astype(float))
+    """Film along the series, from the first sample on in which the surfaces need not touch."""
+    vectors = reactions["force"].transpose("time", "axis").values.astype(float)
     time, speed = (loads[name].values.astype(float) for name in ("time", "speed"))
-    try:
-        path = follow(options, loads, reactions)
-    except SolverError as error:
-        raise SolverError(f"bearing {bearing}: {error}") from error
-    held = options
-    if options.heat is not None:
-        held = options.at_temperature(float(path["temperature"][0]))
-    numbers = [
-        options.geometry.sommerfeld_number(*point, held.lubricant.viscosity)
-        for point in zip(np.hypot(*force.T).tolist(), speed.tolist())
-    ]
-    kept = _kept(options)
-    found: dict[str, Any] = {name: path[name].values for name in kept if name in path}
-    found |= {"sommerfeld_number": numbers, "converged": np.ones(time.size, dtype=bool)}
+    begin, start = _lift_off(options, vectors, speed)
+    touching = np.arange(time.size) < begin  # later on, squeeze carries more than a film at rest
+    found, held, kept = _nothing(options, time.size), options, _kept(options)
+    force, left = to_film(vectors), slice(begin, None)
+    if begin < time.size:
+        try:
+            path = follow(options, loads.isel(time=left), reactions.isel(time=left), start)
+        except SolverError as error:
+            raise SolverError(f"bearing {bearing}: {error}") from error
+        if options.heat is not None:
+            held = options.at_temperature(float(path["temperature"][0]))
+        for name in found:
+            if name in path:
+                found[name][left] = path[name].values
+        found["converged"][left] = True
+        found["sommerfeld_number"][left] = [
+            options.geometry.sommerfeld_number(*point, held.lubricant.viscosity)
+            for point in zip(np.hypot(*force[left].T).tolist(), speed[left].tolist())
+        ]
+    _drop_contact(options, found, touching)
     samples = xr.Dataset(
         {
             "time": ("sample", time, label("s", "time")),
@@ -117,8 +139,76 @@ def _moving(options: Journal, bearing: str, loads: xr.Dataset, reactions: xr.Dat
             "weight": ("sample", np.ones(time.size), label("1", "samples")),
         }
     )
-    labels = of_samples(found, kept)
-    return _placed(held, samples.assign(labels), path["eccentricity"].values)
+    labels = of_samples(found, kept) | _loaded(vectors, touching)
+    return _placed(held, samples.assign(labels), found["eccentricity"])
+
+
+def _lift_off(
+    options: Journal, force: np.ndarray, speed: np.ndarray
+) -> tuple[int, np.ndarray | None]:
+    """First sample from which the film can be followed, and the place (2,), m, if it is given.
+
+    That is the first sample of all, or of a start the first in which the surfaces do not touch.
+    """
+    touching = surely_touching(options, force, speed)
+    if not touching[0]:
+        return 0, None
+    for k in np.flatnonzero(~touching)[:_TRIES]:
+        there = equilibria(options, force[k : k + 1], speed[k : k + 1])
+        if there.converged[0] and there.minimum_film[0] >= options.contact_film:
+            return int(k), there.eccentricity[0]
+    return speed.size, None
+
+
+def surely_touching(options: Journal, force: np.ndarray, speed: np.ndarray) -> np.ndarray:
+    """Whether shaft and shell touch under each load (n, 3), N, in the cube's frame, for certain.
+
+    At standstill, and where the load is far above what the film of the coldest oil carries when it
+    is as thin as both surfaces are rough. The others have to be solved, and so have those of an
+    elastic shell, which carries more the more it gives way.
+    """
+    film = options.film_model.isothermal()
+    if options.heat is not None:
+        cold = options.heat.inlet_temperature
+        if options.heat.transfer:
+            cold = min(cold, options.heat.ambient_temperature)
+        film = replace(film, lubricant=options.heat.lubricant(cold))
+    load, turning = np.hypot(*to_film(force).T), np.abs(speed) > 0
+    touching = np.asarray(~turning)
+    if turning.any() and options.shell is None:
+        capacity = load_capacity(options.geometry, options.contact_film, speed[turning], film)
+        touching[turning] = load[turning] > _CERTAIN * capacity
+    return touching
+
+
+def _nothing(options: Journal, count: int) -> dict[str, np.ndarray]:
+    """What is kept of `count` samples, and where the shaft lies, before anything is known."""
+    none = {name: np.full(count, np.nan) for name in _kept(options)}
+    none |= {"converged": np.zeros(count, dtype=bool), "iterations": np.zeros(count, dtype=int)}
+    none["eccentricity"] = np.full((count, 2), np.nan)
+    return none | ({"tilt": np.full((count, 2), np.nan)} if options.tilt else {})
+
+
+def _drop_contact(options: Journal, found: dict[str, np.ndarray], touching: np.ndarray) -> None:
+    """Mark samples whose smooth film is thinner than the roughness; they keep no values of it."""
+    with np.errstate(invalid="ignore"):
+        touching |= found["converged"] & (found["minimum_film"] < options.contact_film)
+    for name, values in found.items():
+        if name in ("converged", "iterations"):
+            values[touching] = 0
+        else:
+            values[touching] = np.nan
+
+
+def _loaded(force: np.ndarray, touching: np.ndarray) -> dict[str, Any]:
+    """Loads of samples, and whether the surfaces touch."""
+    about = label("1", "whether shaft and shell touch: a smooth film would be below the roughness")
+    radial, axial = np.hypot(*to_film(force).T), np.abs(force[:, 0])
+    return {
+        "load": ("sample", radial, label("N", "radial load")),
+        "axial_load": ("sample", axial, label("N", "force along the shaft, its size")),
+        "in_contact": ("sample", touching, about),
+    }
 
 
 def mean_temperature(options: Journal, force: np.ndarray, speed: np.ndarray) -> float | None:
@@ -134,14 +224,12 @@ def mean_temperature(options: Journal, force: np.ndarray, speed: np.ndarray) -> 
     if options.heat is None:
         return None
     some = np.unique(np.linspace(0, speed.size - 1, TEMPERED).round().astype(int))
-    film = {name: value for name, value in options.film.items() if name != "lubricant"}
     warm = options.geometry.equilibrium(
         force[some],
         speed[some],
-        heat=options.heat,
+        options.film_model,
         weights=np.ones(some.size),
         strict=False,
-        **film,
     )
     if not np.any(warm.converged):
         raise SolverError("orbit cannot start: no heat balance of its mean friction and flow")
@@ -168,8 +256,8 @@ def follow(
     time, speed = (loads[name].values.astype(float) for name in ("time", "speed"))
     freeing = moment if options.tilt else None
     temperature = mean_temperature(options, force, speed)
-    film = (options if temperature is None else options.at_temperature(temperature)).film
-    path = options.geometry.orbit(time, force, speed, moment=freeing, start=start, **film)
+    film = (options if temperature is None else options.at_temperature(temperature)).film_model
+    path = options.geometry.orbit(time, force, speed, film, moment=freeing, start=start)
     if temperature is None:
         return path
     return path.assign(temperature=("time", np.full(time.size, temperature)))
@@ -199,22 +287,10 @@ def equilibria(
     With a `moment` (n, 3), N m, the shaft tilts under it; with a `tilt` (n, 3), rad, and a `bend`,
     1/m, it lies as they say; without, it stays aligned.
     """
-    film = options.film | {name: to_film(vectors) for name, vectors in line.items()}
-    oil = film.pop("lubricant")
-    return rest(options.geometry, to_film(force), speed, options.heat or oil, strict=False, **film)
-
-
-def rest(
-    bearing: JournalBearing,
-    force: np.ndarray,
-    speed: np.ndarray | float,
-    oil: Lubricant | Heat,
-    **film: Any,
-) -> Equilibrium:
-    """Equilibrium with oil of one viscosity, or with that which its heat balance leaves."""
-    if isinstance(oil, Heat):
-        return bearing.equilibrium(force, speed, heat=oil, **film)
-    return bearing.equilibrium(force, speed, oil, **film)
+    lying: dict[str, Any] = {name: to_film(vectors) for name, vectors in line.items()}
+    return options.geometry.equilibrium(
+        to_film(force), speed, options.film_model, strict=False, **lying
+    )
 
 
 def _placed(options: Journal, samples: xr.Dataset, eccentricity: np.ndarray) -> xr.Dataset:
@@ -222,12 +298,16 @@ def _placed(options: Journal, samples: xr.Dataset, eccentricity: np.ndarray) -> 
     bearing = options.geometry
     fastest, oil = float(np.abs(samples["speed"]).max()), options.lubricant
     if options.heat is not None:
-        oil = options.heat.lubricant(float(samples["temperature"].max()))
+        warmest = float(np.nanmax(samples["temperature"], initial=options.heat.inlet_temperature))
+        oil = options.heat.lubricant(warmest)
     reynolds = float(reynolds_number(bearing, fastest, oil))
     return samples.assign(
         eccentricity=(("sample", "component"), eccentricity, meaning)
     ).assign_attrs(
         motion=options.motion,
+        radius=bearing.radius,
+        boundary_friction=options.boundary_friction,
+        critical_eccentricity_ratio=options.limits.eccentricity_ratio,
         radial_clearance=bearing.clearance,
         laminar=int(reynolds < critical_reynolds_number(bearing.relative_clearance)),
         largest_reynolds_number=reynolds,
@@ -240,38 +320,114 @@ def summary(parts: Mapping[Case, xr.DataTree]) -> xr.Dataset:
 
 
 def _summary_of(tree: xr.DataTree) -> xr.Dataset:
-    parts = [extremes(node.to_dataset()) for node in tree.children.values()]
+    nodes = [node.to_dataset().load() for node in tree.children.values()]
+    parts = [extremes(samples).merge(mixed_friction(samples)) for samples in nodes]
     return xr.concat(parts, "bearing", combine_attrs="override").assign_coords(
         bearing=list(tree.children)
     )
 
 
+EXTREMES = {
+    "largest_eccentricity_ratio": ("eccentricity_ratio", np.nanargmax, "1", "largest ε"),
+    "smallest_film": ("minimum_film", np.nanargmin, "m", "smallest film"),
+    "largest_pressure": ("maximum_pressure", np.nanargmax, "Pa", "largest pressure"),
+    "largest_sommerfeld_number": ("sommerfeld_number", np.nanargmax, "1", "largest So"),
+    "largest_load": ("load", np.nanargmax, "N", "largest radial load"),
+    "largest_axial_load": ("axial_load", np.nanargmax, "N", "largest force along the shaft"),
+    "largest_temperature": ("temperature", np.nanargmax, "K", "largest effective temperature"),
+}
+"""Extremes of a series: of what, which, units and meaning; each also has its ``_time``."""
+
+MEANS = {
+    "mean_eccentricity_ratio": ("eccentricity_ratio", "1", "mean ε"),
+    "mean_sommerfeld_number": ("sommerfeld_number", "1", "mean So"),
+    "mean_friction_power": ("friction_power", "W", "mean friction power"),
+    "mean_side_flow": ("side_flow", "m3/s", "mean side flow"),
+    "mean_supply_flow": ("supply_flow", "m3/s", "mean flow of the grooves"),
+    "mean_supply_power": ("supply_power", "W", "mean supply power"),
+}
+"""Means over the samples that have a film, each with its weight: of what, units and meaning."""
+
+
 def extremes(samples: xr.Dataset) -> xr.Dataset:
-    """Reduce the film of a series of weighted loads to extremes and means."""
-    weight = samples["weight"]
+    """Reduce the film of a series of weighted loads to extremes and means.
 
-    def mean(name: str) -> xr.DataArray:
-        return samples[name].weighted(weight).mean()
-
-    found = {
-        "largest_eccentricity_ratio": (samples["eccentricity_ratio"].max(), "1", "largest ε"),
-        "mean_eccentricity_ratio": (mean("eccentricity_ratio"), "1", "mean ε"),
-        "smallest_film": (samples["minimum_film"].min(), "m", "smallest film"),
-        "largest_pressure": (samples["maximum_pressure"].max(), "Pa", "largest pressure"),
-        "largest_sommerfeld_number": (samples["sommerfeld_number"].max(), "1", "largest So"),
-        "mean_sommerfeld_number": (mean("sommerfeld_number"), "1", "mean So"),
-        "mean_friction_power": (mean("friction_power"), "W", "mean friction power"),
-        "mean_side_flow": (mean("side_flow"), "m3/s", "mean side flow"),
-        "mean_supply_flow": (mean("supply_flow"), "m3/s", "mean flow of the grooves"),
-        "mean_supply_power": (mean("supply_power"), "W", "mean supply power"),
-        "largest_residual": (samples["residual"].max(), "1", "largest residual"),
-        "not_converged": (
-            (~samples["converged"].astype(bool)).sum(),
-            "1",
-            "samples without a film",
-        ),
+    Samples in contact or without an answer have no values; they are counted.
+    """
+    weight, found = samples["weight"], {}
+    for name, (of, which, units, meaning) in EXTREMES.items():
+        if of not in samples:
+            continue
+        values, time = samples[of].values, samples.get("time")
+        there = bool(np.isfinite(values).any())
+        at = int(which(np.where(np.isfinite(values), values, np.nan))) if there else 0
+        found[name] = xr.DataArray(values[at] if there else np.nan), units, meaning
+        if time is not None:
+            when = float(time.values[at]) if there else np.nan
+            found[f"{name}_time"] = xr.DataArray(when), "s", f"time of the {meaning}"
+    for name, (of, units, meaning) in MEANS.items():
+        found[name] = samples[of].weighted(weight).mean(), units, meaning
+    answered = samples["converged"].astype(bool)
+    touching = samples["in_contact"].astype(bool) if "in_contact" in samples else ~answered & False
+    residual = samples["residual"].where(~touching, 0.0)
+    found |= {
+        "largest_residual": (residual.max(), "1", "largest residual"),
+        "not_converged": ((~answered & ~touching).sum(), "1", "samples without an answer"),
+        "in_contact": (touching.sum(), "1", "samples in which shaft and shell touch"),
     }
-    if "temperature" in samples:
-        largest = samples["temperature"].max()
-        found["largest_temperature"] = (largest, "K", "largest effective temperature")
     return labelled(found)
+
+
+STANDING = 0.01 * np.pi / 30
+"""Speed, rad/s, below which a shaft counts as standing: 0.01 1/min, the last digit of Table 5-22 in
+[Jonuschies 2015]."""
+
+
+def mixed_friction(samples: xr.Dataset) -> xr.Dataset:
+    """How long and how far the shaft turns in contact and above E_krit, as [Jonuschies 2015] asks.
+
+    Tables 5-21 and 5-22 with (5.2): the transition is where ε last crosses E_krit in a series that
+    begins on one side of it and ends on the other, a start or a stop; NaN in the others. While the
+    surfaces touch, the boundary friction of the whole load is lost, an upper bound; above E_krit
+    without contact, the friction of the film.
+    """
+    time, speed, about = samples["time"].values, np.abs(samples["speed"].values), samples.attrs
+    touching, turning = samples["in_contact"].values.astype(bool), speed >= STANDING
+    # each sample stands for `weight` steps of the full series
+    weight = samples["weight"].values
+    seconds = weight * (np.ptp(time) / max(weight.sum() - 1, 1))
+    critical = about["critical_eccentricity_ratio"]
+    ratio = np.where(touching, 1.0, samples["eccentricity_ratio"].values)
+    mixed = turning & (ratio > critical)
+    rubbing = about["boundary_friction"] * about["radius"] * samples["load"].values * speed
+    lost = np.where(touching, rubbing, samples["friction_power"].values)
+    when, at = _transition(time, speed, ratio, critical)
+    values: dict[str, tuple[Any, str, str]] = {
+        "duration": (seconds.sum(), "s", "length of the series"),
+        "contact_time": (seconds[touching & turning].sum(), "s", "time in contact while turning"),
+        "mixed_friction_time": (seconds[mixed].sum(), "s", "time above E_krit while turning"),
+        "mixed_friction_revolutions": (
+            (seconds * speed)[mixed].sum() / (2 * np.pi), "1", "revolutions above E_krit",
+        ),
+        "mixed_friction_energy": (np.nansum((seconds * lost)[mixed]), "J", "friction above E_krit"),
+        "transition_time": (when, "s", "time of the transition at E_krit"),
+        "transition_speed": (at, "rad/s", "speed of the transition at E_krit"),
+    }  # fmt: skip
+    return labelled(
+        {name: (xr.DataArray(v), units, meaning) for name, (v, units, meaning) in values.items()}
+    )
+
+
+def _transition(
+    time: np.ndarray, speed: np.ndarray, ratio: np.ndarray, critical: float
+) -> tuple[float, float]:
+    """Time and speed at which ε last crosses E_krit; NaN where it begins and ends on one side."""
+    known = np.flatnonzero(np.isfinite(ratio))
+    above = ratio[known] > critical
+    if known.size < 2 or above[0] == above[-1]:
+        return np.nan, np.nan
+    last = int(np.flatnonzero(above[1:] != above[:-1])[-1])
+    i, j = known[last], known[last + 1]
+    share = (critical - ratio[i]) / (ratio[j] - ratio[i])
+    when, at = (float(x[i] + share * (x[j] - x[i])) for x in (time, speed))
+    return when, at

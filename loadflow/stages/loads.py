@@ -21,10 +21,12 @@ def hub_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
 
     Single precision keeps a relative 6e-8, far below any load model's error, at half the size.
     """
+    from loadflow.readers.doubts import with_doubts
+
     series = _read(scene, case) if case.file else _simulate(scene, case)
     labels = {"dlc": case.dlc, "wind_speed": case.wind_speed, "seed": case.seed}
     series = series.assign_coords(labels | {"weight": case.weight})
-    return series.astype("float32")
+    return with_doubts(series, scene.turbine.name, simulated=not case.file).astype("float32")
 
 
 def _simulate(scene: Scene, case: Case) -> xr.Dataset:
@@ -57,22 +59,26 @@ def _read(scene: Scene, case: Case) -> xr.Dataset:
     path = Path(case.file)
     if path.suffix in CUBES:
         return dict(iter_cases(open_cube(path)))[case.entry].load()
-    loads = scene.loads
-    cube = read_loads(
-        path, turbine=scene.turbine.name, cases=loads.case_list, pattern=loads.pattern
-    )
+    cube = read_loads(path, turbine=scene.turbine.name, quiet=True, **scene.loads.reading)
     return next(series for _, series in iter_cases(cube))
 
 
 def summary(parts: Mapping[Case, xr.Dataset]) -> xr.Dataset | None:
-    """When each case tripped, s; None where the series do not tell."""
-    if not all("tripped" in part.coords for part in parts.values()):
-        return None
-    times = {
-        case: xr.Dataset({"tripped": ((), part["tripped"].item(), _TRIPPED)})
-        for case, part in parts.items()
-    }
-    return over_cases(times)
+    """When each case tripped (s, NaN if not), how long it stood, and what is doubtful about it.
+
+    None where the series were read and there is nothing of the kind to tell.
+    """
+
+    def told(part: xr.Dataset) -> xr.Dataset:
+        tripped = part.coords["tripped"].item() if "tripped" in part.coords else np.nan
+        found = {"tripped": ((), tripped, _TRIPPED)}
+        attrs = {key: CASE_COORDS[key].attrs for key in ("standing_share", "doubts")}
+        return xr.Dataset(found | {k: ((), part[k].item(), a) for k, a in attrs.items()})
+
+    known = all("tripped" in part.coords for part in parts.values())
+    found = over_cases({case: told(part) for case, part in parts.items()})
+    tells = (found["standing_share"] > 0) | (found["doubts"] != "")
+    return found if known or bool(tells.any()) else None
 
 
 def trips(groups: Mapping[str, Any]) -> dict[str, float]:
@@ -87,9 +93,21 @@ def trips(groups: Mapping[str, Any]) -> dict[str, float]:
     return {str(name): float(t) for name, t in zip(names, times.values) if np.isfinite(t)}
 
 
+def doubts(groups: Mapping[str, Any]) -> dict[str, list[str]]:
+    """Return what is doubtful about the series, by case; sound cases are left out."""
+    if "loads" not in groups:
+        return {}
+    said = groups["loads"]["doubts"]
+    names = said["case"].values
+    return {str(name): str(d).split("\n") for name, d in zip(names, said.values) if str(d)}
+
+
 def warnings(tree: xr.DataTree) -> list[str]:
-    """Say which cases stand because they tripped, and since when."""
-    return trip_warnings(trips(tree.children))
+    """Say which cases stand because they tripped, since when, and what is doubtful."""
+    doubtful = [
+        f"loads, {name}: {doubt}" for name, said in doubts(tree.children).items() for doubt in said
+    ]
+    return [*trip_warnings(trips(tree.children)), *doubtful]
 
 
 def trip_warnings(times: Mapping[str, float]) -> list[str]:

@@ -9,16 +9,16 @@ import numpy as np
 import xarray as xr
 
 from loadflow.errors import SolverError
-from loadflow.rolling import SlewingBearing, system_life
-from loadflow.rolling.bearings.arrangements import life_exponent, weibull_slope
+from loadflow.rolling import Lubrication, SlewingBearing, modified_spectrum_life, system_life
 from loadflow.rolling.rating import life, safety
-from loadflow.rolling.rating.static import HOURS_20_YEARS, STATIC_RATING
 from loadflow.scene.bearings import FurtherBearing
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
 from loadflow.stages.frames import to_rolling
 from loadflow.stages.labelling import label, labelled, of_samples
 from loadflow.stages.summary import over_cases
+from loadflow.tribology import lubricant
+from loadflow.wind.cases import factor_of_maximum
 
 # what is kept of every sample: units and meaning
 KEPT = {
@@ -36,40 +36,51 @@ KEPT = {
 # what is kept of each bearing of the shaft: units and meaning
 EACH = {
     "bearing_life": ("1e6 rev", "rating life L10"),
-    "bearing_static_safety": ("1", "smallest static safety, by force"),
+    "bearing_modified_life": ("1e6 rev", "modified life L10m, ISO 281"),
+    "bearing_viscosity_ratio": ("1", "smallest viscosity ratio κ of what turns"),
+    "bearing_thin_share": ("1", "share of the revolutions with κ below 0.1, a_ISO taken as 0.1"),
+    "bearing_static_safety": ("1", "smallest static safety, by force, characteristic loads"),
+    "bearing_design_safety": ("1", "smallest static safety, by force, design loads"),
+    "bearing_design_time": ("s", "time of the smallest static safety"),
+    "bearing_load_factor": ("1", "partial safety factor for loads"),
+    "bearing_truncated": ("1", "share of time with a contact cut off at a shoulder"),
+    "bearing_axial_force": ("N", "largest force along the shaft"),
     "bearing_pressure": ("Pa", "largest pressure"),
     "bearing_force": ("N", "largest force on a rolling element"),
 }
+
+_HARDEST = 16
+"""Samples of a case that are solved again with the partial safety factor on their loads."""
 
 
 def balls(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
     """Solve the load distribution for every sample of every rolling bearing of the scene.
 
     Of the first bearing all samples are kept, and every ball force of the worst one; of all
-    bearings what `EACH` names.
+    bearings what `EACH` names. The hardest samples are solved again under design loads: with the
+    partial safety factor of their load case on force and moment. The modified life takes oil,
+    temperature and cleanliness of ``[friction]``.
 
     Raises
     ------
     loadflow.errors.SolverError
         A sample has no equilibrium.
     """
-    first, *others = scene.rolling.geometries
-    reduced = inputs["reduction"][first].to_dataset()
-    answer = solve_bearing(scene, first, reduced)
+    names = list(scene.rolling.geometries)
+    loads = {name: inputs["reduction"][name].to_dataset() for name in names}
+    answers = {name: solve_bearing(scene, name, loads[name]) for name in names}
+    answer, reduced = answers[names[0]], loads[names[0]]
     samples = of_samples({name: getattr(answer, name) for name in KEPT}, KEPT)
-    each = [_of_bearing(answer, reduced)]
-    for name in others:
-        other = inputs["reduction"][name].to_dataset()
-        each.append(_of_bearing(solve_bearing(scene, name, other), other))
+    each = [_of_bearing(scene, case, name, answers[name], loads[name]) for name in names]
     whole = {
-        name: ("bearing", np.array(values), label(*EACH[name]))
-        for name, values in zip(EACH, zip(*each))
+        name: ("bearing", np.array([found[name] for found in each]), label(*EACH[name]))
+        for name in EACH
     } | {
         "life": ((), life_of(answer, reduced), label("1e6 rev", "rating life L10")),
         "mean_speed": ((), _mean_speed(reduced), label("rad/s", "mean speed")),
     }
     worst = int(np.argmax(answer.maximum_force))
-    slope = min(weibull_slope(bearing) for bearing in scene.rolling.geometries.values())
+    slope = min(bearing.weibull_slope for bearing in scene.rolling.geometries.values())
     attrs = {
         "worst_sample": worst,
         "rated_capacity": answer.bearing.rated_capacity,
@@ -78,7 +89,7 @@ def balls(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
     return (
         reduced[["time", "speed", "weight"]]
         .assign(samples | whole)
-        .assign_coords(bearing=[first, *others])
+        .assign_coords(bearing=names)
         .assign_attrs(attrs)
         .merge(_worst(scene, reduced, worst), combine_attrs="override")
     )
@@ -96,19 +107,59 @@ def rest(part: FurtherBearing, force: np.ndarray, moment: np.ndarray, strict: bo
     """Equilibrium of a bearing, with its rings, under loads (..., 3) in the frame of the cube."""
     bearing = part.geometry
     load = to_rolling(force), to_rolling(moment)[..., :2]
-    if isinstance(bearing, SlewingBearing):
-        return bearing.equilibrium(*load, rings=part.ring_model, strict=strict)
-    return bearing.equilibrium(*load, strict=strict)
+    return bearing.equilibrium(*load, rings=part.ring_model, strict=strict)
 
 
-def _of_bearing(answer: Any, reduced: xr.Dataset) -> tuple[float, float, float, float]:
+def _of_bearing(
+    scene: Scene, case: Case, name: str, answer: Any, reduced: xr.Dataset
+) -> dict[str, float]:
     """Values of `EACH`."""
-    return (
-        life_of(answer, reduced),
-        float(np.min(answer.static_safety)),
-        float(np.max(answer.maximum_pressure)),
-        float(np.max(answer.maximum_force)),
+    options, weight = scene.friction, reduced["weight"].values
+    lubrication = Lubrication(
+        oil=lubricant(options.lubricant),
+        temperature=options.temperature,
+        cleanliness=options.cleanliness,
     )
+    modified = modified_spectrum_life(
+        answer.bearing, answer.equivalent_load, reduced["speed"].values, lubrication, weight
+    )
+    factor = factor_of_maximum(case.dlc)
+    safety, time = _design_safety(scene.rolling.bearings[name], answer, reduced, factor)
+    return {
+        "bearing_life": life_of(answer, reduced),
+        "bearing_modified_life": modified.life,
+        "bearing_viscosity_ratio": modified.least_viscosity_ratio,
+        "bearing_thin_share": modified.thin_share,
+        "bearing_static_safety": float(np.min(answer.static_safety)),
+        "bearing_design_safety": safety,
+        "bearing_design_time": time,
+        "bearing_load_factor": factor,
+        "bearing_truncated": _truncated_share(answer, weight),
+        "bearing_axial_force": float(np.abs(reduced["force"].values[:, 0]).max()),
+        "bearing_pressure": float(np.max(answer.maximum_pressure)),
+        "bearing_force": float(np.max(answer.maximum_force)),
+    }
+
+
+def _truncated_share(answer: Any, weight: np.ndarray) -> float:
+    """Share of time in which a contact ellipse reaches over a shoulder; NaN if none is given."""
+    if getattr(answer.bearing, "shoulder_angle", None) is None:
+        return np.nan
+    return float(np.average(answer.truncated, weights=weight))
+
+
+def _design_safety(
+    part: FurtherBearing, answer: Any, reduced: xr.Dataset, factor: float
+) -> tuple[float, float]:
+    """Smallest static safety under the loads times `factor`, and its time, s; NaN without one."""
+    hardest = np.argsort(answer.static_safety)[:_HARDEST]
+    some = reduced.isel(sample=hardest)
+    force, moment = (factor * some[name].values for name in ("force", "moment"))
+    designed = rest(part, force, moment, strict=False)
+    safety = np.where(designed.converged, designed.static_safety, np.nan)
+    if np.isnan(safety).any():
+        return np.nan, float(some["time"].values[np.argmax(np.isnan(safety))])
+    return float(safety.min()), float(some["time"].values[np.argmin(safety)])
 
 
 def _worst(scene: Scene, reduced: xr.Dataset, worst: int) -> xr.Dataset:
@@ -141,7 +192,7 @@ def life_of(answer: Any, reduced: xr.Dataset) -> float:
     bearing = answer.bearing
     return float(
         life.rating_life_spectrum(
-            bearing.rated_capacity, answer.equivalent_load, revolutions, life_exponent(bearing)
+            bearing.rated_capacity, answer.equivalent_load, revolutions, bearing.life_exponent
         )
     )
 
@@ -154,37 +205,38 @@ def summary(parts: Mapping[Case, xr.Dataset]) -> xr.Dataset:
     """Reduce each case to extremes and life; add the lives under all cases of each DLC together.
 
     ``life_hours`` is that of the first bearing, ``bearing_life_hours`` of each, and
-    ``system_life_hours`` of all of them, with the smallest Weibull slope among them. What ends in
-    ``_holds`` is the verdict of IEC 61400-1: lives of 20 years, static ratings over the load.
+    ``system_life_hours`` of all of them, with the smallest Weibull slope among them.
     """
     joined = over_cases({case: _extremes(part) for case, part in parts.items()})
     dlcs = np.unique(joined["dlc"])
     cases = [joined.isel(case=np.flatnonzero(joined["dlc"] == dlc)) for dlc in dlcs]
-    each = np.stack([_together(part) for part in cases])
     slope = next(iter(parts.values())).attrs["weibull_slope"]
     under = "under all cases of the DLC, weighted by their share"
-    first = label("h", f"rating life {under}")
-    together = label("h", f"rating life of all bearings as a system {under}")
-    of_all = label("h", f"rating life of each bearing {under}")
-    system = system_life(each, slope)
-    static = joined["bearing_static_safety"].min("case").values[:, None] >= STATIC_RATING
-    years = label("1", "whether it reaches 20 years")
-    rating = label("1", "whether the static safety reaches the limit in all cases")
-    return joined.assign(
-        life_hours=("load_case", each[:, 0], first),
-        bearing_life_hours=(("load_case", "bearing"), each, of_all),
-        system_life_hours=("load_case", system, together),
-        bearing_life_holds=(("load_case", "bearing"), each >= HOURS_20_YEARS, years),
-        system_life_holds=("load_case", system >= HOURS_20_YEARS, years),
-        static_rating_holds=(("bearing", "static_limit"), static, rating),
-    ).assign_coords(load_case=dlcs, static_limit=("static_limit", list(STATIC_RATING)))
+    found: dict[str, Any] = {}
+    for kind, meaning in (("", "rating life"), ("modified_", "modified rating life")):
+        each = np.stack([hours_together(part, f"bearing_{kind}life") for part in cases])
+        of_all, system = f"{meaning} of each bearing", f"{meaning} of all bearings as a system"
+        found |= {
+            f"{kind}life_hours": ("load_case", each[:, 0], label("h", f"{meaning} {under}")),
+            f"bearing_{kind}life_hours": (
+                ("load_case", "bearing"), each, label("h", f"{of_all} {under}"),
+            ),
+            f"system_{kind}life_hours": (
+                "load_case", system_life(each, slope), label("h", f"{system} {under}"),
+            ),
+        }  # fmt: skip
+    return joined.assign(found).assign_coords(load_case=dlcs).assign_attrs(weibull_slope=slope)
 
 
-def _together(cases: xr.Dataset) -> np.ndarray:
-    """Life of each bearing, h: damages per hour of the cases, weighted by share of the lifetime."""
-    per_hour = cases["mean_speed"] / (2 * np.pi) * 3600 / (cases["bearing_life"] * 1e6)
-    total = (per_hour * cases["weight"]).sum("case") / cases["weight"].sum()
-    return safety.ratio(1.0, total.values)
+def hours_together(cases: xr.Dataset, life: str, share: np.ndarray | None = None) -> np.ndarray:
+    """Life of each bearing, h: damages per hour of the cases, weighted by their share of time.
+
+    `life` names the variable, 10⁶ revolutions; without a `share` (case,) it is that of the cases
+    within their design load case.
+    """
+    weight = cases["weight"] if share is None else xr.DataArray(share, dims="case")
+    per_hour = cases["mean_speed"] / (2 * np.pi) * 3600 / (cases[life] * 1e6)
+    return safety.ratio(1.0, ((per_hour * weight).sum("case") / weight.sum()).values)
 
 
 def _extremes(samples: xr.Dataset) -> xr.Dataset:

@@ -94,10 +94,15 @@ LOADS = ("hub_force", "hub_moment", "force", "moment")
 
 
 def safety_factor(dlc: str) -> float:
-    """Partial safety factor for loads of a design load case; 1 for one not of the standard."""
-    from loadflow.wind.cases import LOAD_CASES
+    """Partial safety factor for the largest load of a series; 1 for a case not of the standard.
 
-    return LOAD_CASES[dlc].safety_factor if dlc in LOAD_CASES else 1.0
+    That of 1.1 is the normal 1.35: the 1.25 of IEC 61400-1 is for loads that are extrapolated.
+    Variants have that of their load case: ``DLC6.2a``, ``62`` and ``6.2 EWM`` that of 6.2.
+    """
+    from loadflow.readers.names import standard_dlc
+    from loadflow.wind.cases import factor_of_maximum
+
+    return factor_of_maximum(standard_dlc(dlc))
 
 
 def _dataset(

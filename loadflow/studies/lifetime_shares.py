@@ -26,7 +26,7 @@ def lifetime_shares(
     wind_speeds: Sequence[float],
     lengths: Sequence[float],
     *,
-    wind_class: str = "I",
+    wind_class: str | iec.WindClass = "I",
     shape: float = 2.0,
     operating: tuple[float, float] = (3.0, 25.0),
     per_year: Mapping[str, float] | None = None,
@@ -44,8 +44,8 @@ def lifetime_shares(
         Design load case of each case.
     wind_speeds, lengths : sequence of float, length k
         Mean wind speed, m/s, and length, s, of each case.
-    wind_class : str
-        I, II or III, which sets the annual mean (2.3).
+    wind_class : str or loadflow.wind.iec.WindClass
+        I, II or III, which sets the annual mean (2.3), or a class of one's own.
     shape : float
         Of the Weibull distribution of the wind speeds (2.2).
     operating : tuple of float

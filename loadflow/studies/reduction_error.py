@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from loadflow.errors import SolverError
-from loadflow.journal.shapes import CYLINDER
+from loadflow.journal.line import Line
+from loadflow.journal.models.model import why_not
 from loadflow.scene.scene import Journal
 from loadflow.stages.journal import mean_temperature
 from loadflow.studies.bearing_series import BearingSeries
@@ -82,13 +83,13 @@ def solve_films(series: BearingSeries, journal: Journal, transient: bool = True)
     bearing, force, speed = journal.geometry, series.radial, series.speed
     temperature = mean_temperature(journal, force, speed)
     journal = journal if temperature is None else journal.at_temperature(temperature)
-    film = bearing.equilibrium(force, speed, strict=False, **journal.film)
+    film = bearing.equilibrium(force, speed, journal.film_model, strict=False)
     found = np.asarray(film.converged, dtype=bool)
     drag = journal.lubricant.viscosity * np.where(found, np.abs(speed), np.nan)
     orbit = np.empty(0)
     if transient and found.all():
         try:
-            path = bearing.orbit(series.time, force, speed, **journal.film)
+            path = bearing.orbit(series.time, force, speed, journal.film_model)
             orbit = path["eccentricity_ratio"].values
         except SolverError:  # the static films stand for themselves; the table says "-"
             orbit = np.empty(0)
@@ -107,10 +108,8 @@ def for_long_series(journal: Journal) -> Journal:
 
 def quick(journal: Journal) -> Journal | None:
     """The bearing with the film that is quick over a long series; None where it does not fit."""
-    bearing = journal.geometry
-    cylinder = bearing.shape == CYLINDER and not bearing.relief
-    rigid = cylinder and journal.shell is None
-    if rigid and journal.supply is None and journal.grading != "graded":
+    film = replace(journal.film_model.isothermal(), rung="reduced")
+    if why_not("in_motion", film, journal.geometry, Line()) is None:
         return journal.model_copy(update={"rung": "reduced"})
     return None
 

@@ -95,9 +95,19 @@ class LoadCase:
         return self.events[0] not in STANDING
 
     @property
+    def stands_or_starts(self) -> bool:
+        """Whether the shaft stands, starts or stops, so that its speed goes through zero."""
+        return self.events[0] in (*STANDING, "start", "stop", "emergency stop")
+
+    @property
     def safety_factor(self) -> float:
-        """Partial safety factor for loads γ_f."""
+        """Partial safety factor for loads γ_f; that of 1.1 is for extrapolated loads."""
         return SAFETY[self.safety]
+
+    @property
+    def factor_of_maximum(self) -> float:
+        """γ_f of the largest load of a series: the normal one where none is extrapolated."""
+        return SAFETY["N" if self.safety == "extrapolated" else self.safety]
 
 
 _OPERATION, _FAULT = "power production", "power production with fault"
@@ -142,6 +152,11 @@ LOAD_CASES = {
                  6),
     )
 }  # fmt: skip
+
+
+def factor_of_maximum(dlc: str) -> float:
+    """γ_f of the largest load of a series of a load case; 1 for one that the table lacks."""
+    return LOAD_CASES[dlc].factor_of_maximum if dlc in LOAD_CASES else 1.0
 
 
 def load_case(dlc: str) -> LoadCase:

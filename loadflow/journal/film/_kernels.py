@@ -5,9 +5,10 @@ clearance and pressures in Pa. The balance of a film cell is then ::
 
     sum of outflows (wedge · F · H − H³ ∂p) + storage = 0,   wedge = 6 η ω / ψ²
 
-which is (3.51) of the source times 12 η / ψ² …. A symmetric gap is solved over half of the width.
-On a cone or a plane ring the same balance holds in isothermal coordinates: only the surface of a
-cell, `area`, then differs from its width `dz`; it scales what the surface drags along and stores.
+which is (3.51) of [Jonuschies 2015] times 12 η / ψ² …. A symmetric gap is solved over half of
+the width. On a cone or a plane ring the same balance holds in isothermal coordinates: only the
+surface of a cell, `area`, then differs from its width `dz`; it scales what the surface drags along
+and stores.
 
 Coefficients of the gap have the shape (8, nx + 1, rows): one row where the gap does not change
 along the axis, else one for each row of cells and a last one for the far rim.
@@ -20,14 +21,14 @@ from llvmlite import ir
 from numba import njit, types
 from numba.extending import intrinsic
 
-from loadflow.journal.cavitation import DFILL, DP, DSLACK, FILL, LOAD, P
+from loadflow.journal.cavitation import DFILL, DP, DSLACK, FILL, LOAD, SLACK, P
 
 # coefficients of the gap: on the faces around, on the faces across (H3), on cells; CELL3 is ∫H³ of
 # cells, from which the faces across of a gap that changes along the axis follow
 G, E, H3, HM, COS, SIN, CELL3, HINV = range(8)
 
 
-@intrinsic  # type: ignore[untyped-decorator]
+@intrinsic
 def _call(typing_context, address, numbers, scale, count, u, state):
     """Call a compiled function of a law at its address; arrays by theirs."""
     signature = types.void(*[types.intp] * 2, types.float64, *[types.intp] * 3)
@@ -135,6 +136,36 @@ def balance(state, coef, dz, area, gz, closed, wedge, p_edge, p_line, f_line, ma
             out[i, k] += q
             if k + 1 < nz:
                 out[i, k + 1] -= q
+
+
+@njit(cache=True, nogil=True)
+def largest_terms(state, coef, dz, area, gz, closed, wedge, p_edge, p_line, mass, groove):
+    """Largest sum of the magnitudes of the terms of `balance` in a cell; grooves have none."""
+    _, nx, nz = state.shape
+    row = 1 if coef.shape[2] > 1 else 0
+    p = state[P]
+    fill = state[FILL]
+    most = 0.0
+    for i in range(nx):
+        before = i - 1 if i > 0 else nx - 1
+        after = i + 1 if i + 1 < nx else 0
+        for k in range(nz):
+            if groove[i, k]:
+                continue
+            p_before = p[before, k] if closed or i > 0 else p_line
+            p_after = p[after, k] if closed or i + 1 < nx else p_line
+            here = abs(p[i, k])
+            total = coef[G, i, row * k] * (abs(p_before) + here)
+            total += coef[G, i + 1, row * k] * (abs(p_after) + here)
+            dragged = abs(wedge) * (coef[E, i, row * k] + coef[E, i + 1, row * k])
+            total = dz[k] * total
+            total += area[k] * (dragged + fill[i, k] * abs(mass[i, row * k]))
+            low = abs(p[i, k - 1]) if k > 0 else abs(p_edge)
+            high = abs(p[i, k + 1]) if k + 1 < nz else abs(p_edge)
+            total += coef[H3, i, row * k] * gz[k] * (low + here)
+            total += coef[H3, i, row * (k + 1)] * gz[k + 1] * (high + here)
+            most = max(most, total + abs(state[SLACK, i, k]))
+    return most
 
 
 @njit(cache=True, nogil=True)
@@ -254,7 +285,7 @@ def integrals(state, coef, dz, gz, closed, p_edge, p_line, groove):
     """Integrals over the solved film, in the units of this module.
 
     Returns the largest pressure, the dissipation Σ H³ |∂p|², the shear ∫ 1/H outside grooves, the
-    outflow over the rims (where it leaves), and ∫ F H and ∫ H.
+    outflow over the bearing ends (where it leaves), and ∫ F H and ∫ H.
     """
     _, nx, nz = state.shape
     row = 1 if coef.shape[2] > 1 else 0

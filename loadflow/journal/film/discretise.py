@@ -12,7 +12,7 @@ from loadflow.journal.film.feed import Feed
 from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.gap import PlainGap
 from loadflow.journal.film.gap_elastic import ElasticGap
-from loadflow.journal.film.gap_mesh import recess_marks, shaped_mesh
+from loadflow.journal.film.gap_mesh import crowded, recess_marks, shaped_mesh
 from loadflow.journal.film.gap_shaped import Bore, ShapedGap
 from loadflow.journal.film.groove_pressure import Pockets
 from loadflow.journal.film.grooves import groove_marks, groove_numbers
@@ -54,11 +54,19 @@ def build_film(diameter: float, width: float, clearance: float, options: Film) -
 
 
 def build_shaped_film(
-    bore: Bore, shape: Shape, options: Film, straight: bool
+    bore: Bore, shape: Shape, options: Film, straight: bool, crowd: tuple[float, ...] = ()
 ) -> tuple[ShapedGap, DiscreteFilm]:
-    """Discrete film of a bearing of any shape; `straight`: around an aligned, straight shaft."""
+    """Discrete film of a bearing of any shape; `straight`: around an aligned, straight shaft.
+
+    Cells crowd at the angles `crowd`, rad.
+    """
     law, supply = options.law, options.supply
-    require(options.inlet != "widest gap", "inlet", options.inlet, "None but for a plain cylinder")
+    require(
+        options.inlet != "widest gap",
+        "inlet",
+        options.inlet,
+        "None but for a cylindrical, aligned bearing",
+    )
     pressure = getattr(shape, "groove_pressure", None)
     pressure = options.edge_pressure if pressure is None else pressure
     options.check_oil(pressure)
@@ -72,6 +80,8 @@ def build_shaped_film(
     mesh = shaped_mesh(
         ratio, grid, half, graded, bore.segments, [*turns, *around], [*places, *ends, *-ends]
     )
+    for angle in crowd:
+        mesh = crowded(mesh, angle)
     numbers = groove_numbers(mesh.angle, mesh.z, ratio, supply, grid[0], bore.radius)
     mirrors = 2.0 if half else 1.0
     flow_unit = mirrors * bore.clearance**3 / (12.0 * options.liquid.viscosity)

@@ -14,9 +14,11 @@ from loadflow.journal.cavitation import DFILL, DLOAD, DP, FILL, LOAD, SLACK, Cav
 from loadflow.journal.film import _kernels as kernel
 from loadflow.journal.film.gap import Gap, turning_frame
 from loadflow.journal.film.groove_pressure import Pockets
+from loadflow.numerics.convergence import EPS, rounding_level
 
 Array = NDArray[np.float64]
 
+_AXIS = 1e-8  # eccentricity ratio below which a film that turns with the shaft is linear in it
 _CELLS = 0.6  # of the width of the narrowest gap, the widest cell around that resolves it
 
 EVERY = slice(None)  # all degrees of freedom
@@ -61,7 +63,7 @@ class DiscreteFilm:
     viscosity, relative_clearance, radius : float
         η (Pa s), ψ, shaft radius (m).
     edge_pressure : float
-        Pressure at the rims and on the inlet line, Pa, absolute.
+        Pressure at the bearing ends and on the inlet line, Pa, absolute.
     pockets : Pockets
         Grooves and what feeds them.
     end_pressure : float, optional
@@ -243,8 +245,13 @@ class DiscreteFilm:
         damping = -carried[-gap.size :].T
         direct = [d - c for d, c in zip(by_gap, carried[1:])]
         if mesh.polar:
-            ratio = max(float(np.hypot(*position)), 1e-9)
-            direct.append(_TURN @ load / ratio - damping @ (_TURN @ local) / ratio)
+            ratio = float(np.hypot(*position))
+            if ratio < _AXIS:
+                direct.append(_TURN @ direct[0])
+            else:
+                direct.append(_TURN @ load / ratio - damping @ (_TURN @ local) / ratio)
+        if not np.isfinite(load).all():
+            raise SingularFilm(f"film matrix has no solution at eccentricity {position}")
         return Linear(
             load=frame @ load,
             stiffness=frame @ np.array(direct).T @ frame.T,
@@ -368,10 +375,45 @@ class DiscreteFilm:
         if self.pockets.free.size:
             worst = max(worst, self.pockets.missing(self.state[P], outflow, self.scale))
         if force is not None:
-            scale = max(math.hypot(*force), self.scale * self.radius**2 * 1e-3)
+            scale = self.load_scale(force)
             missing = force - frame @ self._load(around)
             worst = max(worst, math.hypot(*missing[free]) / scale)
         return worst
+
+    def load_scale(self, force: Array) -> float:
+        """Scale of what is missing of the load, N."""
+        return max(math.hypot(*force), self.scale * self.radius**2 * 1e-3)
+
+    def rounding(
+        self,
+        position: Array,
+        velocity: Array,
+        slope: Array,
+        force: Array | None = None,
+        free: slice | NDArray[np.int64] = EVERY,
+    ) -> float:
+        """Level of rounding of `imbalance`, just called, over the same scales.
+
+        The gap is a difference of numbers near 1: where it is narrow its coefficients have fewer
+        digits. `slope` (m, m) is the derivative of the load by the position.
+        """
+        mesh, gap = self.mesh, self.gap
+        mass = self._storage(gap.coef, gap.around, velocity, 0.0)
+        terms = kernel.largest_terms(
+            self.state, gap.coef, mesh.dz, mesh.area, mesh.gz, mesh.closed, self.wedge,
+            self.p_edge, self.p_line, mass, self.fixed,
+        )  # fmt: skip
+        narrow = min(max(gap.narrowest(position), EPS), 1.0)
+        flux = (abs(self.wedge) + self.scale) * mesh.dz.max()
+        worst = terms * (1.0 + 3.0 / narrow) / flux
+        if force is not None:
+            scale = self.load_scale(force)
+            pressed = float(np.abs(self.state[kernel.LOAD]).max()) * 2 * np.pi * mesh.dz.sum()
+            reach = np.abs(gap.across).max(axis=1)
+            carried = self.mirrors * self.radius**2 * pressed * reach
+            digits = np.abs(slope).sum(axis=1) * max(1.0, float(np.abs(position).max()))
+            worst = max(worst, float((carried + digits)[free].max()) / scale)
+        return rounding_level(worst)
 
     def liquid(self) -> Array:
         """Liquid in each cell (nx, nz) times the squeeze pressure, Pa s, at the last state."""

@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 class Integrals(NamedTuple):
     """Integrals over the solved film in the units of `_kernels`; numbers, or arrays over states.
 
-    Largest pressure, dissipation, shear, flow over the rims, total fill.
+    Largest pressure, dissipation, shear, flow over the bearing ends, total fill.
     """
 
     peak: Any

@@ -95,6 +95,39 @@ def balance(ring, work, wedge, rate):
 
 
 @njit(cache=True, nogil=True)
+def magnitudes(ring, work, wedge, rate):
+    """Magnitude of the largest terms of `balance`, after it: in a cell, and in the load, N.
+
+    A narrow gap is a difference of numbers near 1, so that what follows from it has fewer digits.
+    """
+    nx, m = work.u.shape
+    step = 2.0 * np.pi / nx
+    axial = ring.axial
+    p = work.state[P]
+    fill = work.state[FILL]
+    largest, peak, narrow = 0.0, 0.0, 1.0
+    for i in range(nx):
+        left = i - 1 if i > 0 else nx - 1
+        right = i + 1 if i + 1 < nx else 0
+        h, h_l, h_r = work.gap[i], work.gap_face[left], work.gap_face[i]
+        narrow = min(narrow, h, h_r)
+        around = h_l * h_l * h_l / step + h_r * h_r * h_r / step
+        for k in range(m):
+            total = ring.slope * step * axial.weights[k] * rate * fill[i, k] * h
+            total += axial.weights[k] * (
+                abs(wedge) * (h_l + h_r)
+                + around * max(abs(p[i, k]), abs(p[left, k]), abs(p[right, k]))
+            )
+            for j in range(m):
+                stiffness = step * h * h * h * abs(axial.stiffness[k, j])
+                total += stiffness * (abs(p[i, j]) + abs(ring.p_edge))
+            largest = max(largest, total + abs(work.state[SLACK, i, k]))
+            peak = max(peak, abs(work.state[LOAD, i, k]))
+    lost = 1.0 + 3.0 / max(narrow, 1e-16)
+    return largest * lost, ring.area * 2.0 * np.pi * axial.weights.sum() * peak * lost
+
+
+@njit(cache=True, nogil=True)
 def matrix(ring, work, wedge, rate):
     """Band matrix of the derivatives of the residual by the unknowns."""
     nx, m = work.u.shape

@@ -14,15 +14,29 @@ from loadflow.journal.models._reduced_kernels import (
     balance,
     carried,
     factorise,
+    magnitudes,
     matrix,
     place,
     substitute,
     summarise,
 )
-from loadflow.journal.models.reduced_film import CONVERGED, ITERATIONS, RESIDUAL, X, Y
+from loadflow.journal.models.reduced_film import (
+    CONVERGED,
+    ITERATIONS,
+    RESIDUAL,
+    ROUNDING,
+    X,
+    Y,
+)
+from loadflow.numerics import convergence
 
 _CALM = 0.5  # change of the film over its pressure, up to which the shaft goes all the way
 _SMALLEST = 1.0 / 256  # of a given step, to which a step that fails may be cut
+_LATE = 8  # Newton steps after which a residual is asked whether it is that of rounding
+
+_COARSEST = convergence.COARSEST
+rounding_level = njit(cache=True, nogil=True)(convergence.rounding_level)
+is_small = njit(cache=True, nogil=True)(convergence.is_small)
 
 
 @njit(cache=True, nogil=True)
@@ -73,7 +87,8 @@ def newton(ring, work, x, y, fx, fy, speed, rate, tolerance, max_iterations):
     """Film and shaft at which the load (fx, fy) is carried; one implicit step if rate > 0.
 
     Starts from `work.u` and (x, y), where the shaft stays unless `ring.free`. Returns position,
-    residual, Newton steps and whether the residual fell below the tolerance.
+    residual, Newton steps, whether the residual is small by the rule of `convergence`, and its
+    rounding level, which is looked at where the tolerance is not met soon.
     """
     nx, m = work.u.shape
     wedge = 0.5 * ring.slope * speed
@@ -86,12 +101,18 @@ def newton(ring, work, x, y, fx, fy, speed, rate, tolerance, max_iterations):
         residual = worst / flux
         if ring.free:
             residual = max(residual, np.hypot(fx - lx, fy - ly) / force_scale)
-        if residual < tolerance or spent == max_iterations or not residual < np.inf:
-            return x, y, residual, spent, residual < tolerance
+        done = residual < tolerance or spent == max_iterations or not residual < np.inf
+        rounding = 0.0
+        if not residual < tolerance and (done or spent >= _LATE):
+            cells, load = magnitudes(ring, work, wedge, rate)
+            rounding = rounding_level(max(cells / flux, load / force_scale if ring.free else 0.0))
+        answered = is_small(residual, tolerance, min(rounding, _COARSEST))
+        if done or answered:
+            return x, y, residual, spent, answered, rounding
         spent += 1
         matrix(ring, work, wedge, rate)
         if not factorise(work.band):
-            return x, y, residual, spent, False
+            return x, y, residual, spent, False, rounding
         substitute(work.band, work.columns)
         dx, dy = 0.0, 0.0
         if ring.free:
@@ -195,7 +216,7 @@ def march(ring, work, x, y, time, force, speed, tolerance, max_iterations, rows)
                 if ahead:
                     x_new, y_new = x_ahead, y_ahead
             predict(work, ratio, ahead, weight, weight_before)
-            x_new, y_new, residual, iterations, converged = newton(
+            x_new, y_new, residual, iterations, converged, rounding = newton(
                 ring,
                 work,
                 x_new,
@@ -221,6 +242,7 @@ def march(ring, work, x, y, time, force, speed, tolerance, max_iterations, rows)
         rows[n, RESIDUAL] = residual
         rows[n, ITERATIONS] = spent
         rows[n, CONVERGED] = converged
+        rows[n, ROUNDING] = rounding
         if not converged:
             rows[n, X], rows[n, Y] = x_new, y_new
             return n + 1

@@ -23,7 +23,7 @@ _STEP = 1e-4  # of velocity and load in the last of them: the error is near its 
 
 POWERS = np.array([kernel.RADIAL_POWER, kernel.TANGENTIAL_POWER])  # of the gap, of velocities
 
-# rows of the results of a moving film: peak over ambient pressure, dissipation, flow over the rims,
+# rows of the results of a moving film: peak over ambient pressure, dissipation, flow over the ends,
 # fill, stiffness and damping in the frame of the eccentricity
 PEAK, DISSIPATION, OUTFLOW, FILL, STIFFNESS, DAMPING = 0, 1, 2, 3, slice(4, 8), slice(8, 12)
 LOADS = np.array([1, 2, 1, 0, 1, 1, 1, 1, 0, 0, 0, 0])  # powers of s of these values

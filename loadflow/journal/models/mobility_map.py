@@ -13,18 +13,20 @@ from loadflow.errors import SolverError
 from loadflow.journal.film.discretise import build_film
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
+from loadflow.journal.line import Line
 from loadflow.journal.models import _mobility_kernels as kernel
 from loadflow.journal.models import mobility_films as row
+from loadflow.journal.models.grid import solve_on_grid
 from loadflow.journal.models.mobility import MobilityMap, scaled, tabulate
+from loadflow.journal.models.model import Steps
 from loadflow.journal.results import operating_columns, without_supply
-from loadflow.journal.solvers.newton import refusal
 from loadflow.journal.solvers.transient import orbit_dataset
-from loadflow.numerics.fields import require
+from loadflow.quantities import FILM
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from loadflow.numerics.convergence import Limits
+from loadflow.numerics.convergence import Limits
 
 Array = NDArray[np.float64]
 
@@ -88,7 +90,6 @@ def _turned(matrices: Array, angle: Array) -> Array:
 
 def mapped(bearing: JournalGeometry, options: Film, force: Array) -> Mapped:
     """The map of a bearing and film, tabulated up to the largest of `force` (n, 2)."""
-    require(options.supply is None, "supply", options.supply, 'None with rung = "map"')
     if options.grading == "auto":
         options = replace(options, grading="graded")
     # refuses, in the user's units, what no film can have
@@ -106,42 +107,34 @@ def mapped(bearing: JournalGeometry, options: Film, force: Array) -> Mapped:
 
 
 def equilibrium(
-    bearing: JournalGeometry, options: Film, force: Array, speed: Array, control: Limits
+    bearing: JournalGeometry, options: Film, force: Array, speed: Array, line: Line, control: Limits
 ) -> dict[str, Any]:
     """Static equilibria: where the velocity of the map is zero.
+
+    A load that the map does not cover is solved on the grid that the map is made of: ambient
+    pressure may feed a film at one end of a cell of the map, and leave it empty at the other.
 
     Raises
     ------
     SolverError
-        A load at ω = 0, or one that the map does not cover; names the first such load.
+        A load at ω = 0, or one that the grid does not carry either; names the first such load.
     """
+    force, speed = np.array(force), np.array(speed)  # rows are replaced
     film = mapped(bearing, options, force)
     position, iterations = _at_rest(film, force, speed)
+    found = film.results(position, force, speed)
+    covered = found.pop("in_range") & (~force.any(axis=-1) | (iterations > 0))
     answer = {
         **operating_columns(bearing, force, speed, options.liquid, position),
-        **film.results(position, force, speed),
+        **found,
         "eccentricity_ratio": np.hypot(*position.T),
         "iterations": iterations,
+        "converged": covered,
+        "residual": np.zeros(speed.size),
     }
-    idle = ~force.any(axis=-1)
-    found = answer.pop("in_range") & (idle | (iterations > 0))
-    residual = np.where(found, 0.0, np.inf)
-    if control.strict and not found.all():
-        bad = int(np.flatnonzero(~found)[0])
-        ratio = float(answer["eccentricity_ratio"][bad])
-        words = refusal(force[bad], speed[bad], residual[bad], iterations[bad], ratio)
-        raise SolverError(f"load {bad}: {words}: the map ends there")
-    for name in ("eccentricity", "attitude_angle", "eccentricity_ratio", *_FROM_FILM):
-        answer[name] = np.where(
-            found.reshape(-1, *[1] * (answer[name].ndim - 1)), answer[name], np.nan
-        )
-    return answer | {"converged": found, "residual": residual}
-
-
-_FROM_FILM = (
-    "minimum_film", "maximum_pressure", "friction_power", "side_flow", "total_fill", "stiffness",
-    "damping",
-)  # fmt: skip
+    for index in np.flatnonzero(~covered):
+        solve_on_grid(bearing, film.options, int(index), answer, control)
+    return answer
 
 
 def _at_rest(film: Mapped, force: Array, speed: Array) -> tuple[Array, NDArray[np.int64]]:
@@ -168,8 +161,9 @@ def orbit(
     time: Array,
     force: Array,
     speed: Array,
-    start: Array | None,
+    line: Line,
     control: Limits,
+    steps: Steps,
 ) -> xr.Dataset:
     """Path of the shaft by an ordinary differential equation.
 
@@ -182,16 +176,16 @@ def orbit(
         No equilibrium to start from, or too many steps between two times.
     """
     film = mapped(bearing, options, force)
+    start = steps.start
     if start is None:
-        first = equilibrium(bearing, film.options, force[:1], speed[:1], control)
+        first = equilibrium(bearing, film.options, force[:1], speed[:1], line, control)
         start = first["eccentricity"][0] / bearing.clearance
     path, _, values = advance(
         film.table.motion, film.table.axes, film.units, time, force, speed, start, control
     )
     values |= film.results(path, force, speed)
     data = orbit_dataset(values, time, force, speed, bearing.clearance)
-    flag = {"units": "1", "long_name": "whether the map covers position and load"}
-    return data.assign(in_range=("time", values["in_range"], flag))
+    return data.assign(in_range=("time", values["in_range"], FILM["in_range"].attributes))
 
 
 def advance(

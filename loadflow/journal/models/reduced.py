@@ -20,18 +20,19 @@ from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.integrals import Integrals, in_units
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
+from loadflow.journal.line import Line
 from loadflow.journal.models import reduced_film as at
 from loadflow.journal.models._reduced_kernels import summarise
 from loadflow.journal.models._reduced_loops import finish, march, newton
+from loadflow.journal.models.grid import solve_on_grid
+from loadflow.journal.models.model import Steps
 from loadflow.journal.models.reduced_film import Ring, Work, make_work
 from loadflow.journal.models.width_modes import lobatto
 from loadflow.journal.results import operating_columns, without_supply
 from loadflow.journal.solvers.estimate import NEAR, closed_form_position
-from loadflow.journal.solvers.newton import refusal
-from loadflow.journal.solvers.statics import plain_rows
+from loadflow.journal.solvers.newton import not_found, refusal
 from loadflow.journal.solvers.transient import orbit_dataset
-from loadflow.numerics.convergence import Limits
-from loadflow.numerics.fields import require
+from loadflow.numerics.convergence import Limits, unresolved
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -39,12 +40,11 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-_GRID_LIMITS = Limits(1e-10, 60, strict=False)  # of a load that is solved on the grid instead
 POINTS = 3  # across the half width; the largest pressure moves by 0.4 % at most with more of them
 
 
 def equilibrium(
-    bearing: JournalGeometry, options: Film, force: Array, speed: Array, control: Limits
+    bearing: JournalGeometry, options: Film, force: Array, speed: Array, line: Line, control: Limits
 ) -> dict[str, Any]:
     """Static equilibria; a load that fails or is not resolved here is solved on the grid."""
     force, speed = np.array(force), np.array(speed)  # of the layout that the kernels know
@@ -57,7 +57,7 @@ def equilibrium(
     for n in range(count):
         spent, converged = 0, False
         for x, y in starts.of(n):
-            x, y, residual, iterations, converged = newton(
+            x, y, residual, iterations, converged, rounding = newton(
                 ring, work, x, y, force[n, 0], force[n, 1], speed[n], 0.0,
                 control.tolerance, control.max_iterations,
             )  # fmt: skip
@@ -68,7 +68,7 @@ def equilibrium(
                 finish(ring, work, x, y, speed[n], rows[n], stiffness[n], damping[n])
                 starts.keep(n, (x, y))
                 break
-        rows[n, at.RESIDUAL :] = residual, spent, converged
+        rows[n, at.RESIDUAL :] = residual, spent, converged, rounding
     position = rows[:, [at.X, at.Y]]
     answer = {
         **operating_columns(bearing, force, speed, options.liquid, position),
@@ -79,7 +79,7 @@ def equilibrium(
         "converged": rows[:, at.CONVERGED] > 0,
     }
     for index in np.flatnonzero(~answer["converged"]):
-        _from_grid(bearing, options, int(index), answer, control)
+        solve_on_grid(bearing, options, int(index), answer, control)
     return answer
 
 
@@ -89,8 +89,9 @@ def orbit(
     time: Array,
     force: Array,
     speed: Array,
-    start: Array | None,
+    line: Line,
     control: Limits,
+    steps: Steps,
 ) -> xr.Dataset:
     """Path of the shaft; all steps in one compiled loop.
 
@@ -104,18 +105,19 @@ def orbit(
     film.raise_scale(float(np.hypot(*force.T).max()) / (bearing.width * bearing.diameter))
     ring, work = _discrete(film)
     work.u[:] = film.unknown_of(np.full(work.u.shape, film.p_edge))
+    start = steps.start
     first = _estimate(bearing, film, force[:1], speed[:1])[0] if start is None else start
     rows = np.zeros((time.size, at.RESULTS))
     begin = ring._replace(free=start is None)
-    x, y, residual, iterations, converged = newton(
+    x, y, residual, iterations, converged, rounding = newton(
         begin, work, first[0], first[1], force[0, 0], force[0, 1], speed[0], 0.0,
         control.tolerance, 2 * control.max_iterations,
     )  # fmt: skip
     if not converged:
-        words = refusal(force[0], speed[0], residual, iterations, float(np.hypot(x, y)))
-        raise SolverError(f"orbit cannot start: {words}")
+        why = not_found(residual, rounding, iterations, float(np.hypot(x, y)))
+        raise SolverError(f"orbit cannot start: {refusal(force[0], speed[0], why)}")
     summarise(ring, work, x, y, rows[0])
-    rows[0, at.RESIDUAL :] = residual, iterations, converged
+    rows[0, at.RESIDUAL :] = residual, iterations, converged, rounding
     solved = march(
         ring, work, x, y, time, force, speed, control.tolerance, control.max_iterations, rows
     )
@@ -124,9 +126,8 @@ def orbit(
         raise SolverError(
             f"orbit stops at t = {time[last]:.6g} s: F = ({force[last, 0]:.6g}, "
             f"{force[last, 1]:.6g}) N, ω = {speed[last]:.6g} rad/s, "
-            f"ε = {np.hypot(rows[last, at.X], rows[last, at.Y]):.6g}; residual "
-            f"{rows[last, at.RESIDUAL]:.3g} after {rows[last, at.ITERATIONS]:g} Newton "
-            "steps"
+            f"ε = {np.hypot(rows[last, at.X], rows[last, at.Y]):.6g}; "
+            + unresolved(*rows[last, [at.RESIDUAL, at.ROUNDING, at.ITERATIONS]])
         )
     values = _results(film, rows, speed) | {"x": rows[:, at.X], "y": rows[:, at.Y]}
     return orbit_dataset(values, time, force, speed, bearing.clearance)
@@ -160,11 +161,6 @@ class _Starts:
 
 def _film(bearing: JournalGeometry, options: Film, speed: Array) -> DiscreteFilm:
     """The grid's film on cells fixed to the shell: what the few unknowns take their data from."""
-    allowed = 'None with rung = "reduced"; take rung = "grid"'
-    require(options.supply is None, "supply", options.supply, allowed)
-    require(not options.inlet_line, "inlet", options.inlet, allowed)
-    allowed = 'uniform with rung = "reduced"'
-    require(options.grading != "graded", "grading", options.grading, allowed)
     fixed = replace(options, grading="uniform", inlet=None)
     film = build_film(bearing.diameter, bearing.width, bearing.relative_clearance, fixed)
     film.set_scale(float(np.abs(speed).max()))
@@ -209,21 +205,3 @@ def _results(film: DiscreteFilm, rows: Array, speed: Array) -> dict[str, Any]:
         "iterations": rows[:, at.ITERATIONS].astype(int),
         **without_supply(len(rows)),
     }
-
-
-def _from_grid(
-    bearing: JournalGeometry,
-    options: Film,
-    index: int,
-    answer: dict[str, Any],
-    control: Limits,
-) -> None:
-    """Replace the row `index` of `answer` by that of the rung "grid"."""
-    force, speed = answer["force"][index], float(answer["speed"][index])
-    [state] = plain_rows(bearing, options, force[None], np.array([speed]), _GRID_LIMITS)
-    if control.strict and not state["converged"]:
-        ratio, residual = float(state["eccentricity_ratio"]), float(state["residual"])
-        words = refusal(force, speed, residual, int(state["iterations"]), ratio)
-        raise SolverError(f"load {index}: {words}")
-    for name, values in answer.items():
-        values[index] = state[name]

@@ -12,8 +12,10 @@ from loadflow.journal.models.width_modes import Axial
 Array = NDArray[np.float64]
 
 # columns of a row of results
-X, Y, PEAK, DISSIPATION, SHEAR, OUTFLOW, FILLED, RESIDUAL, ITERATIONS, CONVERGED = range(10)
-RESULTS = 10
+X, Y, PEAK, DISSIPATION, SHEAR, OUTFLOW, FILLED, RESIDUAL, ITERATIONS, CONVERGED, ROUNDING = range(
+    11
+)
+RESULTS = 11
 
 
 class Ring(NamedTuple):

@@ -19,11 +19,14 @@ from numpy.typing import NDArray
 from loadflow.journal.cavitation import Guembel
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
+from loadflow.journal.line import Line
 from loadflow.journal.models import mobility_map as mapped
 from loadflow.journal.models.charts import CLOSED, TABLE, Chart, friction_power, width_of
 from loadflow.journal.models.mobility_map import advance
+from loadflow.journal.models.model import Steps
 from loadflow.journal.solvers.transient import orbit_dataset
 from loadflow.numerics.splines import spline
+from loadflow.quantities import FILM
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -56,11 +59,12 @@ class Superposed:
         options: Film,
         force: Array,
         speed: Array,
+        line: Line,
         control: Limits,
     ) -> dict[str, Any]:
         """Static equilibria: those of the chart."""
         return replace(self.chart, name=self.name).equilibrium(
-            bearing, options, force, speed, control
+            bearing, options, force, speed, line, control
         )
 
     def orbit(
@@ -70,16 +74,18 @@ class Superposed:
         time: Array,
         force: Array,
         speed: Array,
-        start: Array | None,
+        line: Line,
         control: Limits,
+        steps: Steps,
     ) -> xr.Dataset:
         """Path of the shaft by an ordinary differential equation, as of the rung "map".
 
         Largest pressure, flow and fill are not known and missing.
         """
-        width_ratio = width_of(bearing, options, self.name)
+        width_ratio = width_of(bearing, self.name)
+        start = steps.start
         if start is None:
-            first = self.equilibrium(bearing, options, force[:1], speed[:1], control)
+            first = self.equilibrium(bearing, options, force[:1], speed[:1], line, control)
             start = first["eccentricity"][0] / bearing.clearance
         motion, axes = _vectors(self.chart, width_ratio)
         viscosity = options.liquid.viscosity
@@ -92,8 +98,8 @@ class Superposed:
             "friction_power": friction_power(bearing, viscosity, path, force, speed, slip),
         }
         data = orbit_dataset(values, time, force, speed, bearing.clearance)
-        flag = {"units": "1", "long_name": "whether the chart covers the position"}
-        return data.assign(in_range=("time", gap >= 1 - self.chart.largest, flag))
+        covered = gap >= 1 - self.chart.largest
+        return data.assign(in_range=("time", covered, FILM["in_range"].attributes))
 
 
 @lru_cache(maxsize=16)
@@ -127,10 +133,11 @@ class Hahn:
         options: Film,
         force: Array,
         speed: Array,
+        line: Line,
         control: Limits,
     ) -> dict[str, Any]:
         """Static equilibria of the Gümbel film."""
-        return mapped.equilibrium(bearing, self._film(options), force, speed, control)
+        return mapped.equilibrium(bearing, self._film(options), force, speed, line, control)
 
     def orbit(
         self,
@@ -139,12 +146,13 @@ class Hahn:
         time: Array,
         force: Array,
         speed: Array,
-        start: Array | None,
+        line: Line,
         control: Limits,
+        steps: Steps,
     ) -> xr.Dataset:
         """Path of the shaft in the Gümbel film."""
         film = self._film(options)
-        return mapped.orbit(bearing, film, time, force, speed, start, control)
+        return mapped.orbit(bearing, film, time, force, speed, line, control, steps)
 
 
 HOLLAND = Superposed("holland", TABLE)

@@ -14,17 +14,20 @@ from loadflow.journal.film.discretise import build_film
 from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
+from loadflow.journal.line import Line
 from loadflow.journal.results import field_row, static_row
 from loadflow.journal.solvers.estimate import NEAR, closed_form_position
 from loadflow.journal.solvers.newton import (
     Solution,
     no_film,
+    not_found,
     refusal,
     solve_equilibrium,
     solve_film,
     solve_patiently,
 )
-from loadflow.numerics.convergence import Limits
+from loadflow.journal.solvers.statics_shaped import equilibrium_rows
+from loadflow.numerics.convergence import Limits, unresolved
 
 Array = NDArray[np.float64]
 
@@ -55,12 +58,27 @@ def plain_rows(
     last: Solution | None = None
     for index, (load, omega) in enumerate(zip(loads, speeds.tolist())):
         used, solution = _settle(bearing, film, finer, load, omega, last, control)
+        crowds = options.supply is not None and omega != 0.0 and not used.dry(solution.u)
+        if not solution.converged and crowds:
+            row = _on_crowded_cells(bearing, options, load, omega, control)
+            if row["converged"]:
+                rows.append(row)
+                continue
         if not solution.converged and control.strict:
             raise SolverError(f"load {index}: {_refusal(used, load, solution)}")
         if solution.converged and used is film:
             last = solution
         rows.append(static_row(bearing, used, load, options.liquid, solution))
     return rows
+
+
+def _on_crowded_cells(
+    bearing: JournalGeometry, options: Film, load: Array, speed: float, control: Limits
+) -> dict[str, Any]:
+    """Row of a load at which the gap closes between cells that the grooves hold in their places."""
+    loads, speeds = load[None], np.array([speed])
+    calm = replace(control, strict=False)
+    return equilibrium_rows(bearing, options, loads, speeds, Line(), calm, whirl=0.0)[0]
 
 
 def plain_fields(
@@ -89,8 +107,8 @@ def plain_fields(
             raise SolverError(f"film {index} at ε = {np.hypot(*place):.6g}: {_STARVED}")
         if control.strict and not solution.converged:
             raise SolverError(
-                f"film {index} at ε = {np.hypot(*place):.6g}, ω = {omega:.6g} rad/s: residual "
-                f"{solution.residual:.3g} after {solution.iterations} steps"
+                f"film {index} at ε = {np.hypot(*place):.6g}, ω = {omega:.6g} rad/s: "
+                + unresolved(solution.residual, solution.rounding, solution.iterations)
             )
         rows.append(field_row(film, solution))
     return rows, film.mesh.z * bearing.radius
@@ -188,7 +206,8 @@ def _refusal(film: DiscreteFilm, load: Array, solution: Solution) -> str:
             return f"{head}: without rotation and squeeze the film carries no load"
         return f"{head}: the supply carries no more than {_lift(film, load):.6g} N, at ε = {_HIGH}"
     ratio = float(np.hypot(*solution.position))
-    return refusal(load, film.speed, solution.residual, solution.iterations, ratio)
+    reached = (solution.residual, solution.rounding, solution.iterations)
+    return refusal(load, film.speed, not_found(*reached, ratio))
 
 
 def _steps(film: DiscreteFilm, max_iterations: int) -> int:

@@ -14,6 +14,7 @@ Concepts of Bearing Technology, ch. 2, 5.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -31,7 +32,8 @@ from loadflow.rolling.friction.bearing import (
 from loadflow.rolling.friction.contact_films import ContactFilm, Ring, groove_film
 from loadflow.rolling.friction.options import FrictionOptions
 from loadflow.rolling.motion.kinematics import entrainment_speed
-from loadflow.rolling.results import BallResult
+from loadflow.rolling.raceways import BallRaceways
+from loadflow.rolling.results import ContactResult
 from loadflow.tribology import traction
 from loadflow.tribology.hertz import effective_modulus
 
@@ -44,22 +46,23 @@ _ELLIPSE_HYSTERESIS = 3 / 16  # ∫ p x over the leading half of an ellipse, ove
 
 
 class _Groove(NamedTuple):
-    """Balls on one ring: friction, friction coefficient, semi-axis across, differential speed."""
+    """Balls on one ring: friction, friction coefficient, semi-axis, differential speed, area."""
 
     contact: ContactFriction
     coefficient: Array
     across: Array
     slip: Array
+    area: Array
 
 
 def ball_friction(
-    result: BallResult, speed: ArrayLike, options: FrictionOptions
+    result: ContactResult[BallRaceways], speed: ArrayLike, options: FrictionOptions
 ) -> BearingFriction:
     """Film, Λ and losses of every contact of a ball bearing with rigid rings.
 
     Parameters
     ----------
-    result : BallResult
+    result : ContactResult
         Load distribution of a ball or slewing bearing, cases (...).
     speed : array_like
         Speed of the inner ring (less that of the outer), rad/s; broadcasts with the cases.
@@ -92,20 +95,38 @@ def ball_friction(
     u = np.asarray(mean)[..., None, None]
     turning = np.abs(omega)[..., None, None] * sine
     inner, outer = (_groove(result, ring, force, u, turning, options) for ring in RINGS)
+    both = (inner, outer)
     # spin moment 3/8 μ Q a E(k), E(k) = 1 for the long ellipses of grooves
-    moments = [3 / 8 * g.coefficient * force * g.across for g in (inner, outer)]
+    moments = [3 / 8 * g.coefficient * force * g.across for g in both]
+    curved = [_HEATHCOTE * g.coefficient * force * g.slip for g in both]
+    inside = moments[0] <= moments[1]  # the ring on which the ball spins
+    spinning = [np.where(here, m * turning, 0.0) for here, m in zip((inside, ~inside), moments)]
     special = {
-        "differential slip": sum(
-            (_HEATHCOTE * g.coefficient * force * g.slip for g in (inner, outer)), np.zeros(shape)
-        ),
-        "spin": np.minimum(*moments) * turning,
+        "differential slip": np.asarray(curved[0] + curved[1]),
+        "spin": np.asarray(spinning[0] + spinning[1]),
     }
-    contacts = [inner.contact, outer.contact]
-    return sum_losses(omega, u, bearing.ball_diameter, contacts, special, options)
+    found = sum_losses(omega, u, bearing.ball_diameter, [g.contact for g in both], special, options)
+    arm = np.where(inside, inner.across, outer.across)
+    sliding = _HEATHCOTE * np.maximum(inner.slip, outer.slip) + 3 / 8 * arm * turning
+    loaded = (force > 0) & (u > 0)
+    density = [
+        np.divide(c + s, g.area, out=np.zeros(shape), where=loaded)
+        for c, s, g in zip(curved, spinning, both)
+    ]
+    return replace(
+        found,
+        sliding=np.divide(sliding, u, out=np.zeros(shape), where=loaded),
+        slip_power_density=np.maximum(*density),
+    )
 
 
 def _groove(
-    result: BallResult, ring: Ring, force: Array, u: Array, turning: Array, options: FrictionOptions
+    result: ContactResult[BallRaceways],
+    ring: Ring,
+    force: Array,
+    u: Array,
+    turning: Array,
+    options: FrictionOptions,
 ) -> _Groove:
     """Friction of all contacts with one ring."""
     bearing, oil, t = result.bearing, options.oil, options.temperature
@@ -123,7 +144,8 @@ def _groove(
     deformed = 2 * groove * ball / (groove + ball)
     slip = u * across**2 / (2 * film.radius * deformed)
     sliding = _HEATHCOTE * slip + 3 / 8 * across * turning
-    return _Groove(contact, _coefficient(film, contact.share, sliding, options), across, slip)
+    coefficient = _coefficient(film, contact.share, sliding, options)
+    return _Groove(contact, coefficient, across, slip, 2 * film.half_width * film.length)
 
 
 def _coefficient(

@@ -39,6 +39,11 @@ class BearingFriction:
         Share of the load that asperities carry; 0 without load.
     traction_use : ndarray, shape (..., row, element)
         Friction that ideal rolling needs over what both contacts can give.
+    sliding : ndarray, shape (..., row, element), optional
+        Of balls: mean sliding speed in the contact over the rolling speed, from the curved contact
+        and from spin; 0 without load.
+    slip_power_density : ndarray, shape (..., row, element), optional
+        Of balls: power of that sliding over the area of the contact, W/m², the larger of both.
     """
 
     speed: Array
@@ -47,6 +52,8 @@ class BearingFriction:
     film_parameter: Array
     asperity_share: Array
     traction_use: Array
+    sliding: Array | None = None
+    slip_power_density: Array | None = None
 
     @property
     def power(self) -> Array:

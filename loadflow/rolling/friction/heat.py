@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -12,7 +13,9 @@ from loadflow.numerics.convergence import Convergence
 from loadflow.rolling.friction.bearing import BearingFriction
 from loadflow.rolling.friction.options import FrictionOptions
 from loadflow.rolling.friction.roller_losses import roller_friction
-from loadflow.rolling.roller_result import RollerResult
+from loadflow.rolling.raceways import BallRaceways
+from loadflow.rolling.results import ContactResult
+from loadflow.rolling.roller_raceways import RollerRaceways
 
 _HOTTEST = 200.0  # K above the surroundings that are searched
 
@@ -37,12 +40,13 @@ class HeatBalance:
 
 
 def balanced_temperature(
-    result: RollerResult,
+    result: ContactResult[RollerRaceways] | ContactResult[BallRaceways],
     speed: ArrayLike,
     options: FrictionOptions,
     conductance: float,
     ambient: float,
     weights: ArrayLike | None = None,
+    model: Callable[..., BearingFriction] = roller_friction,
 ) -> HeatBalance:
     """Find the temperature of a bearing over a duty of many cases.
 
@@ -58,6 +62,8 @@ def balanced_temperature(
         Temperature around it, K.
     weights : array_like, optional
         Share of time of each case; equal if not given.
+    model : callable
+        `roller_friction`, or `ball_friction` for balls.
 
     Raises
     ------
@@ -72,7 +78,7 @@ def balanced_temperature(
         raise InputError(f"conductance: must be > 0 W/K, got {conductance}")
 
     def friction(temperature: float) -> BearingFriction:
-        return roller_friction(result, speed, replace(options, temperature=temperature))
+        return model(result, speed, replace(options, temperature=temperature))
 
     def surplus(temperature: float) -> float:
         power = friction(temperature).power

@@ -19,6 +19,7 @@ Array = NDArray[np.float64]
 Kind = Literal["radial-ball", "radial-roller", "thrust-ball", "thrust-roller"]
 
 LARGEST_FACTOR = 50.0  # of a_ISO
+LEAST_FACTOR = 0.1
 KAPPA_RANGE = (0.1, 4.0)  # below: no factor; above: counts as the upper end
 
 WEIBULL = {"ball": 10 / 9, "roller": 9 / 8}

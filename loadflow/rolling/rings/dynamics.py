@@ -20,7 +20,7 @@ from loadflow.rolling.rings.harmonics import RingWave, SectionSystem
 from loadflow.rolling.rings.patches import PatchPoints, patch_points
 
 if TYPE_CHECKING:
-    from loadflow.rolling.bearings.four_point import SlewingBearing
+    from loadflow.rolling.raceways import BallRaceways
     from loadflow.rolling.rings.condensed import FlexibleRings, RingModes
 
 
@@ -115,7 +115,7 @@ class _Shapes:
 
 
 def joint_motion(
-    bearing: SlewingBearing, rings: FlexibleRings, modes: RingModes, fixed_modes: int
+    bearing: BallRaceways, rings: FlexibleRings, modes: RingModes, fixed_modes: int
 ) -> RingMotion:
     """Both rings over the ring modes of a bearing and the vibrations of each ring.
 

@@ -1,0 +1,133 @@
+"""Limits that the bearings of a scene must hold, each with where its default comes from."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, Literal, Self
+
+from pydantic import BaseModel, Field, model_validator
+
+from loadflow.scene.section import Section
+
+Positive = Annotated[float, Field(gt=0)]
+Oil = Literal[
+    "mineral, oxygen-saturated",
+    "mineral, without oxygen",
+    "synthetic, oxygen-saturated",
+    "synthetic, without oxygen",
+]
+
+OIL_TEMPERATURES: dict[str, tuple[float, float]] = {
+    "mineral, oxygen-saturated": (348.15, 303.15),
+    "mineral, without oxygen": (623.15, 568.15),
+    "synthetic, oxygen-saturated": (573.15, 533.15),
+    "synthetic, without oxygen": (768.15, 703.15),
+}
+"""Largest temperature (K) of oils for 100 h and for 10,000 h, the lower ends of the ranges of
+[Jonuschies 2015] Table 3-2."""
+
+OIL_HOURS = 100.0, 10_000.0
+
+
+class JournalLimits(Section, BaseModel):
+    """What a journal bearing must hold.
+
+    Attributes
+    ----------
+    eccentricity_ratio : float
+        Largest ε; above E_krit = 0.95 begins mixed friction [Jonuschies 2015, (5.2)].
+    sommerfeld_range : tuple of float
+        So of the mean load, 1 … 6 in normal operation [Jonuschies 2015, ch. 3.4].
+    sommerfeld_peak : float
+        Largest So, reached briefly: 10 [Jonuschies 2015, ch. 3.4].
+    waviness : float
+        W_t of shaft and shell together, m; assumed.
+    margin : float
+        What the film must be thicker than roughness and waviness, m; assumed.
+    minimum_film : float, optional
+        Smallest film allowed, m, such as h_lim of ISO 7902-3. Left out: the sum of R_z of both
+        surfaces, `waviness` and `margin` (3.1).
+    material : tuple of (float, float)
+        Points of temperature, K, and largest film pressure, Pa, of the shell's material; between
+        them it falls in straight lines, above the last it carries nothing. White metal: 7 MPa up to
+        127 °C, 1.4 MPa at 190 °C [Jonuschies 2015, ch. 3].
+    specific_load : float, optional
+        Largest F/(B D), Pa, such as p_lim of ISO 7902-3; not judged if left out.
+    oil, oil_hours
+        Kind of oil, and hours that it shall last, 100 … 10,000 [Jonuschies 2015, Table 3-2].
+    temperature : float, optional
+        Largest temperature of the film, K, such as T_lim of ISO 7902-3, in place of the oil's.
+    contact_time : float
+        Time in a case of power production, s, in which shaft and shell may touch while turning.
+    start_time : float, optional
+        The same of a start, a stop or a fault that stops; told without a limit if left out.
+    """
+
+    eccentricity_ratio: Annotated[float, Field(gt=0, lt=1)] = 0.95
+    sommerfeld_range: tuple[Annotated[float, Field(ge=0)], Positive] = (1.0, 6.0)
+    sommerfeld_peak: Positive = 10.0
+    waviness: Annotated[float, Field(ge=0)] = 5e-6
+    margin: Annotated[float, Field(ge=0)] = 5e-6
+    minimum_film: Positive | None = None
+    material: Annotated[tuple[tuple[Positive, Positive], ...], Field(min_length=1)] = (
+        (400.15, 7e6),
+        (463.15, 1.4e6),
+    )
+    specific_load: Positive | None = None
+    oil: Oil = "mineral, oxygen-saturated"
+    oil_hours: Annotated[float, Field(ge=100, le=10_000)] = 100.0
+    temperature: Positive | None = None
+    contact_time: Annotated[float, Field(ge=0)] = 0.0
+    start_time: Annotated[float, Field(ge=0)] | None = None
+
+    @model_validator(mode="after")
+    def _in_order(self) -> Self:
+        low, high = self.sommerfeld_range
+        if not low < high <= self.sommerfeld_peak:
+            raise ValueError(
+                f"sommerfeld_range = {low:g} … {high:g} must rise and end at or below "
+                f"sommerfeld_peak = {self.sommerfeld_peak:g}"
+            )
+        temperatures = [point[0] for point in self.material]
+        if temperatures != sorted(set(temperatures)):
+            raise ValueError(f"material: the temperatures {temperatures} K must rise")
+        if self.temperature is not None and {"oil", "oil_hours"} & self.changed:
+            raise ValueError("temperature: takes the place of oil and oil_hours; leave them out")
+        if self.minimum_film is not None and {"waviness", "margin"} & self.changed:
+            raise ValueError("minimum_film: takes the place of waviness and margin")
+        return self
+
+    def pressure_at(self, temperature: float) -> float:
+        """Largest film pressure, Pa, that the material carries at a temperature, K."""
+        (low, first), *_ = self.material
+        if temperature <= low:
+            return first
+        for (t0, p0), (t1, p1) in zip(self.material, self.material[1:]):
+            if temperature <= t1:
+                return p0 + (p1 - p0) * (temperature - t0) / (t1 - t0)
+        return 0.0
+
+    @property
+    def oil_temperature(self) -> float:
+        """Largest temperature of the oil, K, between both columns of the table in ln(hours)."""
+        if self.temperature is not None:
+            return self.temperature
+        short, long = OIL_TEMPERATURES[self.oil]
+        share = math.log(self.oil_hours / OIL_HOURS[0]) / math.log(OIL_HOURS[1] / OIL_HOURS[0])
+        return short + share * (long - short)
+
+
+class RollingLimits(Section, BaseModel):
+    """What a rolling bearing must hold.
+
+    Attributes
+    ----------
+    static_safety : float
+        Smallest static rating over the design load, which has the partial safety factor in it: 1
+        [IEC 61400-1 as quoted by Jonuschies 2015, (1.11)].
+    life : float
+        Smallest rating life, h: 20 years [IEC 61400-1 as quoted by Jonuschies 2015, (1.10)].
+    """
+
+    static_safety: Positive = 1.0
+    life: Positive = 175_320.0

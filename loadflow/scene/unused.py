@@ -1,0 +1,243 @@
+"""Keys of a scene that are set but change nothing in this scene, each with the reason."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+from loadflow.journal.rungs import RUNGS
+from loadflow.rolling import RollerBearing, SphericalRollerBearing
+from loadflow.scene.loads import Loads
+from loadflow.scene.scene import Scene
+from loadflow.scene.section import Section
+from loadflow.wind.cases import LOAD_CASES, STANDING, LoadCase
+
+_CUBES = (".h5", ".nc")
+_SIMULATED = (
+    "dlc", "wind_speeds", "seeds", "first_seed", "yaw_errors", "azimuths", "steady", "duration",
+    "step", "category", "reference_intensity", "shear_exponent", "spectrum", "scaling", "lateral",
+    "wind_grid", "rung", "dynamic_inflow", "dynamic_stall", "bend_twist", "individual_pitch",
+    "mass_imbalance", "pitch_imbalance",
+)  # fmt: skip
+_TURBULENCE = ("seeds", "first_seed", "spectrum", "scaling", "lateral", "wind_grid")
+_WITH_SIGMA = ("NTM", "ETM", "EOG", "EDC", "EWS")
+_RESULTS = {
+    "seeds": ("seeds",),
+    "reduction": ("reduction", "journal", "rolling.l"),
+    "journal": ("journal",),
+    "rolling": ("rolling",),
+    "friction": ("rolling",),
+}
+"""Beginnings of the results that read a section."""
+
+
+def unused_keys(scene: Scene) -> dict[str, str]:
+    """Return the keys that differ from their defaults but change nothing, and why.
+
+    Parameters
+    ----------
+    scene : Scene
+        A valid scene.
+
+    Returns
+    -------
+    dict
+        Reason by key, such as ``{"loads.seeds": "no load case of this scene has turbulence"}``.
+
+    Examples
+    --------
+    >>> from loadflow.scene.scene import make_scene
+    >>> unused_keys(make_scene({"name": "gust", "loads": {"dlc": "1.5", "seeds": 3}}))
+    {'loads.seeds': 'no load case of this scene has turbulence'}
+    """
+    return dict(_all(scene))
+
+
+def unused_warnings(scene: Scene) -> list[str]:
+    """Return a sentence on each of them."""
+    return [f"{key}: has no effect, {reason}" for key, reason in unused_keys(scene).items()]
+
+
+def _all(scene: Scene) -> Iterator[tuple[str, str]]:
+    unread = {section for section in _RESULTS if not _is_read(scene, section)}
+    for section in sorted(unread):
+        if getattr(scene, section) != type(getattr(scene, section))():
+            yield section, "no wanted result reads this section"
+    for key, reason in _of_loads(scene):
+        if key in scene.loads.changed:
+            yield f"loads.{key}", reason
+    yield from _of_shaft(scene)
+    for section, rules in (
+        ("reduction", _of_reduction),
+        ("journal", _of_journal),
+        ("rolling", _of_rolling),
+        ("friction", _of_friction),
+    ):
+        for key, reason in rules(scene) if section not in unread else ():
+            if _differs(scene, section, key):
+                yield f"{section}.{key}", reason
+
+
+def _is_read(scene: Scene, section: str) -> bool:
+    supports = {support.stiffness for support in scene.shaft.seated.values()}
+    begins = _RESULTS[section]
+    return section in supports or any(r.startswith(begins) for r in scene.results)
+
+
+def _differs(scene: Scene, section: str, key: str) -> bool:
+    """Whether a key, or a part of a table, differs from its default."""
+    part = getattr(scene, section)
+    *tables, last = key.split(".")
+    for table in tables:
+        part = getattr(part, table)
+    return last in part.changed if isinstance(part, Section) else bool(getattr(part, last))
+
+
+# --- loads ------------------------------------------------------------------------------------
+
+
+def _of_loads(scene: Scene) -> Iterator[tuple[str, str]]:
+    loads = scene.loads
+    if loads.source == "files":
+        yield from _of_files(loads)
+        return
+    yield "case_list", "the loads are simulated, no files are read"
+    yield "weights", "the loads are simulated: their shares follow from the wind speed"
+    if not loads.winds:
+        yield "pattern", "the loads are simulated, no names of files are read"
+    rows = [LOAD_CASES[dlc] for dlc in loads.dlcs]
+    if loads.winds:
+        why = "the wind fields are given"
+        for key in ("category", "reference_intensity", "shear_exponent", "azimuths", "spectrum",
+                    "scaling", "lateral", "steady"):  # fmt: skip
+            yield key, why
+    else:
+        yield from _of_wind(loads, rows)
+    yield from _of_rotor(loads, rows)
+
+
+def _of_files(loads: Loads) -> Iterator[tuple[str, str]]:
+    for key in _SIMULATED:
+        yield key, "the loads are read from files, nothing is simulated"
+    if loads.weights == "given":
+        for key in ("wind_class", "v_ref", "v_ave"):
+            yield key, 'weights = "given" takes the shares of the files'
+    if loads.files and all(Path(file).suffix in _CUBES for file in loads.files):
+        for key in ("case_list", "pattern"):
+            yield key, "load cubes say themselves what their cases are"
+
+
+def _of_wind(loads: Loads, rows: list[LoadCase]) -> Iterator[tuple[str, str]]:
+    """Keys of the wind that none of the load cases needs."""
+    turbulent = [row.turbulent and not (loads.steady and row.extreme) for row in rows]
+    if not any(turbulent):
+        for key in _TURBULENCE:
+            yield key, "no load case of this scene has turbulence"
+    if all(t and row.events[0] not in STANDING for t, row in zip(turbulent, rows)):
+        yield "azimuths", "turbulence meets the rotor at any azimuth; only gusts have their own"
+    if not any(row.wind in _WITH_SIGMA for row in rows):
+        for key in ("category", "reference_intensity"):
+            yield key, "no load case of this scene depends on the intensity of turbulence"
+    if not any(row.wind in ("EWM50", "EWM1", "EOG") for row in rows):
+        yield "v_ref", "no load case of this scene has an extreme wind"
+    if all(row.extreme for row in rows):
+        yield "shear_exponent", "extreme winds have 0.11"
+
+
+def _of_rotor(loads: Loads, rows: list[LoadCase]) -> Iterator[tuple[str, str]]:
+    standing = [row.events[0] in STANDING for row in rows]
+    if loads.rung in ("tables", "bem") or (loads.rung is None and all(standing)):
+        yield "bend_twist", "the blades of this rung do not bend"
+    if all(standing):
+        for key in ("individual_pitch", "dynamic_inflow"):
+            yield key, "the rotor stands or idles in every load case"
+
+
+def _of_shaft(scene: Scene) -> Iterator[tuple[str, str]]:
+    """Places of masses that are zero."""
+    for name, concept in scene.shaft:
+        for place, mass in _PLACES.items() if concept else ():
+            if not hasattr(concept, place) or getattr(concept, mass) > 0:
+                continue
+            if getattr(concept, place) != getattr(type(concept)(), place):
+                yield f"shaft.{name}.{place}", f"{mass} is 0"
+
+
+_PLACES = {
+    "hub_to_shaft_centre": "shaft_mass",
+    "hub_to_generator": "generator_mass",
+    "second_to_gearbox": "gearbox_mass",
+    "gearbox_offset": "gearbox_mass",
+}
+
+# --- bearings ---------------------------------------------------------------------------------
+
+
+def _of_reduction(scene: Scene) -> Iterator[tuple[str, str]]:
+    reads = any(r.startswith(("reduction", "rolling.l")) for r in scene.results)
+    if scene.journal.in_motion and not reads:
+        for key in ("size", "pick", "seed"):
+            yield key, "a film in motion reads the whole series"
+    elif scene.reduction.size == 1.0:
+        for key in ("pick", "seed"):
+            yield key, "size = 1 keeps every sample"
+    elif scene.reduction.pick != "random":
+        yield "seed", f'pick = "{scene.reduction.pick}" draws nothing at random'
+
+
+def _of_journal(scene: Scene) -> Iterator[tuple[str, str]]:
+    journal = scene.journal
+    if journal.tilt and not any(_tilts(scene, name) for name in journal.bearings):
+        yield (
+            "tilt",
+            "the shaft is rigid and brings no moment; give its suspension a beam",
+        )
+    if "grading" not in RUNGS[journal.rung].at_rest:
+        yield "grading", f'rung "{journal.rung}" has no graded mesh'
+    if journal.heat is None:
+        for key in ("limits.oil", "limits.oil_hours", "limits.temperature"):
+            yield key, "the temperature of the film is not computed; give journal.heat"
+    starts = {dlc for dlc in scene.loads.dlcs if _starts(dlc)}
+    if scene.loads.source == "simulate" and not starts:
+        yield "limits.start_time", "no load case of this scene starts, stops or stands"
+    if scene.loads.source == "simulate" and len(starts) == len(scene.loads.dlcs):
+        for key in ("contact_time", "eccentricity_ratio", "sommerfeld_range", "sommerfeld_peak",
+                    "waviness", "margin", "minimum_film"):  # fmt: skip
+            yield f"limits.{key}", "no load case of this scene is of power production"
+
+
+def _tilts(scene: Scene, bearing: str) -> bool:
+    moment = scene.shaft.moment
+    return scene.shaft.leans(bearing) or (moment is not None and bearing in moment.bearings)
+
+
+def _starts(dlc: str) -> bool:
+    return dlc in LOAD_CASES and LOAD_CASES[dlc].stands_or_starts
+
+
+def _of_rolling(scene: Scene) -> Iterator[tuple[str, str]]:
+    geometry = scene.rolling.geometry
+    if getattr(geometry, "rows", None) == 1 and getattr(geometry, "row_spacing", 0.0) != 0.0:
+        yield "geometry.row_spacing", "the bearing has one row"
+
+
+def _of_friction(scene: Scene) -> Iterator[tuple[str, str]]:
+    friction, bearings = scene.friction, scene.rolling.geometries.values()
+    if "rolling.friction" not in scene.results:
+        for key in type(friction).model_fields:
+            if key not in ("lubricant", "temperature", "cleanliness"):
+                yield key, "the result rolling.friction is not wanted"
+        return
+    if friction.conductance is None:
+        yield "ambient_temperature", "no friction.conductance"
+    rollers = [b for b in bearings if isinstance(b, RollerBearing | SphericalRollerBearing)]
+    ribs = ("rib_height", "rib_radius", "rib_friction")
+    if not rollers:
+        for key in ("rib_angle", *ribs):
+            yield key, "no bearing of this scene has rollers on ribs"
+    elif friction.rib_angle == 0.0 or (
+        friction.rib_angle is None
+        and not any(isinstance(b, RollerBearing) and b.contact_angle > 0 for b in rollers)
+    ):
+        for key in ribs:
+            yield key, "the rollers press on no rib: friction.rib_angle is 0"

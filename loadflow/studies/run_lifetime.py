@@ -1,0 +1,129 @@
+"""Results of a run, case by case → what they make together over a lifetime and a year."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import xarray as xr
+
+from loadflow.errors import InputError
+from loadflow.rolling import system_life
+from loadflow.scene.cases import wind_class
+from loadflow.scene.scene import Scene
+from loadflow.stages.labelling import label
+from loadflow.stages.rolling import hours_together
+from loadflow.studies.lifetime_shares import IDLING, PRODUCTION, lifetime_shares
+from loadflow.wind import iec
+
+HOURS_PER_YEAR = 8766.0
+
+Tables = Mapping[str, xr.Dataset]
+
+
+def run_lifetime(scene: Scene, tables: Tables) -> xr.Dataset | None:
+    """Life of the rolling bearings and energy per year of all bearings, over all load cases.
+
+    Each load case counts with its share of the lifetime (`lifetime_shares`, or the shares that its
+    files give); events without a number per year have none. None where no load case has a share.
+
+    Parameters
+    ----------
+    scene : Scene
+        What was run.
+    tables : mapping
+        Results by stage: journal, rolling, friction.
+
+    Returns
+    -------
+    xarray.Dataset or None
+        `share` (case); of rolling bearings `life_hours` and `modified_life_hours` (rolling) with
+        `system_life_hours` and `system_modified_life_hours`, h; of journal and rolling bearings
+        `journal_energy` (journal) and `rolling_energy` (rolling), J a year, while the wind is
+        between cut-in and cut-out.
+    """
+    found: dict[str, xr.DataArray] = {}
+    for name, work in (("rolling", _lives), ("journal", _film_energy), ("friction", _energy)):
+        if name in tables:
+            share = _shares(scene, tables[name])
+            if share is None:
+                return None
+            found |= work(scene, tables[name], share)
+    return xr.Dataset(found) if found else None
+
+
+def _shares(scene: Scene, table: xr.Dataset) -> np.ndarray | None:
+    """Share of the lifetime of each case, of 1 in all; None where none has one."""
+    if scene.loads.weights == "given" and scene.loads.source == "files":
+        given = table["weight"].values.astype(float)
+        return given / given.sum() if given.sum() > 0 else None
+    try:
+        return lifetime_shares(
+            table["dlc"].values.tolist(),
+            table["wind_speed"].values.tolist(),
+            np.ones(table.sizes["case"]).tolist(),
+            wind_class=wind_class(scene),
+            operating=_operating(scene),
+        )
+    except InputError:
+        return None
+
+
+def _operating(scene: Scene) -> tuple[float, float]:
+    from loadflow.turbines import load_turbine
+
+    machine = load_turbine(scene.turbine.name)
+    return machine.cut_in, machine.cut_out
+
+
+def _lives(scene: Scene, table: xr.Dataset, share: np.ndarray) -> dict[str, xr.DataArray]:
+    found: dict[str, xr.DataArray] = {"share": _share_of(table, share)}
+    names = table["bearing"].values
+    for kind, meaning in (("", "rating life L10h"), ("modified_", "modified rating life L10mh")):
+        hours = hours_together(table, f"bearing_{kind}life", share)
+        about = label("h", f"{meaning} over all load cases")
+        found[f"{kind}life_hours"] = xr.DataArray(hours, {"rolling": names}, "rolling", attrs=about)
+        system = float(system_life(hours, table.attrs["weibull_slope"]))
+        about = label("h", f"{meaning} of all rolling bearings as a system")
+        found[f"system_{kind}life_hours"] = xr.DataArray(system, attrs=about)
+    return found
+
+
+def _share_of(table: xr.Dataset, share: np.ndarray) -> xr.DataArray:
+    about = label("1", "share of the lifetime")
+    return xr.DataArray(share, {"case": table["case"].values}, "case", attrs=about)
+
+
+def _film_energy(scene: Scene, table: xr.Dataset, share: np.ndarray) -> dict[str, xr.DataArray]:
+    power = table["mean_friction_power"] + table["mean_supply_power"]
+    energy = _per_year(scene, table, power.fillna(0.0), share)
+    about = label("J", "friction and supply of the journal bearing, a year")
+    bearings = {"journal": table["bearing"].values}
+    return {
+        "share": _share_of(table, share),
+        "journal_energy": xr.DataArray(energy, bearings, "journal", attrs=about),
+    }
+
+
+def _energy(scene: Scene, table: xr.Dataset, share: np.ndarray) -> dict[str, xr.DataArray]:
+    energy = _per_year(scene, table, table["mean_friction_power"], share)
+    about = label("J", "friction of the rolling bearing, a year")
+    bearings = {"rolling": table["bearing"].values}
+    return {
+        "share": _share_of(table, share),
+        "rolling_energy": xr.DataArray(energy, bearings, "rolling", attrs=about),
+    }
+
+
+def _per_year(
+    scene: Scene, table: xr.Dataset, power: xr.DataArray, share: np.ndarray
+) -> np.ndarray:
+    """Energy (bearing,) a year, J; outside the operating winds only that of idling cases."""
+    seconds = HOURS_PER_YEAR * 3600
+    dlcs = set(table["dlc"].values.tolist())
+    by_wind = scene.loads.weights == "rayleigh" or scene.loads.source == "simulate"
+    if by_wind and dlcs & {*PRODUCTION} and not dlcs & {*IDLING}:
+        below = iec.weibull_cdf(_operating(scene), iec.class_speeds(wind_class(scene)).v_ave, 2.0)
+        seconds *= float(below[1] - below[0])
+    weighted = power * xr.DataArray(share, dims="case")
+    return np.asarray(seconds * weighted.sum("case").values)

@@ -1,0 +1,329 @@
+"""Results of a run → its verdicts: each number, its limit, where that is from, and what governs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Literal
+
+import numpy as np
+import xarray as xr
+
+from loadflow.rolling.rating.static import (
+    HOURS_20_YEARS,
+    LIFE_SOURCE,
+    STATIC_RATING,
+    STATIC_SOURCE,
+)
+from loadflow.scene.limits import JournalLimits
+from loadflow.scene.scene import Scene
+from loadflow.verdict import Verdict
+from loadflow.wind.cases import LOAD_CASES
+
+Tables = Mapping[str, xr.Dataset]
+
+_SLIGHT = 1e-6  # of the radial load: a force along the shaft below this is none
+_STATED = "as the scene states"
+
+
+def verdicts(scene: Scene, tables: Tables, lifetime: xr.Dataset | None) -> list[Verdict]:
+    """Verdicts on the bearings of a run.
+
+    Parameters
+    ----------
+    scene : Scene
+        What was run, with its limits.
+    tables : mapping
+        Results by stage, each over ``bearing`` and ``case``: journal, rolling.
+    lifetime : xarray.Dataset or None
+        Of `loadflow.studies.run_lifetime.run_lifetime`.
+    """
+    found: list[Verdict] = []
+    if "journal" in tables:
+        table = tables["journal"].load()
+        for name in table["bearing"].values.tolist():
+            found += _of_journal(scene, name, table.sel(bearing=name))
+    if "rolling" in tables:
+        found += _of_rolling(scene, tables["rolling"].load(), lifetime)
+    return found
+
+
+# --- journal bearings -------------------------------------------------------------------------
+
+
+def _of_journal(scene: Scene, name: str, table: xr.Dataset) -> Iterator[Verdict]:
+    """Verdicts on one journal bearing: production first, then what holds in every load case."""
+    subject, limits, options = f"journal {name}", scene.journal.limits, scene.journal
+    yield _answered(subject, table)
+    starting = np.array([_starts_or_stands(dlc) for dlc in table["dlc"].values.tolist()])
+    production, events = table.isel(case=~starting), table.isel(case=starting)
+    if production.sizes["case"]:
+        yield _contact(subject, production, "power production", limits.contact_time, limits)
+        yield from _film(scene, subject, production)
+    if events.sizes["case"]:
+        yield _contact(subject, events, "starts, stops and faults", limits.start_time, limits)
+    yield from _pressure(scene, subject, table)
+    if limits.specific_load is not None:
+        area = options.geometry.width * options.geometry.diameter
+        value, case, _ = _worst(table, "largest_load", "most")
+        yield Verdict(
+            subject, "specific load F/(B D)", value / area, limits.specific_load, "at most", "Pa",
+            _STATED, case, key="journal.limits.specific_load",
+        )  # fmt: skip
+    if options.heat is not None:
+        yield _warmth(subject, table, limits)
+    if thrust := _thrust_on_journal(subject, table):
+        yield thrust
+
+
+def _starts_or_stands(dlc: str) -> bool:
+    """Whether the shaft stands, starts or stops in a load case, so that it must touch the shell."""
+    return dlc in LOAD_CASES and LOAD_CASES[dlc].stands_or_starts
+
+
+def _answered(subject: str, table: xr.Dataset) -> Verdict:
+    """No sample may lack an answer, as it would be missing in the extremes."""
+    count = table["not_converged"]
+    worst = table["case"].values[int(np.argmax(count.values))]
+    total = float(count.sum())
+    return Verdict(
+        subject,
+        "samples not answered",
+        total,
+        0.0,
+        "at most",
+        "samples",
+        "extremes need every sample",
+        str(worst) if total else "",
+        note=f"not answered: {total:.0f} samples; the extremes lack them" if total else "",
+    )
+
+
+def _contact(
+    subject: str, table: xr.Dataset, situation: str, limit: float | None, limits: JournalLimits
+) -> Verdict:
+    """How long the surfaces touch while the shaft turns, and what that means above E_krit."""
+    value, case, _ = _worst(table, "contact_time", "most")
+    row = table.sel(case=case)
+    turns, energy, seconds = (
+        float(row[f"mixed_friction_{what}"]) for what in ("revolutions", "energy", "time")
+    )
+    note = (
+        f"ε above {limits.eccentricity_ratio:g} for {seconds:.3g} s, {turns:.3g} revolutions, "
+        f"{energy / 1e3:.3g} kJ"
+    )
+    if np.isfinite(float(row["transition_speed"])):
+        rpm = float(row["transition_speed"]) * 30 / np.pi
+        note += f"; transition at {rpm:.3g} 1/min, {float(row['transition_time']):.4g} s"
+    key = f"journal.limits.{'contact_time' if situation == 'power production' else 'start_time'}"
+    return Verdict(
+        subject,
+        f"time in contact while turning, {situation}",
+        value,
+        np.nan if limit is None else limit,
+        "at most",
+        "s",
+        "no limit is stated" if limit is None else "the film must part the surfaces, (3.1)",
+        case if value else "",
+        note=note,
+        key=key,
+    )
+
+
+def _film(scene: Scene, subject: str, table: xr.Dataset) -> Iterator[Verdict]:
+    """ε, smallest film and So in power production; a contact breaks all of them."""
+    limits, contact = scene.journal.limits, table["in_contact"] > 0
+    touching = f"in contact in {int(contact.sum())} load cases" if contact.any() else ""
+    ratio = table.assign(largest_eccentricity_ratio=_where(table, "largest_eccentricity_ratio", 1))
+    value, case, time = _worst(ratio, "largest_eccentricity_ratio", "most")
+    yield Verdict(
+        subject, "eccentricity ratio ε", value, limits.eccentricity_ratio, "at most",
+        source=_source(limits, "eccentricity_ratio", "E_krit [Jonuschies 2015, (5.2)]"),
+        case=case, time=time, note=touching, key="journal.limits.eccentricity_ratio",
+    )  # fmt: skip
+    film = table.assign(smallest_film=_where(table, "smallest_film", 0))
+    value, case, time = _worst(film, "smallest_film", "least")
+    parts = (
+        f"R_z {1e6 * scene.journal.contact_film:.3g} + waviness {1e6 * limits.waviness:.3g} + "
+        f"margin {1e6 * limits.margin:.3g} µm, [Jonuschies 2015, (3.1)]"
+    )
+    yield Verdict(
+        subject, "smallest film", value, scene.journal.least_film, "at least", "m",
+        parts if limits.minimum_film is None else _STATED, case, time, touching,
+        "journal.limits.minimum_film",
+    )  # fmt: skip
+    rule = "[Jonuschies 2015, ch. 3.4]"
+    low, high = limits.sommerfeld_range
+    senses: tuple[tuple[float, Literal["at least", "at most"], Literal["least", "most"]], ...] = (
+        (low, "at least", "least"),
+        (high, "at most", "most"),
+    )
+    for limit, sense, which in senses:
+        value, case, _ = _worst(table, "mean_sommerfeld_number", which)
+        yield Verdict(
+            subject, f"{which} mean Sommerfeld number", value, limit, sense,
+            source=_source(limits, "sommerfeld_range", f"normal operation, {rule}"), case=case,
+            key="journal.limits.sommerfeld_range",
+        )  # fmt: skip
+    peak = table.assign(
+        largest_sommerfeld_number=_where(table, "largest_sommerfeld_number", np.inf)
+    )
+    value, case, time = _worst(peak, "largest_sommerfeld_number", "most")
+    yield Verdict(
+        subject, "largest Sommerfeld number", value, limits.sommerfeld_peak, "at most",
+        source=_source(limits, "sommerfeld_peak", f"brief peaks, {rule}"), case=case, time=time,
+        note=touching, key="journal.limits.sommerfeld_peak",
+    )  # fmt: skip
+
+
+def _where(table: xr.Dataset, name: str, in_contact: float) -> xr.DataArray:
+    """An extreme of each case; where surfaces touch, what contact stands for."""
+    return table[name].where(table["in_contact"] == 0, in_contact)
+
+
+def _pressure(scene: Scene, subject: str, table: xr.Dataset) -> Iterator[Verdict]:
+    """Largest film pressure against the material at the temperature of the film."""
+    limits, warm = scene.journal.limits, "largest_temperature" in table
+    value, case, time = _worst(table, "largest_pressure", "most")
+    if not case:
+        return
+    kelvin = float(table["largest_temperature"].sel(case=case)) if warm else limits.material[0][0]
+    points = ", ".join(f"{p / 1e6:g} MPa at {t - 273.15:.0f} °C" for t, p in limits.material)
+    yield Verdict(
+        subject, "largest film pressure", value, limits.pressure_at(kelvin), "at most", "Pa",
+        _source(limits, "material", f"white metal, {points} [Jonuschies 2015, ch. 3]"), case, time,
+        "" if warm else "temperature not computed: no journal.heat", "journal.limits.material",
+    )  # fmt: skip
+
+
+def _warmth(subject: str, table: xr.Dataset, limits: JournalLimits) -> Verdict:
+    value, case, time = _worst(table, "largest_temperature", "most")
+    by_oil = f"oil {limits.oil}, {limits.oil_hours:g} h [Jonuschies 2015, Table 3-2]"
+    stated = limits.temperature is not None
+    return Verdict(
+        subject, "effective temperature of the film", value, limits.oil_temperature, "at most",
+        "K", _STATED if stated else by_oil, case, time,
+        key="journal.limits." + ("temperature" if stated else "oil"),
+    )  # fmt: skip
+
+
+def _thrust_on_journal(subject: str, table: xr.Dataset) -> Verdict | None:
+    """Force along the shaft that its suspension puts on a bearing which cannot carry any."""
+    value, case, time = _worst(table, "largest_axial_load", "most")
+    if not value > _SLIGHT * float(table["largest_load"].max()):
+        return None
+    return Verdict(
+        subject,
+        "force along the shaft without a bearing",
+        value,
+        0.0,
+        "at most",
+        "N",
+        "equilibrium of the shaft",
+        case,
+        time,
+        f"none: {value / 1e3:.0f} kN along the shaft is carried by no bearing of this arrangement; "
+        "it needs a thrust bearing",
+    )
+
+
+# --- rolling bearings -------------------------------------------------------------------------
+
+
+def _of_rolling(scene: Scene, table: xr.Dataset, lifetime: xr.Dataset | None) -> Iterator[Verdict]:
+    for name, bearing in scene.rolling.geometries.items():
+        part, subject = table.sel(bearing=name), f"rolling {name}"
+        yield _static(scene, subject, part)
+        yield from _lives(scene, subject, lifetime, name, part)
+        value, case, _ = _worst(part, "bearing_truncated", "most")
+        if case:
+            yield Verdict(
+                subject, "time with a contact cut off at a shoulder", value, 0.0, "at most",
+                source="the Hertzian contact must lie within the raceway",
+                case=case if value else "",
+                note="share of the time of the load case",
+            )  # fmt: skip
+        value, case, _ = _worst(part, "bearing_axial_force", "most")
+        if value > _SLIGHT * float(part["bearing_force"].max()):
+            carried = bearing.takes_thrust
+            kind = type(bearing).__name__
+            force = f"{value / 1e3:.0f} kN along the shaft"
+            yield Verdict(
+                subject, "force along the shaft without a bearing", 0.0 if carried else value, 0.0,
+                "at most", "N", "equilibrium of the shaft", case,
+                note=f"{force} is carried by {name}, a {kind}" if carried
+                else f"none: {force} is carried by no bearing of this arrangement",
+            )  # fmt: skip
+    if table.sizes["bearing"] > 1:
+        yield from _lives(scene, "rolling, all as a system", lifetime, None, table)
+    if "not_converged" in table:
+        yield _answered(f"rolling {table['bearing'].values[0]}", table)
+
+
+def _static(scene: Scene, subject: str, table: xr.Dataset) -> Verdict:
+    """Static rating over the design load: loads with the factor of their load case in them."""
+    ultimate = np.array(
+        [d not in LOAD_CASES or LOAD_CASES[d].kind == "U" for d in table["dlc"].values.tolist()]
+    )
+    judged = table.isel(case=ultimate) if ultimate.any() else table
+    value, case, time = _worst(judged, "bearing_design_safety", "least")
+    row = judged.sel(case=case) if case else judged.isel(case=0)
+    dlc, factor = str(row["dlc"].item()), float(row["bearing_load_factor"])
+    note = f"γ_f {factor:g}; {float(row['bearing_static_safety']):.4g} under characteristic loads"
+    if dlc == "1.1":
+        note += "; the normal factor, as 1.1 is not extrapolated (1.25 if it were)"
+    if not ultimate.any():
+        note += "; no load case of ultimate loads in this run"
+    elif dlc not in LOAD_CASES:
+        note += f"; IEC 61400-1 has no load case {dlc!r}"
+    limit = scene.rolling.limits.static_safety
+    return Verdict(
+        subject, "static rating over the design load", value, limit, "at least",
+        source=STATIC_SOURCE if limit == STATIC_RATING else _STATED, case=case, time=time,
+        note=note, key="rolling.limits.static_safety",
+    )  # fmt: skip
+
+
+def _lives(
+    scene: Scene, subject: str, lifetime: xr.Dataset | None, name: str | None, table: xr.Dataset
+) -> Iterator[Verdict]:
+    """Basic and modified life over all load cases, of one bearing or (`name` None) of all."""
+    limit = scene.rolling.limits.life
+    source = LIFE_SOURCE if limit == HOURS_20_YEARS else _STATED
+    for kind, what in (("", "rating life L10h"), ("modified_", "modified rating life L10mh")):
+        note, value = "no load case has a share of the lifetime", np.nan
+        if lifetime is not None:
+            note = f"over {table.sizes['case']} load cases by their share of the lifetime"
+            if name is None:
+                value = float(lifetime[f"system_{kind}life_hours"])
+            else:
+                value = float(lifetime[f"{kind}life_hours"].sel(rolling=name))
+        if kind:
+            friction = scene.friction
+            note += f"; {friction.lubricant}, {friction.temperature:g} K, {friction.cleanliness}"
+            if (thin := float(table["bearing_thin_share"].max())) > 0:
+                note += f"; κ < 0.1 in up to {100 * thin:.3g} % of the revolutions, a_ISO 0.1 there"
+        yield Verdict(
+            subject, what, value, limit, "at least", "h", source, note=note,
+            key="rolling.limits.life",
+        )  # fmt: skip
+
+
+# --- both -------------------------------------------------------------------------------------
+
+
+def _worst(
+    table: xr.Dataset, name: str, which: Literal["most", "least"]
+) -> tuple[float, str, float]:
+    """Extreme over the cases, its case, and its time there; NaN where none has a value."""
+    values = table[name].values.astype(float)
+    if np.isnan(values).all():
+        return np.nan, "", np.nan
+    k = int(np.nanargmax(values) if which == "most" else np.nanargmin(values))
+    times = {"bearing_design_safety": "bearing_design_time"}.get(name, f"{name}_time")
+    time = float(table[times].values[k]) if times in table else np.nan
+    return float(values[k]), str(table["case"].values[k]), time
+
+
+def _source(limits: JournalLimits, key: str, default: str) -> str:
+    """Where a limit comes from: its default's source, or the scene."""
+    return _STATED if key in limits.changed else default

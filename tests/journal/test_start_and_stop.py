@@ -1,0 +1,154 @@
+"""Starts and stops: where the film is thinner than the roughness there is contact, and no film."""
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from loadflow.errors import InputError
+from loadflow.journal import Groove, Lobes, Supply
+from loadflow.journal.transition import load_capacity
+from loadflow.scene.cases import Case
+from loadflow.scene.scene import make_scene
+from loadflow.stages import journal as stage
+
+LOAD = 1e6
+FILM = {"grid": [24, 8], "bearings": ["N"]}
+
+
+def scene_with(**keys):
+    return make_scene({"name": "start", "results": ["journal.film"], "journal": FILM | keys})
+
+
+def series(speed, step=0.1):
+    count = speed.size
+    force = np.tile([0.0, 0.0, -LOAD], (count, 1))
+    data = {
+        "time": ("sample", step * np.arange(count)),
+        "speed": ("sample", speed),
+        "weight": ("sample", np.ones(count)),
+        "force": (("sample", "axis"), force),
+        "moment": (("sample", "axis"), 0 * force),
+    }
+    return xr.DataTree.from_dict({"N": xr.Dataset(data, {"axis": ["x", "y", "z"]})})
+
+
+def solved(scene, speed):
+    one = Case("3.1", 8.0, 1)
+    tree = stage.film(scene, one, {"reduction": series(speed)})
+    return tree["N"].to_dataset(), stage.summary({one: tree}).squeeze()
+
+
+@pytest.fixture(scope="module")
+def start():
+    scene = scene_with()
+    speed = np.linspace(0.0, 1.2, 601)
+    return scene, speed, *solved(scene, speed)
+
+
+def test_contact_ends_at_the_speed_whose_film_is_as_thick_as_the_roughness(start):
+    scene, speed, samples, _ = start
+    touching = samples["in_contact"].values
+    assert touching[0]
+    assert not touching[-1]
+    assert np.all(np.diff(touching.astype(int)) <= 0)
+    parts = speed[np.argmin(touching)]
+    film = {name: value for name, value in scene.journal.film.items() if name != "rung"}
+    geometry, roughness = scene.journal.geometry, scene.journal.contact_film
+    around = load_capacity(geometry, roughness, [0.8 * parts, 1.3 * parts], **film)
+    assert around[0] < LOAD < around[1]
+
+
+def test_samples_in_contact_have_no_film_and_are_not_called_unanswered(start):
+    _, _, samples, table = start
+    touching = samples["in_contact"].values
+    assert np.isnan(samples["minimum_film"].values[touching]).all()
+    assert np.isfinite(samples["minimum_film"].values[~touching]).all()
+    assert table["not_converged"] == 0
+    assert table["in_contact"] == touching.sum() > 1
+
+
+def test_contact_costs_no_film(start, monkeypatch):
+    scene, *_ = start
+    asked = []
+    solve = stage.equilibria
+
+    def counted(options, force, speed, **line):
+        asked.append(len(speed))
+        return solve(options, force, speed, **line)
+
+    monkeypatch.setattr(stage, "equilibria", counted)
+    slow = np.concatenate([np.geomspace(1e-6, 1e-3, 500), [1.2]]) * 2 * np.pi / 60
+    samples, _ = solved(scene, slow)
+    assert asked == [1]
+    assert samples["in_contact"].values.sum() == 500
+
+
+def test_transition_and_time_above_the_critical_eccentricity(start):
+    _, speed, samples, table = start
+    ratio = samples["eccentricity_ratio"].values
+    first = int(np.argmax(ratio <= 0.95))
+    assert speed[first - 1] < table["transition_speed"] < speed[first]
+    assert table["mixed_friction_time"] == pytest.approx(0.1 * (first - 1))  # it stands in one
+    turning = samples["in_contact"].values & (speed > 0)
+    assert table["contact_time"] == pytest.approx(0.1 * turning.sum())
+    turns = 0.1 * speed[:first].sum() / (2 * np.pi)
+    assert table["mixed_friction_revolutions"] == pytest.approx(turns)
+
+
+def test_a_stop_has_its_transition_where_a_start_with_the_same_speeds_has_it(start):
+    scene, speed, _, table = start
+    stop = solved(scene, speed[::-1])[1]
+    assert stop["transition_speed"].item() == pytest.approx(table["transition_speed"].item(), 1e-6)
+    assert stop["transition_time"].item() == pytest.approx(
+        table["duration"].item() - table["transition_time"].item() - 0.1, abs=0.11
+    )
+
+
+def test_rubbing_loses_the_boundary_friction_of_the_load():
+    scene = scene_with(boundary_friction=0.1, shaft_roughness=2e-4, shell_roughness=2e-4)
+    speed = np.full(11, 0.02)
+    _, table = solved(scene, speed)
+    assert table["in_contact"] == 11
+    power = 0.1 * LOAD * 1.5 * 0.02
+    assert table["mixed_friction_energy"] == pytest.approx(power * 1.1)
+    assert np.isnan(table["largest_eccentricity_ratio"])
+
+
+def test_an_unsolved_film_is_counted_and_is_not_contact(start, monkeypatch):
+    scene, speed, *_ = start
+    solve = stage.equilibria
+
+    def failing(*args, **keys):
+        answer = solve(*args, **keys)
+        answer.converged[-3:] = False
+        answer.eccentricity_ratio[-3:] = np.nan
+        answer.minimum_film[-3:] = np.nan
+        return answer
+
+    monkeypatch.setattr(stage, "equilibria", failing)
+    _, table = solved(scene, speed)
+    assert table["not_converged"] == 3
+
+
+@pytest.mark.parametrize("keys", [{"shape": Lobes(count=2, preload=0.3)}, {}])
+def test_the_capacity_of_a_bore_that_differs_around_is_met_by_its_equilibrium(keys):
+    from dataclasses import replace
+
+    scene = scene_with()
+    bearing = replace(scene.journal.geometry, **keys)
+    film = scene.journal.film | ({} if keys else {"supply": Supply((Groove(angle=1.57),))})
+    del film["rung"]
+    (carried,) = load_capacity(bearing, 50e-6, [1.0], **film)
+    films = [
+        bearing.equilibrium(
+            carried * np.array([np.cos(a), np.sin(a)]), 1.0, strict=False, **film
+        ).minimum_film
+        for a in np.arange(8) * np.pi / 4
+    ]
+    # no direction of the load keeps a thicker film
+    assert np.nanmax(films) < 1.2 * 50e-6
+
+
+def test_a_roughness_beyond_the_clearance_is_refused():
+    with pytest.raises(InputError, match="shaft_roughness and shell_roughness"):
+        scene_with(shaft_roughness=1e-3)

@@ -1,0 +1,382 @@
+"""Every key of every section of a scene does something, or the scene says why it does not.
+
+The walk takes each value that a scene holds, down to the last part of a table, puts another legal
+one in its place and runs what reads the section. The numbers change, or `unused_keys` names the
+key, or the scene is refused with its name.
+"""
+
+import hashlib
+import re
+
+import numpy as np
+import pytest
+import xarray as xr
+from synthetic import case, cube_file
+
+from loadflow.errors import InputError, LoadflowError
+from loadflow.planning.plan import make_plan
+from loadflow.scene.cases import list_cases
+from loadflow.scene.scene import Scene, make_scene
+from loadflow.scene.unused import unused_keys
+from loadflow.stages import friction, journal, loads, reduction, rolling, seeds, shaft
+from loadflow.studies.run_lifetime import run_lifetime
+from loadflow.studies.verdicts import verdicts
+
+WIND = {"wind_speeds": [12.0, 14.0], "duration": 3.0, "step": 0.1}
+BALLS = {"balls": 60, "rows": 1, "ball_diameter": 0.06, "pitch_diameter": 2.0,
+         "groove_radius": 0.0312, "contact_angle": 0.8, "shoulder_angle": 1.2}  # fmt: skip
+FILM = {"grid": [24, 8], "bearings": ["N"]}
+
+BASES = {
+    "turbulence": {"loads": WIND | {"seeds": 1, "rung": "flap"}},
+    "gust": {"loads": WIND | {"dlc": "1.5", "rung": "flap"}},
+    "tables": {"loads": WIND | {"seeds": 1, "rung": "tables"}},
+    "stop": {"loads": WIND | {"dlc": "4.1", "rung": "tables"}},
+    "parked": {"loads": {"dlc": "6.1", "seeds": 1, "duration": 3.0, "step": 0.1}},
+    "class S": {
+        "loads": WIND | {"seeds": 1, "rung": "tables", "wind_class": "S", "v_ref": 45.0,
+                         "v_ave": 9.0, "category": "S", "reference_intensity": 0.15},
+    },
+    "files": {"loads": {"source": "files", "files": ["CUBE"]}},
+    "bearings": {
+        "shaft": {"two_point": {}, "moment": {}},
+        "journal": FILM | {"supply": {"grooves": [{"angle": 1.57, "arc": 0.2, "length": 1.5,
+                                                   "pressure": 6e5}]}},
+        "rolling": {"bearing": "M", "geometry": BALLS},
+    },
+    "warm film": {
+        "journal": FILM | {"heat": {"transfer": 100.0}}, "reduction": {"size": 0.03},
+    },
+    "elastic film": {"journal": FILM | {"shell": {"kind": "local", "compliance": 1e-12}}},
+    "film in motion": {
+        "journal": FILM | {"motion": "transient", "rung": "reduced"},
+        "results": ["journal.film"],
+    },
+    "tilted film": {"journal": FILM | {"tilt": True}, "shaft": {"two_point": {"beam": {}}}},
+    "rigid and tilted": {"journal": FILM | {"tilt": True}, "shaft": {"two_point": {}}},
+    "tapered rollers": {
+        "shaft": {"two_point": {}},
+        "rolling": {"bearing": "N2", "geometry": {
+            "kind": "roller", "rollers": 44, "roller_diameter": 0.07, "roller_length": 0.12,
+            "pitch_diameter": 1.2, "rows": 2, "row_spacing": 0.25, "contact_angle": 0.35,
+            "clearance": -5e-5}},
+        "friction": {"conductance": 50.0},
+    },
+    "three points": {"shaft": {"three_point": {}}, "journal": FILM},
+    "integrated": {"shaft": {"integrated": {}}, "journal": FILM},
+    "direct drive": {"shaft": {"direct_drive": {}}, "journal": FILM},
+}  # fmt: skip
+
+READERS = {
+    "turbulence": ("loads", "turbine"),
+    "gust": ("loads",),
+    "tables": ("loads",),
+    "stop": ("loads",),
+    "parked": ("loads",),
+    "class S": ("loads",),
+    "files": ("loads", "seeds", "reduction"),
+    "bearings": ("shaft", "journal", "rolling", "friction"),
+    "warm film": ("journal",),
+    "elastic film": ("journal",),
+    "film in motion": ("journal", "reduction"),
+    "tilted film": ("shaft", "journal"),
+    "rigid and tilted": ("journal",),
+    "tapered rollers": ("rolling", "friction"),
+    "three points": ("shaft",),
+    "integrated": ("shaft",),
+    "direct drive": ("shaft",),
+}
+"""Sections that are walked over in each scene; the first five have the loads in every guise."""
+
+OTHERS = {
+    "turbine.name": ["iea-15mw"],
+    "loads.files": [["OTHER"]],
+    "seeds.alpha": [0.99],
+    "seeds.methods": [["calibrated"]],
+    "loads.rung": ["bem", "flap"],
+    "loads.wind_class": ["II"],
+    "friction.step": [0.5],
+    "loads.winds": [["none.bts"]],
+    "loads.case_list": ["none.csv"],
+    "loads.pattern": [r"v(?P<wind_speed>\d+)"],
+    "loads.dlc": ["1.3", "6.4"],
+    "loads.wind_speeds": [[14.0], [60.0]],
+    "loads.azimuths": [[1.0], [1.0, 2.0]],
+    "loads.yaw_errors": [[0.2]],
+    "loads.wind_grid": [[9, 36]],
+    "friction.lubricant": ["lgwm-2"],
+    "friction.cleanliness": ["grease, severe contamination"],
+    "journal.bearings": [["N2"], ["N", "N2"]],
+    "journal.grid": [[36, 12]],
+    "journal.supply": [{"grooves": [{"angle": 1.0, "arc": 0.2, "pressure": 6e5}]}],
+    "journal.heat": [{"oil": "mineral-vg-320"}],
+    "journal.heat.oil": ["mineral-vg-460", "iso-vg-68"],
+    "journal.shell": [{"kind": "local", "compliance": 1e-12}],
+    "journal.limits.sommerfeld_range": [[0.5, 5.0]],
+    "journal.limits.material": [[[400.0, 5e6]]],
+    "shaft.two_point": [{"span": 3.0}],
+    "shaft.three_point": [{}],
+    "shaft.integrated": [{}],
+    "shaft.direct_drive": [{}],
+    "shaft.moment": [{}],
+    "shaft.two_point.beam": [{}],
+    "shaft.three_point.beam": [{}],
+    "shaft.integrated.beam": [{}],
+    "shaft.direct_drive.beam": [{}],
+    "shaft.moment.beam": [{}],
+    "journal.geometry.relief": [[{"kind": "crown", "height": 2e-5}]],
+    "journal.supply.grooves.0.shape": ["circle"],
+    "journal.supply.grooves.0.restrictor": [{"diameter": 0.004, "length": 0.05}],
+    "journal.supply.pump": [{"flow": [0.0, 0.01], "pressure": [8e5, 2e5]}],
+    "rolling.geometry.kind": ["ball", "roller"],
+    "rolling.further": [[{"bearing": "N", "geometry": BALLS}]],
+    "rolling.bearing": ["N2", "N"],
+    "rolling.inner_ring": [{"section": {"width": 0.1, "height": 0.15}, "radius": 0.9}],
+    "rolling.outer_ring": [{"section": {"width": 0.1, "height": 0.15}, "radius": 1.1}],
+}
+"""Values that no rule finds: names, files, tables."""
+
+OPTIONAL = (0.3, 2e-5, 3.0, 380.0, 1e6, 2, "graded", True)
+"""Tried for a key that has no value yet."""
+
+
+def others(path, value):
+    """Yield other values for a key, likely legal ones first."""
+    yield from OTHERS.get(".".join(map(str, path)), ())
+    if isinstance(value, bool):
+        yield not value
+    elif isinstance(value, int):
+        yield from (value + 1, value - 1, 2 * value)
+    elif isinstance(value, float):
+        yield from (1.1 * value, 0.9 * value, value + 0.01, value + 1e-5, 1.5 * value)
+    elif isinstance(value, list) and value and isinstance(value[0], int | float):
+        yield [1.1 * x for x in value]
+    elif value is None:
+        yield from OPTIONAL
+    elif isinstance(value, str):
+        yield from literals(path)
+
+
+def literals(path):
+    """Yield what an error message says is allowed."""
+    try:
+        make_scene(changed({"name": "x"}, path, "nothing"))
+    except InputError as error:
+        said = str(error)
+        yield from re.findall(r"'([^']+)'", said.split("must be", 1)[-1])
+
+
+def leaves(value, path=()):
+    """Yield path and value of everything that a table holds."""
+    if isinstance(value, dict):
+        for name, part in value.items():
+            yield from leaves(part, (*path, name))
+    elif isinstance(value, list) and value and isinstance(value[0], dict):
+        for k, part in enumerate(value):
+            yield from leaves(part, (*path, k))
+    else:
+        yield path, value
+
+
+def changed(data, path, value):
+    """Return a copy of nested tables with one value in its place."""
+    if not path:
+        return value
+    first, *rest = path
+    if isinstance(first, int):
+        return [changed(p, rest, value) if k == first else p for k, p in enumerate(data)]
+    inner = data.get(first, {}) if isinstance(data, dict) else {}
+    return dict(data or {}) | {first: changed(inner, rest, value)}
+
+
+@pytest.fixture(scope="module")
+def place(tmp_path_factory):
+    tmp = tmp_path_factory.mktemp("walk")
+    cube_file(tmp / "loads.h5", wind_speeds=(8.0, 9.0), seeds=(1, 2), steps=200)
+    cube_file(tmp / "other.h5", wind_speeds=(10.0, 11.0), seeds=(1, 2), steps=200)
+    return tmp
+
+
+def scene_of(data, place):
+    text = {"CUBE": str(place / "loads.h5"), "OTHER": str(place / "other.h5")}
+
+    def filled(part):
+        if isinstance(part, dict):
+            return {name: filled(one) for name, one in part.items()}
+        if isinstance(part, list):
+            return [filled(one) for one in part]
+        return text.get(part, part) if isinstance(part, str) else part
+
+    return make_scene({"name": "walk"} | filled(data))
+
+
+HUB = case(8.0, 1, steps=120)
+HUB["speed"][:20] = np.linspace(0.0, 0.012, 20)  # the surfaces touch at first
+
+
+def numbers(scene, section):
+    """Everything that the stages which read a section give for it, as one fingerprint."""
+    print_ = hashlib.sha256()
+
+    def add(data):
+        nodes = data.subtree if isinstance(data, xr.DataTree) else [data]
+        for node in nodes:
+            for name in sorted(map(str, node.data_vars)):
+                print_.update(name.encode() + np.ascontiguousarray(node[name].values).tobytes())
+            print_.update(repr(sorted(node.attrs.items())).encode())
+
+    print_.update(repr([(c.name, c.weight) for c in FOUND[section](scene, add) or ()]).encode())
+    return print_.hexdigest()
+
+
+def _loads(scene, add):
+    cases = list_cases(scene)
+    add(loads.hub_loads(scene, cases[0], {}))
+    return cases
+
+
+def _shaft(scene, add):
+    found = shaft.bearing_loads(scene, None, {"loads": HUB})
+    add(found)
+    return found
+
+
+def _inputs(scene):
+    found = shaft.bearing_loads(scene, None, {"loads": HUB})
+    series = {"loads": HUB, "shaft": found}
+    return series | {"reduction": reduction.reduced_loads(scene, ONE, series)}
+
+
+class _One:
+    dlc, wind_speed, seed, weight, name = "1.1", 8.0, 1, 1.0, "dlc1.1_v8_s1"
+
+
+ONE = _One()
+
+
+def _judge(scene, add, stage, tree):
+    table = stage.summary({ONE: tree})
+    add(table)
+    name = stage.__name__.rpartition(".")[2]
+    lifetime = run_lifetime(scene, {name: table})
+    for verdict in verdicts(scene, {name: table}, lifetime):
+        add(xr.Dataset({"said": ((), verdict.sentence)}))
+
+
+def _journal(scene, add):
+    solve = journal.orbit if scene.journal.in_motion else journal.film
+    tree = solve(scene, ONE, _inputs(scene))
+    add(tree)
+    _judge(scene, add, journal, tree)
+
+
+def _rolling(scene, add):
+    from loadflow.planning.accuracy import finer
+
+    inputs = _inputs(scene)
+    for one in filter(None, (scene, finer(scene, "rolling"))):  # as the run's own check does
+        found = rolling.balls(one, ONE, inputs)
+        add(found)
+        _judge(scene, add, rolling, found)
+
+
+def _friction(scene, add):
+    inputs = _inputs(scene)
+    add(friction.losses(scene, ONE, inputs))
+    add(rolling.balls(scene, ONE, inputs))
+
+
+def _reduction(scene, add):
+    if scene.journal.in_motion:
+        _journal(scene, add)
+    else:
+        add(_inputs(scene)["reduction"])
+
+
+def _seeds(scene, add):
+    cases = list_cases(scene)
+    inputs = {}
+    for one in cases:
+        hub = loads.hub_loads(scene, one, {})
+        inputs[one.name] = {
+            "loads": hub, "shaft": shaft.bearing_loads(scene, one, {"loads": hub}),
+        }  # fmt: skip
+    add(seeds.equality_of_seeds(scene, cases, inputs))
+
+
+FOUND = {
+    "loads": _loads, "turbine": _loads, "shaft": lambda s, add: _shaft(s, add) and None,
+    "seeds": _seeds, "reduction": _reduction, "journal": _journal, "rolling": _rolling,
+    "friction": _friction,
+}  # fmt: skip
+
+
+CONFLICT = (
+    "leave", "set ", "takes the place", "follows from", "give ", "missing", "unknown key",
+    "and only it, takes", "; only", "keep one", "for a circle", "not given with",
+)  # fmt: skip
+"""Words with which a scene is refused that says two things which do not go together."""
+
+
+def outcome(base, place, section, path, value):
+    """What happens when a key has another value: "refused", "told", "changed", "illegal" or ""."""
+    first, *rest = path
+    table = getattr(scene_of(base, place), section).model_dump(mode="json")
+    part = changed(table[first], rest, value)
+    data = base | {section: base.get(section, {}) | {first: part}}
+    key = ".".join(map(str, (section, *path)))
+    try:
+        scene = scene_of(data, place)
+    except InputError as error:
+        known = section in str(error) and first in str(error)
+        return "refused" if known and any(w in str(error) for w in CONFLICT) else "illegal"
+    if any(key == known or key.startswith(f"{known}.") for known in unused_keys(scene)):
+        return "told"
+    try:
+        return "changed" if numbers(scene, section) != before(place, base, section) else ""
+    except LoadflowError:
+        return "changed"  # with a message of its own
+
+
+_BEFORE = {}
+
+
+def before(place, base, section):
+    key = repr((base, section))
+    if key not in _BEFORE:
+        _BEFORE[key] = numbers(scene_of(base, place), section)
+    return _BEFORE[key]
+
+
+WALKS = [(name, section) for name, sections in READERS.items() for section in sections]
+
+
+@pytest.mark.parametrize(("name", "section"), WALKS)
+def test_every_key_of_a_section_does_something_or_is_told(name, section, place):
+    base = BASES[name]
+    table = getattr(scene_of(base, place), section).model_dump(mode="json")
+    silent, stuck = [], []
+    for path, value in leaves(table):
+        tried = []
+        for other in others((section, *path), value):
+            tried.append(outcome(base, place, section, path, other))
+            if tried[-1] in ("refused", "told", "changed"):
+                break
+        else:
+            (silent if "" in tried else stuck).append(".".join(map(str, path)))
+    assert silent == []
+    assert stuck == []
+
+
+def test_the_walk_goes_through_every_section():
+    walked = {section for _, section in WALKS}
+    assert walked | {"name", "results", "accuracy"} == set(Scene.model_fields)
+
+
+def test_name_results_and_accuracy_change_the_plan(place):
+    base = BASES["tables"]
+    plan = make_plan(scene_of(base, place))
+    fewer = make_plan(scene_of(base | {"results": ["loads.statistics"]}, place))
+    finer = make_plan(scene_of(base | {"accuracy": 0.01}, place))
+    assert len(fewer.steps) < len(plan.steps)
+    assert finer.steps[-1].digest != plan.steps[-1].digest

@@ -1,0 +1,273 @@
+"""Verdicts of a run: the right load, the right limit, its source, and what governs."""
+
+import json
+
+import numpy as np
+import pytest
+import xarray as xr
+from synthetic import case, cube_file
+
+import loadflow as lf
+from loadflow.cli import app
+from loadflow.cube import make_cube, save_cube
+from loadflow.errors import InputError
+from loadflow.rolling import main_bearings
+from loadflow.scene.scene import make_scene
+from loadflow.studies.run_lifetime import run_lifetime
+from loadflow.studies.verdicts import verdicts
+from loadflow.verdict import Verdict, from_dataset, to_dataset
+
+FILM = {"grid": [24, 8]}
+
+
+def scene_of(cube, **keys):
+    data = {
+        "name": "judged",
+        "loads": {"source": "files", "files": [str(cube)]},
+        "results": ["journal.film", "rolling.life", "rolling.friction"],
+        "reduction": {"size": 0.05},
+        "shaft": {"two_point": {}},
+        "journal": FILM,
+        "rolling": {"arrangement": "two-spherical"},
+        "friction": {"step": 2.0},
+    }
+    return make_scene(data | keys)
+
+
+@pytest.fixture(scope="module")
+def cube(tmp_path_factory):
+    return cube_file(tmp_path_factory.mktemp("cube") / "loads.h5", seeds=(1,))
+
+
+@pytest.fixture(scope="module")
+def run(cube, tmp_path_factory):
+    return lf.run(scene_of(cube), out=tmp_path_factory.mktemp("runs"))
+
+
+def tables(run):
+    return {name: node.to_dataset().load() for name, node in run.tree.children.items()}
+
+
+def one(run, subject, quantity):
+    (found,) = (v for v in run.verdicts if (v.subject, v.quantity) == (subject, quantity))
+    return found
+
+
+def again(run, **keys):
+    """Verdicts on the numbers of a run under other limits."""
+    scene = scene_of("unused.h5", **keys)
+    found = tables(run)
+    return verdicts(scene, found, run_lifetime(scene, found))
+
+
+def test_a_verdict_says_value_limit_margin_source_and_what_governs():
+    found = Verdict("a", "film", 2.0, 1.5, "at least", "m", "a table", "dlc1.1_v8_s1", 3.0)
+    assert (found.holds, found.margin) == (True, 0.5)
+    for part in ("film 2 m", "dlc1.1_v8_s1 at 3.0 s", "at least 1.5 m", "a table", "holds"):
+        assert part in found.sentence
+    assert Verdict("a", "b", 2.0, 1.5, "at most").answer == "broken"
+    unknown = Verdict("a", "b", np.nan, 1.5, "at most")
+    assert (unknown.answer, unknown.holds) == ("not answered", False)
+    told = Verdict("a", "b", 2.0, np.nan, "at most")
+    assert (told.answer, told.holds) == ("no limit", True)
+
+
+def test_verdicts_survive_the_file(tmp_path):
+    rows = [Verdict("a", "b", 1.0, 2.0, "at most", note="é"), Verdict("c", "d", 3, 2, "at least")]
+    to_dataset(rows).to_netcdf(tmp_path / "v.h5", engine="h5netcdf")
+    with xr.open_dataset(tmp_path / "v.h5", engine="h5netcdf") as table:
+        read = list(from_dataset(table))
+    assert [v.sentence for v in read] == [v.sentence for v in rows]
+
+
+def test_static_safety_is_that_of_the_factored_load(run):
+    found = one(run, "rolling N2", "static rating over the design load")
+    data = tables(run)["rolling"].sel(bearing="N2")
+    characteristic = float(data["bearing_static_safety"].sel(case=found.case))
+    assert "γ_f 1.35" in found.note
+    assert found.limit == 1.0
+    # of rollers the force grows with the load, so that the safety is not far from its share
+    assert characteristic / 1.35 == pytest.approx(found.value, rel=0.2)
+    assert found.value < characteristic
+
+
+def test_the_worst_sample_under_design_loads_is_solved_anew(run, cube, tmp_path):
+    found = one(run, "rolling N2", "static rating over the design load")
+    tree = xr.open_datatree(run.path / "reduction" / f"{found.case}.h5", engine="h5netcdf")
+    loads = tree["N2"].to_dataset().load()
+    force, moment = (1.35 * loads[name].values[:, [1, 2, 0]] for name in ("force", "moment"))
+    solved = main_bearings("two-spherical")["N2"].equilibrium(force, moment[:, :2])
+    assert found.value == pytest.approx(float(np.min(solved.static_safety)), rel=1e-6)
+    assert found.time == loads["time"].values[int(np.argmin(solved.static_safety))]
+
+
+def test_a_force_along_the_shaft_is_carried_by_a_rolling_bearing_and_by_no_film(run):
+    journal = one(run, "journal N2", "force along the shaft without a bearing")
+    rolling = one(run, "rolling N2", "force along the shaft without a bearing")
+    assert journal.answer == "broken"
+    assert "none: " in journal.note
+    assert "carried by no bearing of this arrangement" in journal.note
+    largest = float(tables(run)["rolling"]["bearing_axial_force"].sel(bearing="N2").max())
+    assert journal.value == pytest.approx(largest, rel=1e-6)
+    assert rolling.holds
+    assert "carried by N2, a SphericalRollerBearing" in rolling.note
+    assert not [v for v in run.verdicts if v.subject.endswith("N") and "along" in v.quantity]
+
+
+def test_limits_are_those_of_the_scene_and_say_so(run):
+    for quantity, limits, limit in (
+        ("eccentricity ratio ε", {"eccentricity_ratio": 0.3}, 0.3),
+        ("smallest film", {"minimum_film": 1e-3}, 1e-3),
+        ("largest Sommerfeld number", {"sommerfeld_peak": 8.0}, 8.0),
+        ("most mean Sommerfeld number", {"sommerfeld_range": (0.1, 0.2)}, 0.2),
+        ("largest film pressure", {"material": ((400.0, 1e5),)}, 1e5),
+        ("specific load F/(B D)", {"specific_load": 1e4}, 1e4),
+    ):
+        judged = again(run, journal=FILM | {"limits": limits})
+        (found,) = (v for v in judged if (v.subject, v.quantity) == ("journal N", quantity))
+        assert found.limit == limit
+        assert found.source == "as the scene states"
+        assert found.case in tables(run)["journal"]["case"].values
+    judged = again(run, rolling={"arrangement": "two-spherical", "limits": {"static_safety": 9e9}})
+    (found,) = (v for v in judged if v.subject == "rolling N" and "static" in v.quantity)
+    assert found.answer == "broken"
+
+
+def test_the_smallest_film_allowed_is_roughness_waviness_and_margin():
+    journal = make_scene(
+        {
+            "name": "x",
+            "journal": {
+                "shaft_roughness": 1e-6,
+                "shell_roughness": 2e-6,
+                "limits": {"waviness": 3e-6, "margin": 4e-6},
+            },
+        }
+    ).journal
+    assert journal.least_film == pytest.approx(10e-6)
+
+
+def test_the_material_carries_less_the_warmer_it_is():
+    limits = make_scene({"name": "x"}).journal.limits
+    assert limits.pressure_at(350.0) == 7e6
+    assert limits.pressure_at(127 + 273.15) == 7e6
+    assert limits.pressure_at((127 + 190) / 2 + 273.15) == pytest.approx(4.2e6)
+    assert limits.pressure_at(190 + 273.15) == pytest.approx(1.4e6)
+    assert limits.pressure_at(500.0) == 0.0
+
+
+def test_the_oil_lasts_as_the_table_of_the_source_says():
+    def limit(**keys):
+        return make_scene({"name": "x", "journal": {"limits": keys}}).journal.limits.oil_temperature
+
+    assert limit() == pytest.approx(75 + 273.15)
+    assert limit(oil_hours=10_000) == pytest.approx(30 + 273.15)
+    assert limit(oil_hours=1000) == pytest.approx(52.5 + 273.15)
+    assert limit(oil="synthetic, without oxygen") == pytest.approx(495 + 273.15)
+    assert limit(temperature=373.15) == 373.15
+    with pytest.raises(InputError, match="takes the place of oil"):
+        limit(temperature=373.15, oil_hours=200)
+
+
+def test_unanswered_samples_are_a_verdict(run):
+    scene, found = scene_of("unused.h5"), tables(run)
+    found["journal"]["not_converged"][0, 0] = 7
+    (verdict,) = (
+        v
+        for v in verdicts(scene, found, None)
+        if (v.subject, v.quantity) == ("journal N", "samples not answered")
+    )
+    assert verdict.answer == "broken"
+    assert "not answered: 7 samples" in verdict.note
+
+
+def test_contact_in_production_breaks_every_verdict_on_the_film(tmp_path):
+    slow = case(8.0, 1)
+    slow["speed"][200:210] = 0.003
+    file = save_cube(make_cube([slow]), tmp_path / "loads.h5")
+    scene = scene_of(file, results=["journal.film"], reduction={"size": 1.0})
+    found = {
+        v.quantity: v
+        for v in lf.run(scene, out=tmp_path, report=False).verdicts
+        if v.subject == "journal N2"
+    }
+    contact = found["time in contact while turning, power production"]
+    assert contact.value == pytest.approx(10 * 0.25, rel=0.01)
+    assert "kJ" in contact.note
+    for quantity in ("eccentricity ratio ε", "smallest film", "largest Sommerfeld number"):
+        assert found[quantity].answer == "broken"
+        assert "in contact in 1 load cases" in found[quantity].note
+
+
+def test_a_start_is_told_with_its_transition_and_has_a_limit_only_if_one_is_stated(tmp_path):
+    start = case(8.0, 1)
+    start["speed"][:] = np.linspace(0, 1.2, start.sizes["time"])
+    start = start.assign_coords(dlc="3.1")
+    file = save_cube(make_cube([start]), tmp_path / "loads.h5")
+
+    def contact(**limits):
+        scene = scene_of(
+            file,
+            name=f"start{len(limits)}",
+            results=["journal.film"],
+            reduction={"size": 1.0},
+            journal=FILM | {"limits": limits},
+        )
+        judged = lf.run(scene, out=tmp_path, report=False).verdicts
+        assert not [v for v in judged if v.quantity == "smallest film"]
+        (found,) = (v for v in judged if v.subject == "journal N" and "contact" in v.quantity)
+        return found
+
+    told = contact()
+    assert told.answer == "no limit"
+    assert "transition at" in told.note
+    assert contact(start_time=1e-3).answer == "broken"
+
+
+def test_modified_life_counts_lubrication_and_system_life_all_bearings(run):
+    lifetime = run.tree["lifetime"].to_dataset()
+    for kind in ("", "modified_"):
+        each = lifetime[f"{kind}life_hours"].values
+        system = lifetime[f"system_{kind}life_hours"].item()
+        assert system == pytest.approx((each ** (-9 / 8)).sum() ** (-8 / 9))
+    dirty = scene_of("unused.h5", friction={"cleanliness": "grease, very severe contamination"})
+    assert dirty.friction.cleanliness != scene_of("unused.h5").friction.cleanliness
+    life = lifetime["modified_life_hours"] / lifetime["life_hours"]
+    assert (life != 1.0).all()
+
+
+def test_energy_a_year_is_mean_power_over_the_winds_of_production(run):
+    lifetime, data = run.tree["lifetime"].to_dataset(), tables(run)
+    share = data["journal"]["weight"].values
+    assert lifetime["share"].values == pytest.approx(share / share.sum())
+    power = data["journal"]["mean_friction_power"] + data["journal"]["mean_supply_power"]
+    mean = (power.transpose("bearing", "case").values * share).sum(axis=1)
+    # class I: mean 10 m/s, between 3 and 25 m/s
+    running = np.exp(-np.pi / 4 * 0.3**2) - np.exp(-np.pi / 4 * 2.5**2)
+    expected = mean * running * 8766 * 3600
+    assert lifetime["journal_energy"].values == pytest.approx(expected, rel=1e-9)
+    friction = data["friction"]["mean_friction_power"].transpose("bearing", "case").values
+    expected = (friction * share).sum(axis=1) * running * 8766 * 3600
+    assert lifetime["rolling_energy"].values == pytest.approx(expected, rel=1e-9)
+
+
+def test_a_key_without_effect_is_told_by_plan_and_run(cube, tmp_path, capsys):
+    file = tmp_path / "told.toml"
+    file.write_text(
+        f'results = ["loads.statistics"]\n[loads]\nsource = "files"\nfiles = ["{cube}"]\n'
+        "seeds = 3\n[reduction]\nsize = 0.5\n"
+    )
+    told = lf.run(lf.read_scene(file), out=tmp_path, report=False).warnings
+    assert [said.partition(":")[0] for said in told] == ["reduction", "loads.seeds"]
+    app(["plan", str(file), "--json"], standalone_mode=False)
+    planned = json.loads(capsys.readouterr().out)
+    assert list(planned["unused"]) == ["reduction", "loads.seeds"]
+
+
+def test_report_and_json_show_the_same_verdicts(run):
+    page = run.report.read_text(encoding="utf-8")
+    for verdict in run.verdicts:
+        assert verdict.quantity in page
+    assert "limit from" in page
+    said = json.loads(json.dumps([v.as_dict() for v in run.verdicts]))
+    assert all({"value", "limit", "margin", "source", "case", "answer"} <= set(row) for row in said)
