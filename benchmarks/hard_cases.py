@@ -77,8 +77,8 @@ some pads, orbits at So > 80.
 |---|---:|---:|---:|---:|---:|
 | cylinder | 300 | 300 | 0 | 0 | 0 |
 | arcs, lobes, tilting pads, relief | 300 | 285 | 5 | 10 | 0 |
-| tilt, moment, bend | 100 | 73 | 27 | 0 | 0 |
-| supply | 150 | 148 | 1 | 1 | 0 |
+| tilt, moment, bend | 300 | 211 | 79 | 10 | 0 |
+| supply | 150 | 146 | 3 | 1 | 0 |
 | elastic shells | 60 | 43 | 8 | 9 | 0 |
 """
 
