@@ -254,8 +254,8 @@ def solve_patiently(
                 film, force, state.u, state.position, tolerance, max_iterations, free=free
             )
             return replace(end, iterations=spent + end.iterations)
-    unmet = 1e-3 * math.hypot(*missing) / near
-    residual = unmet if state.converged else max(state.residual, unmet)
+    share = 1e-3 * math.hypot(*missing) / near
+    residual = share if state.converged else max(state.residual, share)
     return replace(state, converged=False, iterations=spent, residual=residual)
 
 
