@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 import xarray as xr
+from threadpoolctl import threadpool_limits
 
 from loadflow.cube import open_cube, save_cube
 from loadflow.errors import SolverError
@@ -148,6 +149,7 @@ def run(
     return Run(folder, tree, failures, plan.shortfalls)
 
 
+@threadpool_limits.wrap(limits=1)  # cases are what runs in parallel, here as in other processes
 def _carry_out(
     plan: Plan,
     folder: Path,
