@@ -318,7 +318,8 @@ FOUND = {
 
 CONFLICT = (
     "leave", "set ", "takes the place", "follows from", "give ", "missing", "unknown key",
-    "and only it, takes", "; only", "keep one", "for a circle", "not given with", "for slewing", "and only to it",
+    "and only it, takes", "; only", "keep one", "for a circle", "not given with", "for slewing",
+    "and only to it",
 )  # fmt: skip
 """Words with which a scene is refused that says two things which do not go together."""
 
