@@ -16,6 +16,7 @@ import os
 import resource
 import time as clock
 from concurrent.futures import ProcessPoolExecutor
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -69,7 +70,7 @@ def check(run: Path, options: Journal, bearing: str, found: dict[str, Any]) -> d
 
 
 def _orbit(options: Journal, rung: str, *history: np.ndarray) -> Any:
-    return options.geometry.orbit(*history, **options.film | {"rung": rung})
+    return options.geometry.orbit(*history, replace(options.film_model, rung=rung))
 
 
 def main() -> None:

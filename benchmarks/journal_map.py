@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from journal import OMEGA, STEP, SparseFilm
 
-from loadflow.journal.film.discretise import FilmOptions
+from loadflow.journal import Film
 from loadflow.journal.models import mobility
 from loadflow.validation.journal import PERIODIC_LOADS, reference_bearing, sines
 
@@ -31,7 +31,7 @@ def seconds(work: Any) -> tuple[Any, float]:
 
 def held_out(film: dict[str, Any]) -> np.ndarray:
     """Error of the velocity of the map at 200 random points."""
-    options = FilmOptions(grading="graded", **film)
+    options = Film(grading="graded", **film)
     plain, _ = mobility.scaled(options)
     table = mobility.tabulate(0.75, plain, 1.0)
     rng = np.random.default_rng(3)

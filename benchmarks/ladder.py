@@ -49,11 +49,12 @@ GAINING = {"journal", "rolling", "friction"}
 HEAD = """# Speed against error
 
 What each model costs, and how far it is from the finest one that is there. `loadflow plan SCENE`
-reads the same numbers. All of this page is written by `python benchmarks/ladder.py`.
+reads the same numbers; what leaving physics out costs beside them, and how models are chosen, says
+[accuracy.md](accuracy.md). All of this page is written by `python benchmarks/ladder.py`.
 
-**Relative time** is against the dearest rung of the stage, measured in the same run; the seconds
-hold for one core of one busy machine and are only rough. **Errors** are relative deviations from
-the stated reference: the largest of all cases, the 95 % quantile, and the worst case; of a
+**Relative time** is against the most expensive rung of the stage, measured in the same run; the
+seconds hold for one core of one busy machine and are only rough. **Errors** are relative deviations
+from the stated reference: the largest of all cases, the 95 % quantile, and the worst case; of a
 stiffness, the norm of the difference of the matrices over that of the reference; of a slip,
 absolute. They say what a coarser model changes, not how well the finest one fits a real turbine. A
 rung is **dominated** if another one is cheaper and nowhere less accurate.

@@ -19,6 +19,7 @@ from measuring import (
     percent,
     radial_loads,
     rounded,
+    rung_key,
     sentence,
     timed,
     with_dominated,
@@ -47,11 +48,14 @@ def measure_reduction(bench: Bench) -> Rungs:
     table = FilmTable(bench.scene.journal, bench.series)
     top = _full_series(bench, table)
     rungs = {
-        f"histogram, {pick}, {size:g}": _reduced(bench, table, pick, size, top)
+        rung_key(bench.scene, "reduction", pick=pick, size=size): _reduced(
+            bench, table, pick, size, top
+        )
         for pick in _PICKED
         for size in bench.setting.sizes
     }
-    return with_dominated(rungs | {"full series": top})
+    full = rung_key(bench.scene, "reduction", size=1.0)
+    return with_dominated(rungs | {full: top})
 
 
 def _reduced(bench: Bench, table: FilmTable, pick: str, size: float, top: Entry) -> Entry:
@@ -189,7 +193,7 @@ def solve(options: Journal, load: np.ndarray, speed: np.ndarray | float, **keys:
     return options.geometry.equilibrium(
         force=np.stack([load, np.zeros_like(load)], axis=-1),
         speed=speed,
-        **options.film | keys,
+        film=replace(options.film_model, **keys),
     )
 
 
@@ -236,15 +240,11 @@ def measure_journal(bench: Bench) -> Rungs:
         f"{', '.join(f'{w:g}' for w in setting.speeds)} rad/s; bearing, oil and gas content of "
         "pipelines/dlc_1_1.toml"
     )
-    models: dict[str, Entry] = {
-        f"grid, {a}x{b}": {"grid": (a, b), "rung": "grid"} for a, b in GRIDS
-    }
-    models |= {
-        f"grid, {a}x{b}, graded": {"grid": (a, b), "grading": "graded", "rung": "grid"}
-        for a, b in GRIDS[1:3]
-    }
-    models |= {f"reduced, {n}": {"grid": (n, 20), "rung": "reduced"} for n in AROUND}
-    models |= {rung: {"rung": rung} for rung in BY_NAME}
+    chosen: list[Entry] = [{"grid": grid, "rung": "grid"} for grid in GRIDS]
+    chosen += [{"grid": grid, "grading": "graded", "rung": "grid"} for grid in GRIDS[1:3]]
+    chosen += [{"grid": (n, 20), "rung": "reduced"} for n in AROUND]
+    models = {rung_key(bench.scene, "journal", **keys): keys for keys in chosen}
+    models |= {rung: {"rung": rung} for rung in BY_NAME}  # charts are no rung of a scene
     rungs: Rungs = {}
     for name, keys in models.items():
         errors = film_errors(options, setting, reference, **keys).summary()
@@ -259,7 +259,7 @@ def measure_journal(bench: Bench) -> Rungs:
                 errors, "eccentricity ratio", "minimum film", "maximum pressure", "friction power"
             ),
         }
-    return with_ratios(rungs, f"grid, {GRIDS[-1][0]}x{GRIDS[-1][1]}")
+    return with_ratios(rungs, rung_key(bench.scene, "journal", grid=GRIDS[-1], rung="grid"))
 
 
 def _film_seconds(bench: Bench, keys: dict[str, Any]) -> float:

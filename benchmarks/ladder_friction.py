@@ -12,6 +12,7 @@ from measuring import (
     label,
     on_cases,
     rounded,
+    rung_key,
     sentence,
     timed,
     with_ratios,
@@ -52,7 +53,8 @@ def measure_friction(bench: Bench) -> Rungs:
             errors = Errors()
             for case in windows:
                 compare(errors, label(case), answers[step][case], answers[FINEST][case])
-            of_kind[f"{kind}, every {step:g} s"] = _entry(bench, kind, scene, step, errors)
+            key = rung_key(scene, "friction", step=step)
+            of_kind[key] = _entry(bench, kind, scene, step, errors)
         rungs |= with_ratios(of_kind, next(iter(of_kind)))  # other bearings are no other model
     return rungs
 

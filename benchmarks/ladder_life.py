@@ -10,8 +10,14 @@ from dataclasses import dataclass
 import numpy as np
 from measuring import Bench, Errors, Rungs, label, on_cases, rounded, sentence, with_ratios
 
-from loadflow.rolling import ARRANGEMENTS, BearingLife, arrangement_lives, bin_loads, main_bearings
-from loadflow.rolling.bearings.arrangements import MainBearing
+from loadflow.rolling import (
+    ARRANGEMENTS,
+    BearingLife,
+    RollingBearing,
+    arrangement_lives,
+    bin_loads,
+    main_bearings,
+)
 from loadflow.stages.frames import to_rolling
 
 EVERY = 8  # steps of 0.025 s
@@ -118,7 +124,7 @@ def _series(bench: Bench) -> dict[str, Loads]:
     return {place: Loads(*map(np.concatenate, zip(*parts))) for place, parts in rows.items()}
 
 
-def life_of(bearing: MainBearing, loads: Loads) -> BearingLife:
+def life_of(bearing: RollingBearing, loads: Loads) -> BearingLife:
     """Rating life of one bearing, each load weighted by its revolutions."""
     one = np.ones_like(loads.turns)
     found = arrangement_lives(

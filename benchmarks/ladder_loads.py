@@ -20,6 +20,7 @@ from measuring import (
     percent,
     radial_loads,
     rounded,
+    rung_key,
     sentence,
     timed,
     with_ratios,
@@ -71,7 +72,7 @@ def measure_loads(bench: Bench) -> Rungs:
         case = list_cases(scene)[0]
         seconds = timed(lambda s=scene, c=case: loads.hub_loads(s, c, {}), setting.repeat)  # type: ignore[misc]
         errors = deviations(described[rung], described[TOP]).summary()
-        rungs[rung] = {
+        rungs[rung_key(scene, "loads")] = {
             "settings": {"rung": rung},
             "includes": includes,
             "seconds_per_case": rounded(seconds * 600.0 / setting.full_duration),
@@ -157,29 +158,33 @@ def measure_shaft(bench: Bench) -> Rungs:
     parts = bench.series[bench.middle]
     two, one = TwoPoint(), MomentBearing()
     bent, stiff = replace(two, beam=Beam()), replace(one, beam=Beam())
+    suspensions = [
+        Shaft(two_point=two),
+        Shaft(three_point=ThreePoint()),
+        Shaft(integrated=Integrated()),
+        Shaft(direct_drive=DirectDrive()),
+        Shaft(moment=one),
+        Shaft(two_point=two, moment=one),
+        Shaft(two_point=bent),
+        Shaft(moment=stiff),
+        Shaft(two_point=bent, moment=one),
+        Shaft(two_point=bent, moment=stiff),
+    ]
     rungs = {
-        "two_point": Shaft(two_point=two),
-        "three_point": Shaft(three_point=ThreePoint()),
-        "integrated": Shaft(integrated=Integrated()),
-        "direct_drive": Shaft(direct_drive=DirectDrive()),
-        "moment": Shaft(moment=one),
-        "two_point+moment": Shaft(two_point=two, moment=one),
-        "two_point, beam": Shaft(two_point=bent),
-        "moment, beam": Shaft(moment=stiff),
-        "two_point, beam+moment": Shaft(two_point=bent, moment=one),
-        "two_point, beam+moment, beam": Shaft(two_point=bent, moment=stiff),
+        rung_key(bench.scene.model_copy(update={"shaft": section}), "shaft"): section
+        for section in suspensions
     }
 
     def loaded(section: Shaft) -> xr.Dataset:
         scene = bench.scene.model_copy(update={"shaft": section})
         return shaft.bearing_loads(scene, bench.middle, parts)
 
-    def entry(name: str, section: Shaft) -> Entry:
+    def entry(section: Shaft) -> Entry:
         seconds = timed(lambda: loaded(section), bench.setting.repeat)
-        includes = BEAM if "beam" in name else RIGID
+        includes = BEAM if any(concept.beam for concept in section.concepts) else RIGID
         return _exact(bench, seconds, includes) | {"error": "exact (statically determinate)"}
 
-    found = {name: entry(name, section) for name, section in rungs.items()}
+    found = {name: entry(section) for name, section in rungs.items()}
     seat = BearingSeat(radial=5e9, takes_moment=True, tilt=TILTING)
     tough = loaded(Shaft(two_point=replace(two, beam=Beam(seats=(seat, seat)))))
     loads = {"rigid": loaded(rungs["two_point"]), "tough": tough}
@@ -233,7 +238,7 @@ def measure_seeds(bench: Bench) -> Rungs:
             bench.setting.repeat,
         )
         entry = _exact(bench, seconds / len(cases), "location, spread and spectrum")
-        rungs["+".join(methods)] = entry | {
+        rungs[rung_key(tested, "seeds")] = entry | {
             "cases": "DLC 1.1, 12 m/s, 6 seeds",
             "error": "rates of false alarms: docs/seeds.md",
         }

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -16,20 +17,22 @@ from measuring import (
     on_cases,
     radial_loads,
     rounded,
+    rung_key,
     sentence,
     timed,
     with_ratios,
 )
 
-from loadflow.scene.scene import Journal
+from loadflow.scene.scene import Journal, Scene
 
-MODELS: dict[str, dict[str, Any]] = {
-    "reduced, 60": {"rung": "reduced", "grid": (60, 20)},
-    "reduced, 120": {"rung": "reduced", "grid": (120, 20)},
-    "grid, 60x20": {"rung": "grid", "grid": (60, 20)},
-    "grid, 120x40": {"rung": "grid", "grid": (120, 40)},
-    "map": {"rung": "map", "grid": (60, 20)},
-}
+CHOSEN: list[dict[str, Any]] = [
+    {"rung": "reduced", "grid": (60, 20)},
+    {"rung": "reduced", "grid": (120, 20)},
+    {"rung": "grid", "grid": (60, 20)},
+    {"rung": "grid", "grid": (120, 40)},
+    {"rung": "map", "grid": (60, 20)},
+]
+MODELS = {rung_key(Scene(name="film"), "journal", **keys): keys for keys in CHOSEN}
 INCLUDES = {"map": "squeeze; fill steady in the frame that turns with the eccentricity"}
 REFERENCE = {"rung": "reduced"}
 STEPS = {"map": 4000, "reduced": 4000, "grid": 40}  # to take times on
@@ -94,7 +97,7 @@ def solve(
         time,
         force,
         speed,
-        **options.film | keys,
+        replace(options.film_model, **keys),
     )
 
 

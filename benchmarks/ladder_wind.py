@@ -8,7 +8,18 @@ from typing import Any
 
 import numpy as np
 from ladder_loads import Found, describe, deviations
-from measuring import Bench, Entry, Rungs, label, on_cases, rounded, sentence, timed, with_ratios
+from measuring import (
+    Bench,
+    Entry,
+    Rungs,
+    label,
+    on_cases,
+    rounded,
+    rung_key,
+    sentence,
+    timed,
+    with_ratios,
+)
 
 from loadflow.rotor import simulate_condition
 from loadflow.rotor.inflow import wind_machine
@@ -76,7 +87,7 @@ def reference(doubt: dict[str, Any]) -> str:
 
 def name(grid: tuple[int, int]) -> str:
     """Name of a grid in the ladder."""
-    return f"kaimal, {grid[0]}x{grid[1]}"
+    return rung_key(Scene(name="wind"), "wind", wind_grid=grid)
 
 
 def fields(scene: Scene, case: Case) -> Iterator[tuple[str, Field]]:

@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 
 from loadflow.rotor import RotorOptions
-from loadflow.rotor import _slots as k
+from loadflow.rotor import slots as k
 from loadflow.rotor.inflow import steady_inflow
 from loadflow.rotor.loop import run, turning_state
 from loadflow.rotor.rungs import prepare

@@ -17,8 +17,8 @@ from scipy.signal import butter, sosfiltfilt
 
 from loadflow.readers import read_loads
 from loadflow.readers.openfast import read_table
-from loadflow.rotor import _slots as k
 from loadflow.rotor import simulate
+from loadflow.rotor import slots as k
 from loadflow.rotor.control._kernels import control
 from loadflow.rotor.control.constants import UNEVENTFUL, controller
 from loadflow.turbines import load_turbine

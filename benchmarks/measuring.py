@@ -21,6 +21,8 @@ from loadflow.scene.loads import Loads
 from loadflow.scene.scene import Scene, read_scene
 from loadflow.stages import loads, shaft
 from loadflow.stages.frames import to_film
+from loadflow.stages.registry import models
+from loadflow.stages.stage import with_settings
 
 SCENE = Path(__file__).parents[1] / "pipelines" / "dlc_1_1.toml"
 
@@ -74,6 +76,15 @@ class Errors:
             }
             for quantity, values in self.found.items()
         }
+
+
+def rung_key(scene: Scene, model: str, **settings: Any) -> str:
+    """Name of a rung in the ladder, as the plan looks it up."""
+    rungs = models()[model]
+    chosen = with_settings(scene, rungs.section, settings) if settings else scene
+    if chosen is None:
+        raise ValueError(f"{model}: no scene can ask for {settings}")
+    return rungs.key(chosen)
 
 
 def rounded(value: float) -> float:

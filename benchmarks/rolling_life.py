@@ -27,7 +27,8 @@ from loadflow.rolling import (
 from loadflow.rotor import simulate
 from loadflow.shaft import MomentBearing, TwoPoint, bearing_loads
 from loadflow.stages.frames import to_rolling
-from loadflow.tribology.hertz import RUNGS, hertz_point
+from loadflow.tribology.contact_ellipse import RUNGS
+from loadflow.tribology.hertz import hertz_point
 
 WIND_SPEEDS = (6.0, 10.0, 14.0, 18.0, 22.0)
 EVERY = 4  # steps of 0.025 s
@@ -108,7 +109,7 @@ def binning(loads: dict[str, tuple[np.ndarray, ...]]) -> list[dict[str, Any]]:
 def contact_rungs() -> list[dict[str, Any]]:
     """Largest errors of the approximate contact formulas over ratios of curvature, and cost."""
     rows = []
-    for rung in RUNGS[1:]:
+    for rung in list(RUNGS)[1:]:
         row: dict[str, Any] = {"what": f"point contact, {rung}"}
         for low, high in ((1, 5), (5, 60), (1, 200)):
             ratio = np.geomspace(low, high, 1000)

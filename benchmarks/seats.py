@@ -15,9 +15,19 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from measuring import Bench, Entry, Errors, Rungs, Setting, label, rounded, sentence, timed
+from measuring import (
+    Bench,
+    Entry,
+    Errors,
+    Rungs,
+    Setting,
+    label,
+    rounded,
+    rung_key,
+    sentence,
+    timed,
+)
 
-from loadflow.planning.ladder import rung_of
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene, make_scene
 from loadflow.shaft import bearing_loads as suspended
@@ -93,17 +103,17 @@ def measure_seats(bench: Bench) -> Rungs:
     """Entries of the ladder, by the kinds of bearing that the shaft is iterated with."""
     case = bench.middle
     parts = {"loads": bench.series[case]["loads"]}
-    pairs = {
-        "on journal": (OWN["journal"], OWN["journal"]),
-        "on journal, tilting": ({}, OWN["journal, tilting"]),
-        "on rolling": ({}, OWN["rolling"]),
-        "on journal+rolling": (OWN["journal"], OWN["rolling"]),
-    }
+    pairs = [
+        [OWN["journal"], OWN["journal"]],
+        [{}, OWN["journal, tilting"]],
+        [{}, OWN["rolling"]],
+        [OWN["journal"], OWN["rolling"]],
+    ]
     rungs: Rungs = {}
-    for name, seats in pairs.items():
-        scene = scene_of(bench, list(seats))
+    for seats in pairs:
+        scene = scene_of(bench, seats)
         seconds = timed(lambda s=scene: shaft.bearing_loads(s, case, parts), 1)  # type: ignore[misc]
-        rungs[name] = _entry(scene, case, parts, seconds)
+        rungs[rung_key(scene, "shaft")] = _entry(scene, case, parts, seconds)
     return rungs
 
 
@@ -120,7 +130,7 @@ def _entry(scene: Scene, case: Case, parts: dict[str, xr.Dataset], seconds: floa
         errors.add(quantity, where, ours[..., worst], theirs[..., worst], abs(theirs).max())
     summary = errors.summary()
     with_film = any(seat.stiffness == "journal" for seat in scene.shaft.seated.values())
-    film = {"film": rung_of(scene, "journal")} if with_film else {}
+    film = {"film": rung_key(scene, "journal")} if with_film else {}
     return {
         **film,
         "includes": ["shaft as a Timoshenko beam, iterated with the bearings' own stiffness"],

@@ -23,7 +23,7 @@ def short(**sections):
 
 def test_friction_needs_the_series_and_no_reduction():
     plan = make_plan(short())
-    assert [step.stage.name for step in plan.steps] == ["loads", "shaft", "friction"]
+    assert [step.name for step in plan.steps] == ["loads", "shaft", "friction"]
     assert plan.steps[-1].rung == "balls, every 0.1 s"
     rollers = make_plan(short(rolling={"arrangement": "two-spherical"}))
     assert rollers.steps[-1].rung == "rollers, every 0.1 s"

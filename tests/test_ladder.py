@@ -22,7 +22,7 @@ def choices(section, name):
 
 
 def plan_of(**sections):
-    return make_plan(make_scene({"name": "ladder"} | sections))
+    return make_plan(make_scene({"name": "ladder", "accuracy": "given"} | sections))
 
 
 SCENES = [
@@ -48,9 +48,9 @@ SCENES = [
 @pytest.mark.parametrize("sections", SCENES, ids=str)
 def test_every_rung_that_a_scene_can_choose_has_cost_and_error(sections):
     for step in plan_of(**sections).steps:
-        if step.stage.name == "check":
+        if step.name == "check":
             continue
-        assert step.seconds is not None, (step.stage.name, step.rung)
+        assert step.seconds is not None, (step.name, step.rung)
         assert step.seconds > 0
         assert step.error
 
@@ -70,8 +70,22 @@ def test_each_suspension_is_measured(shaft):
     assert all(step.seconds for step in plan.steps)
 
 
+def test_benchmarks_and_plan_name_a_rung_by_the_same_function(monkeypatch):
+    monkeypatch.syspath_prepend(BENCHMARKS)
+    from measuring import rung_key
+
+    named = 0
+    for table, rungs in ladder().items():
+        for name, entry in rungs.items():
+            if "settings" in entry:
+                model = table.removesuffix(", transient")
+                assert rung_key(make_scene({"name": "r"}), model, **entry["settings"]) == name
+                named += 1
+    assert named > 30
+
+
 def test_what_was_not_measured_says_so():
-    steps = {step.stage.name: step for step in plan_of(journal={"grid": [48, 16]}).steps}
+    steps = {step.name: step for step in plan_of(journal={"grid": [48, 16]}).steps}
     step = steps["journal"]
     assert step.seconds is None
     assert step.error is None
@@ -79,7 +93,7 @@ def test_what_was_not_measured_says_so():
 
 def test_expected_time_grows_with_length_and_cases():
     def seconds(**loads):
-        return {s.stage.name: s.seconds for s in plan_of(loads=loads).steps if s.seconds}
+        return {s.name: s.seconds for s in plan_of(loads=loads).steps if s.seconds}
 
     short = seconds(wind_speeds=[12.0], seeds=1, duration=300.0)
     long = seconds(wind_speeds=[8.0, 12.0], seeds=3, duration=600.0)

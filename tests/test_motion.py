@@ -17,7 +17,8 @@ FILM = {"grid": [24, 8], "bearings": ["N2"], "rung": "reduced"}
 
 
 def scene_of(cube, **keys):
-    data = {"name": "small", "loads": {"files": [str(cube)]}, "results": ["journal.film"]}
+    loads = {"files": [str(cube)]}
+    data = {"name": "small", "accuracy": "given", "loads": loads, "results": ["journal.film"]}
     return make_scene(data | keys)
 
 
@@ -25,7 +26,7 @@ def test_a_film_in_motion_reads_the_whole_series(tmp_path):
     cube = cube_file(tmp_path / "loads.h5", wind_speeds=(8.0,), seeds=(1,), steps=200)
     scene = scene_of(cube, name="moving", journal=FILM | {"motion": "transient"})
     plan = make_plan(scene)
-    assert [step.stage.name for step in plan.steps] == ["loads", "shaft", "journal", "check"]
+    assert [step.name for step in plan.steps] == ["loads", "shaft", "journal", "check"]
     result = lf.run(scene, out=tmp_path)
     (one,) = plan.cases
     with xr.open_datatree(result.path / "journal" / f"{one.name}.h5", engine="h5netcdf") as tree:
@@ -67,7 +68,14 @@ def test_a_film_in_motion_begins_where_the_surfaces_part(tmp_path):
 def test_a_film_in_motion_is_planned_by_its_own_rungs():
     loads = {"wind_speeds": [12.0], "seeds": 1}
     still, moving = (
-        make_scene({"name": "m", "loads": loads, "journal": {"rung": "reduced", "motion": motion}})
+        make_scene(
+            {
+                "name": "m",
+                "accuracy": "given",
+                "loads": loads,
+                "journal": {"rung": "reduced", "motion": motion},
+            }
+        )
         for motion in ("quasi-static", "transient")
     )
     assert measured(moving, "journal") is ladder()["journal, transient"]["reduced, 60"]
@@ -130,8 +138,12 @@ def test_a_film_at_rest_settles_at_a_temperature_for_each_load(tmp_path):
     temperature = samples["temperature"].values
     assert np.all(temperature > 318.15)
     assert np.ptp(temperature) > 0.01
-    assert set(result.tree["check"]["stage"].values) == {"journal", "reduction", "motion"}
-    assert not any(warning.startswith("heat") for warning in result.warnings)
+    assert set(result.tree["check"]["stage"].values) == {
+        "journal",
+        "reduction",
+        "motion of the film",
+    }
+    assert not any(warning.startswith("heat of the film") for warning in result.warnings)
 
 
 def test_a_warm_film_has_no_other_lubricant(tmp_path):
@@ -142,7 +154,14 @@ def test_a_warm_film_has_no_other_lubricant(tmp_path):
 def test_the_plan_counts_the_films_of_a_heat_balance():
     loads = {"wind_speeds": [12.0], "seeds": 1}
     cold, warm = (
-        make_scene({"name": "m", "loads": loads, "journal": {"rung": "reduced"} | heat})
+        make_scene(
+            {
+                "name": "m",
+                "accuracy": "given",
+                "loads": loads,
+                "journal": {"rung": "reduced"} | heat,
+            }
+        )
         for heat in ({}, {"heat": HEAT})
     )
     cases = make_plan(cold).cases

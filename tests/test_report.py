@@ -64,7 +64,7 @@ def test_a_browser_loads_every_figure_without_a_console_error(page, tmp_path):
             "--enable-logging=stderr", f"--user-data-dir={tmp_path / 'profile'}",
             "--virtual-time-budget=5000", "--dump-dom", copy.as_uri(),
         ],
-        capture_output=True, text=True, timeout=120, check=True,
+        capture_output=True, text=True, timeout=900, check=True,
     )  # fmt: skip
     shown, there = map(int, re.search(r"<title>shown (\d+) of (\d+)</title>", done.stdout).groups())
     assert shown == there >= 12

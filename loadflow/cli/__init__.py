@@ -5,13 +5,62 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 
-from loadflow.cli import cubes, lifetimes, points, processing, scenes  # noqa: F401  they register their commands
+from typer.models import CommandInfo
+
+from loadflow.cli import (  # noqa: F401  they register their commands
+    comparing,
+    cubes,
+    lifetimes,
+    points,
+    processing,
+    scenes,
+)
 from loadflow.cli.base import app, err
+from loadflow.cli.signals import Stopped, leave, stoppable, tell_stopped
 from loadflow.errors import InputError, LoadflowError
+
+GROUPS = {
+    "Scenes and runs": ("run", "plan", "compare", "init", "scene", "list", "report"),
+    "Load cubes": ("convert", "loads", "statistics", "seeds", "reduce", "lifetime"),
+    "One bearing, one wind": ("journal", "rolling", "wind"),
+    "How far to trust it": ("validate", "bench"),
+}
+"""Commands in the order of the help."""
+
+EXAMPLES = """Begin with:
+
+loadflow init; loadflow compare scene.toml
+
+loadflow run scene.toml --loads 'path/to/*.outb'
+
+loadflow journal --help
+"""
+
+
+def _in_groups() -> None:
+    """Order the commands of the help, `run` first, and head each group."""
+    order = [name for names in GROUPS.values() for name in names]
+    group_of = {name: group for group, names in GROUPS.items() for name in names}
+
+    def name_of(command: CommandInfo) -> str:
+        return str(command.name or getattr(command.callback, "__name__", ""))
+
+    for command in app.registered_commands:
+        command.rich_help_panel = group_of.get(name_of(command), "More")
+    app.registered_commands.sort(
+        key=lambda c: order.index(name_of(c)) if name_of(c) in order else len(order)
+    )
+    app.info.epilog = EXAMPLES
+
+
+_in_groups()
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
-    """Run the command line; exit code 0 done, 1 failed with a message, 2 bad usage or input.
+    """Run the command line.
+
+    Exit code 0: done; 1: failed with a message; 2: bad usage or input; 130, 143: stopped by SIGINT
+    or SIGTERM.
 
     Parameters
     ----------
@@ -19,16 +68,17 @@ def main(arguments: Sequence[str] | None = None) -> None:
         What follows the name of the program; default: the arguments of the process.
     """
     try:
-        app(arguments)
+        with stoppable():
+            app(arguments)
     except InputError as error:
         err.print(f"[red]error:[/] {_plain(error)}", soft_wrap=True)
         sys.exit(2)
     except (LoadflowError, OSError) as error:  # OSError: a disk or folder that refuses the output
         err.print(f"[red]failed:[/] {_plain(error)}", soft_wrap=True)
         sys.exit(1)
-    except KeyboardInterrupt:
-        err.print("stopped; started again, a run goes on where it was")
-        sys.exit(1)
+    except Stopped as stop:
+        tell_stopped(stop.number)
+        leave(stop.code)
 
 
 def _plain(error: Exception) -> str:

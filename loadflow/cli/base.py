@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
+import warnings
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -13,7 +14,7 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
-from loadflow.errors import InputError
+from loadflow.errors import InputError, ValidityWarning
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -26,6 +27,26 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     add_completion=False,
 )
+
+
+def _print_version(wanted: bool) -> None:
+    if wanted:
+        from loadflow import __version__
+
+        print(f"loadflow {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def common(
+    version: Annotated[
+        bool,
+        typer.Option("--version", callback=_print_version, is_eager=True, help="Print it."),
+    ] = False,
+) -> None:
+    """What all commands share."""
+
+
 out = Console(width=None if sys.stdout.isatty() else 150)
 err = Console(stderr=True)
 
@@ -34,6 +55,30 @@ CubeFile = Annotated[
 ]
 TurbineName = Annotated[str, typer.Option(help="Turbine: a name, or a file.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON, for a machine to read.")]
+
+CaseList = Annotated[
+    Path | None,
+    typer.Option("--cases", help="List of cases: CSV with file, dlc, wind_speed, seed, weight."),
+]
+NamePattern = Annotated[
+    str | None,
+    typer.Option("--pattern", help="How names tell the case: 'run_{dlc}_{wind_speed}_{seed}'."),
+]
+OwnChannels = Annotated[
+    str | None,
+    typer.Option(
+        "--channels",
+        help="Channels by component: a TOML file, or 'speed=Omega, hub_force_x=-#23'.",
+    ),
+]
+GaugeDistance = Annotated[
+    float | None,
+    typer.Option("--gauge-distance", help="From the rotor apex to the shaft strain gauge, m."),
+]
+FrameOfChannels = Annotated[
+    str | None,
+    typer.Option("--frame", help="Frame of the y and z channels: auto, fixed or rotating."),
+]
 
 Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace a file that is there.")]
 
@@ -53,6 +98,16 @@ def check_free(path: Path, overwrite: bool) -> None:
     """Refuse to write over a file unless asked to."""
     if path.exists() and not overwrite:
         raise InputError(f"{path} exists already; give another name, or --overwrite")
+
+
+@contextmanager
+def caught_warnings() -> Iterator[list[str]]:
+    """Collect what the library warns of within the block, to be printed like other output."""
+    told: list[str] = []
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", ValidityWarning)
+        yield told
+    told += [str(warning.message) for warning in caught]
 
 
 def print_json(data: Any) -> None:
@@ -114,33 +169,3 @@ def _row(name: str, data: xr.DataArray) -> tuple[str, str, str, str]:
         small = unit == "m" and bool((abs(data) < 1e-2).all())
         values, unit = readable(data, "µm" if small else None)
     return name, ", ".join(f"{value:.6g}" for value in values.flat), unit, meaning
-
-
-@contextmanager
-def progress(quiet: bool) -> Iterator[Any]:
-    """Yield a callback that draws one bar for each stage."""
-    from rich.progress import (
-        BarColumn,
-        MofNCompleteColumn,
-        Progress,
-        TextColumn,
-        TimeElapsedColumn,
-        TimeRemainingColumn,
-    )
-
-    columns = [
-        TextColumn("{task.description:<12}"),
-        BarColumn(),
-        MofNCompleteColumn(),
-        TimeElapsedColumn(),
-        TimeRemainingColumn(),
-    ]
-    with Progress(*columns, console=err, disable=quiet) as bars:
-        tasks: dict[str, Any] = {}
-
-        def show(stage: str, done: int, total: int) -> None:
-            if stage not in tasks:
-                tasks[stage] = bars.add_task(stage, total=total)
-            bars.update(tasks[stage], completed=done, total=total)
-
-        yield show

@@ -3,37 +3,59 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, cast
 
 import typer
 
 from loadflow.cli.base import (
     AsJson,
+    CaseList,
+    FrameOfChannels,
+    GaugeDistance,
+    NamePattern,
     Overwrite,
+    OwnChannels,
     TurbineName,
     app,
+    caught_warnings,
     check_free,
     open_checked,
     out,
     print_json,
-    progress,
+    print_rows,
 )
+from loadflow.cli.progress import progress
+from loadflow.errors import InputError
+
+if TYPE_CHECKING:
+    from loadflow.cube import Cube
 
 CUBES = (".h5", ".nc")
 
 
 @app.command()
 def convert(
-    files: Annotated[list[str], typer.Argument(help="Load files or patterns, or load cubes.")],
-    output: Annotated[
-        Path,
-        typer.Option("-o", "--output", help="File to write: .h5, or .csv, .parquet, .mat."),
+    files: Annotated[
+        list[str], typer.Argument(help="Load files, folders of them or patterns, or load cubes.")
     ],
+    output: Annotated[
+        Path | None,
+        typer.Option("-o", "--output", help="File to write: .h5, or .csv, .parquet, .mat."),
+    ] = None,
     turbine: Annotated[str, typer.Option(help="Turbine that the files are of.")] = "nrel-5mw",
     step: Annotated[
         float | None, typer.Option(help="Bring all series to this time step, s.")
     ] = None,
+    cases: CaseList = None,
+    pattern: NamePattern = None,
+    channels: OwnChannels = None,
+    gauge_distance: GaugeDistance = None,
+    frame: FrameOfChannels = None,
+    names: Annotated[
+        bool, typer.Option("--list", help="Only show which case each name says; nothing is read.")
+    ] = False,
     overwrite: Overwrite = False,
+    as_json: AsJson = False,
 ) -> None:
     """Read load files of OpenFAST and others into one load cube, or hand a cube to other programs.
 
@@ -45,19 +67,78 @@ def convert(
     from loadflow.cube import export_cube, iter_cases, make_cube, resample, save_cube
     from loadflow.readers import read_loads
 
+    if names:
+        _list_names(files, pattern, cases, as_json)
+        return
+    if output is None:
+        raise InputError("-o/--output is missing: the file to write; or --list to see the names")
     check_free(output, overwrite)
+    told: list[str] = []
     paths = [Path(name) for name in files]
-    if all(path.suffix in CUBES for path in paths) or (len(paths) == 1 and paths[0].is_dir()):
+    if all(path.suffix in CUBES or _holds_cubes(path) for path in paths):
         cubes = [open_checked(path) for path in paths]
         parts = [case for cube in cubes for _, case in iter_cases(cube)]
         cube = cubes[0] if len(cubes) == 1 else make_cube(parts)
     else:
-        cube = read_loads(files, turbine=turbine)
+        with caught_warnings() as told:
+            cube = read_loads(
+                files,
+                turbine=turbine,
+                cases=cases,
+                pattern=pattern,
+                channels=channels,
+                gauge_distance=gauge_distance,
+                frame=cast(Any, frame or "auto"),
+                quiet=True,
+            )
     if step is not None:
         cube = resample(cube, step)
     write = save_cube if output.suffix in CUBES else export_cube
     write(cube, output)
-    out.print(f"{output}: {sum(1 for _ in iter_cases(cube))} load cases", soft_wrap=True)
+    found = [name for name, _ in iter_cases(cube)]
+    warnings = [*told, *_doubts(cube)]
+    if as_json:
+        print_json({"path": str(output), "cases": found, "warnings": warnings})
+        return
+    out.print(f"{output}: {len(found)} load cases", soft_wrap=True)
+    for warning in warnings:
+        out.print(f"warning  {warning}", soft_wrap=True, highlight=False, markup=False)
+
+
+def _list_names(files: list[str], pattern: str | None, cases: Path | None, as_json: bool) -> None:
+    from loadflow.readers import list_names
+
+    fields = ("dlc", "wind_speed", "seed")
+    with caught_warnings() as told:
+        labels = list_names(files, pattern=pattern, cases=cases)
+    rows = [
+        {"file": file} | {field: getattr(label, field) for field in fields}
+        for file, label in labels
+    ]
+    if as_json:
+        print_json(rows)
+        return
+    shown = [["-" if value is None else str(value) for value in row.values()] for row in rows]
+    print_rows(("file", "dlc", "wind speed, m/s", "seed"), shown)
+    for warning in told:
+        out.print(f"warning  {warning}", soft_wrap=True, highlight=False, markup=False)
+
+
+def _holds_cubes(folder: Path) -> bool:
+    """Whether a folder is one of load cubes, as a run leaves them, not of load files."""
+    return folder.is_dir() and any(path.suffix in CUBES for path in folder.iterdir())
+
+
+def _doubts(cube: Cube) -> list[str]:
+    """Say what does not fit, by case."""
+    from loadflow.cube import iter_cases
+
+    return [
+        f"{name}: {doubt}"
+        for name, case in iter_cases(cube)
+        if "doubts" in case.coords and str(case["doubts"].item())
+        for doubt in str(case["doubts"].item()).split("\n")
+    ]
 
 
 @app.command()

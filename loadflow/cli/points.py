@@ -38,11 +38,11 @@ def wind_conditions(
 
 @app.command()
 def journal(
-    diameter: Annotated[float, typer.Option(help="Bore D, m.", show_default=False)],
-    width: Annotated[float, typer.Option(help="Width B, m.", show_default=False)],
+    diameter: Annotated[float | None, typer.Option(help="Bore D, m.")] = None,
+    width: Annotated[float | None, typer.Option(help="Width B, m.")] = None,
     relative_clearance: Annotated[
-        float, typer.Option(help="ψ: clearance over diameter.", show_default=False)
-    ],
+        float | None, typer.Option(help="ψ: clearance over diameter.")
+    ] = None,
     viscosity: Annotated[float | None, typer.Option(help="Dynamic, Pa s.")] = None,
     oil: Annotated[
         str | None,
@@ -65,9 +65,44 @@ def journal(
         Path | None,
         typer.Option(help="Parameter file, in place of one force and speed.", show_default=False),
     ] = None,
-    edge_pressure: Annotated[float, typer.Option(help="At the rims, absolute, Pa.")] = 0.0,
-    mixing_constant: Annotated[
-        float | None, typer.Option(help="Of the gas mixture, Pa; without it: Reynolds' condition.")
+    edge_pressure: Annotated[
+        float | None, typer.Option(help="At the bearing ends, absolute, Pa; default 0.")
+    ] = None,
+    law: Annotated[
+        str | None,
+        typer.Option(
+            help="Of the ruptured film: gas-mixture, sommerfeld, guembel, reynolds or "
+            "mass-conserving; default Reynolds' condition, or the mixture with its constant."
+        ),
+    ] = None,
+    mixing_constant: Annotated[float | None, typer.Option(help="Of the gas mixture, Pa.")] = None,
+    cavitation_pressure: Annotated[
+        float | None, typer.Option(help="Of the other laws, absolute, Pa; default 0.")
+    ] = None,
+    rung: Annotated[
+        str | None,
+        typer.Option(
+            help="Model: grid, reduced, map, chart, table, butenschoen, holland or hahn; default "
+            "grid."
+        ),
+    ] = None,
+    inlet: Annotated[
+        str | None,
+        typer.Option(help='Line of fresh oil: "auto", "widest gap" or "none"; default auto.'),
+    ] = None,
+    scene: Annotated[
+        Path | None,
+        typer.Option(help="Take bearing and film from this scene; other options change them."),
+    ] = None,
+    sets: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--set",
+            metavar="KEY=VALUE",
+            help="Any key of a scene's [journal], as in TOML: --set "
+            '\'geometry.shape={kind="lobes", count=3}\', --set \'shell={kind="local", '
+            "compliance=1e-12}'; once for each.",
+        ),
     ] = None,
     grid: Annotated[
         tuple[int, int] | None, typer.Option(help="Cells around and across the full width.")
@@ -85,42 +120,46 @@ def journal(
     ] = None,
     as_json: AsJson = False,
 ) -> None:
-    """Solve the film of a plain journal bearing for one load, or for a reduced series."""
-    from loadflow.journal import GasMixture, Groove, Heat, JournalBearing, Lubricant, Supply
+    """Solve the film of a journal bearing for one load, or for a reduced series."""
+    from loadflow.studies.journal_film import journal_film
     from loadflow.studies.journal_point import journal_point, journal_series
 
-    bearing = JournalBearing(diameter, width, relative_clearance)
-    if (viscosity is None) == (oil is None):
-        raise InputError("give either --viscosity or --oil")
-    lubricant: Lubricant | Heat
-    if oil is not None:
-        lubricant = Heat(oil, inlet_temperature_c + 273.15, transfer=transfer)
-    elif viscosity is not None:
-        lubricant = Lubricant(viscosity)
-    cavitation = None if mixing_constant is None else GasMixture(mixing_constant)
-    supply = None
-    if groove_angle_deg:
-        pressure = edge_pressure if supply_pressure is None else supply_pressure
-        arc = math.radians(groove_arc_deg)
-        angles = map(math.radians, groove_angle_deg)
-        supply = Supply(tuple(Groove(angle, arc, groove_length, pressure) for angle in angles))
-    elif supply_pressure is not None or groove_length is not None or groove_arc_deg:
-        raise InputError("say where the grooves are: --groove-angle-deg, once for each")
-    film = {
-        "cavitation": cavitation,
-        "edge_pressure": edge_pressure,
-        "supply": supply,
-        "grid": grid,
-    }
+    bearing, film = journal_film(
+        scene,
+        sets or [],
+        geometry={
+            "diameter": diameter,
+            "width": width,
+            "relative_clearance": relative_clearance,
+        },
+        viscosity=viscosity,
+        heat={
+            "oil": oil,
+            "inlet_temperature": inlet_temperature_c + 273.15,
+            "transfer": transfer,
+        },
+        law={
+            "kind": law,
+            "mixing_constant": mixing_constant,
+            "cavitation_pressure": cavitation_pressure,
+        },
+        grooves={
+            "angles": [math.radians(angle) for angle in groove_angle_deg or []],
+            "arc": math.radians(groove_arc_deg),
+            "length": groove_length,
+            "pressure": supply_pressure,
+        },
+        keys={"edge_pressure": edge_pressure, "rung": rung, "inlet": inlet, "grid": grid},
+    )
     if series is not None:
         if force_x is not None or force_y or speed_rpm is not None:
             raise InputError("--series brings its own loads: leave out --force-… and --speed-rpm")
-        answer = journal_series(series, bearing, lubricant, film)
+        answer = journal_series(series, bearing, film)
     elif force_x is None or speed_rpm is None:
         raise InputError("give --force-x and --speed-rpm, or a parameter file with --series")
     else:
         force, speed = (force_x, force_y), speed_rpm * math.pi / 30
-        answer = journal_point(force, speed, bearing, lubricant, film)
+        answer = journal_point(force, speed, bearing, film)
     print_quantities(answer, as_json)
 
 

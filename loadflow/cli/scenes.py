@@ -2,14 +2,26 @@
 
 from __future__ import annotations
 
-import os
+import json
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 from rich.table import Table
 
-from loadflow.cli.base import AsJson, app, err, out, print_json, progress
+from loadflow.cli.base import (
+    AsJson,
+    CaseList,
+    FrameOfChannels,
+    GaugeDistance,
+    NamePattern,
+    OwnChannels,
+    app,
+    err,
+    out,
+    print_json,
+)
+from loadflow.cli.progress import log_shown, progress
 from loadflow.errors import InputError, LoadflowError
 
 SceneFile = Annotated[Path, typer.Argument(help="Scene, a TOML file.", show_default=False)]
@@ -19,12 +31,31 @@ LoadFiles = Annotated[
 ]
 
 
-def _read(path: Path, loads: list[str] | None, name: str | None = None) -> Any:
-    from loadflow.scene.scene import read_scene, with_loads
+def read(path: Path, loads: list[str] | None, name: str | None = None, **reading: Any) -> Any:
+    """Read a scene, with other load files and under another name if they are given."""
+    from loadflow.scene.scene import read_scene, with_loads, with_name
 
     scene = read_scene(path)
-    scene = with_loads(scene, loads) if loads else scene
-    return scene.model_copy(update={"name": name}) if name else scene
+    if loads or any(value is not None for value in reading.values()):
+        scene = with_loads(scene, loads or scene.loads.files, **reading)
+    return scene if name is None else with_name(scene, name)
+
+
+def _reading(
+    cases: Path | None,
+    pattern: str | None,
+    channels: str | None,
+    gauge_distance: float | None,
+    frame: str | None,
+) -> dict[str, Any]:
+    """How load files are read, as keys of `[loads]`; None where the scene is not overruled."""
+    return {
+        "cases": None if cases is None else str(cases),
+        "pattern": pattern,
+        "channels": channels,
+        "gauge_distance": gauge_distance,
+        "frame": frame,
+    }
 
 
 @app.command()
@@ -36,26 +67,44 @@ def run(
     workers: Annotated[int, typer.Option(min=0, help="Processes; 0: one for each core.")] = 0,
     scheduler: Annotated[str | None, typer.Option(help="Dask scheduler, tcp://host:port.")] = None,
     overwrite: Annotated[bool, typer.Option(help="Replace parts of other settings.")] = False,
+    cases: CaseList = None,
+    pattern: NamePattern = None,
+    channels: OwnChannels = None,
+    gauge_distance: GaugeDistance = None,
+    frame: FrameOfChannels = None,
+    profile: Annotated[
+        bool, typer.Option("--profile", help="Write and print where the time went.")
+    ] = False,
+    verbose: Annotated[
+        bool, typer.Option("--verbose", "-v", help="Show what the run writes into its run.log.")
+    ] = False,
     as_json: AsJson = False,
 ) -> None:
     """Carry a scene out; a run that was killed goes on where it was."""
-    from loadflow.running.runner import run as carry_out
+    with progress(quiet=as_json) as show, log_shown(verbose):
+        show(f"reading {scene}", 0, 1)
+        from loadflow.running.executor import usable_cores
+        from loadflow.running.runner import run as carry_out
 
-    with progress(quiet=as_json) as show:
+        reading = _reading(cases, pattern, channels, gauge_distance, frame)
         result = carry_out(
-            _read(scene, loads, name),
+            read(scene, loads, name, **reading),
             out=out_folder,
-            workers=workers or len(os.sched_getaffinity(0)),
+            workers=workers or usable_cores(),
             scheduler=scheduler,
             overwrite=overwrite,
             progress=show,
+            profile=profile,
         )
     if as_json:
         paths = {"path": str(result.path), "report": str(result.report)}
         found = {"failures": result.failures, "flagged": result.flagged}
         judged = {"verdicts": [verdict.as_dict() for verdict in result.verdicts]}
-        print_json(paths | found | judged | {"warnings": result.warnings})
+        told = {"warnings": result.warnings, "shortfalls": result.shortfalls}
+        print_json(paths | found | judged | told)
     else:
+        for said in result.shortfalls:
+            out.print(f"not accurate enough: {said}", soft_wrap=True)
         out.print(f"results  {result.path / 'result.h5'}\nreport   {result.report}", soft_wrap=True)
         for part, count in result.flagged.items():
             out.print(f"flagged  {part}: {count} samples have no answer", soft_wrap=True)
@@ -63,10 +112,28 @@ def run(
             if not verdict.holds:
                 out.print(f"verdict  {verdict.sentence}", soft_wrap=True, markup=False)
         for warning in result.warnings:
-            out.print(f"warning  {warning}", soft_wrap=True)
+            out.print(f"warning  {warning}", soft_wrap=True, markup=False)
+        if profile:
+            _print_profile(result.path / "profile.json")
     if result.failures:
         lines = "\n".join(f"  {case}: {why}" for case, why in result.failures.items())
         raise LoadflowError(f"{len(result.failures)} parts have no answer:\n{lines}")
+
+
+def _print_profile(path: Path) -> None:
+    """Print where the time of a run went."""
+    found = json.loads(path.read_text(encoding="utf-8"))
+    phases = Table("phase", "time, s", "share", box=None)
+    for phase, row in found["phases"].items():
+        phases.add_row(phase, f"{row['wall_seconds']:.1f}", f"{100 * row['share']:.0f} %")
+    out.print(phases)
+    heads = ("load cases, stage", "all processes, s", "share", "compiling, s", "writing, s")
+    stages = Table(*heads, box=None)
+    for stage, row in found["stages_of_load_cases"].items():
+        numbers = (f"{row[key]:.1f}" for key in ("compiling", "writing"))
+        share = f"{100 * row['share']:.0f} %"
+        stages.add_row(stage, f"{row['process_seconds']:.1f}", share, *numbers)
+    out.print(stages)
 
 
 @app.command()
@@ -74,35 +141,52 @@ def plan(
     scene: SceneFile,
     loads: LoadFiles = None,
     out_folder: Annotated[Path, typer.Option("--out", help="Folder for runs.")] = Path("runs"),
+    cases: CaseList = None,
+    pattern: NamePattern = None,
+    channels: OwnChannels = None,
+    gauge_distance: GaugeDistance = None,
+    frame: FrameOfChannels = None,
+    measure: Annotated[
+        bool, typer.Option("--pilot", help="Measure the effects on a few samples first.")
+    ] = False,
     as_json: AsJson = False,
 ) -> None:
-    """Show which stages and models a scene needs, their expected time and error."""
+    """Show which stages, models and effects a scene needs, their expected time and error."""
+    from loadflow.planning.pilot import pilot
     from loadflow.planning.plan import make_plan
-    from loadflow.running.folder import climbs, finished_parts
+    from loadflow.running.folder import climbs, finished_parts, known_verdict
     from loadflow.scene.unused import unused_keys, unused_warnings
 
-    wanted = _read(scene, loads)
+    reading = _reading(cases, pattern, channels, gauge_distance, frame)
+    wanted = read(scene, loads, **reading)
     folder = out_folder / wanted.name
-    made = make_plan(wanted, climbs(folder, wanted))
+    verdict = known_verdict(folder, wanted)
+    if verdict is None and measure:
+        with progress(quiet=as_json) as show:
+            verdict = pilot(wanted, show)
+    made = make_plan(wanted, climbs(folder, wanted), verdict)
     there = finished_parts(folder, made)
     steps = [
         {
-            "stage": step.stage.name,
+            "stage": step.name,
             "rung": step.rung,
-            "reason": made.reasons.get(step.stage.name, ""),
+            "reason": made.reasons.get(step.name, ""),
             "runs": step.runs,
-            "finished": there[step.stage.name],
-            "seconds": step.seconds and step.seconds * (1 - there[step.stage.name] / step.runs),
+            "finished": there[step.name],
+            "seconds": step.seconds and step.seconds * (1 - there[step.name] / step.runs),
             "error": step.error,
         }
         for step in made.steps
     ]
     if as_json:
-        cases = [case.name for case in made.cases]
-        found = {"steps": steps, "cases": cases, "left_out": made.left_out}
+        names = [case.name for case in made.cases]
+        found = {"steps": steps, "cases": names, "left_out": made.left_out}
         found |= {"unused": unused_keys(wanted)}
-        print_json(found | {"errors": made.errors, "accurate": made.accurate})
+        told = {"errors": made.errors, "accurate": made.accurate, "shortfalls": made.shortfalls}
+        print_json(found | told | {"effects": [vars(effect) for effect in made.effects]})
         return
+    for said in made.shortfalls:
+        out.print(f"not accurate enough: {said}", soft_wrap=True)
     heads = ("stage", "model", "chosen", "runs", "on disk", "expected time, one core", "error")
     table = Table(*heads, box=None)
     for step in steps:
@@ -114,37 +198,79 @@ def plan(
         )
     out.print(table)
     out.print(f"{len(made.cases)} load cases")
+    _print_errors(made)
+    _print_effects(made, measured=verdict is not None)
+    for stage, why in made.left_out.items():
+        out.print(f"left out: {stage} ({why})", soft_wrap=True)
+    for warning in unused_warnings(wanted):
+        out.print(f"warning: {warning}", soft_wrap=True, markup=False)
+
+
+def _print_errors(made: Any) -> None:
     for result, errors in made.errors.items():
         sizes = (
             f"{quantity} " + ("not measured" if error is None else f"≤ {100 * error:.2g} %")
             for quantity, error in errors.items()
         )
         if errors:
-            out.print(f"expected error of {result}: {', '.join(sizes)}")
-    if not made.accurate:
-        unknown = any(None in errors.values() for errors in made.errors.values())
-        why = (
-            "not known to hold: some errors were not measured"
-            if unknown
-            else "not expected to hold"
+            out.print(f"expected error of {result}: {', '.join(sizes)}", soft_wrap=True)
+
+
+def _print_effects(made: Any, measured: bool) -> None:
+    """Each effect, kept or not, and what leaving it out changes most."""
+    if not made.effects:
+        return
+    table = Table("effect", "", "changes, measured", "changes, estimated", "why", box=None)
+    for effect in made.effects:
+        table.add_row(
+            effect.name,
+            "kept" if effect.kept else "left out",
+            *map(_largest, (effect.size, effect.indicator)),
+            effect.why,
         )
-        out.print(f"the accuracy that the scene asks for is {why}", soft_wrap=True)
-    for stage, why in made.left_out.items():
-        out.print(f"left out: {stage} ({why})")
-    for warning in unused_warnings(wanted):
-        out.print(f"warning: {warning}", soft_wrap=True, markup=False)
+    out.print(table)
+    if not measured:
+        out.print("Effects are estimated by indicators; --pilot measures them.", soft_wrap=True)
+
+
+def _largest(sizes: Any) -> str:
+    """Quantity that an effect moves most, and by how much."""
+    if not sizes:
+        return "-"
+    quantity = max(sizes, key=sizes.get)
+    return f"{quantity} {100 * sizes[quantity]:.2g} %" if sizes[quantity] else "nothing"
 
 
 @app.command("scene")
 def show_scene(
-    scene: SceneFile,
+    scene: Annotated[Path | None, typer.Argument(help="Scene, a TOML file.")] = None,
     show: Annotated[bool, typer.Option("--show", help="Print it with all defaults.")] = False,
+    schema: Annotated[
+        bool, typer.Option("--schema", help="Print the JSON Schema of scenes, for editors.")
+    ] = False,
 ) -> None:
-    """Check a scene; with --show print it as resolved."""
+    """Check a scene; with --show print it as resolved, in the form of today."""
+    if schema:
+        import json
+
+        from loadflow.scene.schema import json_schema
+
+        print(json.dumps(json_schema(), indent=1))
+        return
+    if scene is None:
+        raise InputError("give a scene, or --schema")
+    from loadflow.scene.scene import former_sections
     from loadflow.scene.unused import unused_warnings
 
-    resolved = _read(scene, None)
+    resolved = read(scene, None)
     print(resolved.to_toml() if show else f"{scene}: valid")
+    if not show and (former := former_sections(scene)):
+        names = " and ".join(f"[{name}]" for name in former)
+        out.print(
+            f"{names}: still read; today's form is [bearings.PLACE], as `loadflow scene --show` "
+            "prints it",
+            soft_wrap=True, markup=False,
+        )  # fmt: skip
     for warning in unused_warnings(resolved):
         err.print(f"warning: {warning}", soft_wrap=True, markup=False)
 

@@ -1,5 +1,3 @@
-from .build import Cube as Cube
-from .build import iter_cases as iter_cases
 from .build import make_case as make_case
 from .build import make_cube as make_cube
 from .build import make_series as make_series
@@ -11,8 +9,12 @@ from .export import EXPORTS as EXPORTS
 from .export import export_cube as export_cube
 from .files import open_cube as open_cube
 from .files import save_cube as save_cube
+from .parts import Cube as Cube
+from .parts import iter_cases as iter_cases
 from .resampling import resample as resample
 from .schema import CASE_COORDS as CASE_COORDS
 from .schema import VARIABLES as VARIABLES
 from .schema import Variable as Variable
 from .schema import case_name as case_name
+from .states import standing as standing
+from .states import standing_share as standing_share

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Hashable, Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -10,11 +10,9 @@ import xarray as xr
 from numpy.typing import ArrayLike
 
 from loadflow.cube.checks import check_case, regular_time
-from loadflow.cube.schema import AXES, CASE_COORDS, TIME, VARIABLES, case_name
+from loadflow.cube.parts import Cube, label_case, parts
+from loadflow.cube.schema import AXES, CASE_COORDS, TIME, VARIABLES
 from loadflow.errors import InputError
-
-Cube = xr.Dataset | xr.DataTree
-"""Cases of one length and step are a Dataset; several such cubes are kept in a DataTree."""
 
 
 def make_case(
@@ -114,7 +112,7 @@ def make_cube(cases: Sequence[xr.Dataset]) -> Cube:
         raise InputError("a load cube needs one case or more, none was given")
     groups: dict[tuple[int, float], list[xr.Dataset]] = {}
     names: set[str] = set()
-    for named in _weighted([_named(case) for case in cases]):
+    for named in _weighted([label_case(case) for case in cases]):
         name = str(named["case"].values)
         source = str(named.coords["file"].values) if "file" in named.coords else ""
         if name in names:
@@ -128,30 +126,6 @@ def make_cube(cases: Sequence[xr.Dataset]) -> Cube:
         for (n, step), group in groups.items()
     }
     return _join(cubes)
-
-
-def iter_cases(cube: Cube) -> Iterator[tuple[str, xr.Dataset]]:
-    """Yield name and Dataset(time) of every case, without loading the series.
-
-    Parameters
-    ----------
-    cube : xarray.Dataset or xarray.DataTree
-        A cube, or a single case.
-
-    Yields
-    ------
-    name : str
-    case : xarray.Dataset
-        The case with scalar coordinates.
-    """
-    for part in _parts(cube).values():
-        if "case" not in part.dims:
-            named = _named(part)
-            yield str(named["case"].values), named
-            continue
-        for i in range(part.sizes["case"]):
-            case = part.isel(case=i)
-            yield str(case["case"].values), case
 
 
 def select(
@@ -181,7 +155,7 @@ def select(
     """
     wanted = {"dlc": dlc, "wind_speed": wind_speed, "seed": seed}
     left = {}
-    for name, part in _parts(cube).items():
+    for name, part in parts(cube).items():
         keep = np.ones(part.sizes["case"], dtype=bool)
         for coord, value in wanted.items():
             if value is not None:
@@ -191,7 +165,7 @@ def select(
             left[name] = part.isel(case=np.flatnonzero(keep))
     if not left:
         held = {
-            coord: sorted({v for p in _parts(cube).values() for v in p[coord].values.tolist()})
+            coord: sorted({v for p in parts(cube).values() for v in p[coord].values.tolist()})
             for coord in wanted
         }
         asked = {k: v for k, v in wanted.items() if v is not None}
@@ -199,27 +173,10 @@ def select(
     return _join(left)
 
 
-def _parts(cube: Cube) -> dict[str, xr.Dataset]:
-    """Cubes of one length and step each."""
-    if isinstance(cube, xr.Dataset):
-        return {"": cube}
-    return {leaf.path: leaf.to_dataset() for leaf in cube.leaves if leaf.has_data}
-
-
 def _join(cubes: dict[str, xr.Dataset]) -> Cube:
     if len(cubes) == 1:
         return next(iter(cubes.values()))
     return xr.DataTree.from_dict(cubes)
-
-
-def _named(case: xr.Dataset) -> xr.Dataset:
-    if "case" in case.coords:
-        return case
-    missing = [c for c in ("dlc", "wind_speed", "seed") if c not in case.coords]
-    if missing:
-        raise InputError(f"a load case lacks the coordinate {missing[0]!r}")
-    dlc, wind_speed, seed = (case.coords[c].item() for c in ("dlc", "wind_speed", "seed"))
-    return case.assign_coords(case=case_name(dlc, wind_speed, seed))
 
 
 def _weighted(cases: list[xr.Dataset]) -> list[xr.Dataset]:

@@ -6,14 +6,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from loadflow.cube.parts import Cube, iter_cases
 from loadflow.cube.schema import VARIABLES
 from loadflow.errors import InputError
 
 if TYPE_CHECKING:
     import xarray as xr
     from numpy.typing import ArrayLike, NDArray
-
-    from loadflow.cube.build import Cube
 
 JITTER = 0.01  # share of the step within which all stamps must lie about the regular grid
 NOISE = 1e-9  # s, of arithmetic
@@ -35,8 +34,6 @@ def check_cube(cube: Cube, source: str = "") -> None:
         Empty cube, missing or wrong units, wrong dimensions, NaN or infinite value, time that
         does not rise in equal steps.
     """
-    from loadflow.cube.build import iter_cases
-
     names = set()
     for name, case in iter_cases(cube):
         if name in names:
@@ -165,7 +162,10 @@ def _check_variable(array: xr.DataArray, name: str, where: str) -> None:
     if array.size == 0:
         raise InputError(f"{where}: the variable is empty, shape {array.shape}")
     if array.dtype.kind == "f":
-        values = array.values
+        try:
+            values = array.values
+        except Exception as error:  # values are read now; h5py raises of nearly every kind
+            raise InputError(f"{where}: cannot be read, the file is damaged ({error})") from None
         bad = ~np.isfinite(values)
         if bad.any():
             index = tuple(int(i) for i in np.argwhere(bad)[0])

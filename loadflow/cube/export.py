@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import xarray as xr
 
-from loadflow.cube.build import Cube, iter_cases
+from loadflow.cube.parts import Cube, iter_cases
 from loadflow.cube.schema import CASE_COORDS
 from loadflow.errors import InputError
 

@@ -3,16 +3,26 @@
 from __future__ import annotations
 
 import os
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from threading import Lock
 from typing import Any, Literal
 
 import xarray as xr
 
-from loadflow.cube.build import Cube, make_cube
+from loadflow.cube.build import make_cube
+from loadflow.cube.hdf5 import check_hdf5
+from loadflow.cube.parts import Cube
 from loadflow.errors import InputError
+from loadflow.storage import check_room, written_whole
 
 ENGINE: Literal["h5netcdf"] = "h5netcdf"
 SUFFIXES = (".h5", ".nc")
+
+IN_MEMORY = 512 * 2**20
+"""Largest cube, bytes, that is put together in memory and then written in one piece."""
 
 
 def save_cube(cube: Cube, path: str | os.PathLike[str]) -> Path:
@@ -32,20 +42,60 @@ def save_cube(cube: Cube, path: str | os.PathLike[str]) -> Path:
     -------
     pathlib.Path
         The file.
+
+    Raises
+    ------
+    OSError
+        The disk is full, or refuses; a file that was there is left as it was.
     """
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
-    temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
-    try:
-        if isinstance(cube, xr.DataTree):
-            encoding = {leaf.path: _encoding(leaf.to_dataset()) for leaf in cube.leaves}
-            cube.to_netcdf(temporary, engine=ENGINE, encoding=encoding)
-        else:
-            cube.drop_encoding().to_netcdf(temporary, engine=ENGINE, encoding=_encoding(cube))
-        os.replace(temporary, path)
-    finally:
-        temporary.unlink(missing_ok=True)
+    with written_whole(path) as temporary:
+        write_cube(cube, temporary)
     return path
+
+
+def write_cube(cube: Cube, path: Path) -> None:
+    """Write a cube to a file that nobody reads yet.
+
+    HDF5 that meets a full disk ends the process, without a message. So a cube is put together in
+    memory, and a large one is begun only where there is room for it.
+
+    Raises
+    ------
+    OSError
+        The disk is full, or refuses.
+    """
+    if isinstance(cube, xr.DataTree):
+        keys: dict[str, Any] = {
+            "encoding": {leaf.path: _encoding(leaf.to_dataset()) for leaf in cube.leaves}
+        }
+    else:
+        cube = cube.drop_encoding()
+        keys = {"encoding": _encoding(cube)}
+    if cube.nbytes > IN_MEMORY:
+        check_room(path.parent, cube.nbytes)
+        cube.to_netcdf(path, engine=ENGINE, **keys)
+    else:
+        with _not_distributed():
+            image = cube.to_netcdf(engine=ENGINE, **keys)
+        with path.open("wb") as stream:
+            stream.write(image)
+
+
+_AT_A_TIME = Lock()
+
+
+@contextmanager
+def _not_distributed() -> Iterator[None]:
+    """Keep xarray in a Dask worker from asking its scheduler for a lock: memory needs none."""
+    if "dask" not in sys.modules:
+        yield
+        return
+    import dask
+
+    with _AT_A_TIME, dask.config.set(scheduler="synchronous"):  # the setting is of all threads
+        yield
 
 
 def open_cube(path: str | os.PathLike[str], chunks: Any = None) -> Cube:
@@ -107,15 +157,14 @@ def _need_dask() -> None:
 
 
 def _open(path: Path, chunks: Any) -> Cube:
+    check_hdf5(path)
     try:
         tree = xr.open_datatree(path, engine=ENGINE, chunks=chunks)
-    except OSError as error:
-        raise InputError(
-            f"{path}: cannot be read as HDF5; empty, truncated or of another kind ({error})"
-        ) from error
-    if tree.children:
-        return tree.map_over_datasets(_labels_loaded)
-    return _labels_loaded(tree.to_dataset())
+        if tree.children:
+            return tree.map_over_datasets(_labels_loaded)
+        return _labels_loaded(tree.to_dataset())
+    except Exception as error:  # h5py and h5netcdf raise of nearly every kind on damaged files
+        raise InputError(f"{path}: cannot be read as HDF5; a part is damaged ({error})") from error
 
 
 def _order(case: xr.Dataset) -> tuple[str, float, int]:

@@ -9,8 +9,9 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from loadflow.cube.build import Cube, iter_cases, make_cube
+from loadflow.cube.build import make_cube
 from loadflow.cube.checks import regular_time
+from loadflow.cube.parts import Cube, iter_cases
 from loadflow.errors import InputError
 
 TURN = 2.0 * np.pi

@@ -60,6 +60,8 @@ CASE_COORDS: Mapping[str, Variable] = MappingProxyType(
         "weight": Variable("1", "share of the lifetime", ("case",)),
         "tripped": Variable("s", "overspeed trip: 0 in the run-in, NaN if none", ("case",)),
         "file": Variable("", "file the case was read from", ("case",)),
+        "doubts": Variable("", "what is doubtful about the series, a line each", ("case",)),
+        "standing_share": Variable("1", "share of the time standing or idling", ("case",)),
         "file_start": Variable("s", "first time stamp in the file", ("case",)),
     }
 )

@@ -3,6 +3,8 @@
 ===============  ====================================================================
 `bearing`        `JournalBearing`: what the user calls
 `options`        lubricant, laws of the ruptured film
+`thrust`         thrust bearings; `cone`, `conical_pair`: conical bearings, two of them
+`surfaces`       cone, plane ring, straight pad, profiles; `pads`: where pads sit and give way
 `shapes`         shapes of the bore and their relief
 `shells`         elastic shells
 `supply`         grooves, pockets, restrictors, pump

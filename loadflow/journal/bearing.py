@@ -1,57 +1,37 @@
-"""The plain journal bearing as its user sees it."""
+"""The journal bearing as its user sees it."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Literal
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, Literal, Unpack
 
 import numpy as np
-from annotated_types import Gt, Lt
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError
-from loadflow.journal.film.discretise import FilmOptions, Grading, Inlet, operating_points
-from loadflow.journal.film.film import EVERY
-from loadflow.journal.models.model import Control, Rung, check_rung, model
-from loadflow.journal.options import Cavitation, Lubricant, require
-from loadflow.journal.results import Equilibrium, FilmField, shaped, stack
-from loadflow.journal.shapes import CYLINDER, Relief, Shape
-from loadflow.journal.shells import Shell
-from loadflow.journal.solvers.periodic import (
-    Method,
-    check_period,
-    close_orbit,
-    refuse_half_speed_whirl,
-)
-from loadflow.journal.solvers.statics import plain_fields, plain_film, plain_rows, plain_start
-from loadflow.journal.solvers.statics_shaped import (
-    Line,
-    equilibrium_rows,
-    field_rows,
-    orbit_start,
-    plain,
-)
-from loadflow.journal.solvers.transient import (
-    Marcher,
-    march,
-    mass_balance,
-    orbit_dataset,
-    orbit_row,
-)
-from loadflow.journal.supply import Supply
+from loadflow.journal.film.discretise import operating_points
+from loadflow.journal.film_model import Film, Keywords, film_and_control
+from loadflow.journal.geometry import JournalGeometry
+from loadflow.journal.line import Line
+from loadflow.journal.lubricant import Lubricant
+from loadflow.journal.models.model import Steps, model_of
+from loadflow.journal.results import Equilibrium, FilmField, WarmEquilibrium, shaped
+from loadflow.journal.thermal import shares, warm_film
 from loadflow.journal.validity import warn_if_turbulent
+from loadflow.numerics.convergence import Control
+from loadflow.numerics.fields import require
 
 if TYPE_CHECKING:
     import xarray as xr
 
 Array = NDArray[np.float64]
 
-_METHODS = (False, True, "direct", "marching")
-
 
 @dataclass(frozen=True)
-class JournalBearing:
-    """Journal bearing.
+class JournalBearing(JournalGeometry):
+    """Journal bearing: a `JournalGeometry` and what happens in it.
+
+    Its verbs take a `Film`, or a `Lubricant` and the fields of `Film` and `Control` as keywords.
 
     Attributes
     ----------
@@ -66,65 +46,27 @@ class JournalBearing:
 
     Examples
     --------
-    >>> from loadflow.journal import GasMixture, JournalBearing, Lubricant
+    >>> from loadflow.journal import Film, GasMixture, JournalBearing, Lubricant
     >>> bearing = JournalBearing(diameter=3.0, width=2.25, relative_clearance=0.5e-3)
-    >>> state = bearing.equilibrium(
-    ...     force=(2.0586e6, 0.4428e6), speed=1.2451, lubricant=Lubricant(0.05),
-    ...     cavitation=GasMixture(0.05e6), edge_pressure=0.5e6, grid=(60, 20))
+    >>> film = Film(Lubricant(0.05), GasMixture(0.05e6), edge_pressure=0.5e6, grid=(60, 20))
+    >>> state = bearing.equilibrium((2.0586e6, 0.4428e6), 1.2451, film)
     >>> round(float(state.eccentricity_ratio), 2)
     0.61
     """
-
-    diameter: Annotated[float, Gt(0)]
-    width: Annotated[float, Gt(0)]
-    relative_clearance: Annotated[float, Gt(0), Lt(0.1)]
-    shape: Shape = CYLINDER
-    relief: tuple[Relief, ...] = ()
-
-    def __post_init__(self) -> None:
-        require(self.diameter > 0, "diameter", self.diameter, "m, > 0")
-        require(self.width > 0, "width", self.width, "m, > 0")
-        psi = self.relative_clearance
-        require(0 < psi < 0.1, "relative_clearance", psi, "0 … 0.1")
-        object.__setattr__(self, "relief", tuple(self.relief))
-
-    @property
-    def radius(self) -> float:
-        """Shaft radius, m."""
-        return 0.5 * self.diameter
-
-    @property
-    def clearance(self) -> float:
-        """Radial clearance c, m."""
-        return self.relative_clearance * self.radius
-
-    def sommerfeld_number(self, force: float, speed: float, viscosity: float) -> float:
-        """So = F ψ²/(B D η |ω|), (1.13) of the source; 0 without load."""
-        if force == 0.0:
-            return 0.0
-        drag = self.width * self.diameter * viscosity * abs(speed)
-        return force * self.relative_clearance**2 / drag if drag else np.inf
 
     def equilibrium(
         self,
         force: ArrayLike,
         speed: ArrayLike,
-        lubricant: Lubricant,
-        cavitation: Cavitation | None = None,
-        edge_pressure: float = 0.0,
-        supply: Supply | None = None,
-        inlet: Inlet = "auto",
-        grid: tuple[int, int] | None = None,
-        grading: Grading = "auto",
-        rung: Rung = "grid",
-        tolerance: float = 1e-10,
-        max_iterations: int = 60,
-        strict: bool = True,
+        film: Film | Lubricant | None = None,
+        *more: Any,
+        control: Control | None = None,
         moment: ArrayLike | None = None,
         tilt: ArrayLike | None = None,
         bend: ArrayLike | None = None,
         whirl: float = 0.0,
-        shell: Shell | None = None,
+        weights: ArrayLike | None = None,
+        **keywords: Unpack[Keywords],
     ) -> Equilibrium:
         """Position of the shaft in which the film carries `force` at rest.
 
@@ -134,36 +76,12 @@ class JournalBearing:
             What the shaft applies to the bearing, N; broadcasts with `speed`.
         speed : array_like (…)
             Speed of the shaft, rad/s, > 0 from the first axis toward the second.
-        lubricant : Lubricant
-            The liquid.
-        cavitation : GasMixture, Sommerfeld, Guembel, Reynolds or MassConserving
-            Law of the ruptured film; default ``Reynolds()``.
-        edge_pressure : float
-            Pressure at both rims and on an inlet line, Pa, absolute.
-        supply : Supply, optional
-            Grooves of the shell.
-        inlet : {"auto", "widest gap"} or None
-            Inlet line at the widest gap (ISO 7902) or none. "auto": the line for Reynolds and
-            Gümbel without a supply.
-        grid : tuple of int, optional
-            Cells around and across the full width (even; half is solved). Default (60, 20) for the
-            gas mixture, (120, 40) else.
-        grading : {"auto", "uniform", "graded"}
-            Uniform cells, or cells that crowd at the narrowest gap and the rims. "auto": uniform
-            for the gas mixture and with a supply, graded else. A load so heavy that a few uniform
-            cells span the narrowest gap is then solved on a graded mesh.
-        rung : {"grid", "reduced", "map", "chart", "table", "butenschoen", "holland", "hahn"}
-            Model: finite volumes; few unknowns across the width; the map of `mobility`; closed
-            forms and tables of ISO 7902, which leave total_fill, stiffness and damping None; the
-            historical methods of `superposed`.
-        tolerance : float
-            On the scaled residual.
-        max_iterations : int
-            Newton steps per load; with the law of Reynolds at least one for each cell around, as
-            its rupture moves by a cell in a step.
-        strict : bool
-            Raise for the first load without an answer; else its results are NaN and `converged`
-            is False.
+        film : Film or Lubricant
+            The film, or its liquid and its other fields as keywords (or in their order).
+        control : Control, optional
+            How hard to solve; by default to 1e-10 in 60 Newton steps per load. The rupture of the
+            law of Reynolds moves by a cell in a step, so that it has at least one for each cell
+            around.
         moment : array_like (…, 2), optional
             What the shaft applies to the bearing about its middle, N m, about the first and the
             second axis; the shaft then tilts freely. Needs the full width.
@@ -176,58 +94,60 @@ class JournalBearing:
         whirl : float
             Frequency, rad/s, at which tilting pads are condensed out of stiffness and damping: the
             speed for synchronous coefficients, 0 for slow changes.
-        shell : LocalShell, LinedShell, ThickShell or MatrixShell, optional
-            Elastic shell, whose gap follows the pressure above that of the rims; rigid by default.
+        weights : array_like (…), optional
+            With heat, shares of time of the loads: all then have one temperature, that of their
+            mean friction and flow, as in a bearing too slow to follow the load. Without, each load
+            has its own.
+        **keywords
+            Fields of `Film` and of `Control`.
 
         Returns
         -------
         Equilibrium
+            A `WarmEquilibrium`, with its temperatures, where the film has heat.
 
         Raises
         ------
         InputError
-            Not finite or misshapen input; a law without oil (a mixture at edge pressure 0).
+            Not finite or misshapen input; a law without oil (a mixture at edge pressure 0); a
+            `Film` together with one of its own keywords.
         SolverError
-            A load at ω = 0 (no film without squeeze), no convergence, or a shaft that touches the
-            bore wherever it is; names the first such load.
+            A load at ω = 0 (no film without squeeze), no convergence, a film that gets too hot, or
+            a shaft that touches the bore wherever it is; names the first such load.
         """
-        check_rung(rung)
-        options = FilmOptions(
-            lubricant, cavitation, edge_pressure, supply, inlet, grid, grading, shell
-        )
+        film, control = film_and_control(film, more, control, keywords)
+        limits = control.limits(tolerance=1e-10, max_iterations=60)
         loads, speeds, shape = operating_points(force, speed, "force")
-        warn_if_turbulent(self, speeds, lubricant)
-        line = Line.of(shape, moment=moment, tilt=tilt, bend=bend)
-        if not self._plain(line, shell, rung):
-            control = Control(tolerance, max_iterations, strict)
-            found = equilibrium_rows(self, options, loads, speeds, line, control, whirl)
-            return Equilibrium(**stack(found, shape))
-        if rung != "grid":
-            control = Control(tolerance, max_iterations, strict)
-            answer = model(rung).equilibrium(self, options, loads, speeds, control)
+        line = Line.of(shape, whirl, moment=moment, tilt=tilt, bend=bend)
+        model = model_of("at_rest", film, self, line)
+        if film.heat is None:
+            require(weights is None, "weights", weights, "None without heat")
+            warn_if_turbulent(self, speeds, film.liquid)
+            answer = model.equilibrium(self, film, loads, speeds, line, limits)
             return Equilibrium(**shaped(answer, shape))
-        control = Control(tolerance, max_iterations, strict)
-        rows = plain_rows(self, options, loads, speeds, control)
-        return Equilibrium(**stack(rows, shape))
+
+        cold, each = film.isothermal(), replace(limits, strict=False)
+
+        def at_rest(force: Array, speed: Array, places: NDArray[np.int64]) -> dict[str, Any]:
+            return model.equilibrium(self, cold, force, speed, line.at(places), each)
+
+        share = shares(weights, shape)
+        answer = warm_film(at_rest, loads, speeds, film, share, strict=limits.strict)
+        hottest = np.nanmax([film.heat.inlet_temperature, *answer["temperature"]])
+        warn_if_turbulent(self, speeds, film.heat.lubricant(float(hottest)))
+        return WarmEquilibrium(**shaped(answer, shape))
 
     def pressure(
         self,
         eccentricity: ArrayLike,
         speed: ArrayLike,
-        lubricant: Lubricant,
+        film: Film | Lubricant | None = None,
         velocity: ArrayLike = (0.0, 0.0),
-        cavitation: Cavitation | None = None,
-        edge_pressure: float = 0.0,
-        supply: Supply | None = None,
-        inlet: Inlet = "auto",
-        grid: tuple[int, int] | None = None,
-        grading: Grading = "auto",
-        tolerance: float = 1e-10,
-        max_iterations: int = 100,
-        strict: bool = True,
+        *more: Any,
+        control: Control | None = None,
         tilt: ArrayLike | None = None,
         bend: ArrayLike | None = None,
-        shell: Shell | None = None,
+        **keywords: Unpack[Keywords],
     ) -> FilmField:
         """Film at a given position and velocity of the shaft.
 
@@ -237,12 +157,13 @@ class JournalBearing:
             Shaft centre relative to the shell, m.
         speed : array_like (…)
             rad/s.
-        lubricant : Lubricant
-            The liquid.
+        film : Film or Lubricant
+            As in `equilibrium`, but without heat.
         velocity : array_like (…, 2)
             Velocity of the shaft centre, m/s. The squeeze is F ∂h/∂t, the fill is quasi-steady.
-        cavitation, edge_pressure, supply, inlet, grid, grading, tolerance, max_iterations, \
-strict, tilt, bend, shell
+        control : Control, optional
+            How hard to solve; by default to 1e-10 in 100 Newton steps per position.
+        tilt, bend, **keywords
             As in `equilibrium`. Pads that tilt are where their film has no moment about the pivot.
 
         Returns
@@ -256,9 +177,8 @@ strict, tilt, bend, shell
         SolverError
             No convergence.
         """
-        options = FilmOptions(
-            lubricant, cavitation, edge_pressure, supply, inlet, grid, grading, shell
-        )
+        film, control = film_and_control(film, more, control, keywords)
+        limits = control.limits(tolerance=1e-10, max_iterations=100)
         both = np.broadcast_arrays(
             np.asarray(eccentricity, dtype=float), np.asarray(velocity, dtype=float)
         )
@@ -266,37 +186,26 @@ strict, tilt, bend, shell
         velocities, _, _ = operating_points(both[1], speed, "velocity")
         places, velocities = places / self.clearance, velocities / self.clearance
         line = Line.of(shape, tilt=tilt, bend=bend)
-        if not self._plain(line, shell, "grid"):
-            control = Control(tolerance, max_iterations, strict)
-            found, z = field_rows(self, options, places, velocities, speeds, line, control)
-            return FilmField(z=z if z[0] < 0 else np.append(-z[::-1], z), **stack(found, shape))
-        control = Control(tolerance, max_iterations, strict)
-        found, z = plain_fields(self, options, places, velocities, speeds, control)
-        return FilmField(z=np.concatenate([-z[::-1], z]), **stack(found, shape))
+        model = model_of("at_position", film, self, line)
+        found, z = model.pressure(self, film, places, velocities, speeds, line, limits)
+        return FilmField(z=z, **shaped(found, shape))
 
     def orbit(
         self,
         time: ArrayLike,
         force: ArrayLike,
         speed: ArrayLike,
-        lubricant: Lubricant,
-        cavitation: Cavitation | None = None,
-        edge_pressure: float = 0.0,
-        supply: Supply | None = None,
-        inlet: Inlet = "auto",
-        grid: tuple[int, int] | None = None,
-        grading: Grading = "auto",
-        rung: Rung = "grid",
+        film: Film | Lubricant | None = None,
+        *more: Any,
+        control: Control | None = None,
         start: ArrayLike | None = None,
-        tolerance: float = 1e-8,
-        max_iterations: int = 30,
         step: Literal["given", "adaptive"] = "given",
         step_tolerance: float = 1e-3,
         periodic: bool | Literal["direct", "marching"] = False,
         closure: float = 1e-6,
         max_periods: int = 100,
         moment: ArrayLike | None = None,
-        shell: Shell | None = None,
+        **keywords: Unpack[Keywords],
     ) -> xr.Dataset:
         """Path of the shaft under a load that changes with time, or repeats.
 
@@ -311,18 +220,16 @@ strict, tilt, bend, shell
             What the shaft applies to the bearing, N.
         speed : array_like (n,) or float
             rad/s.
-        lubricant, cavitation, edge_pressure, supply, inlet, grid, grading
-            As in `equilibrium`; laws with fill keep it in cells fixed to the shell, so that their
-            mesh is uniform and without an inlet line.
-        rung : {"grid", "reduced", "map", "butenschoen", "holland", "hahn"}
-            Model, as in `equilibrium`. "map" and the historical methods add ``in_range``, whether
-            they cover the path; "butenschoen" and "holland" know no pressure, flow or fill.
+        film : Film or Lubricant
+            As in `equilibrium`, but without heat; laws with fill keep it in cells fixed to the
+            shell, so that their mesh is uniform and without an inlet line. "map" and the historical
+            methods add ``in_range``, whether they cover the path; "butenschoen" and "holland" know
+            no pressure, flow or fill. An elastic shell has no inertia; the result then has its
+            `shell_deformation`.
+        control : Control, optional
+            How hard to solve; by default to 1e-8 in 30 Newton steps per time step.
         start : array_like (2,), optional
             First eccentricity, m; default the static equilibrium of the first load.
-        tolerance : float
-            On the scaled residual of a step.
-        max_iterations : int
-            Newton steps per time step.
         step : {"given", "adaptive"}
             One step from each time to the next, or as many as the accuracy asks for; load and
             speed are straight lines between the times. Only "grid" adapts.
@@ -340,8 +247,8 @@ strict, tilt, bend, shell
         moment : array_like (n, 2), optional
             What the shaft applies to the bearing about its middle, N m; the shaft then tilts, and
             the result has its `tilt`. Without it the shaft stays aligned.
-        shell : LocalShell, LinedShell, ThickShell or MatrixShell, optional
-            Elastic shell, without inertia; the result then has its `shell_deformation`.
+        **keywords
+            Fields of `Film` and of `Control`.
 
         Returns
         -------
@@ -361,12 +268,10 @@ strict, tilt, bend, shell
             No equilibrium to start from, a step that fails even when cut, an orbit that does not
             close, or a load that turns at half the speed of the shaft.
         """
-        check_rung(rung)
-        options = FilmOptions(
-            lubricant, cavitation, edge_pressure, supply, inlet, grid, grading, shell
-        )
+        film, control = film_and_control(film, more, control, keywords)
+        limits = control.limits(tolerance=1e-8, max_iterations=30)
         loads, speeds, shape = operating_points(force, speed, "force")
-        warn_if_turbulent(self, speeds, lubricant)
+        warn_if_turbulent(self, speeds, film.liquid)
         times = np.asarray(time, dtype=float)
         if times.shape != shape:
             raise InputError(f"time {times.shape} and force, speed {shape} differ in shape")
@@ -374,54 +279,7 @@ strict, tilt, bend, shell
         if bad.size:
             raise InputError(f"time[{bad[0] + 1}] = {times[bad[0] + 1]} does not increase")
         place = None if start is None else np.asarray(start, dtype=float) / self.clearance
+        steps = Steps(place, step, step_tolerance, periodic, closure, max_periods)
         line = Line.of(shape, moment=moment)
-        aligned = self._plain(line, shell, rung)
-        if place is not None and aligned:
-            require(bool(np.hypot(*place) < 1), "start", start, f"|start| < c = {self.clearance} m")
-        require(step in ("given", "adaptive"), "step", step, '"given" or "adaptive"')
-        require(step_tolerance > 0, "step_tolerance", step_tolerance, "> 0")
-        require(periodic in _METHODS, "periodic", periodic, 'False, True, "direct" or "marching"')
-        if rung != "grid":
-            require(step == "given", "step", step, f'"given" for rung = "{rung}"')
-            require(not periodic, "periodic", periodic, f'False for rung = "{rung}"')
-            control = Control(tolerance, max_iterations)
-            return model(rung).orbit(self, options, times, loads, speeds, place, control)
-        if periodic:
-            check_period(times, loads, speeds)
-        control = Control(tolerance, 2 * max_iterations)
-        free: slice | NDArray[np.int64] = EVERY
-        if aligned:
-            film = plain_film(self, options.for_history(), speeds)
-            if periodic and not film.pockets.lifts(film.p_edge):
-                refuse_half_speed_whirl(times, loads, speeds)
-            first, forces = plain_start(self, film, loads, speeds, place, control), loads
-        else:
-            film, first, forces, free = orbit_start(
-                self, options, loads, speeds, line, place, control
-            )
-        accuracy = step_tolerance if step == "adaptive" else np.inf
-        marcher = Marcher(film, tolerance, max_iterations, accuracy, free)
-        if periodic:
-            way: Method = "marching" if periodic == "marching" else "direct"
-            rows, ends, about = close_orbit(
-                marcher, first, times, forces, speeds, way, closure, max_periods
-            )
-        else:
-            past = marcher.begin(float(times[0]), first)
-            rows, end = march(marcher, past, times, forces, speeds)
-            rows, ends, about = [orbit_row(film, first, 0), *rows], (past[-1], end[-1]), {}
-        values = {name: np.array([row[name] for row in rows]) for name in rows[0]}
-        if step == "given":
-            del values["steps"]
-        about["mass_balance"] = mass_balance(*ends, rows, times)
-        orbit = orbit_dataset(values, times, loads, speeds, self.clearance)
-        return orbit.assign_attrs(about)
-
-    # --- inside ----------------------------------------------------------------------------------
-    def _plain(self, line: Line, shell: Shell | None, rung: Rung) -> bool:
-        """Whether a rigid cylinder surrounds an aligned shaft; if not, only the grid serves."""
-        if plain(self, line) and shell is None:
-            return True
-        allowed = '"grid" for a shaped bore, an elastic shell or a shaft that tilts or bends'
-        require(rung == "grid", "rung", rung, allowed)
-        return False
+        model = model_of("in_motion", film, self, line, steps)
+        return model.orbit(self, film, times, loads, speeds, line, limits, steps)

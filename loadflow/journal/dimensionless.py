@@ -10,15 +10,16 @@ from annotated_types import Gt
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.journal.bearing import JournalBearing
-from loadflow.journal.options import Lubricant, require
+from loadflow.journal.lubricant import Lubricant
 from loadflow.journal.results import Equilibrium, FilmField
+from loadflow.numerics.fields import require
 
 _CLEARANCE = 1e-3  # relative clearance of the bearing that stands for all; it cancels
 
 
 @dataclass(frozen=True)
 class UnitBearing:
-    """All plain journal bearings of one width, at a speed of 1.
+    """All cylindrical journal bearings of one width, at a speed of 1.
 
     Forces are Sommerfeld numbers So = F ψ²/(B D η ω) (1.13), pressures Π = p ψ²/(η ω), positions
     ε = e/c, velocities dε/d(ω t). Laws, edge and supply pressures are given as Π too.

@@ -7,15 +7,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from loadflow.journal.options import require
 from loadflow.journal.results import Equilibrium
+from loadflow.numerics.fields import require
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
 class EnergyBalance:
-    """Energy balance of a bearing, as Table 5-23 of the source [Jonuschies 2015] draws it up.
+    """Energy balance of a bearing, as Table 5-23 of [Jonuschies 2015] draws it up.
 
     Attributes
     ----------

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
-from typing import Any
+from dataclasses import dataclass, fields, replace
+from typing import Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.journal.bearing import JournalBearing
-from loadflow.journal.film.discretise import SHARP_GRID, SOURCE_GRID
-from loadflow.journal.options import GasMixture, Lubricant
+from loadflow.journal.film_model import Film, Keywords, film_and_control
+from loadflow.journal.lubricant import Lubricant
 
 Array = NDArray[np.float64]
 
@@ -31,9 +31,8 @@ def grid_error(
     bearing: JournalBearing,
     force: ArrayLike,
     speed: ArrayLike,
-    lubricant: Lubricant,
-    grid: tuple[int, int] | None = None,
-    **film: Any,
+    film: Film | Lubricant | None = None,
+    **keywords: Unpack[Keywords],
 ) -> GridError:
     """Estimate what the cells of `grid` do to a static equilibrium.
 
@@ -46,7 +45,7 @@ def grid_error(
     ----------
     bearing : JournalBearing
         The bearing.
-    force, speed, lubricant, grid, **film
+    force, speed, film, **keywords
         As in `JournalBearing.equilibrium`.
 
     Returns
@@ -66,10 +65,12 @@ def grid_error(
     >>> bool(error.eccentricity_ratio < 1e-3)
     True
     """
-    default = SOURCE_GRID if isinstance(film.get("cavitation"), GasMixture) else SHARP_GRID
-    around, across = grid or default
+    film, control = film_and_control(film, (), None, keywords)
+    around, across = film.cells
     half = (around // 2, max(2 * (across // 4), 2))
-    fine = bearing.equilibrium(force, speed, lubricant, grid=(around, across), **film)
-    coarse = bearing.equilibrium(force, speed, lubricant, grid=half, **film)
+    fine, coarse = (
+        bearing.equilibrium(force, speed, replace(film, grid=cells), control=control)
+        for cells in ((around, across), half)
+    )
     names = [part.name for part in fields(GridError)]
     return GridError(*(np.abs(getattr(fine, name) - getattr(coarse, name)) for name in names))

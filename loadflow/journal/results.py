@@ -2,30 +2,117 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+import math
+from dataclasses import dataclass, field, fields
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.journal.film.groove_pressure import UNSUPPLIED
 from loadflow.journal.film.integrals import summary
+from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.validity import critical_reynolds_number, reynolds_number
+from loadflow.quantities import FILM
 
 if TYPE_CHECKING:
-    from loadflow.journal.bearing import JournalBearing
-    from loadflow.journal.film.film import Film, Linear
-    from loadflow.journal.options import Lubricant
+    import xarray as xr
+
+    from loadflow.journal.film.film import DiscreteFilm, Linear
+    from loadflow.journal.lubricant import Lubricant
     from loadflow.journal.solvers.newton import Solution
 
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
-class Equilibrium:
+_INNER = {
+    **dict.fromkeys(("force", "film_force", "eccentricity", "moment", "tilt"), ("axis",)),
+    **dict.fromkeys(("stiffness", "damping"), ("dof", "along")),
+    **dict.fromkeys(("groove_flow", "groove_pressure"), ("groove",)),
+    **dict.fromkeys(("pressure", "fill", "deformation"), ("around", "across")),
+    "pad_tilt": ("pad",),
+    "angle": ("around",),
+    "z": ("across",),
+}
+"""Dimensions of a result beside those of the loads."""
+
+
+class _Result:
+    """What results of a film have in common."""
+
+    eccentricity_ratio: Array
+    minimum_film: Array
+    maximum_pressure: Array
+    converged: NDArray[np.bool_]
+    iterations: NDArray[np.int64]
+
+    @property
+    def _shape(self) -> tuple[int, ...]:
+        """Shape of the loads."""
+        return np.shape(self.eccentricity_ratio)
+
+    def to_dataset(self) -> xr.Dataset:
+        """All that is known, with units and meaning.
+
+        Returns
+        -------
+        xarray.Dataset
+            Over ``case`` (the loads in C order; none for a single load), ``axis``, ``dof`` and
+            ``along`` (what acts, and along what it acts), ``groove``, ``pad``, and the cells
+            ``around`` and ``across``. What the model does not say is left out.
+
+        Examples
+        --------
+        >>> from loadflow.journal import Film, JournalBearing, Lubricant
+        >>> bearing = JournalBearing(diameter=0.2, width=0.1, relative_clearance=1e-3)
+        >>> state = bearing.equilibrium((8e3, 0.0), 100.0, Film(Lubricant(0.03)))
+        >>> data = state.to_dataset()
+        >>> data.stiffness.dims, data.stiffness.units
+        (('dof', 'along'), 'N/m')
+        """
+        import xarray as xr
+
+        lead, cases = len(self._shape), math.prod(self._shape)
+        found: dict[str, Any] = {}
+        for part in fields(cast("Any", self)):
+            if getattr(self, part.name) is None:
+                continue
+            values, dims = np.asarray(getattr(self, part.name)), _INNER.get(part.name, ())
+            if values.ndim > len(dims):
+                values = values.reshape(cases, *values.shape[lead:])
+                dims = ("case", *dims)
+            found[part.name] = dims, values, FILM[part.name].attributes
+        names = ["e_x", "e_y", "tilt_x", "tilt_y"]
+        coords: dict[str, Any] = {"axis": list("xy")}
+        if "stiffness" in found:
+            size = found["stiffness"][1].shape[-1]
+            coords |= {"dof": names[:size], "along": names[:size]}
+        return xr.Dataset(found, coords)
+
+    def __repr__(self) -> str:
+        """The state in short; of many loads their number and the extremes."""
+        films = np.ravel(self.minimum_film)
+        ratio, peak = (
+            np.ravel(getattr(self, name)) for name in ("eccentricity_ratio", "maximum_pressure")
+        )
+        found = np.ravel(self.converged)
+        name = type(self).__name__
+        if not found.any():
+            return f"<{name}: {found.size} loads, none converged>"
+        said = (
+            f"ε = {np.nanmax(ratio):.4g}, h_min = {np.nanmin(films) * 1e6:.4g} µm, "
+            f"p_max = {np.nanmax(peak) / 1e6:.4g} MPa"
+        )
+        if found.size == 1:
+            return f"<{name}: {said}, {np.ravel(self.iterations)[0]} iterations>"
+        return f"<{name}: {found.size} loads, {found.sum()} converged; extremes {said}>"
+
+
+@dataclass(frozen=True, repr=False)
+class Equilibrium(_Result):
     """Static equilibrium of shaft and film.
 
-    Shapes are those of the input, `force` without its last axis broadcast with `speed`; plain
+    Shapes are those of the input, `force` without its last axis broadcast with `speed`;
     scalars for one load.
 
     Attributes
@@ -41,15 +128,15 @@ class Equilibrium:
     attitude_angle : array (…)
         From load to eccentricity, > 0 with rotation, rad; π/2 without load.
     minimum_film : array (…)
-        Narrowest gap, m; c (1 − ε) in a plain bearing.
+        Narrowest gap, m; c (1 − ε) in a cylindrical, aligned bearing.
     maximum_pressure : array (…)
         Largest pressure of the film, Pa, absolute.
     sommerfeld_number : array (…)
-        So = p_m ψ²/(η |ω|), (1.13) of the source [Jonuschies 2015].
+        So = p_m ψ²/(η |ω|), (1.13) of [Jonuschies 2015].
     friction_power : array (…)
-        (3.34) of the source: pure liquid over the whole film, W.
+        (3.34) of [Jonuschies 2015]: pure liquid over the whole film, W.
     side_flow : array (…)
-        Oil that leaves through the rims, (3.31–3.33), m³/s.
+        Oil that leaves through the bearing ends, (3.31–3.33), m³/s.
     supply_flow : array (…)
         Oil that the grooves give to the film, net, m³/s; 0 without a supply.
     supply_power : array (…)
@@ -82,9 +169,9 @@ class Equilibrium:
     pad_tilt : array (…, pads)
         Rotation of the pads about their pivots, rad, from the first axis toward the second.
     shell_deformation : array (…)
-        Largest growth of the gap by the give of the shell, m; 0 where it is rigid.
+        Largest growth of the gap by the elastic shell, m; 0 where it is rigid.
     temperature : array (…), optional
-        Effective temperature of the film, K; None without a heat balance.
+        Effective temperature of the film, K; None without heat.
     """
 
     force: Array
@@ -118,8 +205,30 @@ class Equilibrium:
     temperature: Array | None = None
 
 
-@dataclass(frozen=True)
-class FilmField:
+@dataclass(frozen=True, repr=False)
+class WarmEquilibrium(Equilibrium):
+    """Static equilibrium of shaft, film and heat; `converged` counts them all.
+
+    Attributes
+    ----------
+    outlet_temperature : array (…)
+        Of the oil that leaves, K.
+    viscosity : array (…)
+        At the effective temperature, Pa s.
+    heat_residual : array (…)
+        What is left of the heat balance, K.
+    heat_iterations : array of int (…)
+        Temperatures tried.
+    """
+
+    outlet_temperature: Array = field(default_factory=lambda: np.zeros(()))
+    viscosity: Array = field(default_factory=lambda: np.zeros(()))
+    heat_residual: Array = field(default_factory=lambda: np.zeros(()))
+    heat_iterations: NDArray[np.int64] = field(default_factory=lambda: np.zeros((), dtype=int))
+
+
+@dataclass(frozen=True, repr=False)
+class FilmField(_Result):
     """Film at a given position and velocity of the shaft.
 
     Attributes
@@ -141,7 +250,7 @@ supply_power, groove_flow, groove_pressure, starved, total_fill, stiffness, damp
 iterations, residual, moment, tilt, pad_tilt, shell_deformation
         As in `Equilibrium`.
     deformation : array (…, nx, nz)
-        Growth of the gap of the cells by the give of the shell, m.
+        Growth of the gap of the cells by the elastic shell, m.
     """
 
     film_force: Array
@@ -175,7 +284,12 @@ iterations, residual, moment, tilt, pad_tilt, shell_deformation
 
 def stack(rows: list[dict[str, Any]], shape: tuple[int, ...]) -> dict[str, Any]:
     """Turn a list of rows into arrays of leading `shape`; one row of shape () into scalars."""
-    return shaped({name: np.array([row[name] for row in rows]) for name in rows[0]}, shape)
+    return shaped(columns_of(rows), shape)
+
+
+def columns_of(rows: list[dict[str, Any]]) -> dict[str, Any]:
+    """Turn a list of rows into arrays that lead with the rows."""
+    return {name: np.array([row[name] for row in rows]) for name in rows[0]}
 
 
 def shaped(columns: dict[str, Any], shape: tuple[int, ...]) -> dict[str, Any]:
@@ -187,8 +301,8 @@ def shaped(columns: dict[str, Any], shape: tuple[int, ...]) -> dict[str, Any]:
 
 
 def static_row(
-    bearing: JournalBearing,
-    film: Film,
+    bearing: JournalGeometry,
+    film: DiscreteFilm,
     load: Array,
     lubricant: Lubricant,
     solution: Solution,
@@ -203,7 +317,7 @@ def static_row(
 
 
 def operating_columns(
-    bearing: JournalBearing,
+    bearing: JournalGeometry,
     force: Array,
     speed: Any,
     lubricant: Lubricant,
@@ -233,7 +347,7 @@ def without_supply(count: int) -> dict[str, Any]:
     return {name: np.array([value] * count) for name, value in UNSUPPLIED.items()}
 
 
-def field_row(film: Film, solution: Solution) -> dict[str, Any]:
+def field_row(film: DiscreteFilm, solution: Solution) -> dict[str, Any]:
     """One row of `FilmField`, but for z; the half film is mirrored."""
     *cells, angle, load = film.field(solution.u, solution.position)
     cells.append(film.deformation)
@@ -251,7 +365,7 @@ def field_row(film: Film, solution: Solution) -> dict[str, Any]:
     }
 
 
-def _common_row(film: Film, solution: Solution, whirl: float = 0.0) -> dict[str, Any]:
+def _common_row(film: DiscreteFilm, solution: Solution, whirl: float = 0.0) -> dict[str, Any]:
     clearance = film.relative_clearance * film.radius
     row: dict[str, Any] = summary(film, solution.u, solution.position)
     shaft, lengths = film.gap.shaft, np.ones(film.gap.shaft)
@@ -300,7 +414,13 @@ def without_pads(
 
 def following(stiffness: NDArray[Any], shaft: int) -> NDArray[Any]:
     """How far pads tilt with the shaft, (pads, shaft)."""
-    return np.asarray(np.linalg.solve(stiffness[shaft:, shaft:], stiffness[shaft:, :shaft]))
+    pads, by_shaft = stiffness[shaft:, shaft:], stiffness[shaft:, :shaft]
+    if not (np.isfinite(pads).all() and np.isfinite(by_shaft).all()):
+        return np.full_like(by_shaft, np.nan)
+    size = np.sqrt(np.maximum(np.abs(np.diag(pads)), np.finfo(float).tiny))
+    scaled = pads / np.outer(size, size)
+    # least squares: a pad that its film does not hold stays
+    return np.asarray(np.linalg.lstsq(scaled, by_shaft / size[:, None])[0] / size[:, None])
 
 
 def _nothing(value: Any) -> Any:

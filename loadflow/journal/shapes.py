@@ -16,7 +16,7 @@ import numpy as np
 from annotated_types import Ge, Gt, Le, Lt
 from numpy.typing import NDArray
 
-from loadflow.journal.options import require
+from loadflow.numerics.fields import require
 
 Array = NDArray[np.float64]
 _TURN = 2 * np.pi
@@ -197,7 +197,7 @@ class Crown:
     Attributes
     ----------
     height : float
-        Growth of the gap at the rims, m.
+        Growth of the gap at the bearing ends, m.
     length : float, optional
         Axial length of either crown, m; default half of the width.
     exponent : float
@@ -266,7 +266,7 @@ class Recess:
         return self.angle - 0.5 * self.arc, self.angle + 0.5 * self.arc
 
     def across(self, width: float) -> tuple[float, float]:
-        """Axial places of both ends, m; beyond the rims where it is as long as the bearing."""
+        """Axial places of both ends, m; beyond the ends where it is as long as the bearing."""
         half = width if self.length is None else 0.5 * self.length
         return self.z - half, self.z + half
 

@@ -1,6 +1,6 @@
 """What a user states about the elasticity of the shell. Options only, no solver.
 
-The pressure of the film above that of its rims widens the gap. A shell gives way where it is
+The pressure of the film above that of its ends widens the gap. A shell gives way where it is
 pressed (`LocalShell`, `LinedShell`), or all over (`ThickShell`, `MatrixShell`).
 """
 
@@ -8,13 +8,15 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Annotated, Any, Literal
 
 import numpy as np
 from annotated_types import Ge, Gt, Lt
 from numpy.typing import NDArray
 
-from loadflow.journal.options import require
+from loadflow.errors import InputError
+from loadflow.numerics.fields import require
 
 _LOCAL = 0.1  # deviation of a lining from the local law that is let pass
 
@@ -26,7 +28,7 @@ def _require_solid(modulus: float, poisson_ratio: float) -> None:
 
 @dataclass(frozen=True)
 class LocalShell:
-    """Shell that gives way where it is pressed alone (Winkler), (3.36, 3.37) of the source.
+    """Shell that gives way where it is pressed alone (Winkler), (3.36, 3.37) of [Jonuschies 2015].
 
     Attributes
     ----------
@@ -134,32 +136,52 @@ class ThickShell:
 
 @dataclass(frozen=True, eq=False)
 class MatrixShell:
-    """Shell whose influence numbers are given, (3.52–3.56) of the source.
+    """Shell whose influence numbers are given, (3.52–3.56) of [Jonuschies 2015].
 
     Attributes
     ----------
-    matrix : array_like (nx nz, nx nz) or (nx, nz, nx, nz)
+    matrix : array_like (nx nz, nx nz) or (nx, nz, nx, nz), str or path
         Growth of the gap at each cell of the film over the pressure on another, m/Pa: the
         deformation under 1 MPa on one cell is a column times 1e6 Pa. The cells are those of
-        `FilmField.pressure`, full width, the axial place running fastest.
+        `FilmField.pressure`, full width, the axial place running fastest. Or the name of a file
+        that holds it, of numpy (``.npy``) or rows of text.
     """
 
     matrix: Any
     kind: Literal["matrix"] = "matrix"
 
     def __post_init__(self) -> None:
-        matrix = np.array(self.matrix, dtype=float)
+        given = self.matrix
+        matrix = _read_matrix(given) if isinstance(given, str | Path) else np.array(given, float)
         side = math.isqrt(matrix.size)
         require(side**2 == matrix.size, "matrix", matrix.shape, "as many rows as columns")
         require(bool(np.isfinite(matrix).all()), "matrix", "NaN or infinite", "finite, m/Pa")
         matrix = matrix.reshape(side, side)
         matrix.flags.writeable = False
-        object.__setattr__(self, "matrix", matrix)
+        object.__setattr__(self, "_numbers", matrix)
 
     @property
     def numbers(self) -> NDArray[np.float64]:
         """Influence numbers (n, n), m/Pa."""
-        return np.asarray(self.matrix)
+        return np.asarray(self.__dict__["_numbers"])
+
+
+def _read_matrix(path: str | Path) -> NDArray[np.float64]:
+    """Read influence numbers from a file.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        A file that is missing, or no table of numbers.
+    """
+    try:
+        if Path(path).suffix == ".npy":
+            return np.asarray(np.load(path, allow_pickle=False), dtype=float)
+        return np.loadtxt(path, ndmin=2)
+    except OSError as error:
+        raise InputError(f"matrix = {str(path)!r}: cannot be read: {error}") from error
+    except ValueError as error:
+        raise InputError(f"matrix = {str(path)!r}: no table of numbers: {error}") from error
 
 
 Shell = LocalShell | LinedShell | ThickShell | MatrixShell

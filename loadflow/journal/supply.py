@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 
 from annotated_types import Ge, Gt, MinLen
 
-from loadflow.journal.options import require
+from loadflow.numerics.fields import require
 
 _TURN = 6.283185307179586
 

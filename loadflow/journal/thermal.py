@@ -1,7 +1,7 @@
 """Heat balance of the film: how warm the oil gets, and how thin.
 
 One effective temperature stands for the whole film, as in ISO 7902-1: the friction power leaves
-with the oil at the rims, which enters at T_in and leaves at T_out, and through the housing,
+with the oil at the bearing ends, which enters at T_in and leaves at T_out, and through the housing,
 
     P = ρ c_p Q (T_out − T_in) + K (T − T_ambient),    T = (T_in + T_out)/2.
 
@@ -12,173 +12,77 @@ in one call.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Annotated, Any
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
-from annotated_types import Ge, Gt
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError, SolverError
-from loadflow.journal.film.discretise import operating_points
-from loadflow.journal.options import Lubricant, require
-from loadflow.journal.results import shaped
+from loadflow.journal.film_model import Film
+from loadflow.journal.heat import HOTTEST, Heat
 from loadflow.journal.supply import Capillary
-from loadflow.journal.validity import warn_if_turbulent
-from loadflow.numerics.fields import check_fields
-from loadflow.tribology import Oil, lubricant
-
-if TYPE_CHECKING:
-    from loadflow.journal.bearing import JournalBearing
-    from loadflow.journal.results import Equilibrium
+from loadflow.numerics.fields import require
 
 Array = NDArray[np.float64]
+Columns = dict[str, Any]
+"""Fields of `Equilibrium`, (n, …)."""
+AtRest = Callable[[Array, Array, NDArray[np.int64]], Columns]
+"""Equilibria of an isothermal film under loads (m, 2) at speeds (m,); their places among all."""
 
-HOTTEST = 423.15
-"""Largest temperature of the film that is looked for, K; oils and white metal end before."""
-
-
-@dataclass(frozen=True)
-class Heat:
-    """Oil and cooling of a bearing.
-
-    Attributes
-    ----------
-    oil : str or Oil
-        Name of an oil of `loadflow.tribology.lubricant_names`, or an oil.
-    inlet_temperature : float
-        Of the oil that enters the film, K.
-    heat_capacity : float
-        c_p of the oil, J/(kg K).
-    transfer : float
-        K, heat that passes from the film through the housing for each kelvin above ambient, W/K;
-        0: all leaves with the oil.
-    ambient_temperature : float
-        K.
-    """
-
-    oil: str | Oil = "mineral-vg-320"
-    inlet_temperature: Annotated[float, Gt(200)] = 313.15
-    heat_capacity: Annotated[float, Gt(0)] = 2000.0
-    transfer: Annotated[float, Ge(0)] = 0.0
-    ambient_temperature: Annotated[float, Gt(200)] = 293.15
-
-    def __post_init__(self) -> None:
-        check_fields(self)
-        for name in ("inlet_temperature", "ambient_temperature"):
-            value = getattr(self, name)
-            require(value < HOTTEST, name, value, f"K, < {HOTTEST}")
-        self.liquid  # noqa: B018  a name that is not known is told here
-
-    @property
-    def liquid(self) -> Oil:
-        """The oil."""
-        return lubricant(self.oil) if isinstance(self.oil, str) else self.oil
-
-    def lubricant(self, temperature: float) -> Lubricant:
-        """The oil of a film at `temperature`, K."""
-        oil = self.liquid
-        return Lubricant(float(oil.viscosity(temperature)), float(oil.density(temperature)))
-
-    def temperature(self, friction_power: ArrayLike, side_flow: ArrayLike, at: ArrayLike) -> Array:
-        """Effective temperature (K) that friction (W) and flow (m³/s) of a film at `at` ask for."""
-        carried = 2.0 * self.liquid.density(at) * self.heat_capacity * np.asarray(side_flow)
-        lost = carried + self.transfer
-        gained = carried * self.inlet_temperature + self.transfer * self.ambient_temperature
-        with np.errstate(divide="ignore"):  # no flow, no transfer: it never stops to warm
-            return np.asarray((np.asarray(friction_power) + gained) / lost)
+TOLERANCE, TRIES = 1e-6, 40
+"""What is left of a heat balance, K, and the temperatures that are tried."""
 
 
-@dataclass(frozen=True)
-class WarmFilm:
-    """Equilibrium of a film at the temperature that its own friction gives it.
-
-    Attributes
-    ----------
-    film : Equilibrium
-        With its effective `temperature`, K; `converged` counts both film and heat.
-    outlet_temperature : array (…)
-        Of the oil that leaves, K.
-    viscosity : array (…)
-        At the effective temperature, Pa s.
-    iterations : int
-        Temperatures tried.
-    residual : array (…)
-        What is left of the heat balance, K.
-    """
-
-    film: Equilibrium
-    outlet_temperature: Array
-    viscosity: Array
-    iterations: int
-    residual: Array
-
-    @property
-    def temperature(self) -> Array:
-        """Effective temperature of the film (…), K."""
-        return np.asarray(self.film.temperature)[()]
-
-
-def warm_equilibrium(
-    bearing: JournalBearing,
-    force: ArrayLike,
-    speed: ArrayLike,
-    heat: Heat,
-    *,
-    weights: ArrayLike | None = None,
-    tolerance: float = 1e-6,
-    max_iterations: int = 40,
+def warm_film(
+    at_rest: AtRest,
+    force: Array,
+    speed: Array,
+    film: Film,
+    weights: Array | None,
+    tolerance: float = TOLERANCE,
+    max_iterations: int = TRIES,
     strict: bool = True,
-    **film: Any,
-) -> WarmFilm:
+) -> Columns:
     """Equilibrium of shaft, film and heat.
 
     Parameters
     ----------
-    bearing : JournalBearing
-        The bearing.
-    force, speed
-        As for `JournalBearing.equilibrium`.
-    heat : Heat
-        Oil and cooling.
-    weights : array_like (…), optional
-        Shares of time of the loads: all then have one temperature, that of their mean friction and
-        flow, as in a bearing too slow to follow the load. Without, each load settles for itself.
-    tolerance : float
-        On the heat balance, K.
-    max_iterations : int
-        Temperatures tried.
+    at_rest : callable
+        Equilibria of the film as it enters, without heat, at other speeds.
+    force, speed : array (n, 2), (n,)
+        Loads, N, and speeds, rad/s.
+    film : Film
+        With heat.
+    weights : array (n,), optional
+        Shares of time: one temperature for all.
+    tolerance, max_iterations
+        On the heat balance, K; temperatures tried.
     strict : bool
-        Raise for the first load without an answer; else its results are NaN and not converged.
-    **film
-        What else `JournalBearing.equilibrium` takes, but for the lubricant. Grooves must have a
-        given pressure, or a capillary.
-
-    Returns
-    -------
-    WarmFilm
+        Raise for the first load without an answer.
 
     Raises
     ------
     loadflow.errors.InputError
-        As `JournalBearing.equilibrium`; a groove with an orifice, a pump or a given flow.
+        A groove with an orifice, a pump or a given flow.
     loadflow.errors.SolverError
         A load without a film, or whose balance lies above 150 °C.
     """
-    loads, speeds, shape = operating_points(force, speed, "force")
-    balance = _Balance(bearing, loads, speeds, heat, _share(weights, shape), _scalable(film))
+    assert film.heat is not None
+    _check_scalable(film)
+    balance = _Balance(at_rest, force, speed, film.heat, weights)
     warmth = balance.solve(tolerance, max_iterations)
-    state = balance.film(warmth.temperature, slice(None))
-    warn_if_turbulent(bearing, speeds, heat.lubricant(float(np.nanmax(warmth.temperature))))
-    found = state.converged & (warmth.residual <= tolerance)
+    state = balance.film(warmth.temperature, np.arange(speed.size))
+    found = state["converged"] & (warmth.residual <= tolerance)
     if strict and not found.all():
         worst = int(np.argmin(found))
         raise SolverError(
-            f"load {worst}, {np.hypot(*loads[worst]):.4g} N at {speeds[worst]:.4g} rad/s: no heat "
+            f"load {worst}, {np.hypot(*force[worst]):.4g} N at {speed[worst]:.4g} rad/s: no heat "
             f"balance below {HOTTEST} K; at {warmth.temperature[worst]:.4g} K it is off by "
             f"{warmth.residual[worst]:.2g} K"
         )
-    return warmth.shaped(_where(found, state), heat, shape)
+    return warmth.said_of(_where(found, state), film.heat)
 
 
 @dataclass(frozen=True)
@@ -189,55 +93,43 @@ class _Warmth:
     residual: Array
     iterations: int
 
-    def shaped(self, film: Equilibrium, heat: Heat, shape: tuple[int, ...]) -> WarmFilm:
-        """The answer in the shape of the input."""
-        found = {
+    def said_of(self, film: Columns, heat: Heat) -> Columns:
+        """The film with its temperatures."""
+        return film | {
+            "temperature": np.where(film["converged"], self.temperature, np.nan),
             "outlet_temperature": 2.0 * self.temperature - heat.inlet_temperature,
-            "viscosity": heat.liquid.viscosity(self.temperature),
-            "residual": self.residual,
+            "viscosity": np.asarray(heat.liquid.viscosity(self.temperature)),
+            "heat_residual": self.residual,
+            "heat_iterations": np.full(self.residual.shape, self.iterations),
         }
-        whole = ("moment", "tilt", "pad_tilt")  # not by load where the film has none of them
-        film = replace(film, temperature=np.where(film.converged, self.temperature, np.nan))
-        rows = {k: v for k, v in vars(film).items() if k not in whole or v.ndim > 1}
-        state = replace(film, **shaped(rows, shape))
-        return WarmFilm(state, iterations=self.iterations, **shaped(found, shape))
 
 
 @dataclass(frozen=True)
 class _Balance:
     """Heat balance of loads (n, 2) at speeds (n,), each for itself or of their mean by `share`."""
 
-    bearing: JournalBearing
+    at_rest: AtRest
     force: Array
     speed: Array
     heat: Heat
     share: Array | None
-    options: dict[str, Any]
 
-    def film(self, temperature: Array, places: Any) -> Equilibrium:
+    def film(self, temperature: Array, places: NDArray[np.int64]) -> Columns:
         """Films of the loads at `places` (m,) at these temperatures (m,)."""
         reference = self.heat.lubricant(self.heat.inlet_temperature)
         thinner = self.heat.liquid.viscosity(temperature) / reference.viscosity
         speed = self.speed[places]
-        options = self.options | {
-            name: np.broadcast_to(self.options[name], self.force.shape)[places]
-            for name in ("moment", "tilt", "bend")
-            if self.options.get(name) is not None
-        }
-        state = self.bearing.equilibrium(
-            self.force[places], speed * thinner, reference, strict=False, **options
-        )
+        state = self.at_rest(self.force[places], speed * thinner, places)
         lighter = self.heat.liquid.density(temperature) / reference.density
-        reynolds = state.reynolds_number * lighter / thinner**2
+        reynolds = state["reynolds_number"] * lighter / thinner**2
         more = ("friction_power", "side_flow", "supply_flow", "supply_power", "groove_flow")
-        return replace(
-            state,
-            speed=speed,
-            reynolds_number=reynolds,
-            laminar=reynolds < state.critical_reynolds_number,
-            damping=_times(state.damping, thinner),
-            **{name: _times(getattr(state, name), 1.0 / thinner) for name in more},
-        )
+        return state | {
+            "speed": speed,
+            "reynolds_number": reynolds,
+            "laminar": reynolds < state["critical_reynolds_number"],
+            "damping": _times(state["damping"], thinner),
+            **{name: _times(state[name], 1.0 / thinner) for name in more},
+        }
 
     def solve(self, tolerance: float, max_iterations: int) -> _Warmth:
         """Find the temperatures by secants between brackets; a film that fails is too thin."""
@@ -283,26 +175,28 @@ class _Balance:
         """How much warmer films at `temperature` would be after their own friction, K."""
         if self.share is None:
             state = self.film(temperature, active)
-            power, flow = state.friction_power, state.side_flow
+            power, flow = state["friction_power"], state["side_flow"]
         else:
-            state = self.film(np.full(self.speed.size, temperature[0]), slice(None))
-            share = np.where(state.converged, self.share, 0.0)
+            every = np.arange(self.speed.size)
+            state = self.film(np.full(every.size, temperature[0]), every)
+            share = np.where(state["converged"], self.share, 0.0)
             if not share.any():
                 return np.array([np.nan])
-            columns = np.nan_to_num([state.friction_power, state.side_flow])
+            columns = np.nan_to_num([state["friction_power"], state["side_flow"]])
             power, flow = np.average(columns, axis=1, weights=share)[:, None]
         return self.heat.temperature(power, flow, temperature) - temperature
 
 
-def _where(found: NDArray[np.bool_], state: Equilibrium) -> Equilibrium:
+def _where(found: NDArray[np.bool_], state: Columns) -> Columns:
     """Films of which those without a balance say nothing but that."""
     kept = ("force", "speed", "residual", "critical_reynolds_number")
+    factor = np.where(found, 1.0, np.nan)
     blank = {
-        name: _times(values, np.where(found, 1.0, np.nan))
-        for name, values in vars(state).items()
-        if name not in kept and np.shape(values)[:1] == found.shape and values.dtype == float
+        name: _times(values, factor)
+        for name, values in state.items()
+        if name not in kept and values is not None and values.dtype == float
     }
-    return replace(state, converged=found, **blank)
+    return state | blank | {"converged": found}
 
 
 def _times(values: Any, factor: Array) -> Any:
@@ -312,7 +206,14 @@ def _times(values: Any, factor: Array) -> Any:
     return values * factor.reshape(factor.shape + (1,) * (values.ndim - 1))
 
 
-def _share(weights: ArrayLike | None, shape: tuple[int, ...]) -> Array | None:
+def shares(weights: ArrayLike | None, shape: tuple[int, ...]) -> Array | None:
+    """Shares of time (n,) of loads of `shape`.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        Misshapen or negative shares, or none above 0.
+    """
     if weights is None:
         return None
     share = np.asarray(weights, dtype=float)
@@ -325,14 +226,10 @@ def _share(weights: ArrayLike | None, shape: tuple[int, ...]) -> Array | None:
     return share
 
 
-def _scalable(film: dict[str, Any]) -> dict[str, Any]:
+def _check_scalable(film: Film) -> None:
     """Refuse what does not depend on viscosity times speed alone."""
-    for name in ("lubricant", "strict"):
-        if name in film:
-            raise InputError(f"{name}: not given here; the lubricant follows from heat.oil")
-    supply = film.get("supply")
+    supply = film.supply
     if supply is not None:
         feeds = [supply.pump, *(groove.restrictor for groove in supply.grooves)]
         if not all(feed is None or isinstance(feed, Capillary) for feed in feeds):
             raise InputError("supply: with heat, a groove has a given pressure or a capillary")
-    return film

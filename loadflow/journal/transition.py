@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from dataclasses import replace
+from typing import Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError, SolverError
-from loadflow.journal.options import require
+from loadflow.journal.bearing import JournalBearing
+from loadflow.journal.film_model import Film, Keywords, film_and_control
+from loadflow.journal.lubricant import Lubricant
 from loadflow.journal.shapes import Cylindrical
-
-if TYPE_CHECKING:
-    from loadflow.journal.bearing import JournalBearing
+from loadflow.numerics.fields import require
 
 Array = NDArray[np.float64]
 
@@ -22,7 +23,11 @@ _SPEEDS = 12  # at which a long series is asked; between them the load is interp
 
 
 def load_capacity(
-    bearing: JournalBearing, least_film: float, speed: ArrayLike, **film: Any
+    bearing: JournalBearing,
+    least_film: float,
+    speed: ArrayLike,
+    film: Film | Lubricant | None = None,
+    **keywords: Unpack[Keywords],
 ) -> Array:
     """Largest load at rest under which the film stays as thick as `least_film`.
 
@@ -36,8 +41,8 @@ def load_capacity(
         Smallest film, m, between 0 and the clearance.
     speed : array_like, shape (n,)
         rad/s. More than twelve speeds are interpolated between twelve.
-    **film
-        What `JournalBearing.pressure` takes: `lubricant`, `cavitation`, `edge_pressure`, …
+    film, **keywords
+        As for `JournalBearing.equilibrium`; always on the rung "grid", with heat as the oil enters.
 
     Returns
     -------
@@ -59,6 +64,8 @@ def load_capacity(
     >>> bool(thin > 5 * thick)
     True
     """
+    film, _ = film_and_control(film, (), None, keywords)
+    film = replace(film.isothermal(), rung="grid")
     allowed = f"m, between 0 and the clearance {bearing.clearance:g}"
     require(0 < least_film < bearing.clearance, "least_film", least_film, allowed)
     speeds = np.abs(np.asarray(speed, dtype=float))
@@ -76,23 +83,21 @@ def load_capacity(
     return capacity
 
 
-def _carried(
-    bearing: JournalBearing, least_film: float, speed: float, film: dict[str, Any]
-) -> float:
+def _carried(bearing: JournalBearing, least_film: float, speed: float, film: Film) -> float:
     """Largest load over the directions at one speed."""
-    alike = bearing.shape == Cylindrical() and film.get("supply") is None
+    alike = bearing.shape == Cylindrical() and film.supply is None
     angles = 2 * np.pi * np.arange(1 if alike else _DIRECTIONS) / _DIRECTIONS
     return max(_in_direction(bearing, least_film, speed, angle, film) for angle in angles)
 
 
 def _in_direction(
-    bearing: JournalBearing, least_film: float, speed: float, angle: float, film: dict[str, Any]
+    bearing: JournalBearing, least_film: float, speed: float, angle: float, film: Film
 ) -> float:
     """Load at the eccentricity in one direction whose smallest film is the wanted one."""
     way, away = np.array([np.cos(angle), np.sin(angle)]), bearing.clearance - least_film
     for _ in range(_STEPS):
         try:
-            found = bearing.pressure(away * way, speed, strict=False, **film)
+            found = bearing.pressure(away * way, speed, film, strict=False)
         except (InputError, SolverError):
             return np.inf
         if not bool(found.converged):

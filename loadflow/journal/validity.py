@@ -9,22 +9,22 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import ValidityWarning
+from loadflow.journal.geometry import JournalGeometry
 
 if TYPE_CHECKING:
-    from loadflow.journal.bearing import JournalBearing
-    from loadflow.journal.options import Lubricant
+    from loadflow.journal.lubricant import Lubricant
 
 Array = NDArray[np.float64]
 
 
-def reynolds_number(bearing: JournalBearing, speed: ArrayLike, lubricant: Lubricant) -> Array:
+def reynolds_number(bearing: JournalGeometry, speed: ArrayLike, lubricant: Lubricant) -> Array:
     """Re = ρ |ω| R c/η of a concentric gap."""
     surface = np.abs(speed) * bearing.radius
     return np.asarray(lubricant.density * surface * bearing.clearance / lubricant.viscosity)
 
 
 def critical_reynolds_number(relative_clearance: float) -> float:
-    """Re_cr = 41.3 √(D/s), (3.14) of the source [Jonuschies 2015]; D/s = 1/ψ.
+    """Re_cr = 41.3 √(D/s), (3.14) of [Jonuschies 2015]; D/s = 1/ψ.
 
     Examples
     --------
@@ -34,7 +34,7 @@ def critical_reynolds_number(relative_clearance: float) -> float:
     return float(41.3 * relative_clearance**-0.5)
 
 
-def warn_if_turbulent(bearing: JournalBearing, speed: ArrayLike, lubricant: Lubricant) -> None:
+def warn_if_turbulent(bearing: JournalGeometry, speed: ArrayLike, lubricant: Lubricant) -> None:
     """Warn of speeds at which the flow is not laminar.
 
     Warns

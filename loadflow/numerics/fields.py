@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
-import math
+import sys
 from typing import Any, get_args, get_type_hints
 
 import annotated_types as at
 
 from loadflow.errors import InputError
+
+
+def require(condition: bool, name: str, value: object, allowed: str) -> None:
+    """Raise an `InputError` that names field, value and allowed range unless `condition` holds."""
+    if not condition:
+        raise InputError(f"{name} = {value!r} is not allowed: {allowed}")
 
 
 def check_fields(instance: Any) -> None:
@@ -29,7 +35,7 @@ def check_fields(instance: Any) -> None:
         bounds = _bounds(hint)
         if not bounds or value is None:
             continue
-        if not isinstance(value, (int, float)) or not math.isfinite(value):
+        if not isinstance(value, (int, float)) or not abs(value) <= sys.float_info.max:
             raise InputError(f"{name}: must be a finite number, got {value!r}")
         for bound in bounds:
             if not _holds(bound, value):

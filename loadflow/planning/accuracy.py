@@ -1,109 +1,32 @@
 """How accurate a wanted result is, end to end, and the cheapest models that are accurate enough.
 
-The error of a result is the sum of what each stage on the way to it adds, at its largest in the
-ladder. An error of the load reaches a bearing's answer through the gain d ln(answer)/d ln(load)
-of that answer, which is measured too.
+The error of a result is the sum of what each model on the way to it adds: that of its rung, at its
+largest in the ladder, and of every effect that is left out, as the pilot measured it or, without a
+pilot, as its indicator estimates it. An error of the load reaches a bearing's answer through the
+gain d ln(answer)/d ln(load) of that answer, which is measured too.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from itertools import product
 from typing import Any
 
-from loadflow.planning.ladder import (
-    choices,
-    expected_seconds,
-    finest,
-    gains,
-    is_open,
-    measured,
-    rung_of,
-    section_of,
-    with_settings,
-)
+import numpy as np
+
+from loadflow.planning.effects import Estimates, concerned, switched
+from loadflow.planning.ladder import choices, expected_seconds, gains, measured
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
+from loadflow.stages.effects.effect import Effect
+from loadflow.stages.effects.registry import EFFECTS
+from loadflow.stages.registry import STAGES, giving, models
+from loadflow.stages.stage import Link, Rungs
 
-OPEN_STAGES = ("wind", "loads", "reduction", "journal", "rolling")
-"""Stages that offer more than one model of the same thing."""
-
-FINEST_GRID = 480
-"""Cells around that a run goes up to by itself."""
-
-
-@dataclass(frozen=True)
-class Link:
-    """What a stage adds to the error of an answer.
-
-    `error` is the quantity in the ladder's entry of the stage; `of_load` says that it is an error
-    of the load, which the bearing answers with its gain.
-    """
-
-    stage: str
-    error: str
-    of_load: bool = False
-
-
-def _load(quantity: str, of_load: bool = True) -> tuple[Link, ...]:
-    """What a load brings: the error of the wind and that of the rotor."""
-    return Link("wind", quantity, of_load), Link("loads", quantity, of_load)
-
-
-def _film(reduction: str, journal: str) -> tuple[Link, ...]:
-    return *_load("bearing load max"), Link("reduction", reduction), Link("journal", journal)
-
-
-def _contact(quantity: str) -> tuple[Link, ...]:
-    return (
-        *_load("bearing load max"),
-        Link("reduction", "largest load", of_load=True),
-        Link("rolling", quantity),
-    )
-
-
-def _friction(quantity: str) -> tuple[Link, ...]:
-    return *_load("bearing load max"), Link("friction", quantity)
-
-
-CHAINS: dict[str, dict[str, tuple[Link, ...]]] = {
-    "loads.statistics": {
-        "bearing load max": _load("bearing load max", of_load=False),
-        "bearing force DEL": _load("bearing force DEL", of_load=False),
-    },
-    "seeds.equality": {},
-    "reduction.histogram": {
-        "largest load": (
-            *_load("bearing load max", of_load=False),
-            Link("reduction", "largest load"),
-        ),
-    },
-    "journal.film": {
-        "eccentricity ratio": _film("E_max", "eccentricity ratio"),
-        "minimum film": _film("h_min", "minimum film"),
-        "maximum pressure": _film("p_max", "maximum pressure"),
-        "friction power": _film("friction power", "friction power"),
-    },
-    "rolling.loads": {
-        "maximum force": _contact("maximum force"),
-        "maximum pressure": _contact("maximum pressure"),
-    },
-    "rolling.life": {
-        "life": (
-            *_load("bearing force DEL"),
-            Link("reduction", "life"),
-            Link("rolling", "life"),
-        ),
-    },
-    "rolling.friction": {
-        quantity: _friction(quantity) for quantity in ("friction power", "film parameter", "slip")
-    },
-}
-"""For each result, what users read of it, and the stages whose errors reach it.
-
-A verdict on seeds is no number, and has no error.
-"""
+Floats = np.ndarray
+Errors = dict[str, dict[str, float | None]]
+"""By result and quantity; None where not measured."""
 
 
 @dataclass(frozen=True)
@@ -113,162 +36,431 @@ class Choice:
     Attributes
     ----------
     scene : Scene
-        With the rung of every stage set.
+        With the rung of every model set, and every effect in or out.
     reasons : dict
-        Why each rung was taken, by stage.
+        Why each model was taken, by section of the scene.
     errors : dict
-        Expected error of what users read, by result and quantity; None where not measured.
+        Expected error of what users read, by result and quantity, what is left out counted; None
+        where not measured.
+    estimates : Estimates
+        Sizes of the effects that this rests on.
     met : bool
         Whether every expected error is known and within the accuracy that is asked for.
     """
 
     scene: Scene
     reasons: dict[str, str]
-    errors: dict[str, dict[str, float | None]]
+    errors: Errors
+    estimates: Estimates = field(default_factory=Estimates)
     met: bool = True
 
 
-def expected_errors(scene: Scene) -> dict[str, dict[str, float | None]]:
-    """Return the error to expect of each wanted result, by quantity; None where not measured."""
+@dataclass(frozen=True)
+class Part:
+    """What one rung or one effect left out adds to the error of an answer; None: not measured."""
+
+    model: str
+    effect: Effect | None
+    share: float | None
+
+
+def expected_errors(scene: Scene, known: Estimates | None = None) -> Errors:
+    """Return the error to expect of each wanted result, by quantity; None where not measured.
+
+    Parameters
+    ----------
+    scene : Scene
+        With its models.
+    known : Estimates, optional
+        Sizes of effects; without it only those of the rungs are counted.
+    """
     return {
         result: {
-            name: _total(scene, (result.split(".")[0], name), links)
-            for name, links in CHAINS[result].items()
+            name: total(contributions(scene, result, name, links, known or Estimates()))
+            for name, links in giving(result).results[result](scene).items()
         }
         for result in scene.results
     }
 
 
-def _total(scene: Scene, answer: tuple[str, str], links: tuple[Link, ...]) -> float | None:
-    """Add up what the links bring to an answer, which is a room and a quantity."""
-    parts = [_added(scene, answer, link) for link in links]
-    return None if None in parts else float(sum(part for part in parts if part is not None))
+def total(parts: Iterable[Part]) -> float | None:
+    """Sum of the parts; None if one of them is not measured."""
+    shares = [part.share for part in parts]
+    return None if None in shares else float(sum(share for share in shares if share is not None))
 
 
-def _added(scene: Scene, answer: tuple[str, str], link: Link) -> float | None:
-    if link.stage == "reduction" and answer[0] == "journal" and scene.journal.in_motion:
-        return 0.0  # a film in motion reads the whole series
-    if link.stage == "wind" and not scene.loads.makes_wind:
-        return 0.0  # it is given
-    known = measured(scene, link.stage)
-    if known is None or known["errors"] is None:
+def contributions(
+    scene: Scene, result: str, quantity: str, links: tuple[Link, ...], known: Estimates
+) -> Iterator[Part]:
+    """What each rung, and each effect that is left out, adds to the error of an answer."""
+    for link in links:
+        yield from _of_link(scene, result, quantity, link, known)
+
+
+def _of_link(
+    scene: Scene, result: str, quantity: str, link: Link, known: Estimates
+) -> Iterator[Part]:
+    gain = gains()[result.split(".")[0]].get(quantity) if link.of_load else 1.0
+    share = _rung_error(scene, models()[link.model], link.quantity)
+    if share != 0.0:
+        yield Part(link.model, None, None if share is None or gain is None else share * gain)
+    for effect in _left_out(scene, link.model):
+        size = known.size(effect, link.quantity)
+        if size:
+            yield Part(link.model, effect, None if gain is None else size * gain)
+
+
+def _rung_error(scene: Scene, rungs: Rungs, quantity: str) -> float | None:
+    if rungs.exact(scene):
+        return 0.0
+    entry = measured(scene, rungs.name, rungs.error_key(scene) if rungs.error_key else None)
+    if entry is None or entry["errors"] is None:
         return None
-    if not known["errors"]:
-        return 0.0  # the top rung, or exact
-    if link.error not in known["errors"]:
-        return None
-    error = known["errors"][link.error]["max"]
-    if not link.of_load:
-        return error
-    room, quantity = answer
-    gain = gains()[room].get(quantity)
-    return None if gain is None else error * gain
+    if not entry["errors"]:
+        return 0.0  # the top rung
+    return entry["errors"][quantity]["max"] if quantity in entry["errors"] else None
 
 
-def choose(scene: Scene, stages: Iterable[str], cases: tuple[Case, ...]) -> Choice:
+def _left_out(scene: Scene, model: str) -> Iterator[Effect]:
+    for effect in EFFECTS:
+        if effect.model == model and effect.concerns(scene) and not effect.is_on(scene):
+            yield effect
+
+
+# --- the cheapest that is accurate enough ------------------------------------------------------
+
+
+def choose(
+    scene: Scene, stages: Iterable[str], cases: tuple[Case, ...], known: Estimates | None = None
+) -> Choice:
     """Choose the cheapest models that hold the accuracy that the scene asks for.
 
     Parameters
     ----------
     scene : Scene
-        What is wanted. Without `accuracy` its rungs stay as they are.
+        What is wanted. With ``accuracy = "given"`` its models stay as they are.
     stages : iterable of str
         Stages that will run.
     cases : tuple of Case
         Load cases, for the expected time.
+    known : Estimates, optional
+        Sizes of effects.
 
     Returns
     -------
     Choice
-        Where no combination is accurate enough, the most accurate one; where some errors were not
-        measured, one with as few of these as can be, chosen by the others. `met` is False in both.
+        Where an accuracy is out of reach, what is in reach is held: the rest of the error is kept
+        within it. Where some errors were not measured, as few of these as can be. `met` is False in
+        both.
     """
+    known = known or Estimates()
     stages = tuple(stages)
-    chosen = [stage for stage in OPEN_STAGES if stage in (*stages, *_within(stages))]
-    reasons = dict.fromkeys(map(section_of, chosen), "as the scene says")
-    if scene.accuracy is None:
-        return Choice(scene, reasons, expected_errors(scene))
-    candidates = list(_combinations(scene, chosen))
-    rank = [_unknown_and_excess(candidate) for candidate in candidates]
-    unknown = min(found[0] for found in rank)
-    good = [k for k, found in enumerate(rank) if found[0] == unknown and found[1] <= 1.0]
-    best = (
-        min(good, key=lambda k: _unknown_and_seconds(candidates[k], stages, cases))
-        if good
-        else min(range(len(rank)), key=rank.__getitem__)
-    )
-    why = "cheapest that is accurate enough" if good else "most accurate that was measured"
-    if unknown:
-        why += ", by the errors that are known"
-    reasons |= {section_of(stage): why for stage in chosen if is_open(scene, stage)}
-    errors = expected_errors(candidates[best])
-    return Choice(candidates[best], reasons, errors, met=bool(good) and not unknown)
+    needed = [rungs for name in stages if name in STAGES for rungs in STAGES[name].models]
+    alternatives = sections(scene, needed, stages, known)
+    reasons = dict.fromkeys(alternatives, AS_GIVEN)
+    if not scene.asks:
+        return Choice(scene, reasons, expected_errors(scene, known), known)
+    choosing = _Choosing(scene, stages, cases, known)
+    few = {name: choosing.worthwhile(name, found) for name, found in alternatives.items()}
+    best, why = choosing.best(few)
+    reasons |= {name: why for name, found in alternatives.items() if len(found) > 1}
+    errors = expected_errors(best, known)
+    return Choice(best, reasons, errors, known, _holds(scene, errors))
 
 
-def _within(stages: tuple[str, ...]) -> tuple[str, ...]:
-    """Stages of the ladder that run inside one of the plan."""
-    return ("wind",) if "loads" in stages else ()
+AS_GIVEN = "as the scene says"
 
 
-def _combinations(scene: Scene, stages: Iterable[str]) -> Iterator[Scene]:
-    sections: dict[str, list[Scene]] = {}
-    for stage in stages:
-        name = section_of(stage)
-        before = sections.get(name, [scene])
-        sections[name] = [one for other in before for one in choices(other, stage)]
-    for picked in product(*sections.values()):
-        yield scene.model_copy(
-            update={name: getattr(one, name) for name, one in zip(sections, picked)}
-        )
-
-
-def _unknown_and_excess(scene: Scene) -> tuple[int, float, float]:
-    """How many errors are not known; of the others, over what is allowed, the largest and all."""
-    ratios = [
-        None if error is None else error / allowed
-        for result, errors in expected_errors(scene).items()
-        if (allowed := scene.allowed_error(result)) is not None
-        for error in errors.values()
+def sections(
+    scene: Scene, needed: Iterable[Rungs], stages: Iterable[str], known: Estimates
+) -> dict[str, list[Any]]:
+    """Alternatives of each section: every open rung of its models, every open effect in or out."""
+    found: dict[str, list[Scene]] = {}
+    effects = [
+        effect
+        for effect in concerned(scene, stages)
+        if effect.is_open(scene) and not known.refused(effect)
     ]
-    known = [ratio for ratio in ratios if ratio is not None]
-    return ratios.count(None), max(known, default=0.0), sum(known)
+    for section in dict.fromkeys(rungs.section for rungs in needed):
+        variants = [scene]
+        for effect in (one for one in effects if one.section == section):
+            variants = [
+                changed
+                for one in variants
+                for on in (True, False)
+                if (changed := switched(one, effect, on)) is not None
+            ]
+        for rungs in (one for one in needed if one.section == section):
+            variants = [other for one in variants for other in choices(one, rungs)]
+        found[section] = variants
+    return {
+        name: [getattr(one, name) for one in variants if _effects_known(one, name)]
+        or [getattr(scene, name)]
+        for name, variants in found.items()
+    }
 
 
-def _unknown_and_seconds(
-    scene: Scene, stages: tuple[str, ...], cases: tuple[Case, ...]
-) -> tuple[int, float]:
-    """How many times are not known, and the sum of those that are."""
-    costs = [expected_seconds(scene, stage, cases) for stage in stages]
-    return costs.count(None), sum(cost for cost in costs if cost is not None)
+def _effects_known(scene: Scene, section: str) -> bool:
+    """Whether the rung of a section knows all effects of it that are on."""
+    return all(
+        effect.known_by(scene)
+        for effect in EFFECTS
+        if effect.section == section and effect.rungs and effect.is_on(scene)
+    )
 
 
-def finer(scene: Scene, stage: str) -> Scene | None:
-    """Return the scene with the next more accurate model of a stage; None at the top.
+@dataclass(frozen=True)
+class _Choosing:
+    """A choice in progress: what a candidate costs, and by how much it is off."""
 
-    A film has no top: its grid is doubled, up to what a scene may ask for.
+    scene: Scene
+    stages: tuple[str, ...]
+    cases: tuple[Case, ...]
+    known: Estimates
+    times: dict[Any, float | None] = field(default_factory=dict)
+
+    def with_sections(self, changed: Mapping[str, Any]) -> Scene:
+        return self.scene.model_copy(update=dict(changed))
+
+    def links(self, scene: Scene) -> dict[tuple[str, str], tuple[Link, ...]]:
+        """What reaches each answer, by result and quantity."""
+        return {
+            (result, quantity): of
+            for result in scene.results
+            for quantity, of in giving(result).results[result](scene).items()
+        }
+
+    def seconds(self, scene: Scene) -> tuple[int, float]:
+        """How many times are not known, and the sum of those that are."""
+        costs = [self._seconds_of(scene, name) for name in self.stages]
+        return costs.count(None), sum(cost for cost in costs if cost is not None)
+
+    def _seconds_of(self, scene: Scene, name: str) -> float | None:
+        """Time of a stage; candidates share their sections, and so most of their times."""
+        stage = STAGES[name]
+        near = (stage, *(STAGES[need] for need in stage.needs(scene)))
+        sections = dict.fromkeys(section for one in near for section in one.sections(scene))
+        place = name, *((section, id(getattr(scene, section))) for section in sections)
+        if place not in self.times:
+            self.times[place] = expected_seconds(scene, name, self.cases)
+        return self.times[place]
+
+    def worthwhile(self, name: str, alternatives: list[Any]) -> list[Any]:
+        """Alternatives of a section that no other one beats in time and in every error."""
+        rated = []
+        for section in alternatives:
+            scene = self.with_sections({name: section})
+            links = self.links(scene)
+            errors = (
+                _or_infinite(total(contributions(scene, *place, of, self.known)))
+                for place, of in links.items()
+            )
+            rated.append((section, links, (*map(float, self.seconds(scene)), *errors)))
+        return [
+            one
+            for k, (one, links, rating) in enumerate(rated)
+            if not any(
+                other == links
+                and all(a <= b for a, b in zip(theirs, rating))
+                and (theirs != rating or j < k)
+                for j, (_, other, theirs) in enumerate(rated)
+                if j != k
+            )
+        ]
+
+    def best(self, alternatives: dict[str, list[Any]]) -> tuple[Scene, str]:
+        """The cheapest combination that is accurate enough, and why."""
+        picked, errors = self._candidates(alternatives)
+        allowed = np.array([self.scene.allowed(result) for result, _ in self.links(self.scene)])
+        missing = np.isnan(errors).sum(axis=1)
+        fewest = np.flatnonzero(missing == missing.min())
+        left = np.nan_to_num(errors[fewest])
+        least = left.min(axis=0, initial=np.inf)
+        beyond = least > allowed
+        excess = ((left - np.where(beyond, least, 0.0)) / allowed).max(axis=1, initial=0.0)
+        good = np.flatnonzero(excess <= 1.0 + 1e-9)
+        why = "cheapest that is accurate enough" if good.size else "most accurate that was measured"
+        if beyond.any():
+            why = "cheapest beside what cannot be helped"
+        if missing.min():
+            why += ", by the errors that are known"
+
+        def scene_of(k: int) -> Scene:
+            return self.with_sections(dict(zip(alternatives, picked[fewest[k]])))
+
+        def rank(k: int) -> tuple[tuple[float, float], float]:
+            cost = self.seconds(scene_of(k)) if good.size else (0.0, float(excess[k]))
+            return cost, float(left[k].sum())
+
+        best = min(good.tolist() or range(fewest.size), key=rank)
+        return scene_of(best), why
+
+    def _candidates(self, alternatives: dict[str, list[Any]]) -> tuple[list[Any], Floats]:
+        """All combinations, and their errors (n, answers); NaN where one is not measured.
+
+        A link's share depends on one section. Where the links themselves depend on a section, as on
+        that of a film that moves, its alternatives are gone through one by one.
+        """
+        plain = self.links(self.scene)
+        forking = {
+            name: found
+            for name, found in alternatives.items()
+            if any(self.links(self.with_sections({name: one})) != plain for one in found)
+        }
+        others = {name: found for name, found in alternatives.items() if name not in forking}
+        combined, errors = [], []
+        for fork in product(*forking.values()):
+            fixed = dict(zip(forking, fork))
+            scene = self.with_sections(fixed)
+            links = self.links(scene)
+            table = np.zeros((1, len(links)))
+            for name, found in others.items():
+                own = [
+                    self._shares(self.with_sections(fixed | {name: one}), links, name)
+                    for one in found
+                ]
+                table = (table[:, None] + np.array(own)).reshape(-1, len(links))
+            held = {*forking, *({rungs.section for rungs in models().values()} - {*others})}
+            for name in held:
+                table = table + self._shares(scene, links, name)
+            errors.append(table)
+            for rest in product(*others.values()):
+                whole = fixed | dict(zip(others, rest))
+                combined.append(tuple(whole[name] for name in alternatives))
+        return combined, np.concatenate(errors)
+
+    def _shares(
+        self, scene: Scene, links: dict[tuple[str, str], tuple[Link, ...]], section: str
+    ) -> Floats:
+        """What the links to models of one section bring to each answer."""
+        found = [
+            total(
+                part
+                for link in of
+                if models()[link.model].section == section
+                for part in _of_link(scene, *place, link, self.known)
+            )
+            for place, of in links.items()
+        ]
+        return np.array([np.nan if share is None else share for share in found])
+
+
+def _or_infinite(error: float | None) -> float:
+    return float("inf") if error is None else error
+
+
+def _holds(scene: Scene, errors: Errors) -> bool:
+    return all(
+        error is not None and error <= scene.allowed(result)
+        for result, found in errors.items()
+        for error in found.values()
+    )
+
+
+# --- what is short of the accuracy, and what would help ------------------------------------------
+
+
+def shortfalls(wanted: Scene, choice: Choice) -> list[str]:
+    """Say of each answer that is not expected to hold the accuracy how far off it is, and why.
+
+    Parameters
+    ----------
+    wanted : Scene
+        As the user wrote it.
+    choice : Choice
+        What was chosen.
+
+    Returns
+    -------
+    list of str
+        A sentence for each result: its worst quantity, what adds most, what would help.
     """
-    around, across = scene.journal.grid
-    settings: dict[str, Any] = {}
-    if stage == "journal" and 2 * around <= FINEST_GRID:
-        settings = {"rung": "grid", "grid": (2 * around, 2 * across)}
-    elif stage == "loads" and rung_of(scene, "loads") not in ("files", finest(scene)):
-        settings = {"rung": finest(scene)}
-    elif stage == "rolling" and scene.rolling.rings == "rigid":
-        settings = {"rings": "flexible"}
-    elif stage == "reduction" and scene.reduction.size < 1.0:
-        settings = {"size": min(1.0, 2 * scene.reduction.size)}
-    return with_settings(scene, stage, settings) if settings else None
+    said = []
+    for result, errors in choice.errors.items():
+        allowed = wanted.allowed(result)
+        links = giving(result).results[result](choice.scene)
+        missing = [quantity for quantity, error in errors.items() if error is None]
+        over = {q: e for q, e in errors.items() if e is not None and e > allowed}
+        if missing:
+            parts = [
+                *contributions(
+                    choice.scene, result, missing[0], links[missing[0]], choice.estimates
+                )
+            ]
+            unknown = [part.model for part in parts if part.share is None]
+            said.append(
+                f"{result}: {', '.join(missing)} not known to hold: "
+                f"{_rung_in_words(choice.scene, unknown[0])} was not measured"
+            )
+        if over:
+            worst = max(over, key=over.__getitem__)
+            parts = [*contributions(choice.scene, result, worst, links[worst], choice.estimates)]
+            most = max(parts, key=lambda part: part.share or 0.0)
+            sizes = ", ".join(f"{q} by up to {100 * e:.2g} %" for q, e in over.items())
+            said.append(
+                f"{result}: off in {sizes}, {_asked(wanted, allowed)}; most of it "
+                f"({100 * (most.share or 0.0):.2g} %): {_in_words(wanted, choice, most)}"
+            )
+    return said
 
 
-def climb(choice: Choice, stages: Iterable[str]) -> Choice:
-    """Return the choice with the model of a stage one better for each mention of it."""
+def _asked(wanted: Scene, allowed: float) -> str:
+    return f"asked for {100 * allowed:.2g} %" if allowed < float("inf") else "nothing asked"
+
+
+def _in_words(wanted: Scene, choice: Choice, part: Part) -> str:
+    effect = part.effect
+    if effect is None:
+        rungs = models()[part.model]
+        held = len(choices(wanted, rungs)) == 1
+        help_ = f"leave {rungs.section} to the plan" if held else "no finer one was measured"
+        return f"{_rung_in_words(choice.scene, part.model)}; what would help: {help_}"
+    if refused := choice.estimates.refused(effect):
+        return f"{effect.name} left out, as it failed on cases of this scene: {refused}"
+    return f"{effect.name} left out; what would help: {effect.needs}"
+
+
+def _rung_in_words(scene: Scene, model: str) -> str:
+    return f"{model} as {models()[model].text_of(scene)}"
+
+
+# --- refining where a run's own cases ask for it --------------------------------------------------
+
+
+def finer(scene: Scene, name: str) -> Scene | None:
+    """Return the scene with the next more accurate model, or with an effect on; None at the top."""
+    effect = _effect(name)
+    if effect is not None:
+        return None if effect.is_on(scene) else switched(scene, effect, True)
+    rungs = models().get(name)
+    return rungs.finer(scene) if rungs else None
+
+
+def refine(choice: Choice, names: Iterable[str]) -> Choice:
+    """Return the choice with a model one better, or an effect on, for each mention of it."""
     scene, reasons = choice.scene, dict(choice.reasons)
-    for stage in stages:
-        scene = finer(scene, stage) or scene
-        reasons[stage] = "climbed: the coarser model differs too much on cases of this run"
-    return replace(choice, scene=scene, reasons=reasons, errors=expected_errors(scene))
+    for name in names:
+        scene = finer(scene, name) or scene
+        reasons[_section(name)] = "refined: the coarser model differs too much on cases of this run"
+    errors = expected_errors(scene, choice.estimates)
+    return replace(choice, scene=scene, reasons=reasons, errors=errors)
 
 
-def may_climb(wanted: Scene, chosen: Scene, stage: str) -> bool:
-    """Whether a stage's model is the plan's to choose, and there is a better one."""
-    return stage in OPEN_STAGES and is_open(wanted, stage) and finer(chosen, stage) is not None
+def can_refine(wanted: Scene, chosen: Scene, name: str) -> bool:
+    """Whether a model or an effect is the plan's to choose, and there is a better one."""
+    if not wanted.asks:
+        return False
+    effect = _effect(name)
+    if effect is None and name not in models():
+        return False
+    is_open = effect.is_open(wanted) if effect else len(choices(wanted, models()[name])) > 1
+    return is_open and finer(chosen, name) is not None
+
+
+def _effect(name: str) -> Effect | None:
+    return next((effect for effect in EFFECTS if effect.name == name), None)
+
+
+def _section(name: str) -> str:
+    effect = _effect(name)
+    return effect.section if effect else models()[name].section

@@ -4,108 +4,76 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field
 from typing import Literal
 
 from loadflow import __version__
-from loadflow.planning.accuracy import choose, climb
-from loadflow.planning.ladder import expected_seconds, measured, rung_of
+from loadflow.planning.accuracy import AS_GIVEN, Choice, Errors, choose, refine, shortfalls
+from loadflow.planning.effects import Verdict, concerned, estimates
+from loadflow.planning.ladder import expected_seconds, measured
+from loadflow.planning.verification import CHECK
 from loadflow.scene.cases import Case, list_cases
 from loadflow.scene.scene import Scene
+from loadflow.stages.comparisons import OCCASIONS
+from loadflow.stages.effects.effect import Sizes
+from loadflow.stages.registry import STAGES, giving
+from loadflow.stages.stage import Rungs, Stage
 
 
-@dataclass(frozen=True)
-class Stage:
-    """One step of the flow.
-
-    Attributes
-    ----------
-    name : str
-        Name, also of its folder or file in a run.
-    needs : tuple of str
-        Stages whose results it reads.
-    scope : {"case", "run"}
-        Whether it runs once for each load case, or once over all of them.
-    sections : tuple of str
-        Sections of the scene that it depends on.
-    function : str
-        ``"module:function"``, imported when used.
-    sample : int, optional
-        Number of cases that it looks at, spread over all of them; default all.
-    """
-
-    name: str
-    needs: tuple[str, ...]
-    scope: Literal["case", "run"]
-    sections: tuple[str, ...]
-    function: str
-    sample: int | None = None
-
-
-_S = "loadflow.stages"
-CHECKED = ("loads", "shaft", "reduction", "journal", "rolling")
-"""Stages whose models are checked against the next better ones, where they run."""
-
-STAGES = {
-    stage.name: stage
-    for stage in (
-        Stage("loads", (), "case", ("turbine", "loads"), f"{_S}.loads:hub_loads"),
-        Stage("shaft", ("loads",), "case", ("shaft", "turbine"), f"{_S}.shaft:bearing_loads"),
-        Stage("statistics", ("loads", "shaft"), "case", (), f"{_S}.statistics:statistics"),
-        Stage("seeds", ("loads", "shaft"), "run", ("seeds",), f"{_S}.seeds:equality_of_seeds"),
-        Stage(
-            "reduction", ("loads", "shaft"), "case", ("reduction",), f"{_S}.reduction:reduced_loads"
-        ),
-        Stage("journal", ("reduction",), "case", ("journal",), f"{_S}.journal:film"),
-        Stage("rolling", ("reduction",), "case", ("rolling", "friction"), f"{_S}.rolling:balls"),
-        Stage(
-            "friction", ("loads", "shaft"), "case", ("rolling", "friction"), f"{_S}.friction:losses"
-        ),
-        Stage(
-            "check",
-            CHECKED,
-            "run",
-            ("accuracy",),
-            "loadflow.planning.verification:differences",
-            sample=3,
-        ),
-    )
-}
-
-_FILM_IN_MOTION = replace(
-    STAGES["journal"], needs=("loads", "shaft"), function=f"{_S}.journal:orbit"
-)
-"""It reads the whole series, not the reduced one."""
-
-_ON_BEARINGS = replace(STAGES["shaft"], sections=(*STAGES["shaft"].sections, "journal", "rolling"))
-"""The shaft rests on these bearings."""
-
-GIVEN_BY = {
-    "loads.statistics": "statistics",
-    "seeds.equality": "seeds",
-    "reduction.histogram": "reduction",
-    "journal.film": "journal",
-    "rolling.loads": "rolling",
-    "rolling.life": "rolling",
-    "rolling.friction": "friction",
-}
-"""Which stage gives a result."""
+def stage_named(name: str) -> Stage:
+    """Return a stage of the flow, or the check of its models."""
+    return CHECK if name == CHECK.name else STAGES[name]
 
 
 @dataclass(frozen=True)
 class Step:
-    """A stage as planned: rung, fingerprint, number of runs, expected cost.
+    """A stage as planned.
 
-    `seconds` and `error` are None where the ladder holds no measurement. `digest` changes when any
-    setting or input that the result depends on changes.
+    Attributes
+    ----------
+    name : str
+        Of the stage.
+    needs : tuple of str
+        Stages whose results it reads in this plan.
+    rung : str
+        Models of the stage, as the ladder calls them.
+    digest : str
+        Changes when any setting or input changes that the result depends on.
+    runs : int
+        How often it runs.
+    seconds : float, optional
+        Expected time on one core, s; None where not measured.
+    error : str, optional
+        Error of its rung in words, effects that are left out aside; None where not measured.
     """
 
-    stage: Stage
+    name: str
+    needs: tuple[str, ...]
     rung: str
     digest: str
     runs: int
     seconds: float | None
     error: str | None
+
+    @property
+    def stage(self) -> Stage:
+        """The stage itself."""
+        return stage_named(self.name)
+
+
+@dataclass(frozen=True)
+class EffectInPlan:
+    """An effect as planned: whether it is kept, and what leaving it out changes.
+
+    `size` is what a pilot measured, None without one; `indicator` the closed-form estimate; both by
+    quantity, the largest share by which an answer changes. `why` says why it is out or in.
+    """
+
+    name: str
+    kept: bool
+    size: Sizes | None
+    indicator: Sizes
+    why: str
 
 
 @dataclass(frozen=True)
@@ -123,11 +91,16 @@ class Plan:
     left_out : dict
         Why a stage does not run, by stage, and why an effect is not modelled, by effect.
     reasons : dict
-        Why a model was taken, by stage.
+        Why a model was taken, by section of the scene.
     errors : dict
-        Expected error of what users read, by result and quantity; None where not measured.
+        Expected error of what users read, by result and quantity, effects that are left out
+        counted; None where not measured.
     accurate : bool
         Whether the accuracy that the scene asks for is expected to hold.
+    effects : tuple of EffectInPlan
+        All effects that the stages could have.
+    shortfalls : tuple of str
+        For each result that is not expected to be accurate enough: how far off, why, what helps.
     """
 
     scene: Scene
@@ -135,23 +108,27 @@ class Plan:
     cases: tuple[Case, ...]
     left_out: dict[str, str]
     reasons: dict[str, str]
-    errors: dict[str, dict[str, float | None]]
+    errors: Errors
     accurate: bool
+    effects: tuple[EffectInPlan, ...] = ()
+    shortfalls: tuple[str, ...] = field(default=())
 
-    def of_scope(self, scope: str) -> Iterator[Step]:
+    def of_scope(self, scope: Literal["case", "run"]) -> Iterator[Step]:
         """Yield the steps of one scope, in the order of the flow."""
         return (step for step in self.steps if step.stage.scope == scope)
 
 
-def make_plan(scene: Scene, climbed: Iterable[str] = ()) -> Plan:
+def make_plan(scene: Scene, refined: Iterable[str] = (), verdict: Verdict | None = None) -> Plan:
     """Choose the stages that the wanted results need, and their models.
 
     Parameters
     ----------
     scene : Scene
         What is wanted.
-    climbed : iterable of str
-        Stages whose chosen model was found too coarse, once for each better model to take.
+    refined : iterable of str
+        Models and effects that were found too coarse or missing, once for each better one to take.
+    verdict : Verdict, optional
+        What a pilot of this scene measured; without it the indicators of the effects count.
 
     Returns
     -------
@@ -163,20 +140,17 @@ def make_plan(scene: Scene, climbed: Iterable[str] = ()) -> Plan:
     loadflow.errors.InputError
         The scene's load files do not exist or cannot be told apart.
     """
-    wanted = {GIVEN_BY[result] for result in scene.results}
-    stages = STAGES | {"journal": _FILM_IN_MOTION} if scene.journal.in_motion else STAGES
-    if scene.shaft.seated:
-        stages = stages | {"shaft": _ON_BEARINGS}
-    needed = set().union(*(_with_needs(name, stages) for name in wanted))
     cases = tuple(list_cases(scene))
-    choice = climb(choose(scene, needed, cases), climbed)
+    choice = chosen_models(scene, cases, refined, verdict)
+    needed = needed_stages(choice.scene)
     steps: dict[str, Step] = {}
-    for name, stage in stages.items():
+    for name, stage in STAGES.items():
         if name in needed:
-            steps[name] = _step(choice.scene, stage, cases, steps)
-    among = tuple(name for name in CHECKED if name in needed)
-    if {"reduction", "journal"} & needed:
-        steps["check"] = _step(choice.scene, replace(STAGES["check"], needs=among), cases, steps)
+            steps[name] = _step(choice.scene, stage, stage.needs(choice.scene), cases, steps)
+    if needed & {*OCCASIONS}:
+        among = tuple(name for name in CHECK.needs(scene) if name in needed)
+        steps[CHECK.name] = _step(choice.scene, CHECK, among, cases, steps)
+    effects = tuple(_effects(scene, choice, needed))
     return Plan(
         choice.scene,
         tuple(steps.values()),
@@ -185,71 +159,103 @@ def make_plan(scene: Scene, climbed: Iterable[str] = ()) -> Plan:
         choice.reasons,
         choice.errors,
         choice.met,
+        effects,
+        tuple(shortfalls(scene, choice)) if scene.asks else (),
     )
+
+
+def chosen_models(
+    scene: Scene,
+    cases: tuple[Case, ...],
+    refined: Iterable[str] = (),
+    verdict: Verdict | None = None,
+) -> Choice:
+    """Return the models of a plan, the rest of it aside."""
+    stages = needed_stages(scene)
+    known = estimates(scene, _in_order(stages), cases, verdict)
+    return refine(choose(scene, _in_order(stages), cases, known), refined)
+
+
+def needed_stages(scene: Scene) -> set[str]:
+    """Names of all stages that the wanted results need."""
+    found: set[str] = set()
+    todo = [giving(result).name for result in scene.results]
+    while todo:
+        name = todo.pop()
+        if name not in found:
+            found.add(name)
+            todo += STAGES[name].needs(scene)
+    return found
+
+
+def _in_order(names: set[str]) -> list[str]:
+    return [name for name in STAGES if name in names]
+
+
+def _effects(wanted: Scene, choice: Choice, needed: set[str]) -> Iterator[EffectInPlan]:
+    verdict = choice.estimates.verdict
+    for effect in concerned(choice.scene, _in_order(needed)):
+        kept = effect.is_on(choice.scene)
+        if not wanted.asks or not effect.is_open(wanted):
+            why = AS_GIVEN
+        elif refused := choice.estimates.refused(effect):
+            why = refused
+        elif not kept and effect.switched(wanted, True) is None:
+            why = f"it would need {effect.needs}"
+        else:
+            why = "the accuracy asks for it, or it costs nothing" if kept else "small enough"
+        yield EffectInPlan(
+            effect.name,
+            kept,
+            verdict.sizes.get(effect.name) if verdict else None,
+            choice.estimates.indicators.get(effect.name, {}),
+            why,
+        )
 
 
 def _left_out(scene: Scene, needed: set[str]) -> dict[str, str]:
     """Why stages, and effects of those that run, are left out."""
-    why = {name: "no wanted result needs it" for name in STAGES if name not in {*needed, "check"}}
-    if scene.loads.source == "files":
-        why["wind, rotor"] = "load series are given, nothing is simulated"
-    else:
-        why |= _left_out_of_rotor(scene)
-    if "journal" in needed:
-        if scene.journal.heat is None:
-            why["heat of the film"] = "no journal.heat; the run warns where it would matter"
-        if not scene.journal.in_motion:
-            why["motion of the film"] = (
-                'journal.motion = "quasi-static"; the run warns where the orbit differs'
-            )
-        if not scene.journal.tilt:
-            why["tilt of the shaft"] = "no journal.tilt: half the width of the film is solved"
-        if scene.journal.shell is None:
-            why["elastic shell"] = "no journal.shell"
-    if "rolling" in needed and scene.rolling.rings == "rigid":
-        why["elastic rings"] = 'rolling.rings = "rigid"'
-    return why
+    why = {name: "no wanted result needs it" for name in STAGES if name not in needed}
+    for name in _in_order(needed):
+        why |= STAGES[name].left_out(scene)
+    off = (one for one in concerned(scene, _in_order(needed)) if not one.is_on(scene))
+    return why | {effect.name: effect.out for effect in off}
 
 
-def _left_out_of_rotor(scene: Scene) -> dict[str, str]:
-    """Why effects of the simulated rotor are left out."""
-    loads, why = scene.loads, {}
-    if not loads.dynamic_inflow:
-        why["dynamic inflow"] = "no loads.dynamic_inflow: induction follows the load at once"
-    if not loads.dynamic_stall:
-        why["dynamic stall"] = "no loads.dynamic_stall: separation follows lift at once"
-    if loads.bend_twist == 0:
-        why["turn of blades bent both ways"] = "loads.bend_twist = 0"
-    return why
-
-
-def _with_needs(name: str, stages: dict[str, Stage]) -> set[str]:
-    return {name}.union(*(_with_needs(need, stages) for need in stages[name].needs))
-
-
-def _step(scene: Scene, stage: Stage, cases: tuple[Case, ...], done: dict[str, Step]) -> Step:
+def _step(
+    scene: Scene,
+    stage: Stage,
+    needs: tuple[str, ...],
+    cases: tuple[Case, ...],
+    done: dict[str, Step],
+) -> Step:
+    sections = stage.sections(scene)
     parts = [__version__, stage.name]
-    parts += [scene.digest(*stage.sections)] if stage.sections else []
-    parts += [done[need].digest for need in stage.needs]
-    if stage.name == "loads":
+    parts += [scene.digest(*sections)] if sections else []
+    parts += [done[need].digest for need in needs]
+    if not needs:
         parts += [f"{case.name}:{case.fingerprint}" for case in cases]
-    digest = hashlib.sha256("\n".join(parts).encode()).hexdigest()
-    rung, error = _model(scene, stage.name)
     return Step(
-        stage,
-        rung,
-        digest,
+        stage.name,
+        needs,
+        " in ".join(rungs.text_of(scene) for rungs in reversed(_worth_naming(stage, scene))) or "-",
+        hashlib.sha256("\n".join(parts).encode()).hexdigest(),
         1 if stage.scope == "run" else len(cases),
         expected_seconds(scene, stage.name, cases),
-        error,
+        _error(scene, stage),
     )
 
 
-def _model(scene: Scene, stage: str) -> tuple[str, str | None]:
-    """Model of a stage and its error in words; loads may be those in a wind that is made."""
-    rung, error = rung_of(scene, stage), (measured(scene, stage) or {}).get("error")
-    if stage != "loads" or not scene.loads.makes_wind:
-        return rung, error
-    wind = (measured(scene, "wind") or {}).get("error")
-    both = f"{error}; wind: {wind}" if error and wind else None
-    return f"{rung} in {rung_of(scene, 'wind')}", both
+def _worth_naming(stage: Stage, scene: Scene) -> list[Rungs]:
+    """Models of a stage: its own, and the others where there is something to choose."""
+    return [one for one in stage.models if one is stage.models[-1] or not one.exact(scene)]
+
+
+def _error(scene: Scene, stage: Stage) -> str | None:
+    """Errors of the stage's rungs in words; None if one of them is not known."""
+    named = _worth_naming(stage, scene)
+    found = [(rungs, (measured(scene, rungs.name) or {}).get("error")) for rungs in named]
+    if not found or not all(error for _, error in found):
+        return None
+    own, *others = reversed(found)
+    return "; ".join([str(own[1]), *(f"{rungs.name}: {error}" for rungs, error in others)])

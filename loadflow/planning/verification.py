@@ -1,6 +1,7 @@
 """A few cases of the run itself, solved again by the next better models.
 
-The ladder tells the error of a model on its own set of cases; this tells it on the user's.
+The ladder tells the error of a model on its own set of cases, the pilot that of an effect on a few
+of the run's; this tells both on others.
 """
 
 from __future__ import annotations
@@ -11,9 +12,10 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from loadflow.planning.comparisons import Difference, compare
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
+from loadflow.stages.comparisons import READ, Difference, compare
+from loadflow.stages.stage import Stage, always
 
 WARN = 0.05
 """Relative change above which a run warns, where its scene asks for no accuracy."""
@@ -41,7 +43,7 @@ def differences(scene: Scene, cases: list[Case], inputs: Mapping[str, Any]) -> x
 
 
 def exceeded(tree: xr.DataTree) -> list[str]:
-    """Return the stages that differ from the better model by more than the accuracy asked for."""
+    """Return the models and effects that differ by more than the accuracy asked for."""
     if "check" not in tree.children:
         return []
     check = tree["check"].to_dataset()
@@ -69,5 +71,17 @@ def warnings(tree: xr.DataTree) -> list[str]:
 
 
 def _allowed(scene: Scene, row: Difference) -> float:
-    allowed = scene.allowed_error(row.result)
-    return np.nan if allowed is None else allowed
+    allowed = scene.allowed(row.result)
+    return allowed if np.isfinite(allowed) else np.nan
+
+
+CHECK = Stage(
+    "check",
+    run=differences,
+    needs=always(*READ),
+    scope="run",
+    sections=always("accuracy"),
+    warnings=warnings,
+    sample=3,
+)
+"""The last step of a plan that has a bearing; it reads of `READ` what there is."""

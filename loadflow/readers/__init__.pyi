@@ -1,6 +1,10 @@
+from .aliases import read_channels as read_channels
 from .bladed import read_bladed as read_bladed
 from .csv_text import read_csv as read_csv
+from .doubts import find_doubts as find_doubts
+from .gtsdf import read_gtsdf as read_gtsdf
 from .hawc2 import read_hawc2 as read_hawc2
+from .loads import list_names as list_names
 from .loads import read_loads as read_loads
 from .openfast import read_openfast as read_openfast
 from .registry import READERS as READERS

@@ -16,21 +16,21 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from loadflow.errors import InputError
-from loadflow.readers.table import Channels, Table, to_series
+from loadflow.readers.aliases import (
+    COMPONENTS,
+    GAUGE,
+    POWER,
+    Aliases,
+    Channels,
+    Frame,
+    aliases,
+    read_channels,
+)
+from loadflow.readers.series import to_series
+from loadflow.readers.table import Table
+from loadflow.readers.text import read_text
 
-CHANNELS: dict[str, tuple[str, ...]] = {
-    "speed": ("Rotor speed",),
-    "pitch": ("Blade 1 pitch angle", "Pitch angle"),
-    "azimuth": ("Rotor azimuth angle",),
-    "wind": ("Hub wind speed magnitude", "Longitudinal wind speed at hub position"),
-    "hub_force_x": ("Stationary hub Fx",),
-    "hub_force_y": ("Stationary hub Fy",),
-    "hub_force_z": ("Stationary hub Fz",),
-    "hub_moment_x": ("Stationary hub Mx",),
-    "hub_moment_y": ("Stationary hub My",),
-    "hub_moment_z": ("Stationary hub Mz",),
-}
-UNITS = {"F": "N", "FL": "N m", "A": "rad", "A/T": "rad/s", "L/T": "m/s", "T": "s"}
+UNITS = {"F": "N", "FL": "N m", "A": "rad", "A/T": "rad/s", "L/T": "m/s", "T": "s", "P": "W"}
 """Bladed writes SI units, as dimensions: F force, L length, A angle, T time."""
 TYPES = {"R*4": "<f4", "R*8": "<f8", "I*4": "<i4"}
 
@@ -63,23 +63,30 @@ def read_bladed(
     path: str | os.PathLike[str],
     channels: Channels | None = None,
     gauge_distance: float | None = None,
+    frame: Frame = "auto",
 ) -> xr.Dataset:
     """Read one Bladed run.
+
+    Of the groups of the run only those are read that hold a wanted channel over time.
 
     Parameters
     ----------
     path : path
-        Any file of the run; all groups of series beside it are read.
+        Any file of the run; the groups of series beside it belong to it.
     channels : mapping, optional
-        Channels to use instead of those of `CHANNELS`, by component of the cube.
+        Channels to use instead of those of ``channels.toml``, by component of the cube. ``"#7"``
+        counts the channels of the groups that are read.
     gauge_distance : float, optional
-        Not used here; all readers are called alike.
+        Distance from the rotor apex to where ``gauge_moment_y`` and ``_z`` were taken, m.
+    frame : {"auto", "fixed", "rotating"}
+        Frame of the y and z channels; "auto" takes those of the stationary hub, else those of the
+        rotating one.
 
     Returns
     -------
     xarray.Dataset
-        Variables over time from 0, in SI units, single precision; scalar coordinates ``file``
-        and ``file_start``.
+        Variables over time from 0, in SI units, single precision; scalar coordinates ``file``,
+        ``file_start`` and ``doubts``.
 
     Raises
     ------
@@ -88,10 +95,28 @@ def read_bladed(
         channel.
     """
     run = Path(path).with_suffix("")
+    known = aliases("bladed")
     headers = sorted(p for p in run.parent.glob("*.%*") if p.with_suffix("") == run)
-    groups = [group for header in headers if (group := _read_group(header)) is not None]
-    if not groups:
+    if not headers:
         raise InputError(f"{run}: no header (.%01, …) of a group of series")
+    wanted = _wanted(known, channels or {})
+    groups: list[Group] = []
+    faults: list[str] = []  # of headers that cannot be read: they matter if a channel is missing
+    seen: list[str] = []
+    for header in headers:
+        try:
+            entries = _entries(header)
+        except InputError as error:
+            faults.append(str(error))
+            continue
+        names = _names(entries)
+        seen += names
+        if _over_time(entries) and (wanted is None or wanted & set(names)):
+            groups.append(_read_group(header, entries))
+    told = "".join(f"; {fault}" for fault in faults)
+    if not groups:
+        have = f"the groups have {', '.join(seen[:60])}"
+        raise InputError(f"{run}: no group over time holds a wanted channel; {have}{told}")
     first = groups[0]
     for group in groups[1:]:
         if (group.start, group.step, len(group.values)) != (
@@ -107,17 +132,48 @@ def read_bladed(
         tuple(unit for group in groups for unit in group.units),
         np.hstack([group.values for group in groups]),
     )
-    return to_series(table, {**CHANNELS, **(channels or {})})
-
-
-def _read_group(header: Path) -> Group | None:
-    """Read a group; None where it has more dimensions than channel and time."""
-    entries = _entries(header)
     try:
-        if int(entries["NDIMENS"]) != 2 or "time" not in entries["AXISLAB"].lower():
-            return None
+        return to_series(table, known, channels, gauge_distance, frame)
+    except InputError as error:
+        raise InputError(f"{error}{told}") from None
+
+
+def _wanted(known: Aliases, channels: Channels) -> set[str] | None:
+    """Names of channels that may be used; None where a number may mean any."""
+    own = read_channels(channels)
+    keys = (*COMPONENTS, *GAUGE.values(), POWER)
+    tables = (own, known.fixed, known.rotating)
+    names = {name.removeprefix("-") for key in keys for t in tables for name in t.get(key, ())}
+    return None if any(name.startswith("#") for name in names) else names
+
+
+def _over_time(entries: dict[str, str]) -> bool:
+    """Whether a group is of series: channels over time, and nothing else."""
+    axis = entries["AXISLAB"].strip("' \"").casefold()
+    unit = entries.get("AXIUNIT", "T").strip("' \"").upper()
+    return entries["NDIMENS"] == "2" and axis.startswith("time") and unit == "T"
+
+
+def _names(entries: dict[str, str]) -> tuple[str, ...]:
+    """Return the names of the channels: in quotes, or else parted by tabs or several blanks."""
+    text = entries["VARIAB"]
+    if "'" in text:
+        return tuple(re.findall(r"'([^']*)'", text))
+    splits = (re.split(r"\t+|\s{2,}", text), text.split())
+    count = _count(entries)
+    return next((tuple(parts) for parts in splits if len(parts) == count), (text,))
+
+
+def _count(entries: dict[str, str]) -> int:
+    first = entries.get("DIMENS", "").split()[:1]
+    return int(first[0]) if first and first[0].isdigit() else 0
+
+
+def _read_group(header: Path, entries: dict[str, str]) -> Group:
+    """Read a group of series."""
+    try:
         count, steps = (int(n) for n in entries["DIMENS"].split())
-        names = tuple(re.findall(r"'([^']*)'", entries["VARIAB"]))
+        names = _names(entries)
         units = tuple(UNITS.get(code, code) for code in entries["VARUNIT"].split())
         start, step = float(entries["MIN"]), float(entries["STEP"])
     except (KeyError, ValueError) as error:
@@ -125,7 +181,8 @@ def _read_group(header: Path) -> Group | None:
     if not len(names) == len(units) == count:
         raise InputError(f"{header}: {count} channels, {len(names)} names, {len(units)} units")
     data = header.with_suffix(header.suffix.replace("%", "$"))
-    values = _read_values(data, entries.get("ACCESS", "D"), entries.get("FORMAT", "R*4"))
+    access, form = entries.get("ACCESS", "D"), entries.get("FORMAT", "R*4")
+    values = _read_values(data, access, form)
     if values.size != count * steps:
         raise InputError(
             f"{data}: {values.size} values where its header says {count} × {steps}; truncated?"
@@ -134,10 +191,16 @@ def _read_group(header: Path) -> Group | None:
 
 
 def _entries(header: Path) -> dict[str, str]:
-    """Return the entries of a header, one keyword in a line."""
-    lines = header.read_text(errors="replace").splitlines()
-    pairs = (line.split(None, 1) for line in lines)
-    return {pair[0]: pair[1].strip() for pair in pairs if len(pair) == 2}
+    """Return the entries of a header, one keyword in a line; the first of several counts."""
+    entries: dict[str, str] = {}
+    for line in read_text(header).splitlines():
+        pair = line.split(None, 1)
+        if len(pair) == 2:
+            entries.setdefault(pair[0], pair[1].strip())
+    absent = [key for key in ("NDIMENS", "VARIAB", "AXISLAB") if key not in entries]
+    if absent:
+        raise InputError(f"{header}: no Bladed header, or truncated: no {', '.join(absent)}")
+    return entries
 
 
 def _read_values(path: Path, access: str, form: str) -> NDArray[np.float64]:
@@ -145,7 +208,7 @@ def _read_values(path: Path, access: str, form: str) -> NDArray[np.float64]:
         raise InputError(f"{path}: no such file; a Bladed group needs .% and .$")
     if access == "S":
         try:
-            return np.array(path.read_text().split(), dtype=float)
+            return np.array(read_text(path).split(), dtype=float)
         except ValueError as error:
             raise InputError(f"{path}: {error}") from None
     if form not in TYPES:

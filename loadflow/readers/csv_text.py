@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import re
 from dataclasses import replace
+from io import StringIO
 from pathlib import Path
 
 import numpy as np
@@ -13,9 +14,11 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from loadflow.errors import InputError
-from loadflow.readers.table import COMPONENTS, Channels, Table, to_series
+from loadflow.readers.aliases import Channels, Frame, aliases
+from loadflow.readers.series import to_series
+from loadflow.readers.table import Table
+from loadflow.readers.text import read_text
 
-CHANNELS = {name: name for name in COMPONENTS}
 HEADING = re.compile(r"^\s*(?P<name>[^\[\(]+?)\s*(?:[\[\(](?P<unit>[^\]\)]*)[\]\)])?\s*$")
 
 
@@ -23,6 +26,7 @@ def read_csv(
     path: str | os.PathLike[str],
     channels: Channels | None = None,
     gauge_distance: float | None = None,
+    frame: Frame = "auto",
 ) -> xr.Dataset:
     """Read one CSV file.
 
@@ -38,13 +42,16 @@ def read_csv(
         Component of the cube → name of the column, where it is named otherwise. A leading minus
         turns the sign.
     gauge_distance : float, optional
-        Not used here; all readers are called alike.
+        Distance from the rotor apex to where ``gauge_moment_y`` and ``_z`` were taken, m.
+    frame : {"auto", "fixed", "rotating"}
+        "rotating" where the y and z columns turn with blade 1; they are turned back with the
+        azimuth. "auto" takes them as they are.
 
     Returns
     -------
     xarray.Dataset
-        Variables over time from 0, in SI units, single precision; scalar coordinates ``file``
-        and ``file_start``.
+        Variables over time from 0, in SI units, single precision; scalar coordinates ``file``,
+        ``file_start`` and ``doubts``.
 
     Raises
     ------
@@ -52,25 +59,33 @@ def read_csv(
         No such file, empty, column or unit missing, a field that is no number, irregular time.
     """
     table = read_table(Path(path))
-    return to_series(table, {**CHANNELS, **(channels or {})})
+    return to_series(table, aliases("csv"), channels, gauge_distance, frame)
+
+
+def is_series(path: Path) -> bool:
+    """Whether the heading of a CSV file has a column of the time, as a load series has."""
+    with path.open("rb") as file:
+        start = file.read(2**16).decode("latin-1")
+    lines = (line for line in start.splitlines() if line.strip() and line[0] != "#")
+    return re.search(r"(?:^|[,;\t])[ \"]*time\b", next(lines, "")) is not None
 
 
 def read_table(path: Path) -> Table:
     """Read all columns of a CSV file as they are."""
     if not path.is_file():
         raise InputError(f"{path}: no such file")
-    columns, separator = _columns(path)
+    text = read_text(path)
+    columns, separator = _columns(text, path)
     try:
         frame = pd.read_csv(
-            path,
+            StringIO(text),
             sep=separator,
             comment="#",
-            encoding="utf-8-sig",
             header=0,
             names=range(len(columns)),
             index_col=False,
         )
-    except pd.errors.ParserError as error:
+    except (pd.errors.ParserError, ValueError) as error:
         raise InputError(f"{path}: cannot be read as CSV: {error}") from None
     if frame.empty:
         raise InputError(f"{path}: the file has a heading but no time step")
@@ -84,13 +99,10 @@ def read_table(path: Path) -> Table:
     return replace(table, stamps=table.series("time", "s"))
 
 
-def _columns(path: Path) -> tuple[list[str], str]:
+def _columns(text: str, path: Path) -> tuple[list[str], str]:
     """Return the fields of the heading, and the separator, which it has most of."""
-    try:
-        with path.open(encoding="utf-8-sig") as file:
-            heading = next((line for line in file if line.strip() and line[0] != "#"), "")
-    except UnicodeDecodeError as error:
-        raise InputError(f"{path}: the file is no text ({error})") from None
+    lines = (line for line in text.splitlines() if line.strip() and line[0] != "#")
+    heading = next(lines, "")
     if not heading:
         raise InputError(f"{path}: the file is empty")
     separator = max(",;\t", key=heading.count)

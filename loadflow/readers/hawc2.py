@@ -16,9 +16,10 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from loadflow.errors import InputError
-from loadflow.readers.table import Channels, Table, to_series
-
-CHANNELS = {"speed": ("Omega", "bea1 angle_speed", "shaft_rot angle speed")}
+from loadflow.readers.aliases import Channels, Frame, aliases
+from loadflow.readers.series import to_series
+from loadflow.readers.table import Table
+from loadflow.readers.text import number_rows, read_text
 
 
 @dataclass(frozen=True)
@@ -31,7 +32,7 @@ class Header:
         Number of time steps, and their length together, s.
     binary : bool
         Whether the ``.dat`` file holds 16-bit integers.
-    names, units : tuple of str
+    names, units, descriptions : tuple of str
         Of each channel.
     scales : ndarray, shape (channels,)
         Factors of binary channels; empty for text.
@@ -42,6 +43,7 @@ class Header:
     binary: bool
     names: tuple[str, ...]
     units: tuple[str, ...]
+    descriptions: tuple[str, ...]
     scales: NDArray[np.float64]
 
 
@@ -49,6 +51,7 @@ def read_hawc2(
     path: str | os.PathLike[str],
     channels: Channels | None = None,
     gauge_distance: float | None = None,
+    frame: Frame = "auto",
 ) -> xr.Dataset:
     """Read one HAWC2 run.
 
@@ -57,16 +60,19 @@ def read_hawc2(
     path : path
         The ``.sel`` or the ``.dat`` file; the other one lies beside it.
     channels : mapping
-        Component of the cube → name of the channel, or ``"#7"`` for channel 7 of the list; a
-        leading minus turns the sign.
+        Component of the cube → name of the channel, words of its description, or ``"#7"`` for
+        channel 7 of the list; a leading minus turns the sign.
     gauge_distance : float, optional
-        Not used here; all readers are called alike.
+        Distance from the rotor apex to where ``gauge_moment_y`` and ``_z`` were taken, m.
+    frame : {"auto", "fixed", "rotating"}
+        "rotating" where the body turns with the rotor, as the shaft of the DTU 10 MW and IEA
+        turbines does; y and z channels are turned back with the azimuth (``shaft_rot angle``).
 
     Returns
     -------
     xarray.Dataset
-        Variables over time from 0, in SI units, single precision; scalar coordinates ``file``
-        and ``file_start``.
+        Variables over time from 0, in SI units, single precision; scalar coordinates ``file``,
+        ``file_start`` and ``doubts``.
 
     Raises
     ------
@@ -80,12 +86,20 @@ def read_hawc2(
             raise InputError(f"{file}: no such file; a HAWC2 run needs .sel and .dat")
     header = _read_header(listing)
     values = _read_binary(data, header) if header.binary else _read_text(data, header)
-    table = Table(str(data), _stamps(data, values, header), header.names, header.units, values)
-    return to_series(table, {**CHANNELS, **(channels or {})})
+    stamps = _stamps(data, values, header)
+    table = Table(
+        str(data), stamps, header.names, header.units, values, descriptions=header.descriptions
+    )
+    return to_series(table, aliases("hawc2"), channels, gauge_distance, frame)
+
+
+def is_series(path: Path) -> bool:
+    """Whether a file has its list: what ends in ``.dat`` may be anything, as decks of OpenFAST."""
+    return path.with_suffix(".sel").exists()
 
 
 def _read_header(path: Path) -> Header:
-    lines = path.read_text(errors="replace").splitlines()
+    lines = read_text(path).splitlines()
     at = next(
         (i for i, line in enumerate(lines) if line.split()[:2] == ["Scans", "Channels"]), None
     )
@@ -105,7 +119,8 @@ def _read_header(path: Path) -> Header:
         raise InputError(f"{path}: no list of HAWC2 channels, or truncated: {error}") from None
     names = tuple(row[12:43].strip() for row in rows)
     units = tuple(row[43:54].strip() for row in rows)
-    return Header(int(scans), float(duration), binary, names, units, np.array(numbers))
+    described = tuple(row[54:].strip() for row in rows)
+    return Header(int(scans), float(duration), binary, names, units, described, np.array(numbers))
 
 
 def _scales(lines: list[str]) -> list[float]:
@@ -125,13 +140,10 @@ def _read_binary(path: Path, header: Header) -> NDArray[np.float64]:
 
 
 def _read_text(path: Path, header: Header) -> NDArray[np.float64]:
-    try:
-        values: NDArray[np.float64] = np.loadtxt(path, ndmin=2, dtype=float)
-    except ValueError as error:
-        raise InputError(f"{path}: {error}") from None
-    if values.shape != (header.scans, len(header.names)):
+    values = number_rows(read_text(path).splitlines(), 0, len(header.names), path, "its list has")
+    if len(values) != header.scans:
         raise InputError(
-            f"{path}: {values.shape[0]} × {values.shape[1]} values where its list says "
+            f"{path}: {len(values)} × {len(header.names)} values where its list says "
             f"{header.scans} × {len(header.names)}; truncated?"
         )
     return values

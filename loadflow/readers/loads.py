@@ -5,6 +5,7 @@ from __future__ import annotations
 import glob
 import hashlib
 import os
+import warnings
 from collections.abc import Iterable
 from dataclasses import asdict
 from pathlib import Path
@@ -12,10 +13,11 @@ from pathlib import Path
 import xarray as xr
 
 from loadflow.cube import CASE_COORDS, case_name, make_cube
-from loadflow.errors import InputError
-from loadflow.readers.names import CaseLabel, label_from_name, read_case_list
+from loadflow.errors import InputError, ValidityWarning
+from loadflow.readers.aliases import Channels, Frame, read_channels
+from loadflow.readers.doubts import with_doubts
+from loadflow.readers.names import CaseLabel, compile_pattern, label_from_name, read_case_list
 from loadflow.readers.registry import READERS, find_reader
-from loadflow.readers.table import Channels
 
 Files = str | os.PathLike[str] | Iterable[str | os.PathLike[str]]
 
@@ -25,8 +27,10 @@ def read_loads(
     turbine: str = "nrel-5mw",
     cases: str | os.PathLike[str] | None = None,
     pattern: str | None = None,
-    channels: Channels | None = None,
+    channels: Channels | str | os.PathLike[str] | None = None,
     gauge_distance: float | None = None,
+    frame: Frame = "auto",
+    quiet: bool = False,
 ) -> xr.Dataset | xr.DataTree:
     """Read load series of OpenFAST, HAWC2, Bladed or CSV files into a load cube.
 
@@ -35,41 +39,124 @@ def read_loads(
     files : path, str or iterable of these
         Files, folders, or shell patterns such as ``"runs/*.outb"``.
     turbine : str
-        Turbine the series belong to, kept as an attribute.
+        Turbine the series belong to, kept as an attribute. Weight, power and speed are compared
+        with it.
     cases : path, optional
         List of cases, CSV with columns file, dlc, wind_speed, seed, weight; it must name every
         file. What it leaves open is left open, whatever the names say.
     pattern : str, optional
         How names of files tell the case: a regular expression with groups ``dlc``,
         ``wind_speed`` and ``seed``, or a template such as ``"run_{dlc}_{wind_speed}_{seed}"``.
-        The default understands ``nrel5mw_dlc11_v04_s1`` and ``nrel5mw_steady_v12``. What remains
-        unknown becomes load case ``unknown``, the mean wind of the series, and a running seed.
-    channels : mapping, optional
+        The default understands the usual forms; `list_names` shows what it understands. What
+        remains unknown becomes load case ``unknown``, the mean wind of the series, and a running
+        seed.
+    channels : mapping, path or str, optional
         Component of the cube (``speed``, ``hub_force_x``, …) → channel of the files, where a
-        leading minus turns the sign. Needed for HAWC2, whose files do not tell the frame.
+        leading minus turns the sign; or a TOML file of them, see `read_channels`. Needed for
+        HAWC2, whose files do not tell the frame.
     gauge_distance : float, optional
         Distance from the rotor apex to the shaft strain gauge, m; see `read_openfast`.
+    frame : {"auto", "fixed", "rotating"}
+        Whether y and z channels turn with blade 1 and are to be turned back with the azimuth.
+        "auto" goes by the names of the channels where they tell it (OpenFAST, Bladed).
+    quiet : bool
+        Whether doubts are only kept in the coordinate ``doubts``, and not warned of.
 
     Returns
     -------
     xarray.Dataset or xarray.DataTree
-        The cube: a Dataset where all series have one length and step, else one for each.
+        The cube: a Dataset where all series have one length and step, else one for each. On
+        ``case`` stand ``doubts`` (text, a line each: what does not fit turbine, frame, unit or
+        step) and ``standing_share`` (share of the time standing or idling).
 
     Raises
     ------
     loadflow.errors.InputError
         No file, a file that is not sound or not in the list, or two files that hold one case.
+
+    Warns
+    -----
+    loadflow.errors.ValidityWarning
+        For each file with doubts.
     """
     paths = find_files(files)
     listed = read_case_list(cases) if cases is not None else {}
+    own = None if channels is None else read_channels(channels)
     register = _Register()
     labelled = []
     for path in paths:
-        series = find_reader(path).load()(path, channels=channels, gauge_distance=gauge_distance)
-        label = label_from_name(path, pattern) if cases is None else _listed(path, listed, cases)
+        read = find_reader(path).load()
+        series = read(path, channels=own, gauge_distance=gauge_distance, frame=frame)
+        label = _label(path, pattern, listed, cases)
         case = _labelled(series, register.complete(label, series, path))
+        case = with_doubts(case, turbine)
+        doubts = str(case["doubts"].item())
+        if doubts and not quiet:
+            warnings.warn(f"{path}: {doubts}", ValidityWarning, stacklevel=2)
         labelled.append(case.assign_attrs(turbine=turbine))
     return make_cube(labelled)
+
+
+def list_names(
+    files: Files,
+    pattern: str | None = None,
+    cases: str | os.PathLike[str] | None = None,
+) -> list[tuple[str, CaseLabel]]:
+    """Return what the names of files say of their load cases; nothing is read.
+
+    Parameters
+    ----------
+    files : path, str or iterable of these
+        Files, which need not exist; folders and shell patterns stand for what they hold.
+    pattern : str, optional
+        As in `read_loads`; a name that does not fit says nothing.
+    cases : path, optional
+        List of cases that stands above the names; a file that it does not name says nothing.
+
+    Returns
+    -------
+    list of (str, CaseLabel)
+        File, and what is known of it: None where nothing is.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        No file, a malformed pattern or list, or a folder without load files.
+
+    Examples
+    --------
+    >>> [(file, label)] = list_names("DLC1.3_ws11.4_seed3.outb")
+    >>> label.dlc, label.wind_speed, label.seed
+    ('1.3', 11.4, 3)
+    """
+    entries = [files] if isinstance(files, str | os.PathLike) else list(files)
+    if not entries:
+        raise InputError("no load file was given")
+    if pattern is not None:
+        compile_pattern(pattern)
+    listed = read_case_list(cases) if cases is not None else {}
+    found = []
+    for path in (path for entry in entries for path in _meant(Path(entry))):
+        try:
+            label = _label(path, pattern, listed, cases)
+        except InputError:
+            label = CaseLabel()
+        found.append((str(path), label))
+    return found
+
+
+def _meant(entry: Path) -> list[Path]:
+    """Return what an entry stands for, or itself where nothing is there."""
+    if entry.is_dir() or (glob.has_magic(str(entry)) and not entry.exists()):
+        try:
+            inside = _expand(entry)
+        except InputError:
+            if entry.is_dir():
+                raise
+            return [entry]
+        runs = {p.with_suffix("") if find_reader(p).several_files else p: p for p in inside}
+        return sorted(runs.values())
+    return [entry]
 
 
 def find_files(files: Files) -> list[Path]:
@@ -96,9 +183,14 @@ def find_files(files: Files) -> list[Path]:
 
 def _expand(entry: Path) -> list[Path]:
     if entry.is_dir():
-        inside = sorted(p for p in entry.iterdir() if any(r.matches(p) for r in READERS))
+        fitting = sorted(p for p in entry.iterdir() if any(r.matches(p) for r in READERS))
+        inside = [p for p in fitting if find_reader(p).recognises(p)]
         if not inside:
             raise InputError(f"{entry}: the folder holds no load file")
+        if others := sorted({p.name for p in fitting} - {p.name for p in inside}):
+            told = ", ".join(others[:10]) + (", …" if len(others) > 10 else "")
+            message = f"{entry}: {len(others)} files are no load series, and left out: {told}"
+            warnings.warn(message, ValidityWarning, stacklevel=3)
         return inside
     if entry.exists():
         return [entry]
@@ -108,6 +200,16 @@ def _expand(entry: Path) -> list[Path]:
     if not matches:
         raise InputError(f"{entry}: no file matches")
     return matches
+
+
+def _label(
+    path: Path,
+    pattern: str | None,
+    listed: dict[str, CaseLabel],
+    cases: str | os.PathLike[str] | None,
+) -> CaseLabel:
+    """Return what the list says of a file, or its name where there is no list."""
+    return label_from_name(path, pattern) if cases is None else _listed(path, listed, cases)
 
 
 def _listed(path: Path, listed: dict[str, CaseLabel], cases: str | os.PathLike[str]) -> CaseLabel:
@@ -140,14 +242,14 @@ class _Register:
             seed = 1
             while label.wind_speed is None and case_name(dlc, wind_speed, seed) in self._names:
                 seed += 1
-        name = case_name(dlc, wind_speed, seed)
+        name = case_name(dlc, wind_speed, seed) + label.suffix
         if name in self._names:
             raise InputError(
                 f"{path}: case {name!r} is already in {self._names[name]}; tell them apart by "
                 "name or by a list of cases"
             )
         self._names[name] = path
-        return CaseLabel(dlc, wind_speed, seed, label.weight)
+        return CaseLabel(dlc, wind_speed, seed, label.weight, label.variant)
 
     def _refuse_copy(self, series: xr.Dataset, path: Path) -> None:
         """A file without a seed of its own must not bring the same series as a new seed."""
@@ -167,6 +269,10 @@ def _mean_wind(series: xr.Dataset, path: Path) -> float:
 
 
 def _labelled(series: xr.Dataset, label: CaseLabel) -> xr.Dataset:
-    scalars = {key: value for key, value in asdict(label).items() if value is not None}
+    values = {key: value for key, value in asdict(label).items() if key != "variant"}
+    scalars = {key: value for key, value in values.items() if value is not None}
     attrs = {key: {k: v for k, v in CASE_COORDS[key].attrs.items() if v} for key in scalars}
+    if label.suffix:
+        name = case_name(scalars["dlc"], scalars["wind_speed"], scalars["seed"])
+        series = series.assign_coords(case=name + label.suffix)
     return series.assign_coords({k: ((), v, attrs[k]) for k, v in scalars.items()})

@@ -1,45 +1,38 @@
-"""OpenFAST output, text (``.out``) and binary (``.outb``), through openfast_io.
+"""OpenFAST output, text (``.out``) and binary (``.outb``).
 
-openfast_io reads sound files; on unsound ones it stops with an error of `struct`, or returns an
-empty array. So sizes and headers are checked here before it is asked.
+Sizes are compared with the header before anything is read: a damaged file must neither stop with an
+error of the interpreter nor ask for memory that its size does not justify.
 """
 
 from __future__ import annotations
 
 import os
 import struct
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from loadflow.errors import InputError
-from loadflow.readers.table import Channels, Table, to_series
+from loadflow.readers.aliases import Channels, Frame, aliases
+from loadflow.readers.series import to_series
+from loadflow.readers.table import Table
+from loadflow.readers.text import number_rows, read_text
 
-CHANNELS: dict[str, tuple[str, ...]] = {
-    "speed": ("RotSpeed", "LSSTipVxa", "LSSTipVxs", "LSSTipV"),
-    "pitch": ("BldPitch1", "PtchPMzc1", "BlPitch1", "BldPtch1"),
-    "azimuth": ("Azimuth", "LSSTipPxa", "LSSTipPxs", "LSSTipP"),
-    "wind": ("Wind1VelX", "WindVxi", "HorWindV", "RtVAvgxh"),
-    "hub_force_x": ("RotThrust", "LSShftFxa", "LSShftFxs"),
-    "hub_force_y": ("LSShftFys",),
-    "hub_force_z": ("LSShftFzs",),
-    "hub_moment_x": ("RotTorq", "LSShftTq", "LSShftMxa", "LSShftMxs"),
-    "hub_moment_y": ("LSSTipMys",),
-    "hub_moment_z": ("LSSTipMzs",),
-}
-"""Component of the cube → channels of ElastoDyn and InflowWind, the first one found is used.
-Shaft frame s of OpenFAST is the frame of the cube: x along the shaft, downwind; z up."""
-
-GAUGE = ("LSSGagMys", "LSSGagMzs")
-HEADER_LINES = 8
-KINDS = {1: "packed, with time", 2: "packed", 3: "double precision", 4: "packed, long names"}
+SEARCHED_LINES = 40
+"""Lines within which the names of the channels must stand; OpenFAST has them in line 7."""
+WITH_TIME, WITHOUT_TIME, DOUBLE, LONG_NAMES = 1, 2, 3, 4
+"""Kinds of binary files: packed with time stamps, packed, double precision, packed with names of
+any length."""
 
 
 def read_openfast(
     path: str | os.PathLike[str],
     channels: Channels | None = None,
     gauge_distance: float | None = None,
+    frame: Frame = "auto",
 ) -> xr.Dataset:
     """Read one OpenFAST output file.
 
@@ -48,145 +41,191 @@ def read_openfast(
     path : path
         File, ``.outb`` or ``.out``.
     channels : mapping, optional
-        Channels to use instead of those of `CHANNELS`, by component of the cube.
+        Channels to use instead of those of ``channels.toml``, by component of the cube.
     gauge_distance : float, optional
         Distance of the shaft strain gauge downwind of the rotor apex (ElastoDyn ``ShftGagL``), m.
         Only used where the moments at the apex (``LSSTipMys``, ``LSSTipMzs``) are absent.
+    frame : {"auto", "fixed", "rotating"}
+        Frame of the y and z channels. Their names tell it (``LSShftFys`` stands, ``LSShftFya``
+        turns), so that "auto" takes those that are there, standing ones first.
 
     Returns
     -------
     xarray.Dataset
         Variables over time from 0, in the frame of the cube and SI units, single precision;
-        scalar coordinates ``file`` and ``file_start`` (first stamp in the file, s).
+        scalar coordinates ``file``, ``file_start`` (first stamp in the file, s) and ``doubts``.
 
     Raises
     ------
     loadflow.errors.InputError
-        No such file, empty, truncated, malformed, missing channel, unknown unit, value that is
+        No such file, empty, truncated, malformed, missing channels, unknown unit, value that is
         not finite, irregular time.
     """
-    path = Path(path)
-    table = read_table(path)
-    chosen = {**CHANNELS, **(channels or {})}
-    if not {"hub_moment_y", "hub_moment_z"} & set(channels or {}):
-        table = _with_moments_at_apex(table, gauge_distance)
-    return to_series(table, chosen)
+    table = read_table(Path(path))
+    return to_series(table, aliases("openfast"), channels, gauge_distance, frame)
+
+
+def is_the_best(path: Path) -> bool:
+    """Whether a file has its run to itself: OpenFAST may write text beside the same in binary."""
+    return path.suffix.casefold() != ".out" or not path.with_suffix(".outb").exists()
 
 
 def read_table(path: Path) -> Table:
-    """Read all channels of an OpenFAST output file as they are."""
-    from openfast_io.FAST_output_reader import load_ascii_output, load_binary_output
-
+    """Read all channels of an OpenFAST file as they are."""
     if not path.is_file():
         raise InputError(f"{path}: no such file")
     with path.open("rb") as file:
         start = file.read(64)
     if not start:
         raise InputError(f"{path}: the file is empty")
-    if b"\0" in start:
-        _check_binary(path)
-        with np.errstate(divide="ignore", invalid="ignore"):  # bad scales show as NaN later
-            data, info, _ = load_binary_output(str(path))
-    else:
-        _check_text(path)
-        data, info = load_ascii_output(str(path))
-    names, units = tuple(info["attribute_names"]), tuple(info["attribute_units"])
-    if names[0].casefold() != "time" or units[0].casefold() not in ("s", "sec"):
-        raise InputError(f"{path}: first channel is {names[0]!r} in {units[0]!r}, not time in s")
-    return Table(str(path), data[:, 0], names, units, data)
+    table = _read_binary(path) if b"\0" in start else _read_text(path)
+    first, unit = table.names[0], table.units[0]
+    if first.casefold() != "time" or unit.casefold().strip("()") not in ("s", "sec"):
+        raise InputError(f"{path}: first channel is {first!r} in {unit!r}, not time in s")
+    return table
 
 
-def _check_binary(path: Path) -> None:
-    """Raise unless the size of the file is what its header says."""
-    size = path.stat().st_size
-    with path.open("rb") as file:
-        try:
-            (kind,) = struct.unpack("<h", file.read(2))
-            if kind not in KINDS:
-                raise InputError(
-                    f"{path}: no OpenFAST binary file; it says kind {kind}, known are 1 to 4"
-                )
-            width = struct.unpack("<h", file.read(2))[0] if kind == 4 else 10
-            channels, steps = struct.unpack("<ii", file.read(8))
-            scales = 0 if kind == 3 else 8 * channels
-            file.seek(16 + scales, os.SEEK_CUR)
-            (description,) = struct.unpack("<i", file.read(4))
-            data_start = file.tell() + description + 2 * (channels + 1) * width
-        except struct.error:
-            raise InputError(f"{path}: truncated within the header, {size} bytes long") from None
-        except OSError:  # seek to before the start of the file
-            raise InputError(f"{path}: no OpenFAST binary file, the header is nonsense") from None
-    if min(width, channels, description + 1) < 1 or steps < 0:
-        raise InputError(
-            f"{path}: no OpenFAST binary file; the header says {channels} channels, {steps} time "
-            f"steps, names of {width} characters"
-        )
-    step_size = channels * (8 if kind == 3 else 2) + (4 if kind == 1 else 0)
-    expected = data_start + steps * step_size
-    if size != expected:
-        whole = max(size - data_start, 0) // step_size
-        what = f"truncated, holds {whole} of {steps} time steps" if size < expected else "too long"
-        raise InputError(f"{path}: {what}: {size} bytes where its header says {expected}")
+# --- binary ----------------------------------------------------------------------------------
 
 
-def _check_text(path: Path) -> None:
-    """Raise unless the file is a table with the header that OpenFAST writes."""
-    try:
-        lines = path.read_text().splitlines()
-    except UnicodeDecodeError as error:
-        raise InputError(f"{path}: neither text nor OpenFAST binary ({error})") from None
-    names = lines[HEADER_LINES - 2].split() if len(lines) > HEADER_LINES - 2 else []
-    if not names or names[0].casefold() != "time":
-        raise InputError(
-            f"{path}: no OpenFAST text output; line {HEADER_LINES - 1} must name the channels, "
-            "beginning with Time"
-        )
-    units = lines[HEADER_LINES - 1].split() if len(lines) >= HEADER_LINES else []
-    if len(units) != len(names) or not all(u[0] == "(" and u[-1] == ")" for u in units):
-        raise InputError(
-            f"{path}: line {HEADER_LINES} must give {len(names)} units in parentheses, has {units}"
-        )
-    rows = lines[HEADER_LINES:]
-    if not rows:
-        raise InputError(f"{path}: the file has a header but no time step")
-    widths = {len(row.rstrip()) for row in rows[:-1]}
-    if len(widths) == 1 and len(rows[-1].rstrip()) < min(widths):
-        raise InputError(f"{path}, line {len(lines)}: truncated, the last line is cut")
-    for number, row in enumerate(rows, HEADER_LINES + 1):
-        _check_row(row, len(names), f"{path}, line {number}")
+@dataclass(frozen=True)
+class Header:
+    """Beginning of a binary file.
 
-
-def _check_row(row: str, columns: int, where: str) -> None:
-    fields = row.split()
-    if len(fields) != columns:
-        raise InputError(f"{where}: {len(fields)} values where the header names {columns} channels")
-    for field in fields:
-        try:
-            float(field)
-        except ValueError:
-            raise InputError(f"{where}: {field!r} is not a number") from None
-
-
-def _with_moments_at_apex(table: Table, gauge_distance: float | None) -> Table:
-    """Where only the strain gauge has bending moments, move them to the rotor apex.
-
-    Equilibrium of the (massless) shaft between the two: M_y,tip = M_y,gauge − l F_z and
-    M_z,tip = M_z,gauge + l F_y.
+    Attributes
+    ----------
+    kind : int
+        1 … 4.
+    channels, steps : int
+        Channels without time, and time steps.
+    time : tuple of float
+        First stamp and step, s; of kind 1 factor and offset of the stamps.
+    scale, offset : ndarray, shape (channels,)
+        Packed value = scale · value + offset; empty in double precision.
+    names, units : tuple of str
+        Of each column, time first.
+    data_start : int
+        Byte at which the values begin.
     """
-    if {"LSSTipMys", "LSSTipMzs"} & set(table.names) or not set(GAUGE) <= set(table.names):
-        return table
-    if gauge_distance is None:
+
+    kind: int
+    channels: int
+    steps: int
+    time: tuple[float, float]
+    scale: NDArray[np.float32]
+    offset: NDArray[np.float32]
+    names: tuple[str, ...]
+    units: tuple[str, ...]
+    data_start: int
+
+    @property
+    def step_size(self) -> int:
+        """Bytes of one time step."""
+        stamps = 4 if self.kind == WITH_TIME else 0
+        return self.channels * (8 if self.kind == DOUBLE else 2) + stamps
+
+
+def _read_binary(path: Path) -> Table:
+    data = path.read_bytes()
+    header = _header(data, path)
+    expected = header.data_start + header.steps * header.step_size
+    if len(data) < expected:
+        whole = max(len(data) - header.data_start, 0) // header.step_size
         raise InputError(
-            f"{table.source}: channels 'LSSTipMys' and 'LSSTipMzs' are missing; from 'LSSGagMys' "
-            "and 'LSSGagMzs' they follow if gauge_distance (ShftGagL, m) is given"
+            f"{path}: truncated, holds {whole} of {header.steps} time steps: {len(data)} bytes "
+            f"where its header says {expected}"
         )
-    my, mz = (table.series(name, "N m") for name in GAUGE)
-    fy, fz = (table.series(name, "N") for name in ("LSShftFys", "LSShftFzs"))
-    moved = np.column_stack([my - gauge_distance * fz, mz + gauge_distance * fy])
-    return Table(
-        table.source,
-        table.stamps,
-        (*table.names, "LSSTipMys", "LSSTipMzs"),
-        (*table.units, "N-m", "N-m"),
-        np.hstack([table.values, moved]),
+    doubts = []
+    if len(data) > expected:
+        doubts.append(
+            f"{len(data) - expected} bytes follow the {expected} of the header: probably written "
+            "over a longer file"
+        )
+    at, stamps = header.data_start, np.arange(header.steps, dtype=float)
+    if header.kind == WITH_TIME:
+        scale, offset = header.time
+        packed_time = np.frombuffer(data, "<i4", header.steps, at)
+        at += 4 * header.steps
+        with np.errstate(divide="ignore", invalid="ignore"):  # bad scales show as NaN later
+            stamps = (packed_time - offset) / np.float64(scale)
+    else:
+        stamps = header.time[0] + header.time[1] * stamps
+    count = header.steps * header.channels
+    if header.kind == DOUBLE:
+        values = np.frombuffer(data, "<f8", count, at).reshape(header.steps, header.channels)
+    else:
+        packed = np.frombuffer(data, "<i2", count, at).reshape(header.steps, header.channels)
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+            values = (packed - header.offset.astype(float)) / header.scale.astype(float)
+    columns = np.column_stack([stamps, values])
+    return Table(str(path), stamps, header.names, header.units, columns, doubts=tuple(doubts))
+
+
+def _header(data: bytes, path: Path) -> Header:
+    """Read the header; raise unless it is one, and lies within the file."""
+    nonsense = f"{path}: no OpenFAST binary file"
+    try:
+        (kind,) = struct.unpack_from("<h", data)
+        if not WITH_TIME <= kind <= LONG_NAMES:
+            raise InputError(f"{nonsense}; it says kind {kind}, known are 1 to 4")
+        at, width = 2, 10
+        if kind == LONG_NAMES:
+            (width,) = struct.unpack_from("<h", data, at)
+            at += 2
+        channels, steps = struct.unpack_from("<ii", data, at)
+        time = struct.unpack_from("<dd", data, at + 8)
+        if min(width, channels) < 1 or steps < 0:
+            raise InputError(
+                f"{nonsense}; the header says {channels} channels, {steps} time steps, names of "
+                f"{width} characters"
+            )
+        at += 24
+        packed = 0 if kind == DOUBLE else channels
+        if at + 8 * packed > len(data):
+            raise struct.error
+        scale = np.frombuffer(data, "<f4", packed, at)
+        offset = np.frombuffer(data, "<f4", packed, at + 4 * packed)
+        (description,) = struct.unpack_from("<i", data, at + 8 * packed)
+        at += 8 * packed + 4
+        if description < 0:
+            raise InputError(f"{nonsense}; a description of {description} characters")
+        at += description
+        end = at + 2 * (channels + 1) * width
+        if end > len(data):
+            raise struct.error
+    except struct.error:
+        raise InputError(f"{path}: truncated within the header, {len(data)} bytes long") from None
+    texts = [data[i : i + width].decode("latin-1").strip(" \0") for i in range(at, end, width)]
+    names, units = texts[: channels + 1], [_unit(text) for text in texts[channels + 1 :]]
+    return Header(kind, channels, steps, time, scale, offset, tuple(names), tuple(units), end)
+
+
+def _unit(text: str) -> str:
+    return text.removeprefix("(").removesuffix(")")
+
+
+# --- text ------------------------------------------------------------------------------------
+
+
+def _read_text(path: Path) -> Table:
+    """Read a table whose heading, two lines, begins with ``Time`` and its unit."""
+    lines = read_text(path).splitlines()
+    at = next(
+        (i for i, line in enumerate(lines[:SEARCHED_LINES]) if line.split()[:1] in _TIME), None
     )
+    if at is None:
+        raise InputError(
+            f"{path}: no OpenFAST text output; a line must name the channels, beginning with Time"
+        )
+    names = tuple(lines[at].split())
+    units = tuple(lines[at + 1].split()) if len(lines) > at + 1 else ()
+    if len(units) != len(names) or units[0].casefold() not in ("(s)", "(sec)"):
+        raise InputError(
+            f"{path}: line {at + 2} must give {len(names)} units, (s) of the time first, has "
+            f"{list(units[:60])}"
+        )
+    values = number_rows(lines, at + 2, len(names), path)
+    return Table(str(path), values[:, 0], names, tuple(map(_unit, units)), values)
+
+
+_TIME = (["Time"], ["time"], ["TIME"])

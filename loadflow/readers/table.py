@@ -1,45 +1,41 @@
-"""Channels of a file with their names and units, and the way from there to the cube."""
+"""Channels of a file with their names and units, as they stand there."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from loadflow.cube import VARIABLES, make_series, regular_time
 from loadflow.errors import InputError
 
 if TYPE_CHECKING:
-    import xarray as xr
     from numpy.typing import NDArray
 
 DEGREE = math.pi / 180.0
 UNITS: dict[str, dict[str, float]] = {
-    "rad/s": {"rad/s": 1.0, "rpm": math.pi / 30, "1/min": math.pi / 30, "deg/s": DEGREE},
+    "rad/s": {
+        "rad/s": 1.0,
+        "rad/sec": 1.0,
+        "rpm": math.pi / 30,
+        "1/min": math.pi / 30,
+        "rev/min": math.pi / 30,
+        "r/min": math.pi / 30,
+        "deg/s": DEGREE,
+        "deg/sec": DEGREE,
+    },
     "rad": {"rad": 1.0, "deg": DEGREE, "°": DEGREE},
-    "m/s": {"m/s": 1.0},
+    "m/s": {"m/s": 1.0, "m/sec": 1.0},
     "N": {"n": 1.0, "kn": 1e3, "mn": 1e6},
     "N m": {"nm": 1.0, "knm": 1e3, "mnm": 1e6},
+    "W": {"w": 1.0, "kw": 1e3, "mw": 1e6},
     "s": {"s": 1.0, "sec": 1.0},
 }
 """SI unit → what files may say instead → factor."""
 
-COMPONENTS = tuple(
-    f"{name}_{axis}" if "axis" in variable.dims else name
-    for name, variable in VARIABLES.items()
-    if "bearing" not in variable.dims
-    for axis in ("xyz" if "axis" in variable.dims else "x")
-)
-"""What a reader may deliver: ``speed``, …, ``hub_force_x``, …, ``hub_moment_z``."""
-
-OPTIONAL = ("pitch", "azimuth", "wind")
-
-Channels = Mapping[str, str | Sequence[str]]
-"""Component of the cube → channel of the file, or several of which the first one found is used;
-a leading minus turns the sign."""
+UNKNOWN = "INVALID"
+"""Unit that OpenFAST writes for a channel it does not know; its values mean nothing."""
 
 
 @dataclass(frozen=True)
@@ -56,6 +52,10 @@ class Table:
         Of each column, in the order of the file.
     values : ndarray, shape (n, columns)
         The series.
+    descriptions : tuple of str
+        Of each column, or nothing; channels are found by them too.
+    doubts : tuple of str
+        What is odd about the file although it can be read.
     """
 
     source: str
@@ -63,6 +63,8 @@ class Table:
     names: tuple[str, ...]
     units: tuple[str, ...]
     values: NDArray[Any]
+    descriptions: tuple[str, ...] = ()
+    doubts: tuple[str, ...] = ()
 
     def find(self, channel: str) -> int | None:
         """Return the column of a channel, or None.
@@ -70,24 +72,46 @@ class Table:
         Parameters
         ----------
         channel : str
-            Name, or ``"#7"`` for the seventh column of the file; a leading minus is ignored.
+            Name, as written or in other capitals; ``"#7"`` for the seventh column of the file; or
+            words of the description that only one channel has. A leading minus is ignored. A
+            channel with the unit `UNKNOWN` does not count.
 
         Raises
         ------
         loadflow.errors.InputError
             Several columns bear the name.
         """
-        name = channel.removeprefix("-")
-        if name.startswith("#") and name[1:].isdigit():
-            column = int(name[1:]) - 1
-            return column if 0 <= column < len(self.names) else None
-        columns = [i for i, have in enumerate(self.names) if have == name]
+        columns = self.columns(channel)
         if len(columns) > 1:
             numbers = ", ".join(f"#{i + 1}" for i in columns)
+            name = channel.removeprefix("-")
             raise InputError(
                 f"{self.source}: {len(columns)} channels {name!r}; name one: {numbers}"
             )
         return columns[0] if columns else None
+
+    def columns(self, channel: str) -> list[int]:
+        """Return all columns that a name may mean; see `find`."""
+        name = channel.removeprefix("-")
+        if name.startswith("#") and name[1:].isdigit():
+            column = int(name[1:]) - 1
+            return [column] if 0 <= column < len(self.names) else []
+        plain = " ".join(name.casefold().split())
+        rules = (
+            lambda i: self.names[i] == name,
+            lambda i: self.names[i].casefold() == name.casefold(),
+            lambda i: self._description(i) == plain,
+            lambda i: plain in self._description(i),
+        )
+        for rule in rules:
+            if columns := [i for i in self._valid if rule(i)]:
+                return columns
+        return []
+
+    def _description(self, column: int) -> str:
+        """Description in small letters with single blanks."""
+        text = self.descriptions[column] if self.descriptions else ""
+        return " ".join(text.casefold().split())
 
     def series(self, channel: str, si: str) -> NDArray[np.float64]:
         """Return one channel in SI units.
@@ -118,10 +142,22 @@ class Table:
         sign = -1.0 if channel.startswith("-") else 1.0
         return sign * self._factor(column, si) * values
 
+    def has_unit(self, channel: str, si: str) -> bool:
+        """Whether a channel that the file has can be turned into an SI unit."""
+        column = self.find(channel)
+        return column is not None and _plain_unit(self.units[column]) in UNITS[si]
+
     def listing(self) -> str:
         """Return what channels there are, for messages."""
-        more = f" and {len(self.names) - 60} more" if len(self.names) > 60 else ""
-        return f"the file has {', '.join(self.names[:60])}{more}"
+        valid = [self.names[i] for i in self._valid]
+        more = f" and {len(valid) - 60} more" if len(valid) > 60 else ""
+        invalid = len(self.names) - len(valid)
+        without = f"; {invalid} channels have the unit {UNKNOWN}" if invalid else ""
+        return f"the file has {', '.join(valid[:60])}{more}{without}"
+
+    @property
+    def _valid(self) -> list[int]:
+        return [i for i, unit in enumerate(self.units) if unit.strip("()").upper() != UNKNOWN]
 
     def _factor(self, column: int, si: str) -> float:
         unit = self.units[column]
@@ -132,61 +168,6 @@ class Table:
                 f"{si!r}; expected one of {', '.join(UNITS[si])}"
             )
         return factor
-
-
-def to_series(table: Table, channels: Channels) -> xr.Dataset:
-    """Turn the channels of a file into the variables of the cube.
-
-    Parameters
-    ----------
-    table : Table
-        The file.
-    channels : Channels
-        Which channels to take; `OPTIONAL` ones may be absent.
-
-    Returns
-    -------
-    xarray.Dataset
-        Variables over time from 0 in single precision, with scalar coordinates ``file`` and
-        ``file_start``.
-
-    Raises
-    ------
-    loadflow.errors.InputError
-        Missing channel, wrong unit, value that is not finite, irregular time.
-    """
-    if unknown := set(channels) - set(COMPONENTS):
-        raise InputError(
-            f"channels: {sorted(unknown)[0]!r} is nothing the cube holds; it takes "
-            f"{', '.join(COMPONENTS)}"
-        )
-    step, stamps = regular_time(table.stamps, table.source)
-    data = {}
-    for name, variable in VARIABLES.items():
-        keys = [c for c in COMPONENTS if c == name or c[:-2] == name]
-        found = [_find(table, key, channels) for key in keys]
-        series = [table.series(channel, variable.units) for channel in found if channel]
-        if series:
-            stacked = np.stack(series) if "axis" in variable.dims else series[0]
-            data[name] = stacked.astype(np.float32)
-    start = float(stamps[0])
-    coords = {"file": table.source, "file_start": ((), start, {"units": "s"})}
-    return make_series(step * np.arange(stamps.size), data).assign_coords(coords)
-
-
-def _find(table: Table, key: str, channels: Channels) -> str | None:
-    """Return the first channel for a component that the file has."""
-    wanted = channels.get(key, ())
-    names = [wanted] if isinstance(wanted, str) else list(wanted)
-    for name in names:
-        if table.find(name) is not None:
-            return name
-    if key in OPTIONAL:
-        return None
-    if not names:
-        raise InputError(f"{table.source}: no channel is named for {key!r}; {table.listing()}")
-    asked = " or ".join(map(repr, names))
-    raise InputError(f"{table.source}: channel {asked} for {key!r} is missing; {table.listing()}")
 
 
 def _plain_unit(unit: str) -> str:

@@ -16,7 +16,7 @@ def load_series(loads: xr.Dataset, bearings: xr.Dataset) -> Figure:
     Parameters
     ----------
     loads : xarray.Dataset
-        Case of a load cube: `speed`, `pitch`, `hub_moment` over time.
+        Case of a load cube: `speed`, `hub_moment`, and `pitch` if it is there, over time.
     bearings : xarray.Dataset
         `force` (bearing, axis, time) of the same case.
 
@@ -26,7 +26,7 @@ def load_series(loads: xr.Dataset, bearings: xr.Dataset) -> Figure:
     """
     drawing, axes = figure(3, sharex=True)
     time = loads["time"].values
-    for name in ("speed", "pitch"):
+    for name in (key for key in ("speed", "pitch") if key in loads):
         values, unit = readable(loads[name])
         envelope(axes[0], time, values, f"{loads[name].attrs['long_name']}, {unit}")
     for name, axis in (("tilt", "y"), ("yaw", "z")):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -10,6 +9,7 @@ from jinja2 import Environment, PackageLoader, select_autoescape
 from matplotlib.figure import Figure
 
 from loadflow.report.style import to_png
+from loadflow.storage import write_text
 
 
 @dataclass(frozen=True)
@@ -74,7 +74,4 @@ def write_page(path: Path, title: str, facts: dict[str, str], sections: list[Sec
         loader=PackageLoader("loadflow.report"), autoescape=select_autoescape(["html"])
     )
     page = environment.get_template("page.html").render(title=title, facts=facts, sections=sections)
-    temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
-    temporary.write_text(page, encoding="utf-8")
-    os.replace(temporary, path)
-    return path
+    return write_text(path, page)

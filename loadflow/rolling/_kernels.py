@@ -12,6 +12,7 @@ import math
 import numpy as np
 from numba import njit
 
+from loadflow.numerics import convergence
 from loadflow.rolling.contacts import (
     FREE,
     GAP,
@@ -23,7 +24,9 @@ from loadflow.rolling.contacts import (
     STIFFNESS,
 )
 
-_EPS = 2.220446049250313e-16
+rounding_level = njit(cache=True, nogil=True)(convergence.rounding_level)
+is_small = njit(cache=True, nogil=True)(convergence.is_small)
+stalled = njit(cache=True, nogil=True)(convergence.stalled)
 
 
 # Sums may be reordered (so that they use vector units); nothing else of fast mathematics. Loops
@@ -309,13 +312,15 @@ def _newton(
     cold,
     hessian,
 ):
-    """Minimise energy - load·q from `q`; returns converged, residual, iterations, singular.
+    """Minimise energy - load·q from `q`.
+
+    Returns converged, residual, iterations, singular, and the rounding level of the residual.
 
     Newton with the exact Hessian, a Levenberg shift where it is singular, a cap on the step, and
     halving until energy or residual falls. `scale` turns rotations into lengths. The residual is
     the largest unbalanced component over the largest load (or 1e-4 of the sum of contact forces,
-    below which rounding rules). Tiny loads with clearance are also settled where each unbalanced
-    component is that of the last digits of the displacement.
+    below which rounding rules). Each unbalanced component is small by the rule of `convergence`,
+    its rounding that of the last digits of the displacement.
     """
     gradient, trial, step = np.zeros(5), np.zeros(5), np.zeros(5)
     rhs, q_new = np.zeros(5), np.zeros(5)
@@ -363,7 +368,7 @@ def _newton(
             longest = max(longest, abs(step[a]))
             slope -= rhs[a] * step[a]
             moved = max(moved, abs(q[a] / scale[a]))
-        if longest <= 4.0 * _EPS * moved:
+        if stalled(longest, rounding_level(moved)):
             break
         damping = min(1.0, cap / longest)
         potential = energy
@@ -392,13 +397,17 @@ def _newton(
         q[:] = q_new
         gradient[:] = trial
         hessian[:, :] = h_new
-    settled = True
+    # every contact rounds its own approach: what that leaves in a component need not cancel around
+    # the ring, and is bounded by Cauchy–Schwarz; a direction without stiffness feels nothing
+    approach = 0.0
+    for b in range(5):
+        approach += math.sqrt(max(scaled[b, b], 0.0)) * abs(q[b] / scale[b])
+    answered, rounding = True, 0.0
     for a in range(5):
-        digits = 0.0
-        for b in range(5):
-            digits += abs(scaled[a, b] * q[b] / scale[b])
-        settled = settled and abs(rhs[a]) <= max(tolerance * reference, 16.0 * _EPS * digits)
-    return settled, residual, iterations, pivot <= 1e-12
+        level = rounding_level(math.sqrt(max(scaled[a, a], 0.0)) * approach)
+        answered = answered and is_small(abs(rhs[a]), tolerance * reference, level)
+        rounding = max(rounding, level / max(reference, 1e-300))
+    return answered, residual, iterations, pivot <= 1e-12, rounding
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -415,6 +424,7 @@ def solve_series(
     displacement, stiffness = np.zeros((n, 5)), np.zeros((n, 5, 5))
     residual, iterations = np.zeros(n), np.zeros(n, np.int64)
     converged, singular = np.zeros(n, np.bool_), np.zeros(n, np.bool_)
+    rounding = np.zeros(n)
     q = np.zeros(5)
     for i in range(n):
         warm = i % chunk > 0 and converged[i - 1] and not singular[i - 1]
@@ -423,7 +433,7 @@ def solve_series(
             if attempt == 0 and not warm:
                 continue
             factor = 1.0 if attempt < 2 else 10.0 ** (12 - attempt)
-            ok, res, more, free = _newton(
+            ok, res, more, free, rounding[i] = _newton(
                 q, factor * loads[i], cos, sin, spans, table, law, spatial, scale, cap, tolerance,
                 limit, compliance, attempt == 1 or attempt == 2, stiffness[i],
             )  # fmt: skip
@@ -432,4 +442,4 @@ def solve_series(
                 break
         displacement[i] = q
         converged[i], residual[i], iterations[i], singular[i] = ok, res, count, free
-    return displacement, stiffness, converged, residual, iterations, singular
+    return displacement, stiffness, converged, residual, iterations, singular, rounding

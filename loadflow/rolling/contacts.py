@@ -13,12 +13,14 @@ GAP the clearance along it; F = K δ^(10/9).
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 Spans = NDArray[np.int64]
+Raceway = Literal["inner", "outer"]
 
 POINT, LINE = 0, 1  # laws of contact
 RADIUS, HEIGHT, NORMAL_R, NORMAL_Z, FREE, GAP, STIFFNESS = range(7)

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError, SolverError
+from loadflow.numerics.convergence import unresolved
 from loadflow.rolling.contacts import Array, Contacts
 
 COMPONENTS = ("Fx", "Fy", "Fz", "Mx", "My")
@@ -109,7 +110,7 @@ def solve(
     loads = np.concatenate([f, m], axis=-1).reshape(-1, 5)
     if chunk < 1:
         raise InputError(f"chunk: must be at least 1, got {chunk}")
-    q, stiffness, converged, residual, iterations, singular = _kernels.solve_series(
+    q, stiffness, converged, residual, iterations, singular, rounding = _kernels.solve_series(
         np.ascontiguousarray(loads),
         *contacts.arguments,
         contacts.scale,
@@ -120,7 +121,7 @@ def solve(
         chunk,
     )
     if strict and not converged.all():
-        complain(loads, converged, residual, iterations, shape)
+        complain(loads, converged, residual, rounding, iterations, shape)
     return RingEquilibrium(
         force=f,
         moment=m,
@@ -155,6 +156,7 @@ def complain(
     loads: Array,
     converged: NDArray[np.bool_],
     residual: Array,
+    rounding: Array,
     iterations: NDArray[np.int64],
     shape: tuple[int, ...],
 ) -> None:
@@ -164,6 +166,7 @@ def complain(
     index = tuple(int(i) for i in np.unravel_index(first, shape)) if shape else ()
     raise SolverError(
         f"no equilibrium for {np.count_nonzero(~converged)} of {converged.size} cases; first: "
-        f"index {index}, {load} (N, N m): residual {residual[first]:.3g} after "
-        f"{iterations[first]} steps. No contact may resist this load."
+        f"index {index}, {load} (N, N m): "
+        f"{unresolved(residual[first], rounding[first], iterations[first])}. "
+        "No contact may resist this load."
     )

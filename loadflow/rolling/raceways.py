@@ -5,21 +5,23 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
+import numpy as np
 from annotated_types import Ge, Gt, Le
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError
 from loadflow.numerics.fields import check_choice, check_fields
-from loadflow.rolling.rating import safety
+from loadflow.rolling.contact_forces import ContactForces
+from loadflow.rolling.contacts import Array, Raceway
+from loadflow.rolling.geometry import RollingGeometry
+from loadflow.rolling.rating import life, modified_life, safety
 from loadflow.tribology.hertz import STEEL_MODULUS, STEEL_POISSON, PointContact, hertz_point
-
-Raceway = Literal["inner", "outer"]
 
 
 @dataclass(frozen=True, kw_only=True)
-class BallRaceways:
+class BallRaceways(RollingGeometry):
     """Balls between the grooves of two rings.
 
     Attributes
@@ -62,6 +64,11 @@ class BallRaceways:
     InputError
         If a field is out of its range.
     """
+
+    element: ClassVar[Literal["ball", "roller"]] = "ball"
+    life_exponent: ClassVar[float] = life.POINT_EXPONENT
+    weibull_slope: ClassVar[float] = modified_life.WEIBULL["ball"]
+    static_exponent: ClassVar[int] = 3
 
     balls: Annotated[int, Ge(2)]
     ball_diameter: Annotated[float, Gt(0)]
@@ -153,3 +160,82 @@ class BallRaceways:
     def row_heights(self) -> list[float]:
         """Axial position of the rows, m, from the lowest."""
         return [(k - (self.rows - 1) / 2) * self.row_spacing for k in range(self.rows)]
+
+    @property
+    def groups(self) -> tuple[int, ...]:
+        """The rows."""
+        return (self.rows,)
+
+    @property
+    def raceway_capacity(self) -> tuple[float, float]:
+        """Dynamic capacities Q_ci, Q_ce of the raceways of one row, N (ISO/TS 16281)."""
+        raise InputError(f"no capacity of the raceways of a {type(self).__name__}")
+
+    @property
+    def allowed_force(self) -> float:
+        """Force on a ball at the allowed pressure of the harder loaded raceway, N, (4.3)."""
+        unit = max(float(self.raceway_contact(side, 1.0).pressure) for side in ("inner", "outer"))
+        return (self.allowed_pressure / unit) ** 3
+
+    @property
+    def allowed_pressure(self) -> float:
+        """Allowable Hertzian pressure at the hardness of the raceways, Pa, (2.8)."""
+        return self.allowable_pressure * safety.hardness_factor(self.hardness)
+
+    def pressure_safety(self, found: ContactForces) -> Array:
+        """Allowable over largest pressure; infinite without load."""
+        return safety.ratio(self.allowed_pressure, np.max(self.raceway_pressure(found), axis=0))
+
+    def _grouped(self, values: Array) -> Array:
+        """Split the axis of kinds into the groups."""
+        return values.reshape(*values.shape[:-2], *self.groups, values.shape[-1])
+
+    def element_forces(self, found: ContactForces) -> Array:
+        """Contact forces, N, (..., *groups, ball)."""
+        return self._grouped(found.forces)
+
+    def contact_angles(self, found: ContactForces) -> Array:
+        """Operating contact angles, rad, (..., *groups, ball), positive where they carry +Fz."""
+        return self._grouped(found.angles)
+
+    def maximum_force(self, found: ContactForces) -> Array:
+        """Largest contact force, N."""
+        return np.asarray(found.largest("inner").max(axis=-1))
+
+    def raceway_pressure(self, found: ContactForces) -> tuple[Array, ...]:
+        """Largest Hertzian pressure at the inner and at the outer raceway, Pa, (2.1)."""
+        return tuple(
+            self.raceway_contact(side, found.largest(side).max(axis=-1)).pressure
+            for side in ("inner", "outer")
+        )
+
+    def reference_life(self, found: ContactForces) -> Array:
+        """Reference life L10r of ISO/TS 16281, millions of revolutions; the inner ring turns.
+
+        Each group of contacts has an inner and an outer raceway of its own.
+        """
+        inner, outer = found.power_sums("inner")[..., 1], found.power_sums("outer")[..., 2]
+        return life.ball_reference_life(inner, outer, self.balls, self.raceway_capacity)
+
+    def truncated(self, found: ContactForces) -> NDArray[np.bool_]:
+        """Whether a contact ellipse reaches over the shoulder of its raceway.
+
+        Raises
+        ------
+        InputError
+            If the bearing has no `shoulder_angle`.
+        """
+        if self.shoulder_angle is None:
+            raise InputError("shoulder_angle: needed to tell whether a contact is cut off")
+        force = self.element_forces(found)
+        reach = np.maximum(
+            self.raceway_contact("inner", force).semi_axes[0] / self.groove("inner"),
+            self.raceway_contact("outer", force).semi_axes[0] / self.groove("outer"),
+        )
+        edge = self._toward_shoulder(found) + np.arcsin(np.minimum(reach, 1.0))
+        axes = tuple(range(-len(self.groups) - 1, 0))
+        return np.asarray(((edge > self.shoulder_angle) & (force > 0)).any(axis=axes))
+
+    def _toward_shoulder(self, found: ContactForces) -> Array:
+        """Contact angles toward the shoulder that each contact rides on, rad."""
+        return np.abs(self.contact_angles(found))

@@ -1,69 +1,75 @@
-"""From the displacement of the inner ring to contact forces and static safety."""
+"""Equilibrium of a rolling bearing: what follows from the forces of its contacts."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from typing import TYPE_CHECKING, Generic, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.errors import InputError
+from loadflow.rolling.contact_forces import ContactForces
 from loadflow.rolling.contacts import HEIGHT, RADIUS, Array, Contacts
 from loadflow.rolling.equilibrium import RingEquilibrium
-from loadflow.rolling.raceways import BallRaceways
-from loadflow.rolling.rating import safety
+from loadflow.rolling.geometry import RollingGeometry
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+Bearing = TypeVar("Bearing", bound=RollingGeometry, covariant=True)
+
+_EACH_CASE = {
+    "maximum_force": ("N", "largest force on a rolling element"),
+    "maximum_pressure": ("Pa", "largest Hertzian pressure"),
+    "pressure_safety": ("1", "allowable over largest pressure"),
+    "static_safety": ("1", "allowable over largest force"),
+    "equivalent_load": ("N", "dynamic equivalent load"),
+    "rating_life": ("1e6 rev", "basic rating life"),
+    "reference_life": ("1e6 rev", "reference life of ISO/TS 16281"),
+    "converged": ("1", "whether every component is balanced"),
+    "residual": ("1", "largest unbalanced component over the load"),
+    "iterations": ("1", "Newton steps"),
+    "singular": ("1", "whether a motion meets no resistance"),
+}
+_COMPONENTS = {
+    "force": (("axis",), "N", "force on the inner ring"),
+    "moment": (("tilt_axis",), "N m", "moment on the inner ring"),
+    "displacement": (("dof",), "m, rad", "displacement and tilt of the inner ring"),
+    "stiffness": (("dof", "along"), "N/m, N, N m/rad", "tangent stiffness"),
+}
 
 
 @dataclass(frozen=True)
-class ContactResult(RingEquilibrium):
-    """Equilibrium with what follows from each contact; quantities are formed when asked for.
+class ContactResult(RingEquilibrium, Generic[Bearing]):
+    """Equilibrium with what follows from each contact, for bearings of every kind.
 
-    `maximum_force`, `force_sum` and what follows from them need no array of all contact forces,
-    so that a series of any length fits in memory.
+    All quantities over the shape (...) of the load cases, formed when asked for; `maximum_force`,
+    `force_sum`, safety and life need no array of all contact forces.
 
     Attributes
     ----------
+    bearing : RollingGeometry
+        The bearing.
     contacts : Contacts
-        The bearing's contacts, with the azimuth of each element.
+        Its contacts, with the azimuth of each element.
+    elements : ContactForces
+        Forces between rolling elements and raceways.
     """
 
+    bearing: Bearing
     contacts: Contacts
+    elements: ContactForces
 
     @property
     def cases(self) -> tuple[int, ...]:
         """Shape of the load cases."""
         return self.displacement.shape[:-1]
 
-    @cached_property
-    def _state(self) -> tuple[Array, Array]:
-        """Force and signed angle of each contact, (..., kind, element)."""
-        from loadflow.rolling import _forces
-
-        q = np.ascontiguousarray(self.displacement.reshape(-1, 5))
-        force, angle = _forces.contact_state(q, *self.contacts.arguments)
-        shape = (*self.cases, *force.shape[1:])
-        return force.reshape(shape), angle.reshape(shape)
-
-    @cached_property
-    def _statistics(self) -> tuple[Array, Array]:
-        """Largest force (..., kind) and sums of powers of the forces (..., kind, 3).
-
-        The powers are 1, 3, 10/3 of points and 1, 4, 9/2 of lines.
-        """
-        from loadflow.rolling import _forces
-
-        q = np.ascontiguousarray(self.displacement.reshape(-1, 5))
-        largest, sums = _forces.force_sums(q, *self.contacts.arguments)
-        return (
-            largest.reshape(*self.cases, largest.shape[-1]),
-            sums.reshape(*self.cases, *sums.shape[1:]),
-        )
-
+    # --- contacts --------------------------------------------------------------------------------
     @property
     def contact_forces(self) -> Array:
         """Force of each contact, N, (..., kind, element); kinds as in `contacts.table`."""
-        return self._state[0]
+        return self.elements.forces
 
     @property
     def contact_directions(self) -> Array:
@@ -71,7 +77,7 @@ class ContactResult(RingEquilibrium):
 
         The load of all contacts is ΣF v; a stiffness k along each adds Σk v vᵀ.
         """
-        table, angle = self.contacts.table, self._state[1]
+        table, angle = self.contacts.table, self.elements.angles
         radius, height = table[:, RADIUS, None], table[:, HEIGHT, None]
         azimuth = self.contacts.kind_azimuth
         cos, sin = np.cos(azimuth), np.sin(azimuth)
@@ -79,6 +85,111 @@ class ContactResult(RingEquilibrium):
         lever = height * out - radius * along
         return np.stack([out * cos, out * sin, along, -lever * sin, lever * cos], axis=-1)
 
+    @property
+    def force_sum(self) -> Array:
+        """Sum ΣF_k of all contact forces, N."""
+        return np.asarray(self.elements.power_sums("inner")[..., 0].sum(axis=-1))
+
+    # --- rolling elements ------------------------------------------------------------------------
+    @property
+    def element_forces(self) -> Array:
+        """Forces on the rolling elements, N, (..., group, element).
+
+        Groups are rows; rows and diagonals of a four-point bearing, whose diagonal 0 carries +Fz;
+        tracks of crossed rollers; support, retaining and radial row of a three-row bearing, padded
+        with zeros.
+        """
+        return self.bearing.element_forces(self.elements)
+
+    @property
+    def ball_forces(self) -> Array:
+        """`element_forces` of balls."""
+        return self._of("ball")
+
+    @property
+    def roller_forces(self) -> Array:
+        """`element_forces` of rollers."""
+        return self._of("roller")
+
+    @property
+    def slice_forces(self) -> Array:
+        """Forces on the slices of rollers, N, (..., track, slice, roller)."""
+        return self.bearing.slice_forces(self.elements)
+
+    @property
+    def contact_angles(self) -> Array:
+        """Operating contact angles of balls, rad, (..., group, ball), (2.44) of [Ritzer 2018].
+
+        Counted from the radial plane, positive where the contact carries +Fz; of a four-point
+        bearing toward the side of each diagonal. Where a contact is open, the angle of the line
+        between the groove centres.
+        """
+        return self.bearing.contact_angles(self.elements)
+
+    @property
+    def truncated(self) -> NDArray[np.bool_]:
+        """Whether a contact ellipse reaches over the shoulder of its raceway.
+
+        Raises
+        ------
+        InputError
+            If the bearing has no `shoulder_angle`.
+        """
+        return self.bearing.truncated(self.elements)
+
+    def _of(self, element: str) -> Array:
+        if self.bearing.element != element:
+            raise AttributeError(f"{type(self.bearing).__name__} rolls on {self.bearing.element}s")
+        return self.element_forces
+
+    # --- safety and life -------------------------------------------------------------------------
+    @property
+    def maximum_force(self) -> Array:
+        """Largest force on a rolling element, N."""
+        return self.bearing.maximum_force(self.elements)
+
+    @property
+    def raceway_pressure(self) -> tuple[Array, ...]:
+        """Largest Hertzian pressure at each raceway, Pa: inner, outer; of each row of three-row."""
+        return self.bearing.raceway_pressure(self.elements)
+
+    @property
+    def maximum_pressure(self) -> Array:
+        """Largest Hertzian pressure of all raceways, Pa."""
+        return np.asarray(np.max(self.raceway_pressure, axis=0))
+
+    @property
+    def pressure_safety(self) -> Array:
+        """Allowable over largest pressure, (4.2) put right; infinite without load."""
+        return self.bearing.pressure_safety(self.elements)
+
+    @property
+    def static_safety(self) -> Array:
+        """Allowable over largest force, (4.1) put right: `pressure_safety` cubed, of lines squared.
+
+        It is that of the hardest loaded contact, a ball or a slice of a roller.
+        """
+        return np.asarray(self.pressure_safety**self.bearing.static_exponent)
+
+    @property
+    def reference_life(self) -> Array:
+        """Reference life L10r of ISO/TS 16281, millions of revolutions; the inner ring turns."""
+        return self.bearing.reference_life(self.elements)
+
+    @property
+    def rating_life(self) -> Array:
+        """Basic rating life, millions of revolutions.
+
+        The reference life; of a four-point bearing L10 of its equivalent load, (2.19).
+        """
+        return self.bearing.rating_life(self.elements)
+
+    @property
+    def equivalent_load(self) -> Array:
+        """Dynamic equivalent load, N, of which `rating_life` follows."""
+        return self.bearing.equivalent_load(self.elements)
+
+    # --- stiffness -------------------------------------------------------------------------------
     @property
     def secant_stiffness(self) -> Array:
         """Secant stiffness, (..., 5, 5), units as `stiffness`; (2.9)–(2.11) in one matrix.
@@ -102,63 +213,59 @@ class ContactResult(RingEquilibrium):
         update -= work * along[..., :, None] * along[..., None, :]
         return np.asarray((tangent + update) / np.outer(scale, scale))
 
-    @property
-    def force_sum(self) -> Array:
-        """Sum ΣF_k of all contact forces, N."""
-        return np.asarray(self._statistics[1][..., 0].sum(axis=-1))
+    # --- as data ---------------------------------------------------------------------------------
+    def to_dataset(self) -> xr.Dataset:
+        """Loads, displacement, stiffness, element forces, safety and life, with units.
 
+        Returns
+        -------
+        xarray.Dataset
+            Over ``case`` (the load cases in C order; none for a single load), ``axis``,
+            ``tilt_axis``, ``dof``, ``along``, the groups of the bearing and ``element``.
 
-@dataclass(frozen=True)
-class BallResult(ContactResult):
-    """Equilibrium of a ball bearing: pressures and static safety of its contacts.
+        Examples
+        --------
+        >>> from loadflow.rolling import RollerBearing
+        >>> bearing = RollerBearing(rollers=14, roller_diameter=11e-3, roller_length=11e-3,
+        ...     pitch_diameter=60.5e-3)
+        >>> data = bearing.equilibrium(force=(2000, 0, 0)).to_dataset()
+        >>> data.element_forces.dims, data.element_forces.units
+        (('row', 'element'), 'N')
+        """
+        import xarray as xr
 
-    Attributes
-    ----------
-    bearing : BallRaceways
-        The bearing.
-    """
+        lead = ("case",) if self.cases else ()
 
-    bearing: BallRaceways
+        def rows(values: NDArray, *dims: str) -> tuple[tuple[str, ...], NDArray]:
+            inner = values.shape[len(self.cases) :]
+            return (*lead, *dims), values.reshape(*(-1,) * len(lead), *inner)
 
-    @property
-    def maximum_force(self) -> Array:
-        """Largest contact force, N."""
-        return np.asarray(self._statistics[0].max(axis=-1))
-
-    @property
-    def raceway_pressure(self) -> tuple[Array, Array]:
-        """Largest Hertzian pressure at the inner and at the outer raceway, Pa, (2.1)."""
-        force = self.maximum_force
-        return (
-            self.bearing.raceway_contact("inner", force).pressure,
-            self.bearing.raceway_contact("outer", force).pressure,
+        found = {
+            name: (*rows(np.asarray(getattr(self, name))), {"units": units, "long_name": meaning})
+            for name, (units, meaning) in _EACH_CASE.items()
+        }
+        for name, (dims, units, meaning) in _COMPONENTS.items():
+            about = {"units": units, "long_name": meaning}
+            found[name] = (*rows(getattr(self, name), *dims), about)
+        around = (*self.bearing.group_dims, "element")
+        about = {"units": "N", "long_name": "force on each rolling element"}
+        found["element_forces"] = (*rows(self.element_forces, *around), about)
+        dof = ["ux", "uy", "uz", "tilt_x", "tilt_y"]
+        return xr.Dataset(
+            found,
+            {"axis": list("xyz"), "tilt_axis": list("xy"), "dof": dof, "along": dof},
+            {"bearing": type(self.bearing).__name__},
         )
 
-    @property
-    def maximum_pressure(self) -> Array:
-        """Largest Hertzian pressure of both raceways, Pa."""
-        return np.asarray(np.maximum(*self.raceway_pressure))
-
-    @property
-    def pressure_safety(self) -> Array:
-        """Allowable over largest pressure, (4.2) put right; infinite without load."""
-        bearing = self.bearing
-        allowed = bearing.allowable_pressure * safety.hardness_factor(bearing.hardness)
-        return safety.ratio(allowed, self.maximum_pressure)
-
-    @property
-    def static_safety(self) -> Array:
-        """Allowable over largest ball force, (4.1) put right: the cube of `pressure_safety`."""
-        return np.asarray(self.pressure_safety**3)
-
-    def _truncated(self, force: Array, angle: Array, axes: tuple[int, ...]) -> NDArray[np.bool_]:
-        """Whether a contact ellipse reaches over the shoulder of its raceway."""
-        bearing = self.bearing
-        if bearing.shoulder_angle is None:
-            raise InputError("shoulder_angle: needed to tell whether a contact is cut off")
-        reach = np.maximum(
-            bearing.raceway_contact("inner", force).semi_axes[0] / bearing.groove("inner"),
-            bearing.raceway_contact("outer", force).semi_axes[0] / bearing.groove("outer"),
-        )
-        edge = angle + np.arcsin(np.minimum(reach, 1.0))
-        return np.asarray(((edge > bearing.shoulder_angle) & (force > 0)).any(axis=axes))
+    def __repr__(self) -> str:
+        what = f"{type(self.bearing).__name__}, {int(np.prod(self.cases))} load case(s)"
+        lines = [f"<{type(self).__name__} of {what}>"]
+        for name in ("maximum_force", "maximum_pressure", "static_safety", "rating_life"):
+            values = np.asarray(getattr(self, name))
+            units, meaning = _EACH_CASE[name]
+            low, high = float(values.min()), float(values.max())
+            span = f"{low:.4g}" if low == high else f"{low:.4g} … {high:.4g}"
+            lines.append(f"  {meaning:36s} {span} {'' if units == '1' else units}".rstrip())
+        failed = int(np.count_nonzero(~np.asarray(self.converged)))
+        lines.append(f"  {'converged':36s} {'all' if not failed else f'all but {failed}'}")
+        return "\n".join(lines)

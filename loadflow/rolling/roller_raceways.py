@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from abc import abstractmethod
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Annotated, ClassVar, Literal
@@ -14,10 +13,10 @@ from numpy.typing import ArrayLike
 
 from loadflow.errors import InputError
 from loadflow.numerics.fields import check_choice, check_fields
-from loadflow.rolling.contacts import Array, Contacts
-from loadflow.rolling.equilibrium import CHUNK, solve
-from loadflow.rolling.rating import capacity, safety
-from loadflow.rolling.roller_result import RollerResult
+from loadflow.rolling.contact_forces import ContactForces
+from loadflow.rolling.contacts import Array, Contacts, Raceway
+from loadflow.rolling.geometry import RollingGeometry
+from loadflow.rolling.rating import capacity, life, modified_life, safety
 from loadflow.tribology.hertz import (
     STEEL_MODULUS,
     STEEL_POISSON,
@@ -29,7 +28,7 @@ from loadflow.tribology.hertz import (
 
 
 @dataclass(frozen=True, kw_only=True)
-class RollerRaceways:
+class RollerRaceways(RollingGeometry):
     """Rollers, cut into slices, between the raceways of two rings.
 
     Attributes
@@ -70,7 +69,10 @@ class RollerRaceways:
         If a field is out of its range.
     """
 
-    _answer: ClassVar[type[RollerResult]] = RollerResult
+    element: ClassVar[Literal["ball", "roller"]] = "roller"
+    life_exponent: ClassVar[float] = life.LINE_EXPONENT
+    weibull_slope: ClassVar[float] = modified_life.WEIBULL["roller"]
+    static_exponent: ClassVar[int] = 2
 
     rollers: Annotated[int, Ge(3)]
     roller_diameter: Annotated[float, Gt(0)]
@@ -107,9 +109,15 @@ class RollerRaceways:
                 f"circle of {self.pitch_diameter:g} m"
             )
 
-    @abstractmethod
-    def contacts(self, roller_angle: float = 0.0) -> Contacts:
-        """All contacts; kinds in the order track 0 slice 0, track 0 slice 1, …."""
+    def contacts(self, element_angle: float = 0.0) -> Contacts:
+        """All contacts; kinds in the order track 0 slice 0, track 0 slice 1, ….
+
+        Raises
+        ------
+        InputError
+            A row of rollers is no bearing by itself.
+        """
+        raise InputError(f"{type(self).__name__}: a row of a bearing, no bearing by itself")
 
     @property
     def tracks(self) -> int:
@@ -180,7 +188,7 @@ class RollerRaceways:
             self.gamma,
         )
 
-    def slice_contact(self, raceway: Literal["inner", "outer"], force: ArrayLike) -> LineContact:
+    def slice_contact(self, raceway: Raceway, force: ArrayLike) -> LineContact:
         """Hertzian line contact of a slice under `force` (N) with one raceway."""
         sign = 1.0 if raceway == "inner" else -1.0
         roller = 2 / self.roller_diameter
@@ -193,50 +201,76 @@ class RollerRaceways:
             poisson=self.poisson_ratio,
         )
 
-    def equilibrium(
+    @property
+    def groups(self) -> tuple[int, ...]:
+        """The tracks."""
+        return (self.tracks,)
+
+    @property
+    def static_capacity(self) -> float:
+        """Basic static radial capacity C₀r of ISO 76, N."""
+        return 44e6 * self.loaded_area * math.cos(self.contact_angle) * self.rows
+
+    @property
+    def loaded_area(self) -> float:
+        """(1 - γ) Z L D of a row, m²."""
+        area = self.rollers * self.roller_length * self.roller_diameter
+        return (1 - self.gamma) * area
+
+    @property
+    def allowed_pressure(self) -> float:
+        """Allowable Hertzian pressure at the hardness of the raceways, Pa, (2.8)."""
+        return self.allowable_pressure * safety.hardness_factor(self.hardness)
+
+    def pressure_safety(self, found: ContactForces) -> Array:
+        """Allowable over largest pressure; infinite without load."""
+        return safety.ratio(self.allowed_pressure, np.max(self.raceway_pressure(found), axis=0))
+
+    def element_forces(self, found: ContactForces) -> Array:
+        """Forces on the rollers, N, (..., track, roller)."""
+        return found.grouped(self.tracks)
+
+    def slice_forces(self, found: ContactForces) -> Array:
+        """Forces on the slices, N, (..., track, slice, roller)."""
+        forces = found.forces
+        return forces.reshape(*forces.shape[:-2], self.tracks, self.slices, self.track_rollers)
+
+    def raceway_pressure(self, found: ContactForces) -> tuple[Array, ...]:
+        """Largest Hertzian pressure of a slice at the inner and at the outer raceway, Pa."""
+        return tuple(
+            self.slice_contact(side, found.largest(side).max(axis=-1)).pressure
+            for side in ("inner", "outer")
+        )
+
+    def reference_life(self, found: ContactForces) -> Array:
+        """Reference life L10r of ISO/TS 16281, millions of revolutions; the inner ring turns.
+
+        From the loads of all slices with the stress concentration of the standard at the ends.
+        """
+        inner, outer = found.power_sums("inner")[..., 1], found.power_sums("outer")[..., 2]
+        concentration = np.tile(capacity.edge_stress(self.slices), self.tracks)
+        damage = self.slice_damage(inner, outer, concentration, self.slice_capacity)
+        return safety.ratio(1.0, damage) ** (8 / 9)
+
+    def slice_damage(
         self,
-        force: ArrayLike,
-        moment: ArrayLike = (0.0, 0.0),
-        *,
-        roller_angle: float = 0.0,
-        tolerance: float = 1e-10,
-        max_iterations: int = 100,
-        strict: bool = True,
-        chunk: int = CHUNK,
-    ) -> RollerResult:
-        """Roller forces, displacement, stiffness, safety and life under given loads.
+        inner: Array,
+        outer: Array,
+        concentration: Array,
+        slice_capacity: tuple[float, float],
+    ) -> Array:
+        """Sum over the slices of (q/q_c)^4.5 at both raceways, ISO/TS 16281.
 
         Parameters
         ----------
-        force : array_like, shape (..., 3)
-            (Fx, Fy, Fz) on the inner ring at the bearing centre, N; z is the bearing axis.
-        moment : array_like, shape (..., 2)
-            (Mx, My) on the inner ring, N m. Broadcasts with `force`.
-        roller_angle : float
-            Azimuth of the first roller of each row, rad.
-        tolerance, max_iterations, strict, chunk
-            See `loadflow.rolling.equilibrium.solve`.
-
-        Returns
-        -------
-        RollerResult
-            Over the shape of the load cases.
-
-        Raises
-        ------
-        InputError
-            If loads are not finite or have wrong shapes.
-        SolverError
-            If `strict` and a case has no equilibrium, e.g. an axial force on cylindrical rollers.
+        inner, outer : ndarray, shape (..., slice)
+            ΣF⁴ and ΣF^4.5 over the rollers, N⁴ and N^4.5.
+        concentration : ndarray, shape (slice,)
+            Stress concentration of each slice.
+        slice_capacity : tuple of float
+            (q_ci, q_ce), N.
         """
-        contacts = self.contacts(roller_angle)
-        state = solve(
-            contacts,
-            force,
-            moment,
-            tolerance=tolerance,
-            max_iterations=max_iterations,
-            strict=strict,
-            chunk=chunk,
-        )
-        return self._answer(**vars(state), bearing=self, contacts=contacts)
+        at_inner, at_outer = slice_capacity
+        rotating = (inner / self.track_rollers) ** (1 / 4) * concentration / at_inner
+        stationary = (outer / self.track_rollers) ** (2 / 9) * concentration / at_outer
+        return np.asarray((rotating**4.5 + stationary**4.5).sum(axis=-1))

@@ -7,7 +7,9 @@ e_r = −sin ψ y + cos ψ z, in the sense of rotation e_t = −cos ψ y − sin
 import numpy as np
 
 from ._compile import kernel, section
-from ._slots import (
+from .aero._kernels import inflow_lag, section_force, solve
+from .control._kernels import brake, control
+from .slots import (
     AZIMUTH,
     COLUMNS,
     FORE_AFT,
@@ -32,8 +34,6 @@ from ._slots import (
     WIND_Y,
     WIND_Z,
 )  # fmt: skip
-from .aero._kernels import inflow_lag, section_force, solve
-from .control._kernels import brake, control
 from .structure._kernels import (
     blade_equations,
     blade_root,

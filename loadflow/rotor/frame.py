@@ -94,14 +94,14 @@ def _tower_modes(turbine: Turbine) -> list[_TowerMode]:
         )
     height = np.linspace(bending.height[0], tower.height, _FINE)
     density = np.interp(height, bending.height, bending.mass_density)
-    weight = _GRAVITY * (turbine.rotor_mass + bending.nacelle_mass + _above(density, height))
+    weight = _GRAVITY * (turbine.rotor_mass + bending.nacelle_mass + mass_above(density, height))
     # apex seen from the tower top, ground frame
     ahead, above = -rotor.overhang * np.cos(rotor.tilt), rotor.hub_height - tower.height
     modes = []
     for kind in ("fore_aft", "side_side"):
         along = kind == "fore_aft"
         rigidity = np.interp(height, bending.height, getattr(bending, f"{kind}_stiffness"))
-        shape, slope, curvature = _shape(getattr(bending, kind), height)
+        shape, slope, curvature = mode_shape(getattr(bending, kind), height)
         lean = slope[-1]
         own = np.trapezoid(density * shape**2, height)
         elastic = np.trapezoid(rigidity * curvature**2, height)
@@ -127,7 +127,7 @@ def _tower_modes(turbine: Turbine) -> list[_TowerMode]:
     return modes
 
 
-def _shape(coefficients: tuple[float, ...], height: Array) -> tuple[Array, Array, Array]:
+def mode_shape(coefficients: tuple[float, ...], height: Array) -> tuple[Array, Array, Array]:
     """Deflection, slope and curvature of a mode over the height, from foot to top."""
     length = height[-1] - height[0]
     x = ((height - height[0]) / length)[:, None]
@@ -140,7 +140,7 @@ def _shape(coefficients: tuple[float, ...], height: Array) -> tuple[Array, Array
     )
 
 
-def _above(density: Array, height: Array) -> Array:
+def mass_above(density: Array, height: Array) -> Array:
     """Mass of the tower above each height."""
     piece = 0.5 * (density[1:] + density[:-1]) * np.diff(height)
     return np.append(np.cumsum(piece[::-1])[::-1], 0.0)

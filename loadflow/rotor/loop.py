@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from loadflow.errors import SolverError
 
 from . import _kernels as kernels
-from . import _slots as k
+from . import slots as k
 from .aero._airfoil_kernels import SECTION_STATES
 from .control._kernels import control_torque
 from .control.constants import IDLE, PARK, UNEVENTFUL, Controller, Schedule
@@ -123,7 +123,7 @@ def run(
     Returns
     -------
     ndarray, shape (steps, COLUMNS + blades)
-        The columns of `_slots`, then the pitch of each blade.
+        The columns of `slots`, then the pitch of each blade.
 
     Raises
     ------

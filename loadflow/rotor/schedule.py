@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from loadflow.turbines import Turbine
 
-from . import _slots as k
+from . import slots as k
 from .control.constants import controller
 from .inflow import steady_inflow
 from .loop import run, turning_state

@@ -183,7 +183,7 @@ def simulate_condition(
 
     Parameters and result are those of `simulate`; `winds` are the options that made the condition.
     """
-    from . import _slots as k
+    from . import slots as k
     from .inflow import case_inflow, wind_machine
     from .loop import run
     from .rungs import Same, default_rung, prepare
@@ -303,7 +303,7 @@ def _wait(prepared: Same, state: State, case: Condition, run_in: float, dt: floa
 
     Turbulence meets the rotor anywhere, and a rotor that stands is there already.
     """
-    from . import _slots as k
+    from . import slots as k
     from .inflow import steady_inflow
     from .loop import run
 
@@ -341,7 +341,7 @@ def _trip(time: np.ndarray, state: np.ndarray, case: Condition) -> float:
 def _dataset(out: np.ndarray, dt: float) -> xr.Dataset:
     import xarray as xr
 
-    from . import _slots as k
+    from . import slots as k
     from .control.constants import STATES
 
     def scalar(column: int, units: str, name: str) -> tuple:

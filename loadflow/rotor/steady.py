@@ -94,7 +94,7 @@ def steady_state(
     m, c = prepare(machine, rung, options or RotorOptions())
     points = [operating_point(m, c, float(v), shear) for v in speeds]
     rows = np.array([mean for mean, _, _ in points])
-    from . import _slots as k
+    from . import slots as k
 
     moment, force = rows[:, [k.MX, k.MY, k.MZ]], rows[:, [k.FX, k.FY, k.FZ]]
     along = ("wind_speed",)
@@ -133,7 +133,7 @@ def operating_point(
     The means are over whole revolutions; where the control hunts, as between its regions, over
     the minutes of a cycle that neither grows nor drifts.
     """
-    from . import _slots as k
+    from . import slots as k
     from .frame import calmed
     from .inflow import steady_inflow
     from .loop import run, turning_state

@@ -1,70 +1,229 @@
 """Where the load cases are worked on: this process, processes of this machine, or a Dask cluster.
 
-No scheduler of our own: cases are independent, so any executor that maps a function will do.
+No scheduler of our own: cases are independent, so any executor that maps a function will do. A
+worker that is lost costs its own cases only.
 """
 
 from __future__ import annotations
 
+import asyncio
+import logging
+import os
+import signal
 from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import Future, ProcessPoolExecutor, as_completed
-from contextlib import contextmanager
-from functools import partial
-from multiprocessing import get_context
-from typing import Any, TypeVar
+from concurrent.futures import CancelledError, ProcessPoolExecutor, as_completed
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+from multiprocessing import get_context, parent_process
+from threading import Thread
+from typing import Any, Protocol, TypeVar
 
-from loadflow.errors import InputError
+from loadflow.errors import InputError, LoadflowError
 
 Item = TypeVar("Item")
 Outcome = TypeVar("Outcome")
-Submit = Callable[..., Any]
+
+log = logging.getLogger("loadflow.run")
+
+HOPELESS = 3
+"""Workers lost one after another, with nothing finished between them, after which a run ends."""
+
+
+@dataclass(frozen=True)
+class Lost:
+    """In place of an outcome: the worker was killed while it was at this item alone."""
+
+    reason: str
+
+
+class Executor(Protocol):
+    """What maps a function over independent items."""
+
+    workers: int
+    shares_disk: bool
+    """Whether its processes find what one of them compiled."""
+
+    def outcomes(
+        self, work: Callable[[Item], Outcome], items: Iterable[Item]
+    ) -> Iterator[tuple[Item, Outcome | Lost]]:
+        """Yield items and outcomes as they come; what is not begun when one raises is dropped."""
+        ...
+
+
+def usable_cores() -> int:
+    """Number of cores that this process may use, on any system."""
+    if hasattr(os, "process_cpu_count"):  # from Python 3.13
+        return os.process_cpu_count() or 1
+    if hasattr(os, "sched_getaffinity"):  # Linux only
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
 
 
 @contextmanager
-def executor(workers: int, scheduler: str | None) -> Iterator[Submit | None]:
-    """Yield what takes a function and an item and gives a future; None to work in this process."""
+def executor(workers: int, scheduler: str | None) -> Iterator[Executor]:
+    """Yield where to work; no process of it is left when the block ends, however it ends.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        No Dask here, or no scheduler that answers.
+    """
     if scheduler is not None:
-        try:
-            from dask.distributed import Client
-        except ImportError as error:
-            raise InputError(
-                "--scheduler needs the extra dask: pip install loadflow[dask]"
-            ) from error
-        with Client(scheduler) as client:
-            yield partial(client.submit, pure=False)
+        with _client(scheduler) as client:
+            yield _Cluster(client, scheduler)
     elif workers > 1:
-        # spawned, not forked: HDF5 and numba hold threads and locks that do not survive a fork
-        context = get_context("spawn")
-        with ProcessPoolExecutor(workers, context, initializer=_one_thread) as pool:
-            yield pool.submit
+        processes = _Processes(workers)
+        try:
+            yield processes
+        finally:
+            processes.kill()
     else:
-        yield None
+        yield _Here()
 
 
-def _one_thread() -> None:
-    """Keep BLAS to one thread in a worker: the cases are what runs in parallel."""
+class _Here:
+    """One item after another in this process."""
+
+    workers = 1
+    shares_disk = True
+
+    def outcomes(
+        self, work: Callable[[Item], Outcome], items: Iterable[Item]
+    ) -> Iterator[tuple[Item, Outcome | Lost]]:
+        for item in items:
+            yield item, work(item)
+
+
+class _Processes:
+    """Processes of this machine; fewer of them after one was killed."""
+
+    shares_disk = True
+
+    def __init__(self, workers: int) -> None:
+        self.workers = workers
+        self._pool: ProcessPoolExecutor | None = None
+
+    def outcomes(
+        self, work: Callable[[Item], Outcome], items: Iterable[Item]
+    ) -> Iterator[tuple[Item, Outcome | Lost]]:
+        left = list(items)
+        in_a_row = 0
+        while left:
+            # a single worker gets one item at a time, so that one that kills it is known
+            batch = left if self.workers > 1 else left[:1]
+            try:
+                for k, outcome in self._finished(work, batch):
+                    in_a_row = 0
+                    item = batch[k]
+                    left = [other for other in left if other is not item]
+                    yield item, outcome
+            except BrokenProcessPool:
+                self.kill()
+                in_a_row += 1
+                if self.workers > 1:
+                    self.workers = max(1, self.workers // 2)
+                    log.warning(
+                        "a worker process was killed, as systems do that run out of memory; "
+                        "%d load cases go on with %d processes",
+                        len(left),
+                        self.workers,
+                    )
+                elif in_a_row > HOPELESS:
+                    raise LoadflowError(
+                        f"{in_a_row} worker processes were killed one after another; is there "
+                        "enough memory? Started again, the run goes on where it was"
+                    ) from None
+                else:
+                    yield left.pop(0), Lost("its worker process was killed; is memory short?")
+
+    def _finished(
+        self, work: Callable[[Item], Outcome], items: list[Item]
+    ) -> Iterator[tuple[int, Outcome]]:
+        if self._pool is None:
+            # spawned, not forked: HDF5 and numba hold threads and locks that do not survive a fork
+            self._pool = ProcessPoolExecutor(
+                self.workers, get_context("spawn"), initializer=_start_worker
+            )
+        numbers = {self._pool.submit(work, item): k for k, item in enumerate(items)}
+        for future in as_completed(numbers):
+            yield numbers[future], future.result()
+
+    def kill(self) -> None:
+        """End the processes at once: what they write is whole or not there."""
+        pool, self._pool = self._pool, None
+        if pool is not None:
+            # public only from Python 3.14 on (kill_workers)
+            processes = [*(getattr(pool, "_processes", None) or {}).values()]
+            for process in processes:
+                process.kill()
+            pool.shutdown(wait=False, cancel_futures=True)
+
+
+def _start_worker() -> None:
+    """One BLAS thread, as the cases run in parallel; the parent alone answers to the keyboard."""
     from threadpoolctl import threadpool_limits
 
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
     threadpool_limits(1)
+    Thread(target=_end_with_parent, daemon=True).start()
 
 
-def finished(
-    submit: Submit | None, work: Callable[[Item], Outcome], items: Iterable[Item]
-) -> Iterator[Outcome]:
-    """Yield the outcomes as they come; what is not begun when one raises is dropped."""
-    if submit is None:
-        yield from map(work, items)
-        return
-    futures: list[Future[Outcome]] = [submit(work, item) for item in items]
-    completed = as_completed if all(isinstance(f, Future) for f in futures) else _dask_completed
+def _end_with_parent() -> None:
+    parent = parent_process()
+    if parent is not None:
+        parent.join()
+        os._exit(1)
+
+
+class _Cluster:
+    """A Dask cluster, which has the cases of a lost worker done by another one."""
+
+    shares_disk = False
+
+    def __init__(self, client: Any, address: str) -> None:
+        self._client, self._address = client, address
+        self.workers = len(client.scheduler_info(n_workers=-1)["workers"])
+
+    def outcomes(
+        self, work: Callable[[Item], Outcome], items: Iterable[Item]
+    ) -> Iterator[tuple[Item, Outcome | Lost]]:
+        from dask.distributed import as_completed as completed
+        from distributed import KilledWorker
+        from distributed.comm import CommClosedError
+
+        futures = {self._client.submit(work, item, pure=False): item for item in items}
+        try:
+            for future in completed(futures):
+                try:
+                    yield futures[future], future.result()
+                except KilledWorker:
+                    yield futures[future], Lost("its Dask workers were killed; is memory short?")
+        except (CommClosedError, CancelledError, asyncio.CancelledError) as error:
+            raise LoadflowError(
+                f"lost the Dask scheduler {self._address}; "
+                "started again, the run goes on where it was"
+            ) from error
+        finally:
+            with suppress(Exception):  # the scheduler may be gone; nothing of it is waited for
+                self._client.cancel(list(futures))
+
+
+@contextmanager
+def _client(scheduler: str) -> Iterator[Any]:
     try:
-        for future in completed(futures):
-            yield future.result()
+        from dask.distributed import Client
+    except ImportError as error:
+        raise InputError("--scheduler needs the extra dask: pip install loadflow[dask]") from error
+    try:
+        client = Client(scheduler, timeout="10s")
+    except (OSError, ValueError, TypeError) as error:
+        raise InputError(
+            f"scheduler = {scheduler!r}: no Dask scheduler answers there; it must be the address "
+            "of a running one, tcp://host:port"
+        ) from error
+    try:
+        yield client
     finally:
-        for future in futures:
-            future.cancel()
-
-
-def _dask_completed(futures: list[Any]) -> Iterator[Any]:
-    from dask.distributed import as_completed as completed
-
-    yield from completed(futures)
+        with suppress(Exception):
+            client.close(timeout=1)

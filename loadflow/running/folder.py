@@ -3,22 +3,53 @@
 from __future__ import annotations
 
 import json
-import os
+import logging
 import platform
+from collections.abc import Iterable, Iterator
 from importlib import metadata
 from pathlib import Path
 from typing import Any
 
 import loadflow
 from loadflow.errors import InputError
-from loadflow.planning.plan import Plan, Stage
+from loadflow.planning.effects import Verdict
+from loadflow.planning.plan import Plan
+from loadflow.running.parts import digest_of, set_aside, unsound
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
+from loadflow.stages.stage import Stage
+from loadflow.storage import target_of, write_text
+
+FILES = ("scene.toml", "manifest.json", "result.h5", "report.html", "profile.json", "run.log")
+"""What a run writes beside its parts."""
+
+_KINDS: dict[str, type | tuple[type, ...]] = {
+    "wanted": str,
+    "climbed": list,
+    "stages": dict,
+    "rungs": dict,
+    "cases": list,
+    "inputs": dict,
+    "versions": dict,
+    "seconds": dict,
+    "failures": dict,
+    "pilot": (dict, type(None)),
+    "wall_seconds": (int, float),
+}
+
+log = logging.getLogger("loadflow.run")
 
 
-def part_file(folder: Path, stage: Stage, case: Case | None = None) -> Path:
+def part_file(folder: Path, stage: str, case: Case | None = None) -> Path:
     """Return the file of a stage, and of a case if the stage runs once for each."""
-    return folder / f"{stage.name}.h5" if case is None else folder / stage.name / f"{case.name}.h5"
+    return folder / f"{stage}.h5" if case is None else folder / stage / f"{case.name}.h5"
+
+
+def part_files(folder: Path, stage: Stage, cases: Iterable[Case]) -> list[Path]:
+    """Return the files that a stage leaves when it is done."""
+    if stage.scope == "run":
+        return [part_file(folder, stage.name)]
+    return [part_file(folder, stage.name, case) for case in cases]
 
 
 def climbs(folder: Path, scene: Scene) -> list[str]:
@@ -27,18 +58,58 @@ def climbs(folder: Path, scene: Scene) -> list[str]:
     return manifest["climbed"] if manifest.get("wanted") == scene.digest() else []
 
 
-def _manifest(folder: Path) -> dict[str, Any]:
+def known_verdict(folder: Path, scene: Scene) -> Verdict | None:
+    """Return what a pilot of this scene found before; None without one."""
+    manifest = _manifest(folder)
+    found = manifest.get("pilot") if manifest.get("wanted") == scene.digest() else None
+    return Verdict.from_json(found) if found else None
+
+
+def read_manifest(folder: Path) -> dict[str, Any]:
+    """Return how the numbers of a run came about.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        There is none, or it is damaged.
+    """
     path = folder / "manifest.json"
-    return json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
+    try:
+        found = json.loads(path.read_text(encoding="utf-8"))
+    except FileNotFoundError as error:
+        raise InputError(f"{path}: there is none; `loadflow run` makes it") from error
+    except ValueError as error:  # no JSON, or not even text
+        raise InputError(f"{path}: damaged ({error}); `loadflow run` makes it anew") from error
+    wrong = [
+        key
+        for key, kind in _KINDS.items()
+        if not isinstance(found, dict) or (key in found and not isinstance(found[key], kind))
+    ]
+    if wrong:
+        raise InputError(
+            f"{path}: damaged (bad value of {', '.join(wrong)}); `loadflow run` makes it anew"
+        )
+    return found
+
+
+def _manifest(folder: Path) -> dict[str, Any]:
+    """What is known of earlier work; parts answer for themselves, so that it may be lost."""
+    if not (folder / "manifest.json").exists():
+        return {}
+    try:
+        return read_manifest(folder)
+    except InputError as error:
+        log.warning("%s", error)
+        return {}
 
 
 def finished_parts(folder: Path, plan: Plan) -> dict[str, int]:
     """Return the number of parts of each stage that a run of this plan would find finished."""
-    known = _manifest(folder).get("stages", {})
     return {
-        step.stage.name: len(_parts(folder, step.stage.name))
-        if known.get(step.stage.name) == step.digest
-        else 0
+        step.name: sum(
+            path.is_file() and digest_of(path) == step.digest
+            for path in part_files(folder, step.stage, plan.cases)
+        )
         for step in plan.steps
     }
 
@@ -48,35 +119,39 @@ def _parts(folder: Path, stage: str) -> list[Path]:
 
 
 def prepare(
-    folder: Path, scene: Scene, plan: Plan, climbed: list[str], overwrite: bool
+    folder: Path,
+    scene: Scene,
+    plan: Plan,
+    climbed: list[str],
+    overwrite: bool,
+    verdict: Verdict | None = None,
 ) -> dict[str, Any]:
-    """Make the folder, or check that what is in it belongs to these settings."""
-    folder.mkdir(parents=True, exist_ok=True)
-    manifest = _manifest(folder)
-    digests = {step.stage.name: step.digest for step in plan.steps}
-    known = manifest.get("stages", {})
-    samples = {step.stage.name for step in plan.steps if step.stage.sample}  # cheap: made anew
-    for name, digest in digests.items():
-        parts = _parts(folder, name)
-        if not parts or known.get(name) == digest:
-            continue
-        if not overwrite and name not in samples:
-            raise InputError(
-                f"{folder}: holds {len(parts)} finished parts of the stage {name!r} that were made "
-                "with other settings or inputs; give the run another name, or overwrite it"
-            )
-        for part in parts:
-            part.unlink()
-    for rest in folder.rglob(".*.tmp"):
+    """Clear the folder of what a run left there that is of no use; return its manifest.
+
+    Nothing is deleted but parts of other settings, if `overwrite` says so, and temporary files of
+    runs that were killed. Damaged parts are renamed, and so are done again.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        Finished parts of other settings, or a symbolic link where a run would write.
+    """
+    for step in plan.steps:
+        _check_own(folder, step.stage)
+        if step.stage.scope == "case":
+            (folder / step.name).mkdir(exist_ok=True)
+        _clear(folder, step.stage, step.digest, plan.cases, overwrite)
+    for rest in _left_by_killed(folder, plan):
         rest.unlink()
-    replace_text(folder / "scene.toml", plan.scene.to_toml())
+    manifest = _manifest(folder)
+    write_text(folder / "scene.toml", plan.scene.to_toml())
     manifest |= {
         "wanted": scene.digest(),
         "climbed": climbed,
-        "stages": known | digests,
+        "stages": manifest.get("stages", {}) | {step.name: step.digest for step in plan.steps},
         "rungs": {
-            step.stage.name: {"rung": step.rung, "error": step.error or "not measured"}
-            | {"reason": plan.reasons.get(step.stage.name, "")}
+            step.name: {"rung": step.rung, "error": step.error or "not measured"}
+            | {"reason": plan.reasons.get(step.name, "")}
             for step in plan.steps
         },
         "expected_errors": {
@@ -84,13 +159,56 @@ def prepare(
             for result, errors in plan.errors.items()
         },
         "accurate": plan.accurate,
+        "shortfalls": plan.shortfalls,
+        "effects": [vars(effect) for effect in plan.effects],
+        "pilot": verdict.to_json() if verdict else None,
         "inputs": {c.file or c.wind: c.fingerprint for c in plan.cases if c.fingerprint},
         "cases": [case.name for case in plan.cases],
         "versions": {"python": platform.python_version(), "loadflow": loadflow.__version__}
         | {name: metadata.version(name) for name in ("numpy", "scipy", "numba", "xarray")},
     }
-    replace_text(folder / "manifest.json", json.dumps(manifest, indent=1))
+    write_text(folder / "manifest.json", json.dumps(manifest, indent=1))
     return manifest
+
+
+def _check_own(folder: Path, stage: Stage) -> None:
+    """Refuse a link that leads what is written, or deleted, out of the folder."""
+    for path in (folder / stage.name, folder / f"{stage.name}.h5"):
+        if path.is_symlink():
+            raise InputError(f"{path}: a symbolic link; a run writes into its own folder only")
+
+
+def _clear(
+    folder: Path, stage: Stage, digest: str, cases: tuple[Case, ...], overwrite: bool
+) -> None:
+    """Leave only sound parts of these settings, and what is no part of a run."""
+    sealed = {path: digest_of(path) for path in _parts(folder, stage.name) if path.is_file()}
+    others = [path for path, made_with in sealed.items() if made_with not in (digest, None)]
+    if others and not overwrite and stage.sample is None:  # a sample is cheap: made anew
+        raise InputError(
+            f"{folder}: holds {len(others)} finished parts of the stage {stage.name!r} that were "
+            "made with other settings or inputs; give the run another name, or overwrite it"
+        )
+    for path in others:
+        path.unlink()
+    wanted = [path for path in part_files(folder, stage, cases) if path not in others]
+    for path in unsound(path for path in wanted if path.is_file()):
+        kept = set_aside(path)
+        log.warning(
+            "%s: damaged, or of an older version; it is made again (kept as %s)", path, kept.name
+        )
+
+
+def _left_by_killed(folder: Path, plan: Plan) -> Iterator[Path]:
+    """Temporary files of this run's own, of processes that were killed while they wrote."""
+    own: dict[Path, set[str]] = {folder: set(FILES)}
+    for step in plan.steps:
+        for path in part_files(folder, step.stage, plan.cases):
+            own.setdefault(path.parent, set()).add(path.name)
+    for place, names in own.items():
+        for path in place.glob(".*.loadflow-tmp"):
+            if target_of(path.name) in names and path.is_file() and not path.is_symlink():
+                yield path
 
 
 def record(
@@ -110,11 +228,4 @@ def record(
         "workers": workers,
         "failures": failures,
     }
-    replace_text(folder / "manifest.json", json.dumps(manifest, indent=1))
-
-
-def replace_text(path: Path, text: str) -> None:
-    """Write a text file whole or not at all."""
-    temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
-    temporary.write_text(text, encoding="utf-8")
-    os.replace(temporary, path)
+    write_text(folder / "manifest.json", json.dumps(manifest, indent=1))

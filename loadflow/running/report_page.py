@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -15,9 +14,10 @@ from loadflow.errors import InputError
 from loadflow.planning.verification import WARN
 from loadflow.report import Picture, Section, Table, figures, write_page
 from loadflow.report.style import readable
+from loadflow.running.folder import read_manifest
 from loadflow.scene.scene import Scene, read_scene
 from loadflow.scene.unused import unused_keys
-from loadflow.stages.loads import trips, when_tripped
+from loadflow.stages.loads import doubts, trips, when_tripped
 from loadflow.stages.statistics import SLOPE
 from loadflow.studies.extreme_loads import safety_factor
 from loadflow.verdict import Verdict, from_dataset
@@ -41,7 +41,7 @@ def write_report(folder: Path) -> Path:
     if not (folder / "result.h5").exists():
         raise InputError(f"{folder}: no finished run here (result.h5 is missing)")
     scene = read_scene(folder / "scene.toml")
-    manifest = json.loads((folder / "manifest.json").read_text(encoding="utf-8"))
+    manifest = read_manifest(folder)
     results = open_cube(folder / "result.h5")
     groups = results.children if isinstance(results, xr.DataTree) else {}
     tables = {name: node.to_dataset() for name, node in groups.items()}
@@ -58,7 +58,9 @@ def _facts(scene: Scene, manifest: dict[str, Any]) -> dict[str, str]:
         if loads.source == "simulate"
         else f"{len(manifest['inputs'])} files"
     )
+    short = manifest.get("shortfalls", [])
     return {
+        **({"Not accurate enough": "; ".join(short)} if short else {}),
         "Loads": source,
         "Load cases": str(len(manifest["cases"])),
         "Results": ", ".join(scene.results),
@@ -74,7 +76,7 @@ def _sections(
     shown = _shown_cases(tables, manifest)
     yield Section(
         "Loads",
-        tables=[*_trip_table(tables), *_load_tables(tables)],
+        tables=[*_trip_table(tables), *_doubt_table(tables), *_load_tables(tables)],
         pictures=[*_load_pictures(folder, shown)],
     )
     if "shaft" in tables:
@@ -210,6 +212,14 @@ def _trip_table(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
     """Cases that are no longer what their load case says; nothing if there are none."""
     if rows := [[name, when_tripped(time)] for name, time in trips(tables).items()]:
         yield Table("Tripped on overspeed, and stopped from then on", ["load case", "when"], rows)
+
+
+def _doubt_table(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
+    """What does not fit turbine, frame, unit or step; nothing if all does."""
+    rows = [[name, doubt] for name, said in doubts(tables).items() for doubt in said]
+    if rows:
+        marked = frozenset(range(len(rows)))
+        yield Table("Doubtful series", ["load case", "what does not fit"], rows, marked)
 
 
 def _load_tables(tables: dict[str, xr.Dataset]) -> Iterator[Table]:

@@ -1,35 +1,55 @@
 """Carries a plan out: in parallel, resumable, with a record of how each number came about.
 
 A run is a folder: ``scene.toml`` as resolved, ``manifest.json``, one file for each finished stage
-and case, ``result.h5`` and ``report.html``. A stage reads what it needs from these files, never
-from memory, so a run that was killed and started again gives the same numbers.
+and case, ``result.h5``, ``report.html`` and ``run.log``. A stage reads what it needs from these
+files, never from memory, so a run that was killed and started again gives the same numbers.
 """
 
 from __future__ import annotations
 
+import logging
 import time
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import partial
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 import xarray as xr
 
+import loadflow
 from loadflow.cube import open_cube, save_cube
-from loadflow.errors import SolverError
+from loadflow.errors import LoadflowError, SolverError
 from loadflow.planning import verification as check
-from loadflow.planning.accuracy import may_climb
-from loadflow.planning.plan import STAGES, Plan, Stage, make_plan
-from loadflow.running.executor import executor, finished
-from loadflow.running.folder import climbs, part_file, prepare, record
+from loadflow.planning.accuracy import can_refine
+from loadflow.planning.effects import Verdict as PilotVerdict
+from loadflow.planning.pilot import pilot
+from loadflow.planning.plan import Plan, Step, make_plan
+from loadflow.running.cases import Outcome, do_case, is_missing, is_ready, open_inputs
+from loadflow.running.compiling import Compiling
+from loadflow.running.executor import Executor, Lost, executor
+from loadflow.running.folder import (
+    climbs,
+    known_verdict,
+    part_file,
+    part_files,
+    prepare,
+    record,
+)
+from loadflow.running.lock import locked
+from loadflow.running.parts import save_part
+from loadflow.running.profile import COMPILING, Profile
 from loadflow.running.report_page import write_report
+from loadflow.running.warm_up import compile_kernels
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
 from loadflow.scene.unused import unused_keys
-from loadflow.stages import loads, shaft
+from loadflow.stages.registry import STAGES
+from loadflow.storage import check_name
 from loadflow.verdict import Verdict, from_dataset, to_dataset
+
+log = logging.getLogger("loadflow.run")
 
 Report = Callable[[str, int, int], None]
 """Told of progress: what is being done, units done, units in all."""
@@ -49,12 +69,15 @@ class Run:
         Load cases that a solver could not answer, and why.
     unused : dict
         Keys of the scene that are set but change nothing, and why.
+    shortfalls : tuple of str
+        Results that are not expected to be as accurate as asked for: how far off, why, what helps.
     """
 
     path: Path
     tree: xr.DataTree
     failures: dict[str, str] = field(default_factory=dict)
     unused: dict[str, str] = field(default_factory=dict)
+    shortfalls: tuple[str, ...] = ()
 
     @property
     def flagged(self) -> dict[str, int]:
@@ -79,7 +102,8 @@ class Run:
     def warnings(self) -> list[str]:
         """What the run found doubtful about its own models."""
         ignored = [f"{key}: has no effect, {why}" for key, why in self.unused.items()]
-        found = [said for stage in (loads, shaft, check) for said in stage.warnings(self.tree)]
+        stages = (*STAGES.values(), check.CHECK)
+        found = [said for stage in stages for said in stage.warnings(self.tree)]
         return [*ignored, *found]
 
     @property
@@ -97,6 +121,7 @@ def run(
     overwrite: bool = False,
     report: bool = True,
     progress: Report | None = None,
+    profile: bool = False,
 ) -> Run:
     """Carry out what a scene wants.
 
@@ -119,6 +144,8 @@ def run(
         Whether to write the report page.
     progress : callable, optional
         Called with (stage, done, total).
+    profile : bool
+        Whether to write ``profile.json``: where the time went.
 
     Returns
     -------
@@ -128,121 +155,214 @@ def run(
     Raises
     ------
     loadflow.errors.InputError
-        Bad load files, or finished parts of other settings in the folder.
+        Bad load files, a bad name, or finished parts of other settings in the folder.
     loadflow.errors.SolverError
         No case at all could be answered.
+    loadflow.errors.LoadflowError
+        Another process is at work on the run; the disk is full or refuses; the scheduler or all
+        workers are lost. What is finished stays, and the run goes on from there.
     """
-    folder = Path(out) / scene.name
+    # absolute, as the workers of a cluster stand elsewhere
+    folder = Path(out).absolute() / check_name(scene.name, "name of the run")
     say = progress or (lambda stage, done, total: None)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with locked(folder), _logged(folder), executor(workers, scheduler) as where:
+            return _run(
+                scene, folder, where, overwrite, report, say, Profile() if profile else None
+            )
+    except OSError as error:
+        place = error.filename or folder
+        raise LoadflowError(
+            f"{error.strerror or error}: {place}; what is finished stays, and the run goes on from "
+            "there when it is started again"
+        ) from error
+
+
+class _LogFile(logging.FileHandler):
+    def handleError(self, record: logging.LogRecord) -> None:
+        """Go on without the log: a disk that refuses is told of by what matters more."""
+
+
+@contextmanager
+def _logged(folder: Path) -> Iterator[None]:
+    """Write what is said of the run into its folder as well."""
+    handler = _LogFile(folder / "run.log", encoding="utf-8")
+    handler.setFormatter(logging.Formatter("%(asctime)s %(levelname)-7s %(message)s"))
+    level = log.level
+    log.addHandler(handler)
+    log.setLevel(logging.INFO)
+    try:
+        yield
+    except BaseException as error:
+        log.error("stopped: %s", str(error) or type(error).__name__, extra=ONLY_LOGGED)
+        raise
+    finally:
+        log.setLevel(level)
+        log.removeHandler(handler)
+        handler.close()
+
+
+ONLY_LOGGED = {"only_logged": True}
+"""Of records for the log file, which whoever calls tells in a way of their own."""
+
+
+def _run(
+    scene: Scene,
+    folder: Path,
+    where: Executor,
+    overwrite: bool,
+    report: bool,
+    say: Report,
+    profile: Profile | None,
+) -> Run:
+    log.info("loadflow %s, %s, %d workers", loadflow.__version__, folder, where.workers)
     climbed = climbs(folder, scene)
+    begun = time.perf_counter()
+    pilot_verdict = known_verdict(folder, scene) or pilot(scene, say)
+    if profile:
+        profile.add_wall("pilot", time.perf_counter() - begun)
     while True:
         started = time.perf_counter()
-        plan = make_plan(scene, climbed)
-        manifest = prepare(folder, scene, plan, climbed, overwrite)
-        timing, failures = _carry_out(plan, folder, workers, scheduler, say)
+        plan = make_plan(scene, climbed, pilot_verdict)
+        manifest = prepare(folder, scene, plan, climbed, overwrite, pilot_verdict)
+        timing, failures = _carry_out(plan, folder, where, say, profile, pilot_verdict)
+        begun = time.perf_counter()
         tree = _collect(plan, folder)
         save_cube(tree, folder / "result.h5")
         wall = time.perf_counter() - started
-        record(folder, manifest, timing, failures, workers=workers, wall=wall)
-        higher = [stage for stage in check.exceeded(tree) if may_climb(scene, plan.scene, stage)]
+        if profile:
+            profile.add_wall("result", time.perf_counter() - begun)
+        record(folder, manifest, timing, failures, workers=where.workers, wall=wall)
+        higher = [stage for stage in check.exceeded(tree) if can_refine(scene, plan.scene, stage)]
         if not higher:
             break
+        log.info("not accurate enough, better models of: %s", ", ".join(higher))
         climbed = [*climbed, *higher]
         overwrite = True  # the parts of the coarser models are this run's own
     if report:
+        begun = time.perf_counter()
         say("report", 0, 1)
         write_report(folder)
         say("report", 1, 1)
-    return Run(folder, tree, failures, unused_keys(scene))
+        if profile:
+            profile.add_wall("report", time.perf_counter() - begun)
+    if profile:
+        profile.write(folder / "profile.json", where.workers)
+    log.info("finished, %d parts have no answer", len(failures))
+    return Run(folder, tree, failures, unused_keys(scene), plan.shortfalls)
 
 
 def _carry_out(
-    plan: Plan, folder: Path, workers: int, scheduler: str | None, say: Report
+    plan: Plan,
+    folder: Path,
+    where: Executor,
+    say: Report,
+    profile: Profile | None,
+    pilot_verdict: PilotVerdict | None,
 ) -> tuple[dict[str, float], dict[str, str]]:
     """Do what is missing of a plan; return seconds by stage, and what has no answer."""
     timing: dict[str, float] = {}
     failures: dict[str, str] = {}
-    todo = [case for case in plan.cases if _missing(plan, case, folder)]
-    work = partial(_do_case, scene=plan.scene, plan=plan, folder=folder)
+    todo = [case for case in plan.cases if is_missing(plan, case, folder)]
     done = len(plan.cases) - len(todo)
+    log.info("%d load cases, %d of them finished", len(plan.cases), done)
+    begun = time.perf_counter()
+    if len(todo) > 1:
+        compile_kernels(plan, where, say)
+    compiled = time.perf_counter()
     say("load cases", done, len(plan.cases))
-    with executor(workers, scheduler) as submit:
-        for outcome in finished(submit, work, todo):
-            done += 1
-            failures |= outcome.failures
-            for stage, seconds in outcome.seconds.items():
-                timing[stage] = timing.get(stage, 0.0) + seconds
-            say("load cases", done, len(plan.cases))
+    work = partial(do_case, scene=plan.scene, plan=plan, folder=folder)
+    for case, outcome in where.outcomes(work, todo):
+        done += 1
+        if isinstance(outcome, Lost):
+            failures[f"{case.name}, worker"] = outcome.reason
+            log.error("%s: %s", case.name, outcome.reason, extra=ONLY_LOGGED)
+        else:
+            _note(case, outcome, timing, failures, profile)
+        say("load cases", done, len(plan.cases))
+    if profile:
+        profile.add_wall(COMPILING, compiled - begun)
+        profile.add_wall("load cases", time.perf_counter() - compiled)
     if plan.cases and not any((folder / "loads").glob("*.h5")):
         raise SolverError("no load case could be answered:\n" + _lines(failures))
+    _check_there(plan, folder, failures)
 
-    for whole in (step.stage for step in plan.of_scope("run")):
+    seen = pilot_verdict.cases if pilot_verdict else ()
+    for whole in plan.of_scope("run"):
         say(whole.name, 0, 1)
-        if not (target := part_file(folder, whole)).exists():
+        if not (target := part_file(folder, whole.name)).exists():
             begun = time.perf_counter()
-            cases = _looked_at(whole, plan.cases, folder)
-            inputs = {case.name: _open(whole, case, folder) for case in cases}
-            save_cube(_call(whole, plan.scene, cases, inputs), target)
+            cases = _looked_at(whole, plan.cases, folder, seen)
+            inputs = {case.name: open_inputs(whole, case, folder) for case in cases}
+            with Compiling() as compiling:
+                save_part(whole.stage.run(plan.scene, cases, inputs), target, whole.digest)
             timing[whole.name] = time.perf_counter() - begun
+            if profile:
+                profile.add_wall(whole.name, timing[whole.name], compiling.seconds)
+            log.info(
+                "%s: %.1f s, %.1f s of it compiling",
+                whole.name,
+                timing[whole.name],
+                compiling.seconds,
+            )
         say(whole.name, 1, 1)
     return timing, failures
 
 
-def _looked_at(stage: Stage, cases: tuple[Case, ...], folder: Path) -> list[Case]:
-    """Return the cases that a stage over all of them reads: those that are there, or a sample."""
-    there = [case for case in cases if _ready(stage, case, folder)]
-    if stage.sample is None or len(there) <= stage.sample:
+def _note(
+    case: Case,
+    outcome: Outcome,
+    timing: dict[str, float],
+    failures: dict[str, str],
+    profile: Profile | None,
+) -> None:
+    """Keep what became of a case."""
+    failures |= outcome.failures
+    for stage, seconds in outcome.seconds.items():
+        timing[stage] = timing.get(stage, 0.0) + seconds
+    if profile:
+        profile.add(outcome)
+    spent = ", ".join(f"{stage} {seconds:.1f} s" for stage, seconds in outcome.seconds.items())
+    log.info("%s: %s", case.name, spent or "nothing new")
+    for part, why in outcome.failures.items():
+        log.error("%s: %s", part, why, extra=ONLY_LOGGED)
+    for trace in outcome.traces:
+        log.error("%s", trace, extra=ONLY_LOGGED)
+
+
+def _check_there(plan: Plan, folder: Path, failures: dict[str, str]) -> None:
+    """Raise if parts are not where the workers said that they wrote them."""
+    failed = {part.rsplit(", ", 1)[0] for part in failures}
+    answered = [case for case in plan.cases if case.name not in failed]
+    gone = [
+        path
+        for step in plan.of_scope("case")
+        for path in part_files(folder, step.stage, answered)
+        if not path.exists()
+    ]
+    if gone:
+        raise LoadflowError(
+            f"{len(gone)} finished parts are not in the folder of the run, {gone[0]} among them; "
+            "was it changed meanwhile, or do the workers see another one? Started again, the run "
+            "goes on where it was"
+        )
+
+
+def _looked_at(
+    step: Step, cases: tuple[Case, ...], folder: Path, seen: tuple[str, ...]
+) -> list[Case]:
+    """Return the cases that a stage over all of them reads: those that are there, or a sample.
+
+    A sample is of other cases than the pilot has `seen`, where there are enough.
+    """
+    there, count = [case for case in cases if is_ready(step, case, folder)], step.stage.sample
+    if count is None or len(there) <= count:
         return there
-    last, parts = len(there) - 1, stage.sample - 1
-    return [there[round(k * last / parts)] for k in range(stage.sample)]
-
-
-# --- one load case ---------------------------------------------------------------------------
-
-
-@dataclass(frozen=True)
-class _Outcome:
-    """What became of one case: seconds for each stage, and the failure if there was one."""
-
-    seconds: dict[str, float]
-    failures: dict[str, str]
-
-
-def _do_case(case: Case, scene: Scene, plan: Plan, folder: Path) -> _Outcome:
-    """Run the stages of one case that are missing; runs in a worker process."""
-    seconds: dict[str, float] = {}
-    failures: dict[str, str] = {}
-    for step in plan.of_scope("case"):
-        target = part_file(folder, step.stage, case)
-        if target.exists() or not _ready(step.stage, case, folder):
-            continue
-        begun = time.perf_counter()
-        try:
-            result = _call(step.stage, scene, case, _open(step.stage, case, folder))
-        except SolverError as error:
-            failures[f"{case.name}, {step.stage.name}"] = str(error)
-            continue
-        save_cube(result, target)
-        seconds[step.stage.name] = time.perf_counter() - begun
-    return _Outcome(seconds, failures)
-
-
-def _call(stage: Stage, *arguments: Any) -> Any:
-    module, function = stage.function.split(":")
-    return getattr(import_module(module), function)(*arguments)
-
-
-def _missing(plan: Plan, case: Case, folder: Path) -> bool:
-    return any(not part_file(folder, step.stage, case).exists() for step in plan.of_scope("case"))
-
-
-def _open(stage: Stage, case: Case, folder: Path) -> dict[str, Any]:
-    return {need: open_cube(part_file(folder, STAGES[need], case)) for need in stage.needs}
-
-
-def _ready(stage: Stage, case: Case, folder: Path) -> bool:
-    """Whether all that the stage reads of this case is there."""
-    return all(part_file(folder, STAGES[need], case).exists() for need in stage.needs)
+    others = [case for case in there if case.name not in seen]
+    some = others if len(others) >= count else there
+    last, parts = len(some) - 1, count - 1
+    return [some[round(k * last / parts)] for k in range(count)]
 
 
 def _collect(plan: Plan, folder: Path) -> xr.DataTree:
@@ -250,16 +370,15 @@ def _collect(plan: Plan, folder: Path) -> xr.DataTree:
     groups: dict[str, xr.Dataset | xr.DataTree] = {}
     missing: dict[str, list[str]] = {}
     for step in plan.steps:
-        module = import_module(step.stage.function.split(":")[0])
         if step.stage.scope == "run":
-            groups[step.stage.name] = open_cube(part_file(folder, step.stage))
-        elif hasattr(module, "summary"):
-            files = {case: part_file(folder, step.stage, case) for case in plan.cases}
+            groups[step.name] = open_cube(part_file(folder, step.name))
+        elif step.stage.summarise:
+            files = {case: part_file(folder, step.name, case) for case in plan.cases}
             parts = {case: open_cube(file) for case, file in files.items() if file.exists()}
-            missing[step.stage.name] = [case.name for case in files if case not in parts]
-            found = module.summary(parts) if parts else None
+            missing[step.name] = [case.name for case in files if case not in parts]
+            found = step.stage.summarise(parts) if parts else None
             if found is not None:
-                groups[step.stage.name] = found
+                groups[step.name] = found
     groups |= _judged(plan.scene, groups, missing)
     return xr.DataTree.from_dict(
         {

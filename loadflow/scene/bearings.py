@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated, Any, Literal, Self
+from functools import reduce
+from operator import or_
+from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
 from pydantic import (
     BaseModel,
@@ -16,36 +18,25 @@ from pydantic import (
 
 from loadflow.errors import InputError
 from loadflow.rolling import (
-    BallBearing,
-    CrossedRollerBearing,
+    ARRANGEMENTS,
+    KINDS,
     FlexibleRings,
     RingBeam,
     RingSection,
-    RollerBearing,
+    RollingBearing,
     SlewingBearing,
-    SphericalRollerBearing,
     Support,
-    ThreeRowRollerBearing,
     main_bearings,
 )
 from loadflow.scene.limits import RollingLimits
 from loadflow.scene.section import SECTION
-
-KINDS = {
-    "slewing": SlewingBearing,
-    "ball": BallBearing,
-    "roller": RollerBearing,
-    "spherical": SphericalRollerBearing,
-    "crossed": CrossedRollerBearing,
-    "three-row": ThreeRowRollerBearing,
-}
 
 
 def _kind(value: Any) -> str | None:
     """Kind of a geometry: as stated, or of an object; a slewing bearing where nothing is said."""
     if isinstance(value, dict):
         return value.get("kind", "slewing")
-    return next((kind for kind, cls in KINDS.items() if type(value) is cls), None)
+    return getattr(value, "kind", None)
 
 
 def _without_kind(value: Any) -> Any:
@@ -60,19 +51,17 @@ def _with_kind(value: Any, handler: Any) -> Any:
 
 _PLAIN, _TOLD = BeforeValidator(_without_kind), WrapSerializer(_with_kind)
 
-Geometry = Annotated[
-    Annotated[SlewingBearing, _PLAIN, _TOLD, Tag("slewing")]
-    | Annotated[BallBearing, _PLAIN, _TOLD, Tag("ball")]
-    | Annotated[RollerBearing, _PLAIN, _TOLD, Tag("roller")]
-    | Annotated[SphericalRollerBearing, _PLAIN, _TOLD, Tag("spherical")]
-    | Annotated[CrossedRollerBearing, _PLAIN, _TOLD, Tag("crossed")]
-    | Annotated[ThreeRowRollerBearing, _PLAIN, _TOLD, Tag("three-row")],
-    Discriminator(
-        _kind,
-        custom_error_type="kind",
-        custom_error_message="kind must be one of " + ", ".join(KINDS),
-    ),
-]
+if TYPE_CHECKING:
+    Geometry = RollingBearing
+else:
+    Geometry = Annotated[
+        reduce(or_, (Annotated[cls, _PLAIN, _TOLD, Tag(kind)] for kind, cls in KINDS.items())),
+        Discriminator(
+            _kind,
+            custom_error_type="kind",
+            custom_error_message="kind must be one of " + ", ".join(KINDS),
+        ),
+    ]
 """Geometry of a rolling bearing; ``kind`` says which, slewing if nothing is said."""
 
 
@@ -107,7 +96,7 @@ def standing_ring(
 
 
 def around(
-    bearing: SlewingBearing, inner: RingBeam | None, outer: RingBeam | None
+    bearing: RollingBearing, inner: RingBeam | None, outer: RingBeam | None
 ) -> FlexibleRings:
     """Flexible rings of a bearing, one of them at least, on their sides of its balls.
 
@@ -174,6 +163,7 @@ class FurtherBearing(BaseModel):
     rings: Literal["rigid", "flexible"] = "rigid"
     inner_ring: Ring | None = None
     outer_ring: Ring | None = None
+    limits: RollingLimits = RollingLimits()
 
     @model_validator(mode="after")
     def _rings_fit(self) -> Self:
@@ -185,10 +175,10 @@ class FurtherBearing(BaseModel):
 
     @property
     def ring_model(self) -> Literal["rigid"] | FlexibleRings:
-        """What `SlewingBearing.equilibrium` takes as its rings."""
+        """What `RollingBearing.equilibrium` takes as its rings."""
         if self.rings == "rigid":
             return "rigid"
-        if not isinstance(self.geometry, SlewingBearing):
+        if not self.geometry.flexible_rings:
             raise InputError("for slewing bearings of balls only")
         return around(self.geometry, self.inner_ring, self.outer_ring)
 
@@ -220,7 +210,6 @@ class Rolling(FurtherBearing):
     inner_ring: Ring | None = standing_ring(0.094, 0.12, 0.897, wall=(0.06, 1.0), face="top")
     outer_ring: Ring | None = standing_ring(0.099, 0.12, 1.0005, wall=(0.06, 1.0))
     further: list[FurtherBearing] = []
-    limits: RollingLimits = RollingLimits()
 
     @model_validator(mode="before")
     @classmethod
@@ -234,6 +223,8 @@ class Rolling(FurtherBearing):
         if isinstance(data, dict) and "arrangement" in data:
             if {"bearing", "geometry", "further"} & set(data):
                 raise ValueError("arrangement: gives bearing and geometry; leave them out")
+            if not isinstance(data["arrangement"], str):
+                raise ValueError(f"arrangement: must be one of {', '.join(ARRANGEMENTS)}")
             chosen = main_bearings(data["arrangement"])
             rest = {name: value for name, value in data.items() if name != "arrangement"}
             first, *others = ({"bearing": b, "geometry": g} for b, g in chosen.items())

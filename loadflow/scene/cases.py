@@ -15,11 +15,12 @@ import numpy as np
 
 from loadflow.cube import case_name, check_cube, iter_cases, open_cube
 from loadflow.errors import InputError
-from loadflow.readers import read_loads
+from loadflow.readers import list_names, read_loads
 from loadflow.readers.loads import find_files
 from loadflow.scene.given_winds import wind_files
 from loadflow.scene.loads import Loads
 from loadflow.scene.scene import Scene
+from loadflow.storage import check_name
 
 if TYPE_CHECKING:
     from loadflow.wind import Condition, Machine, iec
@@ -52,6 +53,10 @@ class Case:
         Hash of the content of the file; empty without one (the scene says it all).
     steps : int
         Length of the series.
+    variant : str
+        End of the name where load case, wind speed and seed do not tell it apart.
+    numbered : bool
+        Whether the seed is only a count, as neither name nor list tells it or the wind speed.
     """
 
     dlc: str
@@ -63,11 +68,13 @@ class Case:
     wind: str = ""
     fingerprint: str = ""
     steps: int = 0
+    variant: str = ""
+    numbered: bool = False
 
     @property
     def name(self) -> str:
         """Name of the case and of its files."""
-        return case_name(self.dlc, self.wind_speed, self.seed)
+        return case_name(self.dlc, self.wind_speed, self.seed) + self.variant
 
 
 def list_cases(scene: Scene) -> list[Case]:
@@ -177,18 +184,22 @@ def _matching(pattern: str) -> list[Path]:
 
 def _cases_of(path: Path, loads: Loads) -> Iterator[Case]:
     """Yield the cases of one file: a load cube, or the output of a simulator."""
+    numbered = False
     if path.suffix in CUBES:
         cube = open_cube(path)
         check_cube(cube, source=str(path))
     else:
-        cube = read_loads(path, cases=loads.case_list, pattern=loads.pattern)
+        [(_, label)] = list_names(path, pattern=loads.pattern, cases=loads.cases)
+        numbered = label.seed is None and label.wind_speed is None
+        cube = read_loads(path, quiet=True, **loads.reading)  # the run tells of doubts
     fingerprint = _hash(path)
     for name, series in iter_cases(cube):
+        known = (str(series["dlc"].item()), float(series["wind_speed"]), int(series["seed"]))
         yield Case(
-            str(series["dlc"].item()),
-            float(series["wind_speed"].item()),
-            int(series["seed"].item()),
+            *known,
             float(series["weight"].item()),
+            numbered=numbered,
+            variant=name.removeprefix(case_name(*known)) if "_wdir" in name else "",
             file=str(path),
             entry=name,
             fingerprint=fingerprint,
@@ -200,8 +211,9 @@ def _distinct(cases: Iterable[Case]) -> list[Case]:
     """Number the cases of which nothing is known; two known ones of the same name are an error."""
     taken: dict[str, Case] = {}
     for case in cases:
+        check_name(case.name, f"{_source(case)}: case")
         while case.name in taken:
-            if case.dlc != "unknown":
+            if case.dlc != "unknown" and not case.numbered:
                 first = _source(taken[case.name])
                 raise InputError(f"{_source(case)}: {case.name} is already in {first}")
             case = replace(case, seed=case.seed + 1)

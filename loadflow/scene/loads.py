@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import BaseModel, Field, ValidationInfo, field_validator, model_validator
 
+from loadflow.readers.aliases import Frame, read_channels
 from loadflow.rotor.options import STEPS, RotorOptions
 from loadflow.scene.section import Section
 from loadflow.turbines import load_turbine
@@ -15,6 +16,9 @@ from loadflow.wind.options import CategoryName, ClassName, Lateral, Scaling, Spe
 
 Positive = Annotated[float, Field(gt=0)]
 
+LONGEST = 7200.0
+"""Longest series, s: a wind field of more would fill the memory of most machines."""
+
 
 class Loads(Section, BaseModel):
     """Where the load series come from.
@@ -22,6 +26,9 @@ class Loads(Section, BaseModel):
     ``source = "simulate"`` makes them from IEC wind; ``source = "files"`` reads them: the output of
     a simulator, or a load cube (``.h5``). ``weights = "given"`` keeps the shares of the lifetime
     that a cube or a case list states; otherwise they follow from the wind speed (2.2).
+    ``cases`` (list of cases), ``pattern``, ``channels`` (TOML file, or a table of them),
+    ``gauge_distance`` (m) and ``frame`` of files are those of `loadflow.read_loads`.
+
     ``mass_imbalance`` (share of its mass) and ``pitch_imbalance`` (rad) are those of blade 1;
     without them the rotor is perfect and the fixed-frame loads have no 1p line.
 
@@ -50,8 +57,11 @@ class Loads(Section, BaseModel):
 
     source: Literal["simulate", "files"] = "simulate"
     files: list[str] = []
-    case_list: str | None = None
+    cases: str | None = None
     pattern: str | None = None
+    channels: dict[str, list[str]] | None = None
+    gauge_distance: Annotated[float, Field(ge=-100, le=100)] | None = None
+    frame: Frame = "auto"
     winds: list[str] = []
     weights: Literal["rayleigh", "given"] = "rayleigh"
     dlc: str | Annotated[list[str], Field(min_length=1)] = "1.1"
@@ -61,7 +71,7 @@ class Loads(Section, BaseModel):
     yaw_errors: Annotated[list[float], Field(min_length=1)] | None = None
     azimuths: Annotated[list[float], Field(min_length=1)] = [0.0]
     steady: bool = False
-    duration: Positive | None = None
+    duration: Annotated[float, Field(gt=0, le=LONGEST)] | None = None
     step: Annotated[float, Field(ge=STEPS[0], le=STEPS[1])] = 0.025
     wind_class: ClassName = "I"
     v_ref: Positive | None = None
@@ -136,6 +146,29 @@ class Loads(Section, BaseModel):
             mass_imbalance=self.mass_imbalance,
             pitch_imbalance=self.pitch_imbalance,
         )
+
+    @field_validator("channels", mode="before")
+    @classmethod
+    def _own_channels(cls, channels: Any) -> Any:
+        """The content of the file belongs to the scene: a run must not change with the file."""
+        if channels is None:
+            return None
+        return {key: list(names) for key, names in read_channels(channels).items()}
+
+    @property
+    def reading(self) -> dict[str, Any]:
+        """Keywords of `loadflow.read_loads` that the scene states."""
+        names = ("cases", "pattern", "channels", "gauge_distance", "frame")
+        return {name: getattr(self, name) for name in names}
+
+    @model_validator(mode="before")
+    @classmethod
+    def _former_names(cls, data: Any) -> Any:
+        """Up to version 0.1 ``cases`` was called ``case_list``."""
+        if isinstance(data, dict) and "case_list" in data:
+            data = data | {"cases": data.get("cases") or data["case_list"]}
+            del data["case_list"]
+        return data
 
     @model_validator(mode="before")
     @classmethod

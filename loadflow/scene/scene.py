@@ -7,31 +7,39 @@ that each room owns; it knows no physics.
 from __future__ import annotations
 
 import hashlib
+import math
 import tomllib
-from collections.abc import Iterator
-from dataclasses import fields
+from math import inf
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self, get_args
 
+import numpy as np
 from pydantic import BaseModel, Field, ValidationError, field_validator, model_validator
 
 from loadflow.errors import InputError
 from loadflow.journal import (
+    Film,
     GasMixture,
     Heat,
     JournalBearing,
     LinedShell,
     LocalShell,
     Lubricant,
+    MatrixShell,
     Supply,
     ThickShell,
 )
-from loadflow.rolling import SphericalRollerBearing
+from loadflow.journal.line import Line
+from loadflow.journal.models.model import Verb, why_not
 from loadflow.rolling.friction import Churning
-from loadflow.scene.bearings import KINDS, Rolling
+from loadflow.scene.bearings import Rolling
+from loadflow.scene.candidates import ABOUT, candidates_of, machine
+from loadflow.scene.films import Law, RungName
 from loadflow.scene.limits import JournalLimits
 from loadflow.scene.loads import Loads, check_simulation
-from loadflow.scene.section import Section
+from loadflow.scene.messages import message, shown
+from loadflow.scene.places import Location, places_of, sections_of
+from loadflow.scene.section import LARGEST_INTEGER, Section, too_large
 from loadflow.shaft.beam import BearingSeat
 from loadflow.shaft.options import (
     Concept,
@@ -41,7 +49,8 @@ from loadflow.shaft.options import (
     ThreePoint,
     TwoPoint,
 )
-from loadflow.turbines import load_turbine
+from loadflow.storage import check_name
+from loadflow.turbines import load_turbine, turbine_names
 
 Result = Literal[
     "loads.statistics",
@@ -54,6 +63,10 @@ Result = Literal[
 ]
 
 Positive = Annotated[float, Field(gt=0)]
+
+SCHEMA = 2
+"""Version of the form of scenes. 2: ``[bearings.PLACE]`` and ``[candidates.NAME]``; 1, or nothing:
+``[journal]`` and ``[rolling]``, which are still read."""
 
 
 class Turbine(Section, BaseModel):
@@ -135,6 +148,9 @@ class Reduction(Section, BaseModel):
 class Journal(Section, BaseModel):
     """Journal bearings: which ones of the shaft, and one set of data for all of them.
 
+    Bearings with data of their own are in ``own``, by place; `at` gives the data of each. Motion,
+    tilt, rung and grid are those of all.
+
     ``motion = "quasi-static"`` solves the equilibrium of every sample of the reduced series;
     ``"transient"`` follows the shaft through the whole series, step by step.
     ``rung = "map"`` tabulates the film once, for long series (docs/journal-map.md).
@@ -147,7 +163,12 @@ class Journal(Section, BaseModel):
     has none, it tilts freely under the moment that the shaft stage gives. The film is then solved
     over its full width.
 
-    A ``shell`` makes the bore elastic; its key ``kind`` says how: local, lined or thick.
+    ``cavitation`` is the law of the ruptured film; its key ``kind`` says which:
+    gas-mixture, sommerfeld, guembel, reynolds or mass-conserving. ``inlet`` replaces the oil on a
+    line at the widest gap, or does not; "auto" leaves it to the law.
+
+    A ``shell`` makes the bore elastic; its key ``kind`` says how: local, lined, thick, or matrix
+    with a ``matrix`` of influence numbers, or the name of a file that holds it.
 
     ``shaft_roughness`` and ``shell_roughness`` are R_z, m, about 6.3 R_a of the 0.2 and 0.4 µm that
     Autodesk Inventor's plain bearing calculator recommends. Where a smooth film would be thinner
@@ -157,25 +178,44 @@ class Journal(Section, BaseModel):
     """
 
     bearings: Annotated[list[str], Field(min_length=1)] = ["N", "N2"]
+    own: dict[str, Journal] = {}
     geometry: JournalBearing = JournalBearing(diameter=3.0, width=2.25, relative_clearance=0.5e-3)
     lubricant: Lubricant = Lubricant(viscosity=0.050)
-    cavitation: GasMixture = GasMixture(0.05e6)
+    cavitation: Law = GasMixture(0.05e6)
     edge_pressure: Annotated[float, Field(ge=0)] = 0.5e6
     supply: Supply | None = None
+    inlet: Literal["auto", "widest gap", "none"] = "auto"
     grid: tuple[Annotated[int, Field(ge=12, le=720)], Annotated[int, Field(ge=4, le=240)]] = (
         60,
         20,
     )
     grading: Literal["auto", "uniform", "graded"] = "auto"
-    rung: Literal["map", "reduced", "grid"] = "grid"
+    rung: RungName = "grid"
     heat: Heat | None = None
     motion: Literal["quasi-static", "transient"] = "quasi-static"
     tilt: bool = False
-    shell: LocalShell | LinedShell | ThickShell | None = None
+    shell: LocalShell | LinedShell | ThickShell | MatrixShell | None = None
     shaft_roughness: Positive = 1.3e-6
     shell_roughness: Positive = 2.5e-6
     boundary_friction: Annotated[float, Field(gt=0, le=1)] = 0.15
     limits: JournalLimits = JournalLimits()
+
+    @model_validator(mode="after")
+    def _one_model_for_all(self) -> Self:
+        for place, other in self.own.items():
+            for name in _OF_ALL:
+                if getattr(other, name) != getattr(self, name):
+                    raise ValueError(
+                        f"{name}: all journal bearings of a scene have one, but {place} has "
+                        f"{getattr(other, name)!r} beside {getattr(self, name)!r}"
+                    )
+        return self
+
+    def at(self, place: str) -> Journal:
+        """The data of one of the bearings."""
+        if place not in self.own:
+            return self
+        return self.own[place].model_copy(update={name: getattr(self, name) for name in _OF_ALL})
 
     @model_validator(mode="after")
     def _smoother_than_the_gap(self) -> Self:
@@ -192,18 +232,15 @@ class Journal(Section, BaseModel):
         return self.shaft_roughness + self.shell_roughness
 
     @property
+    def critical_eccentricity_ratio(self) -> float:
+        """ε above which friction is mixed; infinite for bores whose gap closes at no certain ε."""
+        return math.inf if self.geometry.shape.segments else self.limits.eccentricity_ratio
+
+    @property
     def least_film(self) -> float:
         """Smallest film allowed, m: as stated, or R_z + W_t of both surfaces and a margin (3.1)."""
         stated = self.limits.minimum_film
         return stated or self.contact_film + self.limits.waviness + self.limits.margin
-
-    @model_validator(mode="after")
-    def _elastic_on_the_grid(self) -> Self:
-        if self.shell is not None and self.rung != "grid":
-            raise ValueError(
-                f'rung "{self.rung}" has a rigid shell: set "grid", or leave out shell'
-            )
-        return self
 
     @property
     def in_motion(self) -> bool:
@@ -211,11 +248,18 @@ class Journal(Section, BaseModel):
         return self.motion == "transient"
 
     @property
+    def film_model(self) -> Film:
+        """The film that these keys describe."""
+        heat = self.heat
+        return Film(heat=heat, **self.film | ({} if heat is None else {"lubricant": None}))
+
+    @property
     def film(self) -> dict[str, Any]:
-        """Keywords of `JournalBearing.equilibrium` and `orbit` that say what the film is."""
+        """The film at the temperature of its lubricant, as keywords of the verbs."""
         mesh = ("grid", "grading", "rung")
         names = ("lubricant", "cavitation", "edge_pressure", "supply", *mesh, "shell")
-        return {name: getattr(self, name) for name in names}
+        inlet = None if self.inlet == "none" else self.inlet
+        return {name: getattr(self, name) for name in names} | {"inlet": inlet}
 
     def at_temperature(self, temperature: float) -> Journal:
         """The bearing with its oil held at `temperature`, K."""
@@ -228,6 +272,43 @@ class Journal(Section, BaseModel):
         if self.heat is not None and "lubricant" in self.changed:
             raise ValueError("lubricant: follows from heat.oil and its temperature; leave it out")
         return self
+
+    @model_validator(mode="after")
+    def _a_model_that_knows_the_film(self) -> Self:
+        film = self.film_model.isothermal() if self.in_motion else self.film_model
+        verb: Verb = "in_motion" if self.in_motion else "at_rest"
+        line = Line(moment=np.zeros((1, 2))) if self.tilt else Line()
+        why = why_not(verb, film, self.geometry, line)
+        if why is not None:
+            raise ValueError(why)
+        return self
+
+
+_OF_ALL = ("motion", "tilt", "rung", "grid", "grading")
+"""What all journal bearings of a scene share: how the film is modelled."""
+
+
+class Candidate(Section, BaseModel):
+    """An arrangement of bearings that is compared with others: what stands at its places.
+
+    Attributes
+    ----------
+    title, source : str
+        What it is called, and where its measures are from.
+    journal, rolling
+        Its bearings, as sections.
+    """
+
+    title: str = ""
+    source: str = ""
+    journal: Journal | None = None
+    rolling: Rolling | None = None
+
+    @property
+    def places(self) -> tuple[str, ...]:
+        """Places on the shaft that it needs."""
+        journal = self.journal.bearings if self.journal else []
+        return (*journal, *(self.rolling.geometries if self.rolling else ()))
 
 
 class Friction(Section, BaseModel):
@@ -295,14 +376,15 @@ class Scene(Section, BaseModel):
     results : list of str
         What is wanted; the plan runs only the stages that these need. Left out: all, but those of
         journal or rolling bearings of which the scene says nothing and the shaft has none.
-    accuracy : float or dict, optional
-        Largest relative error allowed, of every result or by result. The plan then takes the
-        cheapest models that hold it, wherever the scene names none; without it the defaults.
+    accuracy : float, dict or "given"
+        Largest relative error allowed, of every result or by result; 5 % if nothing is said. The
+        plan takes the cheapest models and effects that hold it, wherever the scene names none.
+        ``"given"`` leaves all models as the scene has them, the defaults where it names none.
     """
 
     name: Annotated[str, Field(pattern=r"^[A-Za-z0-9_.-]+$")]
     results: Annotated[list[Result], Field(min_length=1)] = list(get_args(Result))
-    accuracy: Positive | dict[Result, Positive] | None = None
+    accuracy: Positive | dict[Result, Positive] | Literal["given"] = 0.05
     turbine: Turbine = Turbine()
     loads: Loads = Loads()
     shaft: Shaft = Shaft(two_point=TwoPoint(), moment=MomentBearing())
@@ -311,21 +393,20 @@ class Scene(Section, BaseModel):
     journal: Journal = Journal()
     rolling: Rolling = Rolling()
     friction: Friction = Friction()
+    candidates: dict[str, Candidate] = {}
+
+    @field_validator("name")
+    @classmethod
+    def _names_a_folder(cls, name: str) -> str:
+        return check_name(name)
 
     @model_validator(mode="before")
     @classmethod
-    def _results_that_the_shaft_can_give(cls, data: Any) -> Any:
-        """Without `results`: all, but none of a default bearing that the shaft does not have."""
-        if not isinstance(data, dict) or "results" in data or "shaft" not in data:
+    def _in_sections(cls, data: Any) -> Any:
+        if not isinstance(data, dict):
             return data
-        try:
-            there = set(Shaft.model_validate(data["shaft"]).bearings)
-        except ValidationError:  # told by the shaft's own check, with its key
-            return data
-        by_default = {"journal": {*Journal().bearings}, "rolling": {Rolling().bearing}}
-        absent = {room for room, own in by_default.items() if room not in data and own - there}
-        wanted = [name for name in get_args(Result) if name.split(".")[0] not in absent]
-        return data | {"results": wanted}
+        stated = {*data} & {"journal", "rolling"}
+        return _results_that_the_shaft_can_give(in_sections(data), stated)
 
     @model_validator(mode="after")
     def _simulates(self) -> Self:
@@ -351,6 +432,17 @@ class Scene(Section, BaseModel):
         return self
 
     @model_validator(mode="after")
+    def _candidates_have_places(self) -> Self:
+        for name, candidate in self.candidates.items():
+            for place in candidate.places:
+                if place not in self.shaft.bearings:
+                    have = ", ".join(self.shaft.bearings) or "none"
+                    raise ValueError(
+                        f"candidates.{name}.{place}: the shaft has the bearings {have}"
+                    )
+        return self
+
+    @model_validator(mode="after")
     def _seats_have_bearings(self) -> Self:
         there = {"journal": self.journal.bearings, "rolling": [*self.rolling.geometries]}
         for name, seat in self.shaft.seated.items():
@@ -365,7 +457,8 @@ class Scene(Section, BaseModel):
                     f"{what} and takes_moment = true: only a tilted film takes a moment; set "
                     "journal.tilt = true, or leave out takes_moment"
                 )
-            aligning = isinstance(self.rolling.geometries.get(name), SphericalRollerBearing)
+            geometry = self.rolling.geometries.get(name)
+            aligning = geometry is not None and not geometry.takes_moment
             if seat.takes_moment and seat.stiffness == "rolling" and aligning:
                 raise ValueError(f"{what}: it aligns itself; leave out takes_moment")
         return self
@@ -385,17 +478,29 @@ class Scene(Section, BaseModel):
         """Whether a result of `room` is wanted."""
         return any(result.split(".")[0] == room for result in self.results)
 
-    def allowed_error(self, result: str) -> float | None:
-        """Largest relative error allowed of a result; None where nothing is asked."""
+    @property
+    def asks(self) -> bool:
+        """Whether an accuracy is asked for, and models are chosen by it."""
+        return self.accuracy != "given"
+
+    def allowed(self, result: str) -> float:
+        """Largest relative error allowed of a result; infinite where nothing is asked."""
         if isinstance(self.accuracy, dict):
-            return {str(name): value for name, value in self.accuracy.items()}.get(result)
-        return self.accuracy
+            return {str(name): value for name, value in self.accuracy.items()}.get(result, inf)
+        return inf if self.accuracy == "given" else self.accuracy
 
     def to_toml(self) -> str:
-        """Return the scene with all defaults, as TOML."""
+        """Return the scene with all defaults, as TOML, in the form of today."""
         import tomli_w
 
-        return tomli_w.dumps(self.model_dump(mode="json", exclude_none=True))
+        data = self.model_dump(mode="json", exclude_none=True)
+        data["bearings"] = places_of(data.pop("journal"), data.pop("rolling"))
+        data["candidates"] = {
+            name: {key: candidate[key] for key in ABOUT if candidate[key]}
+            | places_of(candidate.get("journal"), candidate.get("rolling"))
+            for name, candidate in data["candidates"].items()
+        }
+        return tomli_w.dumps({"schema": SCHEMA} | data)
 
     def digest(self, *sections: str) -> str:
         """SHA-256 of the resolved scene, or of some of its sections."""
@@ -409,7 +514,7 @@ def read_scene(path: str | Path) -> Scene:
     Parameters
     ----------
     path : str or Path
-        TOML file. Load files in it are meant relative to the file.
+        TOML file. Paths in it are meant relative to the file.
 
     Returns
     -------
@@ -430,7 +535,7 @@ def read_scene(path: str | Path) -> Scene:
         raise InputError(f"{path}: cannot read the scene: {error.strerror}") from error
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise InputError(f"{path}: not a TOML file: {error}") from error
-    return make_scene(_anchor_files(data, path.parent), str(path))
+    return make_scene(_anchored(data, path.parent.absolute()), str(path))
 
 
 def make_scene(data: dict[str, Any], source: str = "scene") -> Scene:
@@ -441,76 +546,192 @@ def make_scene(data: dict[str, Any], source: str = "scene") -> Scene:
     InputError
         As `read_scene`.
     """
-    data.setdefault("name", Path(source).stem)
+    data = {"name": Path(source).stem} | data
+    for key, value in too_large(data):
+        raise InputError(
+            f"{source}: {key} = {shown(value)}: must be within ±{LARGEST_INTEGER} (64 bits)"
+        )
     try:
         return Scene.model_validate(data)
     except ValidationError as error:
-        raise InputError(_message(error, source)) from error
+        defaults = Scene(name="defaults").model_dump() | {"bearings": {}}
+        raise InputError(message(error, source, _origins(data), defaults)) from error
 
 
-def with_loads(scene: Scene, files: list[str]) -> Scene:
-    """Return the scene with its load series read from `files` (names or glob patterns)."""
-    loads = scene.loads.model_copy(update={"source": "files", "files": files})
-    return scene.model_copy(update={"loads": loads})
+def former_sections(path: str | Path) -> list[str]:
+    """Sections of a scene file that are written as ``[bearings.PLACE]`` today.
+
+    Raises
+    ------
+    OSError
+        It cannot be read.
+    """
+    with Path(path).open("rb") as stream:
+        data = tomllib.load(stream)
+    return [name for name in ("journal", "rolling") if name in data]
 
 
-def _anchor_files(data: dict[str, Any], folder: Path) -> dict[str, Any]:
-    """Make relative load files relative to the scene file, not to where the user stands."""
-    loads = data.get("loads")
-    if isinstance(loads, dict) and isinstance(loads.get("files"), list):
-        files = [str(folder / file) if isinstance(file, str) else file for file in loads["files"]]
-        return data | {"loads": loads | {"files": files}}
-    return data
+def make_journal(data: dict[str, Any], source: str = "journal") -> Journal:
+    """Build the section of the journal bearings alone; `source` names it in messages.
+
+    Raises
+    ------
+    InputError
+        As `read_scene`.
+    """
+    try:
+        return Journal.model_validate(data)
+    except ValidationError as error:
+        defaults = Journal().model_dump()
+        raise InputError(message(error, source, {(): ("journal",)}, defaults)) from error
 
 
-def _message(error: ValidationError, source: str) -> str:
-    """One line per bad key: file, key, value, what is allowed."""
-    lines = []
-    for item in _of_stated_kind(error.errors()):
-        key = ".".join(str(part) for part in _place(item["loc"])) or "scene"
-        reason = item["msg"].removeprefix("Value error, ").replace("Input should be", "must be")
-        if item["type"] in ("extra_forbidden", "unexpected_keyword_argument"):
-            lines.append(f"{source}: {key}: unknown key{_neighbours(item['loc'])}")
-        elif item["type"] == "missing":
-            lines.append(f"{source}: {key}: this key is missing")
-        elif item["type"] == "value_error":
-            lines.append(f"{source}: {key}: {reason}")
-        else:
-            lines.append(f"{source}: {key} = {item['input']!r}: {reason}")
-    return "\n".join(lines)
+def with_loads(scene: Scene, files: list[str], **reading: Any) -> Scene:
+    """Return the scene with its load series read from `files` (names or glob patterns).
+
+    `reading` are those keys of `Loads` that say how files are read; None leaves the scene's.
+
+    Raises
+    ------
+    InputError
+        A bad value among them.
+    """
+    given = {key: value for key, value in reading.items() if value is not None}
+    absolute = [str(Path(file).absolute()) for file in files]
+    try:
+        read = Loads.model_validate({"source": "files", "files": absolute} | given)
+    except ValidationError as error:
+        raise InputError(message(error, "loads", {}, Loads().model_dump())) from error
+    update = {key: getattr(read, key) for key in ("source", "files", *given)}
+    return scene.model_copy(update={"loads": scene.loads.model_copy(update=update)})
 
 
-def _place(location: tuple[int | str, ...]) -> Iterator[int | str]:
-    """Keys down to a value, without the tag that pydantic puts after a geometry."""
-    for before, part in zip(("", *location), location):
-        if not (before == "geometry" and part in KINDS):
-            yield part
+def with_name(scene: Scene, name: str) -> Scene:
+    """Return the scene under another name, which is checked as that of a file is."""
+    make_scene({"name": name}, "name of the run")
+    return scene.model_copy(update={"name": name})
 
 
-def _of_stated_kind(errors: list[Any]) -> list[Any]:
-    """Drop what is said of alternatives of another ``kind`` than the scene states."""
-    kinds = [e for e in errors if e["type"] == "literal_error" and e["loc"][-1] == "kind"]
-    others = {e["loc"][:-1] for e in kinds}
+def in_sections(data: dict[str, Any]) -> dict[str, Any]:
+    """Data of a scene with its places as the sections that the rooms read.
 
-    def other(location: tuple[Any, ...]) -> tuple[Any, ...] | None:
-        return next((o for o in others if location[: len(o)] == o), None)
+    What it does not say of shaft and rolling bearings is that of its turbine, where the package has
+    sized ones (`loadflow.scene.candidates.machine`).
 
-    right = {e["loc"] for e in errors if other(e["loc"]) is None}
-    shown = []
-    for item in errors:
-        owner = other(item["loc"])
-        known = owner is not None and any(loc[: len(owner) - 1] == owner[:-1] for loc in right)
-        if owner is None or (not known and item in kinds):
-            shown.append(item)
-    return shown
+    Raises
+    ------
+    ValueError
+        A version of the form that is not known, or places that are no bearings.
+    """
+    read = dict(data)
+    version = read.pop("schema", SCHEMA)
+    if version not in range(1, SCHEMA + 1):
+        raise ValueError(
+            f"schema = {version!r}: must be 1 … {SCHEMA}; a newer version of loadflow wrote it"
+        )
+    turbine = _turbine_of(read)
+    ours = machine(turbine)
+    if "shaft" not in read and "shaft" in ours:
+        read["shaft"] = ours["shaft"]
+    if "bearings" in read:
+        sections = sections_of(read.pop("bearings")).data
+        if twice := sorted(set(sections) & set(read)):
+            raise ValueError(
+                f"bearings: beside [{twice[0]}]; write all of them as [bearings.PLACE]"
+            )
+        if "results" not in read:
+            rooms = {"journal", "rolling"} - set(sections)
+            names = get_args(Result)
+            read["results"] = [name for name in names if name.split(".")[0] not in rooms]
+        read |= sections
+    elif "rolling" not in read and "rolling" in ours:
+        read |= {"rolling": sections_of(_bare(ours["candidates"][ours["rolling"]])).data["rolling"]}
+    if isinstance(read.get("candidates"), dict):
+        read["candidates"] = {
+            name: _candidate(name, stated, turbine) for name, stated in read["candidates"].items()
+        }
+    return read
 
 
-def _neighbours(location: tuple[int | str, ...]) -> str:
-    """Name the keys that are known where an unknown one stands."""
-    if len(location) > 2 and location[-3] == "geometry" and location[-2] in KINDS:
-        known = ["kind", *(field.name for field in fields(KINDS[str(location[-2])]))]
-        return f"; known here: {', '.join(sorted(known))}"
-    data: Any = Scene(name="defaults").model_dump()
-    for part in [*_place(location)][:-1]:
-        data = data.get(part) if isinstance(data, dict) else None
-    return f"; known here: {', '.join(sorted(data))}" if isinstance(data, dict) else ""
+def _candidate(name: str, stated: Any, turbine: str) -> Any:
+    """Data of a candidate in sections; one without places is that of the package."""
+    if not isinstance(stated, dict):
+        return stated
+    if {"journal", "rolling"} & {k for k, v in stated.items() if not _is_place(v)}:
+        return stated  # in sections already
+    places, about = _bare(stated), {key: stated[key] for key in ABOUT if key in stated}
+    if not places:
+        known = candidates_of(turbine)
+        if name not in known:
+            raise ValueError(
+                f"candidates.{name}: says nothing, and is none of those sized for {turbine}: "
+                f"{', '.join(known) or 'there are none'}"
+            )
+        places, about = _bare(known[name]), {k: known[name][k] for k in ABOUT} | about
+    return about | sections_of(places, ("candidates", name)).data
+
+
+def _is_place(value: Any) -> bool:
+    return isinstance(value, dict) and bool({"kind", "like"} & set(value))
+
+
+def _bare(candidate: dict[str, Any]) -> dict[str, Any]:
+    """The places of a candidate."""
+    return {key: value for key, value in candidate.items() if key not in ABOUT}
+
+
+def _turbine_of(data: dict[str, Any]) -> str:
+    turbine = data.get("turbine", {})
+    name = turbine.get("name", "nrel-5mw") if isinstance(turbine, dict) else turbine.name
+    return str(name)
+
+
+def _results_that_the_shaft_can_give(data: dict[str, Any], stated: set[str]) -> dict[str, Any]:
+    """Without `results`: all, but none of a bearing by default that the shaft does not have."""
+    if "results" in data or "shaft" not in data:
+        return data
+    try:
+        there = set(Shaft.model_validate(data["shaft"]).bearings)
+    except ValidationError:  # told by the shaft's own check, with its key
+        return data
+    by_default = {"journal": {*Journal().bearings}, "rolling": {Rolling().bearing}}
+    absent = {room for room, own in by_default.items() if room not in stated and own - there}
+    wanted = [name for name in get_args(Result) if name.split(".")[0] not in absent]
+    return data | {"results": wanted}
+
+
+def _origins(data: dict[str, Any]) -> dict[Location, Location]:
+    """Where the data of sections was written, of a scene that has its places."""
+    found: dict[Location, Location] = {}
+    try:
+        if "bearings" in data:
+            found |= sections_of(data["bearings"]).origins
+        for name, stated in data.get("candidates", {}).items():
+            where = ("candidates", name)
+            own = sections_of(_bare(stated), where).origins if _bare(stated) else {}
+            found |= {(*where, *section): location for section, location in own.items()}
+    except (ValueError, AttributeError):  # told already
+        pass
+    return found
+
+
+def _anchored(data: dict[str, Any], folder: Path) -> dict[str, Any]:
+    """Make the paths of a scene relative to its file, not to where the user stands."""
+
+    def path(value: Any) -> Any:
+        return str(folder / value) if isinstance(value, str) else value
+
+    found = dict(data)
+    if isinstance(loads := data.get("loads"), dict):
+        several = {
+            key: [path(file) for file in loads[key]]
+            for key in ("files", "winds")
+            if isinstance(loads.get(key), list)
+        }
+        keys = [key for key in ("cases", "case_list", "channels") if key in loads]
+        found["loads"] = loads | several | {key: path(loads[key]) for key in keys}
+    turbine = data.get("turbine")
+    if isinstance(turbine, dict) and isinstance(name := turbine.get("name"), str):
+        file = name if name in turbine_names() or not Path(name).suffix else path(name)
+        found["turbine"] = turbine | {"name": file}
+    return found

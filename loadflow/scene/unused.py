@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
+from loadflow.journal.rungs import RUNGS
 from loadflow.rolling import RollerBearing, SlewingBearing, SphericalRollerBearing
 from loadflow.scene.loads import Loads
-from loadflow.scene.scene import Scene
+from loadflow.scene.scene import Scene, make_scene
 from loadflow.scene.section import Section
 from loadflow.wind.cases import LOAD_CASES, STANDING, LoadCase
 
@@ -59,8 +60,9 @@ def unused_warnings(scene: Scene) -> list[str]:
 
 def _all(scene: Scene) -> Iterator[tuple[str, str]]:
     unread = {section for section in _RESULTS if not _is_read(scene, section)}
+    default = make_scene({"turbine": {"name": scene.turbine.name}, "results": ["loads.statistics"]})
     for section in sorted(unread):
-        if getattr(scene, section) != type(getattr(scene, section))():
+        if getattr(scene, section) != getattr(default, section):
             yield section, "no wanted result reads this section"
     for key, reason in _of_loads(scene):
         if key in scene.loads.changed:
@@ -191,7 +193,7 @@ def _of_journal(scene: Scene) -> Iterator[tuple[str, str]]:
             "tilt",
             "the shaft is rigid and brings no moment; give its suspension a beam",
         )
-    if journal.rung != "grid":
+    if "grading" not in RUNGS[journal.rung].at_rest:
         yield "grading", f'rung "{journal.rung}" has no graded mesh'
     if journal.heat is None:
         for key in ("limits.oil", "limits.oil_hours", "limits.temperature"):

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import InputError, SolverError
-from loadflow.numerics.convergence import Convergence
+from loadflow.numerics.convergence import Convergence, rounding_level
 from loadflow.shaft.beam import Beam, BearingSeat
 from loadflow.shaft.flexibility import Stations, curvature, flexibility
 
@@ -224,7 +224,8 @@ class _Redundant:
             size = float((abs(reaction) / self.unit[:, None]).max()) or 1.0
             change = (abs(target - reaction) / self.unit[:, None]).max(axis=0) / size
             answered = np.isfinite(offset).all(axis=0)
-            settled = answered & (change < iteration.tolerance)
+            level = self._rounding(compliance, offset, reaction)
+            settled = answered & ((change < iteration.tolerance) | (gape <= level))
             moving = answered & ~settled & (step > _STUCK)
             if not moving.any():
                 break
@@ -238,9 +239,11 @@ class _Redundant:
             step = np.where(moving, np.where(nearer, np.minimum(2 * step, 1.0), step / 2), step)
         worst = float(np.nan_to_num(change, nan=np.inf).max())
         if iteration.strict and not settled.all():
+            first = int(np.argmin(settled))
             raise SolverError(
                 f"shaft and bearings do not settle: after {iterations} iterations the reactions "
-                f"still change by {worst:.1e}; load {int(np.argmin(settled))} is the first"
+                f"still change by {worst:.1e}; load {first} is the first, where they gape by "
+                f"{gape[first]:.3g} m and rounding allows {level[first]:.3g} m"
             )
         convergence = Convergence(bool(settled.all()), worst, iterations)
         return np.where(settled, target, reaction), compliance, offset, settled, convergence
@@ -250,6 +253,12 @@ class _Redundant:
         own = self._own()
         apart = np.einsum("nrs,sn->rn", self.bent + compliance, reaction) + offset - self.free
         return np.asarray(np.hypot.reduce(own.T @ apart, axis=0, initial=0.0))
+
+    def _rounding(self, compliance: Floats, offset: Floats, reaction: Floats) -> Floats:
+        """Level of rounding of `_open` (n,), m: that of the terms that it adds."""
+        moved = np.einsum("nrs,sn->rn", np.abs(self.bent + compliance), np.abs(reaction))
+        terms = np.abs(self._own()).T @ (moved + np.abs(offset) + np.abs(self.free))
+        return np.asarray(rounding_level(np.hypot.reduce(terms, axis=0, initial=0.0)))
 
     def _own(self) -> Floats:
         """Sets of reactions in equilibrium by themselves, (r, sets)."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,8 +47,8 @@ def film_response(journal: Journal, speed: float) -> Response:
             phase / (2.0 * np.pi * frequency),
             mean + np.outer(np.sin(phase), amplitude),
             speed,
+            replace(held.film_model, rung="grid"),  # the only one that closes an orbit
             periodic=True,
-            **held.film | {"rung": "grid"},  # the only one that closes an orbit
         )
         return float(orbit["eccentricity_ratio"].max())
 

@@ -2,30 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import xarray as xr
 
 from loadflow.errors import SolverError
-from loadflow.rolling import (
-    BallBearing,
-    FrictionOptions,
-    RollerBearing,
-    SlewingBearing,
-    SphericalRollerBearing,
-    ball_friction,
-    roller_friction,
-    roller_slip,
-)
-from loadflow.rolling.bearings.arrangements import MainBearing
-from loadflow.rolling.friction import BearingFriction, balanced_temperature
+from loadflow.rolling import FrictionOptions, RollingBearing, roller_slip
+from loadflow.rolling.friction import balanced_temperature
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Friction, Scene
 from loadflow.stages.frames import to_rolling
 from loadflow.stages.labelling import label, labelled
+from loadflow.stages.stage import Link, Links, Rungs, Stage, always, load_links
 from loadflow.stages.summary import over_cases
 from loadflow.tribology import lubricant
 
@@ -73,10 +64,8 @@ def losses(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
         options = friction_options(scene.friction, bearing)
         try:
             options = _at_its_temperature(scene.friction, bearing, load, moment, speed, options)
-            if isinstance(bearing, BallBearing | SlewingBearing):
-                found.append(_balls(bearing, load, moment[:, :2], speed, options))
-            elif isinstance(bearing, RollerBearing | SphericalRollerBearing):
-                found.append(_rollers(bearing, load, moment[:, :2], time, speed, options))
+            follow = _FOLLOW[bearing.friction_model]
+            found.append(follow(bearing, load, moment[:, :2], time, speed, options))
             temperatures.append(options.temperature)
         except SolverError as error:
             raise SolverError(f"bearing {name}: {error}") from error
@@ -101,14 +90,14 @@ of 0.02 … 0.06."""
 _RIB_HEIGHT, _RIB_RADIUS = 0.075, 50.0  # of a roller's diameter, where a scene gives none
 
 
-def friction_options(options: Friction, bearing: MainBearing) -> FrictionOptions:
+def friction_options(options: Friction, bearing: RollingBearing) -> FrictionOptions:
     """Options of the room for a bearing, of a scene's section.
 
     Where the scene says nothing of ribs, tapered rollers press on theirs with `TAPERED_RIB`, at a
     height of 0.075 and with a reduced radius of 50 of a roller's diameter; others on none.
     """
-    tapered = isinstance(bearing, RollerBearing) and bearing.contact_angle > 0
-    diameter = bearing.roller_diameter if isinstance(bearing, RollerBearing) else 0.0
+    tapered = bearing.rib_guided
+    diameter = getattr(bearing, "roller_diameter", 0.0)
     radius = options.rib_radius or (_RIB_RADIUS * diameter if tapered else None)
     return FrictionOptions(
         oil=lubricant(options.lubricant),
@@ -133,7 +122,7 @@ def _given(value: float | None, default: float) -> float:
 
 def _at_its_temperature(
     options: Friction,
-    bearing: MainBearing,
+    bearing: RollingBearing,
     force: np.ndarray,
     moment: np.ndarray,
     speed: np.ndarray,
@@ -146,31 +135,22 @@ def _at_its_temperature(
     loadflow.errors.SolverError
         There is no friction model for the bearing, or no such temperature.
     """
-    if isinstance(bearing, RollerBearing | SphericalRollerBearing):
-        model: Callable[..., BearingFriction] = roller_friction
-    elif isinstance(bearing, BallBearing | SlewingBearing):
-        model = ball_friction
-    else:
-        raise SolverError(
-            f"no model of friction for the contacts of a {type(bearing).__name__}; "
-            "rolling.friction_torque_loads estimates its torque from the loads"
-        )
     if options.conductance is None:
         return found
     some = np.unique(np.linspace(0, speed.size - 1, CHUNK).round().astype(int))
     balance = balanced_temperature(
-        bearing.equilibrium(force[some], moment[some, :2]),
+        cast("Any", bearing.equilibrium(force[some], moment[some, :2])),
         speed[some],
         found,
         options.conductance,
         options.ambient_temperature,
-        model=model,
+        model=bearing.losses,
     )
     return replace(found, temperature=balance.temperature)
 
 
 def _rollers(
-    bearing: RollerBearing | SphericalRollerBearing,
+    bearing: RollingBearing,
     force: np.ndarray,
     moment: np.ndarray,
     time: np.ndarray,
@@ -178,12 +158,12 @@ def _rollers(
     options: FrictionOptions,
 ) -> dict[str, np.ndarray]:
     """What is kept of a roller bearing, its rollers followed one by one."""
-    result = bearing.equilibrium(force, moment)
+    result: Any = bearing.equilibrium(force, moment)
     found = roller_slip(result, time, speed, options)
     return {
         "friction_power": found.friction.power,
         "friction_torque": found.friction.torque,
-        "film_parameter": _least(found.friction.film_parameter, result.roller_forces),
+        "film_parameter": least_film_parameter(found.friction.film_parameter, result.roller_forces),
         "slip_power": found.friction.losses["slip"],
         "slip": found.slip.mean(axis=-1).max(axis=-1),
         "slip_power_density": found.slip_power_density.max(axis=(-2, -1)),
@@ -191,9 +171,10 @@ def _rollers(
 
 
 def _balls(
-    bearing: BallBearing | SlewingBearing,
+    bearing: RollingBearing,
     force: np.ndarray,
     moment: np.ndarray,
+    time: np.ndarray,
     speed: np.ndarray,
     options: FrictionOptions,
 ) -> dict[str, np.ndarray]:
@@ -202,8 +183,8 @@ def _balls(
     for start in range(0, speed.size, CHUNK):
         some = slice(start, start + CHUNK)
         result = bearing.equilibrium(force[some], moment[some])
-        found = ball_friction(result, speed[some], options)
-        least = _least(found.film_parameter, result.ball_forces)
+        found = result.friction(speed[some], options)
+        least = least_film_parameter(found.film_parameter, result.ball_forces)
         slip = found.losses["differential slip"] + found.losses["spin"]
         assert found.sliding is not None
         assert found.slip_power_density is not None
@@ -213,6 +194,16 @@ def _balls(
     return dict(zip(KEPT, (np.concatenate(values) for values in zip(*parts))))
 
 
+def _unknown(bearing: RollingBearing, *_: Any) -> dict[str, np.ndarray]:
+    raise SolverError(
+        f"no model of friction for the contacts of a {type(bearing).__name__}; "
+        "rolling.friction_torque_loads estimates its torque from the loads"
+    )
+
+
+_FOLLOW = {"rollers": _rollers, "balls": _balls, None: _unknown}
+
+
 def _mean_of_loaded(sliding: np.ndarray, forces: np.ndarray) -> np.ndarray:
     """Mean over the loaded contacts of the row that slides most; 0 without load."""
     loaded = forces.reshape(sliding.shape) > 0
@@ -220,7 +211,7 @@ def _mean_of_loaded(sliding: np.ndarray, forces: np.ndarray) -> np.ndarray:
     return np.asarray(((sliding * loaded).sum(axis=-1) / count).max(axis=-1))
 
 
-def _least(parameter: np.ndarray, forces: np.ndarray) -> np.ndarray:
+def least_film_parameter(parameter: np.ndarray, forces: np.ndarray) -> np.ndarray:
     """Least Λ of the loaded contacts of each sample, infinite where there are none."""
     loaded = forces.reshape(parameter.shape[:-1])[..., None] > 0
     kept = np.where(loaded, parameter, np.inf)
@@ -250,3 +241,27 @@ def _extremes(samples: xr.Dataset) -> xr.Dataset:
             ),
         }
     )
+
+
+def friction_key(scene: Scene) -> str:
+    """Name of the friction in the ladder: rollers are followed one by one, balls roll ideally."""
+    followed = any(b.friction_model == "rollers" for b in scene.rolling.geometries.values())
+    return f"{'rollers' if followed else 'balls'}, every {scene.friction.step:g} s"
+
+
+def _links(scene: Scene) -> Links:
+    return {
+        quantity: (*load_links("bearing load max"), Link("friction", quantity))
+        for quantity in ("friction power", "film parameter", "slip")
+    }
+
+
+STAGE = Stage(
+    "friction",
+    run=losses,
+    results={"rolling.friction": _links},
+    needs=always("loads", "shaft"),
+    sections=always("rolling", "friction"),
+    models=(Rungs("friction", section="friction", key=friction_key),),
+    summarise=summary,
+)

@@ -3,45 +3,52 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from loadflow.errors import SolverError
-from loadflow.journal import Equilibrium, Heat, JournalBearing, Lubricant, warm_equilibrium
+from loadflow.journal import Equilibrium
+from loadflow.journal.line import Line
+from loadflow.journal.models.model import why_not
 from loadflow.journal.transition import load_capacity
 from loadflow.journal.validity import critical_reynolds_number, reynolds_number
+from loadflow.quantities import table
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Journal, Scene
 from loadflow.stages.frames import to_film
 from loadflow.stages.labelling import label, labelled, of_samples
+from loadflow.stages.reduction import kept_share
+from loadflow.stages.stage import Link, Links, Measured, Rungs, Stage, load_links, steps_of
 from loadflow.stages.summary import over_cases
 
-# what is kept of every sample: units and meaning
-KEPT = {
-    "eccentricity_ratio": ("1", "eccentricity ratio"),
-    "attitude_angle": ("rad", "attitude angle"),
-    "minimum_film": ("m", "smallest film thickness"),
-    "maximum_pressure": ("Pa", "largest film pressure, absolute"),
-    "sommerfeld_number": ("1", "Sommerfeld number"),
-    "friction_power": ("W", "friction power"),
-    "side_flow": ("m3/s", "side flow"),
-    "supply_flow": ("m3/s", "flow of the grooves into the film"),
-    "supply_power": ("W", "power that lifts the oil to supply pressure"),
-    "converged": ("1", "whether the equilibrium was found"),
-    "residual": ("1", "scaled residual of film and load"),
-    "iterations": ("1", "iterations"),
-}
-WARM = {"temperature": ("K", "effective temperature of the film")}
+KEPT = table(
+    "eccentricity_ratio",
+    "attitude_angle",
+    "minimum_film",
+    "maximum_pressure",
+    "sommerfeld_number",
+    "friction_power",
+    "side_flow",
+    "supply_flow",
+    "supply_power",
+    "converged",
+    "residual",
+    "iterations",
+)
+"""What is kept of every sample: units and meaning."""
+WARM = table("temperature")
 """What is kept too where there is a heat balance."""
 
 TEMPERED = 64
 """Samples of a series whose mean friction and flow give the temperature of a film in motion."""
-GIVING = {"shell_deformation": ("m", "largest growth of the gap by the give of the shell")}
+GIVING = table("shell_deformation")
 """What is kept too of an elastic shell."""
 
 _CERTAIN = 1.2  # times the load that a film as thin as the roughness carries: no film is asked
+_LIGHT = 10.0  # Sommerfeld number below which the film is asked in any case
 _TRIES = 200  # samples of a start that are asked for the first film
 
 
@@ -59,8 +66,8 @@ def film(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
     """
     return xr.DataTree.from_dict(
         {
-            bearing: _resting(scene.journal, bearing, inputs["reduction"][bearing].to_dataset())
-            for bearing in scene.journal.bearings
+            name: _resting(scene.journal.at(name), name, inputs["reduction"][name].to_dataset())
+            for name in scene.journal.bearings
         }
     )
 
@@ -76,7 +83,7 @@ def orbit(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
     loads, shaft = inputs["loads"].load(), inputs["shaft"].load()
     return xr.DataTree.from_dict(
         {
-            bearing: _moving(scene.journal, bearing, loads, shaft.sel(bearing=bearing))
+            bearing: _moving(scene.journal.at(bearing), bearing, loads, shaft.sel(bearing=bearing))
             for bearing in scene.journal.bearings
         }
     )
@@ -165,17 +172,24 @@ def surely_touching(options: Journal, force: np.ndarray, speed: np.ndarray) -> n
     is as thin as both surfaces are rough. The others have to be solved, and so have those of an
     elastic shell, which carries more the more it gives way.
     """
-    film = {name: value for name, value in options.film.items() if name != "rung"}
+    film = options.film_model.isothermal()
     if options.heat is not None:
         cold = options.heat.inlet_temperature
         if options.heat.transfer:
             cold = min(cold, options.heat.ambient_temperature)
-        film["lubricant"] = options.heat.lubricant(cold)
+        film = replace(film, lubricant=options.heat.lubricant(cold))
     load, turning = np.hypot(*to_film(force).T), np.abs(speed) > 0
     touching = np.asarray(~turning)
-    if turning.any() and options.shell is None:
-        capacity = load_capacity(options.geometry, options.contact_film, speed[turning], **film)
-        touching[turning] = load[turning] > _CERTAIN * capacity
+    doubtful = np.zeros_like(turning)
+    if options.shell is None:
+        viscosity = film.liquid.viscosity
+        doubtful[turning] = [
+            options.geometry.sommerfeld_number(*point, viscosity) > _LIGHT
+            for point in zip(load[turning].tolist(), np.abs(speed[turning]).tolist())
+        ]
+    if doubtful.any():
+        capacity = load_capacity(options.geometry, options.contact_film, speed[doubtful], film)
+        touching[doubtful] = load[doubtful] > _CERTAIN * capacity
     return touching
 
 
@@ -222,19 +236,16 @@ def mean_temperature(options: Journal, force: np.ndarray, speed: np.ndarray) -> 
     if options.heat is None:
         return None
     some = np.unique(np.linspace(0, speed.size - 1, TEMPERED).round().astype(int))
-    film = {name: value for name, value in options.film.items() if name != "lubricant"}
-    warm = warm_equilibrium(
-        options.geometry,
+    warm = options.geometry.equilibrium(
         force[some],
         speed[some],
-        options.heat,
+        options.film_model,
         weights=np.ones(some.size),
         strict=False,
-        **film,
     )
-    if not np.any(warm.film.converged):
+    if not np.any(warm.converged):
         raise SolverError("orbit cannot start: no heat balance of its mean friction and flow")
-    return float(warm.temperature[0])
+    return float(np.asarray(warm.temperature)[0])
 
 
 def _kept(options: Journal) -> dict[str, tuple[str, str]]:
@@ -257,8 +268,8 @@ def follow(
     time, speed = (loads[name].values.astype(float) for name in ("time", "speed"))
     freeing = moment if options.tilt else None
     temperature = mean_temperature(options, force, speed)
-    film = (options if temperature is None else options.at_temperature(temperature)).film
-    path = options.geometry.orbit(time, force, speed, moment=freeing, start=start, **film)
+    film = (options if temperature is None else options.at_temperature(temperature)).film_model
+    path = options.geometry.orbit(time, force, speed, film, moment=freeing, start=start)
     if temperature is None:
         return path
     return path.assign(temperature=("time", np.full(time.size, temperature)))
@@ -288,22 +299,10 @@ def equilibria(
     With a `moment` (n, 3), N m, the shaft tilts under it; with a `tilt` (n, 3), rad, and a `bend`,
     1/m, it lies as they say; without, it stays aligned.
     """
-    film = options.film | {name: to_film(vectors) for name, vectors in line.items()}
-    oil = film.pop("lubricant")
-    return rest(options.geometry, to_film(force), speed, options.heat or oil, strict=False, **film)
-
-
-def rest(
-    bearing: JournalBearing,
-    force: np.ndarray,
-    speed: np.ndarray | float,
-    oil: Lubricant | Heat,
-    **film: Any,
-) -> Equilibrium:
-    """Equilibrium with oil of one viscosity, or with that which its heat balance leaves."""
-    if isinstance(oil, Heat):
-        return warm_equilibrium(bearing, force, speed, oil, **film).film
-    return bearing.equilibrium(force, speed, oil, **film)
+    lying: dict[str, Any] = {name: to_film(vectors) for name, vectors in line.items()}
+    return options.geometry.equilibrium(
+        to_film(force), speed, options.film_model, strict=False, **lying
+    )
 
 
 def _placed(options: Journal, samples: xr.Dataset, eccentricity: np.ndarray) -> xr.Dataset:
@@ -320,7 +319,7 @@ def _placed(options: Journal, samples: xr.Dataset, eccentricity: np.ndarray) -> 
         motion=options.motion,
         radius=bearing.radius,
         boundary_friction=options.boundary_friction,
-        critical_eccentricity_ratio=options.limits.eccentricity_ratio,
+        critical_eccentricity_ratio=options.critical_eccentricity_ratio,
         radial_clearance=bearing.clearance,
         laminar=int(reynolds < critical_reynolds_number(bearing.relative_clearance)),
         largest_reynolds_number=reynolds,
@@ -415,7 +414,7 @@ def mixed_friction(samples: xr.Dataset) -> xr.Dataset:
     rubbing = about["boundary_friction"] * about["radius"] * samples["load"].values * speed
     lost = np.where(touching, rubbing, samples["friction_power"].values)
     when, at = _transition(time, speed, ratio, critical)
-    values: dict[str, tuple[float, str, str]] = {
+    values: dict[str, tuple[Any, str, str]] = {
         "duration": (seconds.sum(), "s", "length of the series"),
         "contact_time": (seconds[touching & turning].sum(), "s", "time in contact while turning"),
         "mixed_friction_time": (seconds[mixed].sum(), "s", "time above E_krit while turning"),
@@ -444,3 +443,90 @@ def _transition(
     share = (critical - ratio[i]) / (ratio[j] - ratio[i])
     when, at = (float(x[i] + share * (x[j] - x[i])) for x in (time, speed))
     return when, at
+
+
+FINEST_GRID = 480
+"""Cells around that a run goes up to by itself."""
+
+
+def film_key(scene: Scene) -> str:
+    """Name of the film in the ladder."""
+    journal = scene.journal
+    around, across = journal.grid
+    graded = ", graded" if journal.grading == "graded" else ""
+    elastic = ", elastic" if journal.shell is not None else ""
+    names = {"grid": f"grid, {around}x{across}{graded}{elastic}", "reduced": f"reduced, {around}"}
+    return names.get(journal.rung, journal.rung)
+
+
+def warm_films(options: Journal) -> float:
+    """Time of a film with its heat balance over that of an isothermal one; see docs/journal.md."""
+    return 7.0 if options.heat is not None and not options.in_motion else 1.0
+
+
+def fast_film(journal: Journal) -> Journal | None:
+    """The bearing with the film that is fast over a long series; None where it does not fit."""
+    film = replace(journal.film_model.isothermal(), rung="reduced")
+    if why_not("in_motion", film, journal.geometry, Line()) is None:
+        return journal.model_copy(update={"rung": "reduced"})
+    return None
+
+
+def _finer_grid(scene: Scene) -> dict[str, Any]:
+    """A film has no top: its grid is doubled, up to what a scene may ask for.
+
+    One in motion stays on the rung "reduced", which is nearest to the truth for its time.
+    """
+    journal = scene.journal
+    around, across = journal.grid
+    if 2 * around > FINEST_GRID:
+        return {}
+    if journal.in_motion and journal.rung == "reduced":
+        return {"grid": (2 * around, across)}
+    return {"rung": "grid", "grid": (2 * around, 2 * across)}
+
+
+def _links(scene: Scene) -> Links:
+    """A film in motion reads the whole series, the others the reduced one."""
+    ends = {
+        "eccentricity ratio": "E_max",
+        "minimum film": "h_min",
+        "maximum pressure": "p_max",
+        "friction power": "friction power",
+    }
+    return {
+        quantity: (
+            *load_links("bearing load max"),
+            *(() if scene.journal.in_motion else (Link("reduction", end),)),
+            Link("journal", quantity),
+        )
+        for quantity, end in ends.items()
+    }
+
+
+def _work(scene: Scene, cases: tuple[Case, ...], measured: Measured) -> float:
+    share = 1.0 if scene.journal.in_motion else kept_share(scene, measured)
+    films = share * len(scene.journal.bearings) * steps_of(cases)
+    return films * warm_films(scene.journal)
+
+
+FILM = Rungs(
+    "journal",
+    section="journal",
+    key=film_key,
+    table=lambda scene: "journal, transient" if scene.journal.in_motion else "journal",
+    better=_finer_grid,
+)
+
+STAGE = Stage(
+    "journal",
+    run=lambda scene, case, inputs: (orbit if scene.journal.in_motion else film)(
+        scene, case, inputs
+    ),
+    results={"journal.film": _links},
+    needs=lambda scene: ("loads", "shaft") if scene.journal.in_motion else ("reduction",),
+    sections=lambda scene: ("journal",),
+    models=(FILM,),
+    summarise=summary,
+    work=_work,
+)

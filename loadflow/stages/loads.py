@@ -12,7 +12,9 @@ import xarray as xr
 from loadflow.cube import CASE_COORDS, iter_cases, open_cube
 from loadflow.scene.cases import CUBES, Case, wind_of
 from loadflow.scene.given_winds import RUN_IN, given_field
+from loadflow.scene.loads import Loads
 from loadflow.scene.scene import Scene
+from loadflow.stages.stage import Measured, Rungs, Stage
 from loadflow.stages.summary import over_cases
 
 
@@ -21,10 +23,12 @@ def hub_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
 
     Single precision keeps a relative 6e-8, far below any load model's error, at half the size.
     """
+    from loadflow.readers.doubts import with_doubts
+
     series = _read(scene, case) if case.file else _simulate(scene, case)
     labels = {"dlc": case.dlc, "wind_speed": case.wind_speed, "seed": case.seed}
     series = series.assign_coords(labels | {"weight": case.weight})
-    return series.astype("float32")
+    return with_doubts(series, scene.turbine.name, simulated=not case.file).astype("float32")
 
 
 def _simulate(scene: Scene, case: Case) -> xr.Dataset:
@@ -57,22 +61,26 @@ def _read(scene: Scene, case: Case) -> xr.Dataset:
     path = Path(case.file)
     if path.suffix in CUBES:
         return dict(iter_cases(open_cube(path)))[case.entry].load()
-    loads = scene.loads
-    cube = read_loads(
-        path, turbine=scene.turbine.name, cases=loads.case_list, pattern=loads.pattern
-    )
+    cube = read_loads(path, turbine=scene.turbine.name, quiet=True, **scene.loads.reading)
     return next(series for _, series in iter_cases(cube))
 
 
 def summary(parts: Mapping[Case, xr.Dataset]) -> xr.Dataset | None:
-    """When each case tripped, s; None where the series do not tell."""
-    if not all("tripped" in part.coords for part in parts.values()):
-        return None
-    times = {
-        case: xr.Dataset({"tripped": ((), part["tripped"].item(), _TRIPPED)})
-        for case, part in parts.items()
-    }
-    return over_cases(times)
+    """When each case tripped (s, NaN if not), how long it stood, and what is doubtful about it.
+
+    None where the series were read and there is nothing of the kind to tell.
+    """
+
+    def told(part: xr.Dataset) -> xr.Dataset:
+        tripped = part.coords["tripped"].item() if "tripped" in part.coords else np.nan
+        found = {"tripped": ((), tripped, _TRIPPED)}
+        attrs = {key: CASE_COORDS[key].attrs for key in ("standing_share", "doubts")}
+        return xr.Dataset(found | {k: ((), part[k].item(), a) for k, a in attrs.items()})
+
+    known = all("tripped" in part.coords for part in parts.values())
+    found = over_cases({case: told(part) for case, part in parts.items()})
+    tells = (found["standing_share"] > 0) | (found["doubts"] != "")
+    return found if known or bool(tells.any()) else None
 
 
 def trips(groups: Mapping[str, Any]) -> dict[str, float]:
@@ -87,9 +95,21 @@ def trips(groups: Mapping[str, Any]) -> dict[str, float]:
     return {str(name): float(t) for name, t in zip(names, times.values) if np.isfinite(t)}
 
 
+def doubts(groups: Mapping[str, Any]) -> dict[str, list[str]]:
+    """Return what is doubtful about the series, by case; sound cases are left out."""
+    if "loads" not in groups:
+        return {}
+    said = groups["loads"]["doubts"]
+    names = said["case"].values
+    return {str(name): str(d).split("\n") for name, d in zip(names, said.values) if str(d)}
+
+
 def warnings(tree: xr.DataTree) -> list[str]:
-    """Say which cases stand because they tripped, and since when."""
-    return trip_warnings(trips(tree.children))
+    """Say which cases stand because they tripped, since when, and what is doubtful."""
+    doubtful = [
+        f"loads, {name}: {doubt}" for name, said in doubts(tree.children).items() for doubt in said
+    ]
+    return [*trip_warnings(trips(tree.children)), *doubtful]
 
 
 def trip_warnings(times: Mapping[str, float]) -> list[str]:
@@ -106,3 +126,69 @@ def when_tripped(time: float) -> str:
 
 
 _TRIPPED = CASE_COORDS["tripped"].attrs
+
+
+def finest_rung(scene: Scene) -> str:
+    """Return the finest model of the rotor that the scene's turbine allows."""
+    from loadflow.rotor.rungs import finest_rung as finest
+    from loadflow.turbines import load_turbine
+
+    return finest(load_turbine(scene.turbine.name))
+
+
+def _rotor_key(scene: Scene) -> str:
+    loads = scene.loads
+    return (loads.rung or finest_rung(scene)) if loads.source == "simulate" else "files"
+
+
+def _finest_rotor(scene: Scene) -> dict[str, Any]:
+    finest = finest_rung(scene)
+    return {} if _rotor_key(scene) in ("files", finest) else {"rung": finest}
+
+
+def wind_key(scene: Scene) -> str:
+    """Name of the scene's wind in the ladder."""
+    if not scene.loads.makes_wind:
+        return "files"
+    radii, angles = scene.loads.wind_grid
+    return f"{scene.loads.spectrum}, {radii}x{angles}"
+
+
+def _wind_seconds(scene: Scene, measured: Measured) -> float | None:
+    """Time of the wind beyond that of the usual grid, with which the rotor is measured."""
+    if not scene.loads.makes_wind:
+        return 0.0
+    usual = scene.model_copy(update={"loads": Loads()})
+    ours, theirs = (measured(one, WIND.name) for one in (scene, usual))
+    if ours is None or theirs is None:
+        return None
+    return float(ours["seconds_per_case"] - theirs["seconds_per_case"])
+
+
+WIND = Rungs("wind", section="loads", key=wind_key, exact=lambda scene: not scene.loads.makes_wind)
+ROTOR = Rungs(
+    "loads",
+    section="loads",
+    key=_rotor_key,
+    exact=lambda scene: scene.loads.source == "files",
+    better=_finest_rotor,
+    possible=lambda scene, settings: (
+        settings.get("rung") in (None, "tables", "bem", "flap")
+        or settings["rung"] == finest_rung(scene)
+    ),
+)
+
+STAGE = Stage(
+    "loads",
+    run=hub_loads,
+    sections=lambda scene: ("turbine", "loads"),
+    models=(WIND, ROTOR),
+    summarise=summary,
+    warnings=warnings,
+    more_seconds=_wind_seconds,
+    left_out=lambda scene: (
+        {"wind, rotor": "load series are given, nothing is simulated"}
+        if scene.loads.source == "files"
+        else {}
+    ),
+)

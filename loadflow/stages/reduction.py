@@ -12,6 +12,7 @@ from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
 from loadflow.stages.frames import to_film
 from loadflow.stages.labelling import label
+from loadflow.stages.stage import Link, Measured, Rungs, Stage, always, load_links
 
 
 def reduced_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
@@ -91,3 +92,41 @@ def reduced_dataset(
         {"axis": ["x", "y", "z"]},
         {"pick": reduced.pick, "seed": reduced.seed, "source": reduced.source},
     )
+
+
+def reduction_key(scene: Scene) -> str:
+    """Name of the reduction in the ladder."""
+    pick, size = scene.reduction.pick, scene.reduction.size
+    return "full series" if size == 1.0 else f"histogram, {pick}, {size:g}"
+
+
+def kept_share(scene: Scene, measured: Measured) -> float:
+    """Share of the series that is left; classes that keep one sample at least make it larger."""
+    known = measured(scene, "reduction") or {}
+    return min(1.0, scene.reduction.size * known.get("samples_over_wanted", 1.0))
+
+
+STAGE = Stage(
+    "reduction",
+    run=reduced_loads,
+    results={
+        "reduction.histogram": lambda scene: {
+            "largest load": (
+                *load_links("bearing load max", of_load=False),
+                Link("reduction", "largest load"),
+            )
+        }
+    },
+    needs=always("loads", "shaft"),
+    sections=always("reduction"),
+    models=(
+        Rungs(
+            "reduction",
+            section="reduction",
+            key=reduction_key,
+            better=lambda scene: (
+                {"size": min(1.0, 2 * scene.reduction.size)} if scene.reduction.size < 1.0 else {}
+            ),
+        ),
+    ),
+)

@@ -10,13 +10,14 @@ import xarray as xr
 
 from loadflow.errors import SolverError
 from loadflow.rolling import Lubrication, SlewingBearing, modified_spectrum_life, system_life
-from loadflow.rolling.bearings.arrangements import life_exponent, weibull_slope
 from loadflow.rolling.rating import life, safety
 from loadflow.scene.bearings import FurtherBearing
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
 from loadflow.stages.frames import to_rolling
 from loadflow.stages.labelling import label, labelled, of_samples
+from loadflow.stages.reduction import kept_share
+from loadflow.stages.stage import Link, Links, Measured, Rungs, Stage, always, load_links, steps_of
 from loadflow.stages.summary import over_cases
 from loadflow.tribology import lubricant
 from loadflow.wind.cases import factor_of_maximum
@@ -81,7 +82,7 @@ def balls(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
         "mean_speed": ((), _mean_speed(reduced), label("rad/s", "mean speed")),
     }
     worst = int(np.argmax(answer.maximum_force))
-    slope = min(weibull_slope(bearing) for bearing in scene.rolling.geometries.values())
+    slope = min(bearing.weibull_slope for bearing in scene.rolling.geometries.values())
     attrs = {
         "worst_sample": worst,
         "rated_capacity": answer.bearing.rated_capacity,
@@ -108,9 +109,7 @@ def rest(part: FurtherBearing, force: np.ndarray, moment: np.ndarray, strict: bo
     """Equilibrium of a bearing, with its rings, under loads (..., 3) in the frame of the cube."""
     bearing = part.geometry
     load = to_rolling(force), to_rolling(moment)[..., :2]
-    if isinstance(bearing, SlewingBearing):
-        return bearing.equilibrium(*load, rings=part.ring_model, strict=strict)
-    return bearing.equilibrium(*load, strict=strict)
+    return bearing.equilibrium(*load, rings=part.ring_model, strict=strict)
 
 
 def _of_bearing(
@@ -195,7 +194,7 @@ def life_of(answer: Any, reduced: xr.Dataset) -> float:
     bearing = answer.bearing
     return float(
         life.rating_life_spectrum(
-            bearing.rated_capacity, answer.equivalent_load, revolutions, life_exponent(bearing)
+            bearing.rated_capacity, answer.equivalent_load, revolutions, bearing.life_exponent
         )
     )
 
@@ -263,3 +262,47 @@ def _extremes(samples: xr.Dataset) -> xr.Dataset:
         ),
     }
     return labelled(found)
+
+
+def rings_key(scene: Scene) -> str:
+    """Name of the rings in the ladder."""
+    return scene.rolling.rung
+
+
+def _contact_links(scene: Scene) -> Links:
+    return {
+        quantity: (
+            *load_links("bearing load max"),
+            Link("reduction", "largest load", of_load=True),
+            Link("rolling", quantity),
+        )
+        for quantity in ("maximum force", "maximum pressure")
+    }
+
+
+def _life_links(scene: Scene) -> Links:
+    ends = (Link("reduction", "life"), Link("rolling", "life"))
+    return {"life": (*load_links("bearing force DEL"), *ends)}
+
+
+def _work(scene: Scene, cases: tuple[Case, ...], measured: Measured) -> float:
+    return kept_share(scene, measured) * steps_of(cases)
+
+
+STAGE = Stage(
+    "rolling",
+    run=balls,
+    results={"rolling.loads": _contact_links, "rolling.life": _life_links},
+    needs=always("reduction"),
+    sections=always("rolling", "friction"),
+    models=(
+        Rungs(
+            "rolling",
+            section="rolling",
+            key=rings_key,
+            error_key=lambda scene: "flexible",  # rigid rings leave out an effect
+        ),
+    ),
+    summarise=summary,
+    work=_work,
+)

@@ -13,6 +13,7 @@ from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
 from loadflow.seeds import Method, equality, group_seeds_jointly, holm
 from loadflow.stages.reduction import moment_governs
+from loadflow.stages.stage import Rungs, Stage, always
 
 TESTS = ("location", "spread", "spectrum")
 
@@ -134,3 +135,19 @@ def _series(scene: Scene, parts: dict[str, Any]) -> Iterator[tuple[str, np.ndarr
         for axis in ("y", "z"):
             component = load.sel(bearing=bearing, axis=axis)
             yield f"{bearing} {name}{axis}", component.values.astype(float), step
+
+
+def seeds_key(scene: Scene) -> str:
+    """Name of the tests in the ladder."""
+    return "+".join(sorted(set(scene.seeds.methods)))
+
+
+STAGE = Stage(
+    "seeds",
+    run=equality_of_seeds,
+    results={"seeds.equality": lambda scene: {}},
+    needs=always("loads", "shaft"),
+    scope="run",
+    sections=always("seeds"),
+    models=(Rungs("seeds", section="seeds", key=seeds_key, exact=lambda scene: True),),
+)

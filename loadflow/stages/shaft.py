@@ -10,10 +10,11 @@ import numpy as np
 import xarray as xr
 
 from loadflow.scene.cases import Case
-from loadflow.scene.scene import Scene
+from loadflow.scene.scene import Journal, Scene
 from loadflow.shaft import Concept, Seated, seated_loads
 from loadflow.shaft import bearing_loads as reactions
 from loadflow.stages.labelling import labelled
+from loadflow.stages.stage import STEPS_PER_CASE, Measured, Rungs, Stage, always, steps_of
 from loadflow.stages.summary import over_cases
 
 Floats = np.ndarray
@@ -57,7 +58,7 @@ def _suspended(
     rigid = reactions(replace(concept, beam=None), force, moment, tilt=tilt)
     thrust = dict(zip(concept.bearings, rigid["force"].values[:, 0]))
     bearings = {
-        name: _film(scene, speed, seat.takes_moment)
+        name: _film(scene.journal.at(name), speed, seat.takes_moment)
         if seat.stiffness == "journal"
         else _rolling(scene, name, thrust[name], seat.takes_moment)
         for name, seat in seats.items()
@@ -75,12 +76,12 @@ def _worst(parts: list[xr.Dataset]) -> dict[str, float]:
     return {name: pick.get(name, max)(values) for name, values in told.items() if values}
 
 
-def _film(scene: Scene, speed: Floats, tilting: bool) -> Seated:
+def _film(options: Journal, speed: Floats, tilting: bool) -> Seated:
     from loadflow.stages.film_support import film_model
 
     fastest = float(np.abs(speed).max())
     return Seated(
-        lambda rows: film_model(scene.journal, speed[rows], tilting=tilting, strict=False),
+        lambda rows: film_model(options, speed[rows], tilting=tilting, strict=False),
         state=np.arcsinh(speed / (_GLIDING * fastest or 1.0)),
         idle=np.abs(speed) <= STILL * fastest,
     )
@@ -151,3 +152,59 @@ _TOLD = {
     "solved": "samples solved with the bearings' own models",
     "interpolation_error": "error between these, of loads, displacement and tilt",
 }
+
+
+def _described(scene: Scene) -> str:
+    concepts = ((name, concept) for name, concept in scene.shaft if concept)
+    names = "+".join(f"{name}, beam" if concept.beam else name for name, concept in concepts)
+    seats = [f"{name} {seat.stiffness}" for name, seat in scene.shaft.seated.items()]
+    return f"{names}, iterated with {', '.join(seats)}" if seats else names
+
+
+def shaft_key(scene: Scene) -> str:
+    """Name of the shaft in the ladder: its suspensions, or the bearings it is iterated with."""
+    if not scene.shaft.seated:
+        return _described(scene)
+    kinds = {
+        f"{seat.stiffness}, tilting"
+        if seat.stiffness == "journal" and seat.takes_moment
+        else f"{seat.stiffness}, flexible"
+        if seat.stiffness == "rolling" and scene.rolling.bearings[name].rings == "flexible"
+        else seat.stiffness
+        for name, seat in scene.shaft.seated.items()
+    }
+    return f"on {'+'.join(sorted(kinds))}"
+
+
+def _work(scene: Scene, cases: tuple[Case, ...], measured: Measured) -> float | None:
+    """Load cases; those whose films take another time than the measured one count accordingly."""
+    count = steps_of(cases) / STEPS_PER_CASE
+    known = measured(scene, "shaft") or {}
+    if "film" not in known:
+        return count
+    from loadflow.stages.journal import warm_films
+
+    still = scene.model_copy(
+        update={"journal": scene.journal.model_copy(update={"motion": "quasi-static"})}
+    )
+    ours, theirs = (measured(still, "journal", key) for key in (None, known["film"]))
+    if ours is None or theirs is None:
+        return None
+    films = float(ours["seconds_per_sample"] / theirs["seconds_per_sample"])
+    return count * warm_films(still.journal) * films
+
+
+STAGE = Stage(
+    "shaft",
+    run=bearing_loads,
+    needs=always("loads"),
+    sections=lambda scene: (
+        ("shaft", "turbine", "journal", "rolling") if scene.shaft.seated else ("shaft", "turbine")
+    ),
+    models=(
+        Rungs("shaft", section="shaft", key=shaft_key, text=_described, exact=lambda scene: True),
+    ),
+    summarise=summary,
+    warnings=warnings,
+    work=_work,
+)

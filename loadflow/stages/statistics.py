@@ -11,6 +11,7 @@ import xarray as xr
 from loadflow.reduction import damage_equivalent_load
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
+from loadflow.stages.stage import Rungs, Stage, always, load_links
 from loadflow.stages.summary import over_cases
 
 SLOPE = 4.0
@@ -62,3 +63,18 @@ def _row(x: np.ndarray, duration: float) -> list[float]:
 def summary(parts: Mapping[Case, xr.Dataset]) -> xr.Dataset:
     """Join the statistics of all cases; dimension ``case``."""
     return over_cases({case: part.load() for case, part in parts.items()})
+
+
+STAGE = Stage(
+    "statistics",
+    run=statistics,
+    results={
+        "loads.statistics": lambda scene: {
+            quantity: load_links(quantity, of_load=False)
+            for quantity in ("bearing load max", "bearing force DEL")
+        }
+    },
+    needs=always("loads", "shaft"),
+    models=(Rungs("statistics", section="loads", key=lambda scene: "-", exact=lambda scene: True),),
+    summarise=summary,
+)

@@ -25,4 +25,7 @@ def over_cases(parts: Mapping[Case, xr.Dataset]) -> xr.Dataset:
     )
 
 
-LABELS = ("case", "dlc", "wind_speed", "seed", "weight", "tripped", "file", "file_start")
+LABELS = (
+    "case", "dlc", "wind_speed", "seed", "weight", "tripped", "file", "file_start", "doubts",
+    "standing_share",
+)  # fmt: skip

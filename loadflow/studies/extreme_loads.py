@@ -97,10 +97,12 @@ def safety_factor(dlc: str) -> float:
     """Partial safety factor for the largest load of a series; 1 for a case not of the standard.
 
     That of 1.1 is the normal 1.35: the 1.25 of IEC 61400-1 is for loads that are extrapolated.
+    Variants have that of their load case: ``DLC6.2a``, ``62`` and ``6.2 EWM`` that of 6.2.
     """
+    from loadflow.readers.names import standard_dlc
     from loadflow.wind.cases import factor_of_maximum
 
-    return factor_of_maximum(dlc)
+    return factor_of_maximum(standard_dlc(dlc))
 
 
 def _dataset(

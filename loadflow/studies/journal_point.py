@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -10,13 +11,13 @@ import numpy as np
 import xarray as xr
 
 from loadflow.errors import SolverError
-from loadflow.journal import Heat
+from loadflow.journal.rungs import RUNGS
+from loadflow.quantities import table
 
 if TYPE_CHECKING:
-    from loadflow.journal import GasMixture, JournalBearing, Lubricant, Supply
+    from loadflow.journal import Film, JournalBearing
 
 Load = Sequence[float]
-Grid = tuple[int, int] | None
 
 
 def quantities(rows: Mapping[str, tuple[Any, str, str]], **attrs: str) -> xr.Dataset:
@@ -69,13 +70,7 @@ def iec_conditions(
     return quantities(rows, conditions=conditions)
 
 
-def journal_point(
-    force: Load,
-    speed: float,
-    bearing: JournalBearing,
-    oil: Lubricant | Heat,
-    film: dict[str, Any],
-) -> xr.Dataset:
+def journal_point(force: Load, speed: float, bearing: JournalBearing, film: Film) -> xr.Dataset:
     """Return the static equilibrium of a journal bearing under one `force` (N) and `speed` (rad/s).
 
     Raises
@@ -85,36 +80,28 @@ def journal_point(
     loadflow.errors.SolverError
         No equilibrium.
     """
-    from loadflow.stages.journal import KEPT, WARM, rest
+    from loadflow.stages.journal import KEPT, WARM
 
-    s = rest(bearing, np.array(force), speed, oil, **film)
-    kept = KEPT | WARM if isinstance(oil, Heat) else KEPT
-    rows = {name: (getattr(s, name), units, meaning) for name, (units, meaning) in kept.items()}
-    more = {
-        "eccentricity": (s.eccentricity, "m", "shaft centre: first axis, second axis"),
-        "stiffness": (s.stiffness, "N/m", "−∂F/∂e: 11, 12, 21, 22"),
-        "damping": (s.damping, "N s/m", "−∂F/∂ė: 11, 12, 21, 22"),
-        "reynolds_number": (s.reynolds_number, "1", "Reynolds number of the gap"),
-        "critical_reynolds_number": (
-            s.critical_reynolds_number,
-            "1",
-            "Re at which the flow turns turbulent",
-        ),
-        "laminar": (s.laminar, "1", "whether the flow is laminar"),
+    s = bearing.equilibrium(force, speed, film)
+    kept = KEPT | WARM if film.heat is not None else KEPT
+    more = ["eccentricity", "stiffness", "damping"]
+    more += ["reynolds_number", "critical_reynolds_number", "laminar"]
+    if film.supply is not None:
+        more.append("groove_flow")
+    if film.shell is not None:
+        more.append("shell_deformation")
+    solver = {name: kept[name] for name in ("converged", "residual", "iterations")}
+    first = {name: what for name, what in kept.items() if name not in solver}
+    names = first | table(*more) | solver
+    rows = {
+        name: (getattr(s, name), units, meaning)
+        for name, (units, meaning) in names.items()
+        if getattr(s, name) is not None
     }
-    if film["supply"]:
-        more["groove_flow"] = (s.groove_flow, "m3/s", "flow of each groove into the film")
-    solver = ("converged", "residual", "iterations")
-    last = {name: rows.pop(name) for name in solver}
-    return quantities(rows | more | last, model=_model(oil, **film))
+    return quantities(rows, model=_model(film))
 
 
-def journal_series(
-    path: Path,
-    bearing: JournalBearing,
-    oil: Lubricant | Heat,
-    film: dict[str, Any],
-) -> xr.Dataset:
+def journal_series(path: Path, bearing: JournalBearing, film: Film) -> xr.Dataset:
     """Return extremes and weighted means of the film over the series of a parameter file.
 
     Samples that no film carries, such as a load at standstill, are counted in ``not_converged``.
@@ -127,35 +114,35 @@ def journal_series(
         No load at all has an equilibrium.
     """
     from loadflow.reduction import read_parameter_file
-    from loadflow.stages.journal import KEPT, WARM, extremes, rest
+    from loadflow.stages.journal import KEPT, WARM, extremes
     from loadflow.stages.labelling import of_samples
 
     reduced = read_parameter_file(path)
-    answer = rest(bearing, reduced.force, reduced.speed, oil, strict=False, **film)
+    answer = bearing.equilibrium(reduced.force, reduced.speed, film, strict=False)
     if not np.any(answer.converged):
         raise SolverError(f"{path}: no film carries any of the {reduced.weight.size} samples")
-    kept = KEPT | WARM if isinstance(oil, Heat) else KEPT
+    kept = KEPT | WARM if film.heat is not None else KEPT
     samples = xr.Dataset({**of_samples(vars(answer), kept), "weight": ("sample", reduced.weight)})
     return extremes(samples).assign_attrs(
         series=f"{path}: {reduced.source}, {reduced.weight.size} of {reduced.total} samples",
-        model=_model(oil, **film),
+        model=_model(film),
     )
 
 
-def _model(
-    oil: Lubricant | Heat,
-    *,
-    cavitation: GasMixture | None,
-    edge_pressure: float,
-    grid: Grid,
-    supply: Supply | None,
-) -> str:
-    law = "Reynolds' condition"
-    if cavitation is not None:
-        law = f"gas mixture, constant {cavitation.mixing_constant:g} Pa"
-    cells = f"{grid[0]} × {grid[1]} cells" if grid else "default grid of the law"
-    grooves = f"; {len(supply.grooves)} grooves" if supply else ""
-    heat = ""
-    if isinstance(oil, Heat):
-        heat = f"; {oil.oil} enters at {oil.inlet_temperature - 273.15:g} °C, heat balance"
-    return f"finite volumes, {cells}; {law}; edge pressure {edge_pressure:g} Pa{grooves}{heat}"
+def _model(film: Film) -> str:
+    """The film in words."""
+    rung = RUNGS[film.rung]
+    words = [f'rung "{film.rung}"']
+    if rung.law is None:
+        words.append(f"{film.cells[0]} × {film.cells[1]} cells" if film.grid else "default grid")
+        law = ", ".join(f"{name} {value:g}" for name, value in asdict(film.law).items())
+        words.append(f"{film.law.kind} ({law})" if law else film.law.kind)
+    words.append(f"edge pressure {film.edge_pressure:g} Pa")
+    if film.supply is not None:
+        words.append(f"{len(film.supply.grooves)} grooves")
+    if film.shell is not None:
+        words.append(f"{film.shell.kind} shell")
+    if film.heat is not None:
+        oil, inlet = film.heat.oil, film.heat.inlet_temperature - 273.15
+        words.append(f"{oil} enters at {inlet:g} °C, heat balance")
+    return "; ".join(words)

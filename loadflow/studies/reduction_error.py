@@ -10,9 +10,8 @@ import numpy as np
 import xarray as xr
 
 from loadflow.errors import SolverError
-from loadflow.journal.shapes import CYLINDER
 from loadflow.scene.scene import Journal
-from loadflow.stages.journal import mean_temperature
+from loadflow.stages.journal import fast_film, mean_temperature
 from loadflow.studies.bearing_series import BearingSeries
 
 Floats = np.ndarray
@@ -82,13 +81,13 @@ def solve_films(series: BearingSeries, journal: Journal, transient: bool = True)
     bearing, force, speed = journal.geometry, series.radial, series.speed
     temperature = mean_temperature(journal, force, speed)
     journal = journal if temperature is None else journal.at_temperature(temperature)
-    film = bearing.equilibrium(force, speed, strict=False, **journal.film)
+    film = bearing.equilibrium(force, speed, journal.film_model, strict=False)
     found = np.asarray(film.converged, dtype=bool)
     drag = journal.lubricant.viscosity * np.where(found, np.abs(speed), np.nan)
     orbit = np.empty(0)
     if transient and found.all():
         try:
-            path = bearing.orbit(series.time, force, speed, **journal.film)
+            path = bearing.orbit(series.time, force, speed, journal.film_model)
             orbit = path["eccentricity_ratio"].values
         except SolverError:  # the static films stand for themselves; the table says "-"
             orbit = np.empty(0)
@@ -102,17 +101,7 @@ def solve_films(series: BearingSeries, journal: Journal, transient: bool = True)
 
 def for_long_series(journal: Journal) -> Journal:
     """Take the film that is quick over a long series, where none is named and it knows the film."""
-    return journal if "rung" in journal.model_fields_set else quick(journal) or journal
-
-
-def quick(journal: Journal) -> Journal | None:
-    """The bearing with the film that is quick over a long series; None where it does not fit."""
-    bearing = journal.geometry
-    cylinder = bearing.shape == CYLINDER and not bearing.relief
-    rigid = cylinder and journal.shell is None
-    if rigid and journal.supply is None and journal.grading != "graded":
-        return journal.model_copy(update={"rung": "reduced"})
-    return None
+    return journal if "rung" in journal.model_fields_set else fast_film(journal) or journal
 
 
 @dataclass(frozen=True)

@@ -13,11 +13,10 @@ from loadflow.errors import InputError
 from loadflow.rolling import (
     FlexibleRings,
     Lubrication,
+    RollingBearing,
     SlewingBearing,
-    bearing_modification,
     verdicts,
 )
-from loadflow.rolling.bearings.arrangements import MainBearing
 from loadflow.rolling.rating.life import life_hours
 from loadflow.rolling.rating.static import HOURS_20_YEARS
 from loadflow.scene.bearings import around, standing_ring
@@ -71,7 +70,7 @@ def slewing_bearing(
     return bearing, around(bearing, inner, outer)
 
 
-def bearing_of_scene(path: Path, name: str | None) -> tuple[MainBearing, Rings]:
+def bearing_of_scene(path: Path, name: str | None) -> tuple[RollingBearing, Rings]:
     """Return a rolling bearing of a scene, its first if no `name` is given, and its rings.
 
     Raises
@@ -87,7 +86,7 @@ def bearing_of_scene(path: Path, name: str | None) -> tuple[MainBearing, Rings]:
 
 
 def rolling_point(
-    bearing: MainBearing,
+    bearing: RollingBearing,
     rings: Rings,
     force: Load,
     moment: Load,
@@ -109,10 +108,7 @@ def rolling_point(
     """
     if speed is not None and not (math.isfinite(speed) and speed):
         raise InputError(f"speed: must be finite and not 0 for a life in hours, got {speed:g}")
-    if isinstance(bearing, SlewingBearing):
-        r: Any = bearing.equilibrium(force, moment, rings=rings)
-    else:
-        r = bearing.equilibrium(force, moment)
+    r = bearing.equilibrium(force, moment, rings=rings)
     rows = {name: (getattr(r, name), units, meaning) for name, (units, meaning) in KEPT.items()}
     solver = {name: rows.pop(name) for name in ("converged", "residual", "iterations")}
     stiffness = np.diag(r.stiffness)
@@ -148,9 +144,9 @@ def _life(r: Any, speed: float | None) -> dict[str, tuple[Any, str, str]]:
     if speed is not None:
         rows["life_hours"] = (hours, "h", "basic rating life L10h at this load and speed")
         rows["life_holds"] = (life.holds, "1", "whether it reaches 20 years")
-    if hasattr(r, "friction_torque"):
-        slewing = isinstance(r.bearing, SlewingBearing)
-        about = f"friction torque, from the {'ball forces' if slewing else 'loads'}"
+    if r.bearing.torque_models:
+        rule = {"forces": "ball forces", "loads": "loads", "equivalent": "equivalent load"}
+        about = f"friction torque, from the {rule[next(iter(r.bearing.torque_models))]}"
         rows["friction_torque"] = (r.friction_torque(), "N m", about)
     return rows
 
@@ -163,7 +159,7 @@ def _modified(
         return {}
     if speed is None:
         raise InputError("the modified life needs a speed: give --speed-rpm")
-    found = bearing_modification(r.bearing, r.equivalent_load, speed, lubrication)
+    found = r.bearing.life_modification(r.equivalent_load, speed, lubrication)
     hours = found.factor * life_hours(r.rating_life, speed)
     return {
         "viscosity_ratio": (found.viscosity_ratio, "1", "viscosity ratio κ"),
@@ -182,23 +178,20 @@ def _modified(
 
 def _elements(r: Any) -> dict[str, tuple[Any, str, str]]:
     """Forces on all rolling elements."""
-    if hasattr(r, "ball_forces"):
+    order = ", ".join((*r.bearing.group_dims, r.bearing.element))
+    if r.bearing.element == "ball":
         return {
-            "ball_forces": (r.ball_forces, "N", "contact forces (row, diagonal, ball)"),
-            "contact_angles": (r.contact_angles, "rad", "contact angles (row, diagonal, ball)"),
+            "ball_forces": (r.ball_forces, "N", f"contact forces ({order})"),
+            "contact_angles": (r.contact_angles, "rad", f"contact angles ({order})"),
         }
-    if isinstance(r.roller_forces, tuple):
-        parts = zip(("support", "retaining", "radial"), r.roller_forces)
-        return {f"{row}_forces": (f, "N", f"forces on the {row} rollers") for row, f in parts}
-    return {"roller_forces": (r.roller_forces, "N", "forces on the rollers (row, roller)")}
+    return {"roller_forces": (r.roller_forces, "N", f"forces on the rollers ({order})")}
 
 
-def _model(bearing: MainBearing, r: Any, rings: Rings) -> str:
+def _model(bearing: RollingBearing, r: Any, rings: Rings) -> str:
     """What was solved, in words."""
-    if not isinstance(bearing, SlewingBearing):
-        return f"rigid rings, {type(bearing).__name__}"
     stiff = "rigid rings"
     if isinstance(rings, FlexibleRings):
         soft = [ring for ring in ("inner", "outer") if getattr(rings, ring) is not None]
-        stiff = f"flexible {' and '.join(soft)} ring, {r.modes.size - 5} modes"
-    return f"{stiff}, Hertzian contacts, {bearing.rows} × {bearing.balls} balls"
+        stiff = f"flexible {' and '.join(soft)} ring, {r.elements.modes.size - 5} modes"
+    groups = " × ".join(str(size) for size in r.element_forces.shape)
+    return f"{stiff}, {type(bearing).__name__}, {groups} {bearing.element} contacts"

@@ -96,7 +96,7 @@ def _share_of(table: xr.Dataset, share: np.ndarray) -> xr.DataArray:
 
 def _film_energy(scene: Scene, table: xr.Dataset, share: np.ndarray) -> dict[str, xr.DataArray]:
     power = table["mean_friction_power"] + table["mean_supply_power"]
-    energy = _per_year(scene, table, power.fillna(0.0), share)
+    energy = energy_per_year(scene, table, power.fillna(0.0), share)
     about = label("J", "friction and supply of the journal bearing, a year")
     bearings = {"journal": table["bearing"].values}
     return {
@@ -106,7 +106,7 @@ def _film_energy(scene: Scene, table: xr.Dataset, share: np.ndarray) -> dict[str
 
 
 def _energy(scene: Scene, table: xr.Dataset, share: np.ndarray) -> dict[str, xr.DataArray]:
-    energy = _per_year(scene, table, table["mean_friction_power"], share)
+    energy = energy_per_year(scene, table, table["mean_friction_power"], share)
     about = label("J", "friction of the rolling bearing, a year")
     bearings = {"rolling": table["bearing"].values}
     return {
@@ -115,10 +115,22 @@ def _energy(scene: Scene, table: xr.Dataset, share: np.ndarray) -> dict[str, xr.
     }
 
 
-def _per_year(
+def energy_per_year(
     scene: Scene, table: xr.Dataset, power: xr.DataArray, share: np.ndarray
 ) -> np.ndarray:
-    """Energy (bearing,) a year, J; outside the operating winds only that of idling cases."""
+    """Energy (bearing,) a year, J; outside the operating winds only that of idling cases.
+
+    Parameters
+    ----------
+    scene : Scene
+        Loads.
+    table : xarray.Dataset
+        Any result over ``case``, with `dlc`.
+    power : xarray.DataArray
+        Mean power of each case, W.
+    share : ndarray, shape (case,)
+        Share of the lifetime of each case.
+    """
     seconds = HOURS_PER_YEAR * 3600
     dlcs = set(table["dlc"].values.tolist())
     by_wind = scene.loads.weights == "rayleigh" or scene.loads.source == "simulate"

@@ -8,15 +8,14 @@ from typing import Literal
 import numpy as np
 import xarray as xr
 
-from loadflow.rolling.bearings.arrangements import carries_thrust
 from loadflow.rolling.rating.static import (
     HOURS_20_YEARS,
     LIFE_SOURCE,
     STATIC_RATING,
     STATIC_SOURCE,
 )
-from loadflow.scene.limits import JournalLimits
-from loadflow.scene.scene import Scene
+from loadflow.scene.limits import JournalLimits, RollingLimits
+from loadflow.scene.scene import Journal, Scene
 from loadflow.verdict import Verdict
 from loadflow.wind.cases import LOAD_CASES
 
@@ -68,16 +67,17 @@ def verdicts(
 
 def _of_journal(scene: Scene, name: str, table: xr.Dataset) -> Iterator[Verdict]:
     """Verdicts on one journal bearing: production first, then what holds in every load case."""
-    subject, limits, options = f"journal {name}", scene.journal.limits, scene.journal
+    subject, options = f"journal {name}", scene.journal.at(name)
+    limits = options.limits
     yield _answered(subject, table)
     starting = np.array([_starts_or_stands(dlc) for dlc in table["dlc"].values.tolist()])
     production, events = table.isel(case=~starting), table.isel(case=starting)
     if production.sizes["case"]:
         yield _contact(subject, production, "power production", limits.contact_time, limits)
-        yield from _film(scene, subject, production)
+        yield from _film(options, subject, production)
     if events.sizes["case"]:
         yield _contact(subject, events, "starts, stops and faults", limits.start_time, limits)
-    yield from _pressure(scene, subject, table)
+    yield from _pressure(limits, subject, table)
     if limits.specific_load is not None:
         area = options.geometry.width * options.geometry.diameter
         value, case, _ = _worst(table, "largest_load", "most")
@@ -145,25 +145,27 @@ def _contact(
     )
 
 
-def _film(scene: Scene, subject: str, table: xr.Dataset) -> Iterator[Verdict]:
+def _film(options: Journal, subject: str, table: xr.Dataset) -> Iterator[Verdict]:
     """ε, smallest film and So in power production; a contact breaks all of them."""
-    limits, contact = scene.journal.limits, table["in_contact"] > 0
+    limits, contact = options.limits, table["in_contact"] > 0
     touching = f"in contact in {int(contact.sum())} load cases" if contact.any() else ""
     ratio = table.assign(largest_eccentricity_ratio=_where(table, "largest_eccentricity_ratio", 1))
     value, case, time = _worst(ratio, "largest_eccentricity_ratio", "most")
+    critical = options.critical_eccentricity_ratio
     yield Verdict(
-        subject, "eccentricity ratio ε", value, limits.eccentricity_ratio, "at most",
+        subject, "eccentricity ratio ε", value, critical if np.isfinite(critical) else np.nan,
+        "at most",
         source=_source(limits, "eccentricity_ratio", "E_krit [Jonuschies 2015, (5.2)]"),
         case=case, time=time, note=touching, key="journal.limits.eccentricity_ratio",
     )  # fmt: skip
     film = table.assign(smallest_film=_where(table, "smallest_film", 0))
     value, case, time = _worst(film, "smallest_film", "least")
     parts = (
-        f"R_z {1e6 * scene.journal.contact_film:.3g} + waviness {1e6 * limits.waviness:.3g} + "
+        f"R_z {1e6 * options.contact_film:.3g} + waviness {1e6 * limits.waviness:.3g} + "
         f"margin {1e6 * limits.margin:.3g} µm, [Jonuschies 2015, (3.1)]"
     )
     yield Verdict(
-        subject, "smallest film", value, scene.journal.least_film, "at least", "m",
+        subject, "smallest film", value, options.least_film, "at least", "m",
         parts if limits.minimum_film is None else _STATED, case, time, touching,
         "journal.limits.minimum_film",
     )  # fmt: skip
@@ -196,9 +198,9 @@ def _where(table: xr.Dataset, name: str, in_contact: float) -> xr.DataArray:
     return table[name].where(table["in_contact"] == 0, in_contact)
 
 
-def _pressure(scene: Scene, subject: str, table: xr.Dataset) -> Iterator[Verdict]:
+def _pressure(limits: JournalLimits, subject: str, table: xr.Dataset) -> Iterator[Verdict]:
     """Largest film pressure against the material at the temperature of the film."""
-    limits, warm = scene.journal.limits, "largest_temperature" in table
+    warm = "largest_temperature" in table
     value, case, time = _worst(table, "largest_pressure", "most")
     if not case:
         return
@@ -248,7 +250,7 @@ def _thrust_on_journal(subject: str, table: xr.Dataset) -> Verdict | None:
 def _of_rolling(scene: Scene, table: xr.Dataset, lifetime: xr.Dataset | None) -> Iterator[Verdict]:
     for name, bearing in scene.rolling.geometries.items():
         part, subject = table.sel(bearing=name), f"rolling {name}"
-        yield _static(scene, subject, part)
+        yield _static(scene.rolling.bearings[name].limits, subject, part)
         yield from _lives(scene, subject, lifetime, name, part)
         value, case, _ = _worst(part, "bearing_truncated", "most")
         if case:
@@ -260,7 +262,7 @@ def _of_rolling(scene: Scene, table: xr.Dataset, lifetime: xr.Dataset | None) ->
             )  # fmt: skip
         value, case, _ = _worst(part, "bearing_axial_force", "most")
         if value > _SLIGHT * float(part["bearing_force"].max()):
-            carried = carries_thrust(bearing)
+            carried = bearing.takes_thrust
             kind = type(bearing).__name__
             force = f"{value / 1e3:.0f} kN along the shaft"
             yield Verdict(
@@ -275,7 +277,7 @@ def _of_rolling(scene: Scene, table: xr.Dataset, lifetime: xr.Dataset | None) ->
         yield _answered(f"rolling {table['bearing'].values[0]}", table)
 
 
-def _static(scene: Scene, subject: str, table: xr.Dataset) -> Verdict:
+def _static(limits: RollingLimits, subject: str, table: xr.Dataset) -> Verdict:
     """Static rating over the design load: loads with the factor of their load case in them."""
     ultimate = np.array(
         [d not in LOAD_CASES or LOAD_CASES[d].kind == "U" for d in table["dlc"].values.tolist()]
@@ -291,7 +293,7 @@ def _static(scene: Scene, subject: str, table: xr.Dataset) -> Verdict:
         note += "; no load case of ultimate loads in this run"
     elif dlc not in LOAD_CASES:
         note += f"; IEC 61400-1 has no load case {dlc!r}"
-    limit = scene.rolling.limits.static_safety
+    limit = limits.static_safety
     return Verdict(
         subject, "static rating over the design load", value, limit, "at least",
         source=STATIC_SOURCE if limit == STATIC_RATING else _STATED, case=case, time=time,
@@ -303,7 +305,8 @@ def _lives(
     scene: Scene, subject: str, lifetime: xr.Dataset | None, name: str | None, table: xr.Dataset
 ) -> Iterator[Verdict]:
     """Basic and modified life over all load cases, of one bearing or (`name` None) of all."""
-    limit = scene.rolling.limits.life
+    part = scene.rolling if name is None else scene.rolling.bearings[name]
+    limit = part.limits.life
     source = LIFE_SOURCE if limit == HOURS_20_YEARS else _STATED
     for kind, what in (("", "rating life L10h"), ("modified_", "modified rating life L10mh")):
         note, value = "no load case has a share of the lifetime", np.nan

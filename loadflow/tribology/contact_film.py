@@ -100,6 +100,11 @@ def moes_line(material: Value, speed: Value, load: Value) -> Value:
     ----------
     material, speed, load : float or ndarray
         G, U, W.
+
+    Examples
+    --------
+    >>> round(float(moes_line(4615.38, 1.56329e-11, 6.28806e-5)) * 4.5e-3 * 1e6, 4)  # μm
+    0.1431
     """
     total = 2.0 * speed  # Moes takes the sum of both surface speeds
     m = np.maximum(load, _LEAST_LOAD) / np.sqrt(total)
@@ -121,6 +126,12 @@ def nijenbanning_point(material: Value, speed: Value, load: Value, radius_ratio:
         G, U, W of points, with R = R_x along the rolling direction.
     radius_ratio : float or ndarray
         R_x/R_y of the reduced radii, at most 1.
+
+    Examples
+    --------
+    >>> film = nijenbanning_point(5227.0, 2.154e-10, 7.63e-4, 0.03) * 5.1093e-3
+    >>> round(float(film) * 1e6, 3)
+    0.917
     """
     d, total = radius_ratio, 2.0 * speed
     m = np.maximum(load, _LEAST_LOAD) * total**-0.75
@@ -141,13 +152,26 @@ def hamrock_dowson_central(material: Value, speed: Value, load: Value, elliptici
     """Central film over radius R_x of an elliptical contact; `ellipticity` k = a/b across rolling.
 
     For k = 1 the row Hamrock/Dowson of Table 5.2: 2.69 (1 - 0.61 exp(-0.73)) = 1.90.
+
+    Examples
+    --------
+    >>> film = hamrock_dowson_central(5227.0, 2.154e-10, 7.63e-4, 9.285) * 5.1093e-3
+    >>> round(float(film) * 1e6, 3)
+    0.693
     """
     side = 1.0 - 0.61 * np.exp(-0.73 * ellipticity)
     return 2.69 * speed**0.67 * material**0.53 * load**-0.067 * side
 
 
 def hamrock_dowson_minimum(material: Value, speed: Value, load: Value, ellipticity: Value) -> Value:
-    """Smallest film over radius R_x of an elliptical contact."""
+    """Smallest film over radius R_x of an elliptical contact.
+
+    Examples
+    --------
+    >>> film = hamrock_dowson_minimum(5227.0, 2.154e-10, 7.63e-4, 9.285) * 5.1093e-3
+    >>> round(float(film) * 1e6, 3)
+    0.554
+    """
     side = 1.0 - np.exp(-0.68 * ellipticity)
     return 3.63 * speed**0.68 * material**0.49 * load**-0.073 * side
 
@@ -165,12 +189,23 @@ def thermal_loading(viscosity: Value, steepness: Value, speed: Value, conductivi
         Mean surface speed, m/s.
     conductivity : float or ndarray
         W/(m K).
+
+    Examples
+    --------
+    >>> round(thermal_loading(0.0106, 0.0278, 1.53, 0.139), 5)
+    0.00496
     """
     return viscosity * steepness * speed * speed / conductivity
 
 
 def thermal_factor(loading: Value) -> Value:
-    """Share of the film that inlet shear heating leaves, C_th = 1/(1 + 0.39 L^0.548), (5.92)."""
+    """Share of the film that inlet shear heating leaves, C_th = 1/(1 + 0.39 L^0.548), (5.92).
+
+    Examples
+    --------
+    >>> round(thermal_factor(0.1), 4)
+    0.9006
+    """
     return 1.0 / (1.0 + 0.39 * loading**0.548)
 
 
@@ -185,6 +220,11 @@ def zhu_cheng_factor(loading: Value, pressure_ratio: Value, slide_ratio: Value =
         Largest Hertzian pressure over reduced modulus E₀.
     slide_ratio : float or ndarray
         Sliding over mean surface speed.
+
+    Examples
+    --------
+    >>> round(zhu_cheng_factor(0.1, 0.005, 0.1), 4)
+    0.9155
     """
     less = 1.0 - 13.2 * pressure_ratio * loading**0.42
     return less / (1.0 + 0.213 * (1.0 + 2.23 * slide_ratio**0.83) * loading**0.64)
@@ -203,6 +243,11 @@ def starvation_factor(inlet: Value, half_width: Value, radius: Value, film: Valu
         Reduced radius along rolling, m.
     film : float or ndarray
         Flooded central film, m.
+
+    Examples
+    --------
+    >>> round(float(starvation_factor(2e-4, 1e-4, 5e-3, 0.5e-6)), 4)
+    0.9129
     """
     reach = 3.06 * ((radius / half_width) ** 2 * film / radius) ** 0.58
     filled = np.minimum(np.maximum(inlet / half_width - 1.0, 0.0) / reach, 1.0)

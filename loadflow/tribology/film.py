@@ -92,6 +92,12 @@ def butenschoen(eccentricity_ratio: ArrayLike, width_ratio: float) -> tuple[Arra
     tables and 0.1 ≤ ε ≤ 0.99, So is off by up to 6.6 % (2.6 % in the mean) and β by up to 2.4°.
     Between B/D = 1/2 and 1, where nothing was fitted, So is off by up to 10 %; below ε = 0.1 β is
     off by up to 5°.
+
+    Examples
+    --------
+    >>> so, beta = butenschoen(0.5, 0.5)
+    >>> round(float(so), 4), round(float(np.degrees(beta)), 2)
+    (0.3049, 56.42)
     """
     e, b = np.asarray(eccentricity_ratio, dtype=float), width_ratio
     a1 = np.polyval([5.0141, -10.1073, 7.1161, -1.9456, 1.1642], b)
@@ -113,6 +119,11 @@ def butenschoen_squeeze(eccentricity_ratio: ArrayLike, width_ratio: float) -> Ar
 
     Within 5.4 % of the converged solution at the widths of the tables; between B/D = 1/2 and 1,
     where nothing was fitted, off by up to 20 %.
+
+    Examples
+    --------
+    >>> round(float(butenschoen_squeeze(0.5, 0.5)), 4)
+    3.6448
     """
     e, b = np.asarray(eccentricity_ratio, dtype=float), width_ratio
     a1 = np.polyval([-9.3561, 18.895, -12.2486, 3.2415, 0.70038], b)
@@ -143,6 +154,11 @@ def squeeze_time(
 
     (1.5) of the source [Jonuschies 2015], exact for the Gümbel film; the values printed in its
     Table 1-1 are twice as long.
+
+    Examples
+    --------
+    >>> round(squeeze_time(0.4, 0.8, 500e3, 0.25, 0.5, 1e-3, 0.09), 2)
+    0.67
     """
 
     def travel(e: float) -> float:

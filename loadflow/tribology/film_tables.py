@@ -23,7 +23,14 @@ NARROWEST, WIDEST, LARGEST_RATIO = 0.125, 1.0, 0.99
 
 
 def reference_table(name: str) -> tuple[Array, Array, Array]:
-    """B/D (m,), ε (n,) and values (n, m) of a table in ``loadflow/data/reference``."""
+    """B/D (m,), ε (n,) and values (n, m) of a table in ``loadflow/data/reference``.
+
+    Examples
+    --------
+    >>> widths, ratios, values = reference_table("ref_So_rot.csv")
+    >>> values.shape == (ratios.size, widths.size)
+    True
+    """
     text = (files("loadflow") / "data" / "reference" / name).read_text().splitlines()
     widths = np.array([float(head.split("=")[1]) for head in text[0].split(",")[1:]])
     values = np.array([line.split(",") for line in text[1:]], dtype=float)
@@ -76,6 +83,11 @@ def tabulated_peak(eccentricity_ratio: ArrayLike, width_ratio: float) -> Array:
     ------
     InputError
         B/D outside 1/8 … 1, ε outside 0 … 0.99.
+
+    Examples
+    --------
+    >>> round(float(tabulated_peak(0.5, 0.5)), 4)
+    2.4634
     """
     e = np.maximum(_checked(eccentricity_ratio, width_ratio), 0.1)
     return _ratio("peak_pressure.csv", e, width_ratio)

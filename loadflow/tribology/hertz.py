@@ -19,8 +19,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError
+from loadflow.tribology.contact_ellipse import ellipse
 
-RUNGS = ("exact", "spline", "power", "regression")
 STEEL_MODULUS = 210e9
 STEEL_POISSON = 0.3
 
@@ -83,7 +83,13 @@ def effective_modulus(
     second_modulus: ArrayLike | None = None,
     second_poisson: ArrayLike | None = None,
 ) -> Array:
-    """Contact modulus E* with 1/E* = (1 - ν₁²)/E₁ + (1 - ν₂²)/E₂, in Pa."""
+    """Contact modulus E* with 1/E* = (1 - ν₁²)/E₁ + (1 - ν₂²)/E₂, in Pa.
+
+    Examples
+    --------
+    >>> round(float(effective_modulus()) / 1e9, 2)
+    115.38
+    """
     e1, nu1 = np.asarray(modulus, float), np.asarray(poisson, float)
     e2 = e1 if second_modulus is None else np.asarray(second_modulus, float)
     nu2 = nu1 if second_poisson is None else np.asarray(second_poisson, float)
@@ -94,87 +100,6 @@ def effective_modulus(
         if not np.all((nu >= 0) & (nu <= 0.5)):
             raise InputError(f"{name}: must lie in 0 … 0.5, got {nu}")
     return np.asarray(1 / ((1 - nu1**2) / e1 + (1 - nu2**2) / e2))
-
-
-def ellipticity(ratio: ArrayLike) -> Array:
-    """Axis ratio k = a/b of the contact ellipse from the ratio of the summed curvatures.
-
-    Solves ``ratio = k² B(m)/D(m)``, m = 1 - 1/k², with the complete elliptic integrals
-    B = (E - (1 - m) K)/m and D = (K - E)/m, by Newton's method in ln k. D comes from Carlson's
-    integral, so that nothing cancels near the circle (k = 1). Good to about 1e-14.
-
-    Parameters
-    ----------
-    ratio : array_like
-        Larger over smaller sum of curvatures of the two principal planes, at least 1.
-
-    Returns
-    -------
-    ndarray
-        Ellipticity k ≥ 1, of the shape of `ratio`.
-
-    Examples
-    --------
-    >>> float(ellipticity(1.0))
-    1.0
-    >>> round(float(ellipticity(10.0)), 10)
-    4.4994473032
-    """
-    target = np.log(np.asarray(ratio, float))
-    x = 0.65 * target
-    for _ in range(50):
-        residual, slope = _log_ratio(x)
-        step = (residual - target) / slope
-        x = np.maximum(x - step, 0.0)
-        if np.max(np.abs(step), initial=0.0) < 1e-12:
-            break
-    return np.exp(x)
-
-
-def _log_ratio(x: Array) -> tuple[Array, Array]:
-    """Logarithm of the curvature ratio at ln k = x, and its derivative."""
-    k_integral, d_integral, _ = _elliptic(x)
-    b_integral = k_integral - d_integral
-    m1 = np.exp(-2 * x)
-    m = -np.expm1(-2 * x)
-    near_circle = m < 1e-4  # there the slope is 3/2 to order m, and its formula cancels
-    m_safe = np.where(near_circle, 1.0, m)
-    dk = b_integral / (2 * m1)
-    dd = (b_integral - m1 * d_integral) / (2 * m_safe * m1)
-    slope = 2 + 2 * m1 * ((dk - dd) / b_integral - dd / d_integral)
-    return 2 * x + np.log(b_integral / d_integral), np.where(near_circle, 1.5, slope)
-
-
-def _elliptic(x: Array) -> tuple[Array, Array, Array]:
-    """Complete elliptic integrals K, D = (K - E)/m and E for k = exp(x)."""
-    from scipy.special import ellipkm1, elliprd
-
-    m1 = np.exp(-2 * x)
-    k = ellipkm1(m1)
-    d = elliprd(0.0, m1, 1.0) / 3
-    return k, d, k + np.expm1(-2 * x) * d
-
-
-def exact_ellipse(ratio: ArrayLike) -> tuple[Array, Array, Array]:
-    """Ellipticity k of the contact and its complete elliptic integrals K and E.
-
-    `ratio` as of `ellipticity`.
-    """
-    k = ellipticity(ratio)
-    k_integral, _, e_integral = _elliptic(np.log(k))
-    return k, k_integral, e_integral
-
-
-def _ellipse(ratio: Array, rung: str) -> tuple[Array, Array, Array]:
-    """Ellipticity k and the integrals K and E by one of the rungs."""
-    if rung == "exact":
-        return exact_ellipse(ratio)
-    from loadflow.tribology import hertz_rungs
-
-    if rung not in RUNGS:
-        raise InputError(f"rung: must be one of {', '.join(RUNGS)}, got {rung!r}")
-    found: tuple[Array, Array, Array] = getattr(hertz_rungs, rung)(ratio)
-    return found
 
 
 def hertz_point(
@@ -208,7 +133,7 @@ def hertz_point(
         The same of body 2.
     rung : {"exact", "spline", "power", "regression"}
         Elliptic integrals: exact; splines (1e-9 off); approximations of Hamrock and Brewe, some per
-        cent off (`loadflow.tribology.hertz_rungs`).
+        cent off (`loadflow.tribology.contact_ellipse`).
 
     Returns
     -------
@@ -241,7 +166,7 @@ def hertz_point(
         )
     total = plane1 + plane2
     ratio = np.maximum(plane1, plane2) / np.minimum(plane1, plane2)
-    k, k_integral, e_integral = _ellipse(ratio, rung)
+    k, k_integral, e_integral = ellipse(ratio, rung)
     e_star = effective_modulus(modulus, poisson, second_modulus, second_poisson)
 
     minor = np.cbrt(2 * e_integral / (np.pi * k))  # η of the source; ξ = k η, ψ/ξ below
@@ -269,6 +194,11 @@ def stiffness_factor(coefficient: ArrayLike, curvature_sum: ArrayLike, e_star: A
         Sum Σk of the four curvatures, 1/m.
     e_star : array_like
         Contact modulus, Pa (`effective_modulus`).
+
+    Examples
+    --------
+    >>> round(float(stiffness_factor(1.0, 2.0, 115.38e9)) / 1e9, 2)
+    153.84
     """
     total, psi_xi = np.asarray(curvature_sum, float), np.asarray(coefficient, float)
     return np.asarray(e_star, float) / 1.5 * np.sqrt(8 / total) / psi_xi**1.5
@@ -277,7 +207,14 @@ def stiffness_factor(coefficient: ArrayLike, curvature_sum: ArrayLike, e_star: A
 def curvature_sum(
     r11: ArrayLike, r12: ArrayLike, r21: ArrayLike, r22: ArrayLike
 ) -> tuple[Array, Array]:
-    """Sum Σk of the four curvatures (1/m) and cos τ of their difference, (2.2), (2.3)."""
+    """Sum Σk of the four curvatures (1/m) and cos τ of their difference, (2.2), (2.3).
+
+    Examples
+    --------
+    >>> total, cosine = curvature_sum(50, 50, -1 / 20.5e-3, 1 / 0.93)
+    >>> round(float(total), 3), round(float(cosine), 4)
+    (52.295, 0.9534)
+    """
     plane1 = np.asarray(r11, float) + np.asarray(r21, float)
     plane2 = np.asarray(r12, float) + np.asarray(r22, float)
     total = plane1 + plane2
@@ -393,6 +330,11 @@ def line_factor(
     ------
     InputError
         If `law` is unknown.
+
+    Examples
+    --------
+    >>> round(float(line_factor(0.01)) / 1e9, 3)
+    1.295
     """
     if law == "iso":
         factor = 35_948.0 * 2 ** (10 / 9)

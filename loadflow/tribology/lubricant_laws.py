@@ -18,15 +18,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError
+from loadflow.tribology import lubricant_states as states
 
 Array = NDArray[np.float64]
 
 CELSIUS = 273.15
 _MM2 = 1e6  # m²/s in mm²/s
-# Dowson and Higginson's compression of mineral oil, 1/Pa
-_SQUEEZED, _STIFFENED = 0.6e-9, 1.7e-9
-# Roelands: pressure of the pole of all isotherms (Pa) and ln of its viscosity (Pa s)
-_ROELANDS_PRESSURE, _ROELANDS_LOG = 1.0 / 5.1e-9, -9.67
 # Gold: α = s ν^t with ν in mm²/s and α in 1e-9/Pa
 GOLD = {
     "mineral": (9.904, 0.1390),
@@ -37,10 +34,28 @@ GOLD = {
 
 
 def walther_slope(viscosities: tuple[float, float], temperatures: tuple[float, float]) -> float:
-    """Slope m of the Ubbelohde–Walther line through two points, (5.58)."""
+    """Slope m of the Ubbelohde–Walther line through two points, (5.58).
+
+    Examples
+    --------
+    >>> round(walther_slope((100e-6, 11e-6), (313.15, 373.15)), 3)
+    3.568
+    """
     (nu1, nu2), (t1, t2) = viscosities, temperatures
     rise = _double_log(nu1) - _double_log(nu2)
     return float(rise / np.log10(t2 / t1))
+
+
+def walther_level(viscosities: tuple[float, float], temperatures: tuple[float, float]) -> float:
+    """Level a of the Ubbelohde–Walther line log log(ν + 0.8) = a - m log T through two points.
+
+    Examples
+    --------
+    >>> round(walther_level((100e-6, 11e-6), (313.15, 373.15)), 3)
+    9.207
+    """
+    slope = walther_slope(viscosities, temperatures)
+    return float(_double_log(viscosities[0]) + slope * np.log10(temperatures[0]))
 
 
 def walther(
@@ -64,10 +79,9 @@ def walther(
     >>> round(float(walther(343.15, (100e-6, 11e-6))) * 1e6, 2)
     27.09
     """
-    t = np.asarray(temperature, float)
     slope = walther_slope(viscosities, temperatures)
-    level = slope * np.log10(temperatures[0] / t) + _double_log(viscosities[0])
-    return np.asarray((10.0 ** (10.0**level) - 0.8) / _MM2)
+    level = walther_level(viscosities, temperatures)
+    return np.asarray(states.walther_state(np.asarray(temperature, float), level, slope)[0])
 
 
 def _double_log(viscosity: ArrayLike) -> Array:
@@ -85,6 +99,11 @@ def walther_steepness(viscosity: ArrayLike, temperature: ArrayLike, slope: float
         K.
     slope : float
         m of `walther_slope`.
+
+    Examples
+    --------
+    >>> round(float(walther_steepness(27.09e-6, 343.15, 3.515)), 4)
+    0.0351
     """
     nu = np.asarray(viscosity, float) * _MM2
     return slope * np.log(nu + 0.8) * (nu + 0.8) / (nu * np.asarray(temperature, float))
@@ -95,7 +114,13 @@ def andrade_steepness(
     viscosities: tuple[float, float],
     temperatures: tuple[float, float] = (40 + CELSIUS, 100 + CELSIUS),
 ) -> Array:
-    """Steepness β_th = -d(ln η)/dT of ln η ~ 1/T through two dynamic viscosities, 1/K, (5.94)."""
+    """Steepness β_th = -d(ln η)/dT of ln η ~ 1/T through two dynamic viscosities, 1/K, (5.94).
+
+    Examples
+    --------
+    >>> round(float(andrade_steepness(363.15, (26.3e-3, 10.6e-3), (333.15, 363.15))), 4)
+    0.0278
+    """
     (eta1, eta2), (t1, t2) = viscosities, temperatures
     scale = t1 * t2 / (t2 - t1) * np.log(eta1 / eta2)
     return np.asarray(scale / np.asarray(temperature, float) ** 2)
@@ -104,10 +129,15 @@ def andrade_steepness(
 def barus(viscosity: ArrayLike, coefficient: ArrayLike, pressure: ArrayLike) -> Array:
     """Viscosity η₀ exp(α p) under pressure, Pa s, (5.52).
 
-    Far too high above about 0.5 GPa; infinite rather than an error where it overflows.
+    Far too high above about 0.5 GPa; huge rather than an error where it overflows.
+
+    Examples
+    --------
+    >>> round(float(barus(0.1, 2e-8, 1e8)), 5)
+    0.73891
     """
-    exponent = np.asarray(coefficient, float) * np.asarray(pressure, float)
-    return np.asarray(viscosity, float) * np.exp(np.minimum(exponent, 700.0))
+    eta, alpha, p = (np.asarray(x, float) for x in (viscosity, coefficient, pressure))
+    return np.asarray(states.barus_state(eta, 0.0, alpha, 0.0, p)[0])
 
 
 def roelands(viscosity: ArrayLike, coefficient: ArrayLike, pressure: ArrayLike) -> Array:
@@ -121,11 +151,14 @@ def roelands(viscosity: ArrayLike, coefficient: ArrayLike, pressure: ArrayLike) 
         α of Barus, 1/Pa.
     pressure : array_like
         Pa.
+
+    Examples
+    --------
+    >>> round(float(roelands(0.1, 2e-8, 1e8)), 5)
+    0.60926
     """
-    above = np.log(np.asarray(viscosity, float)) - _ROELANDS_LOG
-    power = np.asarray(coefficient, float) * _ROELANDS_PRESSURE / above
-    lift = (1 + np.asarray(pressure, float) / _ROELANDS_PRESSURE) ** power - 1
-    return np.asarray(viscosity, float) * np.exp(np.minimum(above * lift, 700.0))
+    eta, alpha, p = (np.asarray(x, float) for x in (viscosity, coefficient, pressure))
+    return np.asarray(states.roelands_state(eta, 0.0, alpha, 0.0, p)[0])
 
 
 def density(
@@ -134,20 +167,38 @@ def density(
     """Density at ambient pressure, kg/m³, falling by 0.605 kg/m³ each K, (5.59).
 
     The source prints the slope in N s/mm²; N s²/mm⁴ is meant.
+
+    Examples
+    --------
+    >>> round(float(density(333.15, 880.0)), 2)
+    852.77
     """
-    return reference - 0.605 * (np.asarray(temperature, float) - reference_temperature)
+    t = np.asarray(temperature, float)
+    return np.asarray(states.density_state(t, 0.0, reference, reference_temperature)[0])
 
 
 def compressed_density(ambient: ArrayLike, pressure: ArrayLike) -> Array:
-    """Density under pressure after Dowson and Higginson, kg/m³."""
+    """Density under pressure after Dowson and Higginson, kg/m³.
+
+    Examples
+    --------
+    >>> round(float(compressed_density(870.0, 1e8)), 2)
+    914.62
+    """
     p = np.asarray(pressure, float)
-    return np.asarray(ambient, float) * (1 + _SQUEEZED * p / (1 + _STIFFENED * p))
+    return np.asarray(ambient, float) * (1 + states.SQUEEZED * p / (1 + states.STIFFENED * p))
 
 
 def bulk_modulus(pressure: ArrayLike) -> Array:
-    """Bulk modulus ρ dp/dρ of that compression, Pa; 1.67 GPa at ambient pressure."""
-    p = np.asarray(pressure, float)
-    return np.asarray((1 + _STIFFENED * p) * (1 + (_SQUEEZED + _STIFFENED) * p) / _SQUEEZED)
+    """Bulk modulus ρ dp/dρ of that compression, Pa.
+
+    Examples
+    --------
+    >>> round(float(bulk_modulus(0.0)) / 1e9, 3)
+    1.667
+    """
+    rho, _, rho_p = states.density_state(0.0, np.asarray(pressure, float), 1.0, 0.0)
+    return np.asarray(rho / rho_p)
 
 
 def gold_pressure_viscosity(
@@ -166,11 +217,15 @@ def gold_pressure_viscosity(
     ------
     InputError
         If `base` is unknown.
+
+    Examples
+    --------
+    >>> round(float(gold_pressure_viscosity(70e-6)) * 1e9, 2)
+    17.88
     """
     if base not in GOLD:
         raise InputError(f"base: must be one of {', '.join(GOLD)}, got {base!r}")
-    scale, power = GOLD[base]
-    return np.asarray(scale * 1e-9 * (np.asarray(viscosity, float) * _MM2) ** power)
+    return np.asarray(states.gold_state(np.asarray(viscosity, float), 0.0, *GOLD[base])[0])
 
 
 def printed_pressure_viscosity(viscosity_40: ArrayLike, temperature: ArrayLike) -> Array:
@@ -184,6 +239,11 @@ def printed_pressure_viscosity(viscosity_40: ArrayLike, temperature: ArrayLike) 
         Kinematic viscosity at 40 °C, m²/s.
     temperature : array_like
         K.
+
+    Examples
+    --------
+    >>> round(float(printed_pressure_viscosity(65e-6, 363.15)) * 1e8, 2)
+    3.63
     """
     t = np.asarray(temperature, float) - CELSIUS
     level = np.log10(np.asarray(viscosity_40, float) * _MM2)
@@ -205,8 +265,31 @@ def conductivity(
         kg/m³.
     variant : {"physics", "printed"}
         Cragoe's formula takes °C; the source prints it with K, which lowers k_th by 13 % or so.
+
+    Examples
+    --------
+    >>> round(float(conductivity(363.15, 805.0)), 4)
+    0.1386
     """
     if variant not in ("physics", "printed"):
         raise InputError(f"variant: must be 'physics' or 'printed', got {variant!r}")
     t = np.asarray(temperature, float) - (CELSIUS if variant == "physics" else 0.0)
     return np.asarray((0.1173 - 6.33e-5 * t) / (np.asarray(ambient_density, float) / 1e3))
+
+
+def specific_heat(temperature: ArrayLike, density_15: float) -> Array:
+    """Specific heat of mineral oils, J/(kg K) [Cragoe 1929].
+
+    Parameters
+    ----------
+    temperature : array_like
+        K.
+    density_15 : float
+        Density at 15 °C, kg/m³.
+
+    Examples
+    --------
+    >>> round(float(specific_heat(313.15, 860.0)))
+    1964
+    """
+    return np.asarray(states.specific_heat_state(np.asarray(temperature, float), density_15)[0])

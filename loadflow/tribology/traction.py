@@ -28,17 +28,35 @@ def limiting_stress(
 
 
 def newtonian_stress(viscosity: Value, sliding: Value, film: Value) -> Value:
-    """Newtonian stress η(p̄) Δv/h, (5.50), Pa."""
+    """Newtonian stress η(p̄) Δv/h, (5.50), Pa.
+
+    Examples
+    --------
+    >>> round(float(newtonian_stress(0.1, 0.5, 1e-6)))
+    50000
+    """
     return np.minimum(viscosity, _STIFFEST) * sliding / film
 
 
 def clipped_stress(newtonian: Value, limit: Value) -> Value:
-    """Stress after Table 5.1: Newtonian up to the limit, then the limit, Pa."""
+    """Stress after Table 5.1: Newtonian up to the limit, then the limit, Pa.
+
+    Examples
+    --------
+    >>> float(clipped_stress(9e6, 4e6))
+    4000000.0
+    """
     return np.minimum(np.maximum(newtonian, -limit), limit)
 
 
 def smooth_stress(newtonian: Value, limit: Value) -> Value:
-    """The same without a kink, τ_lim tanh(τ_N/τ_lim), Pa; at most 24 % below it (at the kink)."""
+    """The same without a kink, τ_lim tanh(τ_N/τ_lim), Pa; at most 24 % below it (at the kink).
+
+    Examples
+    --------
+    >>> round(float(smooth_stress(4e6, 4e6)) / 4e6, 4)
+    0.7616
+    """
     return limit * np.tanh(newtonian / limit)
 
 
@@ -62,6 +80,11 @@ def inlet_force(
         Reduced radius, m.
     film : float or ndarray
         Central film of the regime (`loadflow.tribology.moes_line`), m.
+
+    Examples
+    --------
+    >>> round(float(inlet_force(0.5, 0.1, 0.02, 5e-3, 1e-6)), 4)
+    0.223
     """
     return 3.1540 * viscosity * sliding * length * np.sqrt(radius / film)
 
@@ -77,6 +100,11 @@ def boundary_coefficient(sliding: Value, coefficient: float, reference: float = 
         Boundary friction coefficient μ_bl.
     reference : float
         Speed over which the friction turns round, m/s.
+
+    Examples
+    --------
+    >>> round(float(boundary_coefficient(-1.0, 0.1)), 4)
+    -0.1
     """
     return coefficient * np.tanh(sliding / reference)
 
@@ -96,5 +124,10 @@ def mixed_force(stress: Value, area: Value, load: Value, share: Value, boundary:
         Share of the load that asperities carry.
     boundary : float or ndarray
         `boundary_coefficient`.
+
+    Examples
+    --------
+    >>> round(mixed_force(1e6, 1e-5, 1000.0, 0.2, 0.1), 3)
+    28.0
     """
     return (1.0 - share) * stress * area + share * boundary * load

@@ -36,7 +36,10 @@ def require_ranges(part: Any) -> None:
     """
     for name, bounds in _ranges(type(part)).items():
         value = getattr(part, name)
-        ok = bool(np.isfinite(value)) and all(_holds(bound, value) for bound in bounds)
+        # an integer may have hundreds of digits, which isfinite does not take
+        number = isinstance(value, int | float | np.number)
+        finite = number and bool(abs(value) <= np.finfo(float).max)
+        ok = finite and all(_holds(bound, value) for bound in bounds)
         allowed = " and ".join([*map(_words, bounds), "finite"])
         require(ok, type(part).__name__, name, value, allowed)
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import math
 import tomllib
 from collections.abc import Iterable
 from dataclasses import MISSING, fields, replace
 from functools import cache
 from importlib import resources
 from pathlib import Path
-from typing import Any
+from typing import Any, get_origin, get_type_hints
 
 import numpy as np
 
@@ -139,9 +140,13 @@ def _part(part: Any, entry: Any, name: str) -> Any:
         degrees, where = key.endswith("_deg"), f"{name}.{key}"
         kept = key[:-4] if degrees else key
         if isinstance(value, list):
-            numbers = [_number(v, where) for v in value]
-            values[kept] = tuple(np.radians(numbers).tolist() if degrees else numbers)
+            if not _is_list(part, kept):
+                raise InputError(f"{where}: expected a finite number, found {value!r:.200}")
+            numbers = _numbers(value, where)
+            values[kept] = tuple(np.radians(numbers).tolist()) if degrees else numbers
             continue
+        if _is_list(part, kept):
+            raise InputError(f"{where}: expected a list of numbers, found {value!r:.200}")
         number = _number(value, where)
         if degrees:
             number = np.radians(number).item()
@@ -152,6 +157,11 @@ def _part(part: Any, entry: Any, name: str) -> Any:
         return part(**values)
     except InputError as error:
         raise InputError(f"[{name}] {error}") from error
+
+
+def _is_list(part: Any, key: str) -> bool:
+    """Whether a part of a turbine has a list of numbers under this key."""
+    return get_origin(get_type_hints(part).get(key)) is tuple
 
 
 def _tower(entry: Any, rotor_mass: float) -> Tower:
@@ -175,7 +185,7 @@ def _bending(entry: Any, rotor_mass: float) -> TowerBending:
     height, mass_density, *stiffness = columns
     top_mass = numbers["nacelle_mass"] + rotor_mass
     modes: dict[str, Any] = {
-        key: tuple(_number(c, f"{where}.{key}") for c in table[key])
+        key: _numbers(table[key], f"{where}.{key}")
         if key in table
         else tower_mode(height, mass_density, rigidity, top_mass)
         for key, rigidity in zip(shapes, stiffness, strict=True)
@@ -219,13 +229,13 @@ def _blade(entry: Any, airfoils: dict[str, Airfoil]) -> Blade:
         flap_stiffness=structure[:, 3],
         edge_stiffness=structure[:, 4],
         modes=modes,
-        prebend=np.array([_number(v, "blade.prebend") for v in blade.get("prebend", [])]),
+        prebend=np.array(_numbers(blade.get("prebend", []), "blade.prebend")),
     )
 
 
 def _modes(entry: Any) -> tuple[Mode, ...]:
     return tuple(
-        Mode(name, tuple(_number(c, f"blade.modes.{name}") for c in coefficients))
+        Mode(name, _numbers(coefficients, f"blade.modes.{name}"))
         for name, coefficients in _table(entry, "blade.modes").items()
     )
 
@@ -262,10 +272,13 @@ def _airfoil(name: str, entry: Any, folder: Path) -> Airfoil:
 
 def _polars(folder: Path, file: str, column: str, where: str) -> list[np.ndarray]:
     shipped = Path(str(resources.files("loadflow.data"))) / "polars" / file
-    path = folder / file if (folder / file).is_file() else shipped
-    if not path.is_file():
-        raise InputError(f"{where}: polars {file!r} lie neither beside the turbine nor in loadflow")
-    head, *lines = path.read_text(encoding="utf-8").split()
+    try:
+        path = folder / file if (folder / file).is_file() else shipped
+        head, *lines = path.read_text(encoding="utf-8").split()
+    except (OSError, ValueError) as error:  # none there, no name of a file, no text, nothing in it
+        raise InputError(
+            f"{where}: polars {file!r:.200}: no table of text beside the turbine or in loadflow"
+        ) from error
     names = head.split(",")
     wanted = ["angle_of_attack_deg", f"{column}_cl", f"{column}_cd"]
     missing = [name for name in wanted if name not in names]
@@ -301,7 +314,19 @@ def _rows(value: Any, width: int, where: str) -> list[list[Any]]:
     return value
 
 
+def _numbers(value: Any, where: str) -> tuple[float, ...]:
+    if not isinstance(value, list):
+        raise InputError(f"{where}: expected a list of numbers, found {value!r:.200}")
+    return tuple(_number(v, where) for v in value)
+
+
 def _number(value: Any, where: str) -> float:
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not np.isfinite(value):
-        raise InputError(f"{where}: expected a finite number, found {value!r}")
-    return float(value)
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        raise InputError(f"{where}: expected a finite number, found {value!r:.200}")
+    try:
+        number = float(value)
+    except OverflowError:  # an integer of hundreds of digits, which TOML allows
+        number = math.inf
+    if not math.isfinite(number):
+        raise InputError(f"{where}: expected a finite number, found {value!r:.200}")
+    return number

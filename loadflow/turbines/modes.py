@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from loadflow.errors import InputError
+
 from .checks import Array
 from .schema import Mode
 
@@ -63,6 +65,11 @@ def clamped_shapes(
     -------
     ndarray, shape (5, 5)
         Coefficients of x² … x⁶ of each mode, lowest first; they add up to 1.
+
+    Raises
+    ------
+    InputError
+        Stations that do not increase, or a beam without mass or stiffness.
     """
     from scipy.linalg import eigh
 
@@ -76,5 +83,12 @@ def clamped_shapes(
     curvature = _POWERS * (_POWERS - 1) * x[:, None] ** (_POWERS - 2)
     # every function is 1 at the end
     mass = integral(mass_density, x[:, None] ** _POWERS) + end_mass / length
-    vectors = eigh(integral(stiffness, curvature), mass)[1].T
+    try:
+        vectors = eigh(integral(stiffness, curvature), mass)[1].T
+    except (np.linalg.LinAlgError, ValueError) as error:  # singular, or not finite
+        raise InputError(
+            "structure: stations must increase, and mass and stiffness be > 0 and finite; "
+            f"got {span[0]:g} … {span[-1]:g} m, at most {mass_density.max():g} kg/m and "
+            f"{stiffness.max():g} N m²"
+        ) from error
     return vectors / vectors.sum(axis=1, keepdims=True)

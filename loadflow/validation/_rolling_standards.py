@@ -8,7 +8,8 @@ from dataclasses import replace
 
 from loadflow.rolling import BallBearing
 from loadflow.rolling.rating import modified_life as lubricated_life
-from loadflow.tribology.hertz import curvature_sum, exact_ellipse
+from loadflow.tribology.contact_ellipse import exact_ellipse
+from loadflow.tribology.hertz import curvature_sum
 from loadflow.validation._slewing_cases import RINGS
 from loadflow.validation.check import Check
 

@@ -8,9 +8,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from loadflow.rolling import SlewingBearing
+from loadflow.rolling import RollingEquilibrium, SlewingBearing
 from loadflow.rolling.raceways import Raceway
-from loadflow.rolling.slewing_result import SlewingResult
 
 MM15 = 1e3**1.5  # N/mm^1.5 in N/m^1.5
 RINGS: tuple[Raceway, Raceway] = ("inner", "outer")
@@ -62,7 +61,7 @@ FRICTION_TESTS = np.array(
 
 def coacting(
     bearing: SlewingBearing, radial: ArrayLike, axial: ArrayLike, tilt: ArrayLike
-) -> SlewingResult:
+) -> RollingEquilibrium[SlewingBearing]:
     """Equilibrium with radial force and moment loading the same balls as +F_a."""
     x, z, turn = (np.asarray(v, float) for v in (radial, axial, tilt))
     zero = np.zeros_like(x)

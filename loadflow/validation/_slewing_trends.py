@@ -105,7 +105,7 @@ def _zones() -> Iterator[Check]:
         1e-6,
     )
     # counter-acting loads; balls counted from +y, where the first one stands
-    mixed = DRIVE.equilibrium(force=(0, -6500, 8000), moment=(2000, 0), ball_angle=math.pi / 2)
+    mixed = DRIVE.equilibrium(force=(0, -6500, 8000), moment=(2000, 0), element_angle=math.pi / 2)
     four_point = 1 + np.flatnonzero(mixed.ball_forces[0].min(axis=0) > 0)
     source = "Tab. 3.14, assuming F_r and M_k counter-acting, rigid rings"
     yield Check("first ball in four-point contact", source, 15, float(four_point[0]), 0, "absolute")

@@ -6,6 +6,7 @@ import importlib
 import pkgutil
 from collections.abc import Iterator
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Literal
 
 
@@ -64,9 +65,7 @@ class Check:
 
 def names() -> list[str]:
     """Names of the validation tables, in alphabetical order."""
-    import loadflow.validation as package
-
-    modules = (module.name for module in pkgutil.iter_modules(package.__path__))
+    modules = (module.name for module in pkgutil.iter_modules([str(Path(__file__).parent)]))
     return sorted(name for name in modules if name != "check" and not name.startswith("_"))
 
 

@@ -3,15 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from loadflow.tribology import film, film_tables
 from loadflow.validation.check import Check
-
-if TYPE_CHECKING:
-    from loadflow.journal.models.model import Rung
 
 
 def stated_error_checks() -> Iterator[Check]:
@@ -73,7 +69,7 @@ def squeeze_path_checks() -> Iterator[Check]:
     """
     from loadflow.journal import JournalBearing, Lubricant
 
-    paths: tuple[tuple[float, Rung], ...] = ((0.5, "map"), (0.5, "holland"), (0.25, "map"))
+    paths: tuple[tuple[float, str], ...] = ((0.5, "map"), (0.5, "holland"), (0.25, "map"))
     for width, rung in paths:
         bearing = JournalBearing(diameter=1.0, width=width, relative_clearance=1e-3)
         ratios = np.linspace(0.1, 0.9, 401)

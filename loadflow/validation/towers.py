@@ -51,7 +51,7 @@ def checks() -> Iterator[Check]:
 def _sway(turbine: Any, place: int) -> float:
     """Frequency of a coordinate of the tower that is let go, Hz."""
     from loadflow.rotor import RotorOptions
-    from loadflow.rotor import _slots as k
+    from loadflow.rotor import slots as k
     from loadflow.rotor.inflow import steady_inflow
     from loadflow.rotor.loop import run, turning_state
     from loadflow.rotor.rungs import prepare
@@ -71,14 +71,14 @@ def _sway(turbine: Any, place: int) -> float:
 
 def _clamped(tower: Any) -> float:
     """Frequency of the first fore-aft mode under a point mass, by Rayleigh's quotient, Hz."""
-    from loadflow.rotor.frame import _above, _shape
+    from loadflow.rotor.frame import mass_above, mode_shape
     from loadflow.rotor.machine import GRAVITY
 
     height = np.linspace(tower.height[0], tower.height[-1], 2001)
-    shape, slope, curvature = _shape(tower.fore_aft, height)
+    shape, slope, curvature = mode_shape(tower.fore_aft, height)
     density = np.interp(height, tower.height, tower.mass_density)
     rigidity = np.interp(height, tower.height, tower.fore_aft_stiffness)
-    weight = GRAVITY * (_MODES_MASS + _above(density, height))
+    weight = GRAVITY * (_MODES_MASS + mass_above(density, height))
     stiffness = np.trapezoid(rigidity * curvature**2 - weight * slope**2, height)
     mass = np.trapezoid(density * shape**2, height) + _MODES_MASS
     return float(np.sqrt(stiffness / mass) / (2 * np.pi))

@@ -89,6 +89,7 @@ def read_bladed_box(
     if shear_exponent is None:
         mean = speed + u.mean(axis=(0, 1), dtype=float)
         shear_exponent = power_law_exponent(z / hub_height, mean / speed)
-        u -= (speed * ((z / hub_height) ** shear_exponent - 1)).astype(np.float32)
+        above = np.maximum(z, 0.5 * dz) / hub_height  # a power of the ground may be infinite
+        u -= (speed * (above**shear_exponent - 1)).astype(np.float32)
     y = dy * (np.arange(ny) - (ny - 1) / 2)
     return Box(dx / speed * np.arange(count), y, z, u, v, w, speed, hub_height, shear_exponent)

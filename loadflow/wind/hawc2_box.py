@@ -6,14 +6,21 @@ first. The files say nothing of their own size.
 
 from __future__ import annotations
 
+import warnings
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.errors import InputError
+from loadflow.errors import InputError, ValidityWarning
 from loadflow.wind.box import Box
 from loadflow.wind.box_file import content
+
+OUTSTANDING = 4.0
+"""Ratio of mean-square steps between neighbours that no homogeneous turbulence makes."""
+FURTHEST, SMALLER = 16, 0.8
+"""Steps within which differences must grow with the distance, and the share they may fall to."""
 
 
 def read_hawc2_box(
@@ -26,31 +33,47 @@ def read_hawc2_box(
     wind_speed: float,
     hub_height: float,
     shear_exponent: float = 0.2,
+    first_line: Literal["right", "left"] = "right",
 ) -> Box:
     """Read a box of fluctuations, centred on the hub.
 
     Parameters
     ----------
     u, v, w : path
-        Files of the components, m/s; y rises to the left when looking downwind, z up.
+        Files of the components, m/s, z rising.
     shape : tuple of int
         Points along x, y, z.
     spacing : tuple of float
         Their distances, m.
     wind_speed, hub_height, shear_exponent : float
         Mean profile that the box drifts in.
+    first_line : {"right", "left"}
+        Where the first line of a plane lies, looking downwind. "left" is how InflowWind of OpenFAST
+        takes the same files; it is the mirror image of the other.
 
     Raises
     ------
     InputError
         Sizes that make no sense; a file of another size, or with values that are not finite.
+
+    Warns
+    -----
+    loadflow.errors.ValidityWarning
+        The values jump where those of a box of this shape would not: its size fits, its shape
+        does not.
     """
+    if first_line not in ("right", "left"):
+        raise InputError(f"first_line = {first_line!r}: must be 'right' or 'left'")
     if min(shape) < 2 or min(spacing) <= 0 or wind_speed <= 0 or hub_height <= 0:
         raise InputError(
             f"shape = {shape}, spacing = {spacing} m, wind_speed = {wind_speed} m/s, hub_height = "
             f"{hub_height} m: at least 2 points each way and positive lengths and speed"
         )
     down, side, up = (_component(Path(path), shape) for path in (u, v, w))
+    if jump := _jumps(down):
+        warnings.warn(f"{u}: {jump}; is the shape {shape} right?", ValidityWarning, stacklevel=2)
+    if first_line == "left":
+        down, side, up = (component[:, ::-1] for component in (down, side, up))
     (nx, ny, nz), (dx, dy, dz) = shape, spacing
     y = dy * (np.arange(ny, dtype=float) - (ny - 1) / 2)
     z = hub_height + dz * (np.arange(nz, dtype=float) - (nz - 1) / 2)
@@ -69,3 +92,30 @@ def _component(path: Path, shape: tuple[int, int, int]) -> NDArray[np.float32]:
     if not np.isfinite(values).all():
         raise InputError(f"{path}: {values[~np.isfinite(values)][0]} among the values")
     return np.ascontiguousarray(values, dtype=np.float32)
+
+
+def _jumps(values: NDArray[np.float32]) -> str:
+    """Say where neighbours differ as if they were none; empty where none do.
+
+    In homogeneous turbulence the mean square of the difference of two points depends on their
+    distance only, and grows with it. Lines that are cut at the wrong length show as steps that
+    stand out, or as neighbours that differ by more than points further apart.
+    """
+    for axis, name in enumerate("xyz"):
+        lines = np.moveaxis(values, axis, 0)
+        reach = range(1, min(FURTHEST, max(2, len(lines) // 4), len(lines) - 1) + 1)
+        sizes = [_mean_square(lines, lag) for lag in reach]
+        near = sizes[0]
+        if name != "x" and near.max() > OUTSTANDING * np.median(near):
+            at = int(near.argmax())
+            return f"the step from line {at + 1} to {at + 2} along {name} stands out"
+        lag = int(np.argmin([size.mean() for size in sizes]))
+        if sizes[lag].mean() < SMALLER * near.mean():
+            return f"neighbours along {name} differ by more than points {lag + 1} steps apart"
+    return ""
+
+
+def _mean_square(lines: NDArray[np.float32], lag: int) -> NDArray[np.float64]:
+    """Mean square of the difference between lines `lag` apart, for each first line."""
+    steps = lines[lag:] - lines[:-lag]
+    return np.mean(steps * steps, axis=(1, 2), dtype=float)

@@ -68,7 +68,7 @@ def test_folder_of_single_cases_is_a_cube(tmp_path):
     for one in cases:
         save_cube(one, tmp_path / f"dlc1.1_v{float(one.wind_speed):g}_s1.h5")
     (tmp_path / "manifest.json").write_text("{}")
-    (tmp_path / ".half.h5.123.tmp").write_bytes(b"half a file")
+    (tmp_path / ".half.h5.123.loadflow-tmp").write_bytes(b"half a file")
     assert_same(open_cube(tmp_path), make_cube(cases))
 
 

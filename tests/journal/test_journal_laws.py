@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from toy_film import SoftGuembel
 
 from loadflow.journal import (
     GasMixture,
@@ -151,3 +152,16 @@ def test_extreme_loads_have_an_answer_or_are_flagged(law, edge):
     assert 0.0 < feather.eccentricity_ratio < 1e-6
     anvil = BEARING.equilibrium((1e14, 0.0), 10.0, strict=False, max_iterations=20, **film)
     assert anvil.converged or np.isnan(anvil.eccentricity_ratio)
+
+
+@pytest.mark.parametrize("rung", ["grid", "reduced"])
+def test_a_law_is_one_class_and_its_compiled_function(rung):
+    """A law of one file lies between those of which it is made, on every rung with cells."""
+    film = {"grid": (36, 8), "inlet": None, "grading": "uniform", "rung": rung}
+    laws = Guembel(), SoftGuembel(0.0), SoftGuembel(0.5), SoftGuembel(1.0), Sommerfeld()
+    states = [BEARING.equilibrium((1e5, 0.0), 10.0, OIL, cavitation=law, **film) for law in laws]
+    ratios = [float(state.eccentricity_ratio) for state in states]
+    assert ratios[0] == pytest.approx(ratios[1], rel=1e-9)
+    assert ratios[3] == pytest.approx(ratios[4], rel=1e-9)
+    low, high = sorted((ratios[0], ratios[4]))
+    assert low < ratios[2] < high

@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 from loadflow.errors import InputError, SolverError
 from loadflow.journal import (
+    Film,
     GasMixture,
     Groove,
     Guembel,
@@ -17,7 +18,6 @@ from loadflow.journal import (
     Sommerfeld,
     Supply,
 )
-from loadflow.journal.film.discretise import FilmOptions
 from loadflow.journal.models import mobility
 from loadflow.numerics.splines import spline
 
@@ -79,7 +79,7 @@ def test_equilibrium_is_that_of_the_grid(name):
 def test_map_between_its_nodes(name):
     """Held-out sample of loads within 90° of the eccentricity, up to ε = 0.95."""
     film = {k: v for k, v in LAWS[name].items() if k != "lubricant"}
-    options, _ = mobility.scaled(FilmOptions(OIL, grading="graded", **film))
+    options, _ = mobility.scaled(Film(OIL, grading="graded", **film))
     table = mobility.tabulate(0.75, options, 1.0 if name == "mixture" else 0.0)
     points = np.random.default_rng(7).uniform((0, 0, 0.1), (0.95, np.pi / 2, 1), (40, 3))
     errors = mobility.held_out(table, 0.75, options, points)
@@ -191,8 +191,22 @@ def test_what_a_map_cannot_have_is_named():
         BEARING.equilibrium((2e6, 0.0), 1.0, rung="map", **MIXTURE | {"edge_pressure": 0.0})
     with pytest.raises(InputError, match=r"grid\[1\] = 7"):
         BEARING.equilibrium((2e6, 0.0), 1.0, rung="map", **MIXTURE | {"grid": (36, 7)})
-    with pytest.raises(SolverError, match="the map ends there"):
-        BEARING.equilibrium((3e6, 0.0), 1e-4, rung="map", **MIXTURE)
+
+
+def test_a_load_beyond_the_map_is_solved_on_the_grid_of_the_map():
+    beyond = BEARING.equilibrium([(3e6, 0.0), (1e6, 0.0)], [1e-4, 1.0], rung="map", **MIXTURE)
+    grid = BEARING.equilibrium((3e6, 0.0), 1e-4, grading="graded", **MIXTURE)
+    assert beyond.converged.all()
+    assert beyond.eccentricity_ratio[0] > 0.995
+    assert beyond.eccentricity_ratio[0] == pytest.approx(float(grid.eccentricity_ratio), rel=1e-9)
+
+
+def test_a_film_that_ambient_pressure_feeds_on_one_side_of_a_cell_of_the_map_has_an_answer():
+    bearing = JournalBearing(diameter=0.2, width=0.1, relative_clearance=1e-3)
+    film = {"cavitation": GasMixture(5e4), "edge_pressure": 1.5e5, "grid": (48, 10)}
+    by_map = bearing.equilibrium((8000.0, 1000.0), 100.0, Lubricant(0.03), rung="map", **film)
+    grid = bearing.equilibrium((8000.0, 1000.0), 100.0, Lubricant(0.03), **film)
+    assert by_map.eccentricity_ratio == pytest.approx(float(grid.eccentricity_ratio), rel=0.01)
 
 
 @pytest.mark.parametrize(("ends", "function"), [("even", np.cos), ("odd", np.sin)])

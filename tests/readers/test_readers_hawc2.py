@@ -87,7 +87,8 @@ def test_list_of_cases_may_name_either_file_of_a_run(tmp_path):
 def test_loads_must_be_named(tmp_path):
     write(tmp_path / "run", binary=True)
     with pytest.raises(
-        InputError, match="no channel is named for 'hub_force_x'; the file has Time"
+        InputError,
+        match=r"6 channels are missing: one for 'hub_force_x' .* has Time.*Name the loads",
     ):
         read_hawc2(tmp_path / "run.sel")
 

@@ -91,7 +91,8 @@ def test_optional_channels_may_be_absent(tmp_path):
 def test_missing_channel_is_named_with_what_the_file_has(tmp_path):
     data = {k: v for k, v in channels().items() if k != "LSShftFys"}
     with pytest.raises(
-        InputError, match=r"a\.outb: channel 'LSShftFys' for 'hub_force_y'.*RotTorq"
+        InputError,
+        match=r"a\.outb: channel 'LSShftFys' or 'LSSGagFys' for 'hub_force_y' is missing.*RotTorq",
     ):
         read_openfast(write_outb(tmp_path / "a.outb", data))
 

@@ -16,12 +16,10 @@ from loadflow.rolling import (
     RollerBearing,
     SphericalRollerBearing,
     arrangement_lives,
-    bearing_modification,
     bin_loads,
     main_bearings,
     system_life,
 )
-from loadflow.rolling.bearings.arrangements import life_kind
 from loadflow.running import report_page as report
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import make_scene
@@ -71,7 +69,7 @@ def test_modified_life_of_a_series_adds_the_damage_of_its_steps(arrangement):
     for place, bearing in bearings.items():
         turning = speed > 0
         result = bearing.equilibrium(force[place][turning], moment[place][turning])
-        work = bearing_modification(bearing, result.equivalent_load, speed[turning], oil)
+        work = bearing.life_modification(result.equivalent_load, speed[turning], oil)
         exponent = 3 if arrangement == "moment" else 10 / 3
         lives = (bearing.rated_capacity / result.equivalent_load) ** exponent * work.factor
         damage = (speed[turning] / lives).sum() / speed.sum()
@@ -85,7 +83,7 @@ def test_modified_life_of_a_series_adds_the_damage_of_its_steps(arrangement):
 
 
 def test_every_kind_of_bearing_has_its_row_in_iso_281():
-    kinds = {life_kind(b) for name in ARRANGEMENTS for b in main_bearings(name).values()}
+    kinds = {b.life_kind for name in ARRANGEMENTS for b in main_bearings(name).values()}
     assert kinds == {"radial-roller", "thrust-ball"}
 
 

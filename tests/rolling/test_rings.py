@@ -223,7 +223,9 @@ def test_turning_structure_and_load_together_turns_the_answer():
         rings=FlexibleRings(outer=ring, outer_angle=turn),
     )  # fmt: skip
     assert turned.ball_forces == pytest.approx(np.roll(fixed.ball_forces, 4, -1), abs=1e-5)
-    other = DRIVE.equilibrium(LOAD[:3], LOAD[3:], rings=FlexibleRings(outer=ring), ball_angle=0.07)
+    other = DRIVE.equilibrium(
+        LOAD[:3], LOAD[3:], rings=FlexibleRings(outer=ring), element_angle=0.07
+    )
     assert np.abs(other.maximum_force / fixed.maximum_force - 1) > 1e-6
 
 
@@ -246,7 +248,7 @@ def test_a_given_matrix_is_the_ring_it_came_from_and_turns_by_ball_pitches(axes)
             expected = result.ball_forces
     assert result.ball_forces == pytest.approx(expected, abs=1e-4)
     with pytest.raises(InputError, match="whole ball pitches"):
-        DRIVE.equilibrium(LOAD[:3], rings=FlexibleRings(outer=given_ring), ball_angle=0.01)
+        DRIVE.equilibrium(LOAD[:3], rings=FlexibleRings(outer=given_ring), element_angle=0.01)
 
 
 def test_a_ring_may_be_given_by_its_stiffness_if_that_holds_it():

@@ -75,6 +75,7 @@ def test_crossed_rollers_follow_one_another_around():
 
 def test_rows_of_a_three_row_ring_divide_the_work():
     support, retaining, radial = THREE.equilibrium((3e5, 0, 6e5)).roller_forces
+    support = support[: THREE.support.rollers]  # short rows are padded with zeros
     assert support == pytest.approx(6e5 / 150, rel=1e-9)
     assert retaining == pytest.approx(0, abs=1e-9)
     assert (radial * np.cos(2 * np.pi * np.arange(160) / 160)).sum() == pytest.approx(3e5)

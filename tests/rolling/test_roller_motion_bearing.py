@@ -38,7 +38,7 @@ def test_each_roller_is_loaded_by_its_own_place_in_the_cage():
     history = bearing_histories(result, TIME, 2.0)
     angle = turned(TIME, history[0].cage_speed)
     for i in (0, 77, 480):
-        there = PAIR.equilibrium(force=(0, -1e5, 5e4), roller_angle=angle[i]).roller_forces
+        there = PAIR.equilibrium(force=(0, -1e5, 5e4), element_angle=angle[i]).roller_forces
         ours = np.stack([row.load[i] for row in history])
         assert np.abs(ours - there).max() < 0.01 * there.max()
 

@@ -213,7 +213,7 @@ def test_secant_stiffness_leads_to_the_load_and_is_the_tangent_elsewhere():
 
 def test_switch_from_two_to_four_point_contact_of_the_drive_bearing():
     result = dataclasses.replace(DRIVE, contact_stiffness=1.152e6 * 1e3**1.5).equilibrium(
-        force=(0, -6500, 8000), moment=(2000, 0), ball_angle=math.pi / 2
+        force=(0, -6500, 8000), moment=(2000, 0), element_angle=math.pi / 2
     )
     # balls count from +y; the load is symmetric about it, so the sense of counting is free
     minor = result.ball_forces[0].min(axis=0)

@@ -8,7 +8,7 @@ import pytest
 
 from loadflow.errors import InputError, SolverError
 from loadflow.rotor import RotorOptions, simulate
-from loadflow.rotor import _slots as k
+from loadflow.rotor import slots as k
 from loadflow.rotor.control.constants import controller
 from loadflow.rotor.frame import frame
 from loadflow.rotor.inflow import steady_inflow

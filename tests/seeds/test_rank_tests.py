@@ -138,7 +138,7 @@ def test_bad_samples_are_named(bad, message):
 def test_a_wind_speed_of_six_full_records_takes_a_fraction_of_a_second():
     x = np.random.default_rng(0).standard_normal((6, 24_000))
     kruskal_wallis(x[:, :10])
-    start = time.perf_counter()
+    start = time.process_time()  # of this process alone, whatever else the machine does
     kruskal_wallis(x)
     meyer_bahlburg(x)
-    assert time.perf_counter() - start < 0.5
+    assert time.process_time() - start < 0.5

@@ -174,7 +174,7 @@ def test_the_plan_names_the_choice_and_feels_the_bearings():
     )
     assert rung_of(one, "shaft") == "two_point, beam, iterated with N journal, N2 rolling"
     digests = [
-        next(step.digest for step in make_plan(s).steps if step.stage.name == "shaft")
+        next(step.digest for step in make_plan(s).steps if step.name == "shaft")
         for s in (one, other)
     ]
     assert digests[0] != digests[1]

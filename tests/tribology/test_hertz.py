@@ -7,9 +7,9 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 
 from loadflow.errors import InputError
+from loadflow.tribology.contact_ellipse import ellipticity
 from loadflow.tribology.hertz import (
     curvature_sum,
-    ellipticity,
     hertz_line,
     hertz_point,
     line_factor,

@@ -1,8 +1,5 @@
 """Laws of lubricants, the library of oils, film against roughness, traction."""
 
-import doctest
-import importlib
-
 import numba
 import numpy as np
 import pytest
@@ -13,14 +10,6 @@ from scipy.integrate import quad
 from loadflow.errors import InputError
 from loadflow.tribology import Oil, asperities, lubricant, lubricant_names, traction
 from loadflow.tribology import lubricant_laws as laws
-
-MODULES = ["lubricant_laws", "lubricants", "contact_film", "asperities", "traction"]
-
-
-@pytest.mark.parametrize("name", MODULES)
-def test_examples_of_the_docstrings(name):
-    outcome = doctest.testmod(importlib.import_module(f"loadflow.tribology.{name}"))
-    assert outcome.failed == 0
 
 
 @given(st.floats(5e-6, 2e-3), st.floats(0.02, 0.5))

@@ -91,3 +91,17 @@ def test_bad_files_are_named(tmp_path):
         with pytest.raises(InputError, match=message) as error:
             read_bladed_box(path)
         assert str(path) in str(error.value)
+
+
+def test_a_grid_that_begins_at_the_ground_has_finite_wind(tmp_path):
+    """The mean profile of the ground: with less wind above, its power would be infinite."""
+    counts, _ = winds()
+    counts[0] = np.array([300, 0, -300])  # slower with height: the exponent is negative
+    head = struct.pack("<2hi6f", -99, 4, 3, 0.0, 0.03, STEP, *[100 * i for i in INTENSITY])
+    path = tmp_path / "wind.wnd"
+    path.write_bytes(head + grid() + bytes(24) + body(counts, True))
+    box = read_bladed_box(path)
+    assert box.z[0] == 0.0
+    assert box.shear_exponent < 0
+    for component in (box.u, box.v, box.w):
+        assert np.isfinite(component).all()

@@ -3,13 +3,14 @@
 Fixed seeds; each seed gives one independent number, tested by Student's t.
 """
 
+import warnings
 from itertools import combinations
 
 import numpy as np
 import pytest
 from scipy import stats
 
-from loadflow.errors import InputError
+from loadflow.errors import InputError, ValidityWarning
 from loadflow.wind import Machine, WindOptions, condition, inflow, mann_box, read_hawc2_box
 from loadflow.wind.mann import dissipation
 
@@ -92,6 +93,23 @@ def test_files_of_hawc2_hold_the_same_box(boxes, tmp_path):
     paths[1].write_bytes(paths[1].read_bytes()[:-4])
     with pytest.raises(InputError, match=r"v\.bin: 131068 bytes"):
         read_hawc2_box(*paths, hub_height=90.0, **keys)
+
+
+@pytest.mark.parametrize(
+    "shape", [(512, 4, 16), (512, 16, 4), (1024, 4, 8), (8, 512, 8), (8, 8, 512), (512, 2, 32)]
+)
+def test_a_shape_that_fits_the_size_but_not_the_values_is_doubted(boxes, tmp_path, shape):
+    paths = [tmp_path / f"{c}.bin" for c in "uvw"]
+    for path, c in zip(paths, "uvw"):
+        path.write_bytes(np.ascontiguousarray(getattr(boxes[0], c)[::-1]).astype("<f4").tobytes())
+    keys = {"spacing": (V * DT, 8.0, 8.0), "wind_speed": V, "hub_height": 90.0}
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        right = read_hawc2_box(*paths, shape=(512, 8, 8), **keys)
+        mirrored = read_hawc2_box(*paths, shape=(512, 8, 8), first_line="left", **keys)
+    np.testing.assert_array_equal(mirrored.v, right.v[:, ::-1])
+    with pytest.warns(ValidityWarning, match=r"u\.bin: .*; is the shape .* right"):
+        read_hawc2_box(*paths, shape=shape, **keys)
 
 
 def test_a_condition_takes_it():

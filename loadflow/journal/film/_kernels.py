@@ -1,11 +1,14 @@
-"""Compiled loops of the film: laws, gap coefficients, assembly, integrals.
+"""Compiled loops of the film: gap coefficients, assembly, integrals.
 
 Everything is written for lengths in units of the shaft radius R, the gap in units of the radial
 clearance and pressures in Pa. The balance of a film cell is then ::
 
     sum of outflows (wedge · F · H − H³ ∂p) + storage = 0,   wedge = 6 η ω / ψ²
 
-which is (3.51) of the source times 12 η / ψ² …. A symmetric gap is solved over half of the width.
+which is (3.51) of [Jonuschies 2015] times 12 η / ψ² …. A symmetric gap is solved over half of
+the width. On a cone or a plane ring the same balance holds in isothermal coordinates: only the
+surface of a cell, `area`, then differs from its width `dz`; it scales what the surface drags along
+and stores.
 
 Coefficients of the gap have the shape (8, nx + 1, rows): one row where the gap does not change
 along the axis, else one for each row of cells and a last one for the far rim.
@@ -14,63 +17,43 @@ along the axis, else one for each row of cells and a last one for the far rim.
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
+from llvmlite import ir
+from numba import njit, types
+from numba.extending import intrinsic
 
-FULL, GUEMBEL, REYNOLDS, MASS_CONSERVING, GAS_MIXTURE = range(5)
+from loadflow.journal.cavitation import DFILL, DP, DSLACK, FILL, LOAD, SLACK, P
 
-# rows of the state of the cells
-P, DP, FILL, DFILL, SLACK, DSLACK, LOAD, DLOAD = range(8)
 # coefficients of the gap: on the faces around, on the faces across (H3), on cells; CELL3 is ∫H³ of
 # cells, from which the faces across of a gap that changes along the axis follow
 G, E, H3, HM, COS, SIN, CELL3, HINV = range(8)
 
 
-@njit(cache=True, nogil=True)
-def apply_law(kind, mixing, p_cav, scale, u, state):
-    """Fill `state` (8, nx, nz) from the unknowns `u` (nx, nz).
+@intrinsic
+def _call(typing_context, address, numbers, scale, count, u, state):
+    """Call a compiled function of a law at its address; arrays by theirs."""
+    signature = types.void(*[types.intp] * 2, types.float64, *[types.intp] * 3)
 
-    The unknown is the pressure in the full film and a measure of its lack in the ruptured film:
-    for the mass-conserving law u = p_cav − scale (1 − F); for the mixture u = p − scale (1 − F),
-    which tends to the same as c → 0, so that Newton needs no continuation and p > −c by itself; for
-    Reynolds the slack of the complementarity.
+    def code(context, builder, signature, args):
+        where, numbers, scale, count, u, state = args
+        real = ir.DoubleType()
+        kinds = [real.as_pointer(), real, count.type, real.as_pointer(), real.as_pointer()]
+        function = ir.FunctionType(ir.IntType(8).as_pointer(), kinds)
+        numbers, u, state = (builder.inttoptr(a, kinds[0]) for a in (numbers, u, state))
+        builder.call(
+            builder.inttoptr(where, function.as_pointer()), [numbers, scale, count, u, state]
+        )
+        return context.get_dummy_value()
+
+    return signature, code
+
+
+@njit(cache=True, nogil=True)
+def apply_law(address, numbers, scale, u, state):
+    """Fill `state` (8, nx, nz) from the unknowns `u` (nx, nz) by the law at `address`.
+
+    `numbers` (m,) are those of the law. All arrays are contiguous.
     """
-    nx, nz = u.shape
-    for i in range(nx):
-        for k in range(nz):
-            v = u[i, k]
-            p, dp, fill, dfill, slack, dslack = v, 1.0, 1.0, 0.0, 0.0, 0.0
-            if kind == GAS_MIXTURE:
-                root = np.sqrt((v + mixing) ** 2 + 4.0 * mixing * scale)
-                if v > mixing:
-                    p = 0.5 * (v - mixing + root)
-                else:
-                    p = 2.0 * mixing * (v + scale) / (mixing - v + root)
-                # (p + c)(p − u) = c · scale; p + c without cancellation
-                lift = 0.5 * (v + mixing + root)
-                if v + mixing < 0.0:
-                    lift = 2.0 * mixing * scale / (root - v - mixing)
-                fill = p / lift
-                slope = mixing / (lift * lift)
-                dp = 1.0 / (1.0 + scale * slope)
-                dfill = slope * dp
-            elif kind >= REYNOLDS and v < p_cav:
-                p, dp = p_cav, 0.0
-                if kind == REYNOLDS:
-                    slack, dslack = v - p_cav, 1.0
-                else:
-                    fill, dfill = 1.0 + (v - p_cav) / scale, 1.0 / scale
-            state[P, i, k] = p
-            state[DP, i, k] = dp
-            state[FILL, i, k] = fill
-            state[DFILL, i, k] = dfill
-            state[SLACK, i, k] = slack
-            state[DSLACK, i, k] = dslack
-            if kind == GUEMBEL and p < p_cav:
-                state[LOAD, i, k] = p_cav
-                state[DLOAD, i, k] = 0.0
-            else:
-                state[LOAD, i, k] = p
-                state[DLOAD, i, k] = dp
+    _call(address, numbers.ctypes.data, scale, u.size, u.ctypes.data, state.ctypes.data)
 
 
 @njit(cache=True, nogil=True)
@@ -113,7 +96,7 @@ def gap_coefficients(cos_face, sin_face, w_face, cos_cell, sin_cell, w_cell, str
 
 
 @njit(cache=True, nogil=True)
-def balance(state, coef, dz, gz, closed, wedge, p_edge, p_line, f_line, mass, groove, out):
+def balance(state, coef, dz, area, gz, closed, wedge, p_edge, p_line, f_line, mass, groove, out):
     """Add the outflow of each cell to `out` (nx, nz); linear in `coef` and `mass` (nx, rows).
 
     A groove that reaches a rim is closed there.
@@ -136,7 +119,7 @@ def balance(state, coef, dz, gz, closed, wedge, p_edge, p_line, f_line, mass, gr
                     p_l, f_l = p_line, f_line
                 elif i == nx:
                     p_r, f_r = p_line, f_line
-            q = dz[k] * (e * (f_l if wedge > 0 else f_r) - g * (p_r - p_l))
+            q = area[k] * e * (f_l if wedge > 0 else f_r) - dz[k] * g * (p_r - p_l)
             if closed or i > 0:
                 out[left, k] += q
             if closed or i < nx:
@@ -145,7 +128,7 @@ def balance(state, coef, dz, gz, closed, wedge, p_edge, p_line, f_line, mass, gr
         if not groove[i, 0]:
             out[i, 0] -= coef[H3, i, 0] * gz[0] * (p_edge - p[i, 0])
         for k in range(nz):
-            out[i, k] += fill[i, k] * mass[i, row * k] * dz[k]
+            out[i, k] += fill[i, k] * mass[i, row * k] * area[k]
             if k + 1 == nz and groove[i, k]:
                 continue
             g = coef[H3, i, row * (k + 1)] * gz[k + 1]
@@ -156,7 +139,37 @@ def balance(state, coef, dz, gz, closed, wedge, p_edge, p_line, f_line, mass, gr
 
 
 @njit(cache=True, nogil=True)
-def jacobian(state, coef, dz, gz, closed, wedge, mass, order, fixed, ab):
+def largest_terms(state, coef, dz, area, gz, closed, wedge, p_edge, p_line, mass, groove):
+    """Largest sum of the magnitudes of the terms of `balance` in a cell; grooves have none."""
+    _, nx, nz = state.shape
+    row = 1 if coef.shape[2] > 1 else 0
+    p = state[P]
+    fill = state[FILL]
+    most = 0.0
+    for i in range(nx):
+        before = i - 1 if i > 0 else nx - 1
+        after = i + 1 if i + 1 < nx else 0
+        for k in range(nz):
+            if groove[i, k]:
+                continue
+            p_before = p[before, k] if closed or i > 0 else p_line
+            p_after = p[after, k] if closed or i + 1 < nx else p_line
+            here = abs(p[i, k])
+            total = coef[G, i, row * k] * (abs(p_before) + here)
+            total += coef[G, i + 1, row * k] * (abs(p_after) + here)
+            dragged = abs(wedge) * (coef[E, i, row * k] + coef[E, i + 1, row * k])
+            total = dz[k] * total
+            total += area[k] * (dragged + fill[i, k] * abs(mass[i, row * k]))
+            low = abs(p[i, k - 1]) if k > 0 else abs(p_edge)
+            high = abs(p[i, k + 1]) if k + 1 < nz else abs(p_edge)
+            total += coef[H3, i, row * k] * gz[k] * (low + here)
+            total += coef[H3, i, row * (k + 1)] * gz[k + 1] * (high + here)
+            most = max(most, total + abs(state[SLACK, i, k]))
+    return most
+
+
+@njit(cache=True, nogil=True)
+def jacobian(state, coef, dz, area, gz, closed, wedge, mass, order, fixed, ab):
     """Band matrix ∂(balance + slack)/∂u in LAPACK's layout, `ab` (n, 3 kl + 1), column by row."""
     _, nx, nz = state.shape
     row = 1 if coef.shape[2] > 1 else 0
@@ -180,13 +193,13 @@ def jacobian(state, coef, dz, gz, closed, wedge, mass, order, fixed, ab):
             e_r = e if wedge <= 0 else 0.0
             if has_l:
                 col = order[left] * nz + k
-                d = dz[k] * (e_l * df[left, k] + g * dp[left, k])
+                d = area[k] * e_l * df[left, k] + dz[k] * g * dp[left, k]
                 ab[col, mid] += d
                 if has_r:
                     ab[col, mid + shift] -= d
             if has_r:
                 col = order[right] * nz + k
-                d = dz[k] * (e_r * df[right, k] - g * dp[right, k])
+                d = area[k] * e_r * df[right, k] - dz[k] * g * dp[right, k]
                 ab[col, mid] -= d
                 if has_l:
                     ab[col, mid - shift] += d
@@ -194,7 +207,7 @@ def jacobian(state, coef, dz, gz, closed, wedge, mass, order, fixed, ab):
         base = order[i] * nz
         ab[base, mid] += coef[H3, i, 0] * gz[0] * dp[i, 0]
         for k in range(nz):
-            ab[base + k, mid] += df[i, k] * mass[i, row * k] * dz[k] + state[DSLACK, i, k]
+            ab[base + k, mid] += df[i, k] * mass[i, row * k] * area[k] + state[DSLACK, i, k]
             g = coef[H3, i, row * (k + 1)] * gz[k + 1]
             ab[base + k, mid] += g * dp[i, k]
             if k + 1 < nz:
@@ -272,7 +285,7 @@ def integrals(state, coef, dz, gz, closed, p_edge, p_line, groove):
     """Integrals over the solved film, in the units of this module.
 
     Returns the largest pressure, the dissipation Σ H³ |∂p|², the shear ∫ 1/H outside grooves, the
-    outflow over the rims (where it leaves), and ∫ F H and ∫ H.
+    outflow over the bearing ends (where it leaves), and ∫ F H and ∫ H.
     """
     _, nx, nz = state.shape
     row = 1 if coef.shape[2] > 1 else 0

@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from loadflow.errors import InputError
 from loadflow.journal.film.mesh import Mesh
-from loadflow.journal.options import require
 from loadflow.journal.shells import LinedShell, LocalShell, MatrixShell, Shell, ThickShell
+from loadflow.numerics.fields import require
 
 Array = NDArray[np.float64]
 

@@ -12,10 +12,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from loadflow.journal.cavitation import DLOAD, FILL, LOAD
 from loadflow.journal.film import _kernels as kernel
 from loadflow.journal.film import _shell_kernels as shell_kernel
 from loadflow.journal.film.compliance import Compliance
-from loadflow.journal.film.film import Film
+from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.gap import KEPT
 from loadflow.journal.film.gap_elastic import ElasticGap
 
@@ -26,8 +27,8 @@ _KRYLOV = 60  # steps of GMRES that are tried
 _SMALLEST = 1.0 / 2**20  # share of a step below which it has no room
 
 
-class ElasticFilm(Film):
-    """Film between a shaft and a shell with `compliance`; the other parameters are those of `Film`.
+class ElasticFilm(DiscreteFilm):
+    """Film between shaft and elastic shell; other parameters than `compliance`: `DiscreteFilm`.
 
     The shell is at its nominal size under the edge pressure, inside and outside.
     """
@@ -57,7 +58,7 @@ class ElasticFilm(Film):
         return self._give / (self.relative_clearance * self.radius)
 
     def _grow(self) -> None:
-        pressure = self.state[kernel.LOAD] - self.p_edge
+        pressure = self.state[LOAD] - self.p_edge
         self.gap.grow(self._per_clearance * self.compliance.growth(pressure))
 
     @property
@@ -92,7 +93,7 @@ class ElasticFilm(Film):
         """Outflow of every cell (nx, nz) at the state last placed, or by a `change` of it."""
         field = super().balance(coef, mass, change)
         if change is not None:
-            self._spread(self.compliance.growth(change[kernel.LOAD])[None], field[None])
+            self._spread(self.compliance.growth(change[LOAD])[None], field[None])
         return field
 
     def _spread(self, growth: Array, fields: Array) -> None:
@@ -107,7 +108,7 @@ class ElasticFilm(Film):
             self.state, self.gap.coef, *self.gap.nodes, mesh.dz, mesh.gz, mesh.closed, self.wedge,
             rims, self.slope * rate, self.fixed, self.stencil,
         )  # fmt: skip
-        growth = self._per_clearance * self.compliance.local * self.state[kernel.DLOAD]
+        growth = self._per_clearance * self.compliance.local * self.state[DLOAD]
         shell_kernel.add_stencil(self.stencil, growth, mesh.order, self.fixed, self.ab)
 
     def _solve(self, factors: tuple[Array, NDArray[np.int32]], columns: Array) -> None:
@@ -143,9 +144,9 @@ class ElasticFilm(Film):
     def _lag(self, factors: tuple[Array, NDArray[np.int32]], columns: Array, size: int) -> None:
         """Let the derivatives by velocity have the squeeze of the shell that follows the shaft."""
         by_place, by_velocity = columns[1 : size + 1], columns[size + 1 : 2 * size + 1]
-        pressure = -self.state[kernel.DLOAD] * self._fields(by_place)
+        pressure = -self.state[DLOAD] * self._fields(by_place)
         growth = self._per_clearance * self.compliance.growth(pressure)
-        volume = self.slope * self.state[kernel.FILL] * self.gap.widths * growth
+        volume = self.slope * self.state[FILL] * self.gap.widths * growth
         volume[:, self.fixed] = 0.0
         more = self._columns(volume)
         self._solve(factors, more)
@@ -164,7 +165,7 @@ class ElasticFilm(Film):
     def _far(self, columns: Array) -> Array:
         """What the balance owes to changes of the unknowns, (l, n), by way of other cells' gaps."""
         fields = self._fields(columns)
-        pressure = self.state[kernel.DLOAD] * fields
+        pressure = self.state[DLOAD] * fields
         growth = self.compliance.growth(pressure) - self.compliance.local * pressure
         out = np.zeros_like(fields)
         self._spread(growth, out)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.journal.options import Lubricant
+from loadflow.journal.lubricant import Lubricant
 from loadflow.journal.supply import Capillary, ConstantFlow, Orifice, Pump, Restrictor, Supply
 
 Array = NDArray[np.float64]
@@ -109,7 +109,7 @@ class Feed:
     def power(self, pressure: Array, flow: Array) -> float:
         """Power that lifts the oil from tank to supply pressure, net of what flows back, W.
 
-        Q p of (Table 5-23) of the source; `pressure` and `flow` are those of all grooves. A
+        Q p of Table 5-23 of [Jonuschies 2015]; `pressure` and `flow` are those of all grooves. A
         constant flow without stated pressure takes that of its groove.
         """
         if self.supply.pump is not None:

@@ -10,29 +10,17 @@ from numpy.typing import NDArray
 from scipy.linalg.lapack import dgbtrf, dgbtrs
 
 from loadflow.errors import SolverError
+from loadflow.journal.cavitation import DFILL, DLOAD, DP, FILL, LOAD, SLACK, CavitationLaw, P
 from loadflow.journal.film import _kernels as kernel
 from loadflow.journal.film.gap import Gap, turning_frame
 from loadflow.journal.film.groove_pressure import Pockets
-from loadflow.journal.options import (
-    Cavitation,
-    GasMixture,
-    Guembel,
-    MassConserving,
-    Reynolds,
-    Sommerfeld,
-)
+from loadflow.numerics.convergence import EPS, rounding_level
 
 Array = NDArray[np.float64]
 
+_AXIS = 1e-8  # eccentricity ratio below which a film that turns with the shaft is linear in it
 _CELLS = 0.6  # of the width of the narrowest gap, the widest cell around that resolves it
 
-_KIND = {
-    Sommerfeld: kernel.FULL,
-    Guembel: kernel.GUEMBEL,
-    Reynolds: kernel.REYNOLDS,
-    MassConserving: kernel.MASS_CONSERVING,
-    GasMixture: kernel.GAS_MIXTURE,
-}
 EVERY = slice(None)  # all degrees of freedom
 _TURN = np.array([[0.0, -1.0], [1.0, 0.0]])  # a quarter turn with the rotation
 
@@ -52,7 +40,7 @@ class Linear:
     stiffness, damping : array (m, m)
         Derivatives of `load` by position (per clearance) and velocity (clearances per second).
     columns : array (l, n)
-        Newton step of the unknowns, and their derivatives by what `Film.weights` lists.
+        Newton step of the unknowns, and their derivatives by what `DiscreteFilm.weights` lists.
     """
 
     load: Array
@@ -61,7 +49,7 @@ class Linear:
     columns: Array
 
 
-class Film:
+class DiscreteFilm:
     """Film of one bearing, lubricant and law on one mesh; holds the work arrays.
 
     Positions are in clearances, velocities in clearances per second, pressures in Pa.
@@ -70,12 +58,12 @@ class Film:
     ----------
     gap : Gap
         Gap on its mesh.
-    law : Cavitation
+    law : CavitationLaw
         Law of the ruptured film.
     viscosity, relative_clearance, radius : float
         η (Pa s), ψ, shaft radius (m).
     edge_pressure : float
-        Pressure at the rims and on the inlet line, Pa, absolute.
+        Pressure at the bearing ends and on the inlet line, Pa, absolute.
     pockets : Pockets
         Grooves and what feeds them.
     end_pressure : float, optional
@@ -86,7 +74,7 @@ class Film:
     def __init__(
         self,
         gap: Gap,
-        law: Cavitation,
+        law: CavitationLaw,
         viscosity: float,
         relative_clearance: float,
         radius: float,
@@ -96,16 +84,14 @@ class Film:
     ) -> None:
         self.gap = gap
         self.mesh = mesh = gap.mesh
-        self.kind = _KIND[type(law)]
-        self.ruptures = self.kind != kernel.FULL
-        self.creeps = self.kind == kernel.REYNOLDS  # its rupture moves by a cell a step
-        self.mixing = law.mixing_constant if isinstance(law, GasMixture) else 0.0
-        self.p_cav = getattr(law, "cavitation_pressure", 0.0)
+        self.law = law
+        self._address, self._numbers = law.address, np.array(law.numbers, dtype=float)
+        self.ruptures = law.ruptures
+        self.creeps = law.moves_by_cells
         self.p_edge = edge_pressure
         self.p_line = edge_pressure if end_pressure is None else end_pressure
         self.ends_supply = end_pressure is not None and not gap.mesh.closed
-        wet = self.p_line + self.mixing
-        self.line_fill = self.p_line / wet if self.mixing and wet > 0 else 1.0
+        self.line_fill = law.fill_at(self.p_line)
         self.radius = radius
         self.relative_clearance = relative_clearance
         self.viscosity = viscosity
@@ -151,9 +137,7 @@ class Film:
     # --- state -----------------------------------------------------------------------------------
     def unknown_of(self, pressure: Array) -> Array:
         """Unknowns of a (not ruptured) pressure field."""
-        if self.kind != kernel.GAS_MIXTURE:
-            return np.array(pressure, dtype=float)
-        return pressure - self.scale * self.mixing / (pressure + self.mixing)
+        return self.law.unknown_of(pressure, self.scale)
 
     def start(self) -> Array:
         """Unknowns of a film at edge pressure everywhere but in the grooves."""
@@ -166,16 +150,17 @@ class Film:
 
     def _apply_law(self, u: Array) -> None:
         """Fill `state` from the unknowns `u`."""
-        kernel.apply_law(self.kind, self.mixing, self.p_cav, self.scale, u, self.state)
-        if self.kind == kernel.REYNOLDS and self.pockets.free.size:
+        u = np.ascontiguousarray(u)
+        kernel.apply_law(self._address, self._numbers, self.scale, u, self.state)
+        if self.law.moves_by_cells and self.pockets.free.size:
             self._keep_full(u)
 
     def _keep_full(self, u: Array) -> None:
         """Keep the free grooves full: the complementarity has no row for their pressure."""
         cells = self.pockets.free_cells
-        for row, value in ((kernel.P, u[cells]), (kernel.DP, 1.0), (kernel.SLACK, 0.0)):
+        for row, value in ((P, u[cells]), (DP, 1.0), (SLACK, 0.0)):
             self.state[row][cells] = value
-        self.state[kernel.LOAD][cells], self.state[kernel.DLOAD][cells] = u[cells], 1.0
+        self.state[LOAD][cells], self.state[DLOAD][cells] = u[cells], 1.0
 
     # --- balance ---------------------------------------------------------------------------------
     def _storage(self, coef: Array, around: Array, velocity: Array, rate: float) -> Array:
@@ -192,14 +177,14 @@ class Film:
         if change is not None:
             state, rim, line, full = change, 0.0, 0.0, 0.0
         kernel.balance(
-            state, coef, mesh.dz, mesh.gz, mesh.closed, self.wedge,
+            state, coef, mesh.dz, mesh.area, mesh.gz, mesh.closed, self.wedge,
             rim, line, full, mass, self.fixed, field,
         )  # fmt: skip
         return field
 
     def _residual(self, outflow: Array) -> Array:
         """Balance of every cell (nx, nz) of which `outflow` leaves, after `place`."""
-        field = outflow + self.state[kernel.SLACK]
+        field = outflow + self.state[SLACK]
         field[self.fixed] = 0.0
         return field
 
@@ -239,7 +224,7 @@ class Film:
         outflow = self.balance(gap.coef, mass) - old
         fields = [self._residual(outflow)]
         fields += [self.balance(c, self._storage(c, a, local, rate)) for c, a in slopes]
-        squeeze = -self.slope * self.state[kernel.FILL] * mesh.dz
+        squeeze = -self.slope * self.state[FILL] * mesh.area
         fields += [squeeze * np.outer(a, b) for a, b in zip(around, across)]
         free = self.pockets.free
         flows = [self.pockets.flows(f)[free] for f in (outflow, *fields[1:])] if free.size else []
@@ -254,17 +239,19 @@ class Film:
         if free.size:
             columns = self._settle(columns, np.array(flows), mass)
 
-        carried = np.empty((columns.shape[0], gap.size))
-        slope = self.state[kernel.DLOAD]
-        kernel.carried_by(slope, around, across, mesh.dz, mesh.order, columns, carried)
-        carried *= self.mirrors * self.radius**2
+        carried = self.mirrors * self.radius**2 * self._carried(columns)
         load = self._load(around) - carried[0]
         by_gap = [self._load(a) + self.ambient for _, a in slopes]
         damping = -carried[-gap.size :].T
         direct = [d - c for d, c in zip(by_gap, carried[1:])]
         if mesh.polar:
-            ratio = max(float(np.hypot(*position)), 1e-9)
-            direct.append(_TURN @ load / ratio - damping @ (_TURN @ local) / ratio)
+            ratio = float(np.hypot(*position))
+            if ratio < _AXIS:
+                direct.append(_TURN @ direct[0])
+            else:
+                direct.append(_TURN @ load / ratio - damping @ (_TURN @ local) / ratio)
+        if not np.isfinite(load).all():
+            raise SingularFilm(f"film matrix has no solution at eccentricity {position}")
         return Linear(
             load=frame @ load,
             stiffness=frame @ np.array(direct).T @ frame.T,
@@ -276,8 +263,8 @@ class Film:
         """Write the Newton matrix at the state last placed into the band."""
         mesh = self.mesh
         kernel.jacobian(
-            self.state, self.gap.coef, mesh.dz, mesh.gz, mesh.closed, self.wedge, mass,
-            mesh.order, self.fixed, self.ab,
+            self.state, self.gap.coef, mesh.dz, mesh.area, mesh.gz, mesh.closed, self.wedge,
+            mass, mesh.order, self.fixed, self.ab,
         )  # fmt: skip
 
     def _solve(self, factors: tuple[Array, NDArray[np.int32]], columns: Array) -> None:
@@ -300,19 +287,27 @@ class Film:
         through = np.empty((columns.shape[0], pockets.free.size))
         for row, column in zip(through, columns):
             field = column.reshape(mesh.shape)[mesh.order]
-            change[kernel.P] = self.state[kernel.DP] * field
-            change[kernel.FILL] = self.state[kernel.DFILL] * field
-            change[kernel.LOAD] = self.state[kernel.DLOAD] * field
+            change[P] = self.state[DP] * field
+            change[FILL] = self.state[DFILL] * field
+            change[LOAD] = self.state[DLOAD] * field
             outflow = self.balance(self.gap.coef, mass, change)
             row[:] = pockets.flows(outflow)[pockets.free]
-        pressure = pockets.of_free(self.state[kernel.P])
-        slope = pockets.of_free(self.state[kernel.DP])
+        pressure = pockets.of_free(self.state[P])
+        slope = pockets.of_free(self.state[DP])
         return pockets.settle(columns, direct, through, pressure, slope, self.scale)
+
+    def _carried(self, columns: Array) -> Array:
+        """Change of ∫ p N_j dA by each of `columns` (l, n), (l, m), in units of R²."""
+        gap, mesh = self.gap, self.mesh
+        carried = np.empty((columns.shape[0], gap.size))
+        slope = self.state[DLOAD]
+        kernel.carried_by(slope, gap.around, gap.across, mesh.dz, mesh.order, columns, carried)
+        return carried
 
     def _load(self, around: Array) -> Array:
         """∫ p N_j dA at the state last placed, whole film, in the mesh's frame, N."""
         out = np.empty(self.gap.size)
-        load = self.state[kernel.LOAD]
+        load = self.state[LOAD]
         kernel.load_of(load, around, self.gap.across, self.mesh.dz, out)
         return self.mirrors * self.radius**2 * out - self.ambient
 
@@ -327,7 +322,7 @@ class Film:
 
     def size(self, column: Array) -> float:
         """Largest entry of a change of the unknowns over the pressure of the film."""
-        peak = float(self.state[kernel.LOAD].max())
+        peak = float(self.state[LOAD].max())
         return float(np.abs(column).max()) / max(self.scale, peak)
 
     def correct(self, u: Array, columns: Array, weights: Array) -> float:
@@ -374,22 +369,57 @@ class Film:
         frame = self.place(u, position)
         around = self.gap.around
         mass = self._storage(self.gap.coef, around, frame.T @ velocity, rate)
-        flux = (abs(self.wedge) + self.scale) * self.mesh.dz.max()
+        flux = (abs(self.wedge) + self.scale) * self.mesh.area.max()
         outflow = self.balance(self.gap.coef, mass) - old
         worst = float(np.abs(self._residual(outflow)).max()) / flux
         if self.pockets.free.size:
-            worst = max(worst, self.pockets.missing(self.state[kernel.P], outflow, self.scale))
+            worst = max(worst, self.pockets.missing(self.state[P], outflow, self.scale))
         if force is not None:
-            scale = max(math.hypot(*force), self.scale * self.radius**2 * 1e-3)
+            scale = self.load_scale(force)
             missing = force - frame @ self._load(around)
             worst = max(worst, math.hypot(*missing[free]) / scale)
         return worst
 
+    def load_scale(self, force: Array) -> float:
+        """Scale of what is missing of the load, N."""
+        return max(math.hypot(*force), self.scale * self.radius**2 * 1e-3)
+
+    def rounding(
+        self,
+        position: Array,
+        velocity: Array,
+        slope: Array,
+        force: Array | None = None,
+        free: slice | NDArray[np.int64] = EVERY,
+    ) -> float:
+        """Level of rounding of `imbalance`, just called, over the same scales.
+
+        The gap is a difference of numbers near 1: where it is narrow its coefficients have fewer
+        digits. `slope` (m, m) is the derivative of the load by the position.
+        """
+        mesh, gap = self.mesh, self.gap
+        mass = self._storage(gap.coef, gap.around, velocity, 0.0)
+        terms = kernel.largest_terms(
+            self.state, gap.coef, mesh.dz, mesh.area, mesh.gz, mesh.closed, self.wedge,
+            self.p_edge, self.p_line, mass, self.fixed,
+        )  # fmt: skip
+        narrow = min(max(gap.narrowest(position), EPS), 1.0)
+        flux = (abs(self.wedge) + self.scale) * mesh.dz.max()
+        worst = terms * (1.0 + 3.0 / narrow) / flux
+        if force is not None:
+            scale = self.load_scale(force)
+            pressed = float(np.abs(self.state[kernel.LOAD]).max()) * 2 * np.pi * mesh.dz.sum()
+            reach = np.abs(gap.across).max(axis=1)
+            carried = self.mirrors * self.radius**2 * pressed * reach
+            digits = np.abs(slope).sum(axis=1) * max(1.0, float(np.abs(position).max()))
+            worst = max(worst, float((carried + digits)[free].max()) / scale)
+        return rounding_level(worst)
+
     def liquid(self) -> Array:
         """Liquid in each cell (nx, nz) times the squeeze pressure, Pa s, at the last state."""
         rows = self.gap.across.shape[1]
-        volume = self.gap.coef[kernel.HM, :-1, :rows] * self.mesh.dz
-        return self.slope * self.state[kernel.FILL] * volume
+        volume = self.gap.coef[kernel.HM, :-1, :rows] * self.mesh.area
+        return self.slope * self.state[FILL] * volume
 
     def stock(self) -> tuple[float, float]:
         """Liquid outside the grooves, m³, and what it gains over rims and grooves, m³/s."""
@@ -411,9 +441,9 @@ class Film:
     # --- results ---------------------------------------------------------------------------------
     def dry(self, u: Array) -> bool:
         """Whether a fed groove would have to rupture, which only laws with fill can follow."""
-        if self.kind in (kernel.MASS_CONSERVING, kernel.GAS_MIXTURE):
+        if self.law.keeps_fill:
             return False
-        return bool(np.any(self.pockets.of_free(u) < self.p_cav))
+        return bool(np.any(self.pockets.of_free(u) < self.law.floor))
 
     def field(self, u: Array, position: Array) -> tuple[Array, Array, Array, Array]:
         """Pressure (Pa) and fill of the cells (nx, nz), their angle (nx,), and the load (N)."""
@@ -426,4 +456,4 @@ class Film:
             angle = 2 * np.arctan(narrow * np.tan(0.5 * angle)) + np.arctan2(
                 frame[1, 0], frame[0, 0]
             )
-        return self.state[kernel.LOAD].copy(), self.state[kernel.FILL].copy(), angle, load
+        return self.state[LOAD].copy(), self.state[FILL].copy(), angle, load

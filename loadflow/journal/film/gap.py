@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from loadflow.journal.film import _kernels as kernel
 from loadflow.journal.film.mesh import Mesh
+from loadflow.numerics.convergence import EPS
 
 Array = NDArray[np.float64]
 
@@ -105,11 +106,13 @@ class PlainGap:
     def slopes(self, position: Array) -> list[tuple[Array, Array]]:
         """Derivatives of (`coef`, `around`) by the mesh coordinates of the position.
 
-        Central differences of closed forms: the relative error is below 1e-7.
+        Central differences of closed forms: the relative error is below 1e-7 for gaps above 1e-5;
+        the step is the one at which what it leaves out and what rounding adds are alike.
         """
         ex, ey = float(position[0]), float(position[1])
         ratio = math.hypot(ex, ey)
-        step = 1e-5 * (1.0 - ratio)
+        gap = 1.0 - ratio
+        step = gap * max(1e-5, min((EPS / max(gap, EPS)) ** (1 / 3), 0.1))
         turns = [(1.0, 0.0), (0.0, 1.0)]
         if self.mesh.polar:
             turns = turns[:1]

@@ -24,7 +24,7 @@ class ElasticGap(ShapedGap):
     mesh, bore
         As for `ShapedGap`.
     rims_give : bool
-        Whether the growth goes on to the rims, or ends there with the pressure.
+        Whether the growth goes on to the bearing ends, or ends there with the pressure.
     """
 
     def __init__(self, mesh: ShapedMesh, bore: Bore, rims_give: bool) -> None:
@@ -103,7 +103,7 @@ def _around(angle: Array, mesh: ShapedMesh) -> _Line:
 def _across(z: Array, mesh: ShapedMesh, rims_give: bool) -> _Line:
     """Lines between the cells across, to `z`, mirrored at mid-plane where that is an end.
 
-    Behind the cells there is a row that stays: the rims, if they do not give.
+    Behind the cells there is a row that stays: the bearing ends, if they do not give.
     """
     count = mesh.z.size
     nodes, rows = mesh.z, np.arange(count)

@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.journal.film.mesh import Mesh, check_grid, graded_share
+from loadflow.journal.film.mesh import Mesh, graded_share
+from loadflow.journal.film_model import check_grid
 from loadflow.journal.shapes import Recess, Relief, Segment
 
 Array = NDArray[np.float64]
 _TURN = 2 * np.pi
 _SLIVER = 1e-7  # share of a groove in its outermost cells, so that its pressure acts at its edge
 _FEWEST = 4  # cells around of a segment
+_CLOSEST = 0.004  # width of the narrowest cells where they crowd, rad
+_GROWTH = 0.25  # width of the others there over their distance
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,7 +34,7 @@ class ShapedMesh(Mesh):
     marks : array of bool (nx + 1,)
         Cell edges at which the gap may step.
     graded : bool
-        Whether cells crowd at the rims.
+        Whether cells crowd at the bearing ends.
     """
 
     segment: NDArray[np.int64]
@@ -41,7 +44,7 @@ class ShapedMesh(Mesh):
 
     @property
     def rims(self) -> tuple[float, float]:
-        """Distances of the outermost cell centres to the rims, as exact as graded cells allow."""
+        """Distances of the outermost cell centres to the ends, as exact as graded cells allow."""
         if not self.graded:
             return super().rims
         distance = _rim_distance(self.z_edges[self.z_edges >= 0.0])
@@ -80,7 +83,7 @@ def shaped_mesh(
     half : bool
         Whether one half of the width stands for both.
     graded : bool
-        Whether cells crowd at the rims.
+        Whether cells crowd at the bearing ends.
     segments : tuple of Segment
         Lobes or pads; none for a bore that runs round.
     marks, marks_across : sequence of float
@@ -110,10 +113,41 @@ def shaped_mesh(
     )
 
 
-def _rim_distance(edges: Array) -> float:
-    """Distance from the outermost cell centre to the rim that makes a parabola's load exact.
+def crowded(mesh: ShapedMesh, angle: float) -> ShapedMesh:
+    """The same with its cells halved toward `angle`, rad, so that they resolve a gap that closes.
 
-    `edges` run from mid-plane 0 to the rim b. Cells of p'' = −1 have the exact flow p' = −z at
+    A gap that is h clearances at its narrowest is about √(2 h) rad wide.
+    """
+    parts = []
+    for low, high, groove in zip(mesh.edges[:-1], mesh.edges[1:], mesh.groove):
+        whole = np.array([low, high])
+        parts.append((whole if groove else _halved(float(low), float(high), angle))[1:])
+    counts = np.array([part.size for part in parts])
+    marks = np.zeros(counts.sum() + 1, dtype=bool)
+    marks[np.append(0, np.cumsum(counts))] = mesh.marks
+    return replace(
+        mesh,
+        edges=np.concatenate([mesh.edges[:1], *parts]),
+        segment=np.repeat(mesh.segment, counts),
+        groove=np.repeat(mesh.groove, counts),
+        marks=marks,
+    )
+
+
+def _halved(low: float, high: float, angle: float) -> Array:
+    """Edges from `low` to `high`, closer together the nearer they are to `angle`."""
+    away = (0.5 * (low + high) - angle + np.pi) % _TURN - np.pi
+    distance = max(abs(away) - 0.5 * (high - low), 0.0)
+    if high - low <= max(_CLOSEST, _GROWTH * distance):
+        return np.array([low, high])
+    middle = 0.5 * (low + high)
+    return np.append(_halved(low, middle, angle)[:-1], _halved(middle, high, angle))
+
+
+def _rim_distance(edges: Array) -> float:
+    """Distance from the outermost cell centre to the end that makes a parabola's load exact.
+
+    `edges` run from mid-plane 0 to the end b. Cells of p'' = −1 have the exact flow p' = −z at
     their edges; what is free is p of the outermost cell, which Σ p dz = b³/3 asks for. Half a cell
     leaves the load too large by more than all other errors across the width.
     """
@@ -157,10 +191,10 @@ def _between(start: float, end: float, marks: Array, cells: int) -> Array:
     """About `cells` even cells from `start` to `end`, with edges on the `marks` between them."""
     inside = start + (marks - start) % _TURN
     inside = inside[(inside > start + 1e-9) & (inside < end - 1e-9)]
-    return _filled(np.concatenate([[start], np.unique(np.round(inside, 12)), [end]]), cells)
+    return even_cells(np.concatenate([[start], np.unique(np.round(inside, 12)), [end]]), cells)
 
 
-def _filled(breaks: Array, cells: int) -> Array:
+def even_cells(breaks: Array, cells: int) -> Array:
     """Even cells between `breaks`, about `cells` in all."""
     counts = np.maximum(np.rint(np.diff(breaks) / np.ptp(breaks) * cells).astype(int), 1)
     parts = [np.linspace(a, b, n + 1)[:-1] for a, b, n in zip(breaks[:-1], breaks[1:], counts)]
@@ -170,12 +204,12 @@ def _filled(breaks: Array, cells: int) -> Array:
 def _across(
     width_ratio: float, cells: int, half: bool, graded: bool, marks: Sequence[float]
 ) -> Array:
-    """Cell edges across, in shaft radii, from mid-plane or from rim to rim."""
+    """Cell edges across, in shaft radii, from mid-plane or from end to end."""
     inside = [z for z in marks if not half or z > 0]
     if inside:
         low = 0.0 if half else -width_ratio
         breaks = np.unique(np.round([low, *inside, width_ratio], 12))
-        return _filled(breaks, cells // 2 if half else cells)
+        return even_cells(breaks, cells // 2 if half else cells)
     share = graded_share(cells // 2) if graded else np.linspace(0.0, 1.0, cells // 2 + 1)
     if not half:
         share = np.concatenate([-share[:0:-1], share])

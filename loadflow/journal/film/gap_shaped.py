@@ -144,6 +144,7 @@ class ShapedGap:
         self._reach = np.einsum("jid,id->ji", self._shifts(segment), facing)
         self._lengths = self._lengthwise(z)
         self._facing, self._spots_angle, self._spots_z = facing, angle, z
+        self._spots_segment = segment
         self._spots_line = np.zeros((2, z.size))
 
     # --- the shaft's centre line -----------------------------------------------------------------
@@ -210,16 +211,24 @@ class ShapedGap:
         worst = float((closing / gaps).max())
         target = position + step * min(1.0, (1.0 - KEPT) / worst if worst > 0 else 1.0)
         for row in (self.shaft + np.flatnonzero(step[self.shaft :])).tolist():
-            before, after = self._lift(row, position), self._lift(row, target)
+            before, after = self.lift(row, position), self.lift(row, target)
             # a pad that tilts the other way has no film, and would stay so
             low, high = KEPT * abs(before), max(abs(before), _SMALL_LIFT) / KEPT
             kept = math.copysign(min(max(math.copysign(after, after * before), low), high), before)
             target[row] += kept - after
         return target
 
-    def _lift(self, row: int, position: Array) -> float:
+    def lift(self, row: int, position: Array) -> float:
         """Tilt of a pad against the shaft: its own less the way of the shaft past it."""
         return float(position[row] + position[:2] @ self._tangents[row - self.shaft])
+
+    def widest_lift(self, row: int, position: Array, sign: float) -> float:
+        """Lift of a pad, times `sign`, at which its one end meets the shaft."""
+        flat = position.copy()
+        flat[row] -= self.lift(row, position)
+        closing = sign * self._reach[row][:, None] * self._lengths[row]
+        closes = closing > 0.0
+        return float((self.gaps(flat)[closes] / closing[closes]).min())
 
     def narrowest(self, position: Array) -> float:
         """Narrowest gap over the clearance; ≤ 0 where the shaft would touch the bore."""
@@ -231,6 +240,17 @@ class ShapedGap:
         i, k = np.unravel_index(gaps.argmin(), gaps.shape)
         angle = math.atan2(self._facing[i, 1], self._facing[i, 0])
         return float(gaps[i, k]), angle, float(self._spots_z[k])
+
+    def closing(self, position: Array, limit: float) -> tuple[float, ...]:
+        """Angles, rad, of the narrowest gap of each segment where it is below `limit`."""
+        gaps = self.gaps(position).min(axis=1)
+        angles = []
+        for number in np.unique(self._spots_segment):
+            part = np.flatnonzero(self._spots_segment == number)
+            nearest = part[gaps[part].argmin()]
+            if gaps[nearest] < limit:
+                angles.append(float(self._spots_angle[nearest]))
+        return tuple(angles)
 
     def roomiest(self, position: Array, free: NDArray[np.int64]) -> Array:
         """Position with the widest narrowest gap, when only the degrees of freedom `free` move."""

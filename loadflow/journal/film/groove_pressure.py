@@ -60,7 +60,7 @@ class Pockets:
         return len(self.feed.supply.grooves)
 
     def lifts(self, edge_pressure: float) -> bool:
-        """Whether the supply may carry a load without rotation: it differs from the rims."""
+        """Whether the supply may carry a load without rotation: it differs from the ends."""
         return any(p != edge_pressure for p in self.feed.guess(edge_pressure)) or self.free.size > 0
 
     @cached_property
@@ -70,7 +70,7 @@ class Pockets:
         return np.array(places, dtype=int)
 
     def given(self, edge_pressure: float) -> Array:
-        """Pressure to start from: that of the grooves in their cells, else that of the rims."""
+        """Pressure to start from: that of the grooves in their cells, else that of the ends."""
         pressure = np.full(self.numbers.shape, edge_pressure)
         for number, value in enumerate(self.feed.guess(edge_pressure)):
             pressure[self.numbers == number] = value

@@ -64,7 +64,7 @@ def groove_numbers(
     Raises
     ------
     InputError
-        A groove beyond the rim, or two that overlap.
+        A groove beyond the bearing end, or two that overlap.
     """
     numbers = np.full((angle.size, z.size), -1)
     for number, groove in enumerate(supply.grooves if supply else ()):

@@ -7,11 +7,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from loadflow.journal.cavitation import FILL, P
 from loadflow.journal.film import _kernels as kernel
 from loadflow.journal.film.groove_pressure import UNSUPPLIED
 
 if TYPE_CHECKING:
-    from loadflow.journal.film.film import Film
+    from loadflow.journal.film.film import DiscreteFilm
 
 Array = NDArray[np.float64]
 
@@ -19,7 +20,7 @@ Array = NDArray[np.float64]
 class Integrals(NamedTuple):
     """Integrals over the solved film in the units of `_kernels`; numbers, or arrays over states.
 
-    Largest pressure, dissipation, shear, flow over the rims, total fill.
+    Largest pressure, dissipation, shear, flow over the bearing ends, total fill.
     """
 
     peak: Any
@@ -29,7 +30,7 @@ class Integrals(NamedTuple):
     fill: Any
 
 
-def summary(film: Film, u: Array, position: Array) -> dict[str, Any]:
+def summary(film: DiscreteFilm, u: Array, position: Array) -> dict[str, Any]:
     """Integral results at `u`, in SI units, named as in `Equilibrium`."""
     film.place(u, position)
     mesh = film.mesh
@@ -44,7 +45,7 @@ def summary(film: Film, u: Array, position: Array) -> dict[str, Any]:
     }
 
 
-def in_units(film: Film, found: Integrals, speed: Any, narrowest: Any) -> dict[str, Any]:
+def in_units(film: DiscreteFilm, found: Integrals, speed: Any, narrowest: Any) -> dict[str, Any]:
     """Name `found` at `speed` and `narrowest` gap as in `Equilibrium`, in SI units."""
     clearance = film.relative_clearance * film.radius
     flow = film.pockets.flow_unit
@@ -58,7 +59,7 @@ def in_units(film: Film, found: Integrals, speed: Any, narrowest: Any) -> dict[s
     }
 
 
-def _supplied(film: Film, u: Array) -> dict[str, Any]:
+def _supplied(film: DiscreteFilm, u: Array) -> dict[str, Any]:
     """Flow and pressure of the grooves at the state last placed, named as in `Equilibrium`."""
     pockets = film.pockets
     if not film.ends_supply and not film.fixed.any():
@@ -67,7 +68,7 @@ def _supplied(film: Film, u: Array) -> dict[str, Any]:
     outflow = film.balance(film.gap.coef, mass)
     flows = pockets.flows(outflow)
     shaped = float(outflow[film.fixed & ~pockets.fixed].sum()) + _from_ends(film)
-    pressure = film.state[kernel.P].ravel()[pockets.samples]
+    pressure = film.state[P].ravel()[pockets.samples]
     lack = film.unknown_of(np.array(film.p_edge)) - pockets.of_free(u)
     return {
         "supply_flow": float(flows.sum()) + pockets.flow_unit * shaped,
@@ -78,13 +79,13 @@ def _supplied(film: Film, u: Array) -> dict[str, Any]:
     }
 
 
-def _from_ends(film: Film) -> float:
+def _from_ends(film: DiscreteFilm) -> float:
     """Flow in at both ends of the film, where these are grooves."""
     if not film.ends_supply:
         return 0.0
     total = 0.0
     for cell, sign in ((0, 1.0), (-1, -1.0)):
-        pressure, fill = (film.state[row, cell] for row in (kernel.P, kernel.FILL))
+        pressure, fill = (film.state[row, cell] for row in (P, FILL))
         upstream = film.line_fill if sign * film.wedge > 0 else fill
         g, e = film.gap.coef[[kernel.G, kernel.E], cell, : film.mesh.z.size]
         flow = g * (film.p_line - pressure) + sign * film.wedge * e * upstream

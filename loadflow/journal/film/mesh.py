@@ -1,4 +1,4 @@
-"""Cells of the film: around in the coordinate of the Sommerfeld map, across to the rims."""
+"""Cells of the film: around in the coordinate of the Sommerfeld map, across to the bearing ends."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.journal.film.grooves import edges_across, edges_around
-from loadflow.journal.options import require
+from loadflow.journal.film_model import check_grid
 from loadflow.journal.supply import Supply
 
 Array = NDArray[np.float64]
@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 MAP_STRENGTH = (
     0.95  # of the Sommerfeld map, times the eccentricity ratio: least error up to ε = 0.99
 )
-RIM_STRENGTH = 0.8  # share of the sine in the axial grading toward the rim
+RIM_STRENGTH = 0.8  # share of the sine in the axial grading toward the bearing end
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,7 +29,7 @@ class Mesh:
     edges : array (nx + 1,)
         Cell edges around, in the coordinate a of the Sommerfeld map, rad.
     z_edges : array (nz + 1,)
-        Cell edges across, from mid-plane 0 or from the other rim to the rim, in shaft radii.
+        Cell edges across, from mid-plane 0 or from the other end to the end, in shaft radii.
     closed : bool
         Whether the film runs round; else both ends lie on an inlet line.
     polar : bool
@@ -69,8 +69,13 @@ class Mesh:
         return np.diff(self.z_edges)
 
     @property
+    def area(self) -> Array:
+        """Surface of the cells over their width around: the cell widths across of a cylinder."""
+        return self.dz
+
+    @property
     def half(self) -> bool:
-        """Whether only the half from mid-plane to one rim is solved."""
+        """Whether only the half from mid-plane to one bearing end is solved."""
         return bool(self.z_edges[0] == 0.0)
 
     @property
@@ -80,7 +85,7 @@ class Mesh:
 
     @cached_property
     def gz(self) -> Array:
-        """Inverse distances between cell centres and to the rims (nz + 1,); 0 at mid-plane."""
+        """Inverse distances between cell centres and to the ends (nz + 1,); 0 at mid-plane."""
         first, last = self.rims
         inverse = 1.0 / np.concatenate([[first], np.diff(self.z), [last]])
         if self.half:
@@ -122,16 +127,8 @@ def _gauss(edges: Array, nodes: int) -> tuple[Array, Array, Array]:
     return np.cos(a), np.sin(a), np.ascontiguousarray(half * w)
 
 
-def check_grid(grid: tuple[int, int]) -> tuple[int, int]:
-    """Cells around and across the full width, if they are possible."""
-    nx, nz = int(grid[0]), int(grid[1])
-    require(nx >= 8, "grid[0]", nx, "at least 8 cells around")
-    require(nz >= 2 and nz % 2 == 0, "grid[1]", nz, "an even number of cells across the width")
-    return nx, nz
-
-
 def graded_share(cells: int) -> Array:
-    """Edges of `cells` from mid-plane 0 to rim 1 that crowd at the rim."""
+    """Edges of `cells` from mid-plane 0 to rim 1 that crowd at the bearing end."""
     share = np.linspace(0.0, 1.0, cells + 1)
     return (1 - RIM_STRENGTH) * share + RIM_STRENGTH * np.sin(0.5 * np.pi * share)
 
@@ -154,7 +151,7 @@ def build_mesh(
     grid : tuple of int
         Cells around and across the full width (even).
     graded : bool
-        Graded around the narrowest gap and toward the rims, else uniform.
+        Graded around the narrowest gap and toward the bearing ends, else uniform.
     inlet : bool
         Inlet line at the widest gap.
     supply : Supply or None

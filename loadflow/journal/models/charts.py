@@ -1,8 +1,8 @@
 """The rungs "chart" and "table": the static shaft from a chart of So and β over ε and B/D.
 
 "chart" takes Butenschön's closed forms (ISO 7902-2), "table" interpolates the tables. Both know one
-film only, that of ISO 7902: Swift–Stieber rupture, oil at the widest gap. The law of the film, its
-ambient pressure and the grid are not asked. They have no history and say nothing of fill, stiffness
+film only, that of ISO 7902: Swift–Stieber rupture at ambient pressure, oil at the widest gap; the
+grid is not asked. They have no history and say nothing of fill, stiffness
 and damping: these fields are None.
 """
 
@@ -15,18 +15,17 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from loadflow.errors import InputError, SolverError
-from loadflow.journal.film.discretise import FilmOptions
-from loadflow.journal.options import require
+from loadflow.errors import SolverError
+from loadflow.journal.film_model import Film
+from loadflow.journal.geometry import JournalGeometry
+from loadflow.journal.line import Line
 from loadflow.journal.results import operating_columns, without_supply
 from loadflow.journal.solvers.newton import refusal
+from loadflow.numerics.fields import require
 from loadflow.tribology import film, film_tables
 
 if TYPE_CHECKING:
-    import xarray as xr
-
-    from loadflow.journal.bearing import JournalBearing
-    from loadflow.journal.models.model import Control
+    from loadflow.numerics.convergence import Limits
 
 Array = NDArray[np.float64]
 
@@ -67,11 +66,12 @@ class Chart:
 
     def equilibrium(
         self,
-        bearing: JournalBearing,
-        options: FilmOptions,
+        bearing: JournalGeometry,
+        options: Film,
         force: Array,
         speed: Array,
-        control: Control,
+        line: Line,
+        control: Limits,
     ) -> dict[str, Any]:
         """Static equilibria from the chart.
 
@@ -82,8 +82,8 @@ class Chart:
         SolverError
             A load at ω = 0 or beyond the chart; names the first such load.
         """
-        width_ratio = width_of(bearing, options, self.name)
-        viscosity = options.lubricant.viscosity
+        width_ratio = width_of(bearing, self.name)
+        viscosity = options.liquid.viscosity
         number = np.array(
             [
                 bearing.sommerfeld_number(*point, viscosity)
@@ -94,8 +94,9 @@ class Chart:
         found = np.isfinite(ratio)
         if control.strict and not found.all():
             bad = int(np.flatnonzero(~found)[0])
-            words = refusal(force[bad], speed[bad], np.inf, 0, self.largest)
-            raise SolverError(f"load {bad}: {words}: the chart ends there")
+            end = f"the chart ends there, at ε = {self.largest:.6g}"
+            why = f"So = {number[bad]:.6g}: {end}"
+            raise SolverError(f"load {bad}: {refusal(force[bad], speed[bad], why)}")
         turn = np.arctan2(force[:, 1], force[:, 0]) + np.sign(speed) * attitude
         position = ratio[:, None] * np.stack([np.cos(turn), np.sin(turn)], axis=-1)
         known = np.nan_to_num(ratio)
@@ -105,7 +106,7 @@ class Chart:
         mean = np.hypot(*force.T) / (bearing.width * bearing.diameter)
         slip = 0.5 * speed[:, None] * np.stack([position[:, 1], -position[:, 0]], axis=-1)
         return {
-            **operating_columns(bearing, force, speed, options.lubricant, position),
+            **operating_columns(bearing, force, speed, options.liquid, position),
             **without_supply(speed.size),
             "eccentricity_ratio": ratio,
             "minimum_film": bearing.clearance * (1 - ratio),
@@ -123,23 +124,9 @@ class Chart:
             "residual": np.where(found, 0.0, np.inf),
         }
 
-    def orbit(self, *_: Any) -> xr.Dataset:
-        """A chart has no history.
 
-        Raises
-        ------
-        InputError
-            Names the rungs that have one.
-        """
-        raise InputError(
-            f'rung = "{self.name}" is not allowed: a chart has no history; "butenschoen" and '
-            '"holland" superpose its squeeze'
-        )
-
-
-def width_of(bearing: JournalBearing, options: FilmOptions, rung: str) -> float:
+def width_of(bearing: JournalGeometry, rung: str) -> float:
     """B/D of a bearing that a chart knows."""
-    require(options.supply is None, "supply", options.supply, f'None with rung = "{rung}"')
     width_ratio = bearing.width / bearing.diameter
     inside = film_tables.NARROWEST - 1e-6 <= width_ratio <= film_tables.WIDEST
     require(inside, "width/diameter", width_ratio, f'1/8 … 1 with rung = "{rung}"')
@@ -147,7 +134,7 @@ def width_of(bearing: JournalBearing, options: FilmOptions, rung: str) -> float:
 
 
 def friction_power(
-    bearing: JournalBearing,
+    bearing: JournalGeometry,
     viscosity: float,
     position: Array,
     force: Array,

@@ -23,7 +23,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import SolverError
-from loadflow.journal.film.discretise import FilmOptions
+from loadflow.journal.film_model import Film
+from loadflow.journal.lubricant import Lubricant
 from loadflow.journal.models import _mobility_kernels as kernel
 from loadflow.journal.models.mobility_films import (
     FILL,
@@ -36,7 +37,6 @@ from loadflow.journal.models.mobility_films import (
     MovingFilm,
     approach,
 )
-from loadflow.journal.options import GasMixture, Lubricant, Sommerfeld
 from loadflow.numerics.splines import spline
 
 Array = NDArray[np.float64]
@@ -113,13 +113,11 @@ class MobilityMap:
         return inside
 
 
-def scaled(options: FilmOptions) -> tuple[FilmOptions, float]:
+def scaled(options: Film) -> tuple[Film, float]:
     """The film without dimensions, and its unit of pressure, Pa; 0 where the load is the unit."""
     law = options.law
-    unit = options.edge_pressure - getattr(law, "cavitation_pressure", 0.0)
-    if isinstance(law, Sommerfeld):
-        unit = 0.0
-    plain = GasMixture(law.mixing_constant / unit) if isinstance(law, GasMixture) else type(law)()
+    unit = law.pressure_unit(options.edge_pressure)
+    plain = law.scaled(unit)
     edge = 1.0 if unit else 0.0
     lubricant = Lubricant(1.0 / 12.0)
     return replace(options, lubricant=lubricant, cavitation=plain, edge_pressure=edge), unit
@@ -127,7 +125,7 @@ def scaled(options: FilmOptions) -> tuple[FilmOptions, float]:
 
 @lru_cache(maxsize=16)
 def tabulate(
-    width_ratio: float, options: FilmOptions, largest: float, nodes: Nodes | None = None
+    width_ratio: float, options: Film, largest: float, nodes: Nodes | None = None
 ) -> MobilityMap:
     """Map of a film without dimensions, kept for the next call.
 
@@ -135,7 +133,7 @@ def tabulate(
     ----------
     width_ratio : float
         B/D.
-    options : FilmOptions
+    options : Film
         As `scaled` returns them.
     largest : float
         Largest load s; only used where ambient pressure is the unit.
@@ -222,7 +220,7 @@ def fill_column(
         motion[: i + 1, k], results[: i + 1, k] = motion[i + 1, k], results[i + 1, k]
 
 
-def held_out(table: MobilityMap, width_ratio: float, options: FilmOptions, points: Array) -> Array:
+def held_out(table: MobilityMap, width_ratio: float, options: Film, points: Array) -> Array:
     """Relative error (n,) of the velocity at `points` (n, 3): ε, angle from it to the load, s.
 
     The film is solved at each point, so that points between the nodes show what the map costs;

@@ -8,11 +8,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.journal.film.discretise import FilmOptions, build_film
+from loadflow.journal.film.discretise import build_film
 from loadflow.journal.film.film import Linear
 from loadflow.journal.film.integrals import summary
+from loadflow.journal.film_model import Film
 from loadflow.journal.models import _mobility_kernels as kernel
-from loadflow.journal.options import GasMixture, MassConserving
 
 Array = NDArray[np.float64]
 Node = tuple[float, float]  # ε, s
@@ -23,7 +23,7 @@ _STEP = 1e-4  # of velocity and load in the last of them: the error is near its 
 
 POWERS = np.array([kernel.RADIAL_POWER, kernel.TANGENTIAL_POWER])  # of the gap, of velocities
 
-# rows of the results of a moving film: peak over ambient pressure, dissipation, flow over the rims,
+# rows of the results of a moving film: peak over ambient pressure, dissipation, flow over the ends,
 # fill, stiffness and damping in the frame of the eccentricity
 PEAK, DISSIPATION, OUTFLOW, FILL, STIFFNESS, DAMPING = 0, 1, 2, 3, slice(4, 8), slice(8, 12)
 LOADS = np.array([1, 2, 1, 0, 1, 1, 1, 1, 0, 0, 0, 0])  # powers of s of these values
@@ -42,10 +42,10 @@ class Found(NamedTuple):
 class MovingFilm:
     """Film of unit radius, clearance and squeeze pressure, to be carried along at velocity u."""
 
-    def __init__(self, width_ratio: float, options: FilmOptions) -> None:
+    def __init__(self, width_ratio: float, options: Film) -> None:
         self.film = build_film(2.0, 2.0 * width_ratio, 1.0, options)
         self.film.raise_scale(1.0)
-        self.fills = isinstance(options.law, GasMixture | MassConserving)
+        self.fills = options.law.keeps_fill
         self.area = 4.0 * width_ratio
         self.solved = 0
 

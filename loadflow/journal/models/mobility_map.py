@@ -10,20 +10,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import SolverError
-from loadflow.journal.film.discretise import FilmOptions, build_film
+from loadflow.journal.film.discretise import build_film
+from loadflow.journal.film_model import Film
+from loadflow.journal.geometry import JournalGeometry
+from loadflow.journal.line import Line
 from loadflow.journal.models import _mobility_kernels as kernel
 from loadflow.journal.models import mobility_films as row
+from loadflow.journal.models.grid import solve_on_grid
 from loadflow.journal.models.mobility import MobilityMap, scaled, tabulate
-from loadflow.journal.options import require
+from loadflow.journal.models.model import Steps
 from loadflow.journal.results import operating_columns, without_supply
-from loadflow.journal.solvers.newton import refusal
 from loadflow.journal.solvers.transient import orbit_dataset
+from loadflow.quantities import FILM
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from loadflow.journal.bearing import JournalBearing
-    from loadflow.journal.models.model import Control
+from loadflow.numerics.convergence import Limits
 
 Array = NDArray[np.float64]
 
@@ -31,7 +34,7 @@ _MOST = 100_000  # steps between two times of a series
 
 
 @dataclass(frozen=True, eq=False)
-class Mapped:
+class BearingMap:
     """A map with the units of one bearing.
 
     Attributes
@@ -44,8 +47,8 @@ class Mapped:
         Unit of pressure, Pa.
     """
 
-    bearing: JournalBearing
-    options: FilmOptions
+    bearing: JournalGeometry
+    options: Film
     table: MobilityMap
     units: Array
     pressure: float
@@ -55,7 +58,7 @@ class Mapped:
 
         `in_range` tells where the map covers them.
         """
-        bearing, viscosity = self.bearing, self.options.lubricant.viscosity
+        bearing, viscosity = self.bearing, self.options.liquid.viscosity
         place, found = self.table.results_at(position, force / self.units[kernel.LOAD])
         gap = place[:, 0]
         flow = self.pressure * bearing.clearance**3 / (12 * viscosity)
@@ -85,9 +88,8 @@ def _turned(matrices: Array, angle: Array) -> Array:
     return frame @ matrices.reshape(-1, 2, 2) @ frame.swapaxes(-1, -2)
 
 
-def mapped(bearing: JournalBearing, options: FilmOptions, force: Array) -> Mapped:
+def bearing_map(bearing: JournalGeometry, options: Film, force: Array) -> BearingMap:
     """The map of a bearing and film, tabulated up to the largest of `force` (n, 2)."""
-    require(options.supply is None, "supply", options.supply, 'None with rung = "map"')
     if options.grading == "auto":
         options = replace(options, grading="graded")
     # refuses, in the user's units, what no film can have
@@ -100,50 +102,42 @@ def mapped(bearing: JournalBearing, options: FilmOptions, force: Array) -> Mappe
         largest = 2.0 ** math.ceil(math.log2(max(most, 0.25)))
     table = tabulate(bearing.width / bearing.diameter, plain, largest)
     pressure = unit or 1.0
-    velocity = pressure * bearing.relative_clearance**2 / (12 * options.lubricant.viscosity)
-    return Mapped(bearing, options, table, np.array([pressure * area, velocity]), pressure)
+    velocity = pressure * bearing.relative_clearance**2 / (12 * options.liquid.viscosity)
+    return BearingMap(bearing, options, table, np.array([pressure * area, velocity]), pressure)
 
 
 def equilibrium(
-    bearing: JournalBearing, options: FilmOptions, force: Array, speed: Array, control: Control
+    bearing: JournalGeometry, options: Film, force: Array, speed: Array, line: Line, control: Limits
 ) -> dict[str, Any]:
     """Static equilibria: where the velocity of the map is zero.
+
+    A load that the map does not cover is solved on the grid that the map is made of: ambient
+    pressure may feed a film at one end of a cell of the map, and leave it empty at the other.
 
     Raises
     ------
     SolverError
-        A load at ω = 0, or one that the map does not cover; names the first such load.
+        A load at ω = 0, or one that the grid does not carry either; names the first such load.
     """
-    film = mapped(bearing, options, force)
+    force, speed = np.array(force), np.array(speed)  # rows are replaced
+    film = bearing_map(bearing, options, force)
     position, iterations = _at_rest(film, force, speed)
+    found = film.results(position, force, speed)
+    covered = found.pop("in_range") & (~force.any(axis=-1) | (iterations > 0))
     answer = {
-        **operating_columns(bearing, force, speed, options.lubricant, position),
-        **film.results(position, force, speed),
+        **operating_columns(bearing, force, speed, options.liquid, position),
+        **found,
         "eccentricity_ratio": np.hypot(*position.T),
         "iterations": iterations,
+        "converged": covered,
+        "residual": np.zeros(speed.size),
     }
-    idle = ~force.any(axis=-1)
-    found = answer.pop("in_range") & (idle | (iterations > 0))
-    residual = np.where(found, 0.0, np.inf)
-    if control.strict and not found.all():
-        bad = int(np.flatnonzero(~found)[0])
-        ratio = float(answer["eccentricity_ratio"][bad])
-        words = refusal(force[bad], speed[bad], residual[bad], iterations[bad], ratio)
-        raise SolverError(f"load {bad}: {words}: the map ends there")
-    for name in ("eccentricity", "attitude_angle", "eccentricity_ratio", *_FROM_FILM):
-        answer[name] = np.where(
-            found.reshape(-1, *[1] * (answer[name].ndim - 1)), answer[name], np.nan
-        )
-    return answer | {"converged": found, "residual": residual}
+    for index in np.flatnonzero(~covered):
+        solve_on_grid(bearing, film.options, int(index), answer, control)
+    return answer
 
 
-_FROM_FILM = (
-    "minimum_film", "maximum_pressure", "friction_power", "side_flow", "total_fill", "stiffness",
-    "damping",
-)  # fmt: skip
-
-
-def _at_rest(film: Mapped, force: Array, speed: Array) -> tuple[Array, NDArray[np.int64]]:
+def _at_rest(film: BearingMap, force: Array, speed: Array) -> tuple[Array, NDArray[np.int64]]:
     """Positions (n, 2) in clearances; iterations are 0 where there is no load, or no answer."""
     size = np.hypot(*force.T) / film.units[kernel.LOAD]
     turns = (size > 0) & (speed != 0)
@@ -162,13 +156,14 @@ def _at_rest(film: Mapped, force: Array, speed: Array) -> tuple[Array, NDArray[n
 
 
 def orbit(
-    bearing: JournalBearing,
-    options: FilmOptions,
+    bearing: JournalGeometry,
+    options: Film,
     time: Array,
     force: Array,
     speed: Array,
-    start: Array | None,
-    control: Control,
+    line: Line,
+    control: Limits,
+    steps: Steps,
 ) -> xr.Dataset:
     """Path of the shaft by an ordinary differential equation.
 
@@ -180,17 +175,17 @@ def orbit(
     SolverError
         No equilibrium to start from, or too many steps between two times.
     """
-    film = mapped(bearing, options, force)
+    film = bearing_map(bearing, options, force)
+    start = steps.start
     if start is None:
-        first = equilibrium(bearing, film.options, force[:1], speed[:1], control)
+        first = equilibrium(bearing, film.options, force[:1], speed[:1], line, control)
         start = first["eccentricity"][0] / bearing.clearance
     path, _, values = advance(
         film.table.motion, film.table.axes, film.units, time, force, speed, start, control
     )
     values |= film.results(path, force, speed)
     data = orbit_dataset(values, time, force, speed, bearing.clearance)
-    flag = {"units": "1", "long_name": "whether the map covers position and load"}
-    return data.assign(in_range=("time", values["in_range"], flag))
+    return data.assign(in_range=("time", values["in_range"], FILM["in_range"].attributes))
 
 
 def advance(
@@ -201,7 +196,7 @@ def advance(
     force: Array,
     speed: Array,
     start: Array,
-    control: Control,
+    control: Limits,
 ) -> tuple[Array, Array, dict[str, Any]]:
     """Path of the shaft and its velocity u against the oil, (n, 2), and values for the orbit.
 

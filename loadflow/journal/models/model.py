@@ -1,94 +1,186 @@
-"""Models of the film behind one signature: the table of rungs, and what each must offer.
-
-The finite volumes ("grid") are `JournalBearing`'s own; every other rung is a module, or an object,
-with the two functions of `Model`, imported when it is used.
-"""
+"""What a model of the film offers, how it is found, and what it is not asked for."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from importlib import import_module
-from typing import TYPE_CHECKING, Any, Literal, Protocol, cast, get_args
+from typing import TYPE_CHECKING, Any, Literal, Protocol, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.journal.options import require
+from loadflow.errors import InputError
+from loadflow.journal.film_model import Film
+from loadflow.journal.geometry import JournalGeometry
+from loadflow.journal.line import Line
+from loadflow.journal.rungs import FEATURES, RUNGS, Rung
+from loadflow.numerics.convergence import Limits
+from loadflow.numerics.fields import require
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from loadflow.journal.bearing import JournalBearing
-    from loadflow.journal.film.discretise import FilmOptions
-
 Array = NDArray[np.float64]
+Verb = Literal["at_rest", "in_motion", "at_position"]
 
-Rung = Literal["chart", "table", "butenschoen", "holland", "hahn", "map", "reduced", "grid"]
-"""Names of the rungs, from the cheapest to the dearest."""
-
-_PLACES = {
-    "chart": "loadflow.journal.models.charts:CLOSED",
-    "table": "loadflow.journal.models.charts:TABLE",
-    "butenschoen": "loadflow.journal.models.superposition:BUTENSCHOEN",
-    "holland": "loadflow.journal.models.superposition:HOLLAND",
-    "hahn": "loadflow.journal.models.superposition:HAHN",
-    "map": "loadflow.journal.models.mobility_map",
-    "reduced": "loadflow.journal.models.reduced",
-}
+_PERIODIC = (False, True, "direct", "marching")
 
 
 @dataclass(frozen=True)
-class Control:
-    """When a solver stops: tolerance of the scaled residual, Newton steps, and what then.
+class Steps:
+    """How an orbit goes through time, as documented at `JournalBearing.orbit`.
 
-    `strict` raises for the first load without an answer; else its results are NaN.
+    Attributes
+    ----------
+    start : array (2,), optional
+        First position, clearances.
     """
 
-    tolerance: float
-    max_iterations: int
-    strict: bool = True
+    start: Array | None = None
+    step: Literal["given", "adaptive"] = "given"
+    step_tolerance: float = 1e-3
+    periodic: bool | Literal["direct", "marching"] = False
+    closure: float = 1e-6
+    max_periods: int = 100
+
+    def __post_init__(self) -> None:
+        require(self.step in ("given", "adaptive"), "step", self.step, '"given" or "adaptive"')
+        require(self.step_tolerance > 0, "step_tolerance", self.step_tolerance, "> 0")
+        allowed = 'False, True, "direct" or "marching"'
+        require(self.periodic in _PERIODIC, "periodic", self.periodic, allowed)
+
+    @property
+    def accuracy(self) -> float:
+        """Error of a step, share of the narrowest gap; no limit where steps are given."""
+        return self.step_tolerance if self.step == "adaptive" else np.inf
 
 
 class Model(Protocol):
-    """What a rung offers."""
+    """What a rung offers; a module, or an object of one."""
 
     def equilibrium(
         self,
-        bearing: JournalBearing,
-        options: FilmOptions,
+        bearing: JournalGeometry,
+        film: Film,
         force: Array,
         speed: Array,
-        control: Control,
+        line: Line,
+        limits: Limits,
     ) -> dict[str, Any]:
         """Return the fields of `Equilibrium` for `force` (n, 2) and `speed` (n,), n leading."""
 
+    def pressure(
+        self,
+        bearing: JournalGeometry,
+        film: Film,
+        position: Array,
+        velocity: Array,
+        speed: Array,
+        line: Line,
+        limits: Limits,
+    ) -> tuple[dict[str, Any], Array]:
+        """Return the fields of `FilmField`, n leading, at positions and velocities (n, 2).
+
+        They are in clearances, and clearances per second; the axial places of the cells (m) come
+        apart.
+        """
+
     def orbit(
         self,
-        bearing: JournalBearing,
-        options: FilmOptions,
+        bearing: JournalGeometry,
+        film: Film,
         time: Array,
         force: Array,
         speed: Array,
-        start: Array | None,
-        control: Control,
+        line: Line,
+        limits: Limits,
+        steps: Steps,
     ) -> xr.Dataset:
-        """Return the Dataset of `JournalBearing.orbit`; `start` is in clearances."""
+        """Return the Dataset of `JournalBearing.orbit`."""
 
 
-def check_rung(rung: str) -> None:
-    """Refuse a name that no rung bears.
+def why_not(
+    verb: Verb, film: Film, bearing: JournalGeometry, line: Line, steps: Steps | None = None
+) -> str | None:
+    """Say why the rung of a film cannot do what it is asked for; None where it can.
+
+    The words name what the rung does not know, and the rungs that do.
+    """
+    rung = RUNGS[film.rung]
+    known: frozenset[str] | None = getattr(rung, verb)
+    if known is None:
+        why = rung.words if verb == "in_motion" else f"{_having(verb)} for a field of pressure"
+        return f'rung = "{rung.name}" is not allowed: {why}'
+    for name, value in _asked(film, bearing, line, steps or Steps()).items():
+        if name not in known:
+            return (
+                f"rung = {rung.name!r} is not allowed: {_having(verb, name)} for "
+                f"{FEATURES[name]}; {name} = {value!r}"
+            )
+    return None if rung.law is None else _not_its_own(rung, film)
+
+
+def model_of(
+    verb: Verb, film: Film, bearing: JournalGeometry, line: Line, steps: Steps | None = None
+) -> Model:
+    """Return the model of a film, if it can do what it is asked for.
 
     Raises
     ------
     loadflow.errors.InputError
-        Names the rungs that there are.
+        As `why_not` says.
     """
-    names = get_args(Rung)
-    require(rung in names, "rung", rung, " or ".join(f'"{name}"' for name in names))
-
-
-def model(rung: str) -> Model:
-    """The model of a rung other than "grid": a module, or an object of one."""
-    module, _, name = _PLACES[rung].partition(":")
+    why = why_not(verb, film, bearing, line, steps)
+    if why is not None:
+        raise InputError(why)
+    module, _, name = RUNGS[film.rung].place.partition(":")
     found = import_module(module)
     return cast("Model", getattr(found, name) if name else found)
+
+
+def _asked(film: Film, bearing: JournalGeometry, line: Line, steps: Steps) -> dict[str, Any]:
+    """What a model must know, of `FEATURES`, and its value."""
+    own = RUNGS[film.rung].law is not None  # such a model has its own inlet, and no mesh
+    wanted = {
+        "shape": bearing.shape if bearing.shape.segments else None,
+        "relief": bearing.relief or None,
+        "moment": line.moment,
+        "tilt": line.tilt,
+        "bend": line.bend,
+        "supply": film.supply,
+        "shell": film.shell,
+        "heat": film.heat,
+        "contact": film.contact,
+        "step": None if steps.step == "given" else steps.step,
+        "periodic": steps.periodic or None,
+    }
+    asked = {name: value for name, value in wanted.items() if value is not None}
+    if film.inlet_line and not own:
+        asked["inlet"] = film.inlet
+    if film.grading == "graded" and not own:
+        asked["grading"] = film.grading
+    return asked
+
+
+def _having(verb: Verb, feature: str | None = None) -> str:
+    """Names of the rungs that know a feature, or have a verb at all."""
+    having = []
+    for rung in RUNGS.values():
+        known: frozenset[str] | None = getattr(rung, verb)
+        if known is not None and (feature is None or feature in known):
+            having.append(f'"{rung.name}"')
+    return " or ".join(having) or "no rung serves"
+
+
+def _not_its_own(rung: Rung, film: Film) -> str | None:
+    """Words for a law, ambient pressure or inlet that is not that of a model with its own film."""
+    law = film.cavitation
+    if law is not None and not (law.kind == rung.law and law.floor == film.edge_pressure):
+        return (
+            f"cavitation = {law!r} is not allowed: {rung.law} with its cavitation pressure at the "
+            f'edge pressure, or None, with rung = "{rung.name}"'
+        )
+    if film.inlet not in ("auto", rung.inlet):
+        allowed = f'{rung.inlet!r} or "auto" with rung = "{rung.name}"'
+        return f"inlet = {film.inlet!r} is not allowed: {allowed}"
+    return None

@@ -15,25 +15,28 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import SolverError
-from loadflow.journal.film.discretise import FilmOptions, build_film
-from loadflow.journal.film.film import Film
+from loadflow.journal.film.discretise import build_film
+from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.integrals import Integrals, in_units
+from loadflow.journal.film_model import Film
+from loadflow.journal.geometry import JournalGeometry
+from loadflow.journal.line import Line
 from loadflow.journal.models import reduced_film as at
 from loadflow.journal.models._reduced_kernels import summarise
 from loadflow.journal.models._reduced_loops import finish, march, newton
+from loadflow.journal.models.grid import solve_on_grid
+from loadflow.journal.models.model import Steps
 from loadflow.journal.models.reduced_film import Ring, Work, make_work
 from loadflow.journal.models.width_modes import lobatto
-from loadflow.journal.options import Guembel, Reynolds, require
 from loadflow.journal.results import operating_columns, without_supply
 from loadflow.journal.solvers.estimate import NEAR, closed_form_position
-from loadflow.journal.solvers.newton import refusal
+from loadflow.journal.solvers.newton import not_found, refusal
 from loadflow.journal.solvers.transient import orbit_dataset
+from loadflow.numerics.convergence import Limits, unresolved
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from loadflow.journal.bearing import JournalBearing
-    from loadflow.journal.models.model import Control
 
 Array = NDArray[np.float64]
 
@@ -41,12 +44,12 @@ POINTS = 3  # across the half width; the largest pressure moves by 0.4 % at most
 
 
 def equilibrium(
-    bearing: JournalBearing, options: FilmOptions, force: Array, speed: Array, control: Control
+    bearing: JournalGeometry, options: Film, force: Array, speed: Array, line: Line, control: Limits
 ) -> dict[str, Any]:
     """Static equilibria; a load that fails or is not resolved here is solved on the grid."""
     force, speed = np.array(force), np.array(speed)  # of the layout that the kernels know
     film = _film(bearing, options, speed)
-    ring, work = _discrete(film)
+    reduced, work = _discrete(film)
     count = speed.size
     rows = np.zeros((count, at.RESULTS))
     stiffness, damping = np.zeros((count, 2, 2)), np.zeros((count, 2, 2))
@@ -54,21 +57,21 @@ def equilibrium(
     for n in range(count):
         spent, converged = 0, False
         for x, y in starts.of(n):
-            x, y, residual, iterations, converged = newton(
-                ring, work, x, y, force[n, 0], force[n, 1], speed[n], 0.0,
+            x, y, residual, iterations, converged, rounding = newton(
+                reduced, work, x, y, force[n, 0], force[n, 1], speed[n], 0.0,
                 control.tolerance, control.max_iterations,
             )  # fmt: skip
             spent += iterations
             if converged and options.may_grade:
                 converged = film.resolves(np.array([x, y]))
             if converged:
-                finish(ring, work, x, y, speed[n], rows[n], stiffness[n], damping[n])
+                finish(reduced, work, x, y, speed[n], rows[n], stiffness[n], damping[n])
                 starts.keep(n, (x, y))
                 break
-        rows[n, at.RESIDUAL :] = residual, spent, converged
+        rows[n, at.RESIDUAL :] = residual, spent, converged, rounding
     position = rows[:, [at.X, at.Y]]
     answer = {
-        **operating_columns(bearing, force, speed, options.lubricant, position),
+        **operating_columns(bearing, force, speed, options.liquid, position),
         **_results(film, rows, speed),
         "eccentricity_ratio": np.hypot(*position.T),
         "stiffness": stiffness / bearing.clearance,
@@ -76,18 +79,19 @@ def equilibrium(
         "converged": rows[:, at.CONVERGED] > 0,
     }
     for index in np.flatnonzero(~answer["converged"]):
-        _from_grid(bearing, options, int(index), answer, control)
+        solve_on_grid(bearing, options, int(index), answer, control)
     return answer
 
 
 def orbit(
-    bearing: JournalBearing,
-    options: FilmOptions,
+    bearing: JournalGeometry,
+    options: Film,
     time: Array,
     force: Array,
     speed: Array,
-    start: Array | None,
-    control: Control,
+    line: Line,
+    control: Limits,
+    steps: Steps,
 ) -> xr.Dataset:
     """Path of the shaft; all steps in one compiled loop.
 
@@ -99,31 +103,31 @@ def orbit(
     time, force, speed = (np.array(values) for values in (time, force, speed))
     film = _film(bearing, options, speed)
     film.raise_scale(float(np.hypot(*force.T).max()) / (bearing.width * bearing.diameter))
-    ring, work = _discrete(film)
+    reduced, work = _discrete(film)
     work.u[:] = film.unknown_of(np.full(work.u.shape, film.p_edge))
+    start = steps.start
     first = _estimate(bearing, film, force[:1], speed[:1])[0] if start is None else start
     rows = np.zeros((time.size, at.RESULTS))
-    begin = ring._replace(free=start is None)
-    x, y, residual, iterations, converged = newton(
+    begin = reduced._replace(free=start is None)
+    x, y, residual, iterations, converged, rounding = newton(
         begin, work, first[0], first[1], force[0, 0], force[0, 1], speed[0], 0.0,
         control.tolerance, 2 * control.max_iterations,
     )  # fmt: skip
     if not converged:
-        words = refusal(force[0], speed[0], residual, iterations, float(np.hypot(x, y)))
-        raise SolverError(f"orbit cannot start: {words}")
-    summarise(ring, work, x, y, rows[0])
-    rows[0, at.RESIDUAL :] = residual, iterations, converged
+        why = not_found(residual, rounding, iterations, float(np.hypot(x, y)))
+        raise SolverError(f"orbit cannot start: {refusal(force[0], speed[0], why)}")
+    summarise(reduced, work, x, y, rows[0])
+    rows[0, at.RESIDUAL :] = residual, iterations, converged, rounding
     solved = march(
-        ring, work, x, y, time, force, speed, control.tolerance, control.max_iterations, rows
+        reduced, work, x, y, time, force, speed, control.tolerance, control.max_iterations, rows
     )
     last = solved - 1
     if not rows[last, at.CONVERGED]:
         raise SolverError(
             f"orbit stops at t = {time[last]:.6g} s: F = ({force[last, 0]:.6g}, "
             f"{force[last, 1]:.6g}) N, ω = {speed[last]:.6g} rad/s, "
-            f"ε = {np.hypot(rows[last, at.X], rows[last, at.Y]):.6g}; residual "
-            f"{rows[last, at.RESIDUAL]:.3g} after {rows[last, at.ITERATIONS]:g} Newton "
-            "steps"
+            f"ε = {np.hypot(rows[last, at.X], rows[last, at.Y]):.6g}; "
+            + unresolved(*rows[last, [at.RESIDUAL, at.ROUNDING, at.ITERATIONS]])
         )
     values = _results(film, rows, speed) | {"x": rows[:, at.X], "y": rows[:, at.Y]}
     return orbit_dataset(values, time, force, speed, bearing.clearance)
@@ -132,7 +136,7 @@ def orbit(
 class _Starts:
     """Where Newton may start: from the last film if the closed form has moved little."""
 
-    def __init__(self, film: Film, work: Work, estimate: Array) -> None:
+    def __init__(self, film: DiscreteFilm, work: Work, estimate: Array) -> None:
         self.work = work
         self.estimate = estimate
         self.cold = film.unknown_of(np.full(work.u.shape, film.p_edge))
@@ -155,34 +159,29 @@ class _Starts:
         self.last = n, position
 
 
-def _film(bearing: JournalBearing, options: FilmOptions, speed: Array) -> Film:
+def _film(bearing: JournalGeometry, options: Film, speed: Array) -> DiscreteFilm:
     """The grid's film on cells fixed to the shell: what the few unknowns take their data from."""
-    allowed = 'None with rung = "reduced"; take rung = "grid"'
-    require(options.supply is None, "supply", options.supply, allowed)
-    lined = options.inlet == "auto" and isinstance(options.law, Reynolds | Guembel)
-    require(not lined and options.inlet != "widest gap", "inlet", options.inlet, allowed)
-    allowed = 'uniform with rung = "reduced"'
-    require(options.grading != "graded", "grading", options.grading, allowed)
     fixed = replace(options, grading="uniform", inlet=None)
     film = build_film(bearing.diameter, bearing.width, bearing.relative_clearance, fixed)
     film.set_scale(float(np.abs(speed).max()))
     return film
 
 
-def _discrete(film: Film) -> tuple[Ring, Work]:
+def _discrete(film: DiscreteFilm) -> tuple[Ring, Work]:
     """Constants and work arrays of the compiled loops."""
     angle = film.mesh.angle
     face = angle + np.pi / angle.size
     axial = lobatto(float(film.mesh.z_edges[-1]), POINTS)
-    ring = Ring(
+    reduced = Ring(
         np.cos(angle), np.sin(angle), np.cos(face), np.sin(face), film.mesh.order, axial,
-        film.kind, film.mixing, film.p_cav, film.scale, film.p_edge, film.slope,
+        film.law.address, np.array(film.law.numbers), film.law.fill_at(film.p_edge), film.scale,
+        film.p_edge, film.slope,
         2.0 * film.radius**2, True,
     )  # fmt: skip
-    return ring, make_work(angle.size, POINTS)
+    return reduced, make_work(angle.size, POINTS)
 
 
-def _estimate(bearing: JournalBearing, film: Film, force: Array, speed: Array) -> Array:
+def _estimate(bearing: JournalGeometry, film: DiscreteFilm, force: Array, speed: Array) -> Array:
     load = np.hypot(*force.T)
     numbers = [
         bearing.sommerfeld_number(*point, film.viscosity)
@@ -192,7 +191,7 @@ def _estimate(bearing: JournalBearing, film: Film, force: Array, speed: Array) -
     return closed_form_position(ratio, numbers, force, speed, film.ruptures)
 
 
-def _results(film: Film, rows: Array, speed: Array) -> dict[str, Any]:
+def _results(film: DiscreteFilm, rows: Array, speed: Array) -> dict[str, Any]:
     found = Integrals(
         peak=rows[:, at.PEAK],
         dissipation=rows[:, at.DISSIPATION],
@@ -206,21 +205,3 @@ def _results(film: Film, rows: Array, speed: Array) -> dict[str, Any]:
         "iterations": rows[:, at.ITERATIONS].astype(int),
         **without_supply(len(rows)),
     }
-
-
-def _from_grid(
-    bearing: JournalBearing,
-    options: FilmOptions,
-    index: int,
-    answer: dict[str, Any],
-    control: Control,
-) -> None:
-    """Replace the row `index` of `answer` by that of the rung "grid"."""
-    force, speed = answer["force"][index], float(answer["speed"][index])
-    state = bearing.equilibrium(force, speed, **vars(options), strict=False)
-    if control.strict and not state.converged:
-        ratio, residual = float(state.eccentricity_ratio), float(state.residual)
-        words = refusal(force, speed, residual, int(state.iterations), ratio)
-        raise SolverError(f"load {index}: {words}")
-    for name, values in answer.items():
-        values[index] = getattr(state, name)

@@ -12,8 +12,10 @@ from loadflow.journal.models.width_modes import Axial
 Array = NDArray[np.float64]
 
 # columns of a row of results
-X, Y, PEAK, DISSIPATION, SHEAR, OUTFLOW, FILLED, RESIDUAL, ITERATIONS, CONVERGED = range(10)
-RESULTS = 10
+X, Y, PEAK, DISSIPATION, SHEAR, OUTFLOW, FILLED, RESIDUAL, ITERATIONS, CONVERGED, ROUNDING = range(
+    11
+)
+RESULTS = 11
 
 
 class Ring(NamedTuple):
@@ -27,8 +29,14 @@ class Ring(NamedTuple):
         Place of each column of cells in the folded band.
     axial : Axial
         Points across the half width.
-    kind, mixing, p_cav, scale, p_edge
-        As in `_kernels.apply_law`; Pa.
+    law : int
+        Address of the law of cavitation.
+    numbers : array
+        Its parameters.
+    edge_fill : float
+        Fill of the oil that enters at the bearing ends.
+    scale, p_edge : float
+        Scale of pressure, and pressure at the ends, Pa.
     slope : float
         12 η/ψ², Pa s.
     area : float
@@ -43,9 +51,9 @@ class Ring(NamedTuple):
     sin_face: Array
     order: NDArray[np.int64]
     axial: Axial
-    kind: int
-    mixing: float
-    p_cav: float
+    law: int
+    numbers: Array
+    edge_fill: float
     scale: float
     p_edge: float
     slope: float

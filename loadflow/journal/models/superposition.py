@@ -16,19 +16,22 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.journal.film.discretise import FilmOptions
-from loadflow.journal.models import mobility_map as mapped
+from loadflow.journal.cavitation import Guembel
+from loadflow.journal.film_model import Film
+from loadflow.journal.geometry import JournalGeometry
+from loadflow.journal.line import Line
+from loadflow.journal.models import mobility_map
 from loadflow.journal.models.charts import CLOSED, TABLE, Chart, friction_power, width_of
 from loadflow.journal.models.mobility_map import advance
-from loadflow.journal.options import Guembel
+from loadflow.journal.models.model import Steps
 from loadflow.journal.solvers.transient import orbit_dataset
 from loadflow.numerics.splines import spline
+from loadflow.quantities import FILM
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from loadflow.journal.bearing import JournalBearing
-    from loadflow.journal.models.model import Control
+    from loadflow.numerics.convergence import Limits
 
 Array = NDArray[np.float64]
 
@@ -52,37 +55,40 @@ class Superposed:
 
     def equilibrium(
         self,
-        bearing: JournalBearing,
-        options: FilmOptions,
+        bearing: JournalGeometry,
+        options: Film,
         force: Array,
         speed: Array,
-        control: Control,
+        line: Line,
+        control: Limits,
     ) -> dict[str, Any]:
         """Static equilibria: those of the chart."""
         return replace(self.chart, name=self.name).equilibrium(
-            bearing, options, force, speed, control
+            bearing, options, force, speed, line, control
         )
 
     def orbit(
         self,
-        bearing: JournalBearing,
-        options: FilmOptions,
+        bearing: JournalGeometry,
+        options: Film,
         time: Array,
         force: Array,
         speed: Array,
-        start: Array | None,
-        control: Control,
+        line: Line,
+        control: Limits,
+        steps: Steps,
     ) -> xr.Dataset:
         """Path of the shaft by an ordinary differential equation, as of the rung "map".
 
         Largest pressure, flow and fill are not known and missing.
         """
-        width_ratio = width_of(bearing, options, self.name)
+        width_ratio = width_of(bearing, self.name)
+        start = steps.start
         if start is None:
-            first = self.equilibrium(bearing, options, force[:1], speed[:1], control)
+            first = self.equilibrium(bearing, options, force[:1], speed[:1], line, control)
             start = first["eccentricity"][0] / bearing.clearance
         motion, axes = _vectors(self.chart, width_ratio)
-        viscosity = options.lubricant.viscosity
+        viscosity = options.liquid.viscosity
         per_load = bearing.relative_clearance**2 / (12 * viscosity)
         units = np.array([bearing.width * bearing.diameter, per_load])
         path, slip, values = advance(motion, axes, units, time, force, speed, start, control)
@@ -92,8 +98,8 @@ class Superposed:
             "friction_power": friction_power(bearing, viscosity, path, force, speed, slip),
         }
         data = orbit_dataset(values, time, force, speed, bearing.clearance)
-        flag = {"units": "1", "long_name": "whether the chart covers the position"}
-        return data.assign(in_range=("time", gap >= 1 - self.chart.largest, flag))
+        covered = gap >= 1 - self.chart.largest
+        return data.assign(in_range=("time", covered, FILM["in_range"].attributes))
 
 
 @lru_cache(maxsize=16)
@@ -117,34 +123,36 @@ class Hahn:
     """Superposed pressures: the Gümbel film without an inlet, by its map."""
 
     @staticmethod
-    def _film(options: FilmOptions) -> FilmOptions:
+    def _film(options: Film) -> Film:
         law = Guembel(cavitation_pressure=options.edge_pressure)
         return replace(options, cavitation=law, inlet=None)
 
     def equilibrium(
         self,
-        bearing: JournalBearing,
-        options: FilmOptions,
+        bearing: JournalGeometry,
+        options: Film,
         force: Array,
         speed: Array,
-        control: Control,
+        line: Line,
+        control: Limits,
     ) -> dict[str, Any]:
         """Static equilibria of the Gümbel film."""
-        return mapped.equilibrium(bearing, self._film(options), force, speed, control)
+        return mobility_map.equilibrium(bearing, self._film(options), force, speed, line, control)
 
     def orbit(
         self,
-        bearing: JournalBearing,
-        options: FilmOptions,
+        bearing: JournalGeometry,
+        options: Film,
         time: Array,
         force: Array,
         speed: Array,
-        start: Array | None,
-        control: Control,
+        line: Line,
+        control: Limits,
+        steps: Steps,
     ) -> xr.Dataset:
         """Path of the shaft in the Gümbel film."""
         film = self._film(options)
-        return mapped.orbit(bearing, film, time, force, speed, start, control)
+        return mobility_map.orbit(bearing, film, time, force, speed, line, control, steps)
 
 
 HOLLAND = Superposed("holland", TABLE)

@@ -13,24 +13,24 @@ Array = NDArray[np.float64]
 
 
 class Axial(NamedTuple):
-    """Pressure over the half width from its values at m points, given the pressure at the rim.
+    """Pressure over the half width from its values at m points, given that at the bearing end.
 
     With q = p − p_edge at the points, lengths in shaft radii:
 
     Attributes
     ----------
     points : array (m,)
-        From mid-plane to the rim.
+        From mid-plane to the bearing end.
     weights : array (m,)
         ∫ q dz = weights · q.
     stiffness : array (m, m)
         ∫ (∂q)² dz = q · stiffness · q; also the axial outflow of each point in the balance.
     leak : array (m,)
-        −∂p at the rim is leak · q.
+        −∂p at the bearing end is leak · q.
     middle : array (m,)
         q at mid-plane is middle · q.
     rim_weight : float
-        Width that belongs to the rim itself.
+        Width that belongs to the bearing end itself.
     """
 
     points: Array

@@ -1,29 +1,36 @@
-"""Films in soft shells, where Newton's method from a cold start leads nowhere: step by step."""
+"""Films from which Newton's method leads nowhere at once: by steps of the load, or of the way."""
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.journal.film.film import EVERY, Film
+from loadflow.journal.film.film import EVERY, DiscreteFilm
 from loadflow.journal.film.gap import KEPT
-from loadflow.journal.solvers.newton import Solution, solve_equilibrium, solve_film
+from loadflow.journal.solvers.newton import Solution, no_film, solve_equilibrium, solve_film
 
 Array = NDArray[np.float64]
 
 _FIRST_LOAD = 0.2  # share of the load from which it is raised in steps
-_LOADS, _BRIEF = 12, 25  # number of those steps, and Newton steps of each
+_LEAST_LOAD = 1e-3  # share below which a step of the load is given up
+_STEPS, _BRIEF = 400, 25  # Newton steps of all of them, and of each
+_STRIDE = 0.25  # first share of the way from the load at the start to the one that is wanted
+_SHORTEST = 1e-3  # of the lesser of both loads, below which such a step is given up
+_QUICK, _BUDGET = 14, 10  # Newton steps of each, and of all in multiples of those of a solution
+_EASY = 7  # Newton steps below which the next of these steps is twice as long
 _ROOM = 0.02  # gap, in clearances, that the first position leaves in the shell at rest
 _BACK = 0.7  # share of a step, or of the way, that is tried next
 _NEAREST = 0.01  # share of the way to a position from which it is approached at least
 _APPROACHES = 30  # steps of that
+TOUCHING = 1e-4  # gap, in clearances, below which a shaft has met a rigid bore
 APART = 1e-6  # gap, in clearances, below which an elastic shell has met the shaft
 
 
 def solve_in_load_steps(
-    film: Film,
+    film: DiscreteFilm,
     force: Array,
     position: Array,
     tolerance: float,
@@ -31,24 +38,71 @@ def solve_in_load_steps(
 ) -> Solution:
     """As `solve_equilibrium`, from a light load on: for shells that the load itself must open."""
     film.relax()
-    u, place = film.start(), position.copy()
-    place[free] = _FIRST_LOAD * position[free]
+    u, place, state = film.start(), position.copy(), no_film(film)
     done, step, spent = 0.0, _FIRST_LOAD, 0
-    for _ in range(_LOADS):
+    while step >= _LEAST_LOAD and spent < _STEPS:
         share = min(1.0, done + step)
+        if done == 0.0:
+            place[free] = share * position[free]
         state = solve_equilibrium(film, share * force, u, place, tolerance, _BRIEF, free=free)
         spent += state.iterations
         if not state.converged:
             step *= 0.5
-        elif share < 1.0:
-            done, step, u, place = share, 1.5 * step, state.u, state.position
+        elif share == 1.0:
+            return replace(state, iterations=spent)
         else:
-            break
-    return replace(state, converged=state.converged and share == 1.0, iterations=spent)
+            done, u, place = share, state.u, state.position
+            step *= 1.5 if state.iterations < _BRIEF // 2 else 1.0
+    film.place(state.u, state.position)
+    missing = (1.0 - done) * math.hypot(*force[free]) / film.load_scale(force)
+    return replace(state, converged=False, iterations=spent, residual=missing)
+
+
+def solve_from_held(
+    film: DiscreteFilm,
+    force: Array,
+    position: Array,
+    tolerance: float,
+    max_iterations: int,
+    free: slice | NDArray[np.int64] = EVERY,
+) -> Solution:
+    """As `solve_equilibrium`, from the load that the film carries at `position` held.
+
+    That load is known as soon as the film is solved there, whatever it is; from it the load goes
+    straight to `force`, in steps as long as Newton's method follows.
+    """
+    state = solve_film(film, film.start(), position, 0.0 * position, tolerance, max_iterations)
+    if not state.converged:
+        return state
+    first, spent, share, stride = state.linear.load, state.iterations, 0.0, _STRIDE
+    brief = max_iterations if film.creeps else _QUICK
+    trial = state
+    lightest = math.hypot(*first[free]) / film.load_scale(force)
+    shortest = _SHORTEST * min(1.0, max(lightest, _SHORTEST))
+    while stride >= shortest and spent < _BUDGET * max_iterations:
+        at = min(1.0, share + stride)
+        load = force + (1.0 - at) * (first - force)
+        steps = max_iterations if at == 1.0 else brief
+        start = (state.u, state.position)
+        trial = solve_equilibrium(film, load, *start, tolerance, steps, free=free)
+        spent += trial.iterations
+        if not trial.converged:
+            stride *= 0.4
+        elif at == 1.0:
+            return replace(trial, iterations=spent)
+        else:
+            state, share = trial, at
+            stride *= 2.0 if trial.iterations < _EASY else 1.0
+    missing = (1.0 - share) * math.hypot(*(force - first)[free]) / film.load_scale(force)
+    if film.gap.narrowest(trial.position) < TOUCHING:  # what the steps have come to
+        state = replace(state, position=trial.position)
+    return replace(
+        state, converged=False, iterations=spent, residual=missing, rounding=trial.rounding
+    )
 
 
 def solve_by_approach(
-    film: Film, position: Array, velocity: Array, tolerance: float, max_iterations: int
+    film: DiscreteFilm, position: Array, velocity: Array, tolerance: float, max_iterations: int
 ) -> Solution:
     """As `solve_film`; where the shell at rest would leave no room, the shaft comes in steps."""
     gap, limits = film.gap, (tolerance, max_iterations)
@@ -73,7 +127,9 @@ def solve_by_approach(
     return replace(state, converged=state.converged and share == 1.0, iterations=spent)
 
 
-def _settled(film: Film, position: Array, tolerance: float, max_iterations: int) -> Solution:
+def _settled(
+    film: DiscreteFilm, position: Array, tolerance: float, max_iterations: int
+) -> Solution:
     """Film at a place with room, from a start at rest or, if that closes it, from a rigid shell."""
     rest, limits = 0.0 * position, (tolerance, max_iterations)
     first = solve_film(film, film.start(), position, rest, *limits)

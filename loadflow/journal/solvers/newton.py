@@ -8,7 +8,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.journal.film.film import EVERY, Film, Linear, SingularFilm
+from loadflow.journal.film.film import EVERY, DiscreteFilm, Linear, SingularFilm
+from loadflow.numerics.convergence import COARSEST, answered, rounding_level, unresolved
 
 Array = NDArray[np.float64]
 
@@ -18,6 +19,7 @@ _CALM = (
 )
 
 
+_LATE = 8  # Newton steps after which longer steps are asked whether rounding makes them
 _PRESSED = 1e-13  # narrowest gap, in clearances, that is none
 _STUCK = 1e-3  # share of a Newton step that an elastic shell must leave room for
 
@@ -26,8 +28,8 @@ _STUCK = 1e-3  # share of a Newton step that an elastic shell must leave room fo
 class Solution:
     """A solved film: unknowns, position (clearances), last linearisation, convergence.
 
-    `estimate` is the position by the closed form, which tells whether the next load is near; `free`
-    are the degrees of freedom that are in balance.
+    `rounding` is the residual that rounding allows, `estimate` the position by the closed form,
+    which tells whether the next load is near; `free` are the degrees of freedom in balance.
     """
 
     u: Array
@@ -38,6 +40,7 @@ class Solution:
     residual: float
     estimate: Array | None = None
     free: slice | NDArray[np.int64] = field(default_factory=lambda: EVERY)
+    rounding: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -67,32 +70,96 @@ class Motion:
 REST = Motion()
 
 
+class _Verdict:
+    """Whether the Newton steps of a film have led to an answer, by the rule of `convergence`.
+
+    Residual and rounding level are looked at after steps that are short enough.
+    """
+
+    def __init__(
+        self,
+        film: DiscreteFilm,
+        tolerance: float,
+        motion: Motion,
+        force: Array | None = None,
+        free: slice | NDArray[np.int64] = EVERY,
+    ) -> None:
+        self.film, self.tolerance, self.motion = film, tolerance, motion
+        self.force, self.free = force, free
+        self.residual, self.rounding = math.inf, 0.0
+
+    def weigh(self, u: Array, position: Array, linear: Linear) -> None:
+        """Residual and its rounding level at `u` and `position`; `linear` is from nearby."""
+        motion = self.motion
+        velocity, old = motion.velocity(position), (motion.volume_rate, motion.volume)
+        where = (u, position, velocity, self.force)
+        self.residual = self.film.imbalance(*where, *old, self.free)
+        slope = linear.stiffness + motion.rate * linear.damping
+        self.rounding = self.film.rounding(position, velocity, slope, self.force, self.free)
+
+    def after(
+        self, iteration: int, change: float, u: Array, position: Array, linear: Linear
+    ) -> bool:
+        """Whether Newton step number `iteration`, of the length `change`, has led to an answer."""
+        if not change < (_QUADRATIC if iteration <= _LATE else COARSEST**0.5):
+            return False
+        before, finest = self.residual, 0.0
+        self.weigh(u, position, linear)
+        if change >= _QUADRATIC:
+            finest = self._finest(u, position, linear)
+        level = (self.tolerance, min(self.rounding, COARSEST))
+        return answered(self.residual, *level, before, change, _QUADRATIC, finest)
+
+    def _finest(self, u: Array, position: Array, linear: Linear) -> float:
+        """Step of film and shaft that the last digits of unknowns and gap make."""
+        moves = len(linear.columns) - linear.load.size
+        terms = np.abs(linear.columns[1:moves]).sum(axis=0).max(initial=0.0) + np.abs(u).max()
+        narrow = max(self.film.gap.narrowest(position), _PRESSED)
+        return rounding_level(float(terms) / self.film.scale + 1.0 / narrow)
+
+    def solution(
+        self, u: Array, position: Array, linear: Linear, converged: bool, iterations: int
+    ) -> Solution:
+        """What has been found, with both residuals."""
+        found = (converged, iterations, self.residual)
+        return Solution(u, position, linear, *found, free=self.free, rounding=self.rounding)
+
+    def unanswered(self, u: Array, position: Array, linear: Linear, iterations: int) -> Solution:
+        """What the last step left."""
+        self.weigh(u, position, linear)
+        return self.solution(u, position, linear, False, iterations)
+
+
 def solve_film(
-    film: Film, u: Array, position: Array, velocity: Array, tolerance: float, max_iterations: int
+    film: DiscreteFilm,
+    u: Array,
+    position: Array,
+    velocity: Array,
+    tolerance: float,
+    max_iterations: int,
 ) -> Solution:
     """Pressure of the film at a given position and velocity."""
     u = u.copy()
-    weights = np.ones(1)
+    weights, motion = np.ones(1), Motion(offset=-velocity)
+    verdict = _Verdict(film, tolerance, motion)
     for iteration in range(1, max_iterations + 1):
         try:
             linear = film.linearise(u, position, velocity)
         except SingularFilm:
             if iteration == 1:
-                raise
+                return no_film(film)
             break
         share = film.room(u, linear.columns[:1], weights, (position, position))
         if share < _STUCK:
             break
         change = film.correct(u, linear.columns[:1], share * weights)
-        if change < _QUADRATIC:
-            residual = film.imbalance(u, position, velocity)
-            if residual < tolerance:
-                return Solution(u, position, linear, True, iteration, residual)
-    return Solution(u, position, linear, False, iteration, film.imbalance(u, position, velocity))
+        if verdict.after(iteration, change, u, position, linear):
+            return verdict.solution(u, position, linear, True, iteration)
+    return verdict.unanswered(u, position, linear, iteration)
 
 
 def solve_equilibrium(
-    film: Film,
+    film: DiscreteFilm,
     force: Array,
     u: Array,
     position: Array,
@@ -110,13 +177,14 @@ def solve_equilibrium(
     u = u.copy()
     ease, gap = film.gap.ease[free], film.gap.narrowest(position)
     old = (motion.volume_rate, motion.volume)
+    verdict = _Verdict(film, tolerance, motion, force, free)
     for iteration in range(1, max_iterations + 1):
         velocity = motion.velocity(position)
         try:
             linear = film.linearise(u, position, velocity, *old)
         except SingularFilm:
             if iteration == 1:
-                raise
+                return no_film(film)
             break
         slope = linear.stiffness + motion.rate * linear.damping
         haste = film.size(linear.columns[0]) / _CALM
@@ -124,23 +192,20 @@ def solve_equilibrium(
         missing = (force - linear.load)[free]
         step[free] = _solve(slope[free][:, free], missing, ease) / max(haste, 1.0)
         target, weights, share = _moved(film, u, linear, position, step, motion)
-        if share < _STUCK:
+        if share < _STUCK or not np.isfinite(target).all():
             break
         change = film.correct(u, linear.columns, weights)
-        change = max(change, math.hypot(*(target - position)) / gap)
+        change = max(change, math.hypot(*(target - position)) / max(gap, _PRESSED))
         position, gap = target, film.gap.narrowest(target)
-        if abs(gap) < _PRESSED:
+        if not gap > _PRESSED and not film.elastic:
             break
-        if change < _QUADRATIC:
-            residual = film.imbalance(u, position, motion.velocity(position), force, *old, free)
-            if residual < tolerance:
-                return Solution(u, position, linear, True, iteration, residual, free=free)
-    residual = film.imbalance(u, position, motion.velocity(position), force, *old, free)
-    return Solution(u, position, linear, False, iteration, residual)
+        if verdict.after(iteration, change, u, position, linear):
+            return verdict.solution(u, position, linear, True, iteration)
+    return verdict.unanswered(u, position, linear, iteration)
 
 
 def _moved(
-    film: Film, u: Array, linear: Linear, position: Array, step: Array, motion: Motion
+    film: DiscreteFilm, u: Array, linear: Linear, position: Array, step: Array, motion: Motion
 ) -> tuple[Array, Array, float]:
     """Position after the share of `step` that leaves a film, weights of the columns, the share."""
     target = film.target(position, step)
@@ -153,7 +218,7 @@ def _moved(
 
 
 def solve_patiently(
-    film: Film,
+    film: DiscreteFilm,
     force: Array,
     position: Array,
     tolerance: float,
@@ -166,6 +231,7 @@ def solve_patiently(
     """
     rest = np.zeros(position.size)
     wanted, ease = force[free], film.gap.ease[free]
+    near = 1e-3 * film.load_scale(wanted)
     state = solve_film(film, film.start(), position, rest, tolerance, max_iterations)
     spent = state.iterations
     missing = wanted - state.linear.load[free]
@@ -181,21 +247,26 @@ def solve_patiently(
                 break
             step = 0.5 * step
         state, missing = trial, left
-        if abs(film.gap.narrowest(state.position)) < _PRESSED:
+        if not film.gap.narrowest(state.position) > _PRESSED:
             break
-        if math.hypot(*missing) < 1e-3 * math.hypot(*wanted):
+        if math.hypot(*missing) < near:
             end = solve_equilibrium(
                 film, force, state.u, state.position, tolerance, max_iterations, free=free
             )
             return replace(end, iterations=spent + end.iterations)
-    return replace(state, converged=False, iterations=spent)
+    share = 1e-3 * math.hypot(*missing) / near
+    residual = share if state.converged else max(state.residual, share)
+    return replace(state, converged=False, iterations=spent, residual=residual)
 
 
 def _solve(matrix: Array, rhs: Array, ease: Array) -> Array:
     """Solve for a step. A singular 2×2 system gives none; a larger one moves what moves with ease.
 
-    The second is a shaft on one single pad, free to go sideways while the pad follows.
+    The second is a shaft on one single pad, free to go sideways while the pad follows. What is not
+    finite gives NaN.
     """
+    if not (np.isfinite(matrix).all() and np.isfinite(rhs).all()):
+        return np.full(rhs.size, np.nan)
     if rhs.size != 2:
         return ease * np.asarray(np.linalg.lstsq(matrix * ease, rhs, rcond=1e-10)[0])
     (a, b), (c, d) = matrix.tolist()
@@ -205,19 +276,22 @@ def _solve(matrix: Array, rhs: Array, ease: Array) -> Array:
     return np.array([(d * rhs[0] - b * rhs[1]) / det, (a * rhs[1] - c * rhs[0]) / det])
 
 
-def no_film(film: Film) -> Solution:
+def no_film(film: DiscreteFilm) -> Solution:
     """The answer where there is none: NaN, not converged."""
     nothing = np.full((film.gap.size, film.gap.size), np.nan)
     linear = Linear(nothing[0], nothing, nothing, nothing)
     return Solution(film.start(), nothing[0], linear, False, 0, np.inf)
 
 
-def refusal(force: Array, speed: float, residual: float, iterations: float, ratio: float) -> str:
-    """Why no film carries `force` (2,), in words."""
+def refusal(force: Array, speed: float, why: str) -> str:
+    """Say in words that no film carries `force` (2,), and `why`; at rest there can be none."""
     head = f"F = ({force[0]:.6g}, {force[1]:.6g}) N at ω = {speed:.6g} rad/s"
     if speed == 0.0:
         return f"{head}: without rotation and squeeze the film carries no load"
-    return (
-        f"{head}: no equilibrium found; residual {residual:.3g} after {iterations:.0f} steps, at "
-        f"ε = {ratio:.6g}"
-    )
+    return f"{head}: {why}"
+
+
+def not_found(residual: float, rounding: float, iterations: float, ratio: float) -> str:
+    """Say that Newton's method ended at the eccentricity `ratio` without an answer."""
+    reached = unresolved(residual, rounding, iterations)
+    return f"no equilibrium found; {reached}, at ε = {ratio:.6g}"

@@ -4,28 +4,30 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import InputError, SolverError
-from loadflow.journal.film.discretise import FilmOptions, build_film
-from loadflow.journal.film.film import Film
-from loadflow.journal.models.model import Control
+from loadflow.journal.film.discretise import build_film
+from loadflow.journal.film.film import DiscreteFilm
+from loadflow.journal.film_model import Film
+from loadflow.journal.geometry import JournalGeometry
+from loadflow.journal.line import Line
 from loadflow.journal.results import field_row, static_row
 from loadflow.journal.solvers.estimate import NEAR, closed_form_position
 from loadflow.journal.solvers.newton import (
     Solution,
     no_film,
+    not_found,
     refusal,
     solve_equilibrium,
     solve_film,
     solve_patiently,
 )
-
-if TYPE_CHECKING:
-    from loadflow.journal.bearing import JournalBearing
+from loadflow.journal.solvers.statics_shaped import equilibrium_rows
+from loadflow.numerics.convergence import Limits, unresolved
 
 Array = NDArray[np.float64]
 
@@ -37,7 +39,7 @@ _STARVED = (
 )
 
 
-def plain_film(bearing: JournalBearing, options: FilmOptions, rates: Array) -> Film:
+def plain_film(bearing: JournalGeometry, options: Film, rates: Array) -> DiscreteFilm:
     """Film of a plain bearing, scaled to the largest of `rates`, 1/s."""
     film = build_film(bearing.diameter, bearing.width, bearing.relative_clearance, options)
     film.set_scale(float(np.abs(rates).max()))
@@ -45,7 +47,7 @@ def plain_film(bearing: JournalBearing, options: FilmOptions, rates: Array) -> F
 
 
 def plain_rows(
-    bearing: JournalBearing, options: FilmOptions, loads: Array, speeds: Array, control: Control
+    bearing: JournalGeometry, options: Film, loads: Array, speeds: Array, control: Limits
 ) -> list[dict[str, Any]]:
     """Rows of `Equilibrium`."""
     film = plain_film(bearing, options, speeds)
@@ -56,21 +58,36 @@ def plain_rows(
     last: Solution | None = None
     for index, (load, omega) in enumerate(zip(loads, speeds.tolist())):
         used, solution = _settle(bearing, film, finer, load, omega, last, control)
+        crowds = options.supply is not None and omega != 0.0 and not used.dry(solution.u)
+        if not solution.converged and crowds:
+            row = _on_crowded_cells(bearing, options, load, omega, control)
+            if row["converged"]:
+                rows.append(row)
+                continue
         if not solution.converged and control.strict:
             raise SolverError(f"load {index}: {_refusal(used, load, solution)}")
         if solution.converged and used is film:
             last = solution
-        rows.append(static_row(bearing, used, load, options.lubricant, solution))
+        rows.append(static_row(bearing, used, load, options.liquid, solution))
     return rows
 
 
+def _on_crowded_cells(
+    bearing: JournalGeometry, options: Film, load: Array, speed: float, control: Limits
+) -> dict[str, Any]:
+    """Row of a load at which the gap closes between cells that the grooves hold in their places."""
+    loads, speeds = load[None], np.array([speed])
+    calm = replace(control, strict=False)
+    return equilibrium_rows(bearing, options, loads, speeds, Line(), calm, whirl=0.0)[0]
+
+
 def plain_fields(
-    bearing: JournalBearing,
-    options: FilmOptions,
+    bearing: JournalGeometry,
+    options: Film,
     places: Array,
     velocities: Array,
     speeds: Array,
-    control: Control,
+    control: Limits,
 ) -> tuple[list[dict[str, Any]], Array]:
     """Rows of `FilmField` and axial places of the cells of one half, m."""
     ratio = np.hypot(places[:, 0], places[:, 1])
@@ -90,20 +107,20 @@ def plain_fields(
             raise SolverError(f"film {index} at ε = {np.hypot(*place):.6g}: {_STARVED}")
         if control.strict and not solution.converged:
             raise SolverError(
-                f"film {index} at ε = {np.hypot(*place):.6g}, ω = {omega:.6g} rad/s: residual "
-                f"{solution.residual:.3g} after {solution.iterations} steps"
+                f"film {index} at ε = {np.hypot(*place):.6g}, ω = {omega:.6g} rad/s: "
+                + unresolved(solution.residual, solution.rounding, solution.iterations)
             )
         rows.append(field_row(film, solution))
     return rows, film.mesh.z * bearing.radius
 
 
 def plain_start(
-    bearing: JournalBearing,
-    film: Film,
+    bearing: JournalGeometry,
+    film: DiscreteFilm,
     loads: Array,
     speeds: Array,
     place: Array | None,
-    control: Control,
+    control: Limits,
 ) -> Solution:
     """First state of an orbit, at `place` (clearances) or at the equilibrium of the first load."""
     film.raise_scale(_mean_pressure(bearing, loads))
@@ -118,20 +135,20 @@ def plain_start(
     return first
 
 
-def _mean_pressure(bearing: JournalBearing, loads: Array) -> float:
+def _mean_pressure(bearing: JournalGeometry, loads: Array) -> float:
     """Largest load over the projected area, Pa."""
     return float(np.hypot(*loads.T).max()) / (bearing.width * bearing.diameter)
 
 
 def _settle(
-    bearing: JournalBearing,
-    film: Film,
-    finer: Film | None,
+    bearing: JournalGeometry,
+    film: DiscreteFilm,
+    finer: DiscreteFilm | None,
     load: Array,
     speed: float,
     last: Solution | None,
-    control: Control,
-) -> tuple[Film, Solution]:
+    control: Limits,
+) -> tuple[DiscreteFilm, Solution]:
     """Equilibrium from the closed form, robustly; the film it was found on comes with it."""
     tolerance, max_iterations = control.tolerance, control.max_iterations
     film.set_speed(speed)
@@ -159,7 +176,9 @@ def _settle(
     return used, replace(solution, estimate=position)
 
 
-def _starts(film: Film, position: Array, last: Solution | None) -> Iterator[tuple[Array, Array]]:
+def _starts(
+    film: DiscreteFilm, position: Array, last: Solution | None
+) -> Iterator[tuple[Array, Array]]:
     """Where Newton may start: from the last solution if the closed form has moved little."""
     if last is not None and last.estimate is not None:
         moved = position - last.estimate
@@ -168,7 +187,7 @@ def _starts(film: Film, position: Array, last: Solution | None) -> Iterator[tupl
     yield film.start(), position
 
 
-def _estimate(bearing: JournalBearing, load: Array, film: Film) -> Array:
+def _estimate(bearing: JournalGeometry, load: Array, film: DiscreteFilm) -> Array:
     """Position by Butenschön's closed form, in clearances."""
     if film.speed == 0.0:
         return np.zeros(2)
@@ -177,7 +196,7 @@ def _estimate(bearing: JournalBearing, load: Array, film: Film) -> Array:
     return closed_form_position(ratio, wanted, load, film.speed, film.ruptures)
 
 
-def _refusal(film: Film, load: Array, solution: Solution) -> str:
+def _refusal(film: DiscreteFilm, load: Array, solution: Solution) -> str:
     """Why no film carries `load`, in words."""
     head = f"F = ({load[0]:.6g}, {load[1]:.6g}) N at ω = {film.speed:.6g} rad/s"
     if film.dry(solution.u):
@@ -187,15 +206,18 @@ def _refusal(film: Film, load: Array, solution: Solution) -> str:
             return f"{head}: without rotation and squeeze the film carries no load"
         return f"{head}: the supply carries no more than {_lift(film, load):.6g} N, at ε = {_HIGH}"
     ratio = float(np.hypot(*solution.position))
-    return refusal(load, film.speed, solution.residual, solution.iterations, ratio)
+    reached = (solution.residual, solution.rounding, solution.iterations)
+    return refusal(load, film.speed, not_found(*reached, ratio))
 
 
-def _steps(film: Film, max_iterations: int) -> int:
+def _steps(film: DiscreteFilm, max_iterations: int) -> int:
     """Newton steps that a load may take; the rupture of Reynolds moves by one cell in each."""
     return max(max_iterations, film.mesh.shape[0] if film.creeps else 0)
 
 
-def _floating(film: Film, load: Array, position: Array) -> tuple[Film, Array, Array]:
+def _floating(
+    film: DiscreteFilm, load: Array, position: Array
+) -> tuple[DiscreteFilm, Array, Array]:
     """Start for a shaft that its supply carries: well off the shell, the film settled."""
     ratio = float(np.hypot(*position))
     if film.speed == 0.0 or ratio > _AFLOAT:
@@ -204,7 +226,7 @@ def _floating(film: Film, load: Array, position: Array) -> tuple[Film, Array, Ar
     return film, state.u, position
 
 
-def _lift(film: Film, load: Array) -> float:
+def _lift(film: DiscreteFilm, load: Array) -> float:
     """Load that the supply carries against `load` with the shaft nearly on the shell, N."""
     way = load / (float(np.hypot(*load)) or 1.0)
     state = solve_film(film, film.start(), _HIGH * way, np.zeros(2), 1e-6, 100)

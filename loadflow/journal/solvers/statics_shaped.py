@@ -4,33 +4,39 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from loadflow.errors import InputError, SolverError
-from loadflow.journal.film.discretise import FilmOptions, build_shaped_film
-from loadflow.journal.film.film import Film
+from loadflow.journal.film.discretise import build_shaped_film
+from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.gap_shaped import Bore
-from loadflow.journal.models.model import Control
-from loadflow.journal.options import require
+from loadflow.journal.film_model import Film
+from loadflow.journal.geometry import JournalGeometry
+from loadflow.journal.line import Line
 from loadflow.journal.results import field_row, following, static_row
 from loadflow.journal.shapes import Cylindrical
 from loadflow.journal.solvers.estimate import closed_form_position
-from loadflow.journal.solvers.load_stepping import APART, solve_by_approach, solve_in_load_steps
+from loadflow.journal.solvers.load_stepping import (
+    APART,
+    TOUCHING,
+    solve_by_approach,
+    solve_from_held,
+    solve_in_load_steps,
+)
 from loadflow.journal.solvers.newton import (
     Motion,
     Solution,
     no_film,
     solve_equilibrium,
     solve_film,
-    solve_patiently,
 )
-
-if TYPE_CHECKING:
-    from loadflow.journal.bearing import JournalBearing
+from loadflow.journal.solvers.pads import solve_with_pads
+from loadflow.numerics.convergence import Limits, unresolved
+from loadflow.numerics.fields import require
 
 Array = NDArray[np.float64]
 
@@ -38,75 +44,24 @@ _LIFT = 0.3  # share of the gap over the pivot by which a pad is tilted at first
 _ROOM = 0.02  # gap, in clearances, that the first position must leave
 _PAD_ROUNDS = 8  # solutions in which pads may come under load, or lose theirs
 _FLAT = 0.02  # curvature of a pad's gap, in clearances, that still holds it
+_CROWDED = 2  # meshes that are tried beside the one asked for
+_SAME = 0.02  # angle, rad, by which the place of the narrowest gap must have moved for another
+_NARROW = 0.2  # narrowest gap, in clearances, above which no mesh but that is tried
 _NEAR = 0.3  # share of the narrowest gap that the estimate may move for a warm start
 
 
-@dataclass(frozen=True)
-class Line:
-    """What is given of the shaft's centre line, one row for each load.
-
-    Attributes
-    ----------
-    moment : array (n, 2) or None
-        N m; the shaft then tilts freely under it.
-    tilt : array (n, 2) or None
-        Rotation about the first and the second axis, rad, held.
-    bend : array (n, 2) or None
-        Curvature of the centre line, 1/m.
-    """
-
-    moment: Array | None = None
-    tilt: Array | None = None
-    bend: Array | None = None
-
-    @classmethod
-    def of(cls, shape: tuple[int, ...], **given: ArrayLike | None) -> Line:
-        """Broadcast what is given to loads of `shape`.
-
-        Raises
-        ------
-        loadflow.errors.InputError
-            Misshapen or not finite values, moment and tilt together.
-        """
-        rows = {name: _rows(name, value, shape) for name, value in given.items()}
-        line = cls(**rows)
-        if line.moment is not None and line.tilt is not None:
-            raise InputError("moment and tilt are both given: one follows from the other")
-        return line
-
-    @property
-    def straight(self) -> bool:
-        """Whether the shaft stays aligned and straight."""
-        return self.moment is None and self.tilt is None and self.bend is None
-
-
-def _rows(name: str, value: ArrayLike | None, shape: tuple[int, ...]) -> Array | None:
-    if value is None:
-        return None
-    values = np.asarray(value, dtype=float)
-    bad = np.argwhere(~np.isfinite(values))
-    if bad.size:
-        raise InputError(f"{name}{bad[0].tolist()} = {values[tuple(bad[0])]}: must be finite")
-    try:
-        return np.broadcast_to(values, (*shape, 2)).reshape(-1, 2)
-    except ValueError as error:
-        raise InputError(
-            f"{name} {values.shape} does not broadcast with the loads {(*shape, 2)}"
-        ) from error
-
-
-def plain(bearing: JournalBearing, line: Line) -> bool:
+def plain(bearing: JournalGeometry, line: Line) -> bool:
     """Whether the gap is that of a cylinder around an aligned, straight shaft."""
     return isinstance(bearing.shape, Cylindrical) and not bearing.relief and line.straight
 
 
 def equilibrium_rows(
-    bearing: JournalBearing,
-    options: FilmOptions,
+    bearing: JournalGeometry,
+    options: Film,
     loads: Array,
     speeds: Array,
     line: Line,
-    control: Control,
+    control: Limits,
     whirl: float,
 ) -> list[dict[str, Any]]:
     """Rows of `Equilibrium`."""
@@ -114,22 +69,22 @@ def equilibrium_rows(
     rows = []
     last: Solution | None = None
     for index, (load, omega) in enumerate(zip(loads, speeds.tolist())):
-        solution = statics.solve(index, load, omega, last, control)
+        used, solution = statics.resolve(index, load, omega, last, control)
         if not solution.converged and control.strict:
-            raise SolverError(f"load {index}: {statics.refusal(load, solution)}")
-        last = solution if solution.converged else last
-        rows.append(static_row(bearing, statics.film, load, options.lubricant, solution, whirl))
+            raise SolverError(f"load {index}: {used.refusal(load, solution)}")
+        last = solution if solution.converged and used is statics else last
+        rows.append(static_row(bearing, used.film, load, options.liquid, solution, whirl))
     return rows
 
 
 def field_rows(
-    bearing: JournalBearing,
-    options: FilmOptions,
+    bearing: JournalGeometry,
+    options: Film,
     places: Array,
     velocities: Array,
     speeds: Array,
     line: Line,
-    control: Control,
+    control: Limits,
 ) -> tuple[list[dict[str, Any]], Array]:
     """Rows of `FilmField` and axial places of the cells, m."""
     require(line.moment is None, "moment", "given", "tilt is given where the position is")
@@ -145,14 +100,14 @@ def field_rows(
 
 
 def orbit_start(
-    bearing: JournalBearing,
-    options: FilmOptions,
+    bearing: JournalGeometry,
+    options: Film,
     loads: Array,
     speeds: Array,
     line: Line,
     start: Array | None,
-    control: Control,
-) -> tuple[Film, Solution, Array, NDArray[np.int64]]:
+    control: Limits,
+) -> tuple[DiscreteFilm, Solution, Array, NDArray[np.int64]]:
     """Film, first state, generalised loads (n, m) and moving degrees of freedom of an orbit.
 
     It begins at `start`, in clearances, or at the equilibrium of the first load.
@@ -180,17 +135,43 @@ class _Statics:
     """One film and what is given of the shaft's line, solved load by load."""
 
     def __init__(
-        self, bearing: JournalBearing, options: FilmOptions, line: Line, rate: float
+        self,
+        bearing: JournalGeometry,
+        options: Film,
+        line: Line,
+        rate: float,
+        crowd: tuple[float, ...] = (),
     ) -> None:
-        self.bearing, self.line = bearing, line
+        self.bearing, self.line, self.options, self.rate = bearing, line, options, rate
+        self.crowd = crowd
         self.gap, self.film = build_shaped_film(
-            bore_of(bearing), bearing.shape, options, line.straight
+            bore_of(bearing), bearing.shape, options, line.straight, crowd
         )
         self.film.set_scale(rate)
         self.pads = np.arange(self.gap.shaft, self.gap.size)
 
+    def resolve(
+        self, index: int, load: Array, omega: float, last: Solution | None, control: Limits
+    ) -> tuple[_Statics, Solution]:
+        """Equilibrium under load number `index`, and the film it was found on.
+
+        Where the gap closes between the cells of the mesh there may be none on it, so that cells
+        crowd where the gap was narrowest.
+        """
+        used, solution = self, self.solve(index, load, omega, last, control)
+        for _ in range(_CROWDED):
+            known = np.isfinite(solution.position).all()
+            if solution.converged or self.film.elastic or not known:
+                break
+            crowd = used.gap.closing(solution.position, _NARROW)
+            if not crowd or _same(crowd, used.crowd):
+                break
+            used = _Statics(self.bearing, self.options, self.line, self.rate, crowd)
+            solution = used.solve(index, load, omega, None, control)
+        return used, solution
+
     def solve(
-        self, index: int, load: Array, omega: float, last: Solution | None, control: Control
+        self, index: int, load: Array, omega: float, last: Solution | None, control: Limits
     ) -> Solution:
         """Equilibrium under load number `index`."""
         film, gap = self.film, self.gap
@@ -215,7 +196,7 @@ class _Statics:
             self._idle(free)
             solution = self._newton(force, estimate, last, free, control)
             tilting = self._tilting(solution.position)
-            if np.array_equal(tilting, free[free >= gap.shaft]):
+            if not solution.converged or np.array_equal(tilting, free[free >= gap.shaft]):
                 break
             estimate[:2], last = solution.position[:2], None
             estimate = self._lifted(estimate)
@@ -224,7 +205,13 @@ class _Statics:
             solution = solve_in_load_steps(film, force, estimate, control.tolerance, free)
         elif not solution.converged:
             limits = self._limits(control)
-            solution = solve_patiently(film, force, estimate, *limits, free)
+            if free[-1] >= gap.shaft:
+                shaft = free[free < gap.shaft]
+                pads = (self._tilting, lambda pads: self._idle(np.append(shaft, pads)))
+                solution = solve_with_pads(film, gap, force, estimate, shaft, *pads, *limits)
+            if not solution.converged:
+                self._idle(free)
+                solution = solve_from_held(film, force, estimate, *limits, free)
         return self._apart(replace(solution, estimate=estimate))
 
     def _newton(
@@ -233,7 +220,7 @@ class _Statics:
         estimate: Array,
         last: Solution | None,
         free: NDArray[np.int64],
-        control: Control,
+        control: Limits,
     ) -> Solution:
         """Newton from the last solution, if that is near, and from the estimate."""
         limits = self._limits(control)
@@ -243,7 +230,7 @@ class _Statics:
                 break
         return solution
 
-    def _balanced(self, position: Array, pads: NDArray[np.int64], control: Control) -> Solution:
+    def _balanced(self, position: Array, pads: NDArray[np.int64], control: Limits) -> Solution:
         """Film at a given position of the shaft at rest, `pads` without moment."""
         limits = self._limits(control)
         film = self.film
@@ -270,7 +257,7 @@ class _Statics:
         return np.array(tilting, dtype=np.int64)
 
     def hold(
-        self, index: int, place: Array, velocity: Array, omega: float, control: Control
+        self, index: int, place: Array, velocity: Array, omega: float, control: Limits
     ) -> Solution:
         """Film at a given position; pads take the tilt without moment and follow the shaft."""
         film, gap = self.film, self.gap
@@ -308,14 +295,20 @@ class _Statics:
         head = f"F = ({load[0]:.6g}, {load[1]:.6g}) N at ω = {self.film.speed:.6g} rad/s"
         if self.film.speed == 0.0 and not self.film.pockets.lifts(self.film.p_edge):
             return f"{head}: without rotation and squeeze the film carries no load"
+        if self.gap.narrowest(solution.position) < TOUCHING and not self.film.elastic:
+            return (
+                f"{head}: the shaft touches the bore, {self._where(solution.position)}, before the "
+                f"film carries the last {100 * min(solution.residual, 1.0):.3g} % of the load"
+            )
         if self.film.room_left(solution.position) <= APART:
             return f"{head}: the shaft touches the elastic shell, {self._where(solution.position)}"
         return (
-            f"{head}: no equilibrium found; residual {solution.residual:.3g} after "
-            f"{solution.iterations} steps, {self._where(solution.position)}"
+            f"{head}: no equilibrium found; "
+            f"{unresolved(solution.residual, solution.rounding, solution.iterations)}, "
+            f"{self._where(solution.position)}"
         )
 
-    def _limits(self, control: Control) -> tuple[float, int]:
+    def _limits(self, control: Limits) -> tuple[float, int]:
         """Tolerance and Newton steps; the rupture of Reynolds moves by one cell in each."""
         cells = self.film.mesh.shape[0] if self.film.creeps else 0
         return control.tolerance, max(control.max_iterations, cells)
@@ -382,7 +375,7 @@ class _Statics:
         estimate: Array,
         last: Solution | None,
         free: NDArray[np.int64],
-        control: Control,
+        control: Limits,
     ) -> Iterator[tuple[Array, Array]]:
         """Where Newton may start: from the last solution if the estimate has moved little."""
         if (
@@ -406,6 +399,11 @@ class _Statics:
         yield self.film.start(), estimate
 
 
+def _same(crowd: tuple[float, ...], other: tuple[float, ...]) -> bool:
+    """Whether cells that crowd at either angles are about the same."""
+    return len(crowd) == len(other) and np.allclose(crowd, other, atol=_SAME)
+
+
 def _turned(position: Array, angle: float) -> tuple[float, float]:
     """Eccentricity toward `angle`, and a quarter turn on."""
     cos, sin = math.cos(angle), math.sin(angle)
@@ -413,7 +411,7 @@ def _turned(position: Array, angle: float) -> tuple[float, float]:
     return x * cos + y * sin, y * cos - x * sin
 
 
-def bore_of(bearing: JournalBearing) -> Bore:
+def bore_of(bearing: JournalGeometry) -> Bore:
     """Bore of a bearing."""
     return Bore(
         bearing.shape.segments, bearing.relief, bearing.radius, bearing.width, bearing.clearance

@@ -10,10 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import SolverError
-from loadflow.journal.film.film import EVERY, Film
+from loadflow.journal.film.film import EVERY, DiscreteFilm
 from loadflow.journal.film.integrals import summary
 from loadflow.journal.results import attitude_angle
 from loadflow.journal.solvers.newton import Motion, Solution, solve_equilibrium
+from loadflow.numerics.convergence import unresolved
+from loadflow.quantities import FILM
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -53,7 +55,7 @@ class Marcher:
     degrees of freedom `free` move.
     """
 
-    film: Film
+    film: DiscreteFilm
     tolerance: float
     max_iterations: int
     accuracy: float = math.inf
@@ -119,7 +121,7 @@ class Marcher:
             ratio = step / (past[-1].time - past[-2].time)
             known = step * (1 + ratio) / (1 + 2 * ratio)
             share = known / (known - times[0])
-        error = share * math.hypot(*left) / self.film.gap.narrowest(position)
+        error = share * math.hypot(*left) / max(self.film.gap.narrowest(position), 1e-300)
         return min(2.0, max(0.2, _SAFETY * (self.accuracy / max(error, 1e-300)) ** (1 / 3)))
 
     def _try(self, past: list[Past], time: float, force: Array) -> Solution:
@@ -178,14 +180,14 @@ def march(
         if not solution.converged:
             raise SolverError(
                 f"orbit stops at t = {now:.6g} s: F = ({force[i, 0]:.6g}, {force[i, 1]:.6g}) N, "
-                f"ω = {speed[i]:.6g} rad/s, ε = {math.hypot(*solution.position):.6g}; residual "
-                f"{solution.residual:.3g} after {solution.iterations} Newton steps"
+                f"ω = {speed[i]:.6g} rad/s, ε = {math.hypot(*solution.position[:2]):.6g}; "
+                + unresolved(solution.residual, solution.rounding, solution.iterations)
             )
         rows.append(orbit_row(marcher.film, solution, steps))
     return rows, past
 
 
-def orbit_row(film: Film, solution: Solution, steps: int) -> dict[str, Any]:
+def orbit_row(film: DiscreteFilm, solution: Solution, steps: int) -> dict[str, Any]:
     """What an orbit says of one time, after `steps` implicit steps."""
     row = summary(film, solution.u, solution.position)
     if film.elastic:
@@ -209,27 +211,22 @@ def mass_balance(first: Past, last: Past, rows: list[dict[str, Any]], time: Arra
     return float((last.gained - first.gained - stored) / max(left, last.volume))
 
 
-_VARIABLES = {
-    "eccentricity_ratio": ("1", "eccentricity ratio |e|/c"),
-    "minimum_film": ("m", "minimum film thickness"),
-    "maximum_pressure": ("Pa", "largest film pressure, absolute"),
-    "friction_power": ("W", "friction power of the film"),
-    "side_flow": ("m3/s", "oil that leaves through the rims"),
-    "supply_flow": ("m3/s", "oil that the grooves give, net"),
-    "supply_power": ("W", "what lifts that oil from tank to supply pressure"),
-    "total_fill": ("1", "share of liquid in the gap"),
-    "shell_deformation": ("m", "largest growth of the gap by the give of the shell"),
-    "residual": ("1", "largest imbalance of cell and load, scaled"),
-    "iterations": ("1", "Newton steps"),
-    "steps": ("1", "implicit steps since the time before"),
-}
-_GROOVES = {
-    "groove_flow": ("m3/s", "oil that each groove gives to the film"),
-    "groove_pressure": ("Pa", "pressure of each groove, absolute"),
-}
-
-
-_TILTS = {"tilt": ("rad", "rotation of the shaft about both axes")}
+_VARIABLES = (
+    "eccentricity_ratio",
+    "minimum_film",
+    "maximum_pressure",
+    "friction_power",
+    "side_flow",
+    "supply_flow",
+    "supply_power",
+    "total_fill",
+    "shell_deformation",
+    "residual",
+    "iterations",
+    "steps",
+)
+_GROOVES = ("groove_flow", "groove_pressure")
+_TILTS = ("tilt",)
 
 
 def orbit_dataset(
@@ -241,13 +238,13 @@ def orbit_dataset(
     path = np.stack([values["x"], values["y"]], axis=-1)
     values = values | {"eccentricity_ratio": np.hypot(path[:, 0], path[:, 1])}
     data = {
-        name: (dims, values[name], {"units": units, "long_name": text})
+        name: (dims, values[name], FILM[name].attributes)
         for dims, names in (
             ("time", _VARIABLES),
             (("time", "groove"), _GROOVES),
             (("time", "axis"), _TILTS),
         )
-        for name, (units, text) in names.items()
+        for name in names
         if name in values
     }
     return xr.Dataset(
@@ -255,12 +252,12 @@ def orbit_dataset(
             "eccentricity": (
                 ("time", "axis"),
                 path * clearance,
-                {"units": "m", "long_name": "shaft centre relative to the shell"},
+                FILM["eccentricity"].attributes,
             ),
             "attitude_angle": (
                 "time",
                 attitude_angle(force, path, speed),
-                {"units": "rad", "long_name": "angle from load to eccentricity, > 0 with rotation"},
+                FILM["attitude_angle"].attributes,
             ),
             **data,
         },

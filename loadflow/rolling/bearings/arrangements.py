@@ -10,26 +10,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from loadflow.errors import InputError
-from loadflow.rolling.bearings.ball import BallBearing
-from loadflow.rolling.bearings.crossed_roller import CrossedRollerBearing
+from loadflow.rolling.bearings.base import RollingBearing
 from loadflow.rolling.bearings.four_point import SlewingBearing
 from loadflow.rolling.bearings.roller import RollerBearing
 from loadflow.rolling.bearings.spherical import SphericalRollerBearing
-from loadflow.rolling.bearings.three_row import ThreeRowRollerBearing
-from loadflow.rolling.raceways import BallRaceways
-from loadflow.rolling.rating import life
-from loadflow.rolling.rating import modified_life as lubricated_life
-from loadflow.rolling.rating.modified_life import LifeModification, Lubrication
-from loadflow.rolling.rating.static import static_capacity
-
-MainBearing = (
-    SlewingBearing
-    | BallBearing
-    | RollerBearing
-    | SphericalRollerBearing
-    | CrossedRollerBearing
-    | ThreeRowRollerBearing
-)
+from loadflow.rolling.rating import life, modified_life
+from loadflow.rolling.rating.modified_life import Lubrication
 
 _SPHERICAL = SphericalRollerBearing(
     rollers=30,
@@ -42,7 +28,7 @@ _SPHERICAL = SphericalRollerBearing(
     crown_radius=18.0,
 )
 
-_ARRANGEMENTS: dict[str, dict[str, MainBearing]] = {
+_ARRANGEMENTS: dict[str, dict[str, RollingBearing]] = {
     "two-spherical": {"N": _SPHERICAL, "N2": _SPHERICAL},
     "cylindrical-tapered": {
         "N": RollerBearing(
@@ -90,7 +76,7 @@ _ARRANGEMENTS: dict[str, dict[str, MainBearing]] = {
 ARRANGEMENTS = tuple(_ARRANGEMENTS)
 
 
-def main_bearings(arrangement: str) -> dict[str, MainBearing]:
+def main_bearings(arrangement: str) -> dict[str, RollingBearing]:
     """Bearings of an arrangement, by their place on the shaft, sized for a turbine of 5 MW.
 
     N floats and N2 locates on a shaft in two bearings; M takes force and tilting moment. Sizes are
@@ -119,54 +105,6 @@ def main_bearings(arrangement: str) -> dict[str, MainBearing]:
     return dict(_ARRANGEMENTS[arrangement])
 
 
-def life_exponent(bearing: MainBearing) -> float:
-    """Exponent p of L10 = (C/P)^p: 3 of balls, 10/3 of rollers."""
-    return life.POINT_EXPONENT if isinstance(bearing, BallRaceways) else life.LINE_EXPONENT
-
-
-def weibull_slope(bearing: MainBearing) -> float:
-    """Weibull slope of the scatter of lives: 10/9 of balls, 9/8 of rollers."""
-    return lubricated_life.WEIBULL["ball" if isinstance(bearing, BallRaceways) else "roller"]
-
-
-def life_kind(bearing: MainBearing) -> lubricated_life.Kind:
-    """Kind of bearing in ISO 281: slewing rings are rated axially, the others radially."""
-    ball = isinstance(bearing, BallRaceways)
-    if isinstance(bearing, SlewingBearing | CrossedRollerBearing | ThreeRowRollerBearing):
-        return "thrust-ball" if ball else "thrust-roller"
-    return "radial-ball" if ball else "radial-roller"
-
-
-def carries_thrust(bearing: MainBearing) -> bool:
-    """Whether a bearing carries a force along the shaft: all but rollers on cylinders do."""
-    return not (isinstance(bearing, RollerBearing) and bearing.contact_angle == 0)
-
-
-def bearing_modification(
-    bearing: MainBearing,
-    load: ArrayLike,
-    speed: ArrayLike,
-    lubrication: Lubrication,
-    limit: float = lubricated_life.LARGEST_FACTOR,
-) -> LifeModification:
-    """`life_modification` of a bearing, with C₀ of ISO 76 from its geometry.
-
-    Raises
-    ------
-    InputError
-        As `life_modification`.
-    """
-    return lubricated_life.life_modification(
-        load,
-        speed,
-        lubrication=lubrication,
-        kind=life_kind(bearing),
-        pitch_diameter=bearing.pitch_diameter,
-        static_capacity=static_capacity(bearing),
-        limit=limit,
-    )
-
-
 @dataclass(frozen=True)
 class SpectrumLife:
     """Modified life of a bearing under a spectrum of loads and speeds.
@@ -191,7 +129,7 @@ class SpectrumLife:
 
 
 def modified_spectrum_life(
-    bearing: MainBearing,
+    bearing: RollingBearing,
     load: ArrayLike,
     speed: ArrayLike,
     lubrication: Lubrication,
@@ -201,7 +139,7 @@ def modified_spectrum_life(
 
     Parameters
     ----------
-    bearing : MainBearing
+    bearing : RollingBearing
         The bearing.
     load, speed : array_like, shape (n,)
         Dynamic equivalent (reference) load, N, and rad/s.
@@ -216,13 +154,13 @@ def modified_spectrum_life(
         return SpectrumLife(np.inf, 1.0, np.nan, 0.0)
     turns, forces = turns[rolls], np.broadcast_to(load, rolls.shape)[rolls]
     omega = np.broadcast_to(speed, rolls.shape)[rolls]
-    kappa = lubricated_life.viscosity_ratio(lubrication, omega, bearing.pitch_diameter)
-    thin = kappa < lubricated_life.KAPPA_RANGE[0]
-    factor = np.full(turns.shape, lubricated_life.LEAST_FACTOR)
+    kappa = modified_life.viscosity_ratio(lubrication, omega, bearing.pitch_diameter)
+    thin = kappa < modified_life.KAPPA_RANGE[0]
+    factor = np.full(turns.shape, modified_life.LEAST_FACTOR)
     if not thin.all():
-        thick = bearing_modification(bearing, forces[~thin], omega[~thin], lubrication)
+        thick = bearing.life_modification(forces[~thin], omega[~thin], lubrication)
         factor[~thin] = thick.factor
-    capacity, exponent = bearing.rated_capacity, life_exponent(bearing)
+    capacity, exponent = bearing.rated_capacity, bearing.life_exponent
     # a life longer by a_ISO is that of a lighter load
     lighter = forces * factor ** (-1 / exponent)
     basic, modified = (
@@ -261,7 +199,7 @@ class BearingLife:
 
 
 def arrangement_lives(
-    bearings: Mapping[str, MainBearing],
+    bearings: Mapping[str, RollingBearing],
     force: Mapping[str, ArrayLike],
     moment: Mapping[str, ArrayLike],
     speed: ArrayLike,
@@ -303,14 +241,14 @@ def arrangement_lives(
         if place not in force or place not in moment:
             raise InputError(f"force, moment: no loads of the bearing {place}")
         result = bearing.equilibrium(force[place], moment[place])
-        capacity, exponent = bearing.rated_capacity, life_exponent(bearing)
+        capacity, exponent = bearing.rated_capacity, bearing.life_exponent
         load = result.equivalent_load
         revolutions = float(life.rating_life_spectrum(capacity, load, turns, exponent))
         modified = None
         if lubrication is not None:
             rolls = turns > 0
-            work = bearing_modification(
-                bearing, load[rolls], np.broadcast_to(speed, turns.shape)[rolls], lubrication
+            work = bearing.life_modification(
+                load[rolls], np.broadcast_to(speed, turns.shape)[rolls], lubrication
             )
             # a life longer by a_ISO is that of a lighter load
             lighter = load[rolls] * work.factor ** (-1 / exponent)

@@ -5,23 +5,20 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal
+from typing import ClassVar, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError
 from loadflow.numerics.fields import check_choice
-from loadflow.rolling.contacts import POINT, Array, Contacts, azimuths, row_sides
-from loadflow.rolling.equilibrium import CHUNK, solve
-from loadflow.rolling.motion.spinning import Spin, spin_equilibrium
+from loadflow.rolling.bearings.base import BearingOfBalls
+from loadflow.rolling.contacts import POINT, Contacts, azimuths, row_sides
 from loadflow.rolling.raceways import BallRaceways
-from loadflow.rolling.rating import capacity, life
-from loadflow.rolling.results import BallResult
+from loadflow.rolling.rating import capacity
 
 
 @dataclass(frozen=True, kw_only=True)
-class BallBearing(BallRaceways):
+class BallBearing(BallRaceways, BearingOfBalls):
     """Deep groove (contact angle 0) or angular contact ball bearing, one groove in each ring.
 
     The fields of `BallRaceways`, where `clearance` is the radial internal clearance s (on the
@@ -57,6 +54,9 @@ class BallBearing(BallRaceways):
     15.11
     """
 
+    kind: ClassVar[str] = "ball"
+    element_inertia: ClassVar[bool] = True
+
     contact_angle: float = 0.0
     arrangement: Literal["back-to-back", "face-to-face", "tandem"] = "back-to-back"
     lever: Literal["groove", "pitch"] = "groove"
@@ -82,6 +82,12 @@ class BallBearing(BallRaceways):
             osculation=self.osculation_ratio,
         )
 
+    @property
+    def static_capacity(self) -> float:
+        """Basic static radial capacity C₀r of ISO 76, N: Hertz's pressure with Stribeck's 5."""
+        radial = self.allowed_force * self.rows * self.balls / 5
+        return radial * math.cos(self.contact_angle)
+
     @cached_property
     def raceway_capacity(self) -> tuple[float, float]:
         """Dynamic capacities Q_ci, Q_ce of the raceways of one row, N (ISO/TS 16281)."""
@@ -94,7 +100,7 @@ class BallBearing(BallRaceways):
             self.osculation_ratio,
         )
 
-    def contacts(self, ball_angle: float = 0.0) -> Contacts:
+    def contacts(self, element_angle: float = 0.0) -> Contacts:
         """All contacts, one kind for each row."""
         cos, sin = math.cos(self.contact_angle), math.sin(self.contact_angle)
         free, half = self.groove_distance, self.clearance / 2
@@ -115,168 +121,9 @@ class BallBearing(BallRaceways):
         ]
         return Contacts(
             table=np.array(table),
-            azimuth=azimuths(self.balls, ball_angle),
+            azimuth=azimuths(self.balls, element_angle),
             law=POINT,
             spatial=False,
             cap=0.3 * free,
             lever=self.pitch_diameter / 2,
-        )
-
-    def equilibrium(
-        self,
-        force: ArrayLike,
-        moment: ArrayLike = (0.0, 0.0),
-        *,
-        speed: ArrayLike | None = None,
-        ball_angle: float = 0.0,
-        tolerance: float = 1e-10,
-        max_iterations: int = 100,
-        strict: bool = True,
-        chunk: int = CHUNK,
-    ) -> BallBearingResult:
-        """Ball forces, displacement, stiffness, safety and life under given loads.
-
-        Parameters
-        ----------
-        force : array_like, shape (..., 3)
-            (Fx, Fy, Fz) on the inner ring at the bearing centre, N; z is the bearing axis.
-        moment : array_like, shape (..., 2)
-            (Mx, My) on the inner ring, N m. Broadcasts with `force`.
-        speed : array_like, optional
-            Of the inner ring, rad/s; switches centrifugal and gyroscopic loads of the balls on.
-        ball_angle : float
-            Azimuth of the first ball of each row, rad.
-        tolerance, max_iterations, strict, chunk
-            See `loadflow.rolling.equilibrium.solve`.
-
-        Returns
-        -------
-        BallBearingResult
-            Over the shape of the load cases; a `SpinningResult` at a speed. The axial displacement
-            counts from the centred position of a deep groove bearing.
-
-        Raises
-        ------
-        InputError
-            If loads are not finite or have wrong shapes.
-        SolverError
-            If `strict` and a case has no equilibrium.
-        """
-        contacts = self.contacts(ball_angle)
-        state = solve(
-            contacts,
-            force,
-            moment,
-            tolerance=tolerance,
-            max_iterations=max_iterations,
-            strict=strict,
-            chunk=chunk,
-        )
-        if speed is None:
-            return BallBearingResult(**vars(state), bearing=self, contacts=contacts)
-        rings, spin = spin_equilibrium(
-            self,
-            contacts,
-            state,
-            speed,
-            tolerance=max(tolerance, 1e-9),
-            max_iterations=max_iterations,
-        )
-        known = vars(state) | rings
-        return SpinningResult(**known, bearing=self, contacts=contacts, spin=spin)
-
-
-@dataclass(frozen=True)
-class BallBearingResult(BallResult):
-    """Equilibrium of a ball bearing; all quantities over the shape (...) of the load cases.
-
-    Attributes
-    ----------
-    bearing : BallBearing
-        The bearing.
-    """
-
-    bearing: BallBearing
-
-    @property
-    def ball_forces(self) -> Array:
-        """Contact forces, N, (..., row, ball)."""
-        return self._state[0]
-
-    @property
-    def contact_angles(self) -> Array:
-        """Operating contact angles, rad, (..., row, ball), positive where they carry +Fz."""
-        return self._state[1]
-
-    @property
-    def truncated(self) -> NDArray[np.bool_]:
-        """Whether a contact ellipse reaches over the raceway's shoulder.
-
-        Raises
-        ------
-        InputError
-            If the bearing has no `shoulder_angle`.
-        """
-        return self._truncated(self.ball_forces, np.abs(self.contact_angles), (-2, -1))
-
-    @property
-    def reference_life(self) -> Array:
-        """Reference life L10r of ISO/TS 16281, millions of revolutions; the inner ring turns."""
-        _, sums = self._statistics
-        return life.ball_reference_life(
-            sums[..., 1], sums[..., 2], self.bearing.balls, self.bearing.raceway_capacity
-        )
-
-    @property
-    def rating_life(self) -> Array:
-        """Rating life in millions of revolutions: the reference life."""
-        return self.reference_life
-
-    @property
-    def equivalent_load(self) -> Array:
-        """Dynamic equivalent reference load P_ref = C/L10r^(1/3), N."""
-        return np.asarray(self.bearing.rated_capacity / np.cbrt(self.reference_life))
-
-
-@dataclass(frozen=True)
-class SpinningResult(BallBearingResult):
-    """Equilibrium of a ball bearing at speed; contact forces and angles are those of the inner.
-
-    Attributes
-    ----------
-    spin : Spin
-        Forces and angles at both raceways, loads of inertia.
-    """
-
-    spin: Spin
-
-    @cached_property
-    def _state(self) -> tuple[Array, Array]:
-        return self.spin.inner_forces, self.spin.inner_angles
-
-    @cached_property
-    def _statistics(self) -> tuple[Array, Array]:
-        force = self.spin.inner_forces
-        sums = [(force**power).sum(axis=-1) for power in (1, 3, 10 / 3)]
-        return force.max(axis=-1), np.stack(sums, axis=-1)
-
-    @property
-    def raceway_pressure(self) -> tuple[Array, Array]:
-        """Largest Hertzian pressure at the inner and at the outer raceway, Pa."""
-        inner, outer = (
-            force.max(axis=(-2, -1)) for force in (self.spin.inner_forces, self.spin.outer_forces)
-        )
-        return (
-            self.bearing.raceway_contact("inner", inner).pressure,
-            self.bearing.raceway_contact("outer", outer).pressure,
-        )
-
-    @property
-    def reference_life(self) -> Array:
-        """Reference life L10r of ISO/TS 16281 with the forces of each raceway, 10⁶ revolutions."""
-        return life.ball_reference_life(
-            (self.spin.inner_forces**3).sum(axis=-1),
-            (self.spin.outer_forces ** (10 / 3)).sum(axis=-1),
-            self.bearing.balls,
-            self.bearing.raceway_capacity,
         )

@@ -1,8 +1,9 @@
-"""Roller slewing rings: crossed rollers, and three rows."""
+"""Slewing ring of crossed rollers."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import ClassVar
@@ -10,35 +11,15 @@ from typing import ClassVar
 import numpy as np
 
 from loadflow.errors import InputError
-from loadflow.rolling import friction
-from loadflow.rolling.contacts import LINE, Array, Contacts, azimuths
+from loadflow.rolling.bearings.base import RollingBearing, TorqueModel
+from loadflow.rolling.contacts import LINE, Contacts, azimuths
+from loadflow.rolling.friction import FRICTION_FACTORS
 from loadflow.rolling.rating import capacity
 from loadflow.rolling.roller_raceways import RollerRaceways
-from loadflow.rolling.roller_result import RollerResult
-
-
-@dataclass(frozen=True)
-class CrossedRollerResult(RollerResult):
-    """Equilibrium of a crossed roller bearing; see `RollerResult`."""
-
-    def friction_torque(self, idle: float = 0.0) -> Array:
-        """Friction torque, N m, from the loads (2.25) with μ = 0.004 of Tab. 2.3.
-
-        A rule of thumb; its error is in `loadflow.rolling.friction.slewing_torque`.
-
-        Parameters
-        ----------
-        idle : float
-            Torque without load, N m.
-        """
-        factor = friction.FRICTION_FACTORS["crossed rollers"]
-        return friction.friction_torque_components(
-            self.force, self.moment, self.bearing.pitch_diameter, friction=factor, idle=idle
-        )
 
 
 @dataclass(frozen=True, kw_only=True)
-class CrossedRollerBearing(RollerRaceways):
+class CrossedRollerBearing(RollerRaceways, RollingBearing):
     """Slewing ring with one circle of rollers whose axes are crossed in turn.
 
     Each second roller carries +Fz on the inner ring (track 0), the others -Fz (track 1). The fields
@@ -58,7 +39,12 @@ class CrossedRollerBearing(RollerRaceways):
     (2, 90)
     """
 
-    _answer: ClassVar[type[RollerResult]] = CrossedRollerResult
+    kind: ClassVar[str] = "crossed"
+    group_dims: ClassVar[tuple[str, ...]] = ("track",)
+    rated_axially: ClassVar[bool] = True
+    torque_models: ClassVar[Mapping[TorqueModel, float]] = {
+        "loads": FRICTION_FACTORS["crossed rollers"]
+    }
 
     contact_angle: float = math.pi / 4
 
@@ -100,13 +86,18 @@ class CrossedRollerBearing(RollerRaceways):
         )
 
     @property
+    def static_capacity(self) -> float:
+        """Basic static axial capacity C₀a of one track, N (ISO 76)."""
+        return 220e6 * self.loaded_area / 2 * math.sin(self.contact_angle)
+
+    @property
     def slice_capacity(self) -> tuple[float, float]:
         """Dynamic capacities (q_ci, q_ce) of a slice at the raceways, N (ISO/TS 16281)."""
         return capacity.slice_capacity_thrust(
             self.rated_capacity, self.track_rollers, self.slices, self.contact_angle, self.gamma
         )
 
-    def contacts(self, roller_angle: float = 0.0) -> Contacts:
+    def contacts(self, element_angle: float = 0.0) -> Contacts:
         """All contacts; kinds in the order track 0 slice 0, track 0 slice 1, …."""
         cos, sin = math.cos(self.contact_angle), math.sin(self.contact_angle)
         gap = self.clearance / 2 * cos + 2 * self.profile_drop
@@ -123,7 +114,7 @@ class CrossedRollerBearing(RollerRaceways):
             for side in (1.0, -1.0)
             for x, slack in zip(self.slice_positions, gap)
         ]
-        around = azimuths(self.rollers, roller_angle)
+        around = azimuths(self.rollers, element_angle)
         half = self.track_rollers
         spans = np.repeat(np.array([[0, half], [half, 2 * half]]), self.slices, axis=0)
         return Contacts(

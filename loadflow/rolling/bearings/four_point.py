@@ -3,29 +3,28 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 from annotated_types import Gt, Le
-from numpy.typing import ArrayLike
 
 from loadflow.errors import InputError
 from loadflow.numerics.fields import check_choice
-from loadflow.rolling.contacts import POINT, Contacts, azimuths
-from loadflow.rolling.equilibrium import CHUNK, Control, solve
+from loadflow.rolling.bearings.base import BearingOfBalls, TorqueModel
+from loadflow.rolling.contact_forces import ContactForces
+from loadflow.rolling.contacts import POINT, Array, Contacts, azimuths
+from loadflow.rolling.friction import FRICTION_FACTORS
 from loadflow.rolling.raceways import BallRaceways
-from loadflow.rolling.rating import capacity
-from loadflow.rolling.rings.condensed import FlexibleRings
-from loadflow.rolling.rings.equilibrium import solve_flexible
-from loadflow.rolling.slewing_result import SlewingResult
+from loadflow.rolling.rating import capacity, life
 
 DIAGONALS = (1.0, -1.0)  # diagonal 0 carries +Fz on the inner ring, diagonal 1 carries -Fz
 
 
 @dataclass(frozen=True, kw_only=True)
-class SlewingBearing(BallRaceways):
+class SlewingBearing(BallRaceways, BearingOfBalls):
     """Four-point ball bearing: two grooves in each ring, two diagonals of contact on each ball.
 
     The fields of `BallRaceways`, where `clearance` is the axial clearance G_a of the centred inner
@@ -57,6 +56,16 @@ class SlewingBearing(BallRaceways):
     10438
     """
 
+    kind: ClassVar[str] = "slewing"
+    group_dims: ClassVar[tuple[str, ...]] = ("row", "diagonal")
+    rated_axially: ClassVar[bool] = True
+    flexible_rings: ClassVar[bool] = True
+    torque_models: ClassVar[Mapping[TorqueModel, float]] = {
+        "forces": 0.005,
+        "loads": FRICTION_FACTORS["balls with cage"],
+        "equivalent": 0.0024,
+    }
+
     life_hardness_factor: Annotated[float, Gt(0), Le(1)] = 1.0
     distance: Literal["spatial", "meridional"] = "spatial"
 
@@ -82,6 +91,12 @@ class SlewingBearing(BallRaceways):
         )
         return self.life_hardness_factor * value
 
+    @property
+    def static_capacity(self) -> float:
+        """Basic static axial capacity C₀a, N: every ball at the allowed pressure (4.3)."""
+        balls = self.rows * self.balls
+        return self.allowed_force * balls * math.sin(self.contact_angle)
+
     @cached_property
     def raceway_capacity(self) -> tuple[float, float]:
         """Dynamic capacities Q_ci, Q_ce of the raceways of one row, N (ISO/TS 16281)."""
@@ -93,7 +108,12 @@ class SlewingBearing(BallRaceways):
             self.osculation_ratio,
         )
 
-    def contacts(self, ball_angle: float = 0.0) -> Contacts:
+    @property
+    def groups(self) -> tuple[int, ...]:
+        """Rows, and the diagonals of each: 0 carries +Fz on the inner ring, 1 carries -Fz."""
+        return (self.rows, 2)
+
+    def contacts(self, element_angle: float = 0.0) -> Contacts:
         """All contacts; kinds in the order row 0 diagonal 0, row 0 diagonal 1, row 1 …."""
         cos, sin = math.cos(self.contact_angle), math.sin(self.contact_angle)
         free, arm = self.groove_distance, self.groove("inner") - self.ball_diameter / 2
@@ -113,58 +133,29 @@ class SlewingBearing(BallRaceways):
         ]
         return Contacts(
             table=np.array(table),
-            azimuth=azimuths(self.balls, ball_angle),
+            azimuth=azimuths(self.balls, element_angle),
             law=POINT,
             spatial=self.distance == "spatial",
             cap=0.3 * free,
             lever=self.pitch_diameter / 2,
         )
 
-    def equilibrium(
-        self,
-        force: ArrayLike,
-        moment: ArrayLike = (0.0, 0.0),
-        *,
-        rings: Literal["rigid"] | FlexibleRings = "rigid",
-        ball_angle: float = 0.0,
-        tolerance: float = 1e-10,
-        max_iterations: int = 100,
-        strict: bool = True,
-        chunk: int = CHUNK,
-    ) -> SlewingResult:
-        """Ball forces, displacement, stiffness, safety and life under given loads.
+    def contact_angles(self, found: ContactForces) -> Array:
+        """Operating contact angles, rad, (..., row, diagonal, ball), (2.44).
 
-        Parameters
-        ----------
-        force : array_like, shape (..., 3)
-            (Fx, Fy, Fz) on the inner ring at the bearing centre, N; z is the bearing axis.
-        moment : array_like, shape (..., 2)
-            (Mx, My) on the inner ring, N m. Broadcasts with `force`.
-        rings : "rigid" or FlexibleRings
-            How the rings deform. With flexible rings the displacement is that of the inner ring's
-            structure relative to the outer ring's, where their supports hold them.
-        ball_angle : float
-            Azimuth of the first ball of each row, rad.
-        tolerance, max_iterations, strict, chunk
-            See `loadflow.rolling.equilibrium.solve`.
-
-        Returns
-        -------
-        SlewingResult
-            Over the shape of the load cases; a `FlexibleResult` with flexible rings.
-
-        Raises
-        ------
-        InputError
-            If loads are not finite or have wrong shapes, or `rings` is unknown.
-        SolverError
-            If `strict` and a case has no equilibrium.
+        Counted from the radial plane, positive toward the side of each diagonal.
         """
-        control = Control(tolerance, max_iterations, strict, chunk)
-        if isinstance(rings, FlexibleRings):
-            return solve_flexible(self, rings, ball_angle, force, moment, control)
-        if rings != "rigid":
-            raise InputError(f"rings: must be 'rigid' or FlexibleRings, got {rings!r}")
-        contacts = self.contacts(ball_angle)
-        state = solve(contacts, force, moment, **vars(control))
-        return SlewingResult(**vars(state), bearing=self, contacts=contacts)
+        return super().contact_angles(found) * np.array(DIAGONALS)[:, None]
+
+    def _toward_shoulder(self, found: ContactForces) -> Array:
+        """Contact angles, which count toward the shoulder of each diagonal already, rad."""
+        return self.contact_angles(found)
+
+    def equivalent_load(self, found: ContactForces) -> Array:
+        """Equivalent axial load P_ea, N, over all balls and both diagonals, (4.4)."""
+        cubes = found.power_sums("inner")[..., 1].sum(axis=-1)
+        return life.equivalent_axial_load(cubes, self.balls * self.rows, self.contact_angle)
+
+    def rating_life(self, found: ContactForces) -> Array:
+        """Basic rating life L10, millions of revolutions, (2.19), with f_H C_a of (4.8)–(4.11)."""
+        return life.rating_life(self.rated_capacity, self.equivalent_load(found))

@@ -4,18 +4,19 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 from annotated_types import Ge, Lt
 
 from loadflow.numerics.fields import check_choice
+from loadflow.rolling.bearings.base import BearingOfRollers
 from loadflow.rolling.contacts import LINE, Contacts, azimuths, row_sides
 from loadflow.rolling.roller_raceways import RollerRaceways
 
 
 @dataclass(frozen=True, kw_only=True)
-class RollerBearing(RollerRaceways):
+class RollerBearing(RollerRaceways, BearingOfRollers):
     """Roller bearing with one or more rows; rollers are cut into slices with a profile.
 
     Rollers touch both rings along the same normal (the small angle of tapered rollers and the rib
@@ -45,6 +46,10 @@ class RollerBearing(RollerRaceways):
     (2, 48)
     """
 
+    kind: ClassVar[str] = "roller"
+    allowed_tilt: ClassVar[float | None] = math.radians(3 / 60)
+    """3′ of tapered rollers, as in NREL's WISDEM (`drive_components.py`); cylindrical ones 4′."""
+
     contact_angle: Annotated[float, Ge(0), Lt(math.pi / 2)] = 0.0
     arrangement: Literal["back-to-back", "face-to-face", "tandem"] = "back-to-back"
 
@@ -53,12 +58,22 @@ class RollerBearing(RollerRaceways):
         check_choice(self, "arrangement", ("back-to-back", "face-to-face", "tandem"))
 
     @property
+    def takes_thrust(self) -> bool:
+        """Tapered rollers do, cylindrical ones do not."""
+        return self.contact_angle > 0
+
+    @property
+    def rib_guided(self) -> bool:
+        """Whether the rollers are tapered, and so pressed on a rib."""
+        return self.contact_angle > 0
+
+    @property
     def axial_clearance(self) -> float:
         """Total axial clearance s/tan α of a pair of rows, m; infinite for cylindrical rollers."""
         tan = math.tan(self.contact_angle)
         return self.clearance / tan if tan else math.inf
 
-    def contacts(self, roller_angle: float = 0.0) -> Contacts:
+    def contacts(self, element_angle: float = 0.0) -> Contacts:
         """All contacts; kinds in the order row 0 slice 0, row 0 slice 1, …."""
         cos, sin = math.cos(self.contact_angle), math.sin(self.contact_angle)
         gap = self.clearance / 2 * cos + 2 * self.profile_drop
@@ -77,7 +92,7 @@ class RollerBearing(RollerRaceways):
         ]
         return Contacts(
             table=np.array(table),
-            azimuth=azimuths(self.rollers, roller_angle),
+            azimuth=azimuths(self.rollers, element_angle),
             law=LINE,
             spatial=False,
             cap=0.02 * self.roller_diameter,

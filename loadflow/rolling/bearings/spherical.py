@@ -4,20 +4,21 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from loadflow.errors import InputError
+from loadflow.rolling.bearings.base import BearingOfRollers
 from loadflow.rolling.contacts import LINE, Contacts, azimuths
-from loadflow.rolling.equilibrium import CHUNK
 from loadflow.rolling.roller_raceways import RollerRaceways
-from loadflow.rolling.roller_result import RollerResult
 
 
 @dataclass(frozen=True, kw_only=True)
-class SphericalRollerBearing(RollerRaceways):
+class SphericalRollerBearing(RollerRaceways, BearingOfRollers):
     """Two rows of barrel rollers in a spherical outer raceway: aligns itself, takes no moment.
+
+    Its tilt stays at zero, and ``singular`` is set: nothing resists a tilt.
 
     All lines of contact meet the axis in the bearing centre, so that the contact angle sets the
     distance of the rows, D_pw tan α. Rollers follow the tilt of the inner ring, so that their
@@ -43,6 +44,11 @@ class SphericalRollerBearing(RollerRaceways):
     (2, 28)
     """
 
+    kind: ClassVar[str] = "spherical"
+    takes_moment: ClassVar[bool] = False
+    allowed_tilt: ClassVar[float | None] = math.radians(1.5)
+    """Of series 231, the least of the wide ones in the makers' catalogues."""
+
     rows: int = 2
 
     def __post_init__(self) -> None:
@@ -59,7 +65,7 @@ class SphericalRollerBearing(RollerRaceways):
                 f"got {self.contact_angle:g}"
             )
 
-    def contacts(self, roller_angle: float = 0.0) -> Contacts:
+    def contacts(self, element_angle: float = 0.0) -> Contacts:
         """All contacts; kinds in the order row 0 slice 0, row 0 slice 1, …."""
         cos, sin = math.cos(self.contact_angle), math.sin(self.contact_angle)
         radius = self.pitch_diameter / 2
@@ -72,43 +78,9 @@ class SphericalRollerBearing(RollerRaceways):
         ]
         return Contacts(
             table=np.array(table),
-            azimuth=azimuths(self.rollers, roller_angle),
+            azimuth=azimuths(self.rollers, element_angle),
             law=LINE,
             spatial=False,
             cap=0.02 * self.roller_diameter,
             lever=radius,
-        )
-
-    def equilibrium(
-        self,
-        force: ArrayLike,
-        moment: ArrayLike = (0.0, 0.0),
-        *,
-        roller_angle: float = 0.0,
-        tolerance: float = 1e-10,
-        max_iterations: int = 100,
-        strict: bool = True,
-        chunk: int = CHUNK,
-    ) -> RollerResult:
-        """As `RollerBearing.equilibrium`; the moment must be zero, and the tilt stays at zero.
-
-        ``singular`` is set: nothing resists a tilt.
-
-        Raises
-        ------
-        InputError
-            If a moment is given, or loads are not finite or have wrong shapes.
-        SolverError
-            If `strict` and a case has no equilibrium.
-        """
-        if np.any(np.asarray(moment, float) != 0):
-            raise InputError("moment: a self-aligning bearing takes none, it must be 0")
-        return super().equilibrium(
-            force,
-            moment,
-            roller_angle=roller_angle,
-            tolerance=tolerance,
-            max_iterations=max_iterations,
-            strict=strict,
-            chunk=chunk,
         )

@@ -6,23 +6,22 @@ import math
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
-from typing import Annotated
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 from annotated_types import Gt, Le
-from numpy.typing import ArrayLike
 
 from loadflow.errors import InputError
 from loadflow.numerics.fields import check_fields
+from loadflow.rolling.bearings.base import RollingBearing
+from loadflow.rolling.contact_forces import ContactForces
 from loadflow.rolling.contacts import LINE, Array, Contacts, azimuths
-from loadflow.rolling.equilibrium import CHUNK, solve
-from loadflow.rolling.rating import capacity, safety
-from loadflow.rolling.results import ContactResult
+from loadflow.rolling.rating import capacity, life, modified_life, safety
 from loadflow.rolling.roller_raceways import RollerRaceways
 
 
 @dataclass(frozen=True, kw_only=True)
-class ThreeRowRollerBearing:
+class ThreeRowRollerBearing(RollingBearing):
     """Slewing ring whose two axial rows carry thrust and moment, and whose radial row the rest.
 
     Attributes
@@ -48,9 +47,16 @@ class ThreeRowRollerBearing:
     >>> radial = RollerRaceways(rollers=160, roller_diameter=0.032, roller_length=0.04,
     ...     pitch_diameter=3.0)
     >>> ring = ThreeRowRollerBearing(support=axial, retaining=axial, radial=radial)
-    >>> [f.shape for f in ring.equilibrium((2e5, 0, 8e5), (0, 2e6)).roller_forces]
-    [(150,), (150,), (160,)]
+    >>> ring.equilibrium((2e5, 0, 8e5), (0, 2e6)).roller_forces.shape
+    (3, 160)
     """
+
+    kind: ClassVar[str] = "three-row"
+    element: ClassVar[Literal["ball", "roller"]] = "roller"
+    life_exponent: ClassVar[float] = life.LINE_EXPONENT
+    weibull_slope: ClassVar[float] = modified_life.WEIBULL["roller"]
+    static_exponent: ClassVar[int] = 2
+    rated_axially: ClassVar[bool] = True
 
     support: RollerRaceways
     retaining: RollerRaceways
@@ -97,12 +103,12 @@ class ThreeRowRollerBearing:
             radial.slice_capacity,
         )
 
-    def contacts(self, roller_angle: float = 0.0) -> Contacts:
+    def contacts(self, element_angle: float = 0.0) -> Contacts:
         """All contacts; kinds in the order support slice 0, 1, …, retaining, radial."""
         lines, around, spans, first = [], [], [], 0
         for row, axial in zip(self.rows, (1.0, -1.0, 0.0)):
             clearance = self.axial_clearance if axial else row.clearance
-            around.append(azimuths(row.rollers, roller_angle))
+            around.append(azimuths(row.rollers, element_angle))
             for x, drop in zip(row.slice_positions, row.profile_drop):
                 radius, height = (x, 0.0) if axial else (0.0, x)
                 gap = clearance / 2 + 2 * drop
@@ -120,37 +126,64 @@ class ThreeRowRollerBearing:
             spans=np.array(spans),
         )
 
-    def equilibrium(
-        self,
-        force: ArrayLike,
-        moment: ArrayLike = (0.0, 0.0),
-        *,
-        roller_angle: float = 0.0,
-        tolerance: float = 1e-10,
-        max_iterations: int = 100,
-        strict: bool = True,
-        chunk: int = CHUNK,
-    ) -> ThreeRowResult:
-        """Roller forces, displacement, stiffness, safety and life, as `RollerBearing.equilibrium`.
+    @property
+    def groups(self) -> tuple[int, ...]:
+        """Support, retaining and radial row."""
+        return (3,)
 
-        Raises
-        ------
-        InputError
-            If loads are not finite or have wrong shapes.
-        SolverError
-            If `strict` and a case has no equilibrium.
-        """
-        contacts = self.contacts(roller_angle)
-        state = solve(
-            contacts,
-            force,
-            moment,
-            tolerance=tolerance,
-            max_iterations=max_iterations,
-            strict=strict,
-            chunk=chunk,
+    @property
+    def static_capacity(self) -> float:
+        """Basic static axial capacity C₀a of the support row, N (ISO 76)."""
+        return 220e6 * self.rows[0].loaded_area
+
+    @cached_property
+    def _kinds(self) -> list[slice]:
+        """Kinds of contact of each row."""
+        ends = np.cumsum([0, *(row.slices for row in self.rows)])
+        return [slice(a, b) for a, b in pairwise(ends)]
+
+    def row_forces(self, found: ContactForces) -> tuple[Array, ...]:
+        """Forces on the rollers of support, retaining and radial row, N, (..., roller)."""
+        forces = found.forces
+        return tuple(
+            forces[..., kinds, : row.rollers].sum(axis=-2)
+            for kinds, row in zip(self._kinds, self.rows)
         )
-        return ThreeRowResult(**vars(state), bearing=self, contacts=contacts)
+
+    def element_forces(self, found: ContactForces) -> Array:
+        """Forces on the rollers, N, (..., row, roller), short rows padded with zeros."""
+        rows = self.row_forces(found)
+        most = max(row.shape[-1] for row in rows)
+        wide = [np.pad(r, [(0, 0)] * (r.ndim - 1) + [(0, most - r.shape[-1])]) for r in rows]
+        return np.stack(wide, axis=-2)
+
+    def maximum_force(self, found: ContactForces) -> Array:
+        """Largest force on a roller, N."""
+        return np.max([force.max(axis=-1) for force in self.row_forces(found)], axis=0)
+
+    def raceway_pressure(self, found: ContactForces) -> tuple[Array, ...]:
+        """Largest Hertzian pressure of a slice of support, retaining and radial row, Pa."""
+        largest = found.largest("inner")
+        return tuple(
+            row.slice_contact("inner", largest[..., kinds].max(axis=-1)).pressure
+            for kinds, row in zip(self._kinds, self.rows)
+        )
+
+    def pressure_safety(self, found: ContactForces) -> Array:
+        """Smallest of allowable over largest pressure of the rows; infinite without load."""
+        rows = zip(self.rows, self.raceway_pressure(found))
+        return np.min([safety.ratio(row.allowed_pressure, p) for row, p in rows], axis=0)
+
+    def reference_life(self, found: ContactForces) -> Array:
+        """Reference life L10r of all raceways of all rows together, millions of revolutions."""
+        inner, outer = found.power_sums("inner")[..., 1], found.power_sums("outer")[..., 2]
+        damage = sum(
+            row.slice_damage(
+                inner[..., kinds], outer[..., kinds], capacity.edge_stress(row.slices), rated
+            )
+            for kinds, row, rated in zip(self._kinds, self.rows, self.slice_capacities)
+        )
+        return safety.ratio(1.0, np.asarray(damage)) ** (8 / 9)
 
 
 def _gamma(row: RollerRaceways) -> float:
@@ -166,88 +199,3 @@ def _axial_capacity(row: RollerRaceways) -> float:
         contact_angle=row.contact_angle,
         gamma=_gamma(row),
     )
-
-
-@dataclass(frozen=True)
-class ThreeRowResult(ContactResult):
-    """Equilibrium of a three-row slewing ring; quantities over the shape (...) of the load cases.
-
-    Attributes
-    ----------
-    bearing : ThreeRowRollerBearing
-        The bearing.
-    """
-
-    bearing: ThreeRowRollerBearing
-
-    @cached_property
-    def _kinds(self) -> list[slice]:
-        """Kinds of contact of each row."""
-        ends = np.cumsum([0, *(row.slices for row in self.bearing.rows)])
-        return [slice(a, b) for a, b in pairwise(ends)]
-
-    @property
-    def roller_forces(self) -> tuple[Array, ...]:
-        """Forces on the rollers of support, retaining and radial row, N, (..., roller)."""
-        forces = self._state[0]
-        return tuple(
-            forces[..., kinds, : row.rollers].sum(axis=-2)
-            for kinds, row in zip(self._kinds, self.bearing.rows)
-        )
-
-    @property
-    def maximum_force(self) -> Array:
-        """Largest force on a roller, N."""
-        return np.max([force.max(axis=-1) for force in self.roller_forces], axis=0)
-
-    @property
-    def row_pressures(self) -> tuple[Array, ...]:
-        """Largest Hertzian pressure of a slice of support, retaining and radial row, Pa."""
-        largest = self._statistics[0]
-        return tuple(
-            row.slice_contact("inner", largest[..., kinds].max(axis=-1)).pressure
-            for kinds, row in zip(self._kinds, self.bearing.rows)
-        )
-
-    @property
-    def maximum_pressure(self) -> Array:
-        """Largest Hertzian pressure of all rows, Pa."""
-        return np.max(self.row_pressures, axis=0)
-
-    @property
-    def pressure_safety(self) -> Array:
-        """Smallest of allowable over largest pressure of the rows; infinite without load."""
-        allowed = (
-            row.allowable_pressure * safety.hardness_factor(row.hardness)
-            for row in self.bearing.rows
-        )
-        return np.min([safety.ratio(a, p) for a, p in zip(allowed, self.row_pressures)], axis=0)
-
-    @property
-    def static_safety(self) -> Array:
-        """Allowable over largest force on a slice: the square of `pressure_safety`."""
-        return np.asarray(self.pressure_safety**2)
-
-    @property
-    def reference_life(self) -> Array:
-        """Reference life L10r of all raceways of all rows together, millions of revolutions."""
-        _, sums = self._statistics
-        damage = np.zeros(self.cases)
-        for kinds, row, (inner, outer) in zip(
-            self._kinds, self.bearing.rows, self.bearing.slice_capacities
-        ):
-            concentration = capacity.edge_stress(row.slices)
-            rotating = (sums[..., kinds, 1] / row.rollers) ** (1 / 4) * concentration / inner
-            stationary = (sums[..., kinds, 2] / row.rollers) ** (2 / 9) * concentration / outer
-            damage = damage + (rotating**4.5 + stationary**4.5).sum(axis=-1)
-        return safety.ratio(1.0, damage) ** (8 / 9)
-
-    @property
-    def rating_life(self) -> Array:
-        """Rating life in millions of revolutions: the reference life."""
-        return self.reference_life
-
-    @property
-    def equivalent_load(self) -> Array:
-        """Dynamic equivalent reference load P_ref = C_a/L10r^(3/10), N."""
-        return np.asarray(self.bearing.rated_capacity / self.reference_life**0.3)

@@ -32,7 +32,8 @@ from loadflow.rolling.friction.bearing import (
 from loadflow.rolling.friction.contact_films import ContactFilm, Ring, groove_film
 from loadflow.rolling.friction.options import FrictionOptions
 from loadflow.rolling.motion.kinematics import entrainment_speed
-from loadflow.rolling.results import BallResult
+from loadflow.rolling.raceways import BallRaceways
+from loadflow.rolling.results import ContactResult
 from loadflow.tribology import traction
 from loadflow.tribology.hertz import effective_modulus
 
@@ -55,13 +56,13 @@ class _Groove(NamedTuple):
 
 
 def ball_friction(
-    result: BallResult, speed: ArrayLike, options: FrictionOptions
+    result: ContactResult[BallRaceways], speed: ArrayLike, options: FrictionOptions
 ) -> BearingFriction:
     """Film, Λ and losses of every contact of a ball bearing with rigid rings.
 
     Parameters
     ----------
-    result : BallResult
+    result : ContactResult
         Load distribution of a ball or slewing bearing, cases (...).
     speed : array_like
         Speed of the inner ring (less that of the outer), rad/s; broadcasts with the cases.
@@ -120,7 +121,12 @@ def ball_friction(
 
 
 def _groove(
-    result: BallResult, ring: Ring, force: Array, u: Array, turning: Array, options: FrictionOptions
+    result: ContactResult[BallRaceways],
+    ring: Ring,
+    force: Array,
+    u: Array,
+    turning: Array,
+    options: FrictionOptions,
 ) -> _Groove:
     """Friction of all contacts with one ring."""
     bearing, oil, t = result.bearing, options.oil, options.temperature

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,8 +14,7 @@ from loadflow.numerics.convergence import Convergence
 from loadflow.rolling.friction.bearing import BearingFriction
 from loadflow.rolling.friction.options import FrictionOptions
 from loadflow.rolling.friction.roller_losses import roller_friction
-from loadflow.rolling.results import BallResult
-from loadflow.rolling.roller_result import RollerResult
+from loadflow.rolling.results import ContactResult
 
 _HOTTEST = 200.0  # K above the surroundings that are searched
 
@@ -39,7 +39,7 @@ class HeatBalance:
 
 
 def balanced_temperature(
-    result: RollerResult | BallResult,
+    result: ContactResult[Any],
     speed: ArrayLike,
     options: FrictionOptions,
     conductance: float,

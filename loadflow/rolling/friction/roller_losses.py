@@ -27,7 +27,8 @@ from loadflow.rolling.friction.contact_films import (
 )
 from loadflow.rolling.friction.options import FrictionOptions
 from loadflow.rolling.motion.kinematics import entrainment_speed
-from loadflow.rolling.roller_result import RollerResult
+from loadflow.rolling.results import ContactResult
+from loadflow.rolling.roller_raceways import RollerRaceways
 from loadflow.tribology import asperities
 from loadflow.tribology.hertz import effective_modulus
 
@@ -35,7 +36,7 @@ Array = NDArray[np.float64]
 
 
 def roller_friction(
-    result: RollerResult, speed: ArrayLike, options: FrictionOptions
+    result: ContactResult[RollerRaceways], speed: ArrayLike, options: FrictionOptions
 ) -> BearingFriction:
     """Film, Λ and losses of every contact of a roller bearing.
 
@@ -44,7 +45,7 @@ def roller_friction(
 
     Parameters
     ----------
-    result : RollerResult
+    result : ContactResult
         Load distribution, cases (...).
     speed : array_like
         Speed of the inner ring (less that of the outer), rad/s; broadcasts with the cases.
@@ -78,7 +79,9 @@ def roller_friction(
     return sum_losses(omega, u, bearing.roller_diameter, contacts, special, options)
 
 
-def _rib_loss(result: RollerResult, force: Array, u: Array, options: FrictionOptions) -> Array:
+def _rib_loss(
+    result: ContactResult[RollerRaceways], force: Array, u: Array, options: FrictionOptions
+) -> Array:
     """Loss of roller ends on the ribs of the inner ring, W.
 
     A rib contact at height e slides with e u/R_eff, the rolling speed times its distance from the
@@ -98,7 +101,11 @@ def _rib_loss(result: RollerResult, force: Array, u: Array, options: FrictionOpt
 
 
 def _contact(
-    result: RollerResult, ring: Ring, force: Array, u: Array, options: FrictionOptions
+    result: ContactResult[RollerRaceways],
+    ring: Ring,
+    force: Array,
+    u: Array,
+    options: FrictionOptions,
 ) -> ContactFriction:
     """Friction of all contacts with one ring."""
     bearing, oil, t = result.bearing, options.oil, options.temperature

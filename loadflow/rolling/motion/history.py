@@ -20,8 +20,8 @@ from loadflow.rolling.motion.kinematics import Value
 from loadflow.rolling.motion.radial_load import LineLaw, radial_distribution
 
 if TYPE_CHECKING:
+    from loadflow.rolling.results import ContactResult
     from loadflow.rolling.roller_raceways import RollerRaceways
-    from loadflow.rolling.roller_result import RollerResult
 
 Array = NDArray[np.float64]
 
@@ -242,7 +242,7 @@ def radial_history(
 
 
 def bearing_histories(
-    result: RollerResult,
+    result: ContactResult[RollerRaceways],
     time: ArrayLike,
     speed: ArrayLike,
     *,
@@ -256,7 +256,7 @@ def bearing_histories(
 
     Parameters
     ----------
-    result : RollerResult
+    result : ContactResult
         Load distribution, cases (n,).
     time : array_like, shape (n,)
         s.

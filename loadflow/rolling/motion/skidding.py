@@ -20,7 +20,8 @@ from loadflow.rolling.friction.roller_drag import DragConstants
 from loadflow.rolling.friction.roller_losses import roller_friction
 from loadflow.rolling.motion.history import GRAVITY, bearing_histories
 from loadflow.rolling.motion.rollers import RollerMotion, coulomb_motion, film_motion
-from loadflow.rolling.roller_result import RollerResult
+from loadflow.rolling.results import ContactResult
+from loadflow.rolling.roller_raceways import RollerRaceways
 
 Array = NDArray[np.float64]
 
@@ -75,7 +76,7 @@ class BearingSlip:
 
 
 def roller_slip(
-    result: RollerResult,
+    result: ContactResult[RollerRaceways],
     time: ArrayLike,
     speed: ArrayLike,
     options: FrictionOptions,
@@ -92,7 +93,7 @@ def roller_slip(
 
     Parameters
     ----------
-    result : RollerResult
+    result : ContactResult
         Load distribution over the series, cases (n,).
     time : array_like, shape (n,)
         s.

@@ -7,18 +7,18 @@ equilibrium and follow its contact angles from one to the next, with control by 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError, SolverError
-from loadflow.rolling.contacts import HEIGHT, NORMAL_R, NORMAL_Z, RADIUS, Contacts
+from loadflow.rolling.contacts import HEIGHT, NORMAL_R, NORMAL_Z, RADIUS, Contacts, Raceway
+from loadflow.rolling.equilibrium import RingEquilibrium
 
 if TYPE_CHECKING:
-    from loadflow.rolling.bearings.ball import BallBearing
-    from loadflow.rolling.equilibrium import RingEquilibrium
+    from loadflow.rolling.raceways import BallRaceways
 
 Array = NDArray[np.float64]
 
@@ -50,6 +50,32 @@ class Spin:
     centrifugal: Array
     gyroscopic: Array
 
+    @property
+    def forces(self) -> Array:
+        """Contact forces at the inner raceway, N, (..., row, ball)."""
+        return self.inner_forces
+
+    @property
+    def angles(self) -> Array:
+        """Contact angles at the inner raceway, rad, (..., row, ball)."""
+        return self.inner_angles
+
+    def _at(self, raceway: Raceway) -> Array:
+        return self.inner_forces if raceway == "inner" else self.outer_forces
+
+    def largest(self, raceway: Raceway) -> Array:
+        """Largest force of each row at a raceway, N, (..., row)."""
+        return np.asarray(self._at(raceway).max(axis=-1))
+
+    def power_sums(self, raceway: Raceway) -> Array:
+        """Sums of the forces, their cubes and 10/3 powers, (..., row, 3)."""
+        force = self._at(raceway)
+        return np.stack([(force**power).sum(axis=-1) for power in (1, 3, 10 / 3)], axis=-1)
+
+    def grouped(self, groups: int) -> Array:
+        """Forces on the balls, N, (..., row, ball)."""
+        return self.inner_forces
+
 
 @dataclass(frozen=True)
 class _Balls:
@@ -65,7 +91,7 @@ class _Balls:
 
 
 def spin_equilibrium(
-    bearing: BallBearing,
+    bearing: BallRaceways,
     contacts: Contacts,
     rest: RingEquilibrium,
     speed: ArrayLike,
@@ -73,12 +99,12 @@ def spin_equilibrium(
     density: float = STEEL_DENSITY,
     tolerance: float = 1e-8,
     max_iterations: int = 100,
-) -> tuple[dict[str, Array], Spin]:
+) -> tuple[RingEquilibrium, Spin]:
     """Equilibrium of rings and balls with the inertia of the balls.
 
     Parameters
     ----------
-    bearing : BallBearing
+    bearing : BallRaceways
         The bearing; its outer ring stands still.
     contacts : Contacts
         Its contacts.
@@ -95,8 +121,8 @@ def spin_equilibrium(
 
     Returns
     -------
-    dict, Spin
-        What differs from `rest` (displacement, stiffness, convergence), and the balls.
+    RingEquilibrium, Spin
+        The rings, and the balls.
 
     Raises
     ------
@@ -163,13 +189,14 @@ def spin_equilibrium(
         )
     full = (*shape, *reach.shape[1:3])
     spin = (np.hypot(*np.moveaxis(pull, -1, 0)), outer, *angles, centrifugal, gyroscopic)
-    rings = {
-        "displacement": q.reshape(*shape, 5),
-        "stiffness": hessian.reshape(*shape, 5, 5),
-        "residual": residual.reshape(shape),
-        "iterations": np.full(shape, total),
-        "converged": np.full(shape, True),
-    }
+    rings = replace(
+        rest,
+        displacement=q.reshape(*shape, 5),
+        stiffness=hessian.reshape(*shape, 5, 5),
+        residual=residual.reshape(shape),
+        iterations=np.full(shape, total),
+        converged=np.full(shape, True),
+    )
     return rings, Spin(*(np.broadcast_to(v, reach.shape[:3]).reshape(full) for v in spin))
 
 

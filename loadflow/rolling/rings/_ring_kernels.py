@@ -14,10 +14,9 @@ import math
 import numpy as np
 from numba import njit
 
-from loadflow.rolling._kernels import cholesky_solve
+from loadflow.rolling._kernels import cholesky_solve, is_small, rounding_level, stalled
 from loadflow.rolling.contacts import FREE, GAP, NORMAL_R, NORMAL_Z, STIFFNESS
 
-_EPS = 2.220446049250313e-16
 # Sums may be reordered (so that they use vector units); nothing else of fast mathematics.
 _REORDER = {"reassoc", "contract", "nsz"}
 
@@ -34,7 +33,7 @@ def _compress(stretch, stiffness, local):
                 root * (2.0 + 3.0 * cubic * root)
             )
             root -= step
-            if abs(step) <= 4.0 * _EPS * root:
+            if stalled(abs(step), rounding_level(root)):
                 break
     slope = 1.5 * stiffness * root
     return stiffness * root**3, slope / (1.0 + local * slope)
@@ -210,7 +209,9 @@ def _newton(
     x, load, basis, table, local, reach, cap, tolerance, limit, room,
     factor, solved, condensed, known,
 ):  # fmt: skip
-    """Minimise energy - load·x from `x`; returns converged, residual, iterations, singular.
+    """Minimise energy - load·x from `x`.
+
+    Returns converged, residual, iterations, singular, and the rounding level of the residual.
 
     Newton with the exact tangent, kept while the residual falls tenfold at each step (`known` says
     whether a tangent from near `x` is there to begin with), a cap on the step of the contacts, and
@@ -273,7 +274,7 @@ def _newton(
         for i in range(count):
             for c in range(3):
                 shift = max(shift, abs(_dot(basis[c, i], step)))
-        if exact and max(shift, _largest(step[:5], one)) <= 4.0 * _EPS * moved:
+        if exact and stalled(max(shift, _largest(step[:5], one)), rounding_level(moved)):
             break
         damping = min(1.0, cap / shift) if shift > 0.0 else 1.0
         potential, descent, halvings = energy - _dot(load, x), -_dot(rest, step), 0
@@ -281,10 +282,10 @@ def _newton(
             trial[a] = x[a] + damping * step[a]
     _condense(basis, push, slope, across, room, factor, solved, condensed)
     stiffest, pivot = _direction(rest, factor, solved, condensed, cap, small, step)
-    settled = residual <= tolerance or (
-        residual * max(external, 1e-4 * total) <= 16.0 * _EPS * moved * stiffest
-    )
-    return settled and not beyond, residual, iterations, pivot <= 1e-12
+    reference = max(external, 1e-4 * total, 1e-300)
+    rounding = rounding_level(moved * stiffest) / reference
+    answered = is_small(residual, tolerance, rounding) and not beyond
+    return answered, residual, iterations, pivot <= 1e-12, rounding
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -299,6 +300,7 @@ def solve_series(loads, rigid, basis, table, local, reach, cap, tolerance, limit
     states, stiffness = np.zeros((n, size)), np.zeros((n, 5, 5))
     residual, iterations = np.zeros(n), np.zeros(n, np.int64)
     converged, singular = np.zeros(n, np.bool_), np.zeros(n, np.bool_)
+    rounding = np.zeros(n)
     room = np.empty((3 * basis.shape[1], size))
     x, load = np.zeros(size), np.zeros(size)
     factor, solved = np.zeros((size - 5, size - 5)), np.zeros((5, size - 5))
@@ -317,7 +319,7 @@ def solve_series(loads, rigid, basis, table, local, reach, cap, tolerance, limit
             if attempt == 1 or attempt == 2:
                 for a in range(size):
                     x[a] = rigid[i, a] if a < 5 else 0.0
-            ok, res, more, free = _newton(
+            ok, res, more, free, rounding[i] = _newton(
                 x, load, basis, table, local, reach, cap, tolerance, limit, room,
                 factor, solved, stiffness[i], attempt == 0,
             )  # fmt: skip
@@ -327,7 +329,7 @@ def solve_series(loads, rigid, basis, table, local, reach, cap, tolerance, limit
         for a in range(size):
             states[i, a] = x[a]
         converged[i], residual[i], iterations[i], singular[i] = ok, res, count, free
-    return states, stiffness, converged, residual, iterations, singular
+    return states, stiffness, converged, residual, iterations, singular, rounding
 
 
 @njit(cache=True, nogil=True, error_model="numpy")

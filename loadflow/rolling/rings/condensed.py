@@ -23,7 +23,7 @@ from loadflow.rolling.rings.local_compliance import half_space
 from loadflow.rolling.rings.patches import PatchPoints, patch_points
 
 if TYPE_CHECKING:
-    from loadflow.rolling.bearings.four_point import SlewingBearing
+    from loadflow.rolling.raceways import BallRaceways
 
 # expected share of a contact force across its nominal line, and along the ring
 _ACROSS, _ALONG = 0.2, 0.02
@@ -127,7 +127,7 @@ class RingModes:
 
 
 @lru_cache(maxsize=16)
-def ring_modes(bearing: SlewingBearing, rings: FlexibleRings, ball_angle: float) -> RingModes:
+def ring_modes(bearing: BallRaceways, rings: FlexibleRings, ball_angle: float) -> RingModes:
     """Condense the rings of a bearing to their modes.
 
     Raises
@@ -146,7 +146,7 @@ def ring_modes(bearing: SlewingBearing, rings: FlexibleRings, ball_angle: float)
     )
 
 
-def _master_compliance(bearing: SlewingBearing, rings: FlexibleRings) -> float:
+def _master_compliance(bearing: BallRaceways, rings: FlexibleRings) -> float:
     """What both rings yield at a master node on top of Hertz's approach, m/N."""
     if rings.master_width is None:
         return 0.0
@@ -155,7 +155,7 @@ def _master_compliance(bearing: SlewingBearing, rings: FlexibleRings) -> float:
     return flexible * half_space(side, side, bearing.elastic_modulus, bearing.poisson_ratio)[0]
 
 
-def _joint_factor(bearing: SlewingBearing, rings: FlexibleRings, contacts: Contacts) -> Array:
+def _joint_factor(bearing: BallRaceways, rings: FlexibleRings, contacts: Contacts) -> Array:
     """Q of both rings side by side, (contact, 3, mode); inner minus outer."""
     parts = []
     shape = (len(contacts.table), bearing.balls, 3)

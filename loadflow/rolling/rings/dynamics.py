@@ -15,12 +15,13 @@ import numpy as np
 from loadflow.errors import InputError
 from loadflow.rolling.contacts import Array
 from loadflow.rolling.raceways import Raceway
-from loadflow.rolling.rings.finite_element import FiniteElementRing, SolidSection
+from loadflow.rolling.rings.finite_element import FiniteElementRing
 from loadflow.rolling.rings.harmonics import RingWave, SectionSystem
 from loadflow.rolling.rings.patches import PatchPoints, patch_points
+from loadflow.rolling.rings.solid_section import SolidSection
 
 if TYPE_CHECKING:
-    from loadflow.rolling.bearings.four_point import SlewingBearing
+    from loadflow.rolling.raceways import BallRaceways
     from loadflow.rolling.rings.condensed import FlexibleRings, RingModes
 
 
@@ -115,7 +116,7 @@ class _Shapes:
 
 
 def joint_motion(
-    bearing: SlewingBearing, rings: FlexibleRings, modes: RingModes, fixed_modes: int
+    bearing: BallRaceways, rings: FlexibleRings, modes: RingModes, fixed_modes: int
 ) -> RingMotion:
     """Both rings over the ring modes of a bearing and the vibrations of each ring.
 

@@ -8,45 +8,52 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError, SolverError
 from loadflow.rolling import equilibrium
-from loadflow.rolling.contacts import Array
-from loadflow.rolling.equilibrium import Control, broadcast_loads, complain
+from loadflow.rolling.contacts import Array, Contacts, Raceway
+from loadflow.rolling.equilibrium import Control, RingEquilibrium, broadcast_loads, complain
+from loadflow.rolling.raceways import BallRaceways
 from loadflow.rolling.rings.condensed import FlexibleRings, RingModes, ring_modes
 from loadflow.rolling.rings.patches import patch_points
-from loadflow.rolling.slewing_result import SlewingResult
-
-if TYPE_CHECKING:
-    from loadflow.rolling.bearings.four_point import SlewingBearing
 
 _BLOCK = 512  # cases whose contact forces are formed at once
 
 
 @dataclass(frozen=True)
-class FlexibleResult(SlewingResult):
-    """Equilibrium with flexible rings.
+class FlexibleRingForces:
+    """Forces of contacts between flexible rings.
 
     Attributes
     ----------
+    bearing : BallRaceways
+        The bearing.
+    contacts : Contacts
+        Its contacts.
     rings : FlexibleRings
         The rings.
-    ball_angle : float
-        Azimuth of the first ball, rad.
     modes : RingModes
         The ring modes of this position.
+    displacement : ndarray, shape (..., 5)
+        Of the inner ring's structure, m and rad.
     amplitudes : ndarray, shape (..., mode)
         Of the ring modes, √(N m).
     """
 
+    bearing: BallRaceways
+    contacts: Contacts
     rings: FlexibleRings
-    ball_angle: float
     modes: RingModes
+    displacement: Array
     amplitudes: Array
+
+    @property
+    def _cases(self) -> tuple[int, ...]:
+        return self.displacement.shape[:-1]
 
     @cached_property
     def _unknowns(self) -> Array:
@@ -67,7 +74,7 @@ class FlexibleResult(SlewingResult):
     @cached_property
     def _state(self) -> tuple[Array, Array]:
         force, angle = self._contact_state(slice(None))
-        shape = (*self.cases, *force.shape[1:])
+        shape = (*self._cases, *force.shape[1:])
         return force.reshape(shape), angle.reshape(shape)
 
     @cached_property
@@ -79,9 +86,32 @@ class FlexibleResult(SlewingResult):
             sums.append(np.stack([(force**p).sum(axis=-1) for p in (1, 3, 10 / 3)], axis=-1))
         kinds = len(self.contacts.table)
         return (
-            np.concatenate(largest).reshape(*self.cases, kinds),
-            np.concatenate(sums).reshape(*self.cases, kinds, 3),
+            np.concatenate(largest).reshape(*self._cases, kinds),
+            np.concatenate(sums).reshape(*self._cases, kinds, 3),
         )
+
+    @property
+    def forces(self) -> Array:
+        """Force of each contact, N, (..., kind, ball)."""
+        return self._state[0]
+
+    @property
+    def angles(self) -> Array:
+        """Signed angle of each contact from the radial plane, rad, (..., kind, ball)."""
+        return self._state[1]
+
+    def largest(self, raceway: Raceway) -> Array:
+        """Largest force of each kind of contact, N, (..., kind); the same at both raceways."""
+        return self._statistics[0]
+
+    def power_sums(self, raceway: Raceway) -> Array:
+        """Sums of the forces, their cubes and 10/3 powers, (..., kind, 3)."""
+        return self._statistics[1]
+
+    def grouped(self, groups: int) -> Array:
+        """Forces summed over the kinds of each group, N, (..., group, ball)."""
+        force = self.forces
+        return force.reshape(*self._cases, groups, -1, force.shape[-1]).sum(axis=-2)
 
     def ring_displacement(self, ring: Literal["inner", "outer"]) -> Array:
         """Displacement (r, θ, z) of a ring's raceway patches, m, (..., row, diagonal, ball, 3).
@@ -110,17 +140,17 @@ class FlexibleResult(SlewingResult):
         )
         modal = np.einsum("...kbc,kbcm->...m", push, factor)
         moved = np.einsum("kbcm,...m->...kbc", factor, modal)
-        return moved.reshape(*self.cases, self.bearing.rows, 2, self.bearing.balls, 3)
+        return moved.reshape(*self._cases, *self.bearing.groups, self.bearing.balls, 3)
 
 
 def solve_flexible(
-    bearing: SlewingBearing,
+    bearing: BallRaceways,
     rings: FlexibleRings,
     ball_angle: float,
     force: ArrayLike,
     moment: ArrayLike,
     control: Control,
-) -> FlexibleResult:
+) -> tuple[RingEquilibrium, FlexibleRingForces]:
     """Find the equilibrium with flexible rings for all load cases.
 
     Minimises the convex potential of contacts, ring modes and load. Starts from the equilibrium
@@ -129,7 +159,7 @@ def solve_flexible(
     Parameters
     ----------
     bearing, rings, ball_angle
-        See `SlewingBearing.equilibrium`.
+        See `RollingBearing.equilibrium`.
     force, moment : array_like, shape (..., 3) and (..., 2)
         Load on the inner ring, N and N m.
     control : Control
@@ -138,7 +168,7 @@ def solve_flexible(
 
     Returns
     -------
-    FlexibleResult
+    RingEquilibrium, FlexibleRingForces
         Over the shape of the load cases.
 
     Raises
@@ -165,7 +195,7 @@ def solve_flexible(
         strict=False,
         chunk=control.chunk,
     )
-    x, stiffness, converged, residual, iterations, singular = _ring_kernels.solve_series(
+    x, stiffness, converged, residual, iterations, singular, rounding = _ring_kernels.solve_series(
         loads * contacts.scale,
         (rigid.displacement / contacts.scale).reshape(-1, 5),
         modes.basis,
@@ -179,24 +209,21 @@ def solve_flexible(
     )
     if control.strict and not converged.all():
         _refuse_exit(loads, converged, residual, control.tolerance)
-        complain(loads, converged, residual, iterations, shape)
+        complain(loads, converged, residual, rounding, iterations, shape)
     per_length = 1 / contacts.scale
-    return FlexibleResult(
+    displacement = (x[:, :5] * contacts.scale).reshape(*shape, 5)
+    found = RingEquilibrium(
         force=f,
         moment=m,
-        displacement=(x[:, :5] * contacts.scale).reshape(*shape, 5),
+        displacement=displacement,
         stiffness=(stiffness * per_length[:, None] * per_length).reshape(*shape, 5, 5),
         converged=converged.reshape(shape),
         residual=residual.reshape(shape),
         iterations=iterations.reshape(shape),
         singular=singular.reshape(shape),
-        bearing=bearing,
-        contacts=contacts,
-        rings=rings,
-        ball_angle=ball_angle,
-        modes=modes,
-        amplitudes=x[:, 5:].reshape(*shape, -1),
     )
+    amplitudes = x[:, 5:].reshape(*shape, -1)
+    return found, FlexibleRingForces(bearing, contacts, rings, modes, displacement, amplitudes)
 
 
 def _refuse_exit(

@@ -15,8 +15,8 @@ from numpy.typing import ArrayLike
 
 from loadflow.errors import InputError
 from loadflow.numerics.fields import check_fields
-from loadflow.rolling.bearings.four_point import SlewingBearing
 from loadflow.rolling.contacts import Array
+from loadflow.rolling.raceways import BallRaceways
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -78,7 +78,7 @@ class ExpansionResult:
 
 
 def axial_expansion(
-    bearing: SlewingBearing,
+    bearing: BallRaceways,
     axial_force: ArrayLike,
     sections: RingSections,
     *,
@@ -92,7 +92,7 @@ def axial_expansion(
 
     Parameters
     ----------
-    bearing : SlewingBearing
+    bearing : BallRaceways
         Without clearance or preload.
     axial_force : array_like
         Axial force on the inner ring, N; its sign is that of the displacement.
@@ -140,7 +140,7 @@ def axial_expansion(
     return ExpansionResult(force, alpha, np.sign(load) * shift, widening, np.abs(gap) / free)
 
 
-def _softness(bearing: SlewingBearing, sections: RingSections, flexible: str, rings: str) -> float:
+def _softness(bearing: BallRaceways, sections: RingSections, flexible: str, rings: str) -> float:
     """Expansion of both rings on the radius for the sum of radial ball forces, m/N."""
     parts = {"none": (), "outer": ("outer",), "inner": ("inner",), "both": ("outer", "inner")}
     if flexible not in parts:

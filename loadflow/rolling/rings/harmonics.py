@@ -17,8 +17,8 @@ from loadflow.errors import InputError
 from loadflow.rolling.contacts import Array
 
 if TYPE_CHECKING:
-    from loadflow.rolling.rings.finite_element import SolidSection
     from loadflow.rolling.rings.patches import PatchPoints
+    from loadflow.rolling.rings.solid_section import SolidSection
 
 _EXACT, _GROWTH = 12, 1.2  # harmonics solved one by one, and spacing of the others
 

@@ -11,7 +11,7 @@ import numpy as np
 from loadflow.rolling.contacts import Array, azimuths
 
 if TYPE_CHECKING:
-    from loadflow.rolling.bearings.four_point import SlewingBearing
+    from loadflow.rolling.raceways import BallRaceways
 
 
 @dataclass(frozen=True)
@@ -32,7 +32,7 @@ class PatchPoints:
 
 
 def patch_points(
-    bearing: SlewingBearing,
+    bearing: BallRaceways,
     ring: Literal["inner", "outer"],
     azimuth: Array,
     shell: float = 0.5e-3,
@@ -42,7 +42,7 @@ def patch_points(
 
     Parameters
     ----------
-    bearing : SlewingBearing
+    bearing : BallRaceways
         The bearing.
     ring : {"inner", "outer"}
         Which ring.
@@ -67,13 +67,13 @@ def patch_points(
 
 
 def raceway_points(
-    bearing: SlewingBearing, ring: Literal["inner", "outer"], shell: float = 0.5e-3
+    bearing: BallRaceways, ring: Literal["inner", "outer"], shell: float = 0.5e-3
 ) -> Array:
     """Master points of the raceway patches on one ring, m, (row, side, ball, 3).
 
     Parameters
     ----------
-    bearing : SlewingBearing
+    bearing : BallRaceways
         The bearing.
     ring : {"inner", "outer"}
         Which ring.

@@ -17,12 +17,13 @@ from numpy.typing import ArrayLike
 
 from loadflow.errors import SolverError
 from loadflow.rolling.contacts import Array
+from loadflow.rolling.equilibrium import solve
 from loadflow.rolling.raceways import Raceway
 from loadflow.rolling.rings.condensed import FlexibleRings, rigid_basis
 from loadflow.rolling.rings.patches import patch_points
 
 if TYPE_CHECKING:
-    from loadflow.rolling.bearings.four_point import SlewingBearing
+    from loadflow.rolling.raceways import BallRaceways
 
 
 @dataclass(frozen=True)
@@ -36,7 +37,7 @@ class ReferenceState:
 
 
 def reference_equilibrium(
-    bearing: SlewingBearing,
+    bearing: BallRaceways,
     rings: FlexibleRings,
     force: ArrayLike,
     moment: ArrayLike = (0.0, 0.0),
@@ -65,7 +66,7 @@ def reference_equilibrium(
     factor = np.repeat(
         [given or float(bearing.raceway_contact(r).stiffness) for r in ("inner", "outer")], count
     )
-    rigid = bearing.equilibrium(force, moment).displacement / contacts.scale
+    rigid = solve(contacts, force, moment).displacement / contacts.scale
     x[:5] = rigid
     soft = np.diag(stiffness)
 
@@ -105,7 +106,7 @@ def reference_equilibrium(
     raise SolverError(f"no reference equilibrium: residual {residual:.3g} after 200 steps")
 
 
-def _geometry(bearing: SlewingBearing, rings: FlexibleRings) -> tuple[Array, Array, Array]:
+def _geometry(bearing: BallRaceways, rings: FlexibleRings) -> tuple[Array, Array, Array]:
     """Shift of all contact vectors by the unknowns, their start, stiffness of the unknowns.
 
     Unknowns: five rigid, (r, θ, z) of each ball centre, then the modes of each flexible ring.

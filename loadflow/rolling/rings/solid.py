@@ -13,10 +13,10 @@ from annotated_types import Ge, Le
 from loadflow.errors import InputError
 from loadflow.numerics.fields import check_fields
 from loadflow.rolling.contacts import Array
-from loadflow.rolling.rings.finite_element import SolidSection
 from loadflow.rolling.rings.local_compliance import half_space, local_block, semidefinite_factor
 from loadflow.rolling.rings.patches import PatchPoints
 from loadflow.rolling.rings.profile import graded
+from loadflow.rolling.rings.solid_section import SolidSection
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -2,7 +2,7 @@
 
 The inner ring with its structure has mass, contacts and rings have damping. The rings are their
 static modes without inertia (Guyan), or with their masses and some modes of vibration with held
-patches (Craig–Bampton). What comes to rest is the equilibrium of `SlewingBearing.equilibrium`; the
+patches (Craig–Bampton). What comes to rest is the equilibrium of `BallRaceways.equilibrium`; the
 way there depends on damping, which the source gives no value for.
 """
 
@@ -24,7 +24,7 @@ from loadflow.rolling.rings.condensed import FlexibleRings, RingModes, ring_mode
 from loadflow.rolling.rings.dynamics import RingMotion, joint_motion
 
 if TYPE_CHECKING:
-    from loadflow.rolling.bearings.four_point import SlewingBearing
+    from loadflow.rolling.raceways import BallRaceways
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -84,7 +84,7 @@ class Transient:
 
 
 def settle(
-    bearing: SlewingBearing,
+    bearing: BallRaceways,
     rings: FlexibleRings,
     inertia: Inertia,
     force: ArrayLike,
@@ -99,7 +99,7 @@ def settle(
     Parameters
     ----------
     bearing, rings
-        See `SlewingBearing.equilibrium`.
+        See `BallRaceways.equilibrium`.
     inertia : Inertia
         Mass and damping.
     force, moment : array_like, shape (3,) and (2,)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -19,8 +19,9 @@ from loadflow.rolling.friction.contact_films import (
 )
 from loadflow.rolling.friction.options import FrictionOptions
 from loadflow.rolling.motion.kinematics import entrainment_speed
-from loadflow.rolling.results import BallResult
-from loadflow.rolling.roller_result import RollerResult
+from loadflow.rolling.raceways import BallRaceways
+from loadflow.rolling.results import ContactResult
+from loadflow.rolling.roller_raceways import RollerRaceways
 from loadflow.rolling.stiffness import contact_films as dynamics
 from loadflow.rolling.stiffness.lim_singh import DOF
 from loadflow.tribology.hertz import effective_modulus
@@ -31,7 +32,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complexfloating]
-Result = RollerResult | BallResult
+Result = ContactResult[BallRaceways] | ContactResult[RollerRaceways]
 Model = Literal["film", "dry", "proportional"]
 RINGS: tuple[Ring, ...] = ("inner", "outer")
 # m of h ~ Q^-m: Moes's elastic film of lines, Hamrock and Dowson's of points
@@ -57,7 +58,7 @@ def rotor_coefficients(
 
     Parameters
     ----------
-    result : RollerResult or BallResult
+    result : ContactResult
         Equilibrium under cases (...), with rigid rings.
     frequency : array_like, shape (frequency,)
         Circular frequencies of the vibration (not of the shaft), rad/s, > 0.
@@ -180,9 +181,10 @@ def _films(
     omega = np.broadcast_to(np.asarray(speed, float), result.cases).reshape(-1, 1)
     mean = entrainment_speed(omega, 0.0, bearing.pitch_diameter, bearing.gamma)
     u = np.broadcast_to(np.asarray(mean), forces.shape)
-    if isinstance(result, BallResult):
-        return tuple(groove_film(result.bearing, r, forces, u, options) for r in RINGS)
-    rollers = result.bearing
+    if bearing.element == "ball":
+        balls = cast("BallRaceways", bearing)
+        return tuple(groove_film(balls, r, forces, u, options) for r in RINGS)
+    rollers = cast("RollerRaceways", bearing)
     modulus = 2 * float(effective_modulus(rollers.elastic_modulus, rollers.poisson_ratio))
     length = rollers.roller_length / rollers.slices
     radii = (raceway_radius(rollers.roller_diameter, rollers.gamma, r) for r in RINGS)

@@ -8,7 +8,7 @@ hub loss, Buhl's correction at high induction.
 import numpy as np
 
 from .._compile import kernel, section
-from .._slots import S_AXIAL
+from ..slots import S_AXIAL
 from ._airfoil_kernels import coefficients, polar
 
 _SMALL = 1e-6

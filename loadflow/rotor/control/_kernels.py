@@ -8,7 +8,7 @@ a jump between them.
 import numpy as np
 from numba import njit
 
-from .. import _slots as k
+from .. import slots as k
 from .constants import EMERGENCY, EVENTS, FAULT, IDLE, PARK, RUN, START, STOP
 
 _E_STUCK = EVENTS.index("blade stuck")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -10,19 +10,19 @@ import numpy as np
 import xarray as xr
 
 from loadflow.errors import SolverError
-from loadflow.planning.accuracy import finer
-from loadflow.planning.ladder import rung_of
 from loadflow.reduction import damage_equivalent_load
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Journal, Scene
+from loadflow.stages.effects.film import HEAT, MOTION
+from loadflow.stages.effects.rolling import RINGS
 from loadflow.stages.frames import to_film
-from loadflow.stages.journal import equilibria, follow, shaft_line
-from loadflow.stages.loads import hub_loads
+from loadflow.stages.journal import FILM as FILM_MODEL
+from loadflow.stages.journal import equilibria, fast_film, follow, shaft_line
+from loadflow.stages.loads import ROTOR, hub_loads
 from loadflow.stages.reduction import moment_governs
 from loadflow.stages.rolling import life_of, solve_bearing
 from loadflow.stages.shaft import bearing_loads
 from loadflow.stages.statistics import SLOPE
-from loadflow.studies.reduction_error import quick
 
 Parts = Mapping[str, Any]
 """What each stage gave for a case, by the name of the stage."""
@@ -45,7 +45,8 @@ THINNING = 0.035  # 1/K, relative loss of viscosity of a mineral oil of VG 100 â
 class Difference:
     """How much an answer moves when a model is replaced by a better one.
 
-    `result` is what the answer belongs to, `value` the relative change at its largest.
+    `stage` names the model or the effect, `result` is what the answer belongs to, `value` the
+    relative change at its largest.
     """
 
     stage: str
@@ -58,32 +59,32 @@ class Difference:
 
 def compare(scene: Scene, case: Case, parts: Parts) -> Iterator[Difference]:
     """Compare what the stages gave for a case with what the next better models give."""
-    yield from _loads(scene, case, parts)
-    if "reduction" in parts:
-        yield from _reduction(scene, case, parts)
-    if "journal" in parts:
-        again = _orbits if scene.journal.in_motion else _films
-        for stage, against, options in _better_films(scene, parts):
-            yield from again(scene, case, parts, stage, against, options)
-        if not (scene.journal.in_motion or scene.journal.tilt):
-            yield from _motion(scene, case, parts)
-    if "rolling" in parts:
-        yield from _contacts(scene, case, parts)
+    for stage, against_better in COMPARISONS.items():
+        if stage in parts:
+            yield from against_better(scene, case, parts)
+
+
+def _film(scene: Scene, case: Case, parts: Parts) -> Iterator[Difference]:
+    again = _orbits if scene.journal.in_motion else _films
+    for model, against, options in _better_films(scene, parts):
+        yield from again(scene, case, parts, model, against, options)
+    if not (scene.journal.in_motion or scene.journal.tilt):
+        yield from _motion(scene, case, parts)
 
 
 def _loads(scene: Scene, case: Case, parts: Parts) -> Iterator[Difference]:
-    better = finer(scene, "loads")
+    better = ROTOR.finer(scene)
     if better is None:
         return
     series = hub_loads(better, case, {})
     sharp = bearing_loads(better, case, {"loads": series})
     for bearing in sharp["bearing"].values:
-        ours, theirs = (_describe(scene, data, bearing) for data in (parts["shaft"], sharp))
+        ours, theirs = (describe_loads(scene, data, bearing) for data in (parts["shaft"], sharp))
         where, against = f"{case.name}, {bearing}", f"the rotor {better.loads.rung}"
         yield from _rows("loads", "loads.statistics", where, against, ours, theirs)
 
 
-def _describe(scene: Scene, bearings: xr.Dataset, bearing: str) -> dict[str, float]:
+def describe_loads(scene: Scene, bearings: xr.Dataset, bearing: str) -> dict[str, float]:
     """Return largest load and damage of what governs a bearing: radial force or tilting moment."""
     load, time = _governing(scene, bearings, bearing), bearings["time"].values
     duration = float(time[-1] - time[0])
@@ -122,7 +123,7 @@ def _reduction(scene: Scene, case: Case, parts: Parts) -> Iterator[Difference]:
                 "eccentricity ratio",
                 where,
                 "the full series",
-                _severest(scene.journal, bearing, load, parts, film),
+                _severest(scene.journal.at(bearing), bearing, load, parts, film),
             )
 
 
@@ -151,17 +152,17 @@ def _better_films(scene: Scene, parts: Parts) -> Iterator[tuple[str, str, dict[s
     """Stage, name and, by bearing, journal bearing of each model that the film is compared with."""
     films = {b: parts["journal"][b].to_dataset() for b in _answered(parts)}
     if scene.journal.heat is None:
-        warmer = {bearing: _warmer(scene.journal, film) for bearing, film in films.items()}
-        yield "heat", "oil warmed by its friction", warmer
-    better = finer(scene, "journal")
+        warmer = {b: _warmer(scene.journal.at(b), film) for b, film in films.items()}
+        yield HEAT.name, "oil warmed by its friction", warmer
+    better = FILM_MODEL.finer(scene)
     if better is not None:
-        options = dict.fromkeys(films, better.journal)
+        options = {bearing: better.journal.at(bearing) for bearing in films}
         if better.journal.in_motion and better.journal.heat is not None:
             options = {
-                bearing: better.journal.at_temperature(float(film["temperature"][0]))
+                bearing: options[bearing].at_temperature(float(film["temperature"][0]))
                 for bearing, film in films.items()
             }
-        yield "journal", f"the film {rung_of(better, 'journal')}", options
+        yield FILM_MODEL.name, f"the film {FILM_MODEL.key(better)}", options
 
 
 def _warmer(options: Journal, film: xr.Dataset) -> Journal:
@@ -206,33 +207,33 @@ def _orbits(
         loads, shaft = (parts[name].isel(time=stretch).load() for name in ("loads", "shaft"))
         try:
             path = follow(better, loads, shaft.sel(bearing=bearing), place)
-            theirs = _of_orbit(path)
+            theirs = extremes_of_orbit(path)
         except SolverError:
             theirs = dict.fromkeys(FILM, np.nan)
         where = f"{case.name}, {bearing}"
-        yield from _rows(stage, "journal.film", where, against, _of_orbit(ours), theirs)
+        yield from _rows(stage, "journal.film", where, against, extremes_of_orbit(ours), theirs)
 
 
 def _motion(scene: Scene, case: Case, parts: Parts) -> Iterator[Difference]:
-    """The whole series with the film in motion, where that is quick; a shaft at rest has none."""
-    journal = quick(scene.journal)
-    if journal is None:
-        return
+    """The whole series with the film in motion, where that is cheap; a shaft at rest has none."""
     for bearing in _answered(parts):
+        journal = fast_film(scene.journal.at(bearing))
+        if journal is None:
+            return
         film = parts["journal"][bearing].to_dataset().load()
         loads, shaft = parts["loads"].load(), parts["shaft"].sel(bearing=bearing).load()
         try:
             path = follow(journal, loads, shaft)
         except SolverError:
             continue
-        ours = {quantity: _of_orbit(film)[quantity] for quantity in EXTREMES}
+        ours = {quantity: extremes_of_orbit(film)[quantity] for quantity in EXTREMES}
         where = f"{case.name}, {bearing}"
         yield from _rows(
-            "motion", "journal.film", where, "the film in motion", ours, _of_orbit(path)
+            MOTION.name, "journal.film", where, "the film in motion", ours, extremes_of_orbit(path)
         )
 
 
-def _of_orbit(path: xr.Dataset) -> dict[str, float]:
+def extremes_of_orbit(path: xr.Dataset) -> dict[str, float]:
     """What users read of an orbit: the smallest film, the mean friction, else the largest value."""
     found = {name: float(path[name].max()) for name in ("eccentricity_ratio", "maximum_pressure")}
     smallest, friction = float(path["minimum_film"].min()), float(path["friction_power"].mean())
@@ -241,7 +242,7 @@ def _of_orbit(path: xr.Dataset) -> dict[str, float]:
 
 def _contacts(scene: Scene, case: Case, parts: Parts) -> Iterator[Difference]:
     """Equilibria of a few samples of the first bearing, and the life under these alone."""
-    better = finer(scene, "rolling")
+    better = None if RINGS.is_on(scene) else RINGS.switched(scene, True)
     if better is None:
         return
     bearing = scene.rolling.bearing
@@ -254,8 +255,8 @@ def _contacts(scene: Scene, case: Case, parts: Parts) -> Iterator[Difference]:
         [{q: getattr(answer, q) for q in CONTACT} for answer in (ours, theirs)],
         [{"life": life_of(answer, some)} for answer in (ours, theirs)],
     )
-    yield from _rows("rolling", "rolling.loads", where, against, *forces)
-    yield from _rows("rolling", "rolling.life", where, against, *lives)
+    yield from _rows(RINGS.name, "rolling.loads", where, against, *forces)
+    yield from _rows(RINGS.name, "rolling.life", where, against, *lives)
 
 
 def _rows(
@@ -288,3 +289,18 @@ def _relative(ours: Any, theirs: Any) -> float:
         return float("inf")
     scale = np.where(theirs[known] != 0, np.abs(theirs[known]), 1.0)
     return float(np.max(np.abs(ours[known] - theirs[known]) / scale, initial=0.0))
+
+
+COMPARISONS: dict[str, Callable[[Scene, Case, Parts], Iterator[Difference]]] = {
+    "loads": _loads,
+    "reduction": _reduction,
+    "journal": _film,
+    "rolling": _contacts,
+}
+"""For each stage that has better models, how it is compared with them."""
+
+READ = ("loads", "shaft", "reduction", "journal", "rolling")
+"""Stages that comparisons read."""
+
+OCCASIONS = ("reduction", "journal", "rolling")
+"""Stages without which nothing is compared: a better load matters where a bearing reads it."""

@@ -1,0 +1,128 @@
+"""Commands to begin with and to decide with: init, list, compare."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from loadflow.cli.base import (
+    AsJson,
+    Overwrite,
+    app,
+    check_free,
+    out,
+    print_json,
+    print_rows,
+)
+from loadflow.cli.progress import progress
+from loadflow.cli.scenes import LoadFiles, SceneFile, read
+from loadflow.errors import InputError, LoadflowError
+
+
+@app.command()
+def compare(
+    scene: SceneFile,
+    loads: LoadFiles = None,
+    candidate: Annotated[
+        list[str] | None,
+        typer.Option("--candidate", help="Name of one to compare, may be repeated; default all."),
+    ] = None,
+    out_folder: Annotated[Path, typer.Option("--out", help="Folder for runs.")] = Path("runs"),
+    name: Annotated[str | None, typer.Option(help="Name of the run; default: the scene's.")] = None,
+    workers: Annotated[int, typer.Option(min=0, help="Processes; 0: one for each core.")] = 0,
+    scheduler: Annotated[str | None, typer.Option(help="Dask scheduler, tcp://host:port.")] = None,
+    overwrite: Annotated[bool, typer.Option(help="Replace parts of other settings.")] = False,
+    as_json: AsJson = False,
+) -> None:
+    """Journal or rolling? Compare bearings for the same places under the same loads.
+
+    The candidates are those of the scene, or those that are sized for its turbine. Example:
+    loadflow compare scene.toml
+    """
+    from loadflow.running.comparison import compare as carry_out
+    from loadflow.running.executor import usable_cores
+
+    with progress(quiet=as_json) as show:
+        found = carry_out(
+            read(scene, loads, name),
+            out=out_folder,
+            candidates=candidate,
+            workers=workers or usable_cores(),
+            scheduler=scheduler,
+            overwrite=overwrite,
+            progress=show,
+        )
+    if as_json:
+        print_json(
+            {"page": str(found.page), "table": str(found.table)} | found.comparison.as_dict()
+        )
+    else:
+        out.print(found.comparison.conclusion, soft_wrap=True, markup=False)
+        heads = ("candidate", "limits", "loads may grow by", "governed by", "MWh a year", "thrust")
+        rows = [
+            (
+                one.name,
+                "hold" if one.holds else "broken",
+                f"{one.numbers['load_factor'].value:.3g} ×",
+                one.governs,
+                f"{one.numbers['energy'].value:.3g}",
+                one.thrust,
+            )
+            for one in found.comparison.candidates
+        ]
+        print_rows(heads, rows)
+        out.print(f"page   {found.page}\ntable  {found.table}", soft_wrap=True)
+    if found.failures:
+        lines = "\n".join(f"  {one}: {why}" for one, why in found.failures.items())
+        raise LoadflowError(f"{len(found.failures)} candidates have no answer:\n{lines}")
+
+
+@app.command()
+def init(
+    template: Annotated[str, typer.Argument(help="Name, as `loadflow list scenes` has them.")] = (
+        "quick_look"
+    ),
+    output: Annotated[Path, typer.Option("-o", "--output", help="File to write.")] = Path(
+        "scene.toml"
+    ),
+    overwrite: Overwrite = False,
+) -> None:
+    """Write a scene to begin with. Example: loadflow init dlc_1_1 -o my_turbine.toml."""
+    from loadflow.scene.templates import template_text
+
+    check_free(output, overwrite)
+    text = template_text(template, name=output.stem)
+    output.write_text(text, encoding="utf-8")
+    out.print(
+        f"{output}: a copy of {template}; next:\n  loadflow plan {output}\n"
+        f"  loadflow run {output}\n  loadflow compare {output}",
+        soft_wrap=True,
+    )
+
+
+@app.command("list")
+def list_known(
+    what: Annotated[str | None, typer.Argument(help="What to list; left out: what there is.")] = (
+        None
+    ),
+    as_json: AsJson = False,
+) -> None:
+    """List what scenes may name: turbines, oils, bearings, rungs … Example: loadflow list oils."""
+    from loadflow.cli.lists import LISTS
+
+    if what is None:
+        rows = [(name, (one.__doc__ or "").strip().splitlines()[0]) for name, one in LISTS.items()]
+        if as_json:
+            print_json(dict(rows))
+        else:
+            print_rows(("loadflow list …", ""), rows)
+        return
+    if what not in LISTS:
+        raise InputError(f"no list {what!r}; there are {', '.join(LISTS)}")
+    heads, found = LISTS[what]()
+    if as_json:
+        print_json([dict(zip(heads, row)) for row in found])
+    else:
+        print_rows(heads, found)

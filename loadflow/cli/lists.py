@@ -1,0 +1,96 @@
+"""What scenes may name: each list is a function of its heads and rows."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+Row = tuple[str, ...]
+Rows = tuple[Row, list[Row]]
+
+
+def turbines() -> Rows:
+    """Turbines, for turbine.name."""
+    from loadflow.turbines import load_turbine, turbine_names
+
+    rows: list[Row] = []
+    for name in turbine_names():
+        machine = load_turbine(name)
+        diameter = f"{2 * machine.rotor.radius:.4g} m"
+        winds = f"{machine.cut_in:g} … {machine.cut_out:g} m/s"
+        rows.append((name, f"{machine.rated_power / 1e6:.3g} MW", diameter, winds, machine.source))
+    return ("name", "power", "rotor", "runs", "source"), rows
+
+
+def oils() -> Rows:
+    """Oils and greases, for friction.lubricant."""
+    from loadflow.tribology import lubricant, lubricant_names
+
+    rows: list[Row] = []
+    for name in lubricant_names():
+        oil = lubricant(name)
+        at = (oil.viscosity(celsius + 273.15) for celsius in (40.0, 70.0))
+        rows.append((name, *(f"{1e3 * float(viscosity):.4g} mPa s" for viscosity in at)))
+    return ("name", "at 40 °C", "at 70 °C"), rows
+
+
+def bearings() -> Rows:
+    """Kinds of bearing, for kind, and the sized candidates of each turbine."""
+    from loadflow.scene.candidates import candidates_of, machine_names
+    from loadflow.scene.places import PLACE_KINDS
+
+    rows: list[Row] = [("kind", kind, "", "") for kind in PLACE_KINDS]
+    for turbine in machine_names():
+        for name, one in candidates_of(turbine).items():
+            rows.append((turbine, name, one.get("title", ""), one.get("source", "")))
+    return ("kind or turbine", "name", "what it is", "source"), rows
+
+
+def rungs() -> Rows:
+    """Models of each stage, with their measured time and error."""
+    from loadflow.planning.ladder import ladder
+
+    rows: list[Row] = [
+        (stage, rung, f"{entry['relative_time']:.2g}", entry["error"])
+        for stage, found in ladder().items()
+        for rung, entry in found.items()
+    ]
+    return ("stage", "model", "relative time", "error"), rows
+
+
+def load_cases() -> Rows:
+    """Design load cases of IEC 61400-1, for loads.dlc."""
+    from loadflow.wind.cases import LOAD_CASES
+
+    rows: list[Row] = [
+        (dlc, ", ".join(row.events), "ultimate" if row.kind == "U" else "fatigue")
+        for dlc, row in LOAD_CASES.items()
+    ]
+    return ("load case", "events", "loads"), rows
+
+
+def results() -> Rows:
+    """Results, for results."""
+    from typing import get_args
+
+    from loadflow.scene.scene import Result
+
+    return ("result",), [(name,) for name in get_args(Result)]
+
+
+def scenes() -> Rows:
+    """Scenes to begin with, for loadflow init."""
+    from loadflow.scene.templates import templates
+
+    return ("template", "what it is"), list(templates().items())
+
+
+LISTS: dict[str, Callable[[], Rows]] = {
+    "turbines": turbines,
+    "oils": oils,
+    "bearings": bearings,
+    "rungs": rungs,
+    "load-cases": load_cases,
+    "results": results,
+    "scenes": scenes,
+}
+"""Every list by its name on the command line."""

@@ -1,0 +1,130 @@
+"""How far it is: bars on a terminal, lines where the output goes to a file or a log."""
+
+from __future__ import annotations
+
+import logging
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+from rich.markup import escape
+
+from loadflow.cli.base import err
+
+Show = Callable[[str, int, int], None]
+
+EVERY = 60.0
+"""Time between two lines of a stage that goes on, s."""
+
+
+@contextmanager
+def progress(quiet: bool) -> Iterator[Show]:
+    """Yield a callback (stage, done, total) that shows how far it is."""
+    if quiet:
+        yield lambda stage, done, total: None
+    elif err.is_terminal:
+        with _bars() as show:
+            yield show
+    else:
+        lines = _Lines()
+        try:
+            yield lines.show
+        finally:
+            lines.end()
+
+
+@contextmanager
+def _bars() -> Iterator[Show]:
+    from rich.progress import (
+        BarColumn,
+        MofNCompleteColumn,
+        Progress,
+        TaskID,
+        TextColumn,
+        TimeElapsedColumn,
+        TimeRemainingColumn,
+    )
+
+    columns = [
+        TextColumn("{task.description:<12}"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TimeElapsedColumn(),
+        TimeRemainingColumn(),
+    ]
+    with Progress(*columns, console=err) as bars:
+        tasks: dict[str, TaskID] = {}
+
+        def show(stage: str, done: int, total: int) -> None:
+            if stage not in tasks:
+                tasks[stage] = bars.add_task(stage, total=total)
+            bars.update(tasks[stage], completed=done, total=total)
+
+        yield show
+
+
+class _Lines:
+    """A line when a stage begins and ends, and one a minute in between."""
+
+    def __init__(self) -> None:
+        self._started = self._told = time.monotonic()
+        self._stage, self._begun, self._first, self._done, self._total = "", self._told, 0, 0, 0
+        self._ended = threading.Event()
+        threading.Thread(target=self._tick, daemon=True).start()
+
+    def show(self, stage: str, done: int, total: int) -> None:
+        begins = stage != self._stage
+        if begins:
+            self._stage, self._begun, self._first = stage, time.monotonic(), done
+        self._done, self._total = done, total
+        if begins or done == total:
+            self._tell()
+
+    def end(self) -> None:
+        self._ended.set()
+
+    def _tick(self) -> None:
+        while not self._ended.wait(1.0):
+            if self._stage and time.monotonic() - self._told >= EVERY:
+                self._tell()
+
+    def _tell(self) -> None:
+        now = self._told = time.monotonic()
+        left = ""
+        if self._first < self._done < self._total:
+            rate = (now - self._begun) / (self._done - self._first)
+            left = f", about {_clock(rate * (self._total - self._done))} left"
+        far = f"{self._done} of {self._total}" if self._total > 1 else ""
+        far = far or ("done" if self._done else "…")
+        err.print(
+            f"{_clock(now - self._started)}  {self._stage}: {far}{left}",
+            soft_wrap=True,
+            highlight=False,
+        )
+
+
+def _clock(seconds: float) -> str:
+    minutes, rest = divmod(round(seconds), 60)
+    return f"{minutes}:{rest:02d}"
+
+
+@contextmanager
+def log_shown(verbose: bool) -> Iterator[None]:
+    """Show the warnings of a run as they come; with `verbose` all that its log file holds."""
+    handler = _Console(logging.INFO if verbose else logging.WARNING)
+    log = logging.getLogger("loadflow.run")
+    propagates, log.propagate = log.propagate, False
+    log.addHandler(handler)
+    try:
+        yield
+    finally:
+        log.removeHandler(handler)
+        log.propagate = propagates
+
+
+class _Console(logging.Handler):
+    def emit(self, record: logging.LogRecord) -> None:
+        if not getattr(record, "only_logged", False):
+            level = "" if record.levelno == logging.INFO else f"{record.levelname.lower()}: "
+            err.print(f"{level}{escape(record.getMessage())}", soft_wrap=True, highlight=False)

@@ -1,0 +1,55 @@
+"""What a cube consists of: cubes of one length and step, and their cases."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import xarray as xr
+
+from loadflow.cube.schema import case_name
+from loadflow.errors import InputError
+
+Cube = xr.Dataset | xr.DataTree
+"""Cases of one length and step are a Dataset; several such cubes are kept in a DataTree."""
+
+
+def iter_cases(cube: Cube) -> Iterator[tuple[str, xr.Dataset]]:
+    """Yield name and Dataset(time) of every case, without loading the series.
+
+    Parameters
+    ----------
+    cube : xarray.Dataset or xarray.DataTree
+        A cube, or a single case.
+
+    Yields
+    ------
+    name : str
+    case : xarray.Dataset
+        The case with scalar coordinates.
+    """
+    for part in parts(cube).values():
+        if "case" not in part.dims:
+            one = label_case(part)
+            yield str(one["case"].values), one
+            continue
+        for i in range(part.sizes["case"]):
+            case = part.isel(case=i)
+            yield str(case["case"].values), case
+
+
+def parts(cube: Cube) -> dict[str, xr.Dataset]:
+    """Cubes of one length and step each."""
+    if isinstance(cube, xr.Dataset):
+        return {"": cube}
+    return {leaf.path: leaf.to_dataset() for leaf in cube.leaves if leaf.has_data}
+
+
+def label_case(case: xr.Dataset) -> xr.Dataset:
+    """Return the case with its name as the coordinate ``case``."""
+    if "case" in case.coords:
+        return case
+    missing = [c for c in ("dlc", "wind_speed", "seed") if c not in case.coords]
+    if missing:
+        raise InputError(f"a load case lacks the coordinate {missing[0]!r}")
+    dlc, wind_speed, seed = (case.coords[c].item() for c in ("dlc", "wind_speed", "seed"))
+    return case.assign_coords(case=case_name(dlc, wind_speed, seed))

@@ -1,0 +1,69 @@
+"""The geometry of a journal bearing: what it is, before anything happens to it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated
+
+import numpy as np
+from annotated_types import Gt, Lt
+
+from loadflow.journal.shapes import CYLINDER, Relief, Shape
+from loadflow.numerics.fields import require
+
+
+@dataclass(frozen=True)
+class JournalGeometry:
+    """Geometry of a journal bearing.
+
+    Attributes
+    ----------
+    diameter, width : float
+        Bore D and width B, m.
+    relative_clearance : float
+        ψ = clearance/diameter; the radial clearance is c = ψ D/2.
+    shape : Cylindrical, Arc, Lobes or TiltingPads
+        How the bore runs around.
+    relief : tuple of Crown, Recess or Contour
+        What widens the gap of that shape.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        A length that is not > 0, ψ outside 0 … 0.1.
+    """
+
+    diameter: Annotated[float, Gt(0)]
+    width: Annotated[float, Gt(0)]
+    relative_clearance: Annotated[float, Gt(0), Lt(0.1)]
+    shape: Shape = CYLINDER
+    relief: tuple[Relief, ...] = ()
+
+    def __post_init__(self) -> None:
+        require(self.diameter > 0, "diameter", self.diameter, "m, > 0")
+        require(self.width > 0, "width", self.width, "m, > 0")
+        psi = self.relative_clearance
+        require(0 < psi < 0.1, "relative_clearance", psi, "0 … 0.1")
+        object.__setattr__(self, "relief", tuple(self.relief))
+
+    @property
+    def radius(self) -> float:
+        """Shaft radius, m."""
+        return 0.5 * self.diameter
+
+    @property
+    def clearance(self) -> float:
+        """Radial clearance c, m."""
+        return self.relative_clearance * self.radius
+
+    @property
+    def width_ratio(self) -> float:
+        """B/D."""
+        return self.width / self.diameter
+
+    def sommerfeld_number(self, force: float, speed: float, viscosity: float) -> float:
+        """So = F ψ²/(B D η |ω|), (1.13) of [Jonuschies 2015]; 0 without load."""
+        if force == 0.0:
+            return 0.0
+        drag = self.width * self.diameter * viscosity * abs(speed)
+        return force * self.relative_clearance**2 / drag if drag else np.inf

@@ -1,0 +1,145 @@
+"""The rung "grid": finite volumes around and across, for every bore, shell and supply."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from loadflow.errors import SolverError
+from loadflow.journal.film.film import EVERY
+from loadflow.journal.film_model import Film
+from loadflow.journal.geometry import JournalGeometry
+from loadflow.journal.line import Line
+from loadflow.journal.models.model import Steps
+from loadflow.journal.results import columns_of
+from loadflow.journal.solvers.periodic import (
+    Method,
+    check_period,
+    close_orbit,
+    refuse_half_speed_whirl,
+)
+from loadflow.journal.solvers.statics import plain_fields, plain_film, plain_rows, plain_start
+from loadflow.journal.solvers.statics_shaped import (
+    equilibrium_rows,
+    field_rows,
+    orbit_start,
+    plain,
+)
+from loadflow.journal.solvers.transient import (
+    Marcher,
+    march,
+    mass_balance,
+    orbit_dataset,
+    orbit_row,
+)
+from loadflow.numerics.convergence import Limits
+from loadflow.numerics.fields import require
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+Array = NDArray[np.float64]
+
+_TOLERANCE, _STEPS = 1e-10, 60  # of a load that a coarser model leaves to the grid
+
+
+def equilibrium(
+    bearing: JournalGeometry, film: Film, force: Array, speed: Array, line: Line, limits: Limits
+) -> dict[str, Any]:
+    """Static equilibria: fields of `Equilibrium`, (n, …)."""
+    if _aligned(bearing, film, line):
+        return columns_of(plain_rows(bearing, film, force, speed, limits))
+    rows = equilibrium_rows(bearing, film, force, speed, line, limits, line.whirl)
+    return columns_of(rows)
+
+
+def pressure(
+    bearing: JournalGeometry,
+    film: Film,
+    position: Array,
+    velocity: Array,
+    speed: Array,
+    line: Line,
+    limits: Limits,
+) -> tuple[dict[str, Any], Array]:
+    """Films at given positions: fields of `FilmField`, (n, …), and axial places of the cells, m."""
+    if _aligned(bearing, film, line):
+        rows, z = plain_fields(bearing, film, position, velocity, speed, limits)
+    else:
+        rows, z = field_rows(bearing, film, position, velocity, speed, line, limits)
+    return columns_of(rows), z if z[0] < 0 else np.concatenate([-z[::-1], z])
+
+
+def orbit(
+    bearing: JournalGeometry,
+    film: Film,
+    time: Array,
+    force: Array,
+    speed: Array,
+    line: Line,
+    limits: Limits,
+    steps: Steps,
+) -> xr.Dataset:
+    """Path of the shaft by implicit steps, or its closed path."""
+    aligned, start = _aligned(bearing, film, line), steps.start
+    if start is not None and aligned:
+        inside = bool(np.hypot(*start) < 1)
+        allowed = f"|start| < c = {bearing.clearance} m"
+        require(inside, "start", start * bearing.clearance, allowed)
+    if steps.periodic:
+        check_period(time, force, speed)
+    first_limits = replace(limits, max_iterations=2 * limits.max_iterations)
+    free: slice | NDArray[np.int64] = EVERY
+    forces = force
+    if aligned:
+        discrete = plain_film(bearing, film.for_history(), speed)
+        if steps.periodic and not discrete.pockets.lifts(discrete.p_edge):
+            refuse_half_speed_whirl(time, force, speed)
+        first = plain_start(bearing, discrete, force, speed, start, first_limits)
+    else:
+        discrete, first, forces, free = orbit_start(
+            bearing, film, force, speed, line, start, first_limits
+        )
+    marcher = Marcher(discrete, limits.tolerance, limits.max_iterations, steps.accuracy, free)
+    if steps.periodic:
+        way: Method = "marching" if steps.periodic == "marching" else "direct"
+        rows, ends, about = close_orbit(
+            marcher, first, time, forces, speed, way, steps.closure, steps.max_periods
+        )
+    else:
+        past = marcher.begin(float(time[0]), first)
+        rows, end = march(marcher, past, time, forces, speed)
+        rows, ends, about = [orbit_row(discrete, first, 0), *rows], (past[-1], end[-1]), {}
+    values = columns_of(rows)
+    if steps.step == "given":
+        del values["steps"]
+    about["mass_balance"] = mass_balance(*ends, rows, time)
+    return orbit_dataset(values, time, force, speed, bearing.clearance).assign_attrs(about)
+
+
+def solve_on_grid(
+    bearing: JournalGeometry, film: Film, index: int, answer: dict[str, Any], limits: Limits
+) -> None:
+    """Replace the row `index` of the `answer` of a coarser model by that of the grid.
+
+    Raises
+    ------
+    SolverError
+        If ``limits.strict`` and the grid has no answer either.
+    """
+    force, speed = answer["force"][index], answer["speed"][index]
+    own = Limits(_TOLERANCE, _STEPS, limits.strict)
+    try:
+        [state] = plain_rows(bearing, film, force[None], np.array([speed]), own)
+    except SolverError as error:
+        raise SolverError(str(error).replace("load 0:", f"load {index}:", 1)) from error
+    for name, values in answer.items():
+        values[index] = state[name]
+
+
+def _aligned(bearing: JournalGeometry, film: Film, line: Line) -> bool:
+    """Whether a rigid cylinder surrounds an aligned shaft."""
+    return plain(bearing, line) and film.shell is None

@@ -1,0 +1,140 @@
+"""The models of a film, from the cheapest to the most expensive, and what each of them knows.
+
+To add one, write a module with the functions of `loadflow.journal.models.model.Model` and add a row
+here: verbs, scenes and the command line then know it by its name, and refuse what it cannot do.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from loadflow.errors import InputError
+
+_FULL_WIDTH = "a shaped bore, an elastic shell or a shaft that tilts or bends"
+
+FEATURES = {
+    "shape": _FULL_WIDTH,
+    "relief": _FULL_WIDTH,
+    "moment": _FULL_WIDTH,
+    "tilt": _FULL_WIDTH,
+    "bend": _FULL_WIDTH,
+    "shell": _FULL_WIDTH,
+    "supply": "a supply",
+    "inlet": "a line of fresh oil",
+    "grading": "a graded mesh",
+    "heat": "heat",
+    "contact": "contact of asperities",
+    "step": "adaptive steps",
+    "periodic": "a closed orbit",
+}
+"""What a model may know of a film, its surroundings and its history: argument and words."""
+
+_BORES = {"shape", "relief", "moment", "tilt", "bend", "supply", "inlet", "grading", "shell"}
+
+
+@dataclass(frozen=True)
+class Rung:
+    """A model of the film.
+
+    Attributes
+    ----------
+    name : str
+        As `Film.rung`.
+    place : str
+        Module, or module and object, with the functions of the model: ``package.module:OBJECT``.
+    at_rest : frozenset of str
+        The `FEATURES` that its equilibrium knows.
+    in_motion : frozenset of str, optional
+        Those that its orbit knows; None: it has no history.
+    at_position : frozenset of str, optional
+        Those that its field of pressure knows; None: it has none.
+    law : str, optional
+        Kind of the only law that it knows, with its cavitation pressure at the edge pressure;
+        None: it asks the law, whatever it is.
+    inlet : {"widest gap"} or None
+        With `law`, whether the oil of its film is replaced at the widest gap.
+    words : str
+        Why it has no history.
+    """
+
+    name: str
+    place: str
+    at_rest: frozenset[str]
+    in_motion: frozenset[str] | None = None
+    at_position: frozenset[str] | None = None
+    law: str | None = None
+    inlet: Literal["widest gap"] | None = None
+    words: str = "it has no history"
+
+
+_MODELS = "loadflow.journal.models"
+_HEAT, _NOTHING = frozenset({"heat"}), frozenset[str]()
+_CHART = 'a chart has no history; "butenschoen" and "holland" superpose its squeeze'
+
+RUNGS: dict[str, Rung] = {
+    rung.name: rung
+    for rung in (
+        Rung(
+            "chart",
+            f"{_MODELS}.charts:CLOSED",
+            _HEAT,
+            law="reynolds",
+            inlet="widest gap",
+            words=_CHART,
+        ),
+        Rung(
+            "table",
+            f"{_MODELS}.charts:TABLE",
+            _HEAT,
+            law="reynolds",
+            inlet="widest gap",
+            words=_CHART,
+        ),
+        Rung(
+            "butenschoen",
+            f"{_MODELS}.superposition:BUTENSCHOEN",
+            _HEAT,
+            _NOTHING,
+            law="reynolds",
+            inlet="widest gap",
+        ),
+        Rung(
+            "holland",
+            f"{_MODELS}.superposition:HOLLAND",
+            _HEAT,
+            _NOTHING,
+            law="reynolds",
+            inlet="widest gap",
+        ),
+        Rung("hahn", f"{_MODELS}.superposition:HAHN", _HEAT, _NOTHING, law="guembel"),
+        Rung(
+            "map",
+            f"{_MODELS}.mobility_map",
+            frozenset({"heat", "inlet", "grading"}),
+            frozenset({"inlet", "grading"}),
+        ),
+        Rung("reduced", f"{_MODELS}.reduced", _HEAT, _NOTHING),
+        Rung(
+            "grid",
+            f"{_MODELS}.grid",
+            frozenset(_BORES | {"heat"}),
+            frozenset(_BORES | {"step", "periodic"}),
+            frozenset(_BORES),
+        ),
+    )
+}
+"""Every model of the film by its name."""
+
+
+def check_rung(name: str) -> None:
+    """Refuse a name that no rung bears.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        Names the rungs that there are.
+    """
+    if name not in RUNGS:
+        names = " or ".join(f'"{name}"' for name in RUNGS)
+        raise InputError(f"rung = {name!r} is not allowed: {names}")

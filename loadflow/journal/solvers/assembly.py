@@ -1,0 +1,450 @@
+"""One shaft on several films: pads of a thrust bearing, segments of a cone, two cones.
+
+The shaft is a rigid body of five degrees of freedom (x, y, z, rotations about x and y). Every film
+sees them through a matrix of its own, and may lie on a pad that gives way. Film, pads and shaft
+are solved by one Newton iteration; the pads are condensed out of each film's linearisation.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from loadflow.errors import SolverError
+from loadflow.journal.film import _kernels as kernel
+from loadflow.journal.film.film import Linear, SingularFilm
+from loadflow.journal.film.surface_film import SurfaceFilm
+from loadflow.numerics.convergence import Limits
+
+Array = NDArray[np.float64]
+
+BODY = 5  # degrees of freedom of the shaft
+_SHIFTS = np.arange(3)
+_QUADRATIC = 1e-7  # a step this small leaves an error near its square
+_CALM = 0.5  # change of the film, over its pressure, up to which the shaft goes all the way
+_LARGEST = 3.0  # factor of a pad's Newton step toward the pivot
+_CYCLE = 10  # Newton steps after which half of them are halved, so that ruptures do not alternate
+_ALONE = 4  # first steps in which a film that changes more is corrected with the shaft held
+_FINEST = 1.0 / 64  # smallest load step
+_STEPS = 40  # load steps at most
+_SHORT = 15  # Newton steps of one load step
+_SPENT = 250  # Newton steps after which an equilibrium is given up
+_NOTHING = 1e-6  # share of the scale of pressure that is none
+_PRESSED = 1e-12  # narrowest gap, in clearances, that is none
+
+
+@dataclass(frozen=True)
+class Member:
+    """A film and how it sits.
+
+    Attributes
+    ----------
+    film : SurfaceFilm
+        The film; it keeps the work arrays, so that one film is in one member only.
+    attached : array (m, 5)
+        Position of the film (clearances) by that of the shaft (m, rad) in the axes of the pad.
+    gives : array (m, k)
+        Position of the film by the k motions of the pad (m, rad).
+    support : array (k, k)
+        Stiffness of the pad's support, N/m and N m/rad; 0 where the pad tilts freely.
+    normal : array (m,)
+        Position of the film by a shift of the shaft along the normal at the pivot.
+    turns : tuple of array (5, 5)
+        Axes of the shaft as seen by each pad that shares this film because it sees the same gap;
+        one pad, not turned, by default.
+    sense : float
+        −1 where the shaft turns the other way in the axes of the film.
+    """
+
+    film: SurfaceFilm
+    attached: Array
+    gives: Array
+    support: Array
+    normal: Array
+    turns: tuple[Array, ...] = (np.eye(BODY),)
+    sense: float = 1.0
+
+    def seen(self, turns: tuple[Array, ...], sense: float) -> Member:
+        """The same, seen by a shaft in other axes."""
+        return replace(self, turns=turns, sense=sense)
+
+    @property
+    def sees(self) -> Array:
+        """Position of the film by that of the shaft in the axes of the bearing, (m, 5)."""
+        return np.asarray(self.attached @ self.turns[0])
+
+    @property
+    def unit(self) -> float:
+        """Unit of the gap, m: work of a load over that of its degree of freedom."""
+        return self.film.relative_clearance * self.film.radius
+
+
+@dataclass(frozen=True)
+class MemberState:
+    """Unknowns of a film, position of its pad, the last linearisation, storage of earlier times."""
+
+    u: Array
+    pad: Array
+    linear: Linear | None = None
+    old: Array | float = 0.0
+
+
+@dataclass(frozen=True)
+class AssemblyState:
+    """Shaft and films: position (m, rad), velocity, states of the films, convergence.
+
+    With a `rate`, 1/s, the films store ``rate · F h`` less `MemberState.old`: an implicit step.
+    """
+
+    position: Array
+    velocity: Array
+    members: tuple[MemberState, ...]
+    converged: bool = False
+    iterations: int = 0
+    residual: float = math.inf
+    rate: float = 0.0
+
+
+@dataclass(frozen=True)
+class _Condensed:
+    """Load and derivatives of a film whose pad has followed, in N, m, rad."""
+
+    load: Array
+    stiffness: Array
+    damping: Array
+    first: Array  # step of the pad with the shaft held
+    follow: Array  # step of the pad by that of the shaft
+
+
+@dataclass(frozen=True)
+class Assembly:
+    """Films around one shaft.
+
+    Attributes
+    ----------
+    members : sequence of Member
+        The films.
+    length : float
+        Length that makes a force of a moment, m.
+    """
+
+    members: Sequence[Member]
+    length: float
+    scale: Array = field(init=False)
+
+    def __post_init__(self) -> None:
+        unit = min(member.unit for member in self.members)
+        arms = np.array([1.0, 1.0, 1.0, self.length, self.length])
+        object.__setattr__(self, "scale", unit / arms)
+
+    def start(self, position: Array, pads: Sequence[Array] | None = None) -> AssemblyState:
+        """Films at edge pressure around a shaft at `position`."""
+        rest = [np.zeros(m.support.shape[0]) for m in self.members]
+        members = tuple(
+            MemberState(m.film.start(), pad) for m, pad in zip(self.members, pads or rest)
+        )
+        return AssemblyState(position, np.zeros(BODY), members)
+
+    def wetted(self, state: AssemblyState) -> AssemblyState:
+        """The same with films at edge pressure lifted a little: at the floor of a law they are
+        full and ruptured at once, and have no stiffness.
+        """
+        members = []
+        for member, own in zip(self.members, state.members):
+            film = member.film
+            empty = float(np.abs(own.u - film.start()).max()) < _NOTHING * film.scale
+            members.append(replace(own, u=own.u + _NOTHING * film.scale) if empty else own)
+        return replace(state, members=tuple(members))
+
+    def place(self, member: Member, state: MemberState, position: Array) -> Array:
+        """Position of a film, in its clearances."""
+        return np.asarray(member.sees @ position - member.gives @ state.pad)
+
+    def narrowest(self, state: AssemblyState) -> float:
+        """Narrowest gap, m."""
+        return min(
+            m.unit * m.film.gap.narrowest(self.place(m, s, state.position))
+            for m, s in zip(self.members, state.members)
+        )
+
+    # --- derivatives -----------------------------------------------------------------------------
+    def _condensed(self, member: Member, state: MemberState) -> _Condensed:
+        """What the shaft feels of a film, once the pad has followed."""
+        assert state.linear is not None
+        load = member.unit * state.linear.load
+        stiffness, damping = (
+            member.unit * x for x in (state.linear.stiffness, state.linear.damping)
+        )
+        attached, gives = member.attached, member.gives
+        if not gives.shape[1]:
+            nothing = np.zeros((0, BODY))
+            return _Condensed(
+                attached.T @ load, attached.T @ stiffness @ attached,
+                attached.T @ damping @ attached, np.zeros(0), nothing,
+            )  # fmt: skip
+        matrix = gives.T @ stiffness @ gives + member.support
+        sizes = np.abs(gives).max(axis=0)
+
+        def follow(rhs: Array) -> Array:
+            scaled = matrix / np.outer(sizes, sizes)
+            return np.asarray((_solve(scaled, (rhs.T / sizes).T).T / sizes).T)
+
+        missing = gives.T @ load - member.support @ state.pad
+        pressed = float(member.normal @ load)
+        first = follow(missing)
+        if pressed > 0.0 and not member.support.any():
+            # the centre of pressure shall meet the pivot: a pad without film has no moment, either
+            lost = member.normal @ stiffness @ gives
+            share = float(lost @ first) / pressed
+            first /= max(1.0 - share, 1.0 / _LARGEST)
+        by_place = follow(gives.T @ stiffness @ attached)
+        left = attached - gives @ by_place
+        by_speed = follow(gives.T @ damping @ left)
+        return _Condensed(
+            attached.T @ (load - stiffness @ gives @ first),
+            attached.T @ stiffness @ left,
+            attached.T @ (damping @ left - stiffness @ gives @ by_speed),
+            first,
+            by_place,
+        )
+
+    def coefficients(
+        self, state: AssemblyState, members: slice = slice(None)
+    ) -> tuple[Array, Array]:
+        """Stiffness and damping −∂F_film/∂q, −∂F_film/∂q̇ of the shaft, pads following (5, 5).
+
+        Of all films, or of those `members` alone.
+        """
+        some = self.members[members]
+        parts = [self._condensed(m, s) for m, s in zip(some, state.members[members])]
+        return _sums(some, parts)[1:]
+
+    def loads(self, state: AssemblyState) -> list[list[Array]]:
+        """What the shaft applies to every pad of every film at a solved state, N, N m."""
+        found = []
+        for member, own in zip(self.members, state.members):
+            place = self.place(member, own, state.position)
+            load = member.unit * member.film.field(own.u, place)[3]
+            found.append([turn.T @ member.attached.T @ load for turn in member.turns])
+        return found
+
+    # --- Newton ----------------------------------------------------------------------------------
+    def solve(
+        self,
+        state: AssemblyState,
+        force: Array,
+        free: NDArray[np.int64],
+        limits: Limits,
+    ) -> AssemblyState:
+        """Films, pads and the degrees of freedom `free` of the shaft in balance with `force`.
+
+        Parameters
+        ----------
+        state : AssemblyState
+            Where to start; its velocity is kept.
+        force : array (5,)
+            What the shaft applies, N and N m.
+        free : array of int
+            Degrees of freedom that move; none: the films at a given position.
+        limits : Limits
+            Tolerance on the scaled residual, Newton steps.
+        """
+        cells = [m.film.mesh.shape[0] for m in self.members if m.film.creeps]
+        most = max(limits.max_iterations, *cells, 0)
+        residual = math.inf
+        for iteration in range(1, most + 1):
+            try:
+                state = self._linearised(state)
+                damped = iteration > _CYCLE and iteration % _CYCLE < _CYCLE // 2
+                share = 0.5 if damped else 1.0
+                state, change = self._step(state, force, free, iteration <= _ALONE, share)
+            except (SingularFilm, np.linalg.LinAlgError, FloatingPointError):
+                break
+            if not math.isfinite(change):
+                break
+            if change < _QUADRATIC and not damped:
+                residual = self.imbalance(state, force, free)
+                if residual < limits.tolerance:
+                    return replace(state, converged=True, iterations=iteration, residual=residual)
+        return replace(state, converged=False, iterations=iteration, residual=residual)
+
+    def _linearised(self, state: AssemblyState) -> AssemblyState:
+        """The same with the films linearised."""
+        members = []
+        for member, own in zip(self.members, state.members):
+            place = self.place(member, own, state.position)
+            moving = member.sees @ state.velocity
+            members.append(
+                replace(
+                    own, linear=member.film.linearise(own.u, place, moving, state.rate, own.old)
+                )
+            )
+        return replace(state, members=tuple(members))
+
+    def _step(
+        self, state: AssemblyState, force: Array, free: NDArray[np.int64], alone: bool, share: float
+    ) -> tuple[AssemblyState, float]:
+        """One Newton step, as far as a film is left everywhere, and its size.
+
+        The stiffness of a film that has no pressure yet is none: `alone` it is corrected first.
+        """
+        parts = [self._condensed(m, s) for m, s in zip(self.members, state.members)]
+        load, stiffness, _ = _sums(self.members, parts)
+        for member, own in zip(self.members, state.members):
+            if member.film.gap.gaps(self.place(member, own, state.position)).min() < _PRESSED:
+                return state, math.nan
+        change = max(_change(m.film, s) for m, s in zip(self.members, state.members))
+        calm, whole = min(1.0, _CALM / max(change, 1e-300)), share
+        if calm < 1.0 and alone:
+            calm = 0.0
+        step = np.zeros(BODY)
+        if free.size:
+            scale = self.scale[free]
+            matrix = stiffness[np.ix_(free, free)] * np.outer(scale, scale)
+            step[free] = calm * scale * _solve(matrix, scale * (force - load)[free])
+        moves = []
+        for member, own, part in zip(self.members, state.members, parts):
+            pad = calm * part.first + part.follow @ (member.turns[0] @ step)
+            move = member.sees @ step - member.gives @ pad
+            share = min(share, member.film.gap.share(self.place(member, own, state.position), move))
+            moves.append((pad, move))
+        members, change = [], 1.0 if calm == 0.0 else 0.0
+        for member, own, (pad, move) in zip(self.members, state.members, moves):
+            gap = member.film.gap
+            assert own.linear is not None
+            weights = np.concatenate([[whole], share * move, np.zeros(gap.size)])
+            u = own.u.copy()
+            change = max(change, member.film.correct(u, own.linear.columns, weights))
+            members.append(replace(own, u=u, pad=own.pad + share * pad))
+            place = self.place(member, own, state.position)
+            change = max(change, float(np.abs(share * move).max()) / gap.narrowest(place))
+        position = state.position + share * step
+        return replace(state, position=position, members=tuple(members)), change
+
+    def imbalance(self, state: AssemblyState, force: Array, free: NDArray[np.int64]) -> float:
+        """Largest imbalance of cells, pads and shaft, over their scales."""
+        worst, total = 0.0, np.zeros(BODY)
+        arms = np.append(np.ones(3), np.full(2, 1.0 / self.length))
+        least = 0.0
+        for member, own in zip(self.members, state.members):
+            film = member.film
+            place = self.place(member, own, state.position)
+            moving = member.sees @ state.velocity
+            worst = max(worst, film.imbalance(own.u, place, moving, None, state.rate, own.old))
+            load = member.unit * film.field(own.u, place)[3]
+            total += sum(turn.T @ member.attached.T @ load for turn in member.turns)
+            least += 1e-3 * film.scale * film.radius**2
+            if own.pad.size:
+                size = np.abs(member.gives).max(axis=0)
+                missing = (member.gives.T @ load - member.support @ own.pad) / size
+                pressed = max(
+                    float(np.abs(load).max()), 1e-3 * member.unit * film.scale * film.radius**2
+                )
+                worst = max(worst, float(np.abs(missing).max()) / pressed)
+        if free.size:
+            missing = (arms * (force - total))[free]
+            worst = max(
+                worst, float(np.abs(missing).max()) / max(math.hypot(*(arms * force)), least)
+            )
+        return worst
+
+    def equilibrium(
+        self,
+        starts: Sequence[AssemblyState],
+        force: Array,
+        free: NDArray[np.int64],
+        limits: Limits,
+    ) -> AssemblyState:
+        """Equilibrium by Newton from each of `starts`, then by load steps from each."""
+        spent = 0
+        found = starts[0]
+        tilts = free.size > _SHIFTS.size
+        for start in starts:  # without the moment first, at the given tilt
+            found = self.solve(start, force, _SHIFTS if tilts else free, limits)
+            spent += found.iterations
+            if found.converged and tilts:
+                found = self._in_load_steps(found, force, free, limits, spent, 1.0)
+                spent = found.iterations
+            if found.converged or spent > _SPENT:
+                return replace(found, iterations=spent)
+        for start in starts:
+            held = self.solve(start, force, np.array([], dtype=np.int64), limits)
+            spent += held.iterations
+            if held.converged:
+                found = self._in_load_steps(held, force, free, limits, spent, 0.25)
+                spent = found.iterations
+                if found.converged or spent > _SPENT:
+                    break
+        return replace(found, iterations=spent)
+
+    def _in_load_steps(
+        self,
+        state: AssemblyState,
+        force: Array,
+        free: NDArray[np.int64],
+        limits: Limits,
+        spent: int,
+        step: float,
+    ) -> AssemblyState:
+        """From the load that `state` carries to `force` in steps that Newton can follow."""
+        first = np.sum([load for pads in self.loads(state) for load in pads], axis=0)
+        done, residual = 0.0, state.residual
+        short = replace(limits, max_iterations=_SHORT)
+        for _ in range(_STEPS):
+            at = min(1.0, done + step)
+            trial = self.solve(state, first + at * (force - first), free, short)
+            residual = trial.residual
+            spent += trial.iterations
+            if trial.converged:
+                state, done, step = trial, at, 2.0 * step
+                if done >= 1.0:
+                    return replace(state, iterations=spent)
+            else:
+                step *= 0.5
+            if step < _FINEST or spent > _SPENT:
+                break
+        return replace(state, converged=False, iterations=spent, residual=residual)
+
+
+def _sums(members: Sequence[Member], parts: Sequence[_Condensed]) -> tuple[Array, Array, Array]:
+    """Load, stiffness and damping of `members`; pads that share a film are turned copies."""
+    load, stiffness, damping = np.zeros(BODY), np.zeros((BODY, BODY)), np.zeros((BODY, BODY))
+    for member, part in zip(members, parts):
+        for turn in member.turns:
+            load += turn.T @ part.load
+            stiffness += turn.T @ part.stiffness @ turn
+            damping += turn.T @ part.damping @ turn
+    return load, stiffness, damping
+
+
+def _change(film: SurfaceFilm, state: MemberState) -> float:
+    """Size of the Newton step of a film over the pressure to which it leads."""
+    assert state.linear is not None
+    step = state.linear.columns[0]
+    flat = np.empty_like(step)
+    kernel.gather(state.u, film.mesh.order, flat)
+    peak = float(np.abs(flat - step - film.p_edge).max())
+    return float(np.abs(step).max()) / max(peak, 1e-12 * film.scale)
+
+
+def _solve(matrix: Array, rhs: Array) -> Array:
+    """Solve a small system; least squares where a motion meets no resistance."""
+    try:
+        found = np.linalg.solve(matrix, rhs)
+    except np.linalg.LinAlgError:
+        found = np.linalg.lstsq(matrix, rhs, rcond=1e-12)[0]
+    return np.asarray(found)
+
+
+def raise_not_converged(head: str, state: AssemblyState, narrowest: float) -> None:
+    """Say with numbers why there is no answer."""
+    loose = any(m.pad.size for m in state.members)
+    hint = "; a pad that carries nothing stays in place only with tilt_stiffness" if loose else ""
+    raise SolverError(
+        f"{head}: no equilibrium found; residual {state.residual:.3g} after {state.iterations} "
+        f"Newton steps, narrowest film {narrowest:.3g} m{hint}"
+    )

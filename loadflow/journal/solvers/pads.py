@@ -1,0 +1,166 @@
+"""Films on tilting pads, step by step: each pad between bounds, then the shaft on all of them.
+
+Between pads lie grooves of known pressure, so that with the shaft held the moment of each pad's
+film depends on its own tilt alone. It falls from one side of zero to the other as the pad lifts
+from flat to where its end meets the shaft, but not steadily: a Newton step from a tilt that is too
+small leads to none at all.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from loadflow.journal.film.film import DiscreteFilm
+from loadflow.journal.film.gap_shaped import ShapedGap
+from loadflow.journal.solvers.newton import Solution, no_film, solve_equilibrium, solve_film
+
+Array = NDArray[np.float64]
+Rows = NDArray[np.int64]
+
+_ROUNDS = 40  # films of a shaft that is held
+_FLATTEST, _STEEPEST = 1e-4, 0.999  # share of the lift at which a pad meets the shaft
+_BALANCED = 1e-6  # moment of a pad over load scale and arm, at which its tilt is good enough
+_TOUCHING = 1e-9  # gap, in clearances, that is none
+_BUDGET = 5  # Newton steps of all films together, in multiples of those of a solution
+_LEFT = 1e-4  # moment, in the same unit, above which a pad is not held
+_SHAFTS, _HALVINGS = 40, 12  # positions of the shaft, and how often a step to one is halved
+_LOOSE = 1e4  # condition of the stiffness above which a shaft may go aside
+_ASIDE = 1e-3  # stiffness that a shaft has sideways on a single pad, loads over clearance
+_NEAR = 1e-3  # share of the load that may be missing for Newton's method to take over
+
+
+def balance_pads(
+    film: DiscreteFilm,
+    gap: ShapedGap,
+    start: Solution,
+    pads: Rows,
+    tolerance: float,
+    max_iterations: int,
+) -> tuple[Solution, NDArray[np.bool_]]:
+    """Film at the position of `start`, the `pads` tilted until they have no moment, and which do.
+
+    A pad that its film turns the other way, even where it lies flat, has none that holds it.
+    """
+    position, u, spent = start.position.copy(), start.u, 0
+    if not pads.size:
+        still = solve_film(film, film.start(), position, 0.0 * position, tolerance, max_iterations)
+        return still, np.ones(0, dtype=bool)
+    sign = math.copysign(1.0, film.speed)
+    most = np.array([gap.widest_lift(row, position, sign) for row in pads])
+    low, high = _FLATTEST * most, _STEEPEST * most
+    lifts = np.array([sign * gap.lift(row, position) for row in pads])
+    lifts = np.where((lifts > low) & (lifts < high), lifts, np.sqrt(low * high))
+    scale = film.load_scale(np.zeros(1))
+    state, moments = start, np.zeros(pads.size)
+    for _ in range(_ROUNDS):
+        for row, lift in zip(pads.tolist(), lifts.tolist()):
+            position[row] += sign * lift - gap.lift(row, position)
+        state = solve_film(film, u, position, 0.0 * position, tolerance, max_iterations)
+        spent += state.iterations
+        if not state.converged:
+            state = solve_film(film, film.start(), position, 0.0 * position, tolerance, 200)
+            spent += state.iterations
+            if not state.converged:
+                break
+        u = state.u
+        moments = sign * state.linear.load[pads]
+        scale = max(scale, math.hypot(*state.linear.load[: gap.shaft]))
+        if np.abs(moments).max() < _BALANCED * scale or np.all(high - low < 1e-9 * most):
+            break
+        low, high = np.where(moments < 0, lifts, low), np.where(moments > 0, lifts, high)
+        slopes = np.diag(state.linear.stiffness)[pads]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            aim = lifts - moments / slopes
+        good = (slopes > 0) & (aim > low) & (aim < high)
+        middle = np.where(high > 4 * low, np.sqrt(low * high), 0.5 * (low + high))
+        lifts = np.where(good, aim, middle)
+    return replace(state, iterations=spent), np.abs(moments) < _LEFT * scale
+
+
+def solve_with_pads(
+    film: DiscreteFilm,
+    gap: ShapedGap,
+    force: Array,
+    position: Array,
+    shaft: Rows,
+    tilting: Callable[[Array], Rows],
+    idle: Callable[[Rows], None],
+    tolerance: float,
+    max_iterations: int,
+) -> Solution:
+    """As `solve_equilibrium`, the pads in balance at every position of the shaft.
+
+    Parameters
+    ----------
+    film, gap : DiscreteFilm, ShapedGap
+        The film.
+    force : array (m,)
+        N, without moments of the pads.
+    position : array (m,)
+        Where to start.
+    shaft : array of int
+        Degrees of freedom of the shaft that move.
+    tilting : callable
+        Pads that the film may hold at a position.
+    idle : callable
+        Takes the film off all pads but those given.
+    tolerance, max_iterations
+        Of each film.
+    """
+
+    def settled(start: Solution) -> tuple[Solution, Rows]:
+        pads, spent = tilting(start.position), 0
+        while True:
+            idle(pads)
+            state, held = balance_pads(film, gap, start, pads, tolerance, max_iterations)
+            spent += state.iterations
+            if held.all() or not state.converged:
+                return replace(state, iterations=spent), pads
+            pads = pads[held]
+
+    state, pads = settled(replace(no_film(film), position=position))
+    spent, scale = state.iterations, film.load_scale(force)
+    missing = force[shaft] - state.linear.load[shaft]
+    for _ in range(_SHAFTS):
+        touching = not gap.narrowest(state.position) > _TOUCHING
+        if not state.converged or touching or spent > _BUDGET * max_iterations:
+            break
+        if math.hypot(*missing) < _NEAR * scale:
+            every = np.append(shaft, pads)
+            start = (state.u, state.position)
+            end = solve_equilibrium(film, force, *start, tolerance, max_iterations, free=every)
+            if end.converged:
+                return replace(end, iterations=spent + end.iterations)
+        stiffness = _condensed(state, shaft, pads)
+        steady = np.linalg.cond(stiffness) < _LOOSE
+        step = np.zeros(position.size)
+        step[shaft] = np.linalg.lstsq(stiffness + _ASIDE * scale * np.eye(shaft.size), missing)[0]
+        step = gap.advance(state.position, step) - state.position
+        for _ in range(_HALVINGS):
+            trial, some = settled(replace(state, position=state.position + step))
+            spent += trial.iterations
+            left = force[shaft] - trial.linear.load[shaft]
+            allowed = 1.0 if steady else 2.0
+            if trial.converged and math.hypot(*left) < allowed * math.hypot(*missing):
+                break
+            step = 0.5 * step
+        else:
+            break
+        state, pads, missing = trial, some, left
+    free = np.append(shaft, pads)
+    found = math.hypot(*missing) / scale if state.converged else math.inf
+    return replace(state, converged=False, iterations=spent, residual=found, free=free)
+
+
+def _condensed(state: Solution, shaft: Rows, pads: Rows) -> Array:
+    """Stiffness of the shaft while the pads follow it without moment."""
+    k = state.linear.stiffness
+    if not pads.size:
+        return np.asarray(k[np.ix_(shaft, shaft)])
+    follow = np.linalg.lstsq(k[np.ix_(pads, pads)], k[np.ix_(pads, shaft)])[0]
+    return np.asarray(k[np.ix_(shaft, shaft)] - k[np.ix_(shaft, pads)] @ follow)

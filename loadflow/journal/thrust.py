@@ -1,0 +1,487 @@
+"""Thrust bearings: tapered lands, steps and tilting pads on a plane ring, and straight pads."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Unpack
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from loadflow.errors import InputError, SolverError
+from loadflow.journal.film_model import Control, Film, Keywords, film_and_control
+from loadflow.journal.lubricant import Lubricant
+from loadflow.journal.pad_results import ThrustResult, common
+from loadflow.journal.pads import LIFTS, Pads, Pivot, check_film, even_pads, finite
+from loadflow.journal.solvers.assembly import (
+    BODY,
+    Assembly,
+    AssemblyState,
+    raise_not_converged,
+)
+from loadflow.journal.solvers.assembly_orbit import series
+from loadflow.journal.surfaces import Cone, Profile, Strip, Surface, Taper
+from loadflow.numerics.convergence import Limits
+from loadflow.numerics.fields import require
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+Array = NDArray[np.float64]
+
+_AXIAL = np.array([2])
+_WITH_TILT = np.array([2, 3, 4])
+_HELD = np.array([], dtype=np.int64)
+_ROUNDS = 12  # gaps tried for a first one
+_NEAR = 1.5  # ratio of load and force up to which a gap is near enough for Newton
+_LOAD_NUMBER = 0.05  # W h²/(η U L² B) of an ordinary pad, for the first gap of all
+
+
+@dataclass(frozen=True)
+class _PadThrust:
+    """What thrust bearings on a ring and those of straight pads share."""
+
+    @property
+    def row(self) -> Pads:
+        """The pads."""
+        raise AttributeError
+
+    # --- verbs -----------------------------------------------------------------------------------
+    def pressure(
+        self,
+        gap: float,
+        speed: float,
+        film: Film | Lubricant | None = None,
+        *more: Any,
+        velocity: float = 0.0,
+        tilt: ArrayLike = (0.0, 0.0),
+        control: Control | None = None,
+        **keywords: Unpack[Keywords],
+    ) -> ThrustResult:
+        """Film at a given gap.
+
+        Parameters
+        ----------
+        gap : float
+            Film over the flat lands, m, > 0: the least film of an aligned runner, that on the axis
+            of a tilted one. Of pads that tilt, the film over their pivots.
+        speed : float
+            Of the runner, rad/s; < 0 turns it against the order of the profile.
+        film : Film or Lubricant
+            The film, or its liquid and its other fields as keywords; `grid` counts cells along the
+            motion and across, per pad, default (40, 20).
+        velocity : float
+            Growth of the gap, m/s.
+        tilt : array_like (2,)
+            Rotation of the runner about the first and the second axis, rad: the gap grows by
+            tilt[0] y − tilt[1] x.
+        control : Control, optional
+            How hard to solve; by default to 1e-10 in 60 Newton steps.
+        **keywords
+            Fields of `Film` and of `Control`.
+
+        Returns
+        -------
+        ThrustResult
+
+        Raises
+        ------
+        loadflow.errors.InputError
+            Values that are not finite or out of range; a runner that touches a pad.
+        loadflow.errors.SolverError
+            Pads that find no tilt without moment.
+        """
+        film, control = film_and_control(film, more, control, keywords)
+        check_film(film)
+        gap, speed, velocity = (
+            finite("gap", gap),
+            finite("speed", speed),
+            finite("velocity", velocity),
+        )
+        turned = finite("tilt", tilt, 2)
+        require(gap > 0, "gap", gap, "m, > 0")
+        assembly = self._assembly(film, gap, speed, velocity, alike=not turned.any())
+        limits = control.limits(1e-10, 60)
+        state = self._held(
+            assembly, np.array([0.0, 0.0, 0.0, *turned]), velocity, gap, speed, limits
+        )
+        if not state.converged and limits.strict:
+            raise_not_converged(
+                f"gap {gap:.6g} m, ω = {speed:.6g} rad/s", state, assembly.narrowest(state)
+            )
+        return self._result(assembly, state, gap, speed)
+
+    def equilibrium(
+        self,
+        force: float,
+        speed: float,
+        film: Film | Lubricant | None = None,
+        *more: Any,
+        moment: ArrayLike | None = None,
+        tilt: ArrayLike | None = None,
+        control: Control | None = None,
+        **keywords: Unpack[Keywords],
+    ) -> ThrustResult:
+        """Gap at which the film carries `force`.
+
+        Parameters
+        ----------
+        force : float
+            Axial, N, > 0 presses the runner on the pads.
+        speed : float
+            rad/s.
+        film, control, **keywords
+            As in `pressure`.
+        moment : array_like (2,), optional
+            What the runner applies to the pads about both axes, N m; the runner then tilts freely.
+        tilt : array_like (2,), optional
+            Rotation of the runner, rad, held; aligned by default.
+
+        Returns
+        -------
+        ThrustResult
+
+        Raises
+        ------
+        loadflow.errors.InputError
+            Values that are not finite or out of range; moment and tilt together.
+        loadflow.errors.SolverError
+            No film carries the force, with the reason.
+        """
+        film, control = film_and_control(film, more, control, keywords)
+        check_film(film)
+        force, speed = finite("force", force), finite("speed", speed)
+        require(force > 0, "force", force, "N, > 0: it presses the runner on the pads")
+        if moment is not None and tilt is not None:
+            raise InputError("moment and tilt are both given: one follows from the other")
+        turned = finite("tilt", (0.0, 0.0) if tilt is None else tilt, 2)
+        head = f"F = {force:.6g} N at ω = {speed:.6g} rad/s"
+        limits = control.limits(1e-10, 60)
+        self._refuse_hopeless(head, speed)
+        first = self._first_gap(head, force, speed, film, turned, limits)
+        alike = moment is None and not turned.any()
+        assembly = self._assembly(film, first, speed, 0.0, alike)
+        wanted = np.zeros(BODY)
+        wanted[2] = -force
+        if moment is not None:
+            wanted[3:] = finite("moment", moment, 2)
+        free = _AXIAL if moment is None else _WITH_TILT
+        place = np.array([0.0, 0.0, 0.0, *turned])
+        start = self._held(assembly, place, 0.0, first, speed, limits)
+        state = assembly.equilibrium([start], wanted, free, limits)
+        if not state.converged and limits.strict:
+            raise_not_converged(head, state, assembly.narrowest(state))
+        return self._result(assembly, state, first, speed)
+
+    def orbit(
+        self,
+        time: ArrayLike,
+        force: ArrayLike,
+        speed: ArrayLike,
+        film: Film | Lubricant | None = None,
+        *more: Any,
+        moment: ArrayLike | None = None,
+        start: float | None = None,
+        control: Control | None = None,
+        **keywords: Unpack[Keywords],
+    ) -> xr.Dataset:
+        """Path of the runner under a load that changes with time.
+
+        Implicit steps of second order from one time to the next, the oil in every cell conserved;
+        a step at which Newton fails is cut, load and speed being straight lines between the times.
+        Pads that tilt follow without inertia.
+
+        Parameters
+        ----------
+        time : array_like (n,)
+            s, increasing.
+        force : array_like (n,) or float
+            Axial, N, > 0 presses the runner on the pads.
+        speed : array_like (n,) or float
+            rad/s.
+        moment : array_like (n, 2) or (2,), optional
+            N m; the runner then tilts freely.
+        start : float, optional
+            First gap, m, of an aligned runner; default the equilibrium of the first load.
+        film, control, **keywords
+            As in `pressure`; each step is solved to 1e-8 in 30 Newton steps by default.
+
+        Returns
+        -------
+        xarray.Dataset
+            Over ``time``: gap, tilt, minimum_film, maximum_pressure, friction_power, load_share,
+            residual, iterations.
+
+        Raises
+        ------
+        loadflow.errors.InputError
+            Misshapen, not finite or not increasing input.
+        loadflow.errors.SolverError
+            No equilibrium to start from, or a step that fails even when cut.
+        """
+        film, control = film_and_control(film, more, control, keywords)
+        check_film(film)
+        times, forces, speeds, moments = series(time, force, speed, moment, 1)
+        tilt = np.zeros(2)
+        if start is None:
+            words: dict[str, Any] = {} if moment is None else {"moment": moments[0]}
+            found = self.equilibrium(float(forces[0, 0]), float(speeds[0]), film, **words)
+            gap, tilt = found.gap, found.tilt
+        else:
+            gap = finite("start", start)
+            require(gap > 0, "start", gap, "m, > 0")
+        fastest = float(np.abs(speeds).max())
+        assembly = self._assembly(film, gap, fastest, 0.0, alike=moment is None)
+        limits = control.limits(1e-10, 60)
+        place = np.array([0.0, 0.0, 0.0, *tilt])
+        for member in assembly.members:
+            member.film.set_speed(float(speeds[0]))
+        state = self._held(assembly, place, 0.0, gap, float(speeds[0]), limits)
+        loads = np.zeros((times.size, BODY))
+        loads[:, 2], loads[:, 3:] = -forces[:, 0], moments
+        free = _AXIAL if moment is None else _WITH_TILT
+        path = self.row.orbit(assembly, state, times, loads, speeds, free, control)
+        about = {"units": "m", "long_name": "film over the lands on the axis"}
+        shift = path.eccentricity.isel(space=2)
+        return path.drop_vars("eccentricity").assign(gap=(shift + gap).assign_attrs(about))
+
+    # --- inside ----------------------------------------------------------------------------------
+    def _refuse_hopeless(self, head: str, speed: float) -> None:
+        """Name the reason why no film can carry anything."""
+        if speed == 0.0:
+            raise SolverError(f"{head}: without rotation and squeeze the film carries no load")
+        row = self.row
+        share = np.linspace(0.0, 1.0, 9)
+        if not row.tilting and not row.profile.depth(share).any():
+            raise SolverError(f"{head}: flat pads that do not tilt have no wedge and carry no load")
+
+    def _reason(self) -> str:
+        """Why a film carries nothing."""
+        pivot = self.row.pivot
+        if self.row.tilting and pivot is not None:
+            return (
+                "the pads find no tilt at which the centre of pressure meets the pivot at "
+                f"{pivot.share:g} of their length and {pivot.across:g} of their width"
+            )
+        return "the film diverges in this sense of rotation and carries no load"
+
+    def _first_gap(
+        self, head: str, force: float, speed: float, film: Film, tilt: Array, limits: Limits
+    ) -> float:
+        """Gap near which an aligned runner has the wanted force, m."""
+        row = self.row
+        radius, count = row.surface.radius, len(row.centres)
+        nodes = row.surface.place(row.surface.nodes(4))
+        across = float(nodes[-1] - nodes[0])
+        length = row.angle * radius
+        narrow = min(1.0, across / length)
+        drag = film.liquid.viscosity * abs(speed) * radius * length**2 * across * count
+        gap = math.sqrt(_LOAD_NUMBER * drag * narrow**2 / force)
+        reach = float(np.hypot(*tilt)) * float(nodes[-1])
+        gap = max(gap, 2.0 * reach)
+        tried: list[tuple[float, float]] = []
+        for _ in range(_ROUNDS):
+            assembly = self._assembly(film, gap, speed, 0.0, alike=True)
+            state = self._held(assembly, np.zeros(BODY), 0.0, gap, speed, limits)
+            load = _axial(assembly, state)
+            if not state.converged or load <= 0.0:
+                raise SolverError(f"{head}: {self._reason()}; {load:.4g} N at a gap of {gap:.4g} m")
+            if 1.0 / _NEAR < load / force < _NEAR:
+                break
+            tried.append((math.log(gap), math.log(load / force)))
+            slope = -2.0
+            if len(tried) > 1:
+                (x0, y0), (x1, y1) = tried[-2:]
+                slope = min((y1 - y0) / (x1 - x0), -0.2) if x1 != x0 else -2.0
+            gap *= math.exp(min(2.0, max(-2.0, -tried[-1][1] / slope)))
+        return max(gap, 1.2 * reach)
+
+    def _assembly(
+        self, film: Film, gap: float, speed: float, velocity: float, alike: bool
+    ) -> Assembly:
+        rate = abs(speed) + 2.0 * abs(velocity) / gap
+        members = self.row.members(film, gap, gap, speed, rate, alike)
+        return Assembly(members, self.row.surface.radius)
+
+    def _held(
+        self,
+        assembly: Assembly,
+        position: Array,
+        velocity: float,
+        gap: float,
+        speed: float,
+        limits: Limits,
+    ) -> AssemblyState:
+        """Films at a given position; pads that tilt carry, if they can."""
+        moving = np.zeros(BODY)
+        moving[2] = velocity
+        for lift in LIFTS if self.row.tilting else LIFTS[:1]:
+            pads = [self.row.lifted(gap, speed, lift)] * len(assembly.members)
+            start = assembly.start(position, pads)
+            narrowest = assembly.narrowest(start)
+            if narrowest <= 0.0:
+                if self.row.tilting and lift != LIFTS[0]:
+                    continue
+                raise InputError(f"the runner touches the pads: narrowest gap {narrowest:.6g} m")
+            start = AssemblyState(position, moving, start.members)
+            state = assembly.solve(start, np.zeros(BODY), _HELD, limits)
+            if state.converged and _axial(assembly, state) > 0.0:
+                break
+        return state
+
+    def _result(
+        self, assembly: Assembly, state: AssemblyState, base: float, speed: float
+    ) -> ThrustResult:
+        found = self.row.describe(assembly, slice(None), state)
+        axes = slice(2, BODY)
+        stiffness, damping = (m[axes, axes] for m in assembly.coefficients(state))
+        loads = found["loads"]
+        total = loads.sum(axis=0)
+        share = (found["centre"][:, 1] - np.array(self.row.centres)) / self.row.angle + 0.5
+        centre = np.column_stack([found["centre"][:, 0], share])
+        alike = len(assembly.members) == 1
+        return ThrustResult(
+            **common(found | {"stiffness_matrix": stiffness, "damping_matrix": damping}),
+            force=float(-total[2]) + 0.0,
+            moment=total[3:],
+            gap=base + float(state.position[2]),
+            tilt=state.position[3:],
+            pad_force=float(-loads[0, 2]) + 0.0 if alike else -loads[:, 2] + 0.0,
+            centre=(float(centre[0, 0]), float(centre[0, 1])) if alike else centre,
+            stiffness=float(stiffness[0, 0]),
+            damping=float(damping[0, 0]),
+            speed=speed,
+            converged=state.converged,
+            residual=state.residual,
+            iterations=state.iterations,
+        )
+
+
+@dataclass(frozen=True)
+class ThrustBearing(_PadThrust):
+    """Thrust bearing of equal sector pads on a plane ring.
+
+    In the sense of motion the film falls from ``gap + taper`` at the inlet to ``gap`` over the
+    first `wedge` of the pad's angle, constant along a radius, then stays.
+
+    Attributes
+    ----------
+    pads : int
+        Number, ≥ 1.
+    inner_radius, outer_radius : float
+        m.
+    pad_angle : float
+        Of one pad, rad; pads × pad_angle ≤ 2π.
+    taper : float
+        Depth of the wedge at the inlet, m.
+    wedge : float
+        Share of the pad's angle over which it falls to 0.
+    first_pad : float
+        Angle at which the first pad begins, rad.
+    profile : Taper, Step or Flat, optional
+        What is cut into the pads, in place of `taper` and `wedge`.
+    pivot : Pivot, optional
+        Point on which each pad tilts; fixed pads by default.
+
+    Examples
+    --------
+    >>> from loadflow.journal import Film, Guembel, Lubricant, ThrustBearing
+    >>> bearing = ThrustBearing(6, 0.5, 1.0, pad_angle=0.785, taper=1e-4, wedge=0.75)
+    >>> film = Film(Lubricant(0.05), Guembel(), grid=(40, 20))
+    >>> state = bearing.equilibrium(force=1e6, speed=10.0, film=film)
+    >>> round(state.minimum_film * 1e6)
+    157
+    """
+
+    pads: int
+    inner_radius: float
+    outer_radius: float
+    pad_angle: float
+    taper: float = 0.0
+    wedge: float = 0.75
+    first_pad: float = 0.0
+    profile: Profile | None = None
+    pivot: Pivot | None = None
+
+    def __post_init__(self) -> None:
+        inner, outer = self.inner_radius, self.outer_radius
+        require(0 < inner < math.inf, "inner_radius", inner, "m, > 0, finite")
+        allowed = f"m, above inner_radius = {inner:g}, finite"
+        require(inner < outer < math.inf, "outer_radius", outer, allowed)
+        even_pads(self.pads, self.pad_angle, self.first_pad)
+        Taper(self.taper, self.wedge)
+        if self.profile is not None:
+            require(self.taper == 0, "taper", self.taper, "0 where a profile is given")
+
+    @property
+    def row(self) -> Pads:
+        """The pads."""
+        surface: Surface = Cone(0.5 * math.pi, self.inner_radius, self.outer_radius)
+        return _row(self, surface, self.pad_angle)
+
+
+@dataclass(frozen=True)
+class RectangularThrustBearing(_PadThrust):
+    """Thrust bearing of straight rectangular pads round the axis (ISO 12131's idealisation).
+
+    Attributes
+    ----------
+    pads : int
+        Number, ≥ 1.
+    mean_radius : float
+        Distance of the pads' middles from the axis, m; the runner slides at ω · mean_radius.
+    length, width : float
+        Along and across the motion, m; an infinite width has no side flow, and all forces are
+        then per metre of width.
+    taper, wedge, first_pad, profile, pivot
+        As in `ThrustBearing`.
+
+    Examples
+    --------
+    Rayleigh's step of infinite width at its optimum carries 0.2063 η U L²/h²:
+
+    >>> import math
+    >>> from loadflow.journal import Film, Lubricant, RectangularThrustBearing, Step
+    >>> step = Step(0.866e-4, 0.71823)
+    >>> pad = RectangularThrustBearing(1, 10.0, 1.0, math.inf, profile=step)
+    >>> found = pad.pressure(gap=1e-4, speed=0.1, film=Film(Lubricant(1.0), grid=(40, 4)))
+    >>> round(found.force * 1e-4**2, 3)
+    0.206
+    """
+
+    pads: int
+    mean_radius: float
+    length: float
+    width: float
+    taper: float = 0.0
+    wedge: float = 0.75
+    first_pad: float = 0.0
+    profile: Profile | None = None
+    pivot: Pivot | None = None
+
+    def __post_init__(self) -> None:
+        require(0 < self.mean_radius < math.inf, "mean_radius", self.mean_radius, "m, > 0, finite")
+        require(0 < self.length < math.inf, "length", self.length, "m, > 0, finite")
+        require(self.width > 0, "width", self.width, "m, > 0, or infinite")
+        even_pads(self.pads, self.length / self.mean_radius, self.first_pad)
+        Taper(self.taper, self.wedge)
+        if self.profile is not None:
+            require(self.taper == 0, "taper", self.taper, "0 where a profile is given")
+
+    @property
+    def row(self) -> Pads:
+        """The pads."""
+        surface: Surface = Strip(self.mean_radius, self.width)
+        return _row(self, surface, self.length / self.mean_radius)
+
+
+def _axial(assembly: Assembly, state: AssemblyState) -> float:
+    """Axial force of all pads, N."""
+    return -float(sum(part[2] for pads in assembly.loads(state) for part in pads))
+
+
+def _row(bearing: ThrustBearing | RectangularThrustBearing, surface: Surface, angle: float) -> Pads:
+    profile = bearing.profile or Taper(bearing.taper, bearing.wedge)
+    centres = even_pads(bearing.pads, angle, bearing.first_pad)
+    return Pads(surface, angle, centres, profile=profile, pivot=bearing.pivot)

@@ -1,0 +1,88 @@
+"""The table of quantities: symbol, unit and meaning of what results give, stated once.
+
+Results, orbits, stages and command line read what they say of a name from here.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+
+class Quantity(NamedTuple):
+    """A quantity of a result.
+
+    Attributes
+    ----------
+    symbol : str
+        As formulas have it.
+    units : str
+        SI; "1" without dimension.
+    meaning : str
+        In one line.
+    """
+
+    symbol: str
+    units: str
+    meaning: str
+
+    @property
+    def attributes(self) -> dict[str, str]:
+        """Attributes of an xarray variable."""
+        return {"units": self.units, "long_name": self.meaning}
+
+
+FILM: dict[str, Quantity] = {
+    "force": Quantity("F", "N", "what the shaft applies to the bearing"),
+    "film_force": Quantity("−F", "N", "force of the film on the shaft"),
+    "speed": Quantity("ω", "rad/s", "speed of the shaft"),
+    "eccentricity": Quantity("e", "m", "shaft centre relative to the shell"),
+    "eccentricity_ratio": Quantity("ε", "1", "eccentricity ratio"),
+    "attitude_angle": Quantity("β", "rad", "attitude angle"),
+    "minimum_film": Quantity("h_min", "m", "smallest film thickness"),
+    "maximum_pressure": Quantity("p_max", "Pa", "largest film pressure, absolute"),
+    "sommerfeld_number": Quantity("So", "1", "Sommerfeld number"),
+    "friction_power": Quantity("P_f", "W", "friction power"),
+    "side_flow": Quantity("Q_s", "m3/s", "side flow"),
+    "supply_flow": Quantity("Q", "m3/s", "flow of the grooves into the film"),
+    "supply_power": Quantity("P_Q", "W", "power that lifts the oil to supply pressure"),
+    "groove_flow": Quantity("Q_g", "m3/s", "flow of each groove into the film"),
+    "groove_pressure": Quantity("p_g", "Pa", "pressure of each groove, absolute"),
+    "starved": Quantity("", "1", "whether a fed groove gives less than the film would draw"),
+    "total_fill": Quantity("F", "1", "share of liquid in the gap"),
+    "reynolds_number": Quantity("Re", "1", "Reynolds number of the gap"),
+    "critical_reynolds_number": Quantity("Re_cr", "1", "Re at which the flow turns turbulent"),
+    "laminar": Quantity("", "1", "whether the flow is laminar"),
+    "stiffness": Quantity("K", "N/m", "−∂F/∂e of the film; of moments and tilts in N, N m"),
+    "damping": Quantity("C", "N s/m", "−∂F/∂ė of the film; of moments and tilts in N s, N m s"),
+    "moment": Quantity("M", "N m", "moment of the shaft on the bearing about its middle"),
+    "tilt": Quantity("γ", "rad", "rotation of the shaft about both axes"),
+    "pad_tilt": Quantity("δ", "rad", "rotation of each pad about its pivot"),
+    "shell_deformation": Quantity("", "m", "largest growth of the gap by the elastic shell"),
+    "temperature": Quantity("T", "K", "effective temperature of the film"),
+    "outlet_temperature": Quantity("T_out", "K", "temperature of the oil that leaves"),
+    "viscosity": Quantity("η", "Pa s", "viscosity at the effective temperature"),
+    "heat_residual": Quantity("", "K", "what is left of the heat balance"),
+    "heat_iterations": Quantity("", "1", "temperatures tried"),
+    "pressure": Quantity("p", "Pa", "film pressure, absolute"),
+    "fill": Quantity("F", "1", "share of liquid in each cell"),
+    "deformation": Quantity("", "m", "growth of the gap by the elastic shell"),
+    "angle": Quantity("θ", "rad", "angle of the cell centres from the first axis"),
+    "z": Quantity("z", "m", "axial place of the cell centres from mid-plane"),
+    "converged": Quantity("", "1", "whether the equilibrium was found"),
+    "residual": Quantity("", "1", "scaled residual of film and load"),
+    "iterations": Quantity("", "1", "iterations"),
+    "steps": Quantity("", "1", "implicit steps since the time before"),
+    "in_range": Quantity("", "1", "whether the model covers position and load"),
+}
+"""Of a film, at rest, at a position and in time."""
+
+
+def table(*names: str) -> dict[str, tuple[str, str]]:
+    """Units and meaning of quantities of a film.
+
+    Examples
+    --------
+    >>> table("minimum_film")
+    {'minimum_film': ('m', 'smallest film thickness')}
+    """
+    return {name: (FILM[name].units, FILM[name].meaning) for name in names}

@@ -1,0 +1,76 @@
+"""Text files of any origin: their encoding, and tables of numbers with the place of every fault."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from loadflow.errors import InputError
+
+
+def read_text(path: Path) -> str:
+    """Return the content of a text file, in UTF-8 or else in Latin-1 (a ``·`` of old programs).
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        The file cannot be read, or holds bytes that no text has.
+    """
+    try:
+        data = path.read_bytes()
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read: {error.strerror}") from None
+    if b"\0" in data:
+        raise InputError(f"{path}: the file is no text (a zero at byte {data.index(0)})")
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        return data.decode("latin-1")
+
+
+def number_rows(
+    lines: list[str], start: int, columns: int, path: Path, what: str = "the header names"
+) -> NDArray[np.float64]:
+    """Return the numbers of a table from line `start` (from 0) to the end; blank ends are left out.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        No row, a row of another length, a field that is no number; the message names the line.
+    """
+    end = len(lines)
+    while end > start and (not lines[end - 1].strip() or _closing(lines[end - 1])):
+        end -= 1
+    rows = lines[start:end]
+    if not rows:
+        raise InputError(f"{path}: the file has a header but no time step")
+    widths = {len(row.rstrip()) for row in rows[:-1]}
+    if len(widths) == 1 and len(rows[-1].rstrip()) < min(widths):
+        raise InputError(f"{path}, line {end}: truncated, the last line is cut")
+    fields = [row.split() for row in rows]
+    for number, row in enumerate(fields, start + 1):
+        if len(row) != columns:
+            raise InputError(
+                f"{path}, line {number}: {len(row)} values where {what} {columns} channels"
+            )
+    try:
+        return np.array(fields, dtype=float)
+    except ValueError:
+        for number, row in enumerate(fields, start + 1):
+            for field in row:
+                _check_number(field, f"{path}, line {number}")
+        raise
+
+
+def _closing(line: str) -> bool:
+    """Whether a program says at the end that it closed the file."""
+    return line.strip().startswith("This output file was closed")
+
+
+def _check_number(field: str, where: str) -> None:
+    try:
+        float(field)
+    except ValueError:
+        raise InputError(f"{where}: {field!r} is not a number") from None

@@ -1,0 +1,158 @@
+"""The page of a comparison: one sentence, one table, then inputs, then depth."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from jinja2 import Environment, PackageLoader, select_autoescape
+
+from loadflow.report.sketch import sketch
+
+GROUPS = (
+    ("Capacity", ("load_factor", "minimum_film", "film_to_roughness", "eccentricity_ratio",
+        "film_pressure", "static_safety", "contact_pressure", "modified_life", "rating_life")),
+    ("What fails before rating life does", ("row_share", "row_overload", "film_parameter", "tilt",
+        "mixed_time")),
+    ("Losses and oil", ("friction", "energy", "oil_flow", "pump")),
+)  # fmt: skip
+"""Rows of the table, in groups."""
+
+
+@dataclass(frozen=True)
+class Cell:
+    """A cell of the table: the value, what is known of its error, and where it is from."""
+
+    value: str
+    around: str = ""
+    limit: str = ""
+    where: str = ""
+    state: str = ""
+
+
+def write_comparison(path: Path, data: Mapping[str, Any]) -> Path:
+    """Write the page of a comparison, whole or not at all.
+
+    Parameters
+    ----------
+    path : Path
+        HTML file to write.
+    data : mapping
+        `loadflow.studies.compare.Comparison.as_dict`.
+
+    Returns
+    -------
+    Path
+        The file.
+    """
+    environment = Environment(
+        loader=PackageLoader("loadflow.report"), autoescape=select_autoescape(["html"])
+    )
+    candidates = data["candidates"]
+    groups = [
+        (title, [row for key in keys if (row := _row(key, data)) is not None])
+        for title, keys in GROUPS
+    ]
+    page = environment.get_template("compare.html").render(
+        data=data,
+        groups=groups,
+        sketch=sketch(data["shaft"]),
+        verdicts={one["name"]: [_verdict(v) for v in one["verdicts"]] for one in candidates},
+        extremes={one["name"]: [*_extremes(one, data)] for one in candidates},
+        checks={one["name"]: [_check(c) for c in one["checks"]] for one in candidates},
+    )
+    temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
+    temporary.write_text(page, encoding="utf-8")
+    os.replace(temporary, path)
+    return path
+
+
+def _row(key: str, data: Mapping[str, Any]) -> tuple[str, str, list[Cell]] | None:
+    """Name, unit and cells of a quantity; None where no candidate has it."""
+    about = data["quantities"][key]
+    cells = [_cell(one["numbers"].get(key)) for one in data["candidates"]]
+    if all(cell.value == "" for cell in cells):
+        return None
+    return about["name"], about["unit"], cells
+
+
+def _cell(number: Mapping[str, Any] | None) -> Cell:
+    if number is None or (number["value"] is None and not number["note"]):
+        return Cell("")
+    if number["value"] is None:
+        return Cell("–", where=number["note"])
+    error = "" if number["error"] is None else f"± {100 * number['error']:.2g} % by models"
+    seeds = "" if number["low"] is None else f"{short(number['low'])} … {short(number['high'])}"
+    limit = "" if number["limit"] is None else f"limit {short(number['limit'])}"
+    state = {True: "good", False: "bad", None: ""}[number["holds"]]
+    around = ", ".join(part for part in (seeds, error) if part)
+    return Cell(short(number["value"]), around, limit, _where(number), state)
+
+
+def _where(number: Mapping[str, Any]) -> str:
+    """Bearing, load case, time and note of a number."""
+    time = "" if number["time"] is None else f"{number['time']:.1f} s"
+    parts = (number["place"], number["case"], time, number["note"])
+    return ", ".join(part for part in parts if part)
+
+
+def short(value: float) -> str:
+    """A number in three digits, without an exponent where it can be read."""
+    if value == 0:
+        return "0"
+    if 1e-3 <= abs(value) < 1e3:
+        return f"{value:.3g}"
+    return f"{value:,.0f}" if 1e3 <= abs(value) < 1e7 else f"{value:.2e}"
+
+
+UNITS = {
+    "Pa": (1e-6, "MPa"),
+    "m": (1e6, "µm"),
+    "N": (1e-3, "kN"),
+    "h": (1 / 8766.0, "years"),
+    "K": (1.0, "K"),
+}
+"""Factor and unit in which a verdict in SI units is shown."""
+
+
+def _verdict(verdict: Mapping[str, Any]) -> dict[str, str]:
+    factor, unit = UNITS.get(verdict["unit"], (1.0, verdict["unit"]))
+    value, limit = (
+        "–" if verdict[key] is None else f"{short(factor * verdict[key])} {unit}".strip()
+        for key in ("value", "limit")
+    )
+    sign = "≤" if verdict["sense"] == "at most" else "≥"
+    return {
+        "subject": verdict["subject"],
+        "quantity": verdict["quantity"],
+        "value": value,
+        "limit": f"{sign} {limit}" if limit != "–" else limit,
+        "answer": verdict["answer"],
+        "where": _where({**verdict, "place": ""} | {"note": ""}),
+        "source": verdict["source"],
+        "note": verdict["note"],
+        "key": verdict["key"],
+        "state": "" if verdict["answer"] in ("holds", "no limit") else "bad",
+    }
+
+
+def _extremes(one: Mapping[str, Any], data: Mapping[str, Any]) -> list[tuple[str, str, str, str]]:
+    """Extremes with bearing, load case and time."""
+    return [
+        (
+            data["quantities"][key]["name"],
+            f"{short(number['value'])} {number['unit']}",
+            f"{number['place']}, {number['case']}",
+            "" if number["time"] is None else f"{number['time']:.2f} s",
+        )
+        for key, number in one["numbers"].items()
+        if number["case"] and number["value"] is not None
+    ]
+
+
+def _check(check: Mapping[str, Any]) -> dict[str, str]:
+    change = "no answer" if check["change"] is None else f"{100 * check['change']:.2g} %"
+    return {**{key: str(check[key]) for key in ("stage", "quantity", "against")}, "change": change}

@@ -1,0 +1,44 @@
+"""Former public names, for one version more."""
+
+from __future__ import annotations
+
+import warnings
+
+from numpy.typing import ArrayLike
+
+from loadflow.errors import InputError
+from loadflow.rolling.bearings.base import RollingBearing, RollingEquilibrium
+from loadflow.rolling.rating import modified_life
+from loadflow.rolling.rating.modified_life import LifeModification, Lubrication
+
+MainBearing = RollingBearing
+RollerResult = SlewingResult = FlexibleResult = RollingEquilibrium
+BallBearingResult = SpinningResult = ThreeRowResult = RollingEquilibrium
+
+
+def static_capacity(bearing: RollingBearing) -> float:
+    """`bearing.static_capacity`; deprecated.
+
+    Raises
+    ------
+    InputError
+        If it is no bearing.
+    """
+    warnings.warn("static_capacity(b) is now b.static_capacity", DeprecationWarning, stacklevel=2)
+    if not isinstance(bearing, RollingBearing):
+        raise InputError(f"bearing: no static capacity of a {type(bearing).__name__}")
+    return bearing.static_capacity
+
+
+def bearing_modification(
+    bearing: RollingBearing,
+    load: ArrayLike,
+    speed: ArrayLike,
+    lubrication: Lubrication,
+    limit: float = modified_life.LARGEST_FACTOR,
+) -> LifeModification:
+    """`bearing.life_modification(load, speed, lubrication, limit)`; deprecated."""
+    warnings.warn(
+        "bearing_modification(b, …) is now b.life_modification(…)", DeprecationWarning, stacklevel=2
+    )
+    return bearing.life_modification(load, speed, lubrication, limit)

@@ -1,0 +1,126 @@
+"""What a kind of rolling bearing says of itself; everything else is the same for all of them."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from typing import TYPE_CHECKING, ClassVar, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from loadflow.errors import InputError
+from loadflow.rolling.contact_forces import ContactForces
+from loadflow.rolling.contacts import Array, Contacts
+
+
+class RollingGeometry(ABC):
+    """Geometry of a rolling bearing: its contacts, how they group, its capacities and ratings.
+
+    A kind of bearing is a frozen dataclass that inherits this and states the members below; its
+    verbs come from `loadflow.rolling.bearings.base.RollingBearing`. Methods that take ``found``
+    read the forces of all contacts (`ContactForces`).
+
+    Attributes
+    ----------
+    element : {"ball", "roller"}
+        What rolls.
+    group_dims : tuple of str
+        Names of the groups of `element_forces`, as dimensions of a Dataset.
+    life_exponent, weibull_slope : float
+        p of L10 = (C/P)^p, and slope of the scatter of lives.
+    static_exponent : int
+        Force over pressure: 3 of points, 2 of lines.
+    rated_axially : bool
+        Whether its capacities are axial (slewing rings) or radial.
+    takes_moment : bool
+        Whether it resists a tilting moment.
+    allowed_tilt : float or None
+        Tilt of the shaft in it that its contacts bear, rad; None of bearings for moments.
+    """
+
+    element: ClassVar[Literal["ball", "roller"]]
+    group_dims: ClassVar[tuple[str, ...]] = ("row",)
+    life_exponent: ClassVar[float]
+    weibull_slope: ClassVar[float]
+    static_exponent: ClassVar[int]
+    rated_axially: ClassVar[bool] = False
+    takes_moment: ClassVar[bool] = True
+    allowed_tilt: ClassVar[float | None] = None
+
+    if TYPE_CHECKING:  # a field of most kinds, so that no property may stand before it
+
+        @property
+        def pitch_diameter(self) -> float:
+            """Pitch diameter D_pw, m."""
+
+    @abstractmethod
+    def contacts(self, element_angle: float = 0.0) -> Contacts:
+        """All contacts with the first element of each row at the azimuth `element_angle`, rad."""
+
+    @property
+    @abstractmethod
+    def groups(self) -> tuple[int, ...]:
+        """Size of each of `group_dims`."""
+
+    @property
+    @abstractmethod
+    def rated_capacity(self) -> float:
+        """Basic dynamic capacity, N: radial, or axial of slewing rings."""
+
+    @property
+    @abstractmethod
+    def static_capacity(self) -> float:
+        """Basic static capacity C₀ of ISO 76, N: radial, or axial of slewing rings."""
+
+    @property
+    def takes_thrust(self) -> bool:
+        """Whether it carries a force along its axis: all but rollers on cylinders do."""
+        return True
+
+    @abstractmethod
+    def element_forces(self, found: ContactForces) -> Array:
+        """Forces on the rolling elements, N, (..., *groups, element)."""
+
+    @abstractmethod
+    def raceway_pressure(self, found: ContactForces) -> tuple[Array, ...]:
+        """Largest Hertzian pressure at each raceway, Pa."""
+
+    @abstractmethod
+    def pressure_safety(self, found: ContactForces) -> Array:
+        """Allowable over largest pressure; infinite without load."""
+
+    @abstractmethod
+    def reference_life(self, found: ContactForces) -> Array:
+        """Reference life L10r of ISO/TS 16281, millions of revolutions; the inner ring turns."""
+
+    # --- the same unless a kind says otherwise ---------------------------------------------------
+    @property
+    def rib_guided(self) -> bool:
+        """Whether its rollers are pressed on a rib, as tapered ones are."""
+        return False
+
+    def contact_angles(self, found: ContactForces) -> Array:
+        """Operating contact angles, rad, (..., *groups, element); of balls, whose angle moves."""
+        raise InputError(f"contact_angles: fixed by the geometry of a {type(self).__name__}")
+
+    def maximum_force(self, found: ContactForces) -> Array:
+        """Largest force on a rolling element, N."""
+        axes = tuple(range(-len(self.groups) - 1, 0))
+        return np.asarray(self.element_forces(found).max(axis=axes))
+
+    def slice_forces(self, found: ContactForces) -> Array:
+        """Forces on the slices of rollers, N, (..., track, slice, roller)."""
+        raise InputError(f"slice_forces: not of a {type(self).__name__}")
+
+    def truncated(self, found: ContactForces) -> NDArray[np.bool_]:
+        """Whether a contact reaches over the shoulder of its raceway; of balls only."""
+        raise InputError(f"truncated: a matter of balls, not of a {type(self).__name__}")
+
+    def rating_life(self, found: ContactForces) -> Array:
+        """Basic rating life, millions of revolutions: the reference life."""
+        return self.reference_life(found)
+
+    def equivalent_load(self, found: ContactForces) -> Array:
+        """Dynamic equivalent reference load P_ref = C/L10r^(1/p), N."""
+        life = self.reference_life(found)
+        return np.asarray(self.rated_capacity / life ** (1 / self.life_exponent))

@@ -1,0 +1,87 @@
+"""The work on one load case: what of it is missing is done and written; runs in a worker."""
+
+from __future__ import annotations
+
+import time
+import traceback
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from loadflow.cube import open_cube
+from loadflow.errors import InputError, SolverError
+from loadflow.planning.plan import Plan, Step
+from loadflow.running.compiling import Compiling
+from loadflow.running.folder import part_file
+from loadflow.running.parts import save_part
+from loadflow.scene.cases import Case
+from loadflow.scene.scene import Scene
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What became of one case.
+
+    Attributes
+    ----------
+    seconds, compiling, writing : dict
+        By stage, s: in all, of it in the compilation of kernels, of it in writing the part.
+    failures : dict
+        Why a part has no answer, by part.
+    traces : list of str
+        Where in the code it happened, of failures that no solver named.
+    """
+
+    seconds: dict[str, float] = field(default_factory=dict)
+    compiling: dict[str, float] = field(default_factory=dict)
+    writing: dict[str, float] = field(default_factory=dict)
+    failures: dict[str, str] = field(default_factory=dict)
+    traces: list[str] = field(default_factory=list)
+
+
+def do_case(case: Case, scene: Scene, plan: Plan, folder: Path) -> Outcome:
+    """Run the stages of one case that are missing.
+
+    What fails in one case is kept as its failure, and the other cases go on; bad input and a disk
+    that refuses concern them all, and are raised.
+    """
+    done = Outcome()
+    for step in plan.of_scope("case"):
+        name, target = step.name, part_file(folder, step.name, case)
+        if target.exists() or not is_ready(step, case, folder):
+            continue
+        begun = time.perf_counter()
+        with Compiling() as compiling:
+            try:
+                result = step.stage.run(scene, case, open_inputs(step, case, folder))
+            except SolverError as error:
+                done.failures[f"{case.name}, {name}"] = str(error)
+                continue
+            except (InputError, OSError):
+                raise
+            except Exception as error:
+                done.failures[f"{case.name}, {name}"] = f"{type(error).__name__}: {error}"
+                done.traces.append(traceback.format_exc())
+                continue
+        answered = time.perf_counter()
+        save_part(result, target, step.digest)
+        written = time.perf_counter()
+        done.seconds[name] = written - begun
+        done.compiling[name] = compiling.seconds
+        done.writing[name] = written - answered
+    return done
+
+
+def is_missing(plan: Plan, case: Case, folder: Path) -> bool:
+    """Whether a part of this case is yet to be done."""
+    return any(not part_file(folder, step.name, case).exists() for step in plan.of_scope("case"))
+
+
+def is_ready(step: Step, case: Case, folder: Path) -> bool:
+    """Whether all that the stage reads of this case is there."""
+    return all(part_file(folder, need, case).exists() for need in step.needs)
+
+
+def open_inputs(step: Step, case: Case, folder: Path) -> dict[str, Any]:
+    """Open what the stage reads of this case."""
+    return {need: open_cube(part_file(folder, need, case)) for need in step.needs}

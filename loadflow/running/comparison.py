@@ -1,0 +1,267 @@
+"""One set of loads, several candidates: a run for each, on the same parts, and what they say."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from loadflow.errors import InputError, LoadflowError
+from loadflow.planning.plan import Plan, make_plan
+from loadflow.report.compare_page import write_comparison
+from loadflow.running.folder import finished_parts, read_manifest
+from loadflow.running.parts import digest_of
+from loadflow.running.runner import Report, run
+from loadflow.scene.candidates import candidates_of
+from loadflow.scene.scene import Candidate, Journal, Scene, make_scene
+from loadflow.storage import write_text
+from loadflow.studies.compare import Comparison, Finished, compared
+
+SHARED = ("loads", "shaft")
+"""Stages whose parts are the same for all candidates, unless the shaft feels its bearings."""
+
+ROLLING_SAMPLES = 600
+"""Samples of each case in which a rolling bearing is solved, where the scene does not say."""
+
+SHAPED_SAMPLES = 24
+"""The same of a journal bearing that cannot be followed through the whole series in reasonable
+time: pads, lobes, elastic shells, tilted shafts."""
+
+
+@dataclass(frozen=True)
+class Compared:
+    """A finished comparison.
+
+    Attributes
+    ----------
+    path : Path
+        Folder of the run whose loads it uses; ``candidates`` in it holds a run for each.
+    comparison : Comparison
+        Numbers, intervals, verdicts and the conclusion.
+    failures : dict
+        Why a candidate has no answer at all.
+    """
+
+    path: Path
+    comparison: Comparison
+    failures: dict[str, str]
+
+    @property
+    def page(self) -> Path:
+        """The page."""
+        return self.path / "compare.html"
+
+    @property
+    def table(self) -> Path:
+        """The numbers as CSV."""
+        return self.path / "compare.csv"
+
+
+def compare(
+    scene: Scene,
+    *,
+    out: str | Path = "runs",
+    candidates: list[str] | None = None,
+    workers: int = 1,
+    scheduler: str | None = None,
+    overwrite: bool = False,
+    progress: Report | None = None,
+) -> Compared:
+    """Compare candidates for the main bearings of a scene under the same loads.
+
+    Parameters
+    ----------
+    scene : Scene
+        Its ``[candidates]`` are compared; without any, those that are sized for its turbine, as far
+        as its shaft has their places, beside the bearings that the scene states itself.
+    out : path
+        Folder of runs. Loads and shaft are those of the run of the scene's name there, made if they
+        are missing; each candidate has a run of its own below it, taken up again where it was.
+    candidates : list of str, optional
+        Names of those to compare; default all.
+    workers, scheduler, overwrite, progress
+        As of `loadflow.run`.
+
+    Returns
+    -------
+    Compared
+        The page and the table are written.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        No candidate that the shaft has places for, or one that is not known.
+    loadflow.errors.LoadflowError
+        No candidate has an answer.
+    """
+    known, without_place = candidates_for(scene)
+    chosen = _chosen(known, candidates)
+    base = _base(scene)
+    folder = Path(out) / scene.name
+    plan = make_plan(base)
+    if not _there(plan, folder):
+        run(
+            base, out=out, workers=workers, scheduler=scheduler, overwrite=overwrite, report=False,
+            progress=progress,
+        )  # fmt: skip
+    finished, failures = [], {}
+    steps = min(case.steps for case in plan.cases)
+    for name, candidate in chosen.items():
+        own = candidate_scene(base, name, candidate, steps)
+        place = folder / "candidates" / name
+        _share(plan, make_plan(own), folder, place)
+
+        def tell(stage: str, done: int, total: int, name: str = name) -> None:
+            if progress is not None:
+                progress(f"{name}: {stage}", done, total)
+
+        try:
+            result = run(
+                own, out=place.parent, workers=workers, scheduler=scheduler, overwrite=overwrite,
+                report=False, progress=tell,
+            )  # fmt: skip
+        except LoadflowError as error:
+            failures[name] = str(error)
+            continue
+        manifest = read_manifest(place)
+        tables = {key: node.to_dataset().load() for key, node in result.tree.children.items()}
+        finished.append(
+            Finished(name, candidate.title, candidate.source, own, tables, manifest, place)
+        )
+    if not finished:
+        lines = "\n".join(f"  {name}: {why}" for name, why in failures.items())
+        raise LoadflowError(f"no candidate has an answer:\n{lines}")
+    found = compared(base, finished, folder, failures, without_place)
+    done = Compared(folder, found, failures)
+    write_comparison(done.page, found.as_dict())
+    write_text(done.table, found.to_csv())
+    write_text(folder / "compare.json", json.dumps(found.as_dict(), indent=1))
+    return done
+
+
+def candidates_for(scene: Scene) -> tuple[dict[str, Candidate], list[str]]:
+    """Candidates of a scene, and names of those for which its shaft has no places.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        There is none at all.
+    """
+    if scene.candidates:
+        return dict(scene.candidates), []
+    found: dict[str, Candidate] = {}
+    if {"geometry", "lubricant"} & scene.journal.changed:
+        title = "journal bearings of the scene"
+        found["own-journal"] = Candidate(title=title, journal=scene.journal)
+    sized = candidates_of(scene.turbine.name)
+    default = make_scene({"turbine": {"name": scene.turbine.name}, "results": ["loads.statistics"]})
+    if scene.rolling != default.rolling:
+        title = "rolling bearings of the scene"
+        found["own-rolling"] = Candidate(title=title, rolling=scene.rolling)
+    shell = {
+        "turbine": {"name": scene.turbine.name},
+        "results": ["loads.statistics"],
+        "candidates": {name: {} for name in sized},
+        "shaft": {"two_point": {}, "moment": {}},
+    }
+    found |= make_scene(shell).candidates
+    places = set(scene.shaft.bearings)
+    usable = {name: one for name, one in found.items() if set(one.places) <= places}
+    if not usable:
+        raise InputError(
+            f"no candidates: the scene states none, and for {scene.turbine.name} with bearings at "
+            f"{', '.join(places) or 'no place'} the package has none; write [candidates.NAME.PLACE]"
+        )
+    return usable, [name for name in found if name not in usable]
+
+
+def candidate_scene(base: Scene, name: str, candidate: Candidate, steps: int) -> Scene:
+    """The scene of one candidate: its bearings, by the models that suit a comparison.
+
+    Journal bearings of cylindrical bores are followed in motion through the whole series on the
+    rung ``reduced``; others are solved at rest in a few samples, the extremes among them.
+
+    Parameters
+    ----------
+    base : Scene
+        Loads, shaft, friction.
+    name : str
+        Of the candidate.
+    candidate : Candidate
+        Its bearings.
+    steps : int
+        Length of the shortest series.
+    """
+    results: list[str] = []
+    update: dict[str, Any] = {"name": name, "candidates": {}}
+    samples = ROLLING_SAMPLES
+    if candidate.journal is not None:
+        results.append("journal.film")
+        update["journal"] = journal = _modelled(candidate.journal)
+        samples = samples if journal.in_motion else SHAPED_SAMPLES
+    if candidate.rolling is not None:
+        results += ["rolling.loads", "rolling.life"]
+        update["rolling"] = candidate.rolling
+    if not base.reduction.changed:
+        size = min(1.0, samples / steps)
+        update["reduction"] = base.reduction.model_copy(update={"size": size})
+    return base.model_copy(update=update | {"results": results})
+
+
+def _modelled(journal: Journal) -> Journal:
+    """A journal bearing in motion on `reduced`, where that rung knows it and none is named."""
+    parts = (journal, *journal.own.values())
+    simple = not journal.tilt and all(
+        not part.geometry.shape.segments and part.geometry.relief == () and part.shell is None
+        for part in parts
+    )
+    if not simple or {"motion", "rung"} & journal.changed:
+        return journal
+    fast = {"motion": "transient", "rung": "reduced"}
+    own = {place: part.model_copy(update=fast) for place, part in journal.own.items()}
+    return journal.model_copy(update=fast | {"own": own})
+
+
+def _chosen(known: dict[str, Candidate], names: list[str] | None) -> dict[str, Candidate]:
+    if names is None:
+        return known
+    if unknown := [name for name in names if name not in known]:
+        raise InputError(f"no candidate {', '.join(unknown)}; there are {', '.join(known)}")
+    return {name: known[name] for name in names}
+
+
+def _base(scene: Scene) -> Scene:
+    """The scene with the models of its loads named, so that all candidates share them."""
+    loads = make_plan(scene).scene.loads if scene.accuracy is not None else scene.loads
+    update = {"loads": loads, "results": ["loads.statistics"], "candidates": {}}
+    return scene.model_copy(update=update)
+
+
+def _there(plan: Plan, folder: Path) -> bool:
+    """Whether a run left all loads and shaft parts of these settings."""
+    done = finished_parts(folder, plan)
+    return all(done[name] == len(plan.cases) for name in SHARED)
+
+
+def _share(plan: Plan, own: Plan, folder: Path, place: Path) -> None:
+    """Give a candidate the parts of the stages that are the same for it."""
+    ours = {step.name: step.digest for step in plan.steps}
+    theirs = {step.name: step.digest for step in own.steps}
+    alike = {name: ours[name] for name in SHARED if name in theirs and ours[name] == theirs[name]}
+    for name, digest in alike.items():
+        (place / name).mkdir(parents=True, exist_ok=True)
+        for part in (folder / name).glob("*.h5"):
+            target = place / name / part.name
+            if not target.exists() or digest_of(target) != digest:
+                target.unlink(missing_ok=True)
+                _link(part, target)
+
+
+def _link(source: Path, target: Path) -> None:
+    try:
+        os.link(source, target)
+    except OSError:  # another disk, or one without links
+        shutil.copy2(source, target)

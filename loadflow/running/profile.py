@@ -1,0 +1,72 @@
+"""Where the time of a run went: by stage, and how much of it compiled kernels or wrote files."""
+
+from __future__ import annotations
+
+import json
+import time
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from loadflow.running.cases import Outcome
+from loadflow.storage import write_text
+
+COMPILING = "compiling kernels"
+
+
+@dataclass
+class Profile:
+    """Adds up what the parts of a run took.
+
+    Attributes
+    ----------
+    wall : dict
+        Seconds by phase of the run, as a clock on the wall shows them.
+    stages : dict
+        Seconds of all processes by stage of a load case: in all, of it compiling, of it writing.
+    """
+
+    started: float = field(default_factory=time.perf_counter)
+    wall: dict[str, float] = field(default_factory=dict)
+    stages: dict[str, dict[str, float]] = field(default_factory=dict)
+
+    def add_wall(self, phase: str, seconds: float, compiling: float = 0.0) -> None:
+        """Add to a phase; what it compiled is a phase of its own."""
+        self.wall[phase] = self.wall.get(phase, 0.0) + seconds - compiling
+        if compiling:
+            self.add_wall(COMPILING, compiling)
+
+    def add(self, outcome: Outcome) -> None:
+        """Add a load case."""
+        for stage, seconds in outcome.seconds.items():
+            row = self.stages.setdefault(stage, {"seconds": 0.0, "compiling": 0.0, "writing": 0.0})
+            row["seconds"] += seconds
+            row["compiling"] += outcome.compiling[stage]
+            row["writing"] += outcome.writing[stage]
+
+    def table(self, workers: int) -> dict[str, Any]:
+        """What a reader wants of it, rounded to milliseconds."""
+        whole = time.perf_counter() - self.started
+        of_cases = sum(row["seconds"] for row in self.stages.values())
+        rest = {"start, plan and other": max(0.0, whole - sum(self.wall.values()))}
+        return {
+            "wall_seconds": round(whole, 3),
+            "processes": workers,
+            "phases": {
+                phase: {"wall_seconds": round(s, 3), "share": round(s / whole, 4)}
+                for phase, s in (self.wall | rest).items()
+            },
+            "stages_of_load_cases": {
+                stage: {
+                    "process_seconds": round(row["seconds"], 3),
+                    "share": round(row["seconds"] / of_cases, 4),
+                    "compiling": round(row["compiling"], 3),
+                    "writing": round(row["writing"], 3),
+                }
+                for stage, row in self.stages.items()
+            },
+        }
+
+    def write(self, path: Path, workers: int) -> None:
+        """Write the table as JSON."""
+        write_text(path, json.dumps(self.table(workers), indent=1))

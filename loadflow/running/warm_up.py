@@ -1,0 +1,153 @@
+"""Kernels are compiled once, before the load cases: the first run on a machine does not do it in
+every process at once.
+
+numba keeps compiled kernels on the disk, but what they are compiled for is known only when they
+are called. So the plan's own stages are run on a load case in miniature: one process simulates a
+second of it, while another takes made-up loads through all the other stages; what is compiled
+there, all workers then load. A mark beside numba's files tells the next run that this is done.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import logging
+import os
+import platform
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import replace
+from functools import partial
+from importlib.metadata import version
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+import loadflow
+from loadflow.cube import make_case
+from loadflow.planning.plan import Plan
+from loadflow.running.cases import do_case, is_ready, open_inputs
+from loadflow.running.executor import Executor
+from loadflow.running.folder import part_file
+from loadflow.running.parts import save_part
+from loadflow.scene.cases import Case
+from loadflow.scene.scene import Scene
+
+log = logging.getLogger("loadflow.run")
+
+SAMPLES = 160
+"""Length of the made-up series: enough for the reduction to keep a few samples."""
+
+DURATION = 1.0
+"""Length of the simulated series after its run-in, s."""
+
+
+def compile_kernels(plan: Plan, where: Executor, say: Callable[[str, int, int], None]) -> None:
+    """Compile what the stages of a plan need, where that has not been done on this machine.
+
+    It gains nothing in a single process, which compiles a kernel when it first calls it, nor for a
+    cluster, whose machines have files of their own.
+    """
+    if (marks := _marks(plan)) and any(mark.exists() for mark in marks):
+        return
+    if where.workers < 2 or not where.shares_disk:
+        log.info("kernels are compiled as they are needed, about a minute on a new machine")
+        return
+    log.info("compiling kernels, once on this machine; about a minute")
+    begun = time.perf_counter()
+    jobs = ["loads", "other"] if plan.scene.loads.source == "simulate" else ["other"]
+    what = "compiling, once on this machine"
+    say(what, 0, len(jobs))
+    with tempfile.TemporaryDirectory(prefix="loadflow-") as place:
+        folders = {job: Path(place) / job for job in jobs}
+        work = partial(_in_miniature, plan=plan, folders=folders)
+        for done, (_, told) in enumerate(where.outcomes(work, jobs), 1):
+            if told:
+                log.info("in miniature: %s", told)
+            say(what, done, len(jobs))
+    log.info("compiled in %.0f s", time.perf_counter() - begun)
+    for mark in marks:
+        with suppress(OSError):
+            mark.touch()
+            break
+
+
+def _in_miniature(job: str, plan: Plan, folders: dict[str, Path]) -> str:
+    """Run stages on a case in miniature; what fails there is told by the run itself."""
+    folder = folders[job]
+    scene, case = _short(plan.scene), plan.cases[0]
+    small = replace(plan, scene=scene, cases=(case,))
+    for step in small.of_scope("case"):
+        (folder / step.name).mkdir(parents=True)
+    try:
+        if job == "loads":
+            steps = tuple(step for step in small.steps if not step.needs)
+            told = do_case(case, scene, replace(small, steps=steps), folder).failures
+            return "; ".join(told.values())
+        first = next(step for step in small.steps if not step.needs)
+        series = made_up_loads(scene, case)
+        save_part(series, part_file(folder, first.name, case), first.digest)
+        failed = do_case(case, scene, small, folder).failures
+        for step in small.of_scope("run"):
+            if is_ready(step, case, folder):
+                inputs = {case.name: open_inputs(step, case, folder)}
+                step.stage.run(scene, [case], inputs)
+        return "; ".join(failed.values())
+    except Exception as error:
+        return f"{type(error).__name__}: {error}"
+
+
+def _short(scene: Scene) -> Scene:
+    if scene.loads.source != "simulate":
+        return scene
+    loads = scene.loads.model_copy(update={"duration": DURATION})
+    return scene.model_copy(update={"loads": loads})
+
+
+def made_up_loads(scene: Scene, case: Case) -> xr.Dataset:
+    """Hub loads of about the right size, that wander a little; as the stage of the loads gives."""
+    from loadflow.turbines import load_turbine
+
+    plant = load_turbine(scene.turbine.name)
+    speed = plant.control.rated_speed / plant.drivetrain.gear_ratio
+    weight = 9.81 * (plant.rotor_mass + plant.rotor.hub_mass)
+    torque = plant.rated_power / speed
+    thrust = 0.75 * plant.rated_power / plant.rated_wind_speed
+    time = scene.loads.step * np.arange(SAMPLES)
+    wave = np.sin(2 * np.pi * np.linspace(0, 3, SAMPLES))
+    mean, swing = np.array([thrust, 0.0, -weight]), np.array([0.1 * thrust, 0.02 * weight, 0.05])
+    series = make_case(
+        time,
+        {
+            "speed": speed * (1 + 0.02 * wave),
+            "pitch": 0.1 + 0.01 * wave,
+            "azimuth": np.mod(speed * time, 2 * np.pi),
+            "wind": case.wind_speed + wave,
+            "hub_force": mean[:, None] + swing[:, None] * wave,
+            "hub_moment": torque * np.array([[1.0], [0.2], [0.1]]) * (1 + 0.3 * wave),
+        },
+        dlc=case.dlc,
+        wind_speed=case.wind_speed,
+        seed=case.seed,
+    )
+    return series.assign_coords(weight=case.weight, tripped=np.nan).astype("float32")
+
+
+def _marks(plan: Plan) -> list[Path]:
+    """Where the mark of these kernels may be, in the order in which numba chooses its folder."""
+    root = Path(loadflow.__file__).parent
+    told = hashlib.sha256()
+    for file in sorted(root.rglob("*.py")):
+        found = file.stat()
+        told.update(f"{file.relative_to(root)} {found.st_size} {found.st_mtime_ns}".encode())
+    needed = [(step.name, step.rung) for step in plan.steps]
+    machine = (platform.machine(), platform.processor(), sys.version, version("numba"))
+    told.update(repr((needed, sorted(plan.left_out), machine)).encode())
+    name = f"loadflow-{told.hexdigest()[:24]}.compiled"
+    if chosen := os.environ.get("NUMBA_CACHE_DIR"):
+        return [Path(chosen) / name]
+    inside = root / "running" / "__pycache__"
+    return [inside / name] if os.access(inside, os.W_OK) else []

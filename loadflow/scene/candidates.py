@@ -1,0 +1,56 @@
+"""Candidates of a scene: arrangements of bearings that are compared under the same loads."""
+
+from __future__ import annotations
+
+import tomllib
+from functools import cache
+from importlib import resources
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+ABOUT = ("title", "source")
+"""Keys of a candidate that say what it is; the others are places."""
+
+
+@cache
+def machine_names() -> tuple[str, ...]:
+    """Turbines for which sized main bearings come with the package.
+
+    Examples
+    --------
+    >>> "nrel-5mw" in machine_names()
+    True
+    """
+    folder = resources.files("loadflow").joinpath("data", "machines")
+    return tuple(sorted(f.name[:-5] for f in folder.iterdir() if f.name.endswith(".toml")))
+
+
+@cache
+def _read(turbine: str) -> dict[str, Any]:
+    file = resources.files("loadflow").joinpath("data", "machines", f"{turbine}.toml")
+    return tomllib.loads(file.read_text(encoding="utf-8"))
+
+
+def machine(turbine: str) -> dict[str, Any]:
+    """Shaft and sized candidates of a turbine, as a scene writes them; empty if there are none.
+
+    Parameters
+    ----------
+    turbine : str
+        Name of a turbine.
+
+    Returns
+    -------
+    dict
+        `source`, `shaft`, `rolling` (the candidate that stands for its rolling bearings where a
+        scene says nothing) and `candidates`.
+    """
+    return _read(turbine) if turbine in machine_names() else {}
+
+
+def candidates_of(turbine: str) -> Mapping[str, Any]:
+    """Sized candidates of a turbine by name."""
+    found: dict[str, Any] = machine(turbine).get("candidates", {})
+    return found

@@ -1,0 +1,111 @@
+"""What is wrong with a scene, in one line for each key: file, key, value, what is allowed."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import fields
+from typing import Any, cast
+
+from pydantic import ValidationError
+
+from loadflow.rolling import KINDS
+from loadflow.scene.places import Location
+from loadflow.scene.section import LARGEST_INTEGER
+
+
+def message(
+    error: ValidationError,
+    source: str,
+    origins: Mapping[Location, Location],
+    defaults: Mapping[str, Any],
+) -> str:
+    """Tell the errors of a scene.
+
+    Parameters
+    ----------
+    error : pydantic.ValidationError
+        What pydantic found.
+    source : str
+        File of the scene.
+    origins : mapping
+        Where the data of a section was written.
+    defaults : mapping
+        Plain data of a scene of defaults, whose keys are known.
+    """
+    lines = []
+    for item in _of_stated_kind(error.errors()):
+        place = [*_place(item["loc"])]
+        key = ".".join(str(part) for part in written(place, origins)) or "scene"
+        reason = item["msg"].removeprefix("Value error, ").replace("Input should be", "must be")
+        if item["type"] in ("extra_forbidden", "unexpected_keyword_argument"):
+            known = _known(item["loc"], place, defaults)
+            lines.append(f"{source}: {key}: unknown key{_hint(str(item['loc'][-1]), known)}")
+        elif item["type"] == "missing":
+            lines.append(f"{source}: {key}: this key is missing")
+        elif item["type"] == "value_error":
+            lines.append(f"{source}: {key}: {reason}")
+        else:
+            lines.append(f"{source}: {key} = {shown(item['input'])}: {reason}")
+    return "\n".join(lines)
+
+
+def written(place: Iterable[int | str], origins: Mapping[Location, Location]) -> Location:
+    """Keys as the scene has them, of keys in the sections."""
+    location = tuple(place)
+    for size in range(len(location), -1, -1):
+        if location[:size] in origins:
+            return (*origins[location[:size]], *location[size:])
+    return location
+
+
+def shown(value: Any) -> str:
+    """A value as it stands in a message: not all of a number of 400 digits."""
+    if isinstance(value, int) and abs(value) > LARGEST_INTEGER:
+        return f"an integer of {value.bit_length()} bits"
+    text = repr(value)
+    return text if len(text) <= 200 else f"{text[:200]}…"
+
+
+def _hint(name: str, known: Iterable[str]) -> str:
+    """The key that may be meant, and all that are known where an unknown one stands."""
+    names = sorted(known)
+    near = difflib.get_close_matches(name, names, n=1, cutoff=0.6)
+    meant = f"; did you mean {near[0]}?" if near else ""
+    return f"{meant}; known here: {', '.join(names)}" if names else ""
+
+
+def _known(location: Location, place: list[int | str], defaults: Mapping[str, Any]) -> list[str]:
+    """Keys that are known where an unknown one stands."""
+    if len(location) > 2 and location[-3] == "geometry" and location[-2] in KINDS:
+        kind = KINDS[str(location[-2])]
+        return ["kind", *(field.name for field in fields(cast("Any", kind)))]
+    data: Any = defaults
+    for part in place[:-1]:
+        data = data.get(part) if isinstance(data, Mapping) else None
+    return list(data) if isinstance(data, Mapping) else []
+
+
+def _place(location: Location) -> Iterator[int | str]:
+    """Keys down to a value, without the tag that pydantic puts after a geometry."""
+    for before, part in zip(("", *location), location):
+        if not (before == "geometry" and part in KINDS):
+            yield part
+
+
+def _of_stated_kind(errors: list[Any]) -> list[Any]:
+    """Drop what is said of alternatives of another ``kind`` than the scene states."""
+    kinds = [e for e in errors if e["type"] == "literal_error" and e["loc"][-1] == "kind"]
+    others = {e["loc"][:-1] for e in kinds}
+
+    def other(location: tuple[Any, ...]) -> tuple[Any, ...] | None:
+        return next((o for o in others if location[: len(o)] == o), None)
+
+    right = {e["loc"] for e in errors if other(e["loc"]) is None}
+    shown = []
+    for item in errors:
+        owner = other(item["loc"])
+        known = owner is not None and any(loc[: len(owner) - 1] == owner[:-1] for loc in right)
+        if owner is None or (not known and item in kinds):
+            shown.append(item)
+    return shown

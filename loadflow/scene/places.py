@@ -1,0 +1,169 @@
+"""Which bearings stand at which places of the shaft, as scenes write it.
+
+A scene says ``[bearings.PLACE]`` with a ``kind``; several bearings that are considered for one
+place are a list ``[[bearings.PLACE]]``. The rooms read the sections ``journal`` and ``rolling``;
+here one form becomes the other.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from loadflow.rolling import KINDS
+
+JOURNAL = "journal"
+"""The kind of all journal bearings; the others are kinds of rolling bearings."""
+
+FOUR_POINT = "four-point"
+_REGISTERED = {FOUR_POINT: "slewing"}
+_WRITTEN = {registered: written for written, registered in _REGISTERED.items()}
+
+PLACE_KINDS = (JOURNAL, *(_WRITTEN.get(kind, kind) for kind in KINDS))
+"""What `kind` a bearing of a scene may have."""
+
+Location = tuple[int | str, ...]
+
+
+@dataclass
+class Sections:
+    """What the rooms read of the places of a shaft.
+
+    Attributes
+    ----------
+    journal : dict or None
+        Data of the section of journal bearings.
+    rolling : list of dict or None
+        Data of the section of rolling bearings.
+    origins : dict
+        Where the data of a section was written, to name it in messages.
+    """
+
+    journal: dict[str, Any] | None = None
+    rolling: list[dict[str, Any]] | None = None
+    origins: dict[Location, Location] = field(default_factory=dict)
+
+    @property
+    def data(self) -> dict[str, Any]:
+        """The sections that there are."""
+        both = {"journal": self.journal, "rolling": self.rolling}
+        return {name: data for name, data in both.items() if data is not None}
+
+
+def sections_of(places: Any, where: Location = ("bearings",)) -> Sections:
+    """Sections that say what stands at the places of a shaft.
+
+    Parameters
+    ----------
+    places : mapping
+        By place, a bearing (a mapping with ``kind``, or with ``like``, another place) or a list.
+    where : tuple
+        Keys down to the places, for messages.
+
+    Raises
+    ------
+    ValueError
+        No mapping, no or an unknown kind, two bearings of one room at a place, or `like` a place
+        that is not there.
+    """
+    name = ".".join(map(str, where))
+    if not isinstance(places, Mapping) or not places:
+        raise ValueError(f"{name}: needs a table for each place, such as [{name}.N]")
+    found = Sections()
+    for place, location, data in _stated(places, where):
+        told = ".".join(map(str, location))
+        kind = data.pop("kind", None)
+        if kind not in (*PLACE_KINDS, *KINDS):
+            raise ValueError(f"{told}.kind = {kind!r}: must be one of {', '.join(PLACE_KINDS)}")
+        if kind == JOURNAL:
+            _add_journal(found, place, location, data)
+        else:
+            _add_rolling(found, place, location, data, _REGISTERED.get(kind, kind))
+    return found
+
+
+def places_of(
+    journal: Mapping[str, Any] | None, rolling: Mapping[str, Any] | None
+) -> dict[str, Any]:
+    """The same as a scene writes it, of the plain data of its sections."""
+    found: dict[str, list[dict[str, Any]]] = {}
+    if journal is not None:
+        common = {name: value for name, value in journal.items() if name not in ("bearings", "own")}
+        own = journal.get("own", {})
+        first = next((place for place in journal["bearings"] if place not in own), None)
+        for place in journal["bearings"]:
+            alike = place not in own and place != first
+            stated: Mapping[str, Any] = {"like": first} if alike else own.get(place, common)
+            data = {
+                name: value for name, value in stated.items() if name not in ("bearings", "own")
+            }
+            found.setdefault(place, []).append(data if alike else {"kind": JOURNAL} | data)
+    if rolling is not None:
+        for part in ({k: v for k, v in rolling.items() if k != "further"}, *rolling["further"]):
+            data = {k: v for k, v in part.items() if k != "bearing"}
+            geometry = {**data.pop("geometry")}
+            kind = geometry.pop("kind")
+            told = {"kind": _WRITTEN.get(kind, kind), "geometry": geometry} | data
+            found.setdefault(part["bearing"], []).append(told)
+    several = {place for place, parts in found.items() if len(parts) > 1}
+    if several:  # "like" means a place with one bearing
+        for parts in found.values():
+            parts[:] = [{"kind": JOURNAL} | common if "like" in part else part for part in parts]
+    return {place: parts if place in several else parts[0] for place, parts in found.items()}
+
+
+def _stated(
+    places: Mapping[str, Any], where: Location
+) -> Iterator[tuple[str, Location, dict[str, Any]]]:
+    """Yield place, location and data of each bearing; `like` replaced by what it means."""
+    for place, stated in places.items():
+        several = isinstance(stated, list)
+        for number, data in enumerate(stated if several else [stated]):
+            location = (*where, place, number) if several else (*where, place)
+            told = ".".join(map(str, location))
+            if not isinstance(data, Mapping):
+                raise ValueError(f"{told} = {data!r}: must be a table with the key kind")
+            data = dict(data)
+            other = data.pop("like", None)
+            if other is not None:
+                model = places.get(other)
+                if other == place or not isinstance(model, Mapping) or "like" in model:
+                    raise ValueError(
+                        f"{told}.like = {other!r}: must be another place with one bearing of its "
+                        f"own, of {', '.join(p for p in places if p != place) or 'none'}"
+                    )
+                data = {**model, **data}
+            yield place, location, data
+
+
+def _add_journal(found: Sections, place: str, location: Location, data: dict[str, Any]) -> None:
+    if found.journal is None:
+        found.journal = data | {"bearings": [place]}
+        found.origins["journal",] = location
+        return
+    told = ".".join(map(str, location))
+    if place in found.journal["bearings"]:
+        raise ValueError(f"{told}: a second journal bearing; write it under [candidates.NAME]")
+    common = {name: part for name, part in found.journal.items() if name not in ("bearings", "own")}
+    found.journal["bearings"].append(place)
+    if data != common:
+        found.journal.setdefault("own", {})[place] = data
+        found.origins["journal", "own", place] = location
+
+
+def _add_rolling(
+    found: Sections, place: str, location: Location, data: dict[str, Any], kind: str
+) -> None:
+    if found.rolling is None:
+        found.rolling = []
+    told = ".".join(map(str, location))
+    if any(part["bearing"] == place for part in found.rolling):
+        raise ValueError(f"{told}: a second rolling bearing; write it under [candidates.NAME]")
+    geometry = data.get("geometry")
+    if not isinstance(geometry, Mapping):
+        raise ValueError(f"{told}.geometry: must be a table of the bearing's measures")
+    number = len(found.rolling)
+    found.rolling.append(data | {"bearing": place, "geometry": {"kind": kind, **geometry}})
+    prefix = ("rolling", "further", number - 1) if number else ("rolling",)
+    found.origins[prefix] = location

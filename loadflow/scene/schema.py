@@ -1,0 +1,90 @@
+"""JSON Schema of scenes as they are written, for editors that complete and check TOML."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from loadflow.rolling import KINDS
+from loadflow.scene.places import FOUR_POINT, JOURNAL
+from loadflow.scene.scene import SCHEMA, Scene
+
+
+def json_schema() -> dict[str, Any]:
+    """JSON Schema of a scene, with ``[bearings.PLACE]`` and ``[candidates.NAME]``.
+
+    Returns
+    -------
+    dict
+        To be written as JSON; TOML editors read it (Taplo: ``#:schema FILE`` as the first line).
+
+    Examples
+    --------
+    >>> schema = json_schema()
+    >>> schema["properties"]["bearings"]["additionalProperties"]["$ref"]
+    '#/$defs/Place'
+    """
+    schema = Scene.model_json_schema()
+    parts, known = schema["$defs"], schema["properties"]
+    parts["JournalPlace"] = _place(parts["Journal"], {JOURNAL: None}, drop=("bearings", "own"))
+    rolling = {name: cls.__name__ for name, cls in KINDS.items()}
+    rolling = {FOUR_POINT: rolling["slewing"]} | rolling
+    for kind, geometry in rolling.items():
+        parts[_name(kind)] = _place(parts["FurtherBearing"], {kind: geometry}, drop=("bearing",))
+    kinds = ["JournalPlace", *map(_name, rolling)]
+    like = {
+        "type": "object",
+        "required": ["like"],
+        "properties": {
+            "like": {"type": "string", "description": "Another place, whose data hold."}
+        },
+    }
+    one = [*({"$ref": f"#/$defs/{name}"} for name in kinds), like]
+    parts["Bearing"] = {"anyOf": one}
+    several = {"type": "array", "items": {"$ref": "#/$defs/Bearing"}}
+    parts["Place"] = {"anyOf": [{"$ref": "#/$defs/Bearing"}, several]}
+    place = {"$ref": "#/$defs/Place"}
+    known["schema"] = {
+        "type": "integer",
+        "minimum": 1,
+        "maximum": SCHEMA,
+        "default": SCHEMA,
+        "description": "Version of the form of scenes.",
+    }
+    known["bearings"] = {
+        "type": "object",
+        "additionalProperties": place,
+        "description": "By place on the shaft (N, N2, M): the bearing that stands there.",
+    }
+    about = parts["Candidate"]["properties"]
+    candidate = {
+        "type": "object",
+        "properties": {name: about[name] for name in ("title", "source")},
+        "additionalProperties": place,
+    }
+    known["candidates"] = {
+        "type": "object",
+        "additionalProperties": candidate,
+        "description": "Arrangements to compare; an empty table takes the one of that name that is "
+        "sized for the turbine.",
+    }
+    schema["required"] = [name for name in schema.get("required", []) if name != "name"]
+    schema["$schema"] = "https://json-schema.org/draft/2020-12/schema"
+    schema["title"] = "loadflow scene"
+    return schema
+
+
+def _name(kind: str) -> str:
+    return "".join(word.capitalize() for word in kind.split("-")) + "Place"
+
+
+def _place(section: dict[str, Any], kinds: dict[str, str | None], drop: tuple[str, ...]) -> Any:
+    """A section of one bearing as a place of that kind."""
+    ((kind, geometry),) = kinds.items()
+    own = {name: part for name, part in section["properties"].items() if name not in drop}
+    if geometry is not None:
+        own["geometry"] = {"$ref": f"#/$defs/{geometry}"}
+    kept = ("type", "additionalProperties", "description")
+    return {name: section[name] for name in kept if name in section} | {
+        "properties": {"kind": {"const": kind}} | own,
+        "required": ["kind"] if geometry is None else ["kind", "geometry"],
+    }

@@ -1,0 +1,72 @@
+"""What an effect is: physics that is in or out, on whatever rung the rest stands."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+from loadflow.scene.scene import Scene
+from loadflow.stages.effects.situation import Situation
+
+Sizes = Mapping[str, float]
+"""By quantity, the share by which an answer changes if the effect is left out."""
+
+
+@dataclass(frozen=True)
+class Effect:
+    """Physics that a run can include or leave out.
+
+    Attributes
+    ----------
+    name : str
+        As the plan calls it.
+    model : str
+        Name of the model (`loadflow.stages.stage.Rungs`) whose error it adds to when it is out; a
+        result is moved by it if one of its links names this model.
+    keys : tuple of str
+        ``"section.key"`` of all settings that a user decides it by: it is open to the plan where
+        the scene names none of them.
+    is_on : callable
+        Scene → whether it is included.
+    switched : callable
+        Scene, on → the scene with the effect in or out; None where the scene lacks the data.
+    indicator : callable
+        Situation → its `Sizes` by closed forms, calibrated as its docstring says.
+    out : str
+        What is left out, and why, for the plan.
+    needs : str
+        What the scene must say for the effect to be on.
+    concerns : callable
+        Scene → whether the effect can be there at all, on or off.
+    cost : callable
+        Scene with the effect on → time of its stage over that without, beyond what the ladder's
+        rung tells.
+    rungs : tuple of str
+        Rungs that know it, by the setting ``rung`` of the section; empty: all.
+    """
+
+    name: str
+    model: str
+    keys: tuple[str, ...]
+    is_on: Callable[[Scene], bool]
+    switched: Callable[[Scene, bool], Scene | None]
+    indicator: Callable[[Situation], Sizes]
+    out: str
+    needs: str = ""
+    concerns: Callable[[Scene], bool] = lambda scene: True
+    cost: Callable[[Scene], float] = lambda scene: 1.0
+    rungs: tuple[str, ...] = ()
+
+    @property
+    def section(self) -> str:
+        """Section of the scene that holds it."""
+        return self.keys[0].split(".")[0]
+
+    def is_open(self, scene: Scene) -> bool:
+        """Whether the scene leaves it to the plan."""
+        places = (key.split(".") for key in self.keys)
+        return all(key not in getattr(scene, name).model_fields_set for name, key in places)
+
+    def known_by(self, scene: Scene) -> bool:
+        """Whether the scene's rung knows the effect."""
+        return not self.rungs or getattr(scene, self.section).rung in self.rungs

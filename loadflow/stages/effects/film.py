@@ -1,0 +1,314 @@
+"""Effects of the film of journal bearings."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from loadflow.data import gains
+from loadflow.errors import InputError
+from loadflow.journal import Heat
+from loadflow.scene.scene import Scene
+from loadflow.shaft.beam import ShaftSection
+from loadflow.stages.effects.effect import Effect, Sizes
+from loadflow.stages.effects.situation import Film, Floats, Situation
+from loadflow.stages.stage import with_settings
+from loadflow.tribology import lubricant
+from loadflow.wind.cases import load_case
+
+THREE_P = 0.2
+"""Share of the largest deviation of a load that the blades make as they pass; NREL 5 MW, 12 m/s."""
+
+STEEL = 2.1e11  # Pa
+HEAT_CAPACITY = 2000.0  # J/(kg K), mineral oil
+WALL = 0.1
+"""Wall of the housing over the diameter of the bearing, where none is stated."""
+
+HOLLOW = 0.9
+"""Bore over diameter of a shaft as wide as the bearing, where no beam is stated."""
+
+ROUGHNESS = 1.1e-6
+"""Of both surfaces of a journal bearing together, m: ground shaft, machined bearing."""
+
+MODEL_OIL = "mineral-vg-320"
+"""Oil by whose law a lubricant thins of which only the viscosity is stated."""
+
+
+def _worst(film: Film, eccentricity: Floats, pressure: Floats, power: float = 0.0) -> Sizes:
+    """Largest relative changes that follow from one of the eccentricity ratio."""
+    ratio = np.minimum(film.eccentricity_ratio, 0.95)
+    gap = np.minimum(eccentricity * ratio / (1 - ratio), 1.0)
+    return {
+        "eccentricity ratio": float(np.nanmax(eccentricity)),
+        "minimum film": float(np.nanmax(gap)),
+        "maximum pressure": float(np.nanmax(pressure)),
+        "friction power": power,
+    }
+
+
+def _largest(found: Sequence[Sizes]) -> Sizes:
+    """Of all bearings, by quantity."""
+    return {name: max(sizes[name] for sizes in found) for name in found[0]}
+
+
+# --- motion ----------------------------------------------------------------------------------
+
+
+def _motion(at: Situation) -> Sizes:
+    """What squeeze takes out of the swing of a load.
+
+    A short cylindrical film answers a load that turns at Ω with 1/|1 − 2Ω/ω| of its displacement
+    at rest, one that swings with the mean of both senses. `THREE_P` of the swing comes as blades
+    pass; the rest is slow.
+    """
+    ratio = at.turbine.rotor.blades
+    left = 0.5 * (1 / abs(1 - 2 * ratio) + 1 / (1 + 2 * ratio))
+    found = []
+    for name, film in at.films.items():
+        load = at.bearings[name]
+        change = THREE_P * (1 - left) * load.swing / np.maximum(load.radial + load.swing, 1.0)
+        gain = gains()["journal"]
+        found.append(
+            _worst(film, gain["eccentricity ratio"] * change, gain["maximum pressure"] * change)
+        )
+    return _largest(found)
+
+
+def _always_turns(scene: Scene) -> bool:
+    """Whether the rotor turns through all load cases; of given series that is not known."""
+    if scene.loads.source == "files":
+        return True
+    rows = [load_case(dlc) for dlc in scene.loads.dlcs]
+    return all(row.operating and row.events == ("none",) for row in rows)
+
+
+MOTION = Effect(
+    "motion of the film",
+    model="journal",
+    keys=("journal.motion",),
+    is_on=lambda scene: scene.journal.in_motion,
+    switched=lambda scene, on: (
+        with_settings(scene, "journal", {"motion": "transient" if on else "quasi-static"})
+        if _always_turns(scene) or not on
+        else None
+    ),
+    indicator=_motion,
+    out='journal.motion = "quasi-static"; the run warns where the orbit differs',
+    needs='journal.motion = "transient", of a shaft that never stands',
+)
+
+
+# --- heat ------------------------------------------------------------------------------------
+
+
+def _heat(at: Situation) -> Sizes:
+    """What the warming of the oil takes off its viscosity: T − T_in = P/(2 ρ c_p Q).
+
+    Adiabatic, at the mean load. The film feels load over viscosity, and its friction is nearly
+    proportional to viscosity.
+    """
+    journal, found = at.scene.journal, []
+    for name in journal.bearings:
+        film = at.film(name, share=0.0)
+        carried = 2.0 * journal.lubricant.density * HEAT_CAPACITY * film.side_flow
+        oil = lubricant(MODEL_OIL)
+        thinner = np.exp(-oil.steepness(_inlet(at.scene)) * film.friction_power / carried)
+        gain = gains()["journal"]
+        eccentricity = thinner ** -gain["eccentricity ratio"] - 1.0
+        power = float(np.nanmax(1.0 - thinner))
+        found.append(_worst(film, eccentricity, 0.3 * eccentricity, power))
+    return _largest(found)
+
+
+def _inlet(scene: Scene) -> float:
+    return (scene.journal.heat or Heat()).inlet_temperature
+
+
+def _warmed(scene: Scene, on: bool) -> Scene | None:
+    """The scene with a heat balance; a stated viscosity is then that of the oil that enters."""
+    stated = scene.journal.model_dump(exclude_unset=True)
+    if on == (scene.journal.heat is not None):
+        return scene
+    if not on:
+        return with_settings(scene, "journal", {"heat": None})
+    stated.pop("lubricant", None)
+    oil, cool = lubricant(MODEL_OIL), scene.journal.lubricant
+    inlet = Heat().inlet_temperature
+    share = cool.viscosity / float(oil.viscosity(inlet))
+    thick, thin = (nu * share for nu in oil.viscosities)
+    try:
+        entering = replace(
+            oil,
+            viscosities=(thick, thin),
+            density_15=cool.density * oil.density_15 / float(oil.density(inlet)),
+            name=f"{cool.viscosity:g} Pa s at {inlet:g} K",
+            source=f"thins as {MODEL_OIL}",
+        )
+        # Walther's law does not scale: meet the stated viscosity at the inlet
+        exact = cool.viscosity / float(entering.viscosity(inlet))
+        entering = replace(entering, viscosities=(thick * exact, thin * exact))
+    except InputError:
+        return None
+    journal = type(scene.journal).model_validate(stated | {"heat": Heat(oil=entering)})
+    return scene.model_copy(update={"journal": journal})
+
+
+HEAT = Effect(
+    "heat of the film",
+    model="journal",
+    keys=("journal.heat",),
+    is_on=lambda scene: scene.journal.heat is not None,
+    switched=_warmed,
+    indicator=_heat,
+    out="no journal.heat; the run warns where it would matter",
+    needs="a table journal.heat with the oil and the temperature at which it enters",
+)
+
+
+# --- tilt, shell, contact, supply ------------------------------------------------------------
+
+
+def _tilt(at: Situation) -> Sizes:
+    """Slope of the shaft × width / (2 film): what the tilt takes from the film at one end.
+
+    A cantilever of the span between the bearings under the moment at the hub, as wide as the beam
+    of the suspension, or as the bearing with a bore of `HOLLOW` where there is none. The shares in
+    the answers are those of a width of 3/4 of the diameter, tilted in the plane of the load.
+    """
+    scene, found = at.scene, []
+    geometry = scene.journal.geometry
+    for name, film in at.films.items():
+        concept = next(c for c in scene.shaft.concepts if name in c.bearings)
+        span = max(np.ptp(concept.positions), concept.positions[0])
+        beam = concept.beam
+        section = (
+            beam.sections[0]
+            if beam
+            else ShaftSection(geometry.diameter, HOLLOW * geometry.diameter)
+        )
+        load = at.bearings[name]
+        moment = load.radial * concept.positions[0] + load.turn
+        slope = moment * span / (3.0 * STEEL * section.inertia)
+        share = np.minimum(0.5 * slope * geometry.width / film.minimum_film, 1.0)
+        worst = float(np.nanmax(share))
+        found.append(
+            {
+                "eccentricity ratio": 0.05 * worst,
+                "minimum film": worst,
+                "maximum pressure": 0.15 * worst,
+                "friction power": 0.04 * worst,
+            }
+        )
+    return _largest(found)
+
+
+TILT = Effect(
+    "tilt of the shaft",
+    model="journal",
+    keys=("journal.tilt",),
+    is_on=lambda scene: scene.journal.tilt,
+    switched=lambda scene, on: (
+        with_settings(scene, "journal", {"tilt": on})
+        if not on or any(map(scene.shaft.leans, scene.journal.bearings))
+        else None
+    ),
+    indicator=_tilt,
+    out="no journal.tilt: half the width of the film is solved",
+    needs="journal.tilt = true, with a beam as the shaft and the film at rest",
+    cost=lambda scene: 4.0,
+    rungs=("grid",),
+)
+
+
+def _shell(at: Situation) -> Sizes:
+    """Pressure × compliance / film: growth of the gap by a wall that is held outside.
+
+    Without a shell, by a wall of steel of `WALL`.
+
+    The shares of it in each answer are those of docs/journal.md, "Elastic shell".
+    """
+    shell = at.scene.journal.shell
+    modulus = getattr(shell, "modulus", STEEL)
+    thickness = getattr(shell, "thickness", WALL * at.scene.journal.geometry.diameter)
+    compliance = getattr(shell, "compliance", 0.2 * thickness / modulus)
+    found = []
+    for film in at.films.values():
+        above = film.maximum_pressure - at.scene.journal.edge_pressure
+        share = float(np.nanmax(above * compliance / film.minimum_film))
+        names = ("eccentricity ratio", "minimum film", "maximum pressure", "friction power")
+        found.append({name: min(0.25 * share, 1.0) for name in names})
+    return _largest(found)
+
+
+SHELL = Effect(
+    "elastic shell",
+    model="journal",
+    keys=("journal.shell",),
+    is_on=lambda scene: scene.journal.shell is not None,
+    switched=lambda scene, on: (
+        with_settings(scene, "journal", {"shell": None})
+        if not on
+        else (scene if scene.journal.shell is not None else None)
+    ),
+    indicator=_shell,
+    out="no journal.shell",
+    needs="a table journal.shell",
+    cost=lambda scene: 3.0,
+    rungs=("grid",),
+)
+
+
+def _contact(at: Situation) -> Sizes:
+    """Share of the load that asperities take, by film / roughness: none above Λ = 4.
+
+    [Greenwood and Tripp 1970], in the fit (4 − Λ)^6.804 of the pressure, against all of it at 0.
+    """
+    found = []
+    for film in at.films.values():
+        parameter = np.nan_to_num(film.minimum_film / ROUGHNESS, nan=0.0)
+        share = float(np.max((np.clip(4.0 - parameter, 0.0, 4.0) / 4.0) ** 6.804))
+        names = ("eccentricity ratio", "minimum film", "maximum pressure", "friction power")
+        found.append(dict.fromkeys(names, share))
+    return _largest(found)
+
+
+CONTACT = Effect(
+    "contact of asperities",
+    model="journal",
+    keys=("journal.contact",),
+    is_on=lambda scene: False,
+    switched=lambda scene, on: None if on else scene,
+    indicator=_contact,
+    out="the film alone carries; asperities would take load below a film parameter of 4",
+    needs="a film that carries the load without contact: a larger bearing or thicker oil",
+)
+
+
+def _supply(at: Situation) -> Sizes:
+    """Flow that grooves must bring over that which the bearing ends take in: nothing is known.
+
+    What grooves change is found by the pilot. Without any, the bearing ends stand in oil, and
+    nothing is left out.
+    """
+    names = ("eccentricity ratio", "minimum film", "maximum pressure", "friction power")
+    return dict.fromkeys(names, 0.0)
+
+
+SUPPLY = Effect(
+    "supply of the film",
+    model="journal",
+    keys=("journal.supply",),
+    is_on=lambda scene: scene.journal.supply is not None,
+    switched=lambda scene, on: (
+        with_settings(scene, "journal", {"supply": None})
+        if not on
+        else (scene if scene.journal.supply is not None else None)
+    ),
+    indicator=_supply,
+    out="no journal.supply: the bearing ends stand in oil",
+    needs="a table journal.supply",
+    concerns=lambda scene: scene.journal.supply is not None,
+    rungs=("grid",),
+)

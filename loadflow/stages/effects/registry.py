@@ -1,0 +1,30 @@
+"""The effects of all rooms. This is the only list of them."""
+
+from __future__ import annotations
+
+from loadflow.scene.scene import Scene
+from loadflow.stages.effects import film, rolling, rotor, shaft
+from loadflow.stages.effects.effect import Effect
+from loadflow.stages.stage import Stage
+
+EFFECTS: list[Effect] = [
+    rotor.INFLOW,
+    rotor.STALL,
+    rotor.BEND_TWIST,
+    shaft.ELASTIC,
+    shaft.STIFFNESS,
+    film.MOTION,
+    film.HEAT,
+    film.TILT,
+    film.SHELL,
+    film.CONTACT,
+    film.SUPPLY,
+    rolling.RINGS,
+    rolling.CENTRIFUGAL,
+]
+
+
+def effects_of(stage: Stage, scene: Scene) -> list[Effect]:
+    """Effects of a stage that can be there in a scene, on or off."""
+    models = {rungs.name for rungs in stage.models}
+    return [one for one in EFFECTS if one.model in models and one.concerns(scene)]

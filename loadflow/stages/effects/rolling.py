@@ -1,0 +1,105 @@
+"""Effects of rolling bearings."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from loadflow.data import ladder
+from loadflow.errors import InputError
+from loadflow.rolling import BallBearing, SlewingBearing
+from loadflow.scene.bearings import FurtherBearing, Rolling
+from loadflow.scene.scene import Scene
+from loadflow.stages.effects.effect import Effect, Sizes
+from loadflow.stages.effects.situation import Situation
+from loadflow.stages.stage import with_settings
+
+STEEL_DENSITY = 7850.0  # kg/m³
+RING = 2.4
+"""Sides of a ring's square section over the diameter of its elements, where none is stated."""
+
+
+def _softness(part: FurtherBearing) -> float:
+    """R⁴ k/(E I), with the contacts' stiffness k of each metre around: rings against contacts.
+
+    Both rings in a row, of the sections stated or of squares with sides of `RING` elements.
+    """
+    bearing: Any = part.geometry
+    balls = isinstance(bearing, SlewingBearing | BallBearing)
+    diameter = float(bearing.ball_diameter if balls else getattr(bearing, "roller_diameter", 0.1))
+    count = float(bearing.balls if balls else getattr(bearing, "rollers", 60))
+    pitch = float(getattr(bearing, "pitch_diameter", 2.0))
+    side = RING * diameter
+    square = side**4 / 12
+    inertias = [
+        ring.section.inertia_axial if ring is not None else square
+        for ring in (part.inner_ring, part.outer_ring)
+    ]
+    around = count / (np.pi * pitch) * diameter**0.5
+    return float((pitch / 2) ** 4 * around * sum(1 / inertia for inertia in inertias))
+
+
+def _rings(at: Situation) -> Sizes:
+    """Ring bending against contact approach, from the bearing of the ladder.
+
+    Its rigid rings were measured against its flexible ones (docs/speed-vs-error.md). The share of
+    the approach that the rings take is s/(1 + s), with s over that of the ladder's bearing.
+    """
+    known = ladder()["rolling"]["rigid"]["errors"]
+    share = max(_softness(part) for part in at.scene.rolling.bearings.values())
+    share /= _softness(Rolling())
+    factor = 2.0 * share / (1.0 + share)
+    return {
+        name: factor * known[name]["max"] for name in ("maximum force", "maximum pressure", "life")
+    }
+
+
+def _bent(scene: Scene, on: bool) -> Scene | None:
+    changed = with_settings(scene, "rolling", {"rings": "flexible" if on else "rigid"})
+    try:
+        return changed if changed is None or changed.rolling.ring_model else None
+    except InputError:
+        return None
+
+
+RINGS = Effect(
+    "elastic rings",
+    model="rolling",
+    keys=("rolling.rings",),
+    is_on=lambda scene: scene.rolling.rung == "flexible",
+    switched=_bent,
+    indicator=_rings,
+    out='rolling.rings = "rigid"',
+    needs="rolling.inner_ring and rolling.outer_ring, of a four-point bearing",
+)
+
+
+def _centrifugal(at: Situation) -> Sizes:
+    """Centrifugal force m r (ω/2)² of an element against its mean share of the load."""
+    found = 0.0
+    for name, part in at.scene.rolling.bearings.items():
+        bearing, load = part.geometry, at.bearings[name]
+        if not isinstance(bearing, SlewingBearing):
+            continue
+        mass = STEEL_DENSITY * np.pi / 6 * bearing.ball_diameter**3
+        force = mass * bearing.pitch_diameter / 2 * (at.speed / 2) ** 2
+        mean = np.hypot(load.radial, abs(load.force[:, 0])) + 2 * load.turn / bearing.pitch_diameter
+        share = force * bearing.balls / np.maximum(mean, 1.0)
+        found = max(found, float(np.max(share)))
+    return {"maximum force": found, "maximum pressure": found / 3, "life": 3 * found}
+
+
+CENTRIFUGAL = Effect(
+    "centrifugal load of the balls",
+    model="rolling",
+    keys=("rolling.centrifugal",),
+    is_on=lambda scene: False,
+    switched=lambda scene, on: None if on else scene,
+    indicator=_centrifugal,
+    out="main bearings turn too slowly for it; loadflow.rolling.motion.spinning has it",
+    needs="loadflow.rolling.motion.spinning, by hand",
+    concerns=lambda scene: any(
+        isinstance(part.geometry, SlewingBearing) for part in scene.rolling.bearings.values()
+    ),
+)

@@ -1,0 +1,86 @@
+"""Effects of the simulated rotor, beyond its rungs and the grid of the wind.
+
+How blades and tower bend stands on the rungs of the rotor, the wind's grid on those of the wind.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from loadflow.scene.scene import Scene
+from loadflow.stages.effects.effect import Effect, Sizes
+from loadflow.stages.effects.situation import Situation
+from loadflow.stages.stage import with_settings
+
+LAG = 0.4
+"""Change of the moments' damage by the lag of the wake, over the induction; docs/rotor.md."""
+
+SEPARATION = 0.05
+"""Change of the moments' damage by dynamic stall, over the turbulence; docs/rotor.md."""
+
+TURN = 0.015
+"""Change of the moments' damage by the turn of sections bent both ways; docs/rotor.md."""
+
+
+def _simulated(scene: Scene) -> bool:
+    return scene.loads.source == "simulate"
+
+
+def _of_loads(share: float) -> Sizes:
+    return {"bearing load max": share, "bearing force DEL": share}
+
+
+def _inflow(at: Situation) -> Sizes:
+    """The induction that lags behind the load: a = (1 − √(1 − c_T))/2, c_T = min(0.8, 7/V)."""
+    thrust = np.minimum(0.8, 7.0 / at.wind_speed)
+    return _of_loads(LAG * float(np.max(0.5 * (1.0 - np.sqrt(1.0 - thrust)))))
+
+
+INFLOW = Effect(
+    "dynamic inflow",
+    model="loads",
+    keys=("loads.dynamic_inflow",),
+    is_on=lambda scene: scene.loads.dynamic_inflow,
+    switched=lambda scene, on: with_settings(scene, "loads", {"dynamic_inflow": on}),
+    indicator=_inflow,
+    out="no loads.dynamic_inflow: induction follows the load at once",
+    needs="loads.dynamic_inflow = true",
+    concerns=_simulated,
+    cost=lambda scene: 1.03,
+)
+
+
+def _stall(at: Situation) -> Sizes:
+    """Swing of the angle of attack: turbulence, and the yaw error."""
+    yaw = max(map(abs, at.scene.loads.yaw_errors or [0.0]))
+    return _of_loads(SEPARATION * (float(np.max(at.turbulence)) + yaw))
+
+
+STALL = Effect(
+    "dynamic stall",
+    model="loads",
+    keys=("loads.dynamic_stall",),
+    is_on=lambda scene: scene.loads.dynamic_stall,
+    switched=lambda scene, on: with_settings(scene, "loads", {"dynamic_stall": on}),
+    indicator=_stall,
+    out="no loads.dynamic_stall: separation follows lift at once",
+    needs="loads.dynamic_stall = true",
+    concerns=_simulated,
+    cost=lambda scene: 1.03,
+)
+
+BEND_TWIST = Effect(
+    "turn of blades bent both ways",
+    model="loads",
+    keys=("loads.bend_twist",),
+    is_on=lambda scene: scene.loads.bend_twist != 0,
+    switched=lambda scene, on: (
+        scene
+        if on == (scene.loads.bend_twist != 0)
+        else with_settings(scene, "loads", {"bend_twist": 0.5 if on else 0.0})
+    ),
+    indicator=lambda at: _of_loads(TURN),
+    out="loads.bend_twist = 0",
+    needs="loads.bend_twist = 0.5",
+    concerns=_simulated,
+)

@@ -1,0 +1,68 @@
+"""Effects of the shaft."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from loadflow.scene.scene import Scene
+from loadflow.stages.effects.effect import Effect, Sizes
+from loadflow.stages.effects.situation import Situation
+
+_SUSPENSIONS = ("two_point", "three_point", "integrated", "direct_drive", "moment")
+_KEYS = tuple(f"shaft.{name}" for name in _SUSPENSIONS)
+
+
+def _determinate(at: Situation) -> Sizes:
+    """Nothing: the loads of bearings that turn freely with the shaft follow from equilibrium.
+
+    How a bent shaft tilts in its films is counted there, as tilt.
+    """
+    return {"bearing load max": 0.0, "bearing force DEL": 0.0}
+
+
+def _rigid(scene: Scene, on: bool) -> Scene | None:
+    if on:
+        return scene if all(c.beam is not None for c in scene.shaft.concepts) else None
+    stiff = {
+        name: replace(concept, beam=None)
+        for name, concept in scene.shaft
+        if concept is not None and not any(seat in scene.shaft.seated for seat in concept.bearings)
+    }
+    return scene.model_copy(update={"shaft": scene.shaft.model_copy(update=stiff)})
+
+
+ELASTIC = Effect(
+    "elastic shaft",
+    model="shaft",
+    keys=_KEYS,
+    is_on=lambda scene: any(concept.beam is not None for concept in scene.shaft.concepts),
+    switched=_rigid,
+    indicator=_determinate,
+    out="no beam in the suspension: its bearings are free to tilt, and loads follow from balance",
+    needs="a table beam in the suspension",
+    concerns=lambda scene: bool(scene.shaft.concepts),
+)
+
+
+def _given(scene: Scene, on: bool) -> Scene | None:
+    if on:
+        return scene if scene.shaft.seated else None
+    held = {
+        name: replace(concept, beam=concept.beam.on_rigid_bearings())
+        for name, concept in scene.shaft
+        if concept is not None and concept.beam is not None
+    }
+    return scene.model_copy(update={"shaft": scene.shaft.model_copy(update=held)})
+
+
+STIFFNESS = Effect(
+    "stiffness of the bearings",
+    model="shaft",
+    keys=_KEYS,
+    is_on=lambda scene: bool(scene.shaft.seated),
+    switched=_given,
+    indicator=_determinate,
+    out="no seat of the shaft takes its stiffness from a bearing",
+    needs='seats of the beam with stiffness = "journal" or "rolling"',
+    concerns=lambda scene: any(concept.beam is not None for concept in scene.shaft.concepts),
+)

@@ -1,0 +1,195 @@
+"""Loads and films of a scene before anything is solved: what indicators are made of.
+
+For simulated loads these are closed forms: thrust after [Frandsen 2007], c_T = 7/V; the rotor's
+weight; moments that swing with the turbulence, three standard deviations either way. Given series
+tell their own. The film is that of the closed charts of ISO 7902.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from loadflow.journal.shapes import CYLINDER
+from loadflow.scene.cases import Case, wind_of
+from loadflow.scene.scene import Scene
+from loadflow.shaft import bearing_loads
+from loadflow.stages.frames import to_film
+from loadflow.turbines import Turbine, load_turbine
+
+Floats = np.ndarray
+
+SWING = 0.045
+"""Standard deviation of the hub's tilt and yaw moment over ρ A R V σ_u; NREL 5 MW, 12 m/s."""
+
+TIP_SPEED_RATIO = 7.5
+AIR_DENSITY = 1.225  # kg/m³
+GRAVITY = 9.80665  # m/s²
+DEVIATIONS = 3.0
+GUST = 0.15
+"""Turbulence that stands for a gust, or for a wind that is given."""
+SAMPLES = 200
+"""Samples that are taken of a given series."""
+
+
+@dataclass(frozen=True)
+class BearingLoad:
+    """Load of a bearing at each of the points.
+
+    Attributes
+    ----------
+    force, moment : ndarray, shape (n, 3)
+        Mean, in the frame of the cube; N, N m.
+    swing, turn : ndarray, shape (n,)
+        Largest deviation of radial force and tilting moment from their mean; N, N m.
+    """
+
+    force: Floats
+    moment: Floats
+    swing: Floats
+    turn: Floats
+
+    @property
+    def radial(self) -> Floats:
+        """Mean radial force (n,), N."""
+        return np.asarray(np.hypot(self.force[:, 1], self.force[:, 2]))
+
+
+@dataclass(frozen=True)
+class Film:
+    """Film of a journal bearing at each of the points (n,), by closed charts."""
+
+    eccentricity_ratio: Floats
+    minimum_film: Floats
+    maximum_pressure: Floats
+    friction_power: Floats
+    side_flow: Floats
+
+
+@dataclass(frozen=True)
+class Situation:
+    """Loads of a scene at a few points, one for each wind speed or given series.
+
+    Attributes
+    ----------
+    scene : Scene
+        Whose loads these are.
+    wind_speed, turbulence : ndarray, shape (n,)
+        m/s; standard deviation over the mean.
+    speed : ndarray, shape (n,)
+        Of the rotor, rad/s.
+    bearings : dict
+        Loads of each bearing of the shaft.
+    """
+
+    scene: Scene
+    wind_speed: Floats
+    turbulence: Floats
+    speed: Floats
+    bearings: dict[str, BearingLoad]
+
+    @cached_property
+    def turbine(self) -> Turbine:
+        """The scene's turbine."""
+        return load_turbine(self.scene.turbine.name)
+
+    @cached_property
+    def films(self) -> dict[str, Film]:
+        """Films under the largest load, by bearing; those of a cylinder, whatever the bore."""
+        return {name: self.film(name) for name in self.scene.journal.bearings}
+
+    def film(self, name: str, share: float = 1.0) -> Film:
+        """Film of a bearing under its mean load and a share of the largest deviation from it."""
+        journal, load = self.scene.journal, self.bearings[name]
+        held = journal.at_temperature(journal.heat.inlet_temperature) if journal.heat else journal
+        bearing = replace(journal.geometry, shape=CYLINDER, relief=())
+        force = np.stack([load.radial + share * load.swing, np.zeros_like(load.swing)], axis=-1)
+        found = bearing.equilibrium(force, self.speed, held.lubricant, rung="chart", strict=False)
+        return Film(*(np.asarray(getattr(found, name)) for name in Film.__dataclass_fields__))
+
+
+def situation(scene: Scene, cases: Iterable[Case]) -> Situation:
+    """Estimate the loads of the cases.
+
+    Parameters
+    ----------
+    scene : Scene
+        What is wanted.
+    cases : iterable of Case
+        Its load cases; of each wind speed the first counts, of given series the middle one.
+    """
+    found = {case.wind_speed: case for case in reversed([*cases])}
+    if scene.loads.source == "files":
+        speeds = sorted(found)
+        return _of_series(scene, found[speeds[len(speeds) // 2]])
+    return _of_wind(scene, [found[speed] for speed in sorted(found)])
+
+
+def _of_wind(scene: Scene, cases: list[Case]) -> Situation:
+    turbine = load_turbine(scene.turbine.name)
+    wind = np.array([case.wind_speed for case in cases])
+    turbulence = np.array([_turbulence(scene, case) for case in cases])
+    rotor, control = turbine.rotor, turbine.control
+    rated = control.rated_speed / turbine.drivetrain.gear_ratio
+    speed = np.minimum(TIP_SPEED_RATIO * wind / rotor.radius, rated)
+    area = np.pi * rotor.radius**2
+    thrust = 0.5 * AIR_DENSITY * area * wind**2 * np.minimum(0.8, 7.0 / wind)
+    deviation = SWING * AIR_DENSITY * area * rotor.radius * wind**2 * turbulence
+    parts = [
+        _on_bearings(scene, rotor.tilt, *_hub(force, turbine.rotor_mass, swing))
+        for force, swing in zip(thrust, DEVIATIONS * deviation)
+    ]
+    bearings = {
+        name: BearingLoad(*(np.stack(values) for values in zip(*(part[name] for part in parts))))
+        for name in parts[0]
+    }
+    return Situation(scene, wind, turbulence, speed, bearings)
+
+
+def _turbulence(scene: Scene, case: Case) -> float:
+    """Standard deviation of the wind over its mean; that of a gust where there is no turbulence."""
+    return (wind_of(scene, case).sigma if not case.wind else 0.0) / case.wind_speed or GUST
+
+
+def _hub(thrust: float, mass: float, swing: float) -> tuple[Floats, Floats]:
+    """Hub loads (3, 5): their mean, then with tilt and yaw moment either way."""
+    force = np.tile([[thrust], [0.0], [-mass * GRAVITY]], (1, 5))
+    moment = np.zeros((3, 5))
+    moment[1, 1:3] = moment[2, 3:5] = swing, -swing
+    return force, moment
+
+
+def _on_bearings(
+    scene: Scene, tilt: float, force: Floats, moment: Floats
+) -> dict[str, tuple[Floats, ...]]:
+    """Mean force, mean moment and their largest deviations, by bearing of a rigid shaft."""
+    found = {}
+    for concept in scene.shaft.concepts:
+        loads = bearing_loads(replace(concept, beam=None), force, moment, tilt=tilt)
+        for name in loads["bearing"].values:
+            one = loads.sel(bearing=name)
+            push, turn = (one[n].transpose(..., "axis").values for n in ("force", "moment"))
+            away = (np.hypot(*to_film(v - v[0]).T).max() for v in (push, turn))
+            found[str(name)] = push[0], turn[0], *map(np.asarray, away)
+    return found
+
+
+def _of_series(scene: Scene, case: Case) -> Situation:
+    """Loads of a given series."""
+    from loadflow.stages.loads import hub_loads
+
+    series = hub_loads(scene, case, {})
+    some = np.unique(np.linspace(0, series.sizes["time"] - 1, SAMPLES).astype(int))
+    force, moment = (
+        series[name].transpose("axis", "time").values.astype(float)[:, some]
+        for name in ("hub_force", "hub_moment")
+    )
+    mean = [np.concatenate([v.mean(axis=1, keepdims=True), v], axis=1) for v in (force, moment)]
+    tilt = load_turbine(scene.turbine.name).rotor.tilt
+    parts = _on_bearings(scene, tilt, *mean)
+    bearings = {name: BearingLoad(*(v[None] for v in part)) for name, part in parts.items()}
+    speed = np.array([max(abs(float(series["speed"].mean())), 1e-3)])
+    return Situation(scene, np.array([case.wind_speed]), np.array([GUST]), speed, bearings)

@@ -1,0 +1,128 @@
+"""What users read of a model on a short stretch of a load case: what the pilot compares.
+
+A probe solves a few samples around the largest load, so that an effect can be switched and its size
+be seen in a second.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from loadflow.scene.cases import Case
+from loadflow.scene.scene import Scene
+from loadflow.stages.comparisons import FILM, describe_loads, extremes_of_orbit
+from loadflow.stages.frames import to_film
+from loadflow.stages.journal import equilibria, follow, shaft_line
+from loadflow.stages.loads import hub_loads
+from loadflow.stages.reduction import moment_governs
+from loadflow.stages.rolling import life_of, solve_bearing
+from loadflow.stages.shaft import bearing_loads
+
+Answers = dict[tuple[str, str], float]
+"""By bearing and quantity."""
+
+STEPS = 360
+"""Steps of the stretch around the largest load of a bearing."""
+
+SETTLED = 60
+"""Of these, the first ones that still show where an orbit began; they are dropped."""
+
+EVERY = 4
+"""Of the others, every how-manyth is solved at rest."""
+
+CONTACTS = 12
+"""Samples of a rolling bearing, from the mildest to the hardest."""
+
+
+@dataclass(frozen=True)
+class Probe:
+    """How a model is probed: the stages whose series it reads, and what it answers."""
+
+    reads: tuple[str, ...]
+    answers: Callable[[Scene, Case, Mapping[str, Any]], Answers]
+
+
+def _of_rotor(scene: Scene, case: Case, inputs: Mapping[str, Any]) -> Answers:
+    return _of_shaft(scene, case, {"loads": hub_loads(scene, case, {})})
+
+
+def _of_shaft(scene: Scene, case: Case, inputs: Mapping[str, Any]) -> Answers:
+    """Largest load and damage of what governs each bearing."""
+    loads = bearing_loads(scene, case, dict(inputs))
+    return {
+        (str(bearing), quantity): value
+        for bearing in loads["bearing"].values
+        for quantity, value in describe_loads(scene, loads, str(bearing)).items()
+    }
+
+
+def _of_film(scene: Scene, case: Case, inputs: Mapping[str, Any]) -> Answers:
+    """Extremes and mean friction of each film around its largest load per speed."""
+    journal = scene.journal
+    found: Answers = {}
+    for bearing in journal.bearings:
+        loads, shaft = inputs["loads"], inputs["shaft"].sel(bearing=bearing)
+        force = to_film(shaft["force"].transpose("time", "axis").values.astype(float))
+        speed = np.abs(loads["speed"].values.astype(float))
+        turning = speed > 0.01 * speed.max()
+        load = np.where(turning, np.hypot(*force.T) / np.maximum(speed, 1e-12), 0.0)
+        begin = max(0, min(int(np.argmax(load)) - 3 * STEPS // 4, load.size - STEPS))
+        stretch = slice(begin, begin + STEPS)
+        loads, shaft = loads.isel(time=stretch), shaft.isel(time=stretch)
+        if journal.in_motion:
+            film = follow(journal, loads, shaft).isel(time=slice(SETTLED, None))
+        else:
+            film = _at_rest(scene, loads, shaft)
+        for name, value in extremes_of_orbit(film).items():
+            found[bearing, name.replace("_", " ")] = value
+    return found
+
+
+def _at_rest(scene: Scene, loads: xr.Dataset, shaft: xr.Dataset) -> xr.Dataset:
+    some = slice(SETTLED, None, EVERY)
+    loads, shaft = loads.isel(time=some), shaft.isel(time=some)
+    force = shaft["force"].transpose("time", "axis").values.astype(float)
+    line = shaft_line(scene.journal, shaft)
+    film = equilibria(scene.journal, force, loads["speed"].values.astype(float), **line)
+    return xr.Dataset({name: ("time", np.asarray(getattr(film, name))) for name in FILM})
+
+
+def _of_contacts(scene: Scene, case: Case, inputs: Mapping[str, Any]) -> Answers:
+    """Largest contact of a few samples of each bearing, and the life under these alone."""
+    found: Answers = {}
+    for bearing in scene.rolling.bearings:
+        shaft = inputs["shaft"].sel(bearing=bearing)
+        moment = shaft["moment"].transpose("time", "axis").values.astype(float)
+        force = shaft["force"].transpose("time", "axis").values.astype(float)
+        load = moment if moment_governs(scene, bearing, moment) else force
+        order = np.argsort(np.hypot(*to_film(load).T), kind="stable")
+        places = np.unique(order[np.linspace(0, order.size - 1, CONTACTS).round().astype(int)])
+        some = xr.Dataset(
+            {
+                "force": (("sample", "axis"), force[places]),
+                "moment": (("sample", "axis"), moment[places]),
+                "speed": ("sample", inputs["loads"]["speed"].values.astype(float)[places]),
+                "weight": ("sample", np.ones(places.size)),
+            }
+        )
+        answer = solve_bearing(scene, bearing, some)
+        found |= {
+            (bearing, "maximum force"): float(np.max(answer.maximum_force)),
+            (bearing, "maximum pressure"): float(np.max(answer.maximum_pressure)),
+            (bearing, "life"): life_of(answer, some),
+        }
+    return found
+
+
+PROBES: dict[str, Probe] = {
+    "loads": Probe((), _of_rotor),
+    "shaft": Probe(("loads",), _of_shaft),
+    "journal": Probe(("loads", "shaft"), _of_film),
+    "rolling": Probe(("loads", "shaft"), _of_contacts),
+}
+"""By model; effects of models that have none are told by their indicators alone."""

@@ -1,0 +1,673 @@
+"""Finished runs of several candidates on the same loads → one like-for-like comparison."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import partial
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+import xarray as xr
+
+from loadflow.scene.scene import Scene
+from loadflow.studies.compare_margins import (
+    Margin,
+    carries_thrust,
+    margin_of,
+    rolling_losses,
+    row_shares,
+    shaft_tilt,
+)
+from loadflow.studies.run_lifetime import energy_per_year
+from loadflow.studies.seed_intervals import Groups, interval, joint_life
+from loadflow.verdict import Verdict, from_dataset
+
+Sense = Literal["most", "least", "sum"]
+
+HOURS_PER_YEAR = 8766.0
+THRUST = "force along the shaft without a bearing"
+
+
+@dataclass(frozen=True)
+class Finished:
+    """A candidate that was run.
+
+    Attributes
+    ----------
+    name, title, source : str
+        Of the candidate.
+    scene : Scene
+        What was run.
+    tables : mapping
+        Its results by stage.
+    manifest : mapping
+        How its numbers came about.
+    folder : Path
+        Of its run.
+    """
+
+    name: str
+    title: str
+    source: str
+    scene: Scene
+    tables: Mapping[str, xr.Dataset]
+    manifest: Mapping[str, Any]
+    folder: Path
+
+
+@dataclass(frozen=True)
+class Number:
+    """One answer for one candidate, with what is known of its error.
+
+    Attributes
+    ----------
+    value : float
+        In `unit`; NaN where it has none.
+    unit : str
+        Unit.
+    low, high : float
+        95 % interval by the seeds of the loads; NaN where one seed alone tells nothing.
+    error : float
+        Error by models to expect, as a share of the value; NaN where it was not measured.
+    limit : float
+        Of the value; NaN without one.
+    holds : bool or None
+        Whether it keeps to its limit.
+    case : str
+        Load case of an extreme.
+    time : float
+        Its time in that case, s.
+    place : str
+        Bearing that it is of.
+    note : str
+        What else must be known.
+    """
+
+    value: float
+    unit: str = ""
+    low: float = math.nan
+    high: float = math.nan
+    error: float = math.nan
+    limit: float = math.nan
+    holds: bool | None = None
+    case: str = ""
+    time: float = math.nan
+    place: str = ""
+    note: str = ""
+
+
+@dataclass(frozen=True)
+class Judged:
+    """A candidate with all its numbers.
+
+    Attributes
+    ----------
+    name, title, source, kind : str
+        Of the candidate; the kind is journal, rolling or both.
+    numbers : dict
+        By quantity (`QUANTITIES`).
+    verdicts : tuple of Verdict
+        All of its run.
+    thrust : str
+        What carries the force along the shaft.
+    governs : str
+        The limit that is reached first.
+    change : str
+        What would change the verdict.
+    models : dict
+        Rung of each stage.
+    checks : list
+        How far sampled answers moved with better models: stage, quantity, change.
+    bearings : list
+        What stands at each place.
+    folder : str
+        Of its run, relative to that of the comparison.
+    unanswered : dict
+        Parts without an answer.
+    """
+
+    name: str
+    title: str
+    source: str
+    kind: str
+    numbers: dict[str, Number]
+    verdicts: tuple[Verdict, ...]
+    thrust: str
+    governs: str
+    change: str
+    models: dict[str, str]
+    checks: list[dict[str, Any]]
+    bearings: list[dict[str, Any]]
+    folder: str
+    unanswered: dict[str, str] = field(default_factory=dict)
+
+    @property
+    def broken(self) -> list[Verdict]:
+        """Verdicts that do not hold, but for the lack of a thrust bearing."""
+        return [v for v in self.verdicts if not v.holds and v.quantity != THRUST]
+
+    @property
+    def holds(self) -> bool:
+        """Whether all hold, but for the lack of a thrust bearing."""
+        return not self.broken and not self.unanswered
+
+
+QUANTITIES: dict[str, tuple[str, str]] = {
+    "load_factor": ("capacity margin: loads may grow by, to the first limit", "×"),
+    "minimum_film": ("smallest film", "µm"),
+    "film_to_roughness": ("smallest film over roughness R_z of both surfaces", "–"),
+    "eccentricity_ratio": ("largest eccentricity ratio ε", "–"),
+    "film_pressure": ("largest film pressure", "MPa"),
+    "static_safety": ("static rating over the design load", "–"),
+    "contact_pressure": ("largest contact pressure", "MPa"),
+    "modified_life": ("modified life L10mh of all bearings", "years"),
+    "rating_life": ("rating life L10h of all bearings", "years"),
+    "row_share": ("load on the row that takes the thrust, at largest thrust", "%"),
+    "row_overload": ("the same over an even share", "×"),
+    "film_parameter": ("film parameter Λ at low speed", "–"),
+    "tilt": ("tilt of the shaft to its limit", "%"),
+    "friction": ("mean friction loss", "kW"),
+    "energy": ("energy lost a year", "MWh"),
+    "oil_flow": ("oil that leaves the film", "l/min"),
+    "pump": ("power to supply the oil", "kW"),
+    "mixed_time": ("time in mixed friction a year", "h"),
+}
+"""What is compared: its name and unit, in the order of the table."""
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Candidates side by side.
+
+    Attributes
+    ----------
+    name : str
+        Of the scene.
+    conclusion : str
+        One sentence.
+    candidates : tuple of Judged
+        Those that hold first, each group by the energy that it loses.
+    facts : dict
+        Loads, seeds, shaft.
+    shaft : list
+        Suspensions, to draw: bearings, positions, masses.
+    failures : dict
+        Candidates without an answer, and why.
+    without_place : list of str
+        Candidates that the shaft has no place for.
+    """
+
+    name: str
+    conclusion: str
+    candidates: tuple[Judged, ...]
+    facts: dict[str, str]
+    shaft: list[dict[str, Any]]
+    failures: dict[str, str]
+    without_place: list[str]
+
+    def as_dict(self) -> dict[str, Any]:
+        """All of it in plain values for JSON; what is not known is None."""
+        return {
+            "name": self.name,
+            "conclusion": self.conclusion,
+            "facts": self.facts,
+            "quantities": {
+                key: {"name": name, "unit": unit} for key, (name, unit) in QUANTITIES.items()
+            },
+            "candidates": [
+                {
+                    "name": one.name,
+                    "title": one.title,
+                    "source": one.source,
+                    "kind": one.kind,
+                    "holds": one.holds,
+                    "thrust": one.thrust,
+                    "governs": one.governs,
+                    "change": one.change,
+                    "numbers": {key: _plain(vars(n)) for key, n in one.numbers.items()},
+                    "verdicts": [v.as_dict() for v in one.verdicts],
+                    "models": one.models,
+                    "checks": one.checks,
+                    "bearings": one.bearings,
+                    "folder": one.folder,
+                    "unanswered": one.unanswered,
+                }
+                for one in self.candidates
+            ],
+            "shaft": self.shaft,
+            "failures": self.failures,
+            "without_place": self.without_place,
+        }
+
+    def to_csv(self) -> str:
+        """All numbers as CSV, one for each line."""
+        text = io.StringIO()
+        heads = ["low", "high", "error", "limit", "holds", "case", "time", "place", "note"]
+        rows = csv.writer(text, lineterminator="\n")
+        rows.writerow(["candidate", "quantity", "value", "unit", *heads])
+        for one in self.candidates:
+            for key, number in one.numbers.items():
+                told = _plain(vars(number))
+                first = [one.name, key, told["value"], number.unit]
+                rows.writerow([*first, *("" if told[h] is None else told[h] for h in heads)])
+        return text.getvalue()
+
+
+def compared(
+    scene: Scene,
+    finished: Sequence[Finished],
+    folder: Path,
+    failures: dict[str, str],
+    without_place: list[str],
+) -> Comparison:
+    """Compare candidates that were run on the same loads.
+
+    Parameters
+    ----------
+    scene : Scene
+        Their loads and shaft.
+    finished : sequence of Finished
+        The runs.
+    folder : Path
+        Of the comparison.
+    failures, without_place
+        Of `Comparison`.
+    """
+    judged = [_judged(one, folder) for one in finished]
+    judged.sort(key=lambda one: (not one.holds, _or_infinite(one.numbers["energy"].value)))
+    return Comparison(
+        name=scene.name,
+        conclusion=_conclusion(judged),
+        candidates=tuple(judged),
+        facts=_facts(scene, finished),
+        shaft=_drawn(scene),
+        failures=failures,
+        without_place=without_place,
+    )
+
+
+def _judged(run: Finished, folder: Path) -> Judged:
+    verdicts = tuple(from_dataset(run.tables["verdicts"])) if "verdicts" in run.tables else ()
+    margin = margin_of(run.scene, run.folder, run.tables, verdicts)
+    numbers = dict(_numbers(run, verdicts, margin))
+    kinds = [room for room in ("journal", "rolling") if room in run.tables]
+    return Judged(
+        name=run.name,
+        title=run.title or run.name,
+        source=run.source,
+        kind=" and ".join(kinds),
+        numbers={key: numbers[key] for key in QUANTITIES if key in numbers},
+        verdicts=verdicts,
+        thrust=carries_thrust(run.scene, run.tables),
+        governs=margin.governs,
+        change=margin.change,
+        models={stage: told["rung"] for stage, told in run.manifest.get("rungs", {}).items()},
+        checks=_checks(run.tables),
+        bearings=_bearings(run.scene, kinds),
+        folder=run.folder.relative_to(folder).as_posix(),
+        unanswered=dict(run.manifest.get("failures", {})),
+    )
+
+
+def _numbers(
+    run: Finished, verdicts: Sequence[Verdict], margin: Margin
+) -> Iterator[tuple[str, Number]]:
+    """Yield the numbers of a candidate by quantity."""
+    yield "load_factor", Number(
+        margin.factor, "×", limit=1.0, holds=margin.factor >= 1, place=margin.place,
+        case=margin.case, note=margin.governs,
+    )  # fmt: skip
+    if "journal" in run.tables:
+        yield from _of_journal(run, verdicts)
+    if "rolling" in run.tables:
+        yield from _of_rolling(run, verdicts)
+    tilt, limit, place, note = shaft_tilt(run.scene, run.folder, run.tables)
+    share = 100 * tilt / limit if limit else math.nan
+    yield "tilt", Number(
+        share, "%", limit=100.0 if limit else math.nan,
+        holds=share <= 100 if limit else None, place=place, note=note,
+    )  # fmt: skip
+
+
+def _of_journal(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[str, Number]]:
+    table = run.tables["journal"]
+    groups = Groups.of(table)
+    film = _extreme(run, table, groups, "smallest_film", "least", 1e6, "µm", "minimum film")
+    yield "minimum_film", _against(film, verdicts, "smallest film", 1e6)
+    if film.place:
+        rough = run.scene.journal.at(film.place).contact_film * 1e6
+        parts = {name: getattr(film, name) / rough for name in ("value", "low", "high")}
+        yield "film_to_roughness", Number(
+            **parts, unit="–", error=film.error, limit=1.0, holds=parts["value"] >= 1,
+            case=film.case, time=film.time, place=film.place,
+        )  # fmt: skip
+    name, model = "largest_eccentricity_ratio", "eccentricity ratio"
+    ratio = _extreme(run, table, groups, name, "most", 1.0, "–", model)
+    yield "eccentricity_ratio", _against(ratio, verdicts, "eccentricity ratio ε", 1.0)
+    name, model = "largest_pressure", "maximum pressure"
+    pressure = _extreme(run, table, groups, name, "most", 1e-6, "MPa", model)
+    yield "film_pressure", _against(pressure, verdicts, "largest film pressure", 1e-6)
+    share = _shares(run, table)
+    flows = {
+        "oil_flow": ("mean_side_flow", 6e4, "l/min"),
+        "pump": ("mean_supply_power", 1e-3, "kW"),
+    }
+    for key, (name, scale, unit) in flows.items():
+        whole = table[name].fillna(0.0).sum("bearing").values * scale
+        yield key, _mean(run, whole, share, groups, unit)
+    hours = (table["mixed_friction_time"] / table["duration"]).max(
+        "bearing"
+    ).values * HOURS_PER_YEAR
+    touching = float(table["contact_time"].sum())
+    note = f"in contact for {touching:.3g} s of all cases together" if touching else ""
+    yield "mixed_time", _mean(run, hours, share, groups, "h", note)
+    yield from _lost(run, table, table["mean_friction_power"], "")
+
+
+def _of_rolling(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[str, Number]]:
+    table = run.tables["rolling"]
+    groups = Groups.of(table)
+    name, model = "bearing_design_safety", "maximum force"
+    safety = _extreme(run, table, groups, name, "least", 1.0, "–", model)
+    yield "static_safety", _against(safety, verdicts, "static rating over the design load", 1.0)
+    name, model = "bearing_pressure", "maximum pressure"
+    yield (
+        "contact_pressure",
+        _extreme(run, table, groups, name, "most", 1e-6, "MPa", model),
+    )
+    share = _shares(run, table)
+    slope = float(table.attrs["weibull_slope"])
+    design = min(part.limits.life for part in run.scene.rolling.bearings.values())
+    for key, kind in (("modified_life", "modified_"), ("rating_life", "")):
+        per_hour = (
+            (table["mean_speed"] / (2 * np.pi) * 3600 / (table[f"bearing_{kind}life"] * 1e6))
+            .transpose("case", "bearing")
+            .values
+        )
+        life = _years(per_hour, share, slope, np.arange(share.size))
+        low, high = interval(groups, partial(_years, per_hour, share, slope))
+        limit = design / HOURS_PER_YEAR
+        worst = int(np.argmax((per_hour * share[:, None]).sum(0)))
+        yield key, Number(
+            life, "years", low, high, _error(run, "rolling.life", "life"), limit, life >= limit,
+            place=str(table["bearing"].values[worst]),
+            note="as a system" if table.sizes["bearing"] > 1 else "",
+        )  # fmt: skip
+    yield from _rows(run)
+    losses = rolling_losses(run.scene, run.folder)
+    if losses is not None:
+        speed = losses.speed * 30 / np.pi
+        yield "film_parameter", Number(
+            losses.film_parameter, "–", case=losses.case, time=losses.time, place=losses.place,
+            note=f"median below {speed:.3g} 1/min",
+        )  # fmt: skip
+    yield from _lost(run, table, None if losses is None else losses.power, "without slip")
+
+
+def _years(damage: np.ndarray, share: np.ndarray, slope: float, some: np.ndarray) -> float:
+    """Life of all bearings under some cases, years."""
+    return joint_life(damage[some], share[some], slope) / HOURS_PER_YEAR
+
+
+def _rows(run: Finished) -> Iterator[tuple[str, Number]]:
+    """Load share of the row that takes the thrust, where a bearing has several rows."""
+    found = row_shares(run.scene, run.folder, run.tables)
+    if found is None:
+        return
+    about: dict[str, Any] = {"case": found.case, "time": found.time, "place": found.place}
+    note = f"{100 * found.mean:.0f} % in the mean, with {found.thrust / 1e3:.0f} kN of thrust"
+    yield "row_share", Number(100 * found.share, "%", note=note, **about)
+    yield "row_overload", Number(found.share * found.rows, "×", **about)
+
+
+def _lost(
+    run: Finished, table: xr.Dataset, power: xr.DataArray | None, note: str
+) -> Iterator[tuple[str, Number]]:
+    """Friction of all bearings, and the energy that it takes a year, that of the pump with it."""
+    if power is None:
+        yield "energy", Number(math.nan, "MWh", note="no model of friction")
+        return
+    share, groups = _shares(run, table), Groups.of(table)
+    own = power.sel(case=table["case"].values).fillna(0.0)
+    loss = _mean(run, own.sum("bearing").values / 1e3, share, groups, "kW", note)
+    result = "journal.film" if "journal" in run.tables else "rolling.friction"
+    error = _error(run, result, "friction power")
+    yield "friction", replace(loss, error=error)
+    if "mean_supply_power" in table:
+        own = own + table["mean_supply_power"].fillna(0.0)
+    energy = float(energy_per_year(run.scene, table, own, share).sum()) / 3.6e9
+    scale = energy / loss.value if loss.value else math.nan
+    yield "energy", Number(energy, "MWh", loss.low * scale, loss.high * scale, error, note=note)
+
+
+# --- numbers with what is known of their error ----------------------------------------------------
+
+
+def _extreme(
+    run: Finished,
+    table: xr.Dataset,
+    groups: Groups,
+    name: str,
+    sense: Sense,
+    scale: float,
+    unit: str,
+    model: str,
+) -> Number:
+    """Extreme over cases and bearings, with case, time, interval and error."""
+    values = table[name].transpose("case", "bearing").values.astype(float)
+    pick = np.nanmax if sense == "most" else np.nanmin
+    if np.isnan(values).all():
+        return Number(math.nan, unit, note="no case has a value")
+    k, b = np.unravel_index(
+        int(np.nanargmax(values) if sense == "most" else np.nanargmin(values)), values.shape
+    )
+    low, high = interval(groups, lambda some: float(pick(values[some])))
+    times = {"bearing_design_safety": "bearing_design_time"}.get(name, f"{name}_time")
+    when = math.nan
+    if times in table:
+        when = float(table[times].transpose("case", "bearing").values[k, b])
+    result = "journal.film" if "journal" in run.tables else "rolling.loads"
+    return Number(
+        float(values[k, b]) * scale, unit, low * scale, high * scale, _error(run, result, model),
+        case=str(table["case"].values[k]), time=when, place=str(table["bearing"].values[b]),
+    )  # fmt: skip
+
+
+def _mean(
+    run: Finished,
+    values: np.ndarray,
+    share: np.ndarray,
+    groups: Groups,
+    unit: str,
+    note: str = "",
+) -> Number:
+    """Mean over the lifetime."""
+
+    def mean(some: np.ndarray) -> float:
+        return float((values[some] * share[some]).sum() / share[some].sum())
+
+    low, high = interval(groups, mean)
+    return Number(mean(np.arange(values.size)), unit, low, high, note=note)
+
+
+def _against(number: Number, verdicts: Sequence[Verdict], quantity: str, scale: float) -> Number:
+    """The number with the limit of the verdict on it, of the bearing nearest to its limit."""
+    own = [v for v in verdicts if v.quantity == quantity]
+    if not own:
+        return number
+    of_place = [v for v in own if v.subject.endswith(f" {number.place}")] or own
+    limit = of_place[0].limit * scale
+    return Number(**vars(number) | {"limit": limit, "holds": all(v.holds for v in own)})
+
+
+def _error(run: Finished, result: str, quantity: str) -> float:
+    """Error by models that the plan expects, as a share; NaN where it was not measured."""
+    found = run.manifest.get("expected_errors", {}).get(result, {}).get(quantity)
+    return float(found) if isinstance(found, int | float) else math.nan
+
+
+def _shares(run: Finished, table: xr.Dataset) -> np.ndarray:
+    """Share of the lifetime of each case; equal ones where the run could not tell."""
+    lifetime = run.tables.get("lifetime")
+    if lifetime is not None and "share" in lifetime:
+        share = lifetime["share"].reindex(case=table["case"].values).fillna(0.0).values
+        if share.sum() > 0:
+            return np.asarray(share / share.sum())
+    return np.full(table.sizes["case"], 1 / table.sizes["case"])
+
+
+def _checks(tables: Mapping[str, xr.Dataset]) -> list[dict[str, Any]]:
+    """Largest change of each quantity with a better model, in cases that were solved again."""
+    if "check" not in tables:
+        return []
+    check, worst = tables["check"], dict[tuple[str, str, str], float]()
+    for k in range(check.sizes["check"]):
+        key = (
+            str(check["stage"].values[k]),
+            str(check["quantity"].values[k]),
+            str(check["against"].values[k]),
+        )
+        value = float(check["difference"].values[k])
+        worst[key] = max(worst.get(key, 0.0), value if math.isfinite(value) else math.inf)
+    return [
+        {"stage": stage, "quantity": quantity, "against": against, "change": _plain(value)}
+        for (stage, quantity, against), value in worst.items()
+    ]
+
+
+# --- words and inputs -----------------------------------------------------------------------------
+
+
+def _conclusion(judged: Sequence[Judged]) -> str:
+    """One sentence: how many hold, which loses least, what the other kind does."""
+    good = [one for one in judged if one.holds]
+    count = f"{len(good)} of {len(judged)} candidates hold all limits on these loads"
+    if not good:
+        least = max(judged, key=lambda one: _or_zero(one.numbers["load_factor"].value))
+        return (
+            f"None of the {len(judged)} candidates holds all limits on these loads; nearest is "
+            f"{least.title}, which breaks {_listed(least.broken) or 'none that is known'}."
+        )
+    best = good[0]
+    text = f"{count}; of these {_told(best)}"
+    others = [one for one in good if one.kind != best.kind]
+    if others:
+        return f"{text}; the best {others[0].kind} bearings, {_told(others[0])}."
+    other = [one for one in judged if one.kind != best.kind]
+    if other:
+        nearest = max(other, key=lambda one: _or_zero(one.numbers["load_factor"].value))
+        what = _listed(nearest.broken) or "has parts without an answer"
+        return f"{text}; no {nearest.kind} bearings hold: {nearest.title} breaks {what}."
+    return f"{text}."
+
+
+def _told(one: Judged) -> str:
+    energy, factor = one.numbers["energy"], one.numbers["load_factor"]
+    lost = (
+        f"lose {energy.value:.3g} MWh a year"
+        if math.isfinite(energy.value)
+        else "lose no one knows what"
+    )
+    need = ", but need a thrust bearing of their own" if one.thrust.startswith("none") else ""
+    return f"{one.title} {lost} with loads to spare by a factor of {factor.value:.3g}{need}"
+
+
+def _listed(verdicts: Sequence[Verdict]) -> str:
+    return ", ".join(dict.fromkeys(f"{v.quantity} ({v.subject})" for v in verdicts[:3]))
+
+
+def _facts(scene: Scene, finished: Sequence[Finished]) -> dict[str, str]:
+    loads = scene.loads
+    table = next(
+        run.tables[name]
+        for run in finished
+        for name in ("journal", "rolling")
+        if name in run.tables
+    )
+    seeds = Groups.of(table).sizes
+    source = (
+        f"simulated, DLC {', '.join(loads.dlcs)}, {scene.turbine.name}, class {loads.wind_class}, "
+        f"category {loads.category}"
+        if loads.source == "simulate"
+        else f"files, {scene.turbine.name}"
+    )
+    few = min(seeds)
+    told = f"{few} … {max(seeds)}" if few != max(seeds) else f"{few}"
+    return {
+        "Loads": source,
+        "Load cases": f"{table.sizes['case']}, {told} seeds at each wind speed",
+        "Intervals": (
+            "95 % by resampling the seeds of each wind speed"
+            + ("; with so few seeds they are too narrow" if 1 < few < 6 else "")
+            + ("; one seed has none" if few == 1 else "")
+        ),
+        "Lubricant of rolling bearings": f"{scene.friction.lubricant}, "
+        f"{scene.friction.temperature - 273.15:.0f} °C, {scene.friction.cleanliness}",
+    }
+
+
+def _drawn(scene: Scene) -> list[dict[str, Any]]:
+    """Suspensions of the shaft, with what a sketch needs."""
+    return [
+        {
+            "name": name,
+            "bearings": list(concept.bearings),
+            "positions": list(concept.positions),
+            "locating": concept.bearings[concept.locating],
+            "masses": [[float(at), float(mass)] for at, mass in concept.masses if mass > 0],
+        }
+        for name, concept in scene.shaft
+        if concept
+    ]
+
+
+def _bearings(scene: Scene, rooms: Sequence[str]) -> list[dict[str, Any]]:
+    """What stands at each place, in the words of scenes."""
+    found = []
+    if "journal" in rooms:
+        for place in scene.journal.bearings:
+            part = scene.journal.at(place)
+            size = part.geometry
+            found.append(
+                {
+                    "place": place,
+                    "kind": f"journal, {size.shape.kind}",
+                    "measures": f"D {1e3 * size.diameter:.0f} × B {1e3 * size.width:.0f} mm, "
+                    f"clearance {1e3 * size.relative_clearance:.2f} ‰, "
+                    f"{part.lubricant.viscosity:.3g} Pa s",
+                }
+            )
+    if "rolling" in rooms:
+        for place, bearing in scene.rolling.geometries.items():
+            found.append(
+                {
+                    "place": place,
+                    "kind": bearing.kind,
+                    "measures": f"D_pw {1e3 * bearing.pitch_diameter:.0f} mm, "
+                    f"C {bearing.rated_capacity / 1e3:.0f} kN, "
+                    f"C₀ {bearing.static_capacity / 1e3:.0f} kN"
+                    + (" (axial)" if bearing.rated_axially else ""),
+                }
+            )
+    return found
+
+
+def _or_infinite(value: float) -> float:
+    return value if math.isfinite(value) else math.inf
+
+
+def _or_zero(value: float) -> float:
+    return value if math.isfinite(value) else 0.0
+
+
+def _plain(data: Any) -> Any:
+    if isinstance(data, Mapping):
+        return {name: _plain(part) for name, part in data.items()}
+    if isinstance(data, np.generic):
+        data = data.item()
+    return None if isinstance(data, float) and not math.isfinite(data) else data

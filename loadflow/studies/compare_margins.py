@@ -1,0 +1,423 @@
+"""What lives and film verdicts leave out of a comparison: reserves, rows, tilt, slow films."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from loadflow.cube import open_cube
+from loadflow.errors import SolverError
+from loadflow.rolling import Lubrication, RollingBearing, modified_spectrum_life
+from loadflow.scene.scene import Friction, Journal, Scene
+from loadflow.shaft import Beam, ShaftSection, bearing_loads
+from loadflow.stages.friction import friction_options, least_film_parameter
+from loadflow.stages.journal import equilibria
+from loadflow.stages.rolling import rest
+from loadflow.tribology import lubricant
+from loadflow.verdict import Verdict
+
+Tables = Mapping[str, xr.Dataset]
+
+SAMPLES = 40
+"""Samples of each case that are looked at again, the extremes among them."""
+
+_WIDEST = 16.0  # factor on load, viscosity: beyond, nothing is asked
+_HALVINGS = 9
+_SLOW = 0.1  # share of the samples that counts as low speed
+_WARMER = 60.0  # K: how much warmer the oil is asked to be at most
+
+
+@dataclass(frozen=True)
+class Margin:
+    """How far a candidate is from its first limit.
+
+    Attributes
+    ----------
+    factor : float
+        On all loads, with which the first limit is reached; below 1 if it is broken.
+    place, case : str
+        Where.
+    governs, change : str
+        Which limit that is; what else would reach it.
+    """
+
+    factor: float
+    place: str = ""
+    case: str = ""
+    governs: str = ""
+    change: str = ""
+
+
+@dataclass(frozen=True)
+class RowShare:
+    """Load on the row that takes the thrust: share at the largest thrust and in the mean."""
+
+    share: float
+    mean: float
+    rows: int
+    thrust: float
+    place: str
+    case: str
+    time: float
+
+
+def margin_of(scene: Scene, folder: Path, tables: Tables, verdicts: Sequence[Verdict]) -> Margin:
+    """Factor on the loads with which a candidate reaches its first limit.
+
+    The force on rolling elements is taken to grow with the load, and so does their equivalent load,
+    with a_ISO of each sample anew. Of a film, the sample with the smallest film and that with the
+    largest pressure are solved again at rest under larger or smaller loads.
+    """
+    found: list[Margin] = []
+    if "journal" in tables:
+        table = tables["journal"]
+        for place in table["bearing"].values.tolist():
+            found += _film_margins(scene, folder, place, table.sel(bearing=place))
+    if "rolling" in tables:
+        for place in scene.rolling.geometries:
+            found += _rolling_margins(scene, folder, place, tables, verdicts)
+    known = [one for one in found if math.isfinite(one.factor)]
+    return min(known, key=lambda one: one.factor) if known else Margin(math.nan)
+
+
+# --- films ----------------------------------------------------------------------------------------
+
+
+def _film_margins(scene: Scene, folder: Path, place: str, table: xr.Dataset) -> Iterator[Margin]:
+    """Margins of smallest film and of largest pressure of one journal bearing."""
+    stated = scene.journal.at(place)
+    options = stated.model_copy(update={"motion": "quasi-static", "rung": "grid"})
+    if (table["in_contact"] > 0).any():
+        case = str(table["case"].values[int(np.argmax(table["in_contact"].values))])
+        yield Margin(0.0, place, case, f"shaft and shell touch in {place}", "thicker oil")
+        return
+    asked = (
+        ("smallest_film", np.nanargmin, "minimum_film", stated.least_film, "smallest film"),
+        (
+            "largest_pressure", np.nanargmax, "maximum_pressure",
+            stated.limits.pressure_at(stated.limits.material[0][0]), "largest film pressure",
+        ),
+    )  # fmt: skip
+    for name, pick, field, limit, what in asked:
+        worst = int(pick(table[name].values))
+        case, seen = str(table["case"].values[worst]), float(table[name].values[worst])
+        time = float(table[f"{name}_time"].values[worst]) if f"{name}_time" in table else math.nan
+        value = partial(_film_value, options, *_at_time(folder, case, place, time), field)
+        usual = value(1.0, 1.0)
+        if usual > 0:
+            allowed = limit / seen * usual  # motion changes a film by the same share there
+            if field == "minimum_film":
+                factor, thinner = _film_factors(value, allowed)
+                change = f"oil of {thinner * options.lubricant.viscosity:.2g} Pa s"
+            else:
+                factor, change = _pressure_factor(value, allowed), ""
+            yield Margin(factor, place, case, f"{what} in {place}", change)
+
+
+def _film_factors(value: Callable[[float, float], float], allowed: float) -> tuple[float, float]:
+    """Largest factor on the load, and smallest on the viscosity, with which a film is allowed."""
+    load = _largest_factor(lambda f: value(f, 1.0) >= allowed)
+    return load, 1 / _largest_factor(lambda f: value(1.0, 1 / f) >= allowed)
+
+
+def _pressure_factor(value: Callable[[float, float], float], allowed: float) -> float:
+    """Largest factor on the load with which a pressure is allowed."""
+    return _largest_factor(lambda f: value(f, 1.0) <= allowed)
+
+
+def _film_value(
+    options: Journal, force: np.ndarray, speed: float, field: str, load: float, oil: float
+) -> float:
+    """A value of the film at rest with factors on load and viscosity; NaN without an answer."""
+    if options.heat is None:
+        viscosity = options.lubricant.viscosity * oil
+        thinner = replace(options.lubricant, viscosity=viscosity)
+        options = options.model_copy(update={"lubricant": thinner})
+    answer = equilibria(options, load * force[None], np.array([speed]))
+    return float(getattr(answer, field)[0]) if answer.converged[0] else math.nan
+
+
+def _largest_factor(holds: Callable[[float], bool]) -> float:
+    """Largest factor with which something holds that holds for all smaller ones."""
+    low, high = 1 / _WIDEST, _WIDEST
+    for _ in range(_HALVINGS):
+        middle = math.sqrt(low * high)
+        low, high = (middle, high) if holds(middle) else (low, middle)
+    return math.sqrt(low * high)
+
+
+def _at_time(folder: Path, case: str, place: str, time: float) -> tuple[np.ndarray, float]:
+    """Force (3,) on a bearing, N, and speed, rad/s, at a time of a case."""
+    loads: Any = open_cube(folder / "loads" / f"{case}.h5")
+    shaft: Any = open_cube(folder / "shaft" / f"{case}.h5").sel(bearing=place)
+    k = int(np.argmin(np.abs(loads["time"].values - time))) if math.isfinite(time) else 0
+    force = shaft["force"].isel(time=k).transpose("axis").values.astype(float)
+    return force, float(loads["speed"].values[k])
+
+
+# --- rolling bearings -----------------------------------------------------------------------------
+
+
+def _rolling_margins(
+    scene: Scene, folder: Path, place: str, tables: Tables, verdicts: Sequence[Verdict]
+) -> Iterator[Margin]:
+    """Margins of static rating, rating life and modified life of one rolling bearing."""
+    limits = scene.rolling.bearings[place].limits
+    own = {v.quantity: v for v in verdicts if v.subject == f"rolling {place}"}
+    static = own.get("static rating over the design load")
+    if static is not None and math.isfinite(static.value):
+        what = f"static rating of {place}"
+        yield Margin(static.value / limits.static_safety, place, static.case, what, "a larger C₀")
+    bearing = scene.rolling.geometries[place]
+    basic = own.get("rating life L10h")
+    if basic is not None and math.isfinite(basic.value):
+        factor = (basic.value / limits.life) ** (1 / bearing.life_exponent)
+        yield Margin(factor, place, governs=f"rating life of {place}", change="a larger C")
+    modified = own.get("modified rating life L10mh")
+    if modified is None or not math.isfinite(modified.value):
+        return
+    load, speed, weight = _spectrum(scene, folder, place, tables)
+    grease = lubrication(scene.friction)
+
+    def life(factor: float, oil: Lubrication = grease) -> float:
+        return modified_spectrum_life(bearing, factor * load, speed, oil, weight).life
+
+    allowed = limits.life / modified.value * life(1.0)
+    factor = _largest_factor(lambda f: life(f) >= allowed)
+    warmth = np.linspace(0.0, _WARMER, 13)
+    lives = [life(1.0, replace(grease, temperature=grease.temperature + w)) for w in warmth]
+    short = np.flatnonzero(np.array(lives) < allowed)
+    change = f"oil {warmth[short[0]]:.0f} K warmer" if short.size and short[0] > 0 else ""
+    yield Margin(factor, place, governs=f"modified life of {place}", change=change)
+
+
+def lubrication(options: Friction) -> Lubrication:
+    """Oil, temperature and cleanliness of the rolling bearings of a scene."""
+    return Lubrication(
+        oil=lubricant(options.lubricant),
+        temperature=options.temperature,
+        cleanliness=options.cleanliness,
+    )
+
+
+def _spectrum(
+    scene: Scene, folder: Path, place: str, tables: Tables
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Equivalent loads, N, speeds, rad/s, and shares of time of some samples of all cases."""
+    lifetime = tables.get("lifetime")
+    parts = []
+    for case, some in _looked_at(folder, place):
+        share = 1.0
+        if lifetime is not None and "share" in lifetime:
+            share = float(lifetime["share"].sel(case=case))
+        answer = _solved(scene, place, some)
+        speed = some["speed"].values.astype(float)
+        weight = np.full(speed.size, share / speed.size)
+        parts.append((answer.equivalent_load, speed, weight))
+    load, speed, weight = (np.concatenate(values) for values in zip(*parts))
+    return load, speed, weight
+
+
+def _solved(scene: Scene, place: str, some: xr.Dataset) -> Any:
+    force, moment = (
+        some[name].transpose("sample", "axis").values.astype(float) for name in ("force", "moment")
+    )
+    return rest(scene.rolling.bearings[place], force, moment, strict=False)
+
+
+def _looked_at(folder: Path, place: str) -> Iterator[tuple[str, xr.Dataset]]:
+    """Yield each case and some of its samples, that with the largest thrust among them."""
+    for path in sorted((folder / "reduction").glob("*.h5")):
+        samples = open_cube(path)[place].to_dataset().load()
+        count = samples.sizes["sample"]
+        spread = np.linspace(0, count - 1, min(SAMPLES, count)).round().astype(int)
+        thrust = int(np.argmax(np.abs(samples["force"].sel(axis="x").values)))
+        yield path.stem, samples.isel(sample=np.unique([*spread, thrust]))
+
+
+def row_shares(scene: Scene, folder: Path, tables: Tables) -> RowShare | None:
+    """Load share of the row that takes the thrust, of the bearing where it is largest.
+
+    None where no bearing has several rows and thrust.
+    """
+    found: list[RowShare] = []
+    for place, bearing in scene.rolling.geometries.items():
+        if bearing.group_dims[0] != "row" or bearing.groups[0] < 2 or not bearing.takes_thrust:
+            continue
+        parts = [
+            (case, float(some["time"].values[k]), float(force), row)
+            for case, some in _looked_at(folder, place)
+            for k, (force, row) in enumerate(
+                zip(some["force"].sel(axis="x").values, _rows(bearing, _solved(scene, place, some)))
+            )
+        ]
+        thrust = np.abs([part[2] for part in parts])
+        rows = np.array([part[3] for part in parts])
+        hardest = int(np.argmax(thrust))
+        if thrust[hardest] == 0 or not np.isfinite(rows[hardest]).all():
+            continue
+        row = int(np.argmax(rows[hardest]))
+        case, time, *_ = parts[hardest]
+        found.append(
+            RowShare(
+                float(rows[hardest, row]), float(np.nanmean(rows[:, row])), bearing.groups[0],
+                float(thrust[hardest]), place, case, time,
+            )
+        )  # fmt: skip
+    return max(found, key=lambda one: one.share * one.rows, default=None)
+
+
+def _rows(bearing: RollingBearing, answer: Any) -> np.ndarray:
+    """Share of each row in the forces on all elements, (sample, row)."""
+    forces = answer.element_forces
+    own = forces.reshape(len(forces), bearing.groups[0], -1).sum(axis=-1)
+    with np.errstate(invalid="ignore"):
+        return np.asarray(own / own.sum(axis=1, keepdims=True))
+
+
+@dataclass(frozen=True)
+class Losses:
+    """Losses and films of rolling bearings in ideal rolling, without slip.
+
+    Attributes
+    ----------
+    power : xarray.DataArray
+        Mean friction power (case, bearing), W.
+    film_parameter : float
+        Median of the least Λ of loaded contacts at low speed, of the bearing with the thinnest.
+    place, case : str
+        That bearing, and the load case of the thinnest film in it.
+    time, speed : float
+        Its time, s, and the speed below which a speed is low, rad/s.
+    """
+
+    power: xr.DataArray
+    film_parameter: float
+    place: str
+    case: str
+    time: float
+    speed: float
+
+
+def rolling_losses(scene: Scene, folder: Path) -> Losses | None:
+    """Friction and films of the rolling bearings in some samples of all cases.
+
+    None where there is no model of friction for one of them.
+    """
+    power: dict[tuple[str, str], float] = {}
+    films: dict[str, list[tuple[float, float, str, float]]] = {}
+    for place, bearing in scene.rolling.geometries.items():
+        options = friction_options(scene.friction, bearing)
+        for case, some in _looked_at(folder, place):
+            speed = some["speed"].values.astype(float)
+            answer = _solved(scene, place, some)
+            try:
+                lost = answer.friction(speed, options)
+            except SolverError:
+                return None
+            weight = some["weight"].values.astype(float)
+            power[case, place] = float((lost.power * weight).sum() / weight.sum())
+            least = least_film_parameter(lost.film_parameter, answer.element_forces)
+            times = some["time"].values.astype(float)
+            films.setdefault(place, []).extend(
+                (abs(float(v)), float(film), case, float(t))
+                for v, film, t in zip(speed, least, times)
+                if v != 0 and math.isfinite(film)
+            )
+    cases = list(dict.fromkeys(case for case, _ in power))
+    places = list(scene.rolling.geometries)
+    table = xr.DataArray(
+        [[power[case, place] for place in places] for case in cases],
+        {"case": cases, "bearing": places},
+        ("case", "bearing"),
+    )
+    speeds = np.array([row[0] for rows in films.values() for row in rows])
+    if speeds.size == 0:
+        return Losses(table, math.nan, "", "", math.nan, math.nan)
+    slow = float(np.quantile(speeds, _SLOW))
+    thin = {place: [row for row in rows if row[0] <= slow] for place, rows in films.items()}
+    medians = {
+        place: float(np.median([row[1] for row in rows])) for place, rows in thin.items() if rows
+    }
+    place = min(medians, key=lambda name: medians[name])
+    _, _, case, time = min(thin[place], key=lambda row: row[1])
+    return Losses(table, medians[place], place, case, time, slow)
+
+
+# --- shaft ----------------------------------------------------------------------------------------
+
+
+def carries_thrust(scene: Scene, tables: Tables) -> str:
+    """What carries the force along the shaft, in words."""
+    if "rolling" in tables:
+        table = tables["rolling"]
+        for place, bearing in scene.rolling.geometries.items():
+            force = float(table["bearing_axial_force"].sel(bearing=place).max())
+            if force > 0 and bearing.takes_thrust:
+                return f"{place}, up to {force / 1e3:.0f} kN"
+    if "journal" in tables:
+        force = float(tables["journal"]["largest_axial_load"].max())
+        return f"none: needs a thrust bearing for {force / 1e3:.0f} kN"
+    return "none"
+
+
+def shaft_tilt(scene: Scene, folder: Path, tables: Tables) -> tuple[float, float, str, str]:
+    """Largest tilt of the shaft in a bearing and what it allows, rad, the bearing, and a note.
+
+    The shaft bends as its beam does; without one, as a hollow beam that fits into the bearings. A
+    limit of 0 means none: a bearing that takes the moment tilts with the shaft.
+    """
+    from loadflow.turbines import load_turbine
+
+    places = _allowed_tilts(scene, tables)
+    worst = (0.0, 0.0, "", "the bearing takes the moment")
+    gravity = load_turbine(scene.turbine.name).rotor.tilt
+    for concept in scene.shaft.concepts:
+        own = [place for place in concept.bearings if place in places]
+        if not own or len(concept.bearings) < 2:
+            continue
+        outer = min(places[place][1] for place in own)
+        beam = concept.beam or Beam(sections=(ShaftSection(outer, outer / 2),))
+        note = "" if concept.beam else f"of a hollow shaft of {1e3 * outer:.0f} mm"
+        line = replace(concept, beam=beam.on_rigid_bearings())
+        for path in sorted((folder / "loads").glob("*.h5")):
+            series: Any = open_cube(path)
+            count = series.sizes["time"]
+            some = np.linspace(0, count - 1, min(SAMPLES, count)).round().astype(int)
+            force, moment = (
+                series[name].transpose("axis", "time").values[:, some].astype(float)
+                for name in ("hub_force", "hub_moment")
+            )
+            tilts = bearing_loads(line, force, moment, tilt=gravity)["tilt"]
+            across = tilts.sel(axis=["y", "z"]).transpose("bearing", "axis", "time").values
+            size = np.linalg.norm(across, axis=1).max(axis=1)
+            largest = dict(zip(tilts["bearing"].values.tolist(), size.tolist()))
+            for place in own:
+                tilt, limit = largest[place], places[place][0]
+                if limit > 0 and tilt / limit > (worst[0] / worst[1] if worst[1] else 0.0):
+                    worst = tilt, limit, place, note
+    return worst
+
+
+def _allowed_tilts(scene: Scene, tables: Tables) -> dict[str, tuple[float, float]]:
+    """By place: tilt that the bearing allows, rad (0: no limit), and the shaft's diameter, m.
+
+    A journal bearing allows that which closes its smallest film at an end.
+    """
+    found: dict[str, tuple[float, float]] = {}
+    if "journal" in tables:
+        for place in scene.journal.bearings:
+            size = scene.journal.at(place).geometry
+            film = float(tables["journal"]["smallest_film"].sel(bearing=place).min())
+            found[place] = 2 * film / size.width, size.diameter
+    if "rolling" in tables:
+        for place, bearing in scene.rolling.geometries.items():
+            found[place] = bearing.allowed_tilt or 0.0, 0.8 * bearing.pitch_diameter
+    return found

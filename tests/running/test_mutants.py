@@ -1,0 +1,67 @@
+"""Files that are damaged at random: an answer, or an `InputError`; never anything else."""
+
+import sys
+from pathlib import Path
+
+import pytest
+
+from loadflow.errors import InputError
+from loadflow.planning.plan import make_plan
+from loadflow.scene.scene import make_scene
+from loadflow.turbines import load_turbine, turbine_names
+
+sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
+
+import mutants
+
+FILE = Path(load_turbine.__code__.co_filename).parent / "nrel-5mw.toml"
+
+
+@pytest.mark.parametrize("kind", ["scenes", "turbines"])
+def test_of_150_mutants_none_escapes(kind):
+    met, escaped = mutants.survey(kind, range(150))
+    assert escaped == []
+    assert min(met["refused"], met["answered"]) > 5  # neither all good nor all bad
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", ["scenes", "turbines"])
+def test_of_10_000_mutants_none_escapes(kind):
+    assert mutants.survey(kind, range(10_000))[1] == []
+
+
+@pytest.mark.parametrize(
+    ("table", "value", "says"),
+    [
+        ("rolling", {"arrangement": ["moment"]}, "arrangement: must be one of two-spherical"),
+        ("rolling", {"arrangement": 3}, "arrangement: must be one of two-spherical"),
+        ("loads", {"duration": 1e300}, "loads.duration = 1e\\+300: must be less than or equal"),
+        ("loads", {"seeds": 2**80}, "loads.seeds"),
+        ("loads", {"first_seed": 2**80}, "loads.first_seed"),
+        ("loads", {"wind_speeds": [1e308]}, "loads.wind_speeds"),
+        ("loads", {"step": 1e-300}, "loads.step"),
+    ],
+)
+def test_sizes_and_kinds_are_checked_before_anything_is_planned(table, value, says):
+    with pytest.raises(InputError, match=says):
+        make_plan(make_scene({"name": "x", table: value}))
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "says"),
+    [
+        ("integral_gain", "[1.0, 2.0]", "control.integral_gain: expected a finite number"),
+        ("integral_gain", '"high"', "control.integral_gain: expected a finite number"),
+        ("proportional_gain", "1" + "0" * 400, "control.proportional_gain: expected a finite"),
+        ("rated_power", "inf", "rated_power: expected a finite number"),
+    ],
+)
+def test_turbine_values_of_the_wrong_kind_are_named(tmp_path, old, new, says):
+    assert "nrel-5mw" in turbine_names()
+    lines = FILE.read_text(encoding="utf-8").splitlines()
+    changed = [f"{old} = {new}" if line.split("=")[0].strip() == old else line for line in lines]
+    assert changed != lines
+    path = tmp_path / "turbine.toml"
+    path.write_text("\n".join(changed), encoding="utf-8")
+    with pytest.raises(InputError, match=says):
+        load_turbine(path)

@@ -1,0 +1,73 @@
+"""One rule of convergence: where rounding ends decides no answer."""
+
+import doctest
+import math
+
+import numpy as np
+import pytest
+
+from loadflow.errors import SolverError
+from loadflow.journal import (
+    GasMixture,
+    Guembel,
+    JournalBearing,
+    Lubricant,
+    MassConserving,
+    Reynolds,
+    Sommerfeld,
+    TiltingPads,
+)
+from loadflow.numerics import convergence
+
+BEARING = JournalBearing(diameter=3.0, width=2.25, relative_clearance=0.5e-3)
+OIL = Lubricant(0.05)
+LAWS = [Sommerfeld(), Guembel(), Reynolds(), MassConserving(), GasMixture(5e4)]
+
+
+def test_the_examples_of_the_rule_hold():
+    assert doctest.testmod(convergence).failed == 0
+
+
+def test_what_is_not_a_number_is_no_answer():
+    nothing = math.nan
+    assert not convergence.is_small(nothing, 1.0, 1.0)
+    assert not convergence.answered(nothing, 1.0, 1.0, 0.0, 0.0, 1.0, 1.0)
+    assert not convergence.answered(0.0, 1.0, 1.0, nothing, nothing, 1.0, 1.0)
+
+
+@pytest.mark.parametrize("law", LAWS, ids=lambda law: type(law).__name__)
+def test_loads_of_any_size_have_an_answer_wherever_rounding_ends(law):
+    sizes = 10.0 ** np.arange(-12, 10)
+    turns = np.linspace(0.0, 6.0, sizes.size)  # other directions round otherwise
+    force = sizes[:, None] * np.stack([np.cos(turns), np.sin(turns)], axis=-1)
+    state = BEARING.equilibrium(force, 1.2, OIL, cavitation=law, edge_pressure=1e5, grid=(60, 8))
+    assert state.converged.all()
+    light = slice(4, 12)  # a film is linear in a load that is light, but for the last digits
+    per_load = state.eccentricity_ratio[light] / sizes[light]
+    if not isinstance(law, GasMixture):
+        np.testing.assert_allclose(per_load[3:], per_load[-1], rtol=1e-3)
+
+
+def test_a_load_beyond_what_numbers_resolve_says_what_it_reached_and_what_rounding_allows():
+    with pytest.raises(SolverError, match=r"residual \S+ after \d+ steps, where rounding allows"):
+        BEARING.equilibrium((1e14, 0.0), 0.1, OIL, edge_pressure=1e5)
+
+
+@pytest.mark.parametrize("count", [3, 4, 5])
+def test_pads_carry_an_ordinary_load_from_any_side(count):
+    pads = TiltingPads(count, 0.8 * 2 * np.pi / count, preload=0.3)
+    bearing = JournalBearing(3.0, 2.25, 0.5e-3, shape=pads)
+    turns = np.linspace(-0.8, 0.8, 9)
+    force = 2e6 * np.stack([np.cos(turns), np.sin(turns)], axis=-1)
+    film = {"cavitation": GasMixture(5e4), "edge_pressure": 5e5, "grid": (60, 8)}
+    state = bearing.equilibrium(force, 1.2, OIL, **film)
+    assert state.converged.all()
+    assert np.isfinite(state.stiffness).all()
+
+
+def test_a_pad_bearing_without_an_answer_is_flagged_not_raised():
+    bearing = JournalBearing(3.0, 2.25, 0.5e-3, shape=TiltingPads(4, 1.2))
+    force = [(2e6, 0.0), (1e16, 0.0)]
+    state = bearing.equilibrium(force, 1.2, OIL, edge_pressure=5e5, grid=(48, 8), strict=False)
+    assert state.converged.tolist() == [True, False]
+    assert np.isnan(state.stiffness[1]).all()

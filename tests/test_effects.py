@@ -1,0 +1,272 @@
+"""An effect is one object and one row: the plan counts and chooses it, the pilot measures it."""
+
+import json
+from dataclasses import replace
+
+import pytest
+from synthetic import cube_file
+
+import loadflow as lf
+from loadflow.cli import main
+from loadflow.planning.effects import Verdict, switched
+from loadflow.planning.pilot import hardest, pilot
+from loadflow.planning.plan import make_plan, needed_stages
+from loadflow.scene.cases import list_cases
+from loadflow.scene.scene import make_scene
+from loadflow.stages import registry, statistics
+from loadflow.stages.effects import film
+from loadflow.stages.effects import registry as effects
+from loadflow.stages.effects.effect import Effect
+from loadflow.stages.effects.situation import situation
+from loadflow.stages.probes import PROBES, Probe
+from loadflow.stages.stage import Rungs, Stage, always, with_settings
+
+
+@pytest.fixture(scope="module")
+def cube(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("effects")
+    return cube_file(folder / "loads.h5", wind_speeds=(8.0,), seeds=(1,), steps=500)
+
+
+def scene_of(cube, **keys):
+    loads = {"files": [str(cube)]}
+    return make_scene({"name": "effects", "loads": loads, "results": ["journal.film"]} | keys)
+
+
+def effect_in(plan, name):
+    return next(effect for effect in plan.effects if effect.name == name)
+
+
+# --- one object and one row -------------------------------------------------------------------
+
+# a toy: oil that is half as thick, "in" by the seed of the reduction being odd
+TOY = Effect(
+    "odd seed",
+    model="reduction",
+    keys=("reduction.seed",),
+    is_on=lambda scene: scene.reduction.seed % 2 == 1,
+    switched=lambda scene, on: with_settings(scene, "reduction", {"seed": int(on)}),
+    indicator=lambda at: {"largest load": 0.2},
+    out="the seed is even",
+    needs="an odd seed",
+)
+
+
+def test_a_toy_effect_is_counted_chosen_and_measured_by_one_row(cube, monkeypatch):
+    effects.EFFECTS.append(TOY)
+    try:
+        check_toy_effect(cube, monkeypatch)
+    finally:
+        effects.EFFECTS.remove(TOY)
+
+
+def check_toy_effect(cube, monkeypatch):
+    wanted = {"results": ["reduction.histogram"]}
+    plan = make_plan(scene_of(cube, **wanted))
+    assert plan.scene.reduction.seed == 1  # 20 % are more than 5 %
+    named = make_plan(scene_of(cube, reduction={"seed": 0}, **wanted))
+    assert not effect_in(named, "odd seed").kept
+    assert named.errors["reduction.histogram"]["largest load"] == pytest.approx(0.2, abs=0.02)
+    assert "odd seed left out; what would help: an odd seed" in named.shortfalls[0]
+
+    def answers(scene, case, inputs):
+        return {("N", "largest load"): 1.0 if TOY.is_on(scene) else 0.99}
+
+    monkeypatch.setitem(PROBES, "reduction", Probe((), answers))
+    verdict = pilot(scene_of(cube, **wanted))
+    assert verdict.sizes["odd seed"] == {"largest load": pytest.approx(0.01)}
+    measured = make_plan(scene_of(cube, **wanted), verdict=verdict)
+    assert effect_in(measured, "odd seed").size == {"largest load": pytest.approx(0.01)}
+    assert measured.accurate
+
+
+def test_a_toy_stage_with_a_toy_rung_runs_by_one_row(cube, tmp_path, monkeypatch):
+    """It gives the result of another stage, by half of its numbers."""
+
+    def half(scene, case, inputs):
+        return 0.5 * statistics.statistics(scene, case, inputs)
+
+    toy = Stage(
+        "toy",
+        run=half,
+        results={"loads.statistics": registry.STAGES["statistics"].results["loads.statistics"]},
+        needs=always("loads", "shaft"),
+        models=(Rungs("toy", section="loads", key=lambda scene: "coarse"),),
+        summarise=statistics.summary,
+        warnings=lambda tree: ["toy: only half"],
+    )
+    plain = scene_of(cube, accuracy="given", results=["loads.statistics"])
+    whole = lf.run(plain, out=tmp_path / "whole", report=False).tree["statistics"]
+    monkeypatch.delitem(registry.STAGES, "statistics")
+    monkeypatch.setitem(registry.STAGES, "toy", toy)
+    plan = make_plan(plain)
+    assert [step.name for step in plan.steps] == ["loads", "shaft", "toy"]
+    assert plan.steps[-1].rung == "coarse"
+    assert plan.steps[-1].seconds is None  # not measured, and said so
+    run = lf.run(plain, out=tmp_path, report=False)
+    given, ours = (tree["hub_force"].values for tree in (whole, run.tree["toy"]))
+    assert ours == pytest.approx(0.5 * given)
+    assert "toy: only half" in run.warnings
+
+
+# --- switching --------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("effect", effects.EFFECTS, ids=lambda effect: effect.name)
+def test_an_effect_is_in_or_out_as_it_is_switched(effect, cube):
+    scene = scene_of(cube, results=["journal.film", "rolling.loads"])
+    for on in (True, False):
+        changed = switched(scene, effect, on)
+        if changed is not None:
+            assert effect.is_on(changed) == on
+            back = switched(changed, effect, not on)
+            assert back is None or effect.is_on(back) != on
+
+
+def test_a_film_is_warmed_by_an_oil_that_enters_with_the_stated_viscosity(cube):
+    scene = scene_of(cube, journal={"lubricant": {"viscosity": 0.07, "density": 900.0}})
+    heat = switched(scene, film.HEAT, True).journal.heat
+    assert heat.lubricant(heat.inlet_temperature).viscosity == pytest.approx(0.07, rel=0.02)
+    assert heat.lubricant(heat.inlet_temperature + 20).viscosity < 0.04
+
+
+def test_a_shaft_that_stands_at_times_has_its_film_at_rest():
+    data = {"name": "start", "results": ["journal.film"], "loads": {"dlc": "3.1"}}
+    plan = make_plan(make_scene(data))
+    assert not effect_in(plan, "motion of the film").kept
+    assert plan.errors["journal.film"]["minimum film"] > 0.05
+    assert plan.shortfalls
+
+
+# --- indicators -------------------------------------------------------------------------------
+
+
+def test_indicators_grow_with_what_they_stand_for():
+    def size(effect, quantity, **keys):
+        scene = make_scene({"name": "s", "loads": {"wind_speeds": [12.0], "seeds": 1}} | keys)
+        return effect.indicator(situation(scene, list_cases(scene)))[quantity]
+
+    thin, thick = (
+        {"journal": {"lubricant": {"viscosity": viscosity}}} for viscosity in (0.02, 0.08)
+    )
+    assert size(film.HEAT, "friction power", **thick) > size(film.HEAT, "friction power", **thin)
+    assert size(film.TILT, "minimum film", **thin) > size(film.TILT, "minimum film", **thick)
+    assert size(film.CONTACT, "minimum film", **thick) == 0.0
+    worn = {"journal": {"lubricant": {"viscosity": 2e-5}}}
+    assert size(film.CONTACT, "minimum film", **worn) > 0.0
+    soft = {"journal": {"shell": {"kind": "local", "compliance": 1e-10}}}
+    steel = {"journal": {"shell": {"kind": "local", "compliance": 1e-12}}}
+    assert size(film.SHELL, "maximum pressure", **soft) > size(
+        film.SHELL, "maximum pressure", **steel
+    )
+
+
+def test_the_shell_indicator_has_the_size_of_the_solved_films():
+    """docs/journal.md: 1e-10 m/Pa takes 8 % of the film and 7 % of the pressure."""
+    scene = make_scene(
+        {
+            "name": "s",
+            "loads": {"wind_speeds": [24.0], "seeds": 1},
+            "journal": {"shell": {"kind": "local", "compliance": 1e-10}},
+        }
+    )
+    sizes = film.SHELL.indicator(situation(scene, list_cases(scene)))
+    assert 0.03 < sizes["minimum film"] < 0.3
+
+
+# --- the pilot --------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def verdict(cube):
+    return pilot(scene_of(cube))
+
+
+def test_the_pilot_measures_what_the_plan_then_counts(cube, verdict):
+    assert set(verdict.sizes) >= {"motion of the film", "heat of the film"}
+    for sizes in verdict.sizes.values():
+        assert all(0 <= size < 10 for size in sizes.values())
+    plan = make_plan(scene_of(cube), verdict=verdict)
+    still = make_plan(scene_of(cube, journal={"motion": "quasi-static"}), verdict=verdict)
+    for quantity, size in verdict.sizes["motion of the film"].items():
+        more = still.errors["journal.film"][quantity] - plan.errors["journal.film"][quantity]
+        assert more > 0.5 * size
+    motion = effect_in(plan, "motion of the film")
+    assert motion.size == verdict.sizes["motion of the film"]
+
+
+def test_the_pilot_says_the_same_again(cube, verdict):
+    again = pilot(scene_of(cube))
+    assert replace(again, seconds=0.0) == replace(verdict, seconds=0.0)
+    assert Verdict.from_json(json.loads(json.dumps(verdict.to_json()))) == verdict
+
+
+def test_models_as_given_need_no_pilot(cube):
+    assert pilot(scene_of(cube, accuracy="given")) is None
+
+
+def test_the_pilot_looks_where_steady_load_per_speed_and_largest_load_are():
+    scene = make_scene({"name": "s", "loads": {"wind_speeds": [4.0, 12.0, 24.0], "seeds": 2}})
+    cases = hardest(scene, tuple(list_cases(scene)))
+    assert [case.wind_speed for case in cases] == [4.0, 24.0]
+    assert all(case.seed == 1 for case in cases)
+
+
+def test_a_run_remembers_its_pilot_and_gives_the_same_on_two_processes(cube, tmp_path):
+    keys = {"journal": {"bearings": ["N2"]}, "accuracy": 0.3}
+    one = lf.run(scene_of(cube, **keys), out=tmp_path / "one", report=False)
+    manifest = json.loads((one.path / "manifest.json").read_text(encoding="utf-8"))
+    assert manifest["pilot"]["sizes"]
+    sizes = {effect["name"]: effect["size"] for effect in manifest["effects"]}
+    assert sizes["motion of the film"] == manifest["pilot"]["sizes"]["motion of the film"]
+    again = lf.run(scene_of(cube, **keys), out=tmp_path / "one", report=False)
+    after = json.loads((again.path / "manifest.json").read_text(encoding="utf-8"))
+    assert after["pilot"] == manifest["pilot"]  # taken up, not measured anew
+    two = lf.run(scene_of(cube, **keys), out=tmp_path / "two", workers=2, report=False)
+    other = json.loads((two.path / "manifest.json").read_text(encoding="utf-8"))
+    assert other["pilot"]["sizes"] == manifest["pilot"]["sizes"]
+    assert other["effects"] == manifest["effects"]
+    assert one.tree["journal"].to_dataset().equals(two.tree["journal"].to_dataset())
+
+
+# --- command line -----------------------------------------------------------------------------
+
+
+def planned(scene, capsys, *options):
+    with pytest.raises(SystemExit) as ended:
+        main(["plan", str(scene), *options])
+    assert ended.value.code == 0
+    return capsys.readouterr().out
+
+
+def keys_of(data):
+    if isinstance(data, dict):
+        for key, value in data.items():
+            yield key
+            yield from keys_of(value)
+    elif isinstance(data, list):
+        for value in data:
+            yield from keys_of(value)
+
+
+def test_plan_shows_indicators_and_with_pilot_the_measured_sizes(cube, tmp_path, capsys):
+    scene = tmp_path / "s.toml"
+    scene.write_text(f'results = ["journal.film"]\n[loads]\nfiles = ["{cube}"]\n', encoding="utf-8")
+    told = json.loads(planned(scene, capsys, "--json"))
+    assert all(effect["size"] is None for effect in told["effects"])
+    assert {"name", "kept", "size", "indicator"} <= set(told["effects"][0])
+    assert not any("error" in key for key in keys_of(told["effects"]))
+    assert set(told["errors"]) == {"journal.film"}
+    measured = json.loads(planned(scene, capsys, "--json", "--pilot"))
+    sizes = {effect["name"]: effect["size"] for effect in measured["effects"]}
+    assert sizes["motion of the film"]["eccentricity ratio"] > 0
+    text = " ".join(planned(scene, capsys).split())
+    assert text.startswith("not accurate enough: journal.film") == (not told["accurate"])
+    assert "--pilot measures them" in text
+
+
+def test_needed_stages_follow_from_what_each_stage_needs(cube):
+    moving = scene_of(cube, journal={"motion": "transient"})
+    assert needed_stages(moving) == {"loads", "shaft", "journal"}
+    still = scene_of(cube, journal={"motion": "quasi-static"})
+    assert needed_stages(still) == {"loads", "shaft", "reduction", "journal"}
