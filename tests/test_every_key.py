@@ -120,6 +120,7 @@ OTHERS = {
     "shaft.direct_drive": [{}],
     "shaft.moment": [{}],
     "shaft.two_point.beam": [{}],
+    "shaft.two_point.beam.seats": [[{"radial": 1e9}, {}]],
     "shaft.three_point.beam": [{}],
     "shaft.integrated.beam": [{}],
     "shaft.direct_drive.beam": [{}],
@@ -128,6 +129,10 @@ OTHERS = {
     "journal.supply.grooves.0.shape": ["circle"],
     "journal.supply.grooves.0.restrictor": [{"diameter": 0.004, "length": 0.05}],
     "journal.supply.pump": [{"flow": [0.0, 0.01], "pressure": [8e5, 2e5]}],
+    "rolling.geometry.profile": ["straight"],
+    "rolling.geometry.crown_radius": [18.0],
+    "rolling.geometry.law": ["palmgren"],
+    "rolling.geometry.arrangement": ["face-to-face"],
     "rolling.geometry.kind": ["ball", "roller"],
     "rolling.further": [[{"bearing": "N", "geometry": BALLS}]],
     "rolling.bearing": ["N2", "N"],
@@ -313,7 +318,8 @@ FOUND = {
 
 CONFLICT = (
     "leave", "set ", "takes the place", "follows from", "give ", "missing", "unknown key",
-    "and only it, takes", "; only", "keep one", "for a circle", "not given with",
+    "and only it, takes", "; only", "keep one", "for a circle", "not given with", "for slewing",
+    "and only to it",
 )  # fmt: skip
 """Words with which a scene is refused that says two things which do not go together."""
 
