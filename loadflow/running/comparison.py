@@ -21,10 +21,11 @@ from loadflow.studies.compare import Comparison, Finished, compared
 SHARED = ("loads", "shaft")
 """Stages whose parts are the same for all candidates, unless the shaft feels its bearings."""
 
-ROLLING_SAMPLES = 600
-"""Samples of each case in which a rolling bearing is solved, where the scene does not say."""
+ROLLING_CLASSES = 20
+"""Classes of speed, and of load, of which one sample is solved in a rolling bearing at least; at
+most twice as many are, where the scene does not say."""
 
-SHAPED_SAMPLES = 24
+SHAPED_CLASSES = 5
 """The same of a journal bearing that cannot be followed through the whole series in reasonable
 time: pads, lobes, elastic shells, tilted shafts."""
 
@@ -195,17 +196,17 @@ def candidate_scene(base: Scene, name: str, candidate: Candidate, steps: int) ->
     """
     results: list[str] = []
     update: dict[str, Any] = {"name": name, "candidates": {}}
-    samples = ROLLING_SAMPLES
+    classes = ROLLING_CLASSES
     if candidate.journal is not None:
         results.append("journal.film")
         update["journal"] = journal = _modelled(candidate.journal)
-        samples = samples if journal.in_motion else SHAPED_SAMPLES
+        classes = classes if journal.in_motion else SHAPED_CLASSES
     if candidate.rolling is not None:
         results += ["rolling.loads", "rolling.life"]
         update["rolling"] = candidate.rolling
     if not base.reduction.changed:
-        size = min(1.0, samples / steps)
-        update["reduction"] = base.reduction.model_copy(update={"size": size})
+        fewer = {"size": min(1.0, 2 * classes**2 / steps), "classes": classes}
+        update["reduction"] = base.reduction.model_copy(update=fewer)
     return base.model_copy(update=update | {"results": results})
 
 

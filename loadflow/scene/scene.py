@@ -130,9 +130,14 @@ class Seeds(Section, BaseModel):
 
 
 class Reduction(Section, BaseModel):
-    """Quasi-static histogram reduction: share of the samples kept, and how they are picked."""
+    """Quasi-static histogram reduction: share of the samples kept, and how they are picked.
+
+    One sample of each class of speed and load is kept at least; ``classes`` is their number along
+    each, that of the source (4.30) if left out.
+    """
 
     size: Annotated[float, Field(gt=0, le=1)] = 0.1
+    classes: Annotated[int, Field(ge=2, le=200)] | None = None
     pick: Literal["random", "extremes", "envelope"] = "extremes"
     seed: Annotated[int, Field(ge=0)] = 0
 
@@ -565,14 +570,14 @@ def in_sections(data: dict[str, Any]) -> dict[str, Any]:
         sections = sections_of(read.pop("bearings")).data
         if twice := sorted(set(sections) & set(read)):
             raise ValueError(
-                f"bearings: beside [{twice[0]}]; write all of them as [bearings.PLACE]"
+                f"bearings: beside [{twice[0]}]; write all as [bearings.PLACE]"
             )
         if "results" not in read:
             rooms = {"journal", "rolling"} - set(sections)
             names = get_args(Result)
             read["results"] = [name for name in names if name.split(".")[0] not in rooms]
         read |= sections
-    elif "rolling" not in read and "rolling" in ours:
+    if "rolling" not in read and "rolling" in ours:
         read |= {"rolling": sections_of(_bare(ours["candidates"][ours["rolling"]])).data["rolling"]}
     if isinstance(read.get("candidates"), dict):
         read["candidates"] = {

@@ -32,6 +32,7 @@ def reduced_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTr
             to_film(moment if by_moment else force),
             time,
             size=scene.reduction.size,
+            classes=scene.reduction.classes,
             pick=scene.reduction.pick,
             seed=scene.reduction.seed,
             source=f"{case.name}, bearing {bearing}",
