@@ -94,7 +94,8 @@ def _friction_rung(scene: Scene) -> str:
 
 def _reduction_rung(scene: Scene) -> str:
     pick, size = scene.reduction.pick, scene.reduction.size
-    return "full series" if size == 1.0 else f"histogram, {pick}, {size:g}"
+    classes = f", {scene.reduction.classes} classes" if scene.reduction.classes else ""
+    return "full series" if size == 1.0 else f"histogram, {pick}, {size:g}{classes}"
 
 
 _RUNGS: dict[str, Callable[[Scene], str]] = {

@@ -21,13 +21,13 @@ from loadflow.studies.compare import Comparison, Finished, compared
 SHARED = ("loads", "shaft")
 """Stages whose parts are the same for all candidates, unless the shaft feels its bearings."""
 
-ROLLING_CLASSES = 20
-"""Classes of speed, and of load, of which one sample is solved in a rolling bearing at least; at
-most twice as many are, where the scene does not say."""
+ROLLING_SHARE = 0.05
+"""Share of the samples in which a rolling bearing is solved, where the scene does not say."""
 
 SHAPED_CLASSES = 5
-"""The same of a journal bearing that cannot be followed through the whole series in reasonable
-time: pads, lobes, elastic shells, tilted shafts."""
+"""Classes of speed, and of load, of which one sample is solved, the extremes first, in journal
+bearings that cannot be followed through the whole series in reasonable time: pads, lobes, elastic
+shells, tilted shafts."""
 
 
 @dataclass(frozen=True)
@@ -196,16 +196,17 @@ def candidate_scene(base: Scene, name: str, candidate: Candidate, steps: int) ->
     """
     results: list[str] = []
     update: dict[str, Any] = {"name": name, "candidates": {}}
-    classes = ROLLING_CLASSES
+    fewer: dict[str, Any] = {"size": ROLLING_SHARE}
     if candidate.journal is not None:
         results.append("journal.film")
         update["journal"] = journal = _modelled(candidate.journal)
-        classes = classes if journal.in_motion else SHAPED_CLASSES
+        if not journal.in_motion:
+            share = min(1.0, SHAPED_CLASSES**2 / steps)
+            fewer = {"size": share, "classes": SHAPED_CLASSES}
     if candidate.rolling is not None:
         results += ["rolling.loads", "rolling.life"]
         update["rolling"] = candidate.rolling
     if not base.reduction.changed:
-        fewer = {"size": min(1.0, 2 * classes**2 / steps), "classes": classes}
         update["reduction"] = base.reduction.model_copy(update=fewer)
     return base.model_copy(update=update | {"results": results})
 

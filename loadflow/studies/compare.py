@@ -330,7 +330,7 @@ def _numbers(
     share = 100 * tilt / limit if limit else math.nan
     yield "tilt", Number(
         share, "%", limit=100.0 if limit else math.nan,
-        holds=share <= 100 if limit else None, place=place, note=note,
+        holds=bool(share <= 100) if limit else None, place=place, note=note,
     )  # fmt: skip
 
 
@@ -502,7 +502,8 @@ def _against(number: Number, verdicts: Sequence[Verdict], quantity: str, scale: 
         return number
     of_place = [v for v in own if v.subject.endswith(f" {number.place}")] or own
     limit = of_place[0].limit * scale
-    return Number(**vars(number) | {"limit": limit, "holds": all(v.holds for v in own)})
+    holds = all(v.holds for v in own) if math.isfinite(limit) else None
+    return replace(number, limit=limit, holds=holds)
 
 
 def _error(run: Finished, result: str, quantity: str) -> float:
