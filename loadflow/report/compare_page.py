@@ -42,7 +42,7 @@ def write_comparison(path: Path, data: Mapping[str, Any]) -> Path:
     path : Path
         HTML file to write.
     data : mapping
-        `loadflow.studies.compare.Comparison.as_dict`.
+        `loadflow.studies.compare_result.Comparison.as_dict`.
 
     Returns
     -------

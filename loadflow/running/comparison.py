@@ -16,7 +16,8 @@ from loadflow.running.folder import finished_parts, replace_text
 from loadflow.running.runner import Report, run
 from loadflow.scene.candidates import candidates_of
 from loadflow.scene.scene import Candidate, Journal, Scene, make_scene
-from loadflow.studies.compare import Comparison, Finished, compared
+from loadflow.studies.compare import Finished, compared
+from loadflow.studies.compare_result import Comparison
 
 SHARED = ("loads", "shaft")
 """Stages whose parts are the same for all candidates, unless the shaft feels its bearings."""
@@ -152,7 +153,7 @@ def candidates_for(scene: Scene) -> tuple[dict[str, Candidate], list[str]]:
     if scene.candidates:
         return dict(scene.candidates), []
     found: dict[str, Candidate] = {}
-    if {"geometry", "lubricant"} & scene.journal.changed:
+    if "journal" in scene.model_fields_set:
         title = "journal bearings of the scene"
         found["own-journal"] = Candidate(title=title, journal=scene.journal)
     sized = candidates_of(scene.turbine.name)

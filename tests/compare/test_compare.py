@@ -1,9 +1,13 @@
 """Candidates on the same loads: numbers, intervals, margins, page."""
 
 import csv
+import doctest
+import importlib
 import json
 import math
 import re
+import shutil
+import subprocess
 from html.parser import HTMLParser
 from pathlib import Path
 
@@ -17,9 +21,13 @@ from loadflow.errors import InputError
 from loadflow.report.sketch import sketch
 from loadflow.running.comparison import candidate_scene, candidates_for, compare
 from loadflow.scene.scene import make_scene
-from loadflow.studies.compare import QUANTITIES
 from loadflow.studies.compare_margins import rolling_losses
+from loadflow.studies.compare_result import QUANTITIES
 from loadflow.studies.seed_intervals import Groups, interval, joint_life
+
+BROWSER = next(
+    filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None
+)
 
 
 @pytest.fixture(scope="module")
@@ -247,3 +255,45 @@ def test_the_sketch_is_to_scale_along_the_shaft():
     first, second = sorted({x + 9 for x in boxes})
     assert (mass - second) / (second - first) == pytest.approx(0.5, rel=1e-3)
     assert "60 t" in drawn
+
+
+@pytest.mark.browser
+@pytest.mark.skipif(BROWSER is None, reason="no Chromium on this machine")
+@pytest.mark.parametrize("width", [400, 1600])
+def test_a_browser_shows_the_page_within_its_width_without_a_console_error(found, tmp_path, width):
+    # the copy says in its title how wide the page is: wide tables scroll inside it
+    probe = (
+        "<script>addEventListener('load', () => {"
+        "const drawn = document.querySelectorAll('svg.sketch rect').length;"
+        "const wide = document.documentElement.scrollWidth > innerWidth;"
+        "document.title = `drawn ${drawn} wide ${wide}`;"
+        "});</script></body>"
+    )
+    copy = tmp_path / "probe.html"
+    text = found.page.read_text(encoding="utf-8")
+    copy.write_text(text.replace("</body>", probe), encoding="utf-8")
+    done = subprocess.run(
+        [
+            BROWSER, "--headless", "--no-sandbox", "--disable-gpu", "--no-first-run",
+            "--disable-background-networking", "--disable-component-update", "--disable-sync",
+            "--enable-logging=stderr", f"--user-data-dir={tmp_path / 'profile'}",
+            f"--window-size={width},1000", "--virtual-time-budget=5000", "--dump-dom",
+            copy.as_uri(),
+        ],
+        capture_output=True, text=True, timeout=120, check=True,
+    )  # fmt: skip
+    assert "<title>drawn 6 wide false</title>" in done.stdout
+    assert "CONSOLE" not in done.stderr
+
+
+@pytest.mark.parametrize(
+    "module",
+    [
+        "report.sketch", "studies.seed_intervals", "scene.candidates", "scene.schema",
+        "scene.templates",
+    ],
+)  # fmt: skip
+def test_examples_of_the_docstrings(module):
+    outcome = doctest.testmod(importlib.import_module(f"loadflow.{module}"))
+    assert outcome.attempted > 0
+    assert outcome.failed == 0

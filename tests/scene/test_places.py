@@ -10,8 +10,9 @@ from loadflow.errors import InputError
 from loadflow.rolling import SlewingBearing, SphericalRollerBearing
 from loadflow.scene.candidates import candidates_of, machine_names
 from loadflow.scene.places import PLACE_KINDS, places_of, sections_of
-from loadflow.scene.scene import SCHEMA, make_scene, read_scene, with_loads
+from loadflow.scene.scene import make_scene, read_scene, with_loads
 from loadflow.scene.schema import json_schema
+from loadflow.scene.written import SCHEMA
 
 SPHERICAL = {
     "kind": "spherical",
