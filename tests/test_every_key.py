@@ -97,7 +97,12 @@ OTHERS = {
     "loads.wind_class": ["II"],
     "friction.step": [0.5],
     "loads.winds": [["none.bts"]],
-    "loads.case_list": ["none.csv"],
+    "loads.cases": ["none.csv"],
+    "loads.channels": [{"speed": ["RotSpeed"]}],
+    "loads.gauge_distance": [1.5],
+    "loads.frame": ["fixed", "rotating"],
+    "journal.cavitation.kind": ["mass-conserving", "reynolds"],
+    "journal.rung": ["reduced", "map"],
     "loads.pattern": [r"v(?P<wind_speed>\d+)"],
     "loads.dlc": ["1.3", "6.4"],
     "loads.wind_speeds": [[14.0], [60.0]],
@@ -279,7 +284,8 @@ def _rolling(scene, add):
     from loadflow.planning.accuracy import finer
 
     inputs = _inputs(scene)
-    for one in filter(None, (scene, finer(scene, "rolling"))):  # as the run's own check does
+    # with the effect of the rings on, too, as the run's own check has it
+    for one in filter(None, (scene, finer(scene, "elastic rings"))):
         found = rolling.balls(one, ONE, inputs)
         add(found)
         _judge(scene, add, rolling, found)
@@ -320,6 +326,8 @@ CONFLICT = (
     "leave", "set ", "takes the place", "follows from", "give ", "missing", "unknown key",
     "and only it, takes", "; only", "keep one", "for a circle", "not given with", "for slewing",
     "and only to it",
+    "is not allowed: \"grid\" for",
+    "is not allowed: \"map\" or \"grid\" for",
 )  # fmt: skip
 """Words with which a scene is refused that says two things which do not go together."""
 
@@ -334,7 +342,8 @@ def outcome(base, place, section, path, value):
     try:
         scene = scene_of(data, place)
     except InputError as error:
-        known = section in str(error) and first in str(error)
+        known = section in str(error) and any(str(part) in str(error) for part in (first, path[-1]))
+        known |= "rung = " in str(error)  # names the rung, and what it does not know
         return "refused" if known and any(w in str(error) for w in CONFLICT) else "illegal"
     if any(key == known or key.startswith(f"{known}.") for known in unused_keys(scene)):
         return "told"
