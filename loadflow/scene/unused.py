@@ -178,7 +178,7 @@ _PLACES = {
 def _of_reduction(scene: Scene) -> Iterator[tuple[str, str]]:
     reads = any(r.startswith(("reduction", "rolling.l")) for r in scene.results)
     if scene.journal.in_motion and not reads:
-        for key in ("size", "pick", "seed"):
+        for key in ("size", "classes", "pick", "seed"):
             yield key, "a film in motion reads the whole series"
     elif scene.reduction.size == 1.0:
         for key in ("pick", "seed"):
