@@ -38,6 +38,7 @@ from .shells import LinedShell as LinedShell
 from .shells import LocalShell as LocalShell
 from .shells import MatrixShell as MatrixShell
 from .shells import ThickShell as ThickShell
+from .stribeck import stribeck as stribeck
 from .supply import Capillary as Capillary
 from .supply import ConstantFlow as ConstantFlow
 from .supply import Groove as Groove

@@ -209,6 +209,9 @@ def _refusal(film: DiscreteFilm, load: Array, solution: Solution) -> str:
         return f"{head}: the supply carries no more than {_lift(film, load):.6g} N, at ε = {_HIGH}"
     ratio = float(np.hypot(*solution.position))
     reached = (solution.residual, solution.rounding, solution.iterations)
+    if film.contact is not None:
+        overlap = (ratio - 1.0) / film.gap.roughness
+        return f"{head}: {not_found(*reached, ratio)}, mean planes {overlap:.3g} σ beyond touching"
     return refusal(load, film.speed, not_found(*reached, ratio))
 
 
