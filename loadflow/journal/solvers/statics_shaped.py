@@ -296,7 +296,8 @@ class _Statics:
         still = self.film.speed == 0.0 and self.film.contact is None
         if still and not self.film.pockets.lifts(self.film.p_edge):
             return f"{head}: without rotation and squeeze the film carries no load"
-        if self.gap.narrowest(solution.position) < TOUCHING and not self.film.elastic:
+        rigid = self.film.contact is None and not self.film.elastic
+        if rigid and self.gap.narrowest(solution.position) < TOUCHING:
             return (
                 f"{head}: the shaft touches the bore, {self._where(solution.position)}, before the "
                 f"film carries the last {100 * min(solution.residual, 1.0):.3g} % of the load"
