@@ -47,6 +47,11 @@ BASES = {
     "warm film": {
         "journal": FILM | {"heat": {"transfer": 100.0}}, "reduction": {"size": 0.03},
     },
+    "rough film": {
+        "journal": FILM | {"contact": {"pattern": 3.0, "asperities": {
+            "roughness": 1e-6, "contact_modulus": 1e11, "factor": 1e-3}}},
+        "reduction": {"size": 0.03},
+    },
     "elastic film": {"journal": FILM | {"shell": {"kind": "local", "compliance": 1e-12}}},
     "film in motion": {
         "journal": FILM | {"motion": "transient", "rung": "reduced"},
@@ -77,6 +82,7 @@ READERS = {
     "files": ("loads", "seeds", "reduction"),
     "bearings": ("shaft", "journal", "rolling", "friction"),
     "warm film": ("journal",),
+    "rough film": ("journal",),
     "elastic film": ("journal",),
     "film in motion": ("journal", "reduction"),
     "tilted film": ("shaft", "journal"),
@@ -116,6 +122,10 @@ OTHERS = {
     "journal.supply": [{"grooves": [{"angle": 1.0, "arc": 0.2, "pressure": 6e5}]}],
     "journal.heat": [{"oil": "mineral-vg-320"}],
     "journal.heat.oil": ["mineral-vg-460", "iso-vg-68"],
+    "journal.contact": [
+        {"asperities": {"roughness": 1e-6, "contact_modulus": 1e11, "factor": 1e-3}}
+    ],
+    "journal.contact.friction": [0.3, "bronze"],
     "journal.shell": [{"kind": "local", "compliance": 1e-12}],
     "journal.limits.sommerfeld_range": [[0.5, 5.0]],
     "journal.limits.material": [[[400.0, 5e6]]],

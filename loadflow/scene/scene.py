@@ -18,6 +18,7 @@ from pydantic import BaseModel, Field, ValidationError, field_validator, model_v
 
 from loadflow.errors import InputError
 from loadflow.journal import (
+    Contact,
     Film,
     GasMixture,
     Heat,
@@ -173,10 +174,11 @@ class Journal(Section, BaseModel):
     with a ``matrix`` of influence numbers, or the name of a file that holds it.
 
     ``shaft_roughness`` and ``shell_roughness`` are R_z, m, about 6.3 R_a of the 0.2 and 0.4 µm that
-    Autodesk Inventor's plain bearing calculator recommends. Where a smooth film would be thinner
-    than both together the surfaces touch: such samples have no film and are counted as
-    ``in_contact``. There the shaft rubs with ``boundary_friction``: bronze [Jonuschies 2015, Table
-    3-1]. ``limits`` are what the verdicts hold the bearing against.
+    Autodesk Inventor's plain bearing calculator recommends. Where the film would be thinner than
+    both together the surfaces touch: such samples are counted as ``in_contact``. With ``contact``,
+    the asperities of `loadflow.journal.Contact`, they are solved as the others, standstill
+    included. Without, they have no film, and the shaft rubs there with ``boundary_friction``:
+    bronze [Jonuschies 2015, Table 3-1]. ``limits`` are what the verdicts hold the bearing against.
     """
 
     bearings: Annotated[list[str], Field(min_length=1)] = ["N", "N2"]
@@ -197,6 +199,7 @@ class Journal(Section, BaseModel):
     motion: Literal["quasi-static", "transient"] = "quasi-static"
     tilt: bool = False
     shell: LocalShell | LinedShell | ThickShell | MatrixShell | None = None
+    contact: Contact | None = None
     shaft_roughness: Positive = 1.3e-6
     shell_roughness: Positive = 2.5e-6
     boundary_friction: Annotated[float, Field(gt=0, le=1)] = 0.15
@@ -259,7 +262,7 @@ class Journal(Section, BaseModel):
     def film(self) -> dict[str, Any]:
         """The film at the temperature of its lubricant, as keywords of the verbs."""
         mesh = ("grid", "grading", "rung")
-        names = ("lubricant", "cavitation", "edge_pressure", "supply", *mesh, "shell")
+        names = ("lubricant", "cavitation", "edge_pressure", "supply", *mesh, "shell", "contact")
         inlet = None if self.inlet == "none" else self.inlet
         return {name: getattr(self, name) for name in names} | {"inlet": inlet}
 
