@@ -25,7 +25,8 @@ _REORDER = {"reassoc", "contract", "nsz"}
 
 
 # Steps with a kept tangent that cost about as much as a new one.
-_PATIENCE = 12.0
+_PATIENCE = 20.0
+_PAIRS = 8  # steps remembered
 
 
 @njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER)
@@ -117,9 +118,38 @@ def _direction(rest, factor, solved, condensed, cap, small, step):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
+def _secant(rest, factor, solved, condensed, cap, small, moves, changes, held, step):
+    """Fill `step` by the kept tangent, put right by the last `held` steps (limited-memory BFGS).
+
+    `moves` and the `changes` of force along them (pair, unknown), the oldest first.
+    """
+    part, right = np.zeros(held), rest.copy()
+    for p in range(held - 1, -1, -1):
+        part[p] = dot(moves[p], right) / dot(moves[p], changes[p])
+        for a in range(right.shape[0]):
+            right[a] -= part[p] * changes[p, a]
+    _direction(right, factor, solved, condensed, cap, small, step)
+    for p in range(held):
+        more = part[p] - dot(changes[p], step) / dot(moves[p], changes[p])
+        for a in range(right.shape[0]):
+            step[a] += more * moves[p, a]
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _remember(moves, changes, held):
+    """Drop the oldest pair if there is no room; returns the place of the next one."""
+    if held < moves.shape[0]:
+        return held
+    for p in range(held - 1):
+        for a in range(moves.shape[1]):
+            moves[p, a], changes[p, a] = moves[p + 1, a], changes[p + 1, a]
+    return held - 1
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
 def _newton(
     x, load, waves, basis, table, local, reach, cap, tolerance, limit, factor, solved, condensed,
-    known,
+    moves, changes, held, known,
 ):  # fmt: skip
     """Minimise energy - load·x from `x`.
 
@@ -132,9 +162,11 @@ def _newton(
     """
     kinds, balls, size = table.shape[0], waves[0].shape[1], x.shape[0]
     amount, small, one = np.zeros((waves[0].shape[0], 3 * kinds)), np.zeros((5, 5)), np.ones(size)
-    shift, far, between, push = np.zeros((4, 3 * kinds, balls))
-    slope, across = np.zeros((2, kinds, balls))
-    pull, rest, step, trial = np.zeros((4, size))
+    # one by one: arrays unpacked from a larger one count as strided, and their loops stay scalar
+    shift, far = np.zeros((3 * kinds, balls)), np.zeros((3 * kinds, balls))
+    between, push = np.zeros((3 * kinds, balls)), np.zeros((3 * kinds, balls))
+    slope, across = np.zeros((kinds, balls)), np.zeros((kinds, balls))
+    pull, rest, step, trial = np.zeros(size), np.zeros(size), np.zeros(size), np.zeros(size)
     for a in range(size):
         trial[a] = x[a]
     shift_of(x, waves, amount, between)
@@ -153,9 +185,16 @@ def _newton(
         if fresh or new_norm < norm * (1.0 - 1e-4 * damping) or (
             energy - dot(load, trial) < potential + 1e-4 * damping * descent
         ):  # fmt: skip
+            if not fresh:
+                held = _remember(moves, changes, held)
             for a in range(size):
+                if not fresh:
+                    moves[held, a] = trial[a] - x[a]
+                    changes[held, a] = rest[a] - (load[a] - pull[a])
                 x[a] = trial[a]
                 rest[a] = load[a] - pull[a]
+            if not fresh and dot(moves[held], changes[held]) > 0.0:
+                held += 1
             shift, between = between, shift
             norm, before = new_norm, residual
             reference = max(external, 1e-4 * total)
@@ -180,13 +219,11 @@ def _newton(
             continue
         if exact:
             _condense(basis, push, slope, across, factor, solved, condensed)
-            known = True
-        _direction(rest, factor, solved, condensed, cap, small, step)
+            known, held = True, 0
+        _secant(rest, factor, solved, condensed, cap, small, moves, changes, held, step)
         iterations += 1
         shift_of(step, waves, amount, far)
-        longest = 0.0
-        for line in far:
-            longest = max(longest, largest_product(line, np.ones(balls)))
+        longest = _longest(far)
         if exact and stalled(max(longest, largest_product(step[:5], one)), rounding_level(moved)):
             break
         damping = min(1.0, cap / longest) if longest > 0.0 else 1.0
@@ -200,7 +237,17 @@ def _newton(
         rounding = rounding_level(moved * stiffest) / max(external, 1e-4 * total, 1e-300)
     answered = is_small(residual, tolerance, rounding) and not beyond
     singular = _resisted(basis, push, slope, across) <= 1e-12
-    return answered, residual, iterations, singular, rounding
+    return answered, residual, iterations, singular, rounding, held
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _longest(shift):
+    """Largest absolute value."""
+    most = 0.0
+    for s in range(shift.shape[0]):
+        for j in range(shift.shape[1]):
+            most = max(most, abs(shift[s, j]))
+    return most
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -228,6 +275,7 @@ def solve_series(loads, rigid, waves, basis, table, local, reach, cap, tolerance
     rounding = np.zeros(n)
     x, load, condensed = np.zeros(size), np.zeros(size), np.zeros((5, 5))
     factor, solved = np.zeros((size - 5, size - 5)), np.zeros((5, size - 5))
+    moves, changes, held = np.zeros((_PAIRS, size)), np.zeros((_PAIRS, size)), 0
     for i in range(n):
         warm = i % chunk > 0 and converged[i - 1] and not singular[i - 1]
         ok, res, count, free = False, 0.0, 0, False
@@ -240,9 +288,9 @@ def solve_series(loads, rigid, waves, basis, table, local, reach, cap, tolerance
             if attempt == 1 or attempt == 2:
                 for a in range(size):
                     x[a] = rigid[i, a] if a < 5 else 0.0
-            ok, res, more, free, rounding[i] = _newton(
+            ok, res, more, free, rounding[i], held = _newton(
                 x, load, waves, basis, table, local, reach, cap, tolerance, limit, factor, solved,
-                condensed, attempt == 0,
+                condensed, moves, changes, held, attempt == 0,
             )  # fmt: skip
             count += more
             if ok and (attempt == 1 or (attempt == 0 and not free)):
