@@ -172,6 +172,14 @@ class Equilibrium(_Result):
         Largest growth of the gap by the elastic shell, m; 0 where it is rigid.
     temperature : array (…), optional
         Effective temperature of the film, K; None without heat.
+
+    Examples
+    --------
+    >>> from loadflow.journal import JournalBearing, Lubricant
+    >>> bearing = JournalBearing(diameter=0.2, width=0.1, relative_clearance=1e-3)
+    >>> state = bearing.equilibrium((5e3, 0.0), 50.0, Lubricant(0.05), grid=(36, 8))
+    >>> bool(state.converged), state.stiffness.shape
+    (True, (2, 2))
     """
 
     force: Array
@@ -251,6 +259,16 @@ iterations, residual, moment, tilt, pad_tilt, shell_deformation
         As in `Equilibrium`.
     deformation : array (…, nx, nz)
         Growth of the gap of the cells by the elastic shell, m.
+
+    Examples
+    --------
+    >>> from loadflow.journal import JournalBearing, Lubricant
+    >>> bearing = JournalBearing(diameter=0.2, width=0.1, relative_clearance=1e-3)
+    >>> field = bearing.pressure((5e-5, 0.0), 50.0, Lubricant(0.05), grid=(36, 8))
+    >>> field.pressure.shape
+    (36, 8)
+    >>> bool(field.film_force[0] < 0.0)  # the film pushes the shaft back
+    True
     """
 
     film_force: Array

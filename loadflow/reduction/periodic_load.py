@@ -30,6 +30,15 @@ class PeriodicLoad:
         Per axis; the base load first, if there is one, then the additional loads.
     bounds : FrequencyBounds or None
         How base and additional loads were told apart, if a bearing was asked.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.reduction import Harmonic, PeriodicLoad
+    >>> swing = Harmonic(amplitude=3e5, frequency=0.2, phase=0.0)
+    >>> load = PeriodicLoad(speed=1.25, mean=np.array([2e6, 0.0]), harmonics=((swing,), ()))
+    >>> load.frequencies
+    (0.2,)
     """
 
     speed: float
@@ -191,6 +200,17 @@ def periodic(
     InputError
         See `histogram`; the steps of time are not equal; bounds out of order; both bounds and
         response given.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.reduction import periodic
+    >>> time = np.arange(6000) * 0.1
+    >>> swing = 3e5 * np.sin(2 * np.pi * 0.02 * time) + 1e5 * np.sin(2 * np.pi * 0.2 * time)
+    >>> force = np.stack([2e6 + swing, 0.2 * swing], axis=-1)
+    >>> load = periodic(np.full(6000, 1.25), force, time, bounds=(0.05, 1.0), additional=1)
+    >>> [round(harmonic.frequency, 2) for harmonic in load.harmonics[0]]
+    [0.02, 0.2]
     """
     n, f, t = check_series(speed, force, time)
     dt = _equal_step(t)

@@ -94,6 +94,14 @@ def class_edges(x: Floats, grid: int | ArrayLike) -> Floats:
     grid : int or array_like
         Number of equal classes, or ascending edges. The last of the edges made here lies one
         rounding step above the largest value, so that the half-open last class holds it.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.reduction import class_edges
+    >>> edges = class_edges(np.array([1.0, 2.0, 4.0]), 3)
+    >>> edges.size, bool(edges[-1] > 4.0)
+    (4, True)
     """
     if not isinstance(grid, int | np.integer):
         edges = finite("classes", grid)

@@ -70,6 +70,15 @@ def periodogram(x: Floats, dt: float) -> tuple[Floats, Floats]:
         Hz.
     density : ndarray, shape (..., k)
         unit²/Hz; its sum times the frequency step is the variance.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.seeds import periodogram
+    >>> x = np.random.default_rng(0).standard_normal(1000)
+    >>> frequency, density = periodogram(x, dt=0.1)
+    >>> bool(np.isclose(density.sum() * frequency[0], x.var()))
+    True
     """
     from scipy.fft import rfft, rfftfreq
 
@@ -211,6 +220,15 @@ def averaged_spectrum(
     ------
     InputError
         The series is not finite or the segment shorter than 8 values or longer than the record.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.seeds import averaged_spectrum
+    >>> noise = np.random.default_rng(0).standard_normal(6000)
+    >>> spectrum = averaged_spectrum(noise, dt=0.1)
+    >>> bool((spectrum.low < spectrum.density).all() and (spectrum.density < spectrum.high).all())
+    True
     """
     from scipy.special import chdtri
 

@@ -63,6 +63,15 @@ def equivalence(x: Iterable[ArrayLike], margin: float = 0.05, alpha: float = 0.0
     ------
     InputError
         A series is not finite or has fewer than 8 values; `margin` or `alpha` out of range.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.seeds import equivalence
+    >>> x = 10.0 + np.random.default_rng(0).standard_normal((6, 6000))
+    >>> found = equivalence(x, margin=0.05)
+    >>> found.location < found.margin
+    True
     """
     from scipy.special import stdtrit
 

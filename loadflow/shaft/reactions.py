@@ -78,6 +78,7 @@ def bearing_loads(
 
     Examples
     --------
+    >>> from loadflow.shaft import TwoPoint, bearing_loads
     >>> weight = [0.0, 0.0, -1.07e6]
     >>> loads = bearing_loads(TwoPoint(gearbox_mass=0.0), weight, [0.0, 0.0, 0.0])
     >>> [round(float(f) / 1e3) for f in loads["force"].sel(axis="z").isel(time=0)]

@@ -76,6 +76,12 @@ def cage_rub_torque(
         m.
     speed, cage_speed : float or ndarray
         Of crank and cage, rad/s.
+
+    Examples
+    --------
+    >>> from loadflow.rolling.friction import cage_rub_torque
+    >>> round(cage_rub_torque(50.0, 0.04, 0.0314), 4)
+    0.0628
     """
     if variant == "printed":
         return sliding * force / (crank_radius * speed * speed) * crank_radius**2 * cage_speed
@@ -97,6 +103,12 @@ def thrust_washer_torque(
         Friction coefficient (steel on bronze 0.07).
     outer_radius, inner_radius : float
         m.
+
+    Examples
+    --------
+    >>> from loadflow.rolling.friction import thrust_washer_torque
+    >>> thrust_washer_torque(100.0, 0.1, 0.04, 0.02)
+    0.3
     """
     return friction * axial * (outer_radius + inner_radius) / 2
 

@@ -70,6 +70,13 @@ class Lubrication:
         K.
     cleanliness : str
         One of `CLEANLINESS`: system and ISO 4406 class, or grease and its state.
+
+    Examples
+    --------
+    >>> from loadflow.rolling import Lubrication
+    >>> from loadflow.tribology import lubricant
+    >>> Lubrication(oil=lubricant("iso-vg-220"), temperature=333.15).cleanliness
+    'grease, normal cleanliness'
     """
 
     oil: Oil
@@ -331,6 +338,12 @@ def system_life(lives: ArrayLike, exponent: float = WEIBULL["roller"], axis: int
     ------
     InputError
         If a life is not positive.
+
+    Examples
+    --------
+    >>> from loadflow.rolling import system_life
+    >>> round(float(system_life([1e5, 1e5])))
+    54003
     """
     parts = np.asarray(lives, float)
     if not np.all(parts > 0):
