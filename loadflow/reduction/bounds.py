@@ -33,6 +33,14 @@ class FrequencyBounds:
     bracketed : bool
         Whether both bounds lie within the trial frequencies; if not, the missing one is the last
         trial frequency on its side.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.reduction import FrequencyBounds
+    >>> bounds = FrequencyBounds(0.1, 1.0, np.array([1.0, 0.1]), np.array([0.6, 0.66]), True)
+    >>> bounds.rise.round(2).tolist()
+    [0.1]
     """
 
     low: float

@@ -24,6 +24,13 @@ class StationaryLoad:
         N.
     index : int or None
         Place in the series, if speed and force occur together there.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.reduction import StationaryLoad
+    >>> StationaryLoad("rated", 1.25, np.array([3e6, 4e6])).resultant
+    5000000.0
     """
 
     name: str
@@ -49,6 +56,13 @@ class StationaryLoads:
         Mean force vector with the mean speed.
     envelope : tuple of StationaryLoad
         Moments of the series at which something is extreme, with what occurs then.
+
+    Examples
+    --------
+    >>> from loadflow.reduction import stationary
+    >>> loads = stationary([1.0, 1.2, 1.1], [[2e6, 0], [3e6, 4e6], [1e6, 0]])
+    >>> round(loads.mean.speed, 3)
+    1.1
     """
 
     maximum: StationaryLoad

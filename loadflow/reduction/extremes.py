@@ -25,6 +25,14 @@ class ExtremeValue:
         Its confidence interval.
     location, scale : float
         Of the Gumbel distribution of the block maxima.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.reduction import extreme_value
+    >>> found = extreme_value(np.random.default_rng(0).gumbel(100.0, 5.0, 60), horizon=1e4)
+    >>> bool(found.low < found.value < found.high)
+    True
     """
 
     value: float

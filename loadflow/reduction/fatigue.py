@@ -146,6 +146,16 @@ class LoadDuration:
         Time and turns in each class.
     force : ndarray, shape (l_n, l_F)
         Mean resultant force of each class by revolutions, N; 0 where there are none.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.reduction import load_duration
+    >>> time = np.arange(0.0, 60.0, 0.1)
+    >>> force = np.stack([2e6 + 2e5 * np.sin(0.8 * time), 0.0 * time], axis=-1)
+    >>> duration = load_duration(np.full(600, 1.2), force, time)
+    >>> bool(1.8e6 < duration.equivalent_force() < 2.2e6)
+    True
     """
 
     edges: Edges

@@ -98,6 +98,12 @@ class ClosingPeriod:
         Hz, rounded to whole numbers of periods in it.
     error : float
         Largest relative change of a frequency.
+
+    Examples
+    --------
+    >>> from loadflow.reduction import closing_period
+    >>> closing_period([0.2, 0.6], tolerance=0.01).period
+    5.0
     """
 
     period: float

@@ -47,6 +47,15 @@ class Reduced:
         Bivariate histograms before and after.
     pick, seed, source : str, int, str
         How and from what the pairs were picked.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.reduction import histogram
+    >>> load = np.stack([2e6 + 1e5 * np.sin(np.arange(300.0)), np.zeros(300)], axis=-1)
+    >>> reduced = histogram(np.linspace(1.1, 1.3, 300), load)
+    >>> reduced.total, bool(reduced.index.size < 300)
+    (300, True)
     """
 
     index: Ints

@@ -93,6 +93,14 @@ class LongTermExtreme:
         The level and its confidence interval, in the unit of the series.
     shares : ndarray, shape (k,)
         How much each tail contributes to the exceedances; sums to 1.
+
+    Examples
+    --------
+    >>> from loadflow.reduction import Tail, long_term_extreme
+    >>> tail = Tail(threshold=100.0, scale=5.0, shape=0.0, rate=1 / 600, count=60)
+    >>> found = long_term_extreme([tail], [1.0])
+    >>> bool(found.low < found.value < found.high)
+    True
     """
 
     value: float

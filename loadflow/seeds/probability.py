@@ -90,6 +90,14 @@ class ProbabilityPaper:
         the right paper as n grows, √(1 − R²) of the fit.
     parameters : dict of str to float
         Of the distribution, read from the line.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.seeds import probability_paper
+    >>> paper = probability_paper(np.random.default_rng(0).normal(5.0, 1.0, 2000), "normal")
+    >>> bool(paper.error < 0.1)
+    True
     """
 
     distribution: str

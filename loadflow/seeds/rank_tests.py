@@ -36,6 +36,13 @@ class RankTest:
         Sum of the ranks of each sample.
     note : str
         What a reader must know (ties, one sample, N not divisible by 4); empty if nothing.
+
+    Examples
+    --------
+    >>> from loadflow.seeds import kruskal_wallis
+    >>> test = kruskal_wallis([[1.0, 2.0, 3.0], [1.5, 2.5, 3.5]])
+    >>> test.df, bool(test.pvalue > 0.05)
+    (1, True)
     """
 
     statistic: float

@@ -159,6 +159,15 @@ class AveragedSpectrum:
         each frequency, if the series is Gaussian there.
     dof : float
         Equivalent degrees of freedom of the average.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.seeds import averaged_spectrum
+    >>> noise = np.random.default_rng(0).standard_normal(6000)
+    >>> spectrum = averaged_spectrum(noise, dt=0.1)
+    >>> bool(spectrum.dof > 2.0)  # more than those of one periodogram
+    True
     """
 
     frequency: Floats

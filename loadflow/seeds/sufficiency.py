@@ -109,6 +109,13 @@ class SeedsNeeded:
         Coefficient of variation between the given seeds.
     uncertainty : float
         Relative half width of the confidence interval of the mean of the given seeds.
+
+    Examples
+    --------
+    >>> from loadflow.seeds import seeds_needed
+    >>> needed = seeds_needed([0.96, 1.02, 1.05, 0.94, 1.04, 0.99], uncertainty=0.05)
+    >>> needed.low <= needed.seeds <= needed.high
+    True
     """
 
     seeds: int

@@ -70,6 +70,14 @@ class SeedEquality:
         Level of significance.
     method : str
         ``"as-printed"`` or ``"calibrated"``.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.seeds import equality
+    >>> x = np.random.default_rng(0).standard_normal((3, 3000))
+    >>> equality(x, dt=0.05).location.equal
+    True
     """
 
     location: Stage

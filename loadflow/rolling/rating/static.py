@@ -63,9 +63,6 @@ def verdicts(
         Name of the bearing.
     life_limit, static_limit : float
         Smallest of both allowed.
-
-    Examples
-    --------
     """
     yield Verdict(
         subject,
