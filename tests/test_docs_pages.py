@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 import loadflow
+from loadflow.cli import app
 from loadflow.cube.schema import CASE_COORDS, VARIABLES
 from loadflow.quantities import FILM, ROLLING
 
@@ -108,6 +109,22 @@ def test_the_glossary_has_the_quantities_of_results(title, table):
     assert rows_of(title) == [
         f"| `{name}` | {q.symbol or '–'} | {q.units} | {q.meaning} |" for name, q in table.items()
     ]
+
+
+def test_the_readme_lists_every_command():
+    commands = {c.name or c.callback.__name__ for c in app.registered_commands}
+    table = text_of("README.md").split("## Commands")[1].split("\n## ")[0]
+    assert set(re.findall(r"`loadflow (\w+)", table)) == commands
+
+
+def test_the_readme_s_examples_run():
+    blocks = re.findall(r"```python\n(.*?)```", text_of("README.md"), re.DOTALL)
+    found = {}
+    for block in blocks:
+        exec(block, found)
+    assert len(blocks) == 2
+    assert found["state"].converged
+    assert found["loads"].converged
 
 
 def test_the_glossary_has_the_quantities_of_a_load_cube():

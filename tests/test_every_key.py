@@ -275,7 +275,7 @@ def _rolling(scene, add):
 
     inputs = _inputs(scene)
     for one in filter(None, (scene, finer(scene, "rolling"))):  # as the run's own check does
-        found = rolling.balls(one, ONE, inputs)
+        found = rolling.load_distribution(one, ONE, inputs)
         add(found)
         _judge(scene, add, rolling, found)
 
@@ -283,7 +283,7 @@ def _rolling(scene, add):
 def _friction(scene, add):
     inputs = _inputs(scene)
     add(friction.losses(scene, ONE, inputs))
-    add(rolling.balls(scene, ONE, inputs))
+    add(rolling.load_distribution(scene, ONE, inputs))
 
 
 def _reduction(scene, add):

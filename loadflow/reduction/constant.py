@@ -1,4 +1,4 @@
-"""Stationary design loads: one speed and one force (section 4.3.1 of the source)."""
+"""Stationary design loads: one speed and one force (section 4.3.1 of [Jonuschies 2015])."""
 
 from __future__ import annotations
 
@@ -79,8 +79,8 @@ def stationary(
 ) -> StationaryLoads:
     """Return the stationary design loads of a series.
 
-    Kept for comparison: the source shows that largest force with lowest speed over-rates and mean
-    with mean under-rates a bearing. The envelope gives moments that really occur.
+    Kept for comparison: [Jonuschies 2015] shows that largest force with lowest speed over-rates
+    and mean with mean under-rates a bearing. The envelope gives moments that really occur.
 
     Parameters
     ----------

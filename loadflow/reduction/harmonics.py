@@ -31,7 +31,7 @@ class Harmonic:
     label : str
         ``"1p"``, ``"3p"``, … or the name of a known frequency; empty if there is none near.
     kind : str
-        ``"base"`` or ``"additional"`` load (4.25, 4.27 of the source); empty if not sorted.
+        ``"base"`` or ``"additional"`` load (4.25, 4.27 of [Jonuschies 2015]); empty if not sorted.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Periodic design loads: mean, base load and additional loads (section 4.3.2 of the source)."""
+"""Periodic design loads: mean, base load and additional loads (4.3.2 of [Jonuschies 2015])."""
 
 from __future__ import annotations
 

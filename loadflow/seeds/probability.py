@@ -1,4 +1,6 @@
-"""Probability paper: on the right one, a sample lies on a straight line (annex A 2 of the source).
+"""Probability paper: on the right one, a sample lies on a straight line.
+
+Annex A 2 of [Jonuschies 2015].
 
 A value is drawn over the reduced variate of its rank. The line fitted to the points gives the
 parameters, its distance from them says whether the distribution is the right one.

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from loadflow.errors import InputError
 from loadflow.seeds._samples import Floats, as_samples, sampling_step
 
-BAND = 0.025  # the source's ±2.5 %
+BAND = 0.025  # ±2.5 % of [Jonuschies 2015]
 
 
 @dataclass(frozen=True)
@@ -54,8 +54,8 @@ class SpectralDifference:
 def periodogram(x: Floats, dt: float) -> tuple[Floats, Floats]:
     """One-sided power spectral density of `x` about its mean, without zero frequency.
 
-    The Fourier transform of the autocovariance (Wiener–Khinchin, (4.14) of the source) is the
-    squared transform of the series; no taper, no averaging.
+    The Fourier transform of the autocovariance (Wiener–Khinchin, (4.14) of [Jonuschies 2015]) is
+    the squared transform of the series; no taper, no averaging.
 
     Parameters
     ----------
@@ -105,9 +105,9 @@ def spectral_difference(
     *,
     band: float = BAND,
 ) -> SpectralDifference:
-    """Compare the power spectra of two series as printed (4.14–4.17 of the source).
+    """Compare the power spectra of two series as printed (4.14–4.17 of [Jonuschies 2015]).
 
-    Two raw periodograms are compared, as the source does; each has a standard error of 100 %, so
+    Two raw periodograms are compared, as there; each has a standard error of 100 %, so
     two seeds of one process are never within 2.5 %. `averaged_spectrum` and `equality` with
     ``method="calibrated"`` are the sound comparison.
 

@@ -1,4 +1,4 @@
-"""Suspension concepts of Table 2-4 of the source [Jonuschies 2015]; data only.
+"""Suspension concepts of Table 2-4 of [Jonuschies 2015]; data only.
 
 Distances are measured along the shaft, downwind from the hub centre (the rotor apex). Every concept
 tells its `bearings`, their `positions` (m), the number of the `locating` one, the `masses` on the
@@ -46,8 +46,8 @@ class _OnTwoSeats:
 class TwoPoint(_OnTwoSeats):
     """Two bearings on the shaft and a slip-on gearbox behind them: hub – N – N2 – gearbox.
 
-    The default distances and the gearbox mass are those of the source (Fig. 5-1); it does not give
-    the distance of N from the hub centre, which is that of the NREL 5 MW turbine.
+    The default distances and the gearbox mass are those of [Jonuschies 2015] (Fig. 5-1).
+    It does not give the distance of N from the hub centre; that of the NREL 5 MW turbine is taken.
 
     Attributes
     ----------
