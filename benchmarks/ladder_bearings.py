@@ -313,7 +313,10 @@ def _ring_seconds(bench: Bench, rings: Any) -> float:
     case, parts = bench.middle, bench.series[bench.middle]
     reduced = {"reduction": reduction.reduced_loads(scene, case, parts)}
     samples = reduced["reduction"][options.bearing].sizes["sample"]
-    return timed(lambda: rolling.balls(scene, case, reduced), bench.setting.repeat) / samples
+    return (
+        timed(lambda: rolling.load_distribution(scene, case, reduced), bench.setting.repeat)
+        / samples
+    )
 
 
 def _ring_errors(bench: Bench, rings: Any, reference: Any, samples: int) -> dict[str, Any]:

@@ -80,6 +80,26 @@ FILM: dict[str, Quantity] = {
 }
 """Of a film, at rest, at a position and in time."""
 
+ROLLING: dict[str, Quantity] = {
+    "force": Quantity("F", "N", "force on the inner ring"),
+    "moment": Quantity("M", "N m", "moment on the inner ring"),
+    "displacement": Quantity("u", "m, rad", "displacement and tilt of the inner ring"),
+    "stiffness": Quantity("K", "N/m, N, N m/rad", "tangent stiffness"),
+    "element_forces": Quantity("Q", "N", "force on each rolling element"),
+    "maximum_force": Quantity("Q_max", "N", "largest force on a rolling element"),
+    "maximum_pressure": Quantity("p_max", "Pa", "largest Hertzian pressure"),
+    "pressure_safety": Quantity("", "1", "allowable over largest pressure"),
+    "static_safety": Quantity("s_0", "1", "allowable over largest force"),
+    "equivalent_load": Quantity("P", "N", "dynamic equivalent load"),
+    "rating_life": Quantity("L_10", "1e6 rev", "basic rating life"),
+    "reference_life": Quantity("L_10r", "1e6 rev", "reference life of ISO/TS 16281"),
+    "converged": Quantity("", "1", "whether every component is balanced"),
+    "residual": Quantity("", "1", "largest unbalanced component over the load"),
+    "iterations": Quantity("", "1", "Newton steps"),
+    "singular": Quantity("", "1", "whether a motion meets no resistance"),
+}
+"""Of a rolling bearing, at rest and in time."""
+
 
 def table(*names: str) -> dict[str, tuple[str, str]]:
     """Units and meaning of quantities of a film.

@@ -296,7 +296,7 @@ def _rolling(scene, add):
     inputs = _inputs(scene)
     # with the effect of the rings on, too, as the run's own check has it
     for one in filter(None, (scene, finer(scene, "elastic rings"))):
-        found = rolling.balls(one, ONE, inputs)
+        found = rolling.load_distribution(one, ONE, inputs)
         add(found)
         _judge(scene, add, rolling, found)
 
@@ -304,7 +304,7 @@ def _rolling(scene, add):
 def _friction(scene, add):
     inputs = _inputs(scene)
     add(friction.losses(scene, ONE, inputs))
-    add(rolling.balls(scene, ONE, inputs))
+    add(rolling.load_distribution(scene, ONE, inputs))
 
 
 def _reduction(scene, add):

@@ -116,7 +116,7 @@ def journal(
         float | None, typer.Option(help="Of a groove, m; default the full width.")
     ] = None,
     supply_pressure: Annotated[
-        float | None, typer.Option(help="In the grooves, absolute, Pa; default that at the rims.")
+        float | None, typer.Option(help="In the grooves, absolute, Pa; default that at its ends.")
     ] = None,
     as_json: AsJson = False,
 ) -> None:

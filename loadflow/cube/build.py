@@ -74,6 +74,13 @@ def make_series(time: ArrayLike, data: Mapping[str, ArrayLike]) -> xr.Dataset:
     -------
     xarray.Dataset
         Variables over ``time``.
+
+    Examples
+    --------
+    >>> from loadflow.cube import make_series
+    >>> series = make_series([0.0, 0.1, 0.2], {"speed": [1.2, 1.2, 1.3]})
+    >>> series["speed"].attrs["units"]
+    'rad/s'
     """
     arrays = {}
     for name, values in data.items():

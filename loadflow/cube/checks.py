@@ -97,6 +97,13 @@ def regular_time(stamps: ArrayLike, where: str = "time") -> tuple[float, NDArray
     ------
     loadflow.errors.InputError
         Fewer than two stamps, a stamp that is not finite or does not rise, unequal steps.
+
+    Examples
+    --------
+    >>> from loadflow.cube import regular_time
+    >>> step, time = regular_time([0.0, 0.0063, 0.0125, 0.0188, 0.025])  # of four decimals
+    >>> round(step, 5)
+    0.00625
     """
     t = np.asarray(stamps, dtype=float)
     if t.ndim != 1 or t.size < 2:

@@ -214,7 +214,17 @@ def _gas_mixture(numbers: Any, scale: float, count: int, u: Any, state: Any) -> 
 
 @dataclass(frozen=True)
 class Sommerfeld(CavitationLaw):
-    """Full film: pressures below zero are allowed, (3.38) of [Jonuschies 2015]."""
+    """Full film: pressures below zero are allowed, (3.38) of [Jonuschies 2015].
+
+    Examples
+    --------
+    >>> from loadflow.journal import JournalBearing, Lubricant, Sommerfeld
+    >>> bearing = JournalBearing(diameter=0.2, width=0.1, relative_clearance=1e-3)
+    >>> oil = Lubricant(0.05)
+    >>> full = bearing.equilibrium((5e3, 0.0), 50.0, oil, cavitation=Sommerfeld(), grid=(36, 8))
+    >>> round(float(full.attitude_angle), 2)  # a full film moves the shaft across its load
+    1.57
+    """
 
     kind: ClassVar[str] = "sommerfeld"
     cells: ClassVar[Cells] = _full
@@ -259,6 +269,15 @@ class Guembel(_AtPressure):
     ----------
     cavitation_pressure : float
         Pa, absolute.
+
+    Examples
+    --------
+    >>> from loadflow.journal import Guembel, JournalBearing, Lubricant
+    >>> bearing = JournalBearing(diameter=0.2, width=0.1, relative_clearance=1e-3)
+    >>> oil = Lubricant(0.05)
+    >>> state = bearing.equilibrium((5e3, 0.0), 50.0, oil, cavitation=Guembel(), grid=(36, 8))
+    >>> round(float(state.eccentricity_ratio), 2)
+    0.24
     """
 
     kind: ClassVar[str] = "guembel"
@@ -275,6 +294,15 @@ class Reynolds(_AtPressure):
     ----------
     cavitation_pressure : float
         Pa, absolute.
+
+    Examples
+    --------
+    >>> from loadflow.journal import JournalBearing, Lubricant, Reynolds
+    >>> bearing = JournalBearing(diameter=0.2, width=0.1, relative_clearance=1e-3)
+    >>> oil = Lubricant(0.05)
+    >>> state = bearing.equilibrium((5e3, 0.0), 50.0, oil, cavitation=Reynolds(), grid=(36, 8))
+    >>> round(float(state.eccentricity_ratio), 2)
+    0.24
     """
 
     kind: ClassVar[str] = "reynolds"
@@ -291,6 +319,15 @@ class MassConserving(_AtPressure):
     ----------
     cavitation_pressure : float
         Pa, absolute.
+
+    Examples
+    --------
+    >>> from loadflow.journal import JournalBearing, Lubricant, MassConserving
+    >>> bearing = JournalBearing(diameter=0.2, width=0.1, relative_clearance=1e-3)
+    >>> film = {"cavitation": MassConserving(), "edge_pressure": 1e5, "grid": (36, 8)}
+    >>> state = bearing.equilibrium((5e4, 0.0), 50.0, Lubricant(0.05), **film)
+    >>> bool(0.0 < state.total_fill < 1.0)  # part of the gap is empty
+    True
     """
 
     kind: ClassVar[str] = "mass-conserving"
@@ -308,6 +345,13 @@ class GasMixture(CavitationLaw):
     ----------
     mixing_constant : float
         c, Pa. Towards 0 the law tends to `MassConserving`.
+
+    Examples
+    --------
+    >>> from loadflow.journal import GasMixture
+    >>> law = GasMixture(mixing_constant=5e3)
+    >>> round(law.fill_at(1e5), 3)  # share of liquid at atmospheric pressure
+    0.952
     """
 
     mixing_constant: Annotated[float, Gt(0)]

@@ -30,6 +30,15 @@ class EnergyBalance:
         Power that the shaft passes on behind the bearing, W.
     efficiency : array (…)
         shaft_power/(shaft_power + loss).
+
+    Examples
+    --------
+    >>> from loadflow.journal import JournalBearing, Lubricant, energy_balance
+    >>> bearing = JournalBearing(diameter=3.0, width=2.25, relative_clearance=0.5e-3)
+    >>> state = bearing.equilibrium((2e6, 0.4e6), 1.2451, Lubricant(0.05), grid=(36, 8))
+    >>> balance = energy_balance(state, shaft_power=5e6)
+    >>> bool(balance.loss < 0.01 * balance.shaft_power)
+    True
     """
 
     friction_power: Array
@@ -57,6 +66,19 @@ def energy_balance(state: Equilibrium, shaft_power: ArrayLike) -> EnergyBalance:
     ------
     loadflow.errors.InputError
         A power below zero or not finite.
+
+    Examples
+    --------
+    >>> from loadflow.journal import JournalBearing, Lubricant, energy_balance
+    >>> bearing = JournalBearing(diameter=3.0, width=2.25, relative_clearance=0.5e-3)
+    >>> state = bearing.equilibrium(
+    ...     (2e6, 0.4e6), 1.2451, Lubricant(0.05), edge_pressure=5e5, grid=(36, 8)
+    ... )
+    >>> balance = energy_balance(state, shaft_power=5e6)
+    >>> float(balance.loss) == float(balance.friction_power + balance.supply_power)
+    True
+    >>> bool(0.99 < balance.efficiency < 1.0)
+    True
     """
     power = np.asarray(shaft_power, dtype=float)
     require(bool(np.all(power >= 0) and np.all(np.isfinite(power))), "shaft_power", power, "W, ≥ 0")

@@ -31,6 +31,15 @@ class JournalGeometry:
     ------
     loadflow.errors.InputError
         A length that is not > 0, ψ outside 0 … 0.1.
+
+    Examples
+    --------
+    >>> from loadflow.journal import JournalGeometry
+    >>> geometry = JournalGeometry(diameter=3.0, width=2.25, relative_clearance=0.5e-3)
+    >>> geometry.clearance, geometry.width_ratio
+    (0.00075, 0.75)
+    >>> round(geometry.sommerfeld_number(2e6, 1.2451, 0.05), 2)
+    1.19
     """
 
     diameter: Annotated[float, Gt(0)]

@@ -36,6 +36,13 @@ class Heat:
         0: all leaves with the oil.
     ambient_temperature : float
         K.
+
+    Examples
+    --------
+    >>> from loadflow.journal import Heat
+    >>> heat = Heat(oil="iso-vg-220", inlet_temperature=313.15)
+    >>> bool(heat.lubricant(333.15).viscosity < heat.lubricant(313.15).viscosity)
+    True
     """
 
     oil: str | Oil = "mineral-vg-320"

@@ -20,6 +20,12 @@ class Lubricant:
         Dynamic viscosity, Pa s.
     density : float
         Density, kg/m³; only used for the Reynolds number.
+
+    Examples
+    --------
+    >>> from loadflow.journal import Lubricant
+    >>> Lubricant(viscosity=0.05)
+    Lubricant(viscosity=0.05, density=870.0)
     """
 
     viscosity: Annotated[float, Gt(0)]

@@ -51,6 +51,12 @@ class Pivot:
     tilt_stiffness : float
         Against tilting about both axes through the point, N m/rad; 0: the pad tilts freely,
         infinite: it does not.
+
+    Examples
+    --------
+    >>> from loadflow.journal import Pivot
+    >>> Pivot(share=0.58).share  # a little behind the middle of the pad
+    0.58
     """
 
     share: float = 0.6

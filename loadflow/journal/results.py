@@ -183,6 +183,14 @@ class Equilibrium(_Result):
         Power of boundary friction μ ∬p_a dA R |ω|, W.
     contact_share : array (…), optional
         Part of `contact_force` along `force`, over its size.
+
+    Examples
+    --------
+    >>> from loadflow.journal import JournalBearing, Lubricant
+    >>> bearing = JournalBearing(diameter=0.2, width=0.1, relative_clearance=1e-3)
+    >>> state = bearing.equilibrium((5e3, 0.0), 50.0, Lubricant(0.05), grid=(36, 8))
+    >>> bool(state.converged), state.stiffness.shape
+    (True, (2, 2))
     """
 
     force: Array
@@ -267,6 +275,16 @@ contact_power, contact_share
         As in `Equilibrium`.
     deformation : array (…, nx, nz)
         Growth of the gap of the cells by the elastic shell, m.
+
+    Examples
+    --------
+    >>> from loadflow.journal import JournalBearing, Lubricant
+    >>> bearing = JournalBearing(diameter=0.2, width=0.1, relative_clearance=1e-3)
+    >>> field = bearing.pressure((5e-5, 0.0), 50.0, Lubricant(0.05), grid=(36, 8))
+    >>> field.pressure.shape
+    (36, 8)
+    >>> bool(field.film_force[0] < 0.0)  # the film pushes the shaft back
+    True
     """
 
     film_force: Array

@@ -43,7 +43,14 @@ def _require_preload(preload: float, offset: float) -> None:
 
 @dataclass(frozen=True)
 class Cylindrical:
-    """Full cylinder."""
+    """Full cylinder.
+
+    Examples
+    --------
+    >>> from loadflow.journal import Cylindrical, JournalBearing
+    >>> JournalBearing(0.2, 0.1, 1e-3).shape == Cylindrical()
+    True
+    """
 
     kind: Literal["cylindrical"] = "cylindrical"
 
@@ -65,6 +72,13 @@ class Arc:
         Angle it spans, rad: 180, 150, 120, 90° in ISO 7902.
     groove_pressure : float, optional
         Pressure of the oil at both ends, Pa, absolute; default the edge pressure.
+
+    Examples
+    --------
+    >>> import math
+    >>> from loadflow.journal import Arc, JournalBearing
+    >>> half = Arc(angle=0.0, span=math.pi)
+    >>> bearing = JournalBearing(0.2, 0.1, 1e-3, shape=half)
     """
 
     angle: float
@@ -105,6 +119,13 @@ class Lobes:
         symmetric, 1 converges all along where the shaft turns from the first axis to the second.
     groove_pressure : float, optional
         Pressure in the grooves, Pa, absolute; default the edge pressure.
+
+    Examples
+    --------
+    >>> from loadflow.journal import JournalBearing, Lobes
+    >>> bearing = JournalBearing(0.2, 0.1, 1e-3, shape=Lobes(count=3, preload=0.5))
+    >>> len(bearing.shape.segments)
+    3
     """
 
     count: Annotated[int, Ge(1), Le(12)]
@@ -154,6 +175,13 @@ class TiltingPads:
         Place of the pivot as a share of the arc, from the end of smaller angle.
     groove_pressure : float, optional
         Pressure between the pads, Pa, absolute; default the edge pressure.
+
+    Examples
+    --------
+    >>> from loadflow.journal import JournalBearing, TiltingPads
+    >>> bearing = JournalBearing(0.2, 0.1, 1e-3, shape=TiltingPads(count=4, arc=1.2, preload=0.3))
+    >>> len(bearing.shape.segments)
+    4
     """
 
     count: Annotated[int, Ge(1), Le(12)]
@@ -202,6 +230,15 @@ class Crown:
         Axial length of either crown, m; default half of the width.
     exponent : float
         2 is a parabola, 1 a cone.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.journal import Crown, JournalBearing
+    >>> bearing = JournalBearing(0.2, 0.1, 1e-3, relief=(Crown(height=10e-6),))
+    >>> ends = np.array([-0.05, 0.0, 0.05])
+    >>> bearing.relief[0].added(np.zeros(1), ends, width=0.1).tolist()  # m, ends and middle
+    [[1e-05, 0.0, 1e-05]]
     """
 
     height: float
@@ -240,6 +277,12 @@ class Recess:
         Axial length, m; default the full width.
     z : float
         Axial place of its middle, m from mid-plane.
+
+    Examples
+    --------
+    >>> from loadflow.journal import JournalBearing, Recess
+    >>> pocket = Recess(angle=0.0, arc=0.5, depth=1e-4, length=0.05)
+    >>> bearing = JournalBearing(0.2, 0.1, 1e-3, relief=(pocket,))
     """
 
     angle: float
@@ -289,6 +332,13 @@ class Contour:
         Growth of the gap, m.
     z : sequence of float (m,), optional
         Axial places, m from mid-plane, increasing; constant beyond them. Needed for heights (n, m).
+
+    Examples
+    --------
+    >>> from loadflow.journal import Contour
+    >>> oval = Contour(angle=[0.0, 1.5708, 3.1416, 4.7124], height=[0.0, 1e-5, 0.0, 1e-5])
+    >>> round(oval.added(0.7854, 0.0, width=0.1).item() * 1e6, 2)  # µm, half way
+    5.0
     """
 
     angle: Sequence[float]

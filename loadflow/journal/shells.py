@@ -34,6 +34,15 @@ class LocalShell:
     ----------
     compliance : float
         a_f: growth of the gap over pressure, m/Pa.
+
+    Examples
+    --------
+    >>> from loadflow.journal import JournalBearing, LocalShell, Lubricant
+    >>> bearing = JournalBearing(diameter=0.2, width=0.1, relative_clearance=1e-3)
+    >>> soft = LocalShell(compliance=1e-12)  # 1 µm at 1 MPa
+    >>> state = bearing.equilibrium((2e4, 0.0), 50.0, Lubricant(0.05), shell=soft, grid=(36, 8))
+    >>> round(float(state.shell_deformation) * 1e6, 1)  # µm
+    2.4
     """
 
     compliance: Annotated[float, Ge(0)]
@@ -60,6 +69,13 @@ class LinedShell:
         Young's modulus E of the lining, Pa.
     poisson_ratio : float
         ν of the lining.
+
+    Examples
+    --------
+    >>> from loadflow.journal import LinedShell
+    >>> lining = LinedShell(thickness=0.5e-3, modulus=50e9)
+    >>> f"{lining.compliance:.2e}"  # m/Pa
+    '7.43e-15'
     """
 
     thickness: Annotated[float, Gt(0)]
@@ -122,6 +138,12 @@ class ThickShell:
         Young's modulus E, Pa.
     poisson_ratio : float
         ν.
+
+    Examples
+    --------
+    >>> from loadflow.journal import ThickShell
+    >>> ThickShell(outer_diameter=0.3, modulus=210e9).poisson_ratio
+    0.3
     """
 
     outer_diameter: Annotated[float, Gt(0)]
@@ -145,6 +167,14 @@ class MatrixShell:
         deformation under 1 MPa on one cell is a column times 1e6 Pa. The cells are those of
         `FilmField.pressure`, full width, the axial place running fastest. Or the name of a file
         that holds it, of numpy (``.npy``) or rows of text.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.journal import MatrixShell
+    >>> shell = MatrixShell(np.eye(36 * 8) * 1e-12)  # one row and column for each cell of the grid
+    >>> shell.numbers.shape
+    (288, 288)
     """
 
     matrix: Any

@@ -20,6 +20,11 @@ class Capillary:
     ----------
     diameter, length : float
         Of the bore, m.
+
+    Examples
+    --------
+    >>> from loadflow.journal import Capillary, Groove
+    >>> pocket = Groove(angle=0.0, arc=0.4, length=0.05, restrictor=Capillary(2e-3, 0.1))
     """
 
     diameter: Annotated[float, Gt(0)]
@@ -40,6 +45,11 @@ class Orifice:
         Of the bore, m.
     discharge_coefficient : float
         α.
+
+    Examples
+    --------
+    >>> from loadflow.journal import Groove, Orifice
+    >>> pocket = Groove(angle=0.0, arc=0.4, length=0.05, restrictor=Orifice(diameter=2e-3))
     """
 
     diameter: Annotated[float, Gt(0)]
@@ -59,6 +69,11 @@ class ConstantFlow:
     ----------
     flow : float
         Q, m³/s.
+
+    Examples
+    --------
+    >>> from loadflow.journal import ConstantFlow, Groove
+    >>> pocket = Groove(angle=0.0, arc=0.4, length=0.05, restrictor=ConstantFlow(flow=1e-5))
     """
 
     flow: Annotated[float, Gt(0)]
@@ -96,6 +111,15 @@ class Groove:
     restrictor : Capillary, Orifice or ConstantFlow, optional
         What the oil passes on its way in; the pressure of the groove then follows from the flow
         into the film.
+
+    Examples
+    --------
+    >>> import math
+    >>> from loadflow.journal import Groove, Supply
+    >>> at_sides = (math.pi / 2, -math.pi / 2)
+    >>> two = tuple(Groove(angle=a, arc=0.3, length=0.07, pressure=2e5) for a in at_sides)
+    >>> len(Supply(two).grooves)
+    2
     """
 
     angle: float
@@ -167,6 +191,15 @@ class Supply:
         What feeds them all; without it each groove has its own pressure.
     tank_pressure : float
         Pressure from which the oil is raised, Pa, absolute; only for the supply power.
+
+    Examples
+    --------
+    >>> from loadflow.journal import Groove, JournalBearing, Lubricant, Supply
+    >>> bearing = JournalBearing(diameter=0.2, width=0.1, relative_clearance=1e-3)
+    >>> fed = Supply((Groove(angle=3.14159, arc=0.3, length=0.07, pressure=2e5),))
+    >>> state = bearing.equilibrium((2e4, 0.0), 50.0, Lubricant(0.05), supply=fed, grid=(36, 8))
+    >>> bool(state.supply_flow > 0.0)
+    True
     """
 
     grooves: tuple[Groove, ...] = ()

@@ -245,7 +245,14 @@ class Profile(Protocol):
 
 @dataclass(frozen=True)
 class Flat:
-    """A pad without profile."""
+    """A pad without profile.
+
+    Examples
+    --------
+    >>> from loadflow.journal import Flat
+    >>> Flat().kinks
+    ()
+    """
 
     @property
     def kinks(self) -> tuple[float, ...]:
@@ -270,6 +277,14 @@ class Taper:
         Depth at the inlet, m.
     wedge : float
         Share of the pad's length over which it falls to 0.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.journal import Taper
+    >>> profile = Taper(taper=1e-4, wedge=0.75)
+    >>> profile.depth(np.array([0.0, 0.75, 1.0])).tolist()  # m, from the inlet to the outlet
+    [0.0001, 0.0, 0.0]
     """
 
     taper: float
@@ -299,6 +314,13 @@ class Step:
         Depth of the inlet land below the outlet land, m.
     share : float
         Share of the pad's length before the step.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.journal import Step
+    >>> Step(height=1e-4).depth(np.array([0.2, 0.9])).tolist()  # m, before and behind the step
+    [0.0001, 0.0]
     """
 
     height: float

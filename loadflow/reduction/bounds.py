@@ -33,6 +33,14 @@ class FrequencyBounds:
     bracketed : bool
         Whether both bounds lie within the trial frequencies; if not, the missing one is the last
         trial frequency on its side.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.reduction import FrequencyBounds
+    >>> bounds = FrequencyBounds(0.1, 1.0, np.array([1.0, 0.1]), np.array([0.6, 0.66]), True)
+    >>> bounds.rise.round(2).tolist()
+    [0.1]
     """
 
     low: float
@@ -82,6 +90,15 @@ def frequency_bounds(
         Frequencies do not fall or are not positive; a force is not finite.
     SolverError
         The response is not finite and positive.
+
+    Examples
+    --------
+    >>> from loadflow.reduction import frequency_bounds
+    >>> def response(mean, amplitude, frequency):  # a bearing that squeeze helps above 0.3 Hz
+    ...     return 0.6 + 0.1 / (1.0 + (frequency / 0.3) ** 4)
+    >>> found = frequency_bounds(response, mean=(2e6, 0.0), amplitude=(3e5, 0.0))
+    >>> found.low < found.high
+    True
     """
     f = finite("frequencies", frequencies)
     if f.ndim != 1 or f.size < 3 or np.any(np.diff(f) >= 0) or f[-1] <= 0:

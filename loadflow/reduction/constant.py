@@ -1,4 +1,4 @@
-"""Stationary design loads: one speed and one force (section 4.3.1 of the source)."""
+"""Stationary design loads: one speed and one force (section 4.3.1 of [Jonuschies 2015])."""
 
 from __future__ import annotations
 
@@ -24,6 +24,13 @@ class StationaryLoad:
         N.
     index : int or None
         Place in the series, if speed and force occur together there.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.reduction import StationaryLoad
+    >>> StationaryLoad("rated", 1.25, np.array([3e6, 4e6])).resultant
+    5000000.0
     """
 
     name: str
@@ -49,6 +56,13 @@ class StationaryLoads:
         Mean force vector with the mean speed.
     envelope : tuple of StationaryLoad
         Moments of the series at which something is extreme, with what occurs then.
+
+    Examples
+    --------
+    >>> from loadflow.reduction import stationary
+    >>> loads = stationary([1.0, 1.2, 1.1], [[2e6, 0], [3e6, 4e6], [1e6, 0]])
+    >>> round(loads.mean.speed, 3)
+    1.1
     """
 
     maximum: StationaryLoad
@@ -65,8 +79,8 @@ def stationary(
 ) -> StationaryLoads:
     """Return the stationary design loads of a series.
 
-    Kept for comparison: the source shows that largest force with lowest speed over-rates and mean
-    with mean under-rates a bearing. The envelope gives moments that really occur.
+    Kept for comparison: [Jonuschies 2015] shows that largest force with lowest speed over-rates
+    and mean with mean under-rates a bearing. The envelope gives moments that really occur.
 
     Parameters
     ----------

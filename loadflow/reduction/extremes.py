@@ -25,6 +25,14 @@ class ExtremeValue:
         Its confidence interval.
     location, scale : float
         Of the Gumbel distribution of the block maxima.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.reduction import extreme_value
+    >>> found = extreme_value(np.random.default_rng(0).gumbel(100.0, 5.0, 60), horizon=1e4)
+    >>> bool(found.low < found.value < found.high)
+    True
     """
 
     value: float
@@ -55,6 +63,12 @@ def block_maxima(x: ArrayLike, dt: float, block: float) -> Floats:
     ------
     InputError
         The block is shorter than a step or longer than the record; a value is not finite.
+
+    Examples
+    --------
+    >>> from loadflow.reduction import block_maxima
+    >>> block_maxima([1.0, 3.0, 2.0, 5.0, 4.0, 0.0], dt=1.0, block=2.0).tolist()
+    [3.0, 5.0, 4.0]
     """
     series = finite("x", x)
     if not (dt > 0 and block >= dt):

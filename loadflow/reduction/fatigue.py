@@ -23,6 +23,13 @@ class Rainflow:
         Double amplitude and mean of each cycle, in the unit of the series.
     count : ndarray, shape (k,)
         1 for a closed cycle, 0.5 for a half cycle of the residue.
+
+    Examples
+    --------
+    >>> from loadflow.reduction import rainflow
+    >>> cycles = rainflow([0.0, 2.0, 1.0, 3.0, 0.0])
+    >>> float(cycles.count.sum())
+    2.0
     """
 
     range: Floats
@@ -139,6 +146,16 @@ class LoadDuration:
         Time and turns in each class.
     force : ndarray, shape (l_n, l_F)
         Mean resultant force of each class by revolutions, N; 0 where there are none.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.reduction import load_duration
+    >>> time = np.arange(0.0, 60.0, 0.1)
+    >>> force = np.stack([2e6 + 2e5 * np.sin(0.8 * time), 0.0 * time], axis=-1)
+    >>> duration = load_duration(np.full(600, 1.2), force, time)
+    >>> bool(1.8e6 < duration.equivalent_force() < 2.2e6)
+    True
     """
 
     edges: Edges
@@ -190,6 +207,17 @@ def load_duration(
     ------
     InputError
         See `histogram`; fewer than two values.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.reduction import load_duration
+    >>> time = np.arange(0.0, 60.0, 0.1)
+    >>> speed = 1.2 + 0.05 * np.sin(time)
+    >>> force = np.stack([2e6 + 2e5 * np.sin(0.8 * time), 1e5 * np.cos(time)], axis=-1)
+    >>> duration = load_duration(speed, force, time)
+    >>> round(float(duration.seconds.sum()), 1)
+    59.9
     """
     n, f, t = check_series(speed, force, time)
     if t is None or t.size < 2:

@@ -31,7 +31,13 @@ class Harmonic:
     label : str
         ``"1p"``, ``"3p"``, … or the name of a known frequency; empty if there is none near.
     kind : str
-        ``"base"`` or ``"additional"`` load (4.25, 4.27 of the source); empty if not sorted.
+        ``"base"`` or ``"additional"`` load (4.25, 4.27 of [Jonuschies 2015]); empty if not sorted.
+
+    Examples
+    --------
+    >>> from loadflow.reduction import Harmonic
+    >>> Harmonic(amplitude=2e5, frequency=0.2, phase=0.0, label="1p").label
+    '1p'
     """
 
     amplitude: float
@@ -78,6 +84,16 @@ def amplitude_spectrum(
         Hz.
     amplitude : ndarray, complex, same shape
         A exp(iφ) of A cos(2πft + φ).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.reduction import amplitude_spectrum
+    >>> time = np.arange(2000) * 0.05
+    >>> frequency, amplitude = amplitude_spectrum(3.0 * np.cos(2 * np.pi * 0.5 * time), dt=0.05)
+    >>> peak = np.abs(amplitude).argmax()
+    >>> round(float(frequency[peak]), 3), round(float(np.abs(amplitude[peak])), 2)
+    (0.5, 3.0)
     """
     from scipy.fft import rfft, rfftfreq
 
@@ -123,6 +139,15 @@ def find_harmonics(
     Returns
     -------
     list of Harmonic
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.reduction import find_harmonics
+    >>> time = np.arange(4000) * 0.05
+    >>> load = 5.0 + 2.0 * np.sin(2 * np.pi * 0.2 * time) + np.sin(2 * np.pi * 0.6 * time)
+    >>> [round(h.frequency, 2) for h in find_harmonics(load, dt=0.05, count=2)]
+    [0.2, 0.6]
     """
     n = x.size
     apart = LOBE.get(window, 1.0) / (n * dt)

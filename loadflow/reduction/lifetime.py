@@ -72,6 +72,19 @@ def lifetime_duration(
     ------
     InputError
         Class edges or lengths differ, a share is negative, or `duration` is not positive.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.reduction import lifetime_duration, load_duration
+    >>> time, classes = np.arange(0.0, 10.0, 0.1), (np.array([0.0, 2.0]), np.array([0.0, 3.0]))
+    >>> parts = [
+    ...     load_duration(np.full(100, 1.0), np.full((100, 2), size), time, classes=classes)
+    ...     for size in (1.0, 2.0)
+    ... ]
+    >>> year = lifetime_duration(parts, [0.75, 0.25], duration=3.156e7)
+    >>> round(float(year.seconds.sum()))
+    31560000
     """
     w = _shares(weights)
     if w.size != len(parts):

@@ -31,6 +31,20 @@ def write_parameter_file(path: str | Path, reduced: Reduced) -> None:
     ------
     InputError
         The name of the source has a line break in it.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from loadflow.reduction import histogram, write_parameter_file
+    >>> load = np.stack([2e6 + 1e5 * np.sin(np.arange(300.0)), np.zeros(300)], axis=-1)
+    >>> reduced = histogram(np.linspace(1.1, 1.3, 300), load)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     file = Path(folder) / "reduced.txt"
+    ...     write_parameter_file(file, reduced)
+    ...     file.exists()
+    True
     """
     if len(reduced.source.splitlines()) > 1:
         raise InputError(f"source = {reduced.source!r}; it must fit on one line")
@@ -67,6 +81,21 @@ def read_parameter_file(path: str | Path) -> Reduced:
     ------
     InputError
         No such file, or a line is not what it should be; the message names file and line.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from loadflow.reduction import histogram, read_parameter_file, write_parameter_file
+    >>> load = np.stack([2e6 + 1e5 * np.sin(np.arange(300.0)), np.zeros(300)], axis=-1)
+    >>> reduced = histogram(np.linspace(1.1, 1.3, 300), load)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     file = Path(folder) / "reduced.txt"
+    ...     write_parameter_file(file, reduced)
+    ...     again = read_parameter_file(file)
+    >>> bool((again.force == reduced.force).all())
+    True
     """
     try:
         lines = Path(path).read_text(encoding="utf-8").splitlines()

@@ -1,4 +1,4 @@
-"""Periodic design loads: mean, base load and additional loads (section 4.3.2 of the source)."""
+"""Periodic design loads: mean, base load and additional loads (4.3.2 of [Jonuschies 2015])."""
 
 from __future__ import annotations
 
@@ -30,6 +30,15 @@ class PeriodicLoad:
         Per axis; the base load first, if there is one, then the additional loads.
     bounds : FrequencyBounds or None
         How base and additional loads were told apart, if a bearing was asked.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.reduction import Harmonic, PeriodicLoad
+    >>> swing = Harmonic(amplitude=3e5, frequency=0.2, phase=0.0)
+    >>> load = PeriodicLoad(speed=1.25, mean=np.array([2e6, 0.0]), harmonics=((swing,), ()))
+    >>> load.frequencies
+    (0.2,)
     """
 
     speed: float
@@ -89,6 +98,12 @@ class ClosingPeriod:
         Hz, rounded to whole numbers of periods in it.
     error : float
         Largest relative change of a frequency.
+
+    Examples
+    --------
+    >>> from loadflow.reduction import closing_period
+    >>> closing_period([0.2, 0.6], tolerance=0.01).period
+    5.0
     """
 
     period: float
@@ -191,6 +206,17 @@ def periodic(
     InputError
         See `histogram`; the steps of time are not equal; bounds out of order; both bounds and
         response given.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.reduction import periodic
+    >>> time = np.arange(6000) * 0.1
+    >>> swing = 3e5 * np.sin(2 * np.pi * 0.02 * time) + 1e5 * np.sin(2 * np.pi * 0.2 * time)
+    >>> force = np.stack([2e6 + swing, 0.2 * swing], axis=-1)
+    >>> load = periodic(np.full(6000, 1.25), force, time, bounds=(0.05, 1.0), additional=1)
+    >>> [round(harmonic.frequency, 2) for harmonic in load.harmonics[0]]
+    [0.02, 0.2]
     """
     n, f, t = check_series(speed, force, time)
     dt = _equal_step(t)

@@ -1,6 +1,6 @@
 """Quasi-static reduction: a tenth of the series with the same load character.
 
-Section 4.3.3 of the source [Jonuschies 2015], (4.28–4.36): pairs of speed and resultant force are
+Section 4.3.3 of [Jonuschies 2015], (4.28–4.36): pairs of speed and resultant force are
 counted in a bivariate histogram, and from each class a share of its members is kept.
 """
 
@@ -47,6 +47,15 @@ class Reduced:
         Bivariate histograms before and after.
     pick, seed, source : str, int, str
         How and from what the pairs were picked.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.reduction import histogram
+    >>> load = np.stack([2e6 + 1e5 * np.sin(np.arange(300.0)), np.zeros(300)], axis=-1)
+    >>> reduced = histogram(np.linspace(1.1, 1.3, 300), load)
+    >>> reduced.total, bool(reduced.index.size < 300)
+    (300, True)
     """
 
     index: Ints
@@ -94,6 +103,14 @@ def class_edges(x: Floats, grid: int | ArrayLike) -> Floats:
     grid : int or array_like
         Number of equal classes, or ascending edges. The last of the edges made here lies one
         rounding step above the largest value, so that the half-open last class holds it.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.reduction import class_edges
+    >>> edges = class_edges(np.array([1.0, 2.0, 4.0]), 3)
+    >>> edges.size, bool(edges[-1] > 4.0)
+    (4, True)
     """
     if not isinstance(grid, int | np.integer):
         edges = finite("classes", grid)
@@ -132,7 +149,7 @@ def histogram(
     """Reduce a series to fewer pairs of speed and force with the same bivariate histogram.
 
     Each class x of the histogram over speed and resultant force keeps q_x = ⌈H_x q⌉ of its members
-    (4.32–4.36 of the source), H_x its relative frequency (4.31) and q the wanted size. Rounding up
+    (4.32–4.36), H_x its relative frequency (4.31) and q the wanted size. Rounding up
     keeps rare classes, so that somewhat more than q pairs remain.
 
     Parameters
@@ -148,14 +165,14 @@ def histogram(
     classes : int, (int, int) or (edges, edges), optional
         Classes of speed and of force; by default (4.30), the same number for both.
     pick : {"random", "extremes", "envelope"}
-        ``"random"`` is the source's pick; it loses the extremes of a class. ``"extremes"`` keeps
-        the pair with the largest force over speed of each class and spreads the others evenly
-        over the rest of the class in the order of force over speed. ``"envelope"`` does so, too,
-        but a class that keeps one pair only keeps the severest if no other class has as much force
-        at as little speed, else any: the extremes of the series stay, and means are not biased
-        towards severe pairs. Both keep the largest force of the series, too, unless its class
-        keeps one pair only and that is its severest: then the largest that is kept lies in the
-        same class.
+        ``"random"`` is the pick of [Jonuschies 2015]; it loses the extremes of a class.
+        ``"extremes"`` keeps the pair with the largest force over speed of each class and spreads
+        the others evenly over the rest of the class in the order of force over speed.
+        ``"envelope"`` does so, too, but a class that keeps one pair only keeps the severest if no
+        other class has as much force at as little speed, else any: the extremes of the series
+        stay, and means are not biased towards severe pairs. Both keep the largest force of the
+        series, too, unless its class keeps one pair only and that is its severest: then the
+        largest that is kept lies in the same class.
     rounding : {"up", "nearest", "total"}
         Of q_x; ``"nearest"`` keeps at least one, too. ``"total"`` rounds up, but from a smaller q,
         so that no more than the wanted size remain in all (or one of each class, if these are

@@ -27,6 +27,12 @@ class Phase:
         turn that never reaches operation.
     start, stop : int
         Places in the series, `stop` not included.
+
+    Examples
+    --------
+    >>> from loadflow.reduction import Phase
+    >>> Phase("run-up", 2, 5).places
+    slice(2, 5, None)
     """
 
     name: str

@@ -43,6 +43,13 @@ class Tail:
         Number of maxima or peaks that it was fitted to.
     kind : {"maxima", "peaks"}
         What it was fitted to.
+
+    Examples
+    --------
+    >>> from loadflow.reduction import Tail
+    >>> tail = Tail(threshold=100.0, scale=5.0, shape=0.0, rate=1 / 600, count=60)
+    >>> bool(tail.rate_above(110.0) < tail.rate_above(105.0))
+    True
     """
 
     threshold: float
@@ -86,6 +93,14 @@ class LongTermExtreme:
         The level and its confidence interval, in the unit of the series.
     shares : ndarray, shape (k,)
         How much each tail contributes to the exceedances; sums to 1.
+
+    Examples
+    --------
+    >>> from loadflow.reduction import Tail, long_term_extreme
+    >>> tail = Tail(threshold=100.0, scale=5.0, shape=0.0, rate=1 / 600, count=60)
+    >>> found = long_term_extreme([tail], [1.0])
+    >>> bool(found.low < found.value < found.high)
+    True
     """
 
     value: float
@@ -114,6 +129,15 @@ def tail_of_maxima(x: ArrayLike, dt: float, block: float) -> Tail:
     ------
     InputError
         Fewer than ten blocks, or see `block_maxima`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.reduction import tail_of_maxima
+    >>> x = np.random.default_rng(0).standard_normal((6, 6000))
+    >>> tail = tail_of_maxima(x, dt=0.1, block=60.0)
+    >>> tail.kind, tail.count
+    ('maxima', 60)
     """
     maxima = block_maxima(x, dt, block)
     _enough(maxima, "blocks")

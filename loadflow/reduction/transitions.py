@@ -23,6 +23,12 @@ class MarkovMatrix:
     counts : ndarray of int, shape (l, l)
         Turning points that go from class i (row) to class j (column): rises above the diagonal,
         falls below it, nothing on it.
+
+    Examples
+    --------
+    >>> from loadflow.reduction import markov_matrix
+    >>> markov_matrix([0.5, 2.5, 1.5, 2.5, 0.5], classes=[0, 1, 2, 3]).edges.tolist()
+    [0.0, 1.0, 2.0, 3.0]
     """
 
     edges: Floats

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Generic, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from loadflow.quantities import ROLLING
 from loadflow.rolling.contact_forces import ContactForces
 from loadflow.rolling.contacts import HEIGHT, RADIUS, Array, Contacts
 from loadflow.rolling.equilibrium import RingEquilibrium
@@ -18,24 +19,24 @@ if TYPE_CHECKING:
 
 Bearing = TypeVar("Bearing", bound=RollingGeometry, covariant=True)
 
-_EACH_CASE = {
-    "maximum_force": ("N", "largest force on a rolling element"),
-    "maximum_pressure": ("Pa", "largest Hertzian pressure"),
-    "pressure_safety": ("1", "allowable over largest pressure"),
-    "static_safety": ("1", "allowable over largest force"),
-    "equivalent_load": ("N", "dynamic equivalent load"),
-    "rating_life": ("1e6 rev", "basic rating life"),
-    "reference_life": ("1e6 rev", "reference life of ISO/TS 16281"),
-    "converged": ("1", "whether every component is balanced"),
-    "residual": ("1", "largest unbalanced component over the load"),
-    "iterations": ("1", "Newton steps"),
-    "singular": ("1", "whether a motion meets no resistance"),
-}
+_EACH_CASE = (
+    "maximum_force",
+    "maximum_pressure",
+    "pressure_safety",
+    "static_safety",
+    "equivalent_load",
+    "rating_life",
+    "reference_life",
+    "converged",
+    "residual",
+    "iterations",
+    "singular",
+)
 _COMPONENTS = {
-    "force": (("axis",), "N", "force on the inner ring"),
-    "moment": (("tilt_axis",), "N m", "moment on the inner ring"),
-    "displacement": (("dof",), "m, rad", "displacement and tilt of the inner ring"),
-    "stiffness": (("dof", "along"), "N/m, N, N m/rad", "tangent stiffness"),
+    "force": ("axis",),
+    "moment": ("tilt_axis",),
+    "displacement": ("dof",),
+    "stiffness": ("dof", "along"),
 }
 
 
@@ -238,18 +239,15 @@ class ContactResult(RingEquilibrium, Generic[Bearing]):
 
         def rows(values: NDArray, *dims: str) -> tuple[tuple[str, ...], NDArray]:
             inner = values.shape[len(self.cases) :]
-            return (*lead, *dims), values.reshape(*(-1,) * len(lead), *inner)
+            return (*lead, *dims), values.reshape((*(-1,) * len(lead), *inner))
 
         found = {
-            name: (*rows(np.asarray(getattr(self, name))), {"units": units, "long_name": meaning})
-            for name, (units, meaning) in _EACH_CASE.items()
+            name: (*rows(np.asarray(getattr(self, name))), ROLLING[name].attributes)
+            for name in _EACH_CASE
         }
-        for name, (dims, units, meaning) in _COMPONENTS.items():
-            about = {"units": units, "long_name": meaning}
-            found[name] = (*rows(getattr(self, name), *dims), about)
         around = (*self.bearing.group_dims, "element")
-        about = {"units": "N", "long_name": "force on each rolling element"}
-        found["element_forces"] = (*rows(self.element_forces, *around), about)
+        for name, dims in (*_COMPONENTS.items(), ("element_forces", around)):
+            found[name] = (*rows(getattr(self, name), *dims), ROLLING[name].attributes)
         dof = ["ux", "uy", "uz", "tilt_x", "tilt_y"]
         return xr.Dataset(
             found,
@@ -262,7 +260,7 @@ class ContactResult(RingEquilibrium, Generic[Bearing]):
         lines = [f"<{type(self).__name__} of {what}>"]
         for name in ("maximum_force", "maximum_pressure", "static_safety", "rating_life"):
             values = np.asarray(getattr(self, name))
-            units, meaning = _EACH_CASE[name]
+            _, units, meaning = ROLLING[name]
             low, high = float(values.min()), float(values.max())
             span = f"{low:.4g}" if low == high else f"{low:.4g} … {high:.4g}"
             lines.append(f"  {meaning:36s} {span} {'' if units == '1' else units}".rstrip())

@@ -67,6 +67,15 @@ class RollerRaceways(RollingGeometry):
     ------
     InputError
         If a field is out of its range.
+
+    Examples
+    --------
+    >>> from loadflow.rolling import RollerRaceways
+    >>> row = RollerRaceways(
+    ...     rollers=40, roller_diameter=0.04, roller_length=0.038, pitch_diameter=0.9
+    ... )
+    >>> row.rows, row.slices
+    (1, 30)
     """
 
     element: ClassVar[Literal["ball", "roller"]] = "roller"

@@ -1,6 +1,6 @@
 """Equality of seeds: location, spread and spectrum of series that should be alike.
 
-Rank tests as the source prints them, and tests that keep their stated false-alarm rate on
+Rank tests as [Jonuschies 2015] prints them, and tests that keep their stated false-alarm rate on
 autocorrelated records; grouping of seeds; number of seeds needed; probability paper.
 """
 

@@ -171,6 +171,16 @@ def group_seeds_jointly(
     ------
     InputError
         No component, different numbers of seeds; see `group_seeds`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.seeds import group_seeds_jointly
+    >>> rng = np.random.default_rng(1)
+    >>> speed, force = rng.standard_normal((2, 4, 3000))
+    >>> force[2] += 1.0  # one seed differs in one component: it stands alone in all
+    >>> group_seeds_jointly({"speed": speed, "force": force}, dt=0.05).groups
+    [(0, 1, 3), (2,)]
     """
     proofs = {
         name: evidence(as_samples(x, least=2), dt, alpha, method, band)

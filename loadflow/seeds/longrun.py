@@ -118,6 +118,15 @@ def effective_size(x: Iterable[ArrayLike]) -> float:
     ------
     InputError
         A record is not finite or has fewer than 8 values.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.seeds import effective_size
+    >>> noise = np.random.default_rng(0).standard_normal((6, 4000))
+    >>> slow = np.cumsum(noise, axis=1) - np.cumsum(noise, axis=1).mean(axis=1, keepdims=True)
+    >>> bool(effective_size(slow) < 0.02 * effective_size(noise))
+    True
     """
     samples = as_samples(x, least=2 * COSINES)
     runs = [LongRun.of(sample[:, None]) for sample in samples]

@@ -36,6 +36,13 @@ class RankTest:
         Sum of the ranks of each sample.
     note : str
         What a reader must know (ties, one sample, N not divisible by 4); empty if nothing.
+
+    Examples
+    --------
+    >>> from loadflow.seeds import kruskal_wallis
+    >>> test = kruskal_wallis([[1.0, 2.0, 3.0], [1.5, 2.5, 3.5]])
+    >>> test.df, bool(test.pvalue > 0.05)
+    (1, True)
     """
 
     statistic: float
@@ -94,7 +101,7 @@ def siegel_tukey_ranks(n: int) -> Floats:
 def rank_test(pool: Pool, ranks: Floats, note: str = "") -> RankTest:
     """Kruskal–Wallis' H of given ranks, with the permutation variance of the ranks used.
 
-    H = (N − 1) Σ n_i (R̄_i − (N+1)/2)² / Σ (r_j − (N+1)/2)²: without ties it is (4.9) of the source
+    H = (N − 1) Σ n_i (R̄_i − (N+1)/2)² / Σ (r_j − (N+1)/2)²: without ties it is (4.9) of
     [Jonuschies 2015], with tied values sharing their mean rank it is exact for any set of ranks.
 
     Parameters
@@ -140,7 +147,7 @@ def meyer_bahlburg_of(pool: Pool) -> RankTest:
 
 
 def kruskal_wallis(samples: Iterable[ArrayLike]) -> RankTest:
-    """Test whether samples have the same location (4.6–4.12 of the source [Jonuschies 2015]).
+    """Test whether samples have the same location (4.6–4.12 of [Jonuschies 2015]).
 
     Parameters
     ----------
@@ -172,7 +179,7 @@ def meyer_bahlburg(
 ) -> RankTest:
     """Test whether samples have the same spread: Siegel–Tukey ranks, then Kruskal–Wallis' H.
 
-    Meyer-Bahlburg (Metrika 15, 1970), (4.13) of the source [Jonuschies 2015], for any number of
+    Meyer-Bahlburg (Metrika 15, 1970), (4.13) of [Jonuschies 2015], for any number of
     values and with ties: tied values share the mean of their Siegel–Tukey ranks, and H uses the
     variance of the ranks so averaged (the tie factor of Kruskal–Wallis would be wrong here). If N
     is not divisible by 4 the two sides differ by a rank or two at the middle; `note` says so.

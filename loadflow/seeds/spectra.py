@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from loadflow.errors import InputError
 from loadflow.seeds._samples import Floats, as_samples, sampling_step
 
-BAND = 0.025  # the source's ±2.5 %
+BAND = 0.025  # ±2.5 % of [Jonuschies 2015]
 
 
 @dataclass(frozen=True)
@@ -54,8 +54,8 @@ class SpectralDifference:
 def periodogram(x: Floats, dt: float) -> tuple[Floats, Floats]:
     """One-sided power spectral density of `x` about its mean, without zero frequency.
 
-    The Fourier transform of the autocovariance (Wiener–Khinchin, (4.14) of the source) is the
-    squared transform of the series; no taper, no averaging.
+    The Fourier transform of the autocovariance (Wiener–Khinchin, (4.14) of [Jonuschies 2015]) is
+    the squared transform of the series; no taper, no averaging.
 
     Parameters
     ----------
@@ -70,6 +70,15 @@ def periodogram(x: Floats, dt: float) -> tuple[Floats, Floats]:
         Hz.
     density : ndarray, shape (..., k)
         unit²/Hz; its sum times the frequency step is the variance.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.seeds import periodogram
+    >>> x = np.random.default_rng(0).standard_normal(1000)
+    >>> frequency, density = periodogram(x, dt=0.1)
+    >>> bool(np.isclose(density.sum() * frequency[0], x.var()))
+    True
     """
     from scipy.fft import rfft, rfftfreq
 
@@ -96,9 +105,9 @@ def spectral_difference(
     *,
     band: float = BAND,
 ) -> SpectralDifference:
-    """Compare the power spectra of two series as printed (4.14–4.17 of the source).
+    """Compare the power spectra of two series as printed (4.14–4.17 of [Jonuschies 2015]).
 
-    Two raw periodograms are compared, as the source does; each has a standard error of 100 %, so
+    Two raw periodograms are compared, as there; each has a standard error of 100 %, so
     two seeds of one process are never within 2.5 %. `averaged_spectrum` and `equality` with
     ``method="calibrated"`` are the sound comparison.
 
@@ -150,6 +159,15 @@ class AveragedSpectrum:
         each frequency, if the series is Gaussian there.
     dof : float
         Equivalent degrees of freedom of the average.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.seeds import averaged_spectrum
+    >>> noise = np.random.default_rng(0).standard_normal(6000)
+    >>> spectrum = averaged_spectrum(noise, dt=0.1)
+    >>> bool(spectrum.dof > 2.0)  # more than those of one periodogram
+    True
     """
 
     frequency: Floats
@@ -211,6 +229,15 @@ def averaged_spectrum(
     ------
     InputError
         The series is not finite or the segment shorter than 8 values or longer than the record.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.seeds import averaged_spectrum
+    >>> noise = np.random.default_rng(0).standard_normal(6000)
+    >>> spectrum = averaged_spectrum(noise, dt=0.1)
+    >>> bool((spectrum.low < spectrum.density).all() and (spectrum.density < spectrum.high).all())
+    True
     """
     from scipy.special import chdtri
 

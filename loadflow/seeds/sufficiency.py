@@ -63,6 +63,15 @@ def equivalence(x: Iterable[ArrayLike], margin: float = 0.05, alpha: float = 0.0
     ------
     InputError
         A series is not finite or has fewer than 8 values; `margin` or `alpha` out of range.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.seeds import equivalence
+    >>> x = 10.0 + np.random.default_rng(0).standard_normal((6, 6000))
+    >>> found = equivalence(x, margin=0.05)
+    >>> found.location < found.margin
+    True
     """
     from scipy.special import stdtrit
 
@@ -100,6 +109,13 @@ class SeedsNeeded:
         Coefficient of variation between the given seeds.
     uncertainty : float
         Relative half width of the confidence interval of the mean of the given seeds.
+
+    Examples
+    --------
+    >>> from loadflow.seeds import seeds_needed
+    >>> needed = seeds_needed([0.96, 1.02, 1.05, 0.94, 1.04, 0.99], uncertainty=0.05)
+    >>> needed.low <= needed.seeds <= needed.high
+    True
     """
 
     seeds: int

@@ -1,6 +1,6 @@
 """Are seeds equal? Three stages, as printed or calibrated.
 
-As printed (section 4.2 of the source [Jonuschies 2015]) every value of a record counts as
+As printed (section 4.2 of [Jonuschies 2015]) every value of a record counts as
 independent; on real load series the tests then reject nearly always although nothing differs.
 Calibrated, each stage compares means of a feature by their true uncertainty
 (`loadflow.seeds.longrun`): location the values, spread the distances from the median (as Brown and
@@ -70,6 +70,14 @@ class SeedEquality:
         Level of significance.
     method : str
         ``"as-printed"`` or ``"calibrated"``.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.seeds import equality
+    >>> x = np.random.default_rng(0).standard_normal((3, 3000))
+    >>> equality(x, dt=0.05).location.equal
+    True
     """
 
     location: Stage

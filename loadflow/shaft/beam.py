@@ -21,6 +21,12 @@ class ShaftSection:
         m.
     length : float, optional
         m; only the last section may leave it out, and then reaches to the end of the shaft.
+
+    Examples
+    --------
+    >>> from loadflow.shaft import ShaftSection
+    >>> round(ShaftSection(outer_diameter=1.0, inner_diameter=0.5).inertia, 4)  # m⁴
+    0.046
     """
 
     outer_diameter: Annotated[float, Gt(0)]
@@ -68,6 +74,12 @@ class BearingSeat:
     stiffness : {"given", "journal", "rolling"}
         Whether `radial` and `tilt` say how stiff the bearing is, or whether it follows, under each
         load, from the journal or the rolling bearing that stands there.
+
+    Examples
+    --------
+    >>> from loadflow.shaft import BearingSeat
+    >>> BearingSeat(radial=2e9, housing_lateral=1e10).takes_moment
+    False
     """
 
     radial: Annotated[float, Gt(0)] | None = None
@@ -117,6 +129,13 @@ class Beam:
         Poisson's ratio.
     shear : bool
         Timoshenko's beam; without, that of Euler and Bernoulli.
+
+    Examples
+    --------
+    >>> from loadflow.shaft import Beam, ShaftSection
+    >>> beam = Beam(sections=(ShaftSection(outer_diameter=1.0, inner_diameter=0.5),))
+    >>> beam.shear
+    True
     """
 
     sections: Annotated[tuple[ShaftSection, ...], MinLen(1)] = (ShaftSection(1.04, 0.52),)

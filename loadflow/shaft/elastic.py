@@ -1,4 +1,4 @@
-"""Reactions of an elastic shaft on elastic bearings, and how it leans in them.
+"""Reactions of an elastic shaft on elastic bearings, and its tilt in them.
 
 Reactions that fulfil equilibrium leave as many free as the suspension is statically indeterminate;
 among these the bearings and the shaft take those that they deform alike under (Menabrea). So
@@ -37,7 +37,7 @@ _FREE = 1e6  # over the flexibility of the shaft: a seat that hardly takes a mom
 
 
 @dataclass(frozen=True)
-class Leaning:
+class ShaftMotion:
     """Reactions of the seats and motion of the shaft in them, all (bearing, axis, n).
 
     Attributes
@@ -73,14 +73,14 @@ class Iteration:
     tolerance : float
         Largest change of a reaction, relative to the largest one.
     strict : bool
-        Raise for the first load that does not settle; else flag it.
+        Raise for the first load that does not converge; else flag it.
     """
 
     tolerance: float = 1e-10
     strict: bool = True
 
 
-def lean(
+def elastic_reactions(
     beam: Beam,
     positions: tuple[float, ...],
     places: Floats,
@@ -88,7 +88,7 @@ def lean(
     hub_moment: Floats,
     models: Mapping[int, BearingModel],
     iteration: Iteration,
-) -> Leaning:
+) -> ShaftMotion:
     """Solve the shaft under loads across it.
 
     Parameters
@@ -149,7 +149,7 @@ def lean(
     motion = np.concatenate([moved[:, at], moved[:, at + bearings]]).swapaxes(0, 1)
     bow = curvature(beam, line, loads, np.array(positions), end).swapaxes(0, 1)
     bow = np.concatenate([bow, np.zeros_like(bow)], axis=1)
-    return Leaning(*_across(reactions), *_across(motion), _across(bow)[0], convergence, settled)
+    return ShaftMotion(*_across(reactions), *_across(motion), _across(bow)[0], convergence, settled)
 
 
 def _across(full: Floats) -> tuple[Floats, Floats]:
@@ -205,7 +205,7 @@ class _Redundant:
         reaction = self._balance(compliance, offset)
         settled, convergence = np.ones(self.free.shape[1], dtype=bool), Convergence(True, 0.0, 0)
         if models:
-            reaction, compliance, offset, settled, convergence = self._settle(
+            reaction, compliance, offset, settled, convergence = self._iterated(
                 bearings, reaction, iteration
             )
         seated = np.einsum("nrs,sn->rn", compliance, reaction) + offset
@@ -213,7 +213,7 @@ class _Redundant:
         base = np.linalg.lstsq(self.arms, rest, rcond=None)[0]
         return reaction, base, convergence, settled
 
-    def _settle(
+    def _iterated(
         self, bearings: _Bearings, reaction: Floats, iteration: Iteration
     ) -> tuple[Floats, Floats, Floats, NDArray[np.bool_], Convergence]:
         """Newton's method from `reaction` on; a load's step is halved until its gap narrows."""
@@ -241,7 +241,7 @@ class _Redundant:
         if iteration.strict and not settled.all():
             first = int(np.argmin(settled))
             raise SolverError(
-                f"shaft and bearings do not settle: after {iterations} iterations the reactions "
+                f"shaft and bearings do not converge: after {iterations} iterations the reactions "
                 f"still change by {worst:.1e}; load {first} is the first, where they gape by "
                 f"{gape[first]:.3g} m and rounding allows {level[first]:.3g} m"
             )

@@ -1,4 +1,4 @@
-"""Suspension concepts of Table 2-4 of the source [Jonuschies 2015]; data only.
+"""Suspension concepts of Table 2-4 of [Jonuschies 2015]; data only.
 
 Distances are measured along the shaft, downwind from the hub centre (the rotor apex). Every concept
 tells its `bearings`, their `positions` (m), the number of the `locating` one, the `masses` on the
@@ -46,8 +46,8 @@ class _OnTwoSeats:
 class TwoPoint(_OnTwoSeats):
     """Two bearings on the shaft and a slip-on gearbox behind them: hub – N – N2 – gearbox.
 
-    The default distances and the gearbox mass are those of the source (Fig. 5-1); it does not give
-    the distance of N from the hub centre, which is that of the NREL 5 MW turbine.
+    The default distances and the gearbox mass are those of [Jonuschies 2015] (Fig. 5-1).
+    It does not give the distance of N from the hub centre; that of the NREL 5 MW turbine is taken.
 
     Attributes
     ----------
@@ -69,6 +69,12 @@ class TwoPoint(_OnTwoSeats):
         forces cancel.
     beam : Beam, optional
         The shaft as an elastic beam; without, rigid.
+
+    Examples
+    --------
+    >>> from loadflow.shaft import TwoPoint
+    >>> [round(x, 3) for x in TwoPoint(hub_to_first=1.9, span=3.6).positions]
+    [1.9, 5.5]
     """
 
     hub_to_first: Annotated[float, Gt(0)] = 1.912
@@ -113,6 +119,12 @@ class ThreePoint(_OnTwoSeats):
         Torque arms to the centre of mass of the gearbox, downwind, m.
     gearbox_mass, shaft_mass, hub_to_shaft_centre, beam
         As in `TwoPoint`.
+
+    Examples
+    --------
+    >>> from loadflow.shaft import ThreePoint
+    >>> [round(x, 3) for x in ThreePoint(hub_to_first=1.9, span=4.8).positions]
+    [1.9, 6.7]
     """
 
     hub_to_first: Annotated[float, Gt(0)] = 1.912
@@ -147,6 +159,12 @@ class Integrated(_OnTwoSeats):
         N to the locating bearing N2, m.
     shaft_mass, hub_to_shaft_centre, beam
         As in `TwoPoint`; the mass is that of the planet carrier as well, where it turns along.
+
+    Examples
+    --------
+    >>> from loadflow.shaft import Integrated
+    >>> len(Integrated(span=1.2).positions)
+    2
     """
 
     hub_to_first: Annotated[float, Gt(0)] = 1.912
@@ -180,6 +198,12 @@ class DirectDrive(_OnTwoSeats):
         Hub centre to the centre of that mass, m.
     shaft_mass, hub_to_shaft_centre, beam
         As in `TwoPoint`.
+
+    Examples
+    --------
+    >>> from loadflow.shaft import DirectDrive
+    >>> len(DirectDrive(generator_mass=1e5).positions)
+    2
     """
 
     hub_to_first: Annotated[float, Gt(0)] = 1.0
@@ -211,6 +235,12 @@ class MomentBearing:
         Hub centre to the centre of that mass, m.
     beam : Beam, optional
         As in `TwoPoint`.
+
+    Examples
+    --------
+    >>> from loadflow.shaft import MomentBearing
+    >>> MomentBearing(hub_to_bearing=1.9).positions
+    (1.9,)
     """
 
     hub_to_bearing: Annotated[float, Gt(0)] = 1.912

@@ -13,7 +13,7 @@ import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError
-from loadflow.shaft.elastic import BearingModel, Iteration, Leaning, lean
+from loadflow.shaft.elastic import BearingModel, Iteration, ShaftMotion, elastic_reactions
 from loadflow.shaft.options import Concept
 
 GRAVITY = 9.80665
@@ -40,7 +40,7 @@ def bearing_loads(
     ----------
     concept : TwoPoint, ThreePoint, Integrated, DirectDrive or MomentBearing
         The suspension. With a `beam` the shaft bends: bearings that resist tilting then share the
-        load according to their stiffness, and all tell how the shaft leans in them.
+        load according to their stiffness, and all tell the tilt of the shaft in them.
     hub_force : array_like, shape (3, n) or (3,)
         What the rotor applies to the shaft at the hub centre, weight included, N.
     hub_moment : array_like, shape (3, n) or (3,)
@@ -74,10 +74,11 @@ def bearing_loads(
         Shapes do not match, a load is not finite, or |tilt| is not below 90°; models without a
         beam, or of a bearing that is not there; none of a seat whose stiffness comes from one.
     loadflow.errors.SolverError
-        Shaft and bearing models do not settle, and `strict`.
+        Shaft and bearing models do not converge, and `strict`.
 
     Examples
     --------
+    >>> from loadflow.shaft import TwoPoint, bearing_loads
     >>> weight = [0.0, 0.0, -1.07e6]
     >>> loads = bearing_loads(TwoPoint(gearbox_mass=0.0), weight, [0.0, 0.0, 0.0])
     >>> [round(float(f) / 1e3) for f in loads["force"].sel(axis="z").isel(time=0)]
@@ -100,15 +101,17 @@ def bearing_loads(
     if concept.beam is None:
         across = _one_support if len(concept.bearings) == 1 else _two_supports
         forces, moments = across(concept, total, about_hub)
-        leaning = None
+        motion = None
     else:
         places = np.array([0.0, *(position for position, _ in own)])
         pushes = np.stack(np.broadcast_arrays(force, *(extra for _, extra in own)))
         iteration = Iteration(tolerance, strict)
-        leaning = lean(concept.beam, concept.positions, places, pushes, moment, numbered, iteration)
-        forces, moments = leaning.force, leaning.moment
+        motion = elastic_reactions(
+            concept.beam, concept.positions, places, pushes, moment, numbered, iteration
+        )
+        forces, moments = motion.force, motion.moment
     forces[concept.locating, 0] = total[0]
-    return _dataset(concept, forces, moments, leaning, time, bool(models))
+    return _dataset(concept, forces, moments, motion, time, bool(models))
 
 
 def _checked(load: ArrayLike, name: str) -> Floats:
@@ -175,7 +178,7 @@ def _dataset(
     concept: Concept,
     force: Floats,
     moment: Floats,
-    leaning: Leaning | None,
+    motion: ShaftMotion | None,
     time: ArrayLike | None,
     modelled: bool,
 ) -> xr.Dataset:
@@ -184,13 +187,13 @@ def _dataset(
         "moment": (moment, "N m", "moment of the shaft on the bearing"),
     }
     attrs: dict[str, float] = {}
-    if leaning:
+    if motion:
         found |= {
-            "displacement": (leaning.displacement, "m", "displacement of the shaft at the bearing"),
-            "tilt": (leaning.tilt, "rad", "rotation of the shaft at the bearing"),
-            "curvature": (leaning.curvature, "1/m", "curvature of the shaft at the bearing"),
+            "displacement": (motion.displacement, "m", "displacement of the shaft at the bearing"),
+            "tilt": (motion.tilt, "rad", "rotation of the shaft at the bearing"),
+            "curvature": (motion.curvature, "1/m", "curvature of the shaft at the bearing"),
         }
-        attrs = vars(leaning.convergence) | {"converged": int(leaning.convergence.converged)}
+        attrs = vars(motion.convergence) | {"converged": int(motion.convergence.converged)}
     place = {
         "units": "m",
         "long_name": "position of the bearing along the shaft from the hub centre",
@@ -207,9 +210,9 @@ def _dataset(
         },
         attrs,
     )
-    if modelled and leaning:
+    if modelled and motion:
         meaning = "whether shaft and bearings agree"
-        flags = np.broadcast_to(leaning.settled, (len(concept.bearings), leaning.settled.size))
+        flags = np.broadcast_to(motion.settled, (len(concept.bearings), motion.settled.size))
         labels = {"units": "1", "long_name": meaning}
         dataset["settled"] = ("bearing", "time"), flags.copy(), labels
     if time is None:

@@ -1,10 +1,10 @@
-"""A shaft over a whole series on bearings with models of their own, some of them dear to solve.
+"""A shaft over a whole series on bearings with models of their own, some expensive to solve.
 
 Shaft and bearings are iterated at chosen loads of the series, each the farthest from those before.
-Between these a dear bearing is its tangent, that is its load, motion and compliance, interpolated;
-with it and the quick bearings as they are the whole series is iterated. So forces and moments
-balance everywhere. What is chosen next is predicted before it is solved: that is the error, and
-more are chosen until it is small. Where all bearings are quick nothing is interpolated.
+Between these an expensive bearing is its tangent, that is its load, motion and compliance,
+interpolated; with it and the cheap bearings as they are the whole series is iterated. So forces
+and moments balance everywhere. What is chosen next is predicted before it is solved: that is the
+error, and more are chosen until it is small. Where all bearings are cheap nothing is interpolated.
 """
 
 from __future__ import annotations
@@ -27,14 +27,14 @@ Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 FIRST, MORE, MOST = 100, 50, 400
-"""Loads solved on dear bearings: at first, at a time, and at most."""
+"""Loads solved on expensive bearings: at first, at a time, and at most."""
 
 ACCURACY = 5e-3
 """Error of force, moment, displacement and tilt, over their largest values, that is enough."""
 
 _CHUNK = 500  # loads iterated together
 _AGREED = 1e-7  # relative change of a reaction in the last iteration
-_LOST = 0.5  # share that must settle for more to be worth solving
+_LOST = 0.5  # share that must converge for more to be worth solving
 _KEPT = ("force", "moment", "displacement", "tilt", "curvature")
 
 
@@ -135,7 +135,7 @@ class _Solved:
     attrs : dict
         How the iteration went at its worst.
     tangents : dict
-        Load, motion and compliance of dear bearings, (k, m), by name; NaN where not settled.
+        Load, motion and compliance of expensive bearings, (k, m), by name; NaN where not settled.
     """
 
     values: Floats
@@ -177,8 +177,8 @@ class _Series:
 
     def carried(self, rows: Rows, accuracy: float) -> tuple[_Solved, int, float]:
         """Result of `rows`, number of them solved exactly, error of the others."""
-        dear = any(not seat.quick for seat in self.bearings.values())
-        if not dear or rows.size <= FIRST + MORE:
+        costly = any(not seat.quick for seat in self.bearings.values())
+        if not costly or rows.size <= FIRST + MORE:
             return self.solve(rows, self.exact), rows.size, 0.0
         places = self.places(rows)
         order = farthest(places, MOST)
@@ -217,7 +217,7 @@ class _Series:
         return {name: seat.model(rows) for name, seat in self.bearings.items()}
 
     def with_tangents(self, rows: Rows) -> _Solved:
-        """Result with the bearings' own models, and the tangents of the dear ones."""
+        """Result with the bearings' own models, and the tangents of the expensive ones."""
         found = self.solve(rows, self.exact)
         return replace(
             found,
@@ -241,7 +241,7 @@ class _Series:
     def between(
         self, rows: Rows, places: Floats, chosen: Rows, known: _Solved
     ) -> Callable[[Rows], dict[str, BearingModel]]:
-        """Models for samples between the `chosen` ones: tangents of the dear bearings."""
+        """Models for samples between the `chosen` ones: tangents of the expensive bearings."""
         good = known.settled
         found = {
             name: interpolation(places[chosen[good]], table[good])

@@ -16,7 +16,7 @@ def to_film(vector: Floats) -> Floats:
     """Turn (..., x, y, z) of the cube into the plane of the film: (first, second) = (−z, +y).
 
     The first axis points down, the way the weight acts; the rotor turns it toward the second.
-    This is the frame of the source [Jonuschies 2015].
+    This is the frame of [Jonuschies 2015].
     """
     return np.stack([-vector[..., 2], vector[..., 1]], axis=-1)
 

@@ -55,7 +55,7 @@ _HARDEST = 16
 """Samples of a case that are solved again with the partial safety factor on their loads."""
 
 
-def balls(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
+def load_distribution(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
     """Solve the load distribution for every sample of every rolling bearing of the scene.
 
     Of the first bearing all samples are kept, and every ball force of the worst one; of all
@@ -291,7 +291,7 @@ def _work(scene: Scene, cases: tuple[Case, ...], measured: Measured) -> float:
 
 STAGE = Stage(
     "rolling",
-    run=balls,
+    run=load_distribution,
     results={"rolling.loads": _contact_links, "rolling.life": _life_links},
     needs=always("reduction"),
     sections=always("rolling", "friction"),

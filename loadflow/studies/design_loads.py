@@ -56,7 +56,7 @@ Bounds = tuple[float, float] | FrequencyBounds
 
 
 def stationary_rows(series: BearingSeries) -> list[dict[str, Any]]:
-    """Stationary loads of one bearing in one case (4.3.1 of the source), in SI units."""
+    """Stationary loads of one bearing in one case (4.3.1 of [Jonuschies 2015]), in SI units."""
     loads = stationary(series.speed, series.radial, series.time)
     return [
         {
@@ -153,7 +153,7 @@ def periodic_parts(
     additional: int = 2,
     orders: Sequence[float] | None = None,
 ) -> Iterator[PeriodicPart]:
-    """Yield the periodic load of every bearing and case (4.3.2 of the source).
+    """Yield the periodic load of every bearing and case (4.3.2 of [Jonuschies 2015]).
 
     Parameters
     ----------
@@ -163,7 +163,7 @@ def periodic_parts(
         Lower and upper bound, Hz. Without them the film of the bearing says which frequencies
         matter (4.23–4.27), once for each bearing and wind speed, by its first seed.
     journal : Journal, optional
-        The bearing; default: the reference bearing of the source.
+        The bearing; default: the reference bearing of [Jonuschies 2015].
     named : dict of str to float, optional
         Natural frequencies of the turbine, Hz.
     additional, orders

@@ -255,6 +255,6 @@ def write_reduction_page(path: Path, made: ReducedCube, source: str = "load cube
 
 FILM_TEXT = (
     "Deviation of the reduced series from the full one, films at static equilibrium, as in Tables "
-    "5-17 and 5-18 of the source (So of the largest pressure); and the reduced, quasi-static E_max "
-    "against that of the orbit under the full series, which is the true error."
+    "5-17 and 5-18 of [Jonuschies 2015] (So of the largest pressure); and the reduced, "
+    "quasi-static E_max against that of the orbit under the full series, which is the true error."
 )

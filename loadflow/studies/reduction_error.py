@@ -37,7 +37,7 @@ class Films:
     ratio : ndarray, shape (n,)
         Eccentricity ratio at static equilibrium; NaN where no film carries the load.
     number : ndarray, shape (n,)
-        p_max ψ²/(η ω), the "So" of the source's tables.
+        p_max ψ²/(η ω), the "So" of the tables of [Jonuschies 2015].
     power : ndarray, shape (n,)
         Friction power, W.
     orbit : ndarray, shape (n,) or (0,)
@@ -100,7 +100,7 @@ def solve_films(series: BearingSeries, journal: Journal, transient: bool = True)
 
 
 def for_long_series(journal: Journal) -> Journal:
-    """Take the film that is quick over a long series, where none is named and it knows the film."""
+    """Take the film that is cheap over a long series, where none is named and it knows the film."""
     return journal if "rung" in journal.model_fields_set else fast_film(journal) or journal
 
 

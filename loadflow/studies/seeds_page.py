@@ -55,9 +55,9 @@ def write_seed_page(
 ) -> Path:
     """Write a page: all verdicts, then for each wind speed what belongs to it.
 
-    A wind speed has its verdict table (as Tables 5-2 … 5-12 of the source), which seeds belong
-    together, whether they are equivalent and enough, box plots, spectra with their band, and rotor
-    speed and loads on probability paper.
+    A wind speed has its verdict table (as Tables 5-2 … 5-12 of [Jonuschies 2015]), which seeds
+    belong together, whether they are equivalent and enough, box plots, spectra with their band,
+    and rotor speed and loads on probability paper.
 
     Parameters
     ----------

@@ -160,7 +160,14 @@ def factor_of_maximum(dlc: str) -> float:
 
 
 def load_case(dlc: str) -> LoadCase:
-    """Row of the table; raises `InputError` if there is none of that number."""
+    """Row of the table; raises `InputError` if there is none of that number.
+
+    Examples
+    --------
+    >>> from loadflow.wind import load_case
+    >>> load_case("1.3").wind
+    'ETM'
+    """
     if dlc not in LOAD_CASES:
         raise InputError(f"load case {dlc!r} is unknown; known: {', '.join(LOAD_CASES)}")
     return LOAD_CASES[dlc]

@@ -69,7 +69,14 @@ class Field:
 
 
 def polar_angles(count: int) -> NDArray[np.float64]:
-    """`count` equidistant angles from 0 in [0, 2π), rad."""
+    """`count` equidistant angles from 0 in [0, 2π), rad.
+
+    Examples
+    --------
+    >>> from loadflow.wind import polar_angles
+    >>> polar_angles(4).round(3).tolist()
+    [0.0, 1.571, 3.142, 4.712]
+    """
     if count < 3:
         raise InputError(f"a polar grid needs at least 3 angles, not {count}")
     return 2 * np.pi * np.arange(count) / count

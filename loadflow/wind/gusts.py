@@ -77,6 +77,16 @@ def gust_field(
     -------
     Field
         The difference to the mean profile, exact at the grid points; `v` only if the wind turns.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.wind import gust_field, gusts, polar_angles
+    >>> time = np.linspace(0.0, 10.5, 22)
+    >>> rise = gusts.operating_gust(time, 5.0)
+    >>> field = gust_field(time, [0.0, 60.0], polar_angles(8), 12.0, 90.0, rise=rise)
+    >>> bool(np.allclose(field.hub, rise, atol=1e-5))
+    True
     """
     grid_r, grid_a = np.asarray(radius, float), np.asarray(angles, float)
     check_polar_grid(grid_r, grid_a)

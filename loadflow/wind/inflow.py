@@ -18,7 +18,18 @@ from loadflow.wind.turbulence import Method, kaimal, sample_times
 
 
 def rotor_grid(machine: Machine, options: WindOptions) -> PolarGrid:
-    """Polar grid over the rotor: equidistant radii from the hub to the tip."""
+    """Polar grid over the rotor: equidistant radii from the hub to the tip.
+
+    Examples
+    --------
+    >>> from loadflow.wind import Machine, WindOptions, rotor_grid
+    >>> machine = Machine(
+    ...     cut_in=3.0, rated=11.4, cut_out=25.0, rotor_diameter=126.0, hub_height=90.0
+    ... )
+    >>> grid = rotor_grid(machine, WindOptions(radii=3, angles=12))
+    >>> grid.radius.tolist()
+    [0.0, 31.5, 63.0]
+    """
     radius = np.linspace(0.0, machine.rotor_diameter / 2, options.radii)
     return PolarGrid(radius, polar_angles(options.angles))
 

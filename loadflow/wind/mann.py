@@ -109,7 +109,7 @@ def _stencil(
     cells: tuple[int, int, int],
     steps: tuple[float, float, float],
 ) -> Any:
-    """Roots of the spectral tensor on a grid; the dear part, the same for all seeds."""
+    """Roots of the spectral tensor on a grid; the expensive part, the same for all seeds."""
     try:
         from mannrs import Stencil
     except ImportError as error:

@@ -54,6 +54,12 @@ class WindOptions:
         Number of radii (with the hub) and of angles of the polar grid.
     step : float
         Time step of the wind, s.
+
+    Examples
+    --------
+    >>> from loadflow.wind import WindOptions
+    >>> WindOptions(wind_class="II", category="A").shear_exponent
+    0.2
     """
 
     wind_class: ClassName = "I"
@@ -120,6 +126,12 @@ class Machine:
         Wind speeds at hub height, m/s.
     rotor_diameter, hub_height : float
         Lengths, m.
+
+    Examples
+    --------
+    >>> from loadflow.wind import Machine
+    >>> Machine(cut_in=3.0, rated=11.4, cut_out=25.0, rotor_diameter=126.0, hub_height=90.0).rated
+    11.4
     """
 
     cut_in: float

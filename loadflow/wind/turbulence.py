@@ -98,6 +98,14 @@ def kaimal(
     ------
     InputError
         If an argument makes no sense, or `factors` belong to another grid or length scale.
+
+    Examples
+    --------
+    >>> from loadflow.wind import kaimal, polar_angles
+    >>> field = kaimal(12.0, 1.8, radius=[0.0, 30.0, 60.0], angles=polar_angles(8), duration=60.0,
+    ...     dt=0.5, seed=1, hub_height=90.0)
+    >>> field.u.dtype.name, field.hub.shape
+    ('float32', (121,))
     """
     grid = PolarGrid(np.asarray(radius, float), np.asarray(angles, float))
     scale = _length_scale(hub_height, length_scale)

@@ -153,7 +153,7 @@ def test_the_stage_keeps_each_bearing_and_the_life_of_the_system():
     scene = make_scene({"name": "x", "rolling": {"arrangement": "cylindrical-tapered"}})
     tree = xr.DataTree.from_dict({place: reduced(place) for place in ("N", "N2")})
     cases = [Case("1.1", 8.0, 1, 0.7), Case("1.1", 12.0, 1, 0.3)]
-    parts = {case: stage.balls(scene, case, {"reduction": tree}) for case in cases}
+    parts = {case: stage.load_distribution(scene, case, {"reduction": tree}) for case in cases}
     table = stage.summary(parts)
     first, each = report._rolling_tables(table)
     assert [row[0] for row in each.rows] == [f"{c.name} {b}" for c in cases for b in ("N", "N2")]

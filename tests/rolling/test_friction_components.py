@@ -1,7 +1,5 @@
 """Components of friction: areas by quadrature, variants, Coulomb balance, churning, catalogues."""
 
-import doctest
-import importlib
 import itertools
 
 import numba
@@ -17,23 +15,6 @@ from loadflow.rolling.friction import catalogue, coulomb, guides, roller_drag, r
 from loadflow.rolling.motion import kinematics, radial_load
 from loadflow.tribology import asperities, contact_film, traction
 from loadflow.validation.friction import MAIN, MAIN_RACES, MODULUS
-
-MODULES = [
-    "friction.catalogue",
-    "motion.kinematics",
-    "motion.radial_load",
-    "friction.guides",
-    "friction.energy",
-    "friction.roller_losses",
-    "friction.ball_losses",
-]
-
-
-@pytest.mark.parametrize("name", MODULES)
-def test_examples_of_the_docstrings(name):
-    outcome = doctest.testmod(importlib.import_module(f"loadflow.rolling.{name}"))
-    assert outcome.attempted > 0
-    assert outcome.failed == 0
 
 
 @pytest.mark.parametrize(("radius", "height"), [(5.5, 1.6), (3.75, 0.4), (20.0, 6.0)])

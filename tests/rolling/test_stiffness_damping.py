@@ -1,8 +1,5 @@
 """Lim–Singh stiffness, film dynamics, bearing matrices over frequency."""
 
-import doctest
-import importlib
-
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -52,13 +49,6 @@ def _ball(q):
         q, contacts.azimuth, contacts.table[0, 0], BALL.series_stiffness, BALL.groove_distance,
         0.0, 15e-6,
     )  # fmt: skip
-
-
-@pytest.mark.parametrize("name", ["stiffness.contact_films", "stiffness.rotor_coefficients"])
-def test_examples_of_the_docstrings(name):
-    outcome = doctest.testmod(importlib.import_module(f"loadflow.rolling.{name}"))
-    assert outcome.attempted > 0
-    assert outcome.failed == 0
 
 
 micro = st.floats(-3e-5, 3e-5)

@@ -234,5 +234,5 @@ def test_mistakes_are_named():
     def silent(force, moment):
         return np.full((len(force), 4), np.nan), np.broadcast_to(np.eye(4), (len(force), 4, 4))
 
-    with pytest.raises(SolverError, match="do not settle"):
+    with pytest.raises(SolverError, match="do not converge"):
         bearing_loads(suspended(FREE, OWN), force, moment, models={"N2": silent})

@@ -45,6 +45,15 @@ class RollingEquilibrium(ContactResult[Kind]):
     ----------
     bearing : RollingBearing
         The bearing.
+
+    Examples
+    --------
+    >>> from loadflow.rolling import BallBearing
+    >>> bearing = BallBearing(balls=9, ball_diameter=12.7e-3, pitch_diameter=65e-3,
+    ...     groove_radius=0.52 * 12.7e-3)
+    >>> loaded = bearing.equilibrium(force=(3000, 0, 0))
+    >>> bool(loaded.converged), loaded.element_forces.shape
+    (True, (1, 9))
     """
 
     bearing: Kind
@@ -96,7 +105,7 @@ class RollingEquilibrium(ContactResult[Kind]):
         >>> bearing = BallBearing(balls=7, ball_diameter=11.5e-3, pitch_diameter=43.5e-3,
         ...     groove_radius=0.52 * 11.5e-3)
         >>> loaded = bearing.equilibrium(force=(2000, 0, 500))
-        >>> oil = FrictionOptions(oil=lubricant("ISO VG 68"), temperature=333.15)
+        >>> oil = FrictionOptions(oil=lubricant("iso-vg-68"), temperature=333.15)
         >>> bool(loaded.friction(100.0, oil).power > 0)
         True
         """

@@ -50,6 +50,12 @@ def stribeck_torque(load: ArrayLike, pitch_diameter: float, friction: float) -> 
         d_m, m.
     friction : float
         μ, 0.001 … 0.003.
+
+    Examples
+    --------
+    >>> from loadflow.rolling.friction import stribeck_torque
+    >>> round(float(stribeck_torque(1e4, 0.06, 0.0011)), 3)  # N m
+    0.33
     """
     return np.asarray(np.asarray(load, float) * friction * pitch_diameter / 2)
 
@@ -69,6 +75,13 @@ def palmgren_idle_torque(
         m.
     factor : float
         f₀ of type and lubrication (`PALMGREN_F0`).
+
+    Examples
+    --------
+    >>> from loadflow.rolling.friction import palmgren_idle_torque
+    >>> slow, fast = palmgren_idle_torque([100.0, 200.0], 1e-5, 0.06, factor=2.0)
+    >>> round(float(fast / slow), 2)  # 2^(2/3)
+    1.59
     """
     flow = np.asarray(viscosity, float) * 1e6 * np.abs(np.asarray(speed, float)) * _RPM
     # constant below ν n = 2000, where 160 = 2000^(2/3) to 0.8 %
@@ -102,6 +115,12 @@ def palmgren_load_torque(
     ------
     InputError
         If `exponent` is not 0 and `static_capacity` is missing.
+
+    Examples
+    --------
+    >>> from loadflow.rolling.friction import palmgren_load_torque
+    >>> round(float(palmgren_load_torque(1e4, 0.06, 0.0003)), 3)  # N m
+    0.18
     """
     force = np.asarray(load, float)
     if exponent == 0:

@@ -29,6 +29,12 @@ class Churning:
         a, m³.
     inertial : float
         b, m⁵.
+
+    Examples
+    --------
+    >>> from loadflow.rolling.friction import Churning
+    >>> Churning(viscous=1e-4).inertial
+    0.0
     """
 
     viscous: Annotated[float, Ge(0)] = 0.0
@@ -64,6 +70,15 @@ def fit_churning(
     ------
     InputError
         Fewer than two points, or values that are not finite.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.rolling.friction import fit_churning
+    >>> speed = np.array([50.0, 100.0, 200.0])
+    >>> fitted = fit_churning(speed, 2e-3 * 0.02 * speed, viscosity=0.02, density=850.0)
+    >>> round(fitted.viscous, 6)
+    0.002
     """
     from scipy.optimize import nnls
 

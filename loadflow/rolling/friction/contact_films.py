@@ -33,7 +33,14 @@ class ContactFilm(NamedTuple):
 
 
 def raceway_radius(roller_diameter: float, gamma: float, ring: Ring) -> float:
-    """Reduced radius ρ (1 ∓ γ) of rolling element and raceway, m, (5.66), (5.67)."""
+    """Reduced radius ρ (1 ∓ γ) of rolling element and raceway, m, (5.66), (5.67).
+
+    Examples
+    --------
+    >>> from loadflow.rolling.friction import raceway_radius
+    >>> round(raceway_radius(11e-3, 11 / 60.5, "inner") * 1e3, 3)  # mm
+    4.5
+    """
     return roller_diameter / 2 * (1 - gamma if ring == "inner" else 1 + gamma)
 
 

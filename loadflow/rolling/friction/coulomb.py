@@ -43,6 +43,12 @@ def cage_force(
         Ring that turns.
     rib : {"outer", "inner"}
         Ring with the ribs.
+
+    Examples
+    --------
+    >>> from loadflow.rolling.friction import cage_force
+    >>> round(cage_force(-3.18, -0.59, 0.0, adhesion=0.12, sliding=0.04), 2)  # N
+    0.21
     """
     _check(driving, ("inner", "outer"), "driving")
     _check(rib, ("outer", "inner"), "rib")
@@ -82,6 +88,13 @@ def driving_moment(
         As `cage_force`.
     variant : {"physics", "printed"}
         See the module.
+
+    Examples
+    --------
+    >>> from loadflow.rolling.friction import driving_moment
+    >>> moment = driving_moment(700.0, 3.0, 0.5, 0.0, 5.5e-3, adhesion=0.12, sliding=0.04)
+    >>> round(float(moment), 3)  # N m
+    0.926
     """
     _check(variant, ("physics", "printed"), "variant")
     _check(driving, ("inner", "outer"), "driving")
@@ -98,7 +111,14 @@ def driving_moment(
 
 
 def pocket_moment(force: Value, spin: Value, radius: float, sliding: float) -> Value:
-    """Moment of the cage pocket against the spin, μ' ρ |K| sign(ω_w), N m: it always brakes."""
+    """Moment of the cage pocket against the spin, μ' ρ |K| sign(ω_w), N m: it always brakes.
+
+    Examples
+    --------
+    >>> from loadflow.rolling.friction import pocket_moment
+    >>> f"{pocket_moment(2.0, 250.0, 5.5e-3, 0.04):.2e}"  # N m
+    '4.40e-04'
+    """
     return sliding * radius * np.abs(force) * np.sign(spin)
 
 
@@ -120,6 +140,13 @@ def rolling_loss(
         μ_R of rolling friction.
     sliding : float
         μ'.
+
+    Examples
+    --------
+    >>> from loadflow.rolling.friction import rolling_loss
+    >>> loss = rolling_loss(700.0, 3.0, 0.0, 280.0, 5.5e-3, coefficient=5e-4, sliding=0.04)
+    >>> round(float(loss), 3)  # W
+    1.08
     """
     return coefficient * radius * np.abs(2 * load + radial + sliding * cage) * spin
 
@@ -140,6 +167,12 @@ def sliding_loss(
         μ N/(1 - μμ'), only used by "printed": (5.38) has it with the opposite sign in K.
     variant : {"physics", "printed"}
         See the module.
+
+    Examples
+    --------
+    >>> from loadflow.rolling.friction import sliding_loss
+    >>> round(float(sliding_loss(0.0, 3.0, 0.5, 50.0, 5.5e-3, sliding=0.04)), 4)  # W
+    0.0332
     """
     _check(variant, ("physics", "printed"), "variant")
     force = cage - 2 * adhesion_force if variant == "printed" else cage
@@ -152,6 +185,12 @@ def pocket_loss(
     """Loss of roller and cage, μ' ρ |K| |ω_w|, W, (5.40), (5.41).
 
     The source prints μ'² for μ', which makes it 25 times too small.
+
+    Examples
+    --------
+    >>> from loadflow.rolling.friction import pocket_loss
+    >>> round(float(pocket_loss(2.0, 250.0, 5.5e-3, 0.04)), 4)  # W
+    0.11
     """
     _check(variant, ("physics", "printed"), "variant")
     power = sliding**2 if variant == "printed" else sliding

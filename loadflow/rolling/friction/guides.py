@@ -36,6 +36,12 @@ def cage_side_torque(
         Of the cage against the guide, rad/s.
     outer_radius, inner_radius : float
         Of the cage, m.
+
+    Examples
+    --------
+    >>> from loadflow.rolling.friction import cage_side_torque
+    >>> f"{cage_side_torque(0.01, (1e-4, 1e-4), 40.0, 0.035, 0.030):.2e}"  # N m
+    '8.68e-03'
     """
     ring = np.pi / 2 * (outer_radius**4 - inner_radius**4)
     return viscosity * (1 / gaps[0] + 1 / gaps[1]) * ring * speed
@@ -44,7 +50,14 @@ def cage_side_torque(
 def cage_inertia_force(
     cage_mass: float, rollers: int, roller_mass: float, crank_radius: float, speed: Value
 ) -> Value:
-    """Inertia force of the cage of a crank-pin bearing with half its rollers, N, (4.72)."""
+    """Inertia force of the cage of a crank-pin bearing with half its rollers, N, (4.72).
+
+    Examples
+    --------
+    >>> from loadflow.rolling.friction import cage_inertia_force
+    >>> round(cage_inertia_force(0.03, 18, 6.67e-3, 0.0425, 104.7), 1)  # N
+    41.9
+    """
     return (cage_mass + rollers / 2 * roller_mass) * crank_radius * speed * speed
 
 
@@ -76,6 +89,12 @@ def cage_rub_torque(
         m.
     speed, cage_speed : float or ndarray
         Of crank and cage, rad/s.
+
+    Examples
+    --------
+    >>> from loadflow.rolling.friction import cage_rub_torque
+    >>> round(cage_rub_torque(50.0, 0.04, 0.0314), 4)
+    0.0628
     """
     if variant == "printed":
         return sliding * force / (crank_radius * speed * speed) * crank_radius**2 * cage_speed
@@ -97,6 +116,12 @@ def thrust_washer_torque(
         Friction coefficient (steel on bronze 0.07).
     outer_radius, inner_radius : float
         m.
+
+    Examples
+    --------
+    >>> from loadflow.rolling.friction import thrust_washer_torque
+    >>> thrust_washer_torque(100.0, 0.1, 0.04, 0.02)
+    0.3
     """
     return friction * axial * (outer_radius + inner_radius) / 2
 

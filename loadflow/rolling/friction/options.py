@@ -55,6 +55,13 @@ class FrictionOptions:
     ------
     InputError
         If a field is out of its range or the film law is not one of lines.
+
+    Examples
+    --------
+    >>> from loadflow.rolling import FrictionOptions
+    >>> from loadflow.tribology import lubricant
+    >>> FrictionOptions(oil=lubricant("iso-vg-68"), temperature=333.15).film
+    'moes'
     """
 
     oil: Oil

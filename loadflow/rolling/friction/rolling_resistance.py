@@ -41,12 +41,25 @@ def hysteresis_moment(load: Value, half_width: Value, loss: float) -> Value:
         Half the Hertzian width a, m.
     loss : float
         Hysteresis loss factor α of the steel; of the order of 0.01.
+
+    Examples
+    --------
+    >>> from loadflow.rolling.friction import hysteresis_moment
+    >>> f"{hysteresis_moment(1000.0, 57e-6, loss=0.01):.2e}"  # N m
+    '1.21e-04'
     """
     return loss * 2.0 / (3.0 * np.pi) * load * half_width
 
 
 def rolling_coefficient(half_width: Value, roller_radius: float, loss: float) -> Value:
-    """Coefficient of rolling friction μ_R = α 2a/(3πρ), (4.40)."""
+    """Coefficient of rolling friction μ_R = α 2a/(3πρ), (4.40).
+
+    Examples
+    --------
+    >>> from loadflow.rolling.friction import rolling_coefficient
+    >>> f"{rolling_coefficient(57e-6, 5.5e-3, loss=0.01):.2e}"
+    '2.20e-05'
+    """
     return loss * 2.0 * half_width / (3.0 * np.pi * roller_radius)
 
 
@@ -85,6 +98,12 @@ def rigid_force(load: Value, length: Value, speed: Value, viscosity: Value) -> V
     """Hydrodynamic rolling force between rigid cylinders, 2.080 l √(η u Q/l), N.
 
     Exact for an isoviscous film; the lighter the load, the nearer.
+
+    Examples
+    --------
+    >>> from loadflow.rolling.friction import rigid_force
+    >>> round(rigid_force(100.0, 11e-3, 1.5, 0.01), 2)  # N
+    np.float64(0.27)
     """
     return _MARTIN * length * np.sqrt(viscosity * speed * load / length)
 
@@ -132,6 +151,12 @@ def hydrodynamic_torque(
         D d/(D + d), so that torque times speed is the power 2 u F.
     contact_angle : float
         Of both rings, rad.
+
+    Examples
+    --------
+    >>> from loadflow.rolling.friction import hydrodynamic_torque
+    >>> round(hydrodynamic_torque(0.2, 0.2, 49.5e-3, 71.5e-3), 5)  # N m: arms D d/(D + d) for both
+    np.float64(0.0117)
     """
     inner, outer, cos = inner_diameter / 2, outer_diameter / 2, np.cos(contact_angle)
     roller = (outer - inner) / (2 * cos)

@@ -38,6 +38,12 @@ def friction_torque_loads(
         Factor μ of Tab. 2.3 (`FRICTION_FACTORS`).
     idle : float
         Torque M_R0 without load, N m.
+
+    Examples
+    --------
+    >>> from loadflow.rolling import friction_torque_loads
+    >>> round(float(friction_torque_loads(1e6, 1e5, 2e5, 1.9, idle=8000.0)))  # N m
+    12797
     """
     tilt = 4.4 * np.abs(np.asarray(moment, float))
     force = 2.2 * np.abs(np.asarray(radial, float)) + np.abs(np.asarray(axial, float))
@@ -68,6 +74,12 @@ def friction_torque_forces(
         Factor μ that the source calibrated.
     idle : float
         Torque M_R0 without load and without preload (which is in `force_sum`), N m.
+
+    Examples
+    --------
+    >>> from loadflow.rolling import friction_torque_forces
+    >>> round(float(friction_torque_forces(2_202_502, 1.9, idle=8000.0)))  # N m
+    15323
     """
     return np.asarray(idle + friction * 0.7 * np.asarray(force_sum, float) * pitch_diameter / 2)
 
@@ -83,6 +95,13 @@ def friction_factor(
         Measured friction torque, N m.
     force_sum, pitch_diameter, idle
         See `friction_torque_forces`.
+
+    Examples
+    --------
+    >>> from loadflow.rolling.friction import friction_factor, friction_torque_forces
+    >>> torque = friction_torque_forces(2.2e6, 1.9, friction=0.004)
+    >>> round(float(friction_factor(torque, 2.2e6, 1.9)), 6)
+    0.004
     """
     per_factor = friction_torque_forces(force_sum, pitch_diameter, friction=1.0)
     return np.asarray((np.asarray(torque, float) - idle) / per_factor)
@@ -103,5 +122,11 @@ def friction_torque_equivalent(
         Factor μ; 0.0024 of four-point bearings.
     idle : float
         Torque without load, N m.
+
+    Examples
+    --------
+    >>> from loadflow.rolling.friction import friction_torque_equivalent
+    >>> round(float(friction_torque_equivalent(1e6, 1.9)))  # N m
+    2280
     """
     return np.asarray(idle + friction * np.asarray(load, float) * pitch_diameter / 2)

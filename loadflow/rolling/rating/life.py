@@ -73,6 +73,12 @@ def spectrum_load(
     ------
     InputError
         If weights are negative or all zero.
+
+    Examples
+    --------
+    >>> from loadflow.rolling import spectrum_load
+    >>> round(float(spectrum_load([1e5, 2e5], weight=[0.9, 0.1], exponent=3.0)))  # N
+    119348
     """
     p, w = np.broadcast_arrays(np.asarray(load, float), np.asarray(weight, float))
     total = w.sum(axis=axis)
@@ -109,6 +115,12 @@ def rating_life_spectrum(
     -------
     ndarray
         L10 in millions of revolutions.
+
+    Examples
+    --------
+    >>> from loadflow.rolling import rating_life_spectrum
+    >>> round(float(rating_life_spectrum(1e6, [1e5, 2e5], revolutions=[0.9, 0.1])), 1)  # 1e6 turns
+    588.2
     """
     return rating_life(capacity, spectrum_load(load, revolutions, exponent, axis), exponent)
 

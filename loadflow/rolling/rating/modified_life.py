@@ -70,6 +70,13 @@ class Lubrication:
         K.
     cleanliness : str
         One of `CLEANLINESS`: system and ISO 4406 class, or grease and its state.
+
+    Examples
+    --------
+    >>> from loadflow.rolling import Lubrication
+    >>> from loadflow.tribology import lubricant
+    >>> Lubrication(oil=lubricant("iso-vg-220"), temperature=333.15).cleanliness
+    'grease, normal cleanliness'
     """
 
     oil: Oil
@@ -273,6 +280,16 @@ def life_modification(
     ------
     InputError
         As `life_factor`.
+
+    Examples
+    --------
+    >>> from loadflow.rolling import Lubrication, life_modification
+    >>> from loadflow.tribology import lubricant
+    >>> work = {"kind": "radial-ball", "pitch_diameter": 0.065, "static_capacity": 20e3}
+    >>> oil = Lubrication(oil=lubricant("iso-vg-68"), temperature=333.15)
+    >>> found = life_modification(2000.0, 100.0, lubrication=oil, **work)
+    >>> bool(0.1 < found.viscosity_ratio < 4.0)
+    True
     """
     kappa = viscosity_ratio(lubrication, speed, pitch_diameter)
     clean = contamination_factor(lubrication.cleanliness, kappa, pitch_diameter)
@@ -310,6 +327,16 @@ def modified_life(
     ------
     InputError
         As `life_factor` and `reliability_factor`.
+
+    Examples
+    --------
+    >>> from loadflow.rolling import Lubrication, modified_life
+    >>> from loadflow.tribology import lubricant
+    >>> work = {"kind": "radial-ball", "pitch_diameter": 0.065, "static_capacity": 20e3}
+    >>> oil = Lubrication(oil=lubricant("iso-vg-68"), temperature=333.15)
+    >>> life = modified_life(100.0, 2000.0, [10.0, 100.0], lubrication=oil, **work)
+    >>> bool(life[0] < life[1])  # the faster, the thicker the film
+    True
     """
     factor = life_modification(load, speed, **work).factor
     return np.asarray(reliability_factor(reliability) * factor * np.asarray(life, float))
@@ -331,6 +358,12 @@ def system_life(lives: ArrayLike, exponent: float = WEIBULL["roller"], axis: int
     ------
     InputError
         If a life is not positive.
+
+    Examples
+    --------
+    >>> from loadflow.rolling import system_life
+    >>> round(float(system_life([1e5, 1e5])))
+    54003
     """
     parts = np.asarray(lives, float)
     if not np.all(parts > 0):
