@@ -14,6 +14,7 @@ from loadflow.journal.film.gap import PlainGap
 from loadflow.journal.film.gap_elastic import ElasticGap
 from loadflow.journal.film.gap_mesh import crowded, recess_marks, shaped_mesh
 from loadflow.journal.film.gap_shaped import Bore, ShapedGap
+from loadflow.journal.film.gap_warm import WarmGap
 from loadflow.journal.film.groove_pressure import Pockets
 from loadflow.journal.film.grooves import groove_marks, groove_numbers
 from loadflow.journal.film.mesh import build_mesh
@@ -95,7 +96,7 @@ def build_shaped_film(
         pressure,
     )
     if options.shell is None:
-        gap = ShapedGap(mesh, bore)
+        gap = ShapedGap(mesh, bore) if options.heat is None else WarmGap(mesh, bore)
         film = DiscreteFilm(gap, *words)
     else:
         require(not bore.pads, "shell", options.shell, "None for pads, whose backs are not held")
