@@ -25,6 +25,7 @@ from scipy.sparse.linalg import splu
 from loadflow.errors import SolverError
 from loadflow.journal.cavitation import FILL
 from loadflow.journal.film import _energy_kernels as kernel
+from loadflow.journal.film import _kernels as coefficient
 from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.gap_warm import WarmGap
 from loadflow.journal.heat import HOTTEST, FilmHeat
@@ -194,10 +195,33 @@ class EnergyEquation:
             film.state, self.gap.coef, mesh.dz, mesh.area, mesh.gz, mesh.closed, film.wedge,
             film.p_edge, film.p_line, film.line_fill, film.grooved, around, across, lost,
         )  # fmt: skip
+        fill = film.state[FILL].copy()
+        self._drag_through(around, across, lost, fill)
         unit = film.pockets.flow_unit
         flows = self._numbered(unit * around, unit * across)
-        shear = (film.state[FILL] * self.gap.shear * mesh.dz)[self.wet]
+        shear = (fill * self.gap.shear * mesh.dz)[self.wet]
         return flows, shear, unit * lost[self.wet]
+
+    def _drag_through(self, around: Array, across: Array, lost: Array, fill: Array) -> None:
+        """Let no more oil through the film of a pad without load than its narrowest place drags.
+
+        Its pressure is held, so that its balance of mass is nobody's. Changes all arrays.
+        """
+        film = self.film
+        idle = np.asarray((film.fixed & ~film.grooved).any(axis=1))
+        if not idle.any():
+            return
+        across[idle], lost[idle] = 0.0, 0.0
+        rows = film.mesh.shape[1]
+        dragged = film.wedge * self.gap.coef[coefficient.E, :, :rows] * film.mesh.area
+        edges = np.flatnonzero(np.diff(np.concatenate([[False], idle, [False]]).astype(int)))
+        for first, end in edges.reshape(-1, 2):
+            faces, cells = slice(first, end + 1), slice(first, end)
+            least = np.abs(dragged[faces]).argmin(axis=0)
+            through = dragged[faces][least, np.arange(rows)]
+            around[faces] = through
+            within = 0.5 * (dragged[first:end] + dragged[first + 1 : end + 1])
+            fill[cells] = through / np.where(within == 0.0, 1.0, within)
 
     @cached_property
     def _faces(self) -> tuple[Numbers, Numbers]:

@@ -36,6 +36,8 @@ FilmOf = Callable[["Solution | None"], Solution]
 TOLERANCE, TRIES = 1e-7, 50
 """Largest change of a temperature that is left, K, and the fields of temperature tried."""
 _DEPTH = 6  # earlier fields that count
+_WORSE = 1.5  # of the smallest change so far, that from which the next field goes back
+_SCORCHED = 10  # fields in a row above the largest temperature, after which none is tried
 _HALVED = 12  # steps of the temperature that are halved before the film is given up
 
 
@@ -137,6 +139,7 @@ def _settled(
     before, now = (None, cold) if last is None else last
     good, warmth, residual = cold, None, np.inf
     method, halved, spent = Anderson(_DEPTH), 0, 0
+    best, share, nearest, scorched = np.inf, 1.0, (now, now), 0
     for iteration in range(1, TRIES + 1):
         equation.thicken(now)
         solution = film_of(before)
@@ -155,15 +158,30 @@ def _settled(
             return _Warm(solution, None, residual, iteration, False, str(error))
         before, good = solution, now
         residual = float(np.abs(warmth.cells - now).max())
+        scorched = scorched + 1 if float(min(now.max(), warmth.cells.max())) > HOTTEST else 0
+        if scorched > _SCORCHED:
+            break
+        if residual < best:
+            best, nearest, share = residual, (now, warmth.cells), min(1.0, 2.0 * share)
         if residual <= TOLERANCE:
             hottest = float(warmth.cells.max())
             hot = f"the film gets hotter than {HOTTEST} K: {hottest:.4g} K"
             fine = hottest < HOTTEST
             return _Warm(solution, warmth, residual, iteration, fine, "" if fine else hot)
-        now = method.next(now.ravel(), warmth.cells.ravel()).reshape(now.shape)
+        if residual > _WORSE * best:  # from the best field again, less far
+            method.forget()
+            share *= 0.5
+            now = nearest[0] + share * (nearest[1] - nearest[0])
+            continue
+        relaxed = now + share * (warmth.cells - now)
+        now = method.next(now.ravel(), relaxed.ravel()).reshape(now.shape)
         low, high = warmth.cells.min() - 5.0, warmth.cells.max() + 5.0
         now = np.clip(now, low, min(high, HOTTEST + 100.0))
-    why = "" if warmth is None else f"temperatures: {residual:.3g} K left after {iteration} fields"
+    why = ""
+    if warmth is not None:
+        why = f"temperatures: {residual:.3g} K left after {iteration} fields"
+    if scorched:
+        why = f"the film gets hotter than {HOTTEST} K"
     return _Warm(solution, warmth, residual, iteration, False, why)
 
 
