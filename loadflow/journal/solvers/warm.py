@@ -3,7 +3,7 @@
 Two solutions alternate: the film (and the shaft under its load) with the viscosity of every cell
 given, by Newton; and the temperatures with flows and gap given, by Newton, the viscosity following
 them. What one leaves of the other is a fixed point of the temperatures, accelerated by Anderson's
-method.
+method. A film so hot that it does not converge is tried by shorter steps, and ends with a reason.
 """
 
 from __future__ import annotations
@@ -33,9 +33,10 @@ Array = NDArray[np.float64]
 FilmOf = Callable[["Solution | None"], Solution]
 """The film at given viscosities, from the last solution."""
 
-TOLERANCE, TRIES = 1e-7, 50
+TOLERANCE, TRIES = 1e-7, 80
 """Largest change of a temperature that is left, K, and the fields of temperature tried."""
 _DEPTH = 6  # earlier fields that count
+_PLAIN, _SHORT = 20, 0.3  # fields after which only this share of each change is made
 _WORSE = 1.5  # of the smallest change so far, that from which the next field goes back
 _SCORCHED = 10  # fields in a row above the largest temperature, after which none is tried
 _HALVED = 12  # steps of the temperature that are halved before the film is given up
@@ -168,6 +169,9 @@ def _settled(
             hot = f"the film gets hotter than {HOTTEST} K: {hottest:.4g} K"
             fine = hottest < HOTTEST
             return _Warm(solution, warmth, residual, iteration, fine, "" if fine else hot)
+        if iteration >= _PLAIN:
+            now = now + _SHORT * (warmth.cells - now)
+            continue
         if residual > _WORSE * best:  # from the best field again, less far
             method.forget()
             share *= 0.5
