@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, ClassVar
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 from annotated_types import Ge, Gt, Le
@@ -72,6 +72,7 @@ class Heat(_Entering):
     heat_capacity: Annotated[float, Gt(0)] = 2000.0
     transfer: Annotated[float, Ge(0)] = 0.0
     ambient_temperature: Annotated[float, Gt(200)] = 293.15
+    kind: Literal["balance"] = "balance"
 
     over_area: ClassVar[bool] = False
 
@@ -142,6 +143,7 @@ class FilmHeat(_Entering):
     shaft_transfer: Annotated[float, Ge(0)] = 0.0
     shell_temperature: Annotated[float, Gt(200)] = 293.15
     shaft_temperature: Annotated[float, Gt(200)] | None = None
+    kind: Literal["film"] = "film"
 
     over_area: ClassVar[bool] = True
 

@@ -33,10 +33,11 @@ Array = NDArray[np.float64]
 FilmOf = Callable[["Solution | None"], Solution]
 """The film at given viscosities, from the last solution."""
 
-TOLERANCE, TRIES = 1e-7, 80
+TOLERANCE, TRIES = 1e-7, 100
 """Largest change of a temperature that is left, K, and the fields of temperature tried."""
 _DEPTH = 6  # earlier fields that count
 _PLAIN, _SHORT = 20, 0.3  # fields after which only this share of each change is made
+_NEAR = 0.5  # change, K, below which the method is trusted again
 _WORSE = 1.5  # of the smallest change so far, that from which the next field goes back
 _SCORCHED = 10  # fields in a row above the largest temperature, after which none is tried
 _HALVED = 12  # steps of the temperature that are halved before the film is given up
@@ -169,14 +170,16 @@ def _settled(
             hot = f"the film gets hotter than {HOTTEST} K: {hottest:.4g} K"
             fine = hottest < HOTTEST
             return _Warm(solution, warmth, residual, iteration, fine, "" if fine else hot)
-        if iteration >= _PLAIN:
+        if iteration >= _PLAIN and residual > _NEAR:
+            method.forget()
             now = now + _SHORT * (warmth.cells - now)
             continue
-        if residual > _WORSE * best:  # from the best field again, less far
+        if iteration < _PLAIN and residual > _WORSE * best:  # from the best field again, less far
             method.forget()
             share *= 0.5
             now = nearest[0] + share * (nearest[1] - nearest[0])
             continue
+        share = share if iteration < _PLAIN else _SHORT
         relaxed = now + share * (warmth.cells - now)
         now = method.next(now.ravel(), relaxed.ravel()).reshape(now.shape)
         low, high = warmth.cells.min() - 5.0, warmth.cells.max() + 5.0
