@@ -13,6 +13,7 @@ from loadflow.journal import (
     FilmHeat,
     GasMixture,
     Groove,
+    Heat,
     JournalBearing,
     Lobes,
     LocalShell,
@@ -23,6 +24,7 @@ from loadflow.journal import (
     Supply,
     TiltingPads,
 )
+from loadflow.scene.scene import make_journal
 from loadflow.tribology import ExponentialOil
 from loadflow.tribology.couette import adiabatic_rise
 from loadflow.validation.film_heat import LADDER, ladder_bearing, ladder_state
@@ -247,6 +249,30 @@ def test_results_have_units_and_names():
     assert data.leading_temperature.units == "K"
     assert data.heat_carried.units == "W"
     assert all({"units", "long_name"} <= set(data[name].attrs) for name in data.data_vars)
+
+
+def test_a_scene_has_either_kind_of_heat():
+    base = {"cavitation": "mass-conserving", "edge_pressure": 1e4}
+    base |= {"geometry": SIZE | {"shape": {"kind": "lobes", "count": 2}}, "grid": (48, 8)}
+    section = make_journal(base | {"heat": {"kind": "film", "carry_over": 0.5}}, "journal")
+    assert section.film_model.heat == FilmHeat(carry_over=0.5)
+    assert make_journal(base | {"heat": {"transfer": 5.0}}, "journal").film_model.heat == Heat(
+        transfer=5.0
+    )
+    again = make_journal(section.model_dump(exclude_unset=True), "journal")
+    assert again.heat == section.heat
+    for more, words in (
+        ({"heat": {"kind": "film", "transfer": 5.0}}, r"journal\.heat\.transfer: unknown key"),
+        ({"heat": {"kind": "oven"}}, "kind must be one of balance, film"),
+        (
+            {"heat": {"kind": "film"}, "motion": "transient"},
+            "no rung serves for an energy",
+        ),
+        ({"heat": {"kind": "film"}, "rung": "reduced"}, '"grid" for an energy equation'),
+        ({"heat": {"kind": "film"}, "cavitation": "reynolds"}, "a law that conserves mass"),
+    ):
+        with pytest.raises(InputError, match=words):
+            make_journal(base | more, "journal")
 
 
 @pytest.mark.parametrize("row", LADDER, ids=lambda row: f"{row.rung}: {row.name}")
