@@ -67,6 +67,17 @@ FILM: dict[str, Quantity] = {
     "viscosity": Quantity("η", "Pa s", "viscosity at the effective temperature"),
     "heat_residual": Quantity("", "K", "what is left of the heat balance"),
     "heat_iterations": Quantity("", "1", "temperatures tried"),
+    "maximum_temperature": Quantity("T_max", "K", "largest temperature of the film"),
+    "shaft_temperature": Quantity("T_s", "K", "temperature of the shaft"),
+    "heat_carried": Quantity("", "W", "heat that leaves with the oil"),
+    "heat_conducted": Quantity("", "W", "heat that passes into shell and shaft"),
+    "heat_imbalance": Quantity("", "1", "what is missing of the heat balance, over the friction"),
+    "leading_temperature": Quantity("T_in", "K", "temperature of the oil that leaves each groove"),
+    "trailing_temperature": Quantity(
+        "T_out", "K", "temperature of the oil that enters each groove"
+    ),
+    "film_temperature": Quantity("T", "K", "temperature of each cell"),
+    "film_viscosity": Quantity("η", "Pa s", "viscosity in each cell"),
     "pressure": Quantity("p", "Pa", "film pressure, absolute"),
     "fill": Quantity("F", "1", "share of liquid in each cell"),
     "deformation": Quantity("", "m", "growth of the gap by the elastic shell"),

@@ -9,6 +9,7 @@
 `shells`         elastic shells
 `supply`         grooves, pockets, restrictors, pump
 `results`        what comes back
+`heat`           oil and cooling: `Heat`, `FilmHeat`; `heat_results` what comes back
 `thermal`        heat balance; `energy`: losses against the power of the shaft
 `validity`       limits of the model: turbulence; `grid_error`: error of the cells
 `dimensionless`  a bearing in numbers without dimension

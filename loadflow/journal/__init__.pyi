@@ -17,7 +17,10 @@ from .film_model import Film as Film
 from .geometry import JournalGeometry as JournalGeometry
 from .grid_error import GridError as GridError
 from .grid_error import grid_error as grid_error
+from .heat import FilmHeat as FilmHeat
 from .heat import Heat as Heat
+from .heat_results import FilmHeatEquilibrium as FilmHeatEquilibrium
+from .heat_results import FilmHeatField as FilmHeatField
 from .lubricant import Lubricant as Lubricant
 from .pad_results import ConicalResult as ConicalResult
 from .pad_results import PadResult as PadResult

@@ -12,10 +12,17 @@ from loadflow.errors import InputError
 from loadflow.journal.film.discretise import operating_points
 from loadflow.journal.film_model import Film, Keywords, film_and_control
 from loadflow.journal.geometry import JournalGeometry
+from loadflow.journal.heat import FilmHeat, Heat
+from loadflow.journal.heat_results import FilmHeatEquilibrium, FilmHeatField
 from loadflow.journal.line import Line
 from loadflow.journal.lubricant import Lubricant
 from loadflow.journal.models.model import Steps, model_of
-from loadflow.journal.results import Equilibrium, FilmField, WarmEquilibrium, shaped
+from loadflow.journal.results import (
+    Equilibrium,
+    FilmField,
+    WarmEquilibrium,
+    shaped,
+)
 from loadflow.journal.thermal import shares, warm_film
 from loadflow.journal.validity import warn_if_turbulent
 from loadflow.numerics.convergence import Control
@@ -104,7 +111,9 @@ class JournalBearing(JournalGeometry):
         Returns
         -------
         Equilibrium
-            A `WarmEquilibrium`, with its temperatures, where the film has heat.
+            A `WarmEquilibrium`, with its temperatures, where the film has heat; with an energy
+            equation over its area a `FilmHeatEquilibrium`, whose stiffness and damping are those of
+            the film at the temperature that it has (which does not follow fast motion).
 
         Raises
         ------
@@ -125,6 +134,11 @@ class JournalBearing(JournalGeometry):
             warn_if_turbulent(self, speeds, film.liquid)
             answer = model.equilibrium(self, film, loads, speeds, line, limits)
             return Equilibrium(**shaped(answer, shape))
+        if film.heat.over_area:
+            require(weights is None, "weights", weights, "None with heat over the area")
+            answer = model.equilibrium(self, film, loads, speeds, line, limits)
+            warn_if_turbulent(self, speeds, _hottest(film.heat, answer["maximum_temperature"]))
+            return FilmHeatEquilibrium(**shaped(answer, shape))
 
         cold, each = film.isothermal(), replace(limits, strict=False)
 
@@ -133,8 +147,7 @@ class JournalBearing(JournalGeometry):
 
         share = shares(weights, shape)
         answer = warm_film(at_rest, loads, speeds, film, share, strict=limits.strict)
-        hottest = np.nanmax([film.heat.inlet_temperature, *answer["temperature"]])
-        warn_if_turbulent(self, speeds, film.heat.lubricant(float(hottest)))
+        warn_if_turbulent(self, speeds, _hottest(film.heat, answer["temperature"]))
         return WarmEquilibrium(**shaped(answer, shape))
 
     def pressure(
@@ -158,7 +171,7 @@ class JournalBearing(JournalGeometry):
         speed : array_like (…)
             rad/s.
         film : Film or Lubricant
-            As in `equilibrium`, but without heat.
+            As in `equilibrium`; without heat, or with heat over the area and at rest.
         velocity : array_like (…, 2)
             Velocity of the shaft centre, m/s. The squeeze is F ∂h/∂t, the fill is quasi-steady.
         control : Control, optional
@@ -169,6 +182,7 @@ class JournalBearing(JournalGeometry):
         Returns
         -------
         FilmField
+            With heat a `FilmHeatField`.
 
         Raises
         ------
@@ -188,7 +202,8 @@ class JournalBearing(JournalGeometry):
         line = Line.of(shape, tilt=tilt, bend=bend)
         model = model_of("at_position", film, self, line)
         found, z = model.pressure(self, film, places, velocities, speeds, line, limits)
-        return FilmField(z=z, **shaped(found, shape))
+        kind = FilmField if film.heat is None else FilmHeatField
+        return kind(z=z, **shaped(found, shape))
 
     def orbit(
         self,
@@ -283,3 +298,8 @@ class JournalBearing(JournalGeometry):
         line = Line.of(shape, moment=moment)
         model = model_of("in_motion", film, self, line, steps)
         return model.orbit(self, film, times, loads, speeds, line, limits, steps)
+
+
+def _hottest(heat: Heat | FilmHeat, temperatures: Array) -> Lubricant:
+    """The oil of a film at the largest of `temperatures`, K; as it enters, if there is none."""
+    return heat.lubricant(float(np.nanmax([heat.inlet_temperature, *temperatures])))

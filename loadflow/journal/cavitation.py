@@ -63,6 +63,8 @@ class CavitationLaw:
         Whether the law is a complementarity, whose rupture moves by one cell in a Newton step.
     cuts_load : bool
         Whether pressures below the floor stay in the film and only carry nothing.
+    keeps_mass : bool
+        Whether what flows out of a cell at rest has flowed into it, so that it can carry heat.
     """
 
     kind: ClassVar[str]
@@ -72,6 +74,7 @@ class CavitationLaw:
     inlet_line: ClassVar[bool] = False
     moves_by_cells: ClassVar[bool] = False
     cuts_load: ClassVar[bool] = False
+    keeps_mass: ClassVar[bool] = True
     cells: ClassVar[Cells]
 
     @property
@@ -308,6 +311,7 @@ class Reynolds(_AtPressure):
     kind: ClassVar[str] = "reynolds"
     inlet_line: ClassVar[bool] = True
     moves_by_cells: ClassVar[bool] = True
+    keeps_mass: ClassVar[bool] = False
     cells: ClassVar[Cells] = _reynolds
 
 

@@ -14,7 +14,7 @@ from typing import Any, Literal, TypedDict
 from loadflow.errors import InputError
 from loadflow.journal.cavitation import CavitationLaw, Reynolds
 from loadflow.journal.contact import Contact
-from loadflow.journal.heat import Heat
+from loadflow.journal.heat import FilmHeat, Heat
 from loadflow.journal.lubricant import Lubricant
 from loadflow.journal.rungs import check_rung
 from loadflow.journal.shells import Shell
@@ -40,7 +40,7 @@ class FilmKeywords(TypedDict, total=False):
     grid: tuple[int, int] | None
     grading: Grading
     shell: Shell | None
-    heat: Heat | None
+    heat: Heat | FilmHeat | None
     contact: Contact | None
     rung: str
 
@@ -83,8 +83,9 @@ class Film:
         uniform cells span the narrowest gap is then solved on a graded mesh.
     shell : LocalShell, LinedShell, ThickShell or MatrixShell, optional
         Elastic shell, whose gap follows the pressure above that of the ends; rigid by default.
-    heat : Heat, optional
-        Oil and cooling: the film is as warm as its own friction makes it; isothermal by default.
+    heat : Heat or FilmHeat, optional
+        Oil and cooling: the film is as warm as its own friction makes it, of one temperature or of
+        one that changes over its area; isothermal by default.
     contact : Contact, optional
         Asperities, which share load, flow and friction with the oil; smooth surfaces by default.
     rung : {"grid", "reduced", "map", "chart", "table", "butenschoen", "holland", "hahn"}
@@ -115,7 +116,7 @@ class Film:
     grid: tuple[int, int] | None = None
     grading: Grading = "auto"
     shell: Shell | None = None
-    heat: Heat | None = None
+    heat: Heat | FilmHeat | None = None
     contact: Contact | None = None
     rung: str = "grid"
 

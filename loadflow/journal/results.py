@@ -31,6 +31,8 @@ _INNER = {
     **dict.fromkeys(("stiffness", "damping"), ("dof", "along")),
     **dict.fromkeys(("groove_flow", "groove_pressure"), ("groove",)),
     **dict.fromkeys(("pressure", "fill", "deformation"), ("around", "across")),
+    **dict.fromkeys(("film_temperature", "film_viscosity"), ("around", "across")),
+    **dict.fromkeys(("leading_temperature", "trailing_temperature"), ("mixing groove",)),
     "pad_tilt": ("pad",),
     "angle": ("around",),
     "z": ("across",),

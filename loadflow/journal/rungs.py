@@ -24,6 +24,7 @@ FEATURES = {
     "inlet": "a line of fresh oil",
     "grading": "a graded mesh",
     "heat": "heat",
+    "film_heat": "an energy equation over the area of the film",
     "contact": "contact of asperities",
     "step": "adaptive steps",
     "periodic": "a closed orbit",
@@ -118,9 +119,9 @@ RUNGS: dict[str, Rung] = {
         Rung(
             "grid",
             f"{_MODELS}.grid",
-            frozenset(_BORES | {"contact", "heat"}),
+            frozenset(_BORES | {"contact", "heat", "film_heat"}),
             frozenset(_BORES | {"contact", "step", "periodic"}),
-            frozenset(_BORES | {"contact"}),
+            frozenset(_BORES | {"contact", "film_heat"}),
         ),
     )
 }

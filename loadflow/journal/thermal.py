@@ -69,7 +69,7 @@ def warm_film(
     loadflow.errors.SolverError
         A load without a film, or whose balance lies above 150 °C.
     """
-    assert film.heat is not None
+    assert isinstance(film.heat, Heat)
     _check_scalable(film)
     balance = _Balance(at_rest, force, speed, film.heat, weights)
     warmth = balance.solve(tolerance, max_iterations)
@@ -136,9 +136,7 @@ class _Balance:
     def solve(self, tolerance: float, max_iterations: int) -> _Warmth:
         """Find the temperatures by secants between brackets; a film that fails is too thin."""
         heat, count = self.heat, 1 if self.share is not None else self.speed.size
-        cold = heat.inlet_temperature
-        if heat.transfer:
-            cold = min(cold, heat.ambient_temperature)
+        cold = heat.coldest
         low, high = np.full(count, cold), np.full(count, HOTTEST)
         warm, residual = np.full(count, heat.inlet_temperature), np.full(count, np.inf)
         before: tuple[Array, Array] | None = None

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import MISSING, asdict, fields
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
-from pydantic import AfterValidator, PlainSerializer, PlainValidator
+from pydantic import AfterValidator, Discriminator, PlainSerializer, PlainValidator, Tag
 
 from loadflow.errors import InputError
 from loadflow.journal.cavitation import LAWS, CavitationLaw, GasMixture
+from loadflow.journal.heat import FilmHeat, Heat
 from loadflow.journal.rungs import check_rung
 
 
@@ -54,3 +55,25 @@ def _known_rung(name: str) -> str:
 
 Law = Annotated[CavitationLaw, PlainValidator(law_of), PlainSerializer(table_of)]
 RungName = Annotated[str, AfterValidator(_known_rung)]
+
+HEATS = {"balance": Heat, "film": FilmHeat}
+"""Models of the heat of a film by their ``kind``."""
+
+
+def _kind_of_heat(value: Any) -> Any:
+    """``kind`` of a table of heat; the balance if nothing is said."""
+    return value.get("kind", "balance") if isinstance(value, dict) else value.kind
+
+
+if TYPE_CHECKING:
+    HeatTable = Heat | FilmHeat
+else:
+    HeatTable = Annotated[
+        Annotated[Heat, Tag("balance")] | Annotated[FilmHeat, Tag("film")],
+        Discriminator(
+            _kind_of_heat,
+            custom_error_type="kind",
+            custom_error_message="kind must be one of " + ", ".join(HEATS),
+        ),
+    ]
+"""Heat of a film; ``kind`` says which."""

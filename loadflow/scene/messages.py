@@ -10,6 +10,7 @@ from typing import Any, cast
 from pydantic import ValidationError
 
 from loadflow.rolling import KINDS
+from loadflow.scene.films import HEATS
 from loadflow.scene.places import Location
 from loadflow.scene.section import LARGEST_INTEGER
 
@@ -86,10 +87,14 @@ def _known(location: Location, place: list[int | str], defaults: Mapping[str, An
     return list(data) if isinstance(data, Mapping) else []
 
 
+_TAGS: dict[int | str, Mapping[str, Any]] = {"geometry": KINDS, "heat": HEATS}
+"""Kinds of the keys whose tables pydantic tags with them."""
+
+
 def _place(location: Location) -> Iterator[int | str]:
-    """Keys down to a value, without the tag that pydantic puts after a geometry."""
+    """Keys down to a value, without the tag that pydantic puts after a key with kinds."""
     for before, part in zip(("", *location), location):
-        if not (before == "geometry" and part in KINDS):
+        if part not in _TAGS.get(before, ()):
             yield part
 
 

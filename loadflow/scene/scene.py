@@ -21,7 +21,6 @@ from loadflow.journal import (
     Contact,
     Film,
     GasMixture,
-    Heat,
     JournalBearing,
     LinedShell,
     LocalShell,
@@ -35,7 +34,7 @@ from loadflow.journal.models.model import Verb, why_not
 from loadflow.rolling.friction import Churning
 from loadflow.scene.bearings import Rolling
 from loadflow.scene.candidates import ABOUT
-from loadflow.scene.films import Law, RungName
+from loadflow.scene.films import HeatTable, Law, RungName
 from loadflow.scene.limits import JournalLimits
 from loadflow.scene.loads import Loads, check_simulation
 from loadflow.scene.messages import message, shown
@@ -160,7 +159,8 @@ class Journal(Section, BaseModel):
 
     With a table ``heat`` the friction of the film warms its oil, which takes the place of
     ``lubricant``: each equilibrium for itself, a film in motion to one temperature for the whole
-    series, as its loads change faster than a bearing warms.
+    series, as its loads change faster than a bearing warms. With ``kind = "film"`` an energy
+    equation gives every cell of the film at rest its own temperature.
 
     With ``tilt`` the shaft leans in them as the beam of its suspension does, tilted and bent; if it
     has none, it tilts freely under the moment that the shaft stage gives. The film is then solved
@@ -195,7 +195,7 @@ class Journal(Section, BaseModel):
     )
     grading: Literal["auto", "uniform", "graded"] = "auto"
     rung: RungName = "grid"
-    heat: Heat | None = None
+    heat: HeatTable | None = None
     motion: Literal["quasi-static", "transient"] = "quasi-static"
     tilt: bool = False
     shell: LocalShell | LinedShell | ThickShell | MatrixShell | None = None
@@ -280,7 +280,9 @@ class Journal(Section, BaseModel):
 
     @model_validator(mode="after")
     def _a_model_that_knows_the_film(self) -> Self:
-        film = self.film_model.isothermal() if self.in_motion else self.film_model
+        film, heat = self.film_model, self.heat
+        if self.in_motion and heat is not None and not heat.over_area:
+            film = film.isothermal()  # at the one temperature of its series
         verb: Verb = "in_motion" if self.in_motion else "at_rest"
         line = Line(moment=np.zeros((1, 2))) if self.tilt else Line()
         why = why_not(verb, film, self.geometry, line)

@@ -177,10 +177,7 @@ def surely_touching(options: Journal, force: np.ndarray, speed: np.ndarray) -> n
     """
     film = options.film_model.isothermal()
     if options.heat is not None:
-        cold = options.heat.inlet_temperature
-        if options.heat.transfer:
-            cold = min(cold, options.heat.ambient_temperature)
-        film = replace(film, lubricant=options.heat.lubricant(cold))
+        film = replace(film, lubricant=options.heat.lubricant(options.heat.coldest))
     load, turning = np.hypot(*to_film(force).T), np.abs(speed) > 0
     if options.contact is not None:  # the film knows what asperities carry
         return np.zeros_like(turning)

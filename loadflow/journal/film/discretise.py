@@ -16,6 +16,7 @@ from loadflow.journal.film.gap_elastic import ElasticGap
 from loadflow.journal.film.gap_mesh import crowded, recess_marks, shaped_mesh
 from loadflow.journal.film.gap_rough import RoughGap, RoughShapedGap
 from loadflow.journal.film.gap_shaped import Bore, ShapedGap
+from loadflow.journal.film.gap_warm import WarmGap
 from loadflow.journal.film.groove_pressure import Pockets
 from loadflow.journal.film.grooves import groove_marks, groove_numbers
 from loadflow.journal.film.mesh import build_mesh
@@ -102,11 +103,16 @@ def build_shaped_film(
     )
     contact = options.contact
     if options.shell is None:
-        if contact is None:
-            gap = ShapedGap(mesh, bore)
-        else:
+        if contact is not None:
             require(not bore.pads, "contact", contact, "None for pads that tilt")
+            require(
+                options.heat is None, "contact", contact, "None with a heat balance of the film"
+            )
             gap = RoughShapedGap(mesh, bore, contact)
+        elif options.heat is not None:
+            gap = WarmGap(mesh, bore)
+        else:
+            gap = ShapedGap(mesh, bore)
         film = DiscreteFilm(gap, *words)
     else:
         require(contact is None, "contact", contact, "None with an elastic shell")

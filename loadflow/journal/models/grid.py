@@ -35,6 +35,7 @@ from loadflow.journal.solvers.transient import (
     orbit_dataset,
     orbit_row,
 )
+from loadflow.journal.solvers.warm import warm_fields, warm_rows
 from loadflow.numerics.convergence import Limits
 from loadflow.numerics.fields import require
 
@@ -50,6 +51,8 @@ def equilibrium(
     bearing: JournalGeometry, film: Film, force: Array, speed: Array, line: Line, limits: Limits
 ) -> dict[str, Any]:
     """Static equilibria: fields of `Equilibrium`, (n, …)."""
+    if film.heat is not None:
+        return columns_of(warm_rows(bearing, film, force, speed, line, limits))
     if _aligned(bearing, film, line):
         return columns_of(plain_rows(bearing, film, force, speed, limits))
     rows = equilibrium_rows(bearing, film, force, speed, line, limits, line.whirl)
@@ -66,7 +69,9 @@ def pressure(
     limits: Limits,
 ) -> tuple[dict[str, Any], Array]:
     """Films at given positions: fields of `FilmField`, (n, …), and axial places of the cells, m."""
-    if _aligned(bearing, film, line):
+    if film.heat is not None:
+        rows, z = warm_fields(bearing, film, position, velocity, speed, line, limits)
+    elif _aligned(bearing, film, line):
         rows, z = plain_fields(bearing, film, position, velocity, speed, limits)
     else:
         rows, z = field_rows(bearing, film, position, velocity, speed, line, limits)

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 Verb = Literal["at_rest", "in_motion", "at_position"]
 
+_KEEPS_MASS = "a law that conserves mass, such as MassConserving, with heat over the area"
 _PERIODIC = (False, True, "direct", "marching")
 
 
@@ -117,6 +118,8 @@ def why_not(
                 f"rung = {rung.name!r} is not allowed: {_having(verb, name)} for "
                 f"{FEATURES[name]}; {name} = {value!r}"
             )
+    if film.heat is not None and film.heat.over_area and not film.law.keeps_mass:
+        return f"cavitation = {film.law!r} is not allowed: {_KEEPS_MASS}"
     return None if rung.law is None else _not_its_own(rung, film)
 
 
@@ -141,7 +144,9 @@ def model_of(
 def _asked(film: Film, bearing: JournalGeometry, line: Line, steps: Steps) -> dict[str, Any]:
     """What a model must know, of `FEATURES`, and its value."""
     own = RUNGS[film.rung].law is not None  # such a model has its own inlet, and no mesh
+    heat = "film_heat" if film.heat is not None and film.heat.over_area else "heat"
     wanted = {
+        heat: film.heat,
         "shape": bearing.shape if bearing.shape.segments else None,
         "relief": bearing.relief or None,
         "moment": line.moment,
@@ -149,7 +154,6 @@ def _asked(film: Film, bearing: JournalGeometry, line: Line, steps: Steps) -> di
         "bend": line.bend,
         "supply": film.supply,
         "shell": film.shell,
-        "heat": film.heat,
         "contact": film.contact,
         "step": None if steps.step == "given" else steps.step,
         "periodic": steps.periodic or None,

@@ -65,7 +65,7 @@ def equilibrium_rows(
     whirl: float,
 ) -> list[dict[str, Any]]:
     """Rows of `Equilibrium`."""
-    statics = _Statics(bearing, options, line, float(np.abs(speeds).max()))
+    statics = ShapedStatics(bearing, options, line, float(np.abs(speeds).max()))
     rows = []
     last: Solution | None = None
     for index, (load, omega) in enumerate(zip(loads, speeds.tolist())):
@@ -89,7 +89,7 @@ def field_rows(
     """Rows of `FilmField` and axial places of the cells, m."""
     require(line.moment is None, "moment", "given", "tilt is given where the position is")
     fastest = np.abs(speeds) + np.hypot(velocities[:, 0], velocities[:, 1])
-    statics = _Statics(bearing, options, line, float(fastest.max()))
+    statics = ShapedStatics(bearing, options, line, float(fastest.max()))
     rows = []
     for index, (place, moving, omega) in enumerate(zip(places, velocities, speeds.tolist())):
         solution = statics.hold(index, place, moving, omega, control)
@@ -113,7 +113,7 @@ def orbit_start(
     It begins at `start`, in clearances, or at the equilibrium of the first load.
     """
     require(not bore_of(bearing).pads, "shape", bearing.shape.kind, "a fixed bore for an orbit")
-    statics = _Statics(bearing, options, line, float(np.abs(speeds).max()))
+    statics = ShapedStatics(bearing, options, line, float(np.abs(speeds).max()))
     gap, omega = statics.gap, float(speeds[0])
     forces = np.zeros((len(loads), gap.size))
     forces[:, :2] = loads
@@ -131,7 +131,7 @@ def orbit_start(
     return statics.film, first, forces, free
 
 
-class _Statics:
+class ShapedStatics:
     """One film and what is given of the shaft's line, solved load by load."""
 
     def __init__(
@@ -152,7 +152,7 @@ class _Statics:
 
     def resolve(
         self, index: int, load: Array, omega: float, last: Solution | None, control: Limits
-    ) -> tuple[_Statics, Solution]:
+    ) -> tuple[ShapedStatics, Solution]:
         """Equilibrium under load number `index`, and the film it was found on.
 
         Where the gap closes between the cells of the mesh there may be none on it, so that cells
@@ -166,7 +166,7 @@ class _Statics:
             crowd = used.gap.closing(solution.position, _NARROW)
             if not crowd or _same(crowd, used.crowd):
                 break
-            used = _Statics(self.bearing, self.options, self.line, self.rate, crowd)
+            used = ShapedStatics(self.bearing, self.options, self.line, self.rate, crowd)
             solution = used.solve(index, load, omega, None, control)
         return used, solution
 

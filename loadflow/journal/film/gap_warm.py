@@ -1,0 +1,57 @@
+"""Gap of a film whose viscosity differs from cell to cell: that of `ShapedGap`, weighed by it."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from loadflow.journal.film import _kernels as kernel
+from loadflow.journal.film.gap_mesh import ShapedMesh
+from loadflow.journal.film.gap_shaped import Bore, ShapedGap
+
+Array = NDArray[np.float64]
+
+
+class WarmGap(ShapedGap):
+    """Gap whose coefficients hold the viscosity of each cell over that of the film.
+
+    Around, the flow between two cell centres passes the mean viscosity of its way; across, two
+    conductances in series. Everything that follows from the coefficients (balance, Newton matrix,
+    stiffness, damping, friction) is then that of the film with this viscosity.
+
+    Parameters
+    ----------
+    mesh, bore
+        As for `ShapedGap`.
+    """
+
+    def __init__(self, mesh: ShapedMesh, bore: Bore) -> None:
+        super().__init__(mesh, bore, along=True)
+        columns = np.arange(mesh.shape[0])
+        first, last = (columns[-1], 0) if mesh.closed else (0, columns[-1])
+        self._sides = np.append(first, columns), np.append(columns, last)
+        self.thicken(np.ones(mesh.shape))
+
+    def thicken(self, ratio: Array) -> None:
+        """Set the viscosity of the cells over that of the film, `ratio` (nx, nz)."""
+        self.ratio = ratio
+        weights = self.mesh.face_angles[1]
+        parts = [weights[:, side, None] * ratio[self._sides[side]] for side in (0, 1)]
+        self._faces = weights.sum(axis=1)[:, None] / (parts[0] + parts[1])
+
+    def place(self, position: Array) -> Array:
+        """Evaluate `coef` at `position`; the frame of the mesh is that of the shell."""
+        frame = super().place(position)
+        rows = self.mesh.shape[1]
+        for coef in (self.coef, self._by_x, self._by_y):
+            coef[kernel.G, :, :rows] *= self._faces
+            coef[kernel.CELL3, :-1, :rows] /= self.ratio
+        self.coef[kernel.HINV, :-1, :rows] *= self.ratio
+        kernel.faces_across(self.coef, self.mesh.dz, False, self.coef)
+        return frame
+
+    @property
+    def shear(self) -> Array:
+        """∫ 1/H of the cells (nx, nz) around, where the shaft was last placed."""
+        rows = self.mesh.shape[1]
+        return np.asarray(self.coef[kernel.HINV, :-1, :rows] / self.ratio)

@@ -1,0 +1,144 @@
+"""Heat of the film over its area: an exact solution, and a large bearing in another code."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Literal
+
+import numpy as np
+
+from loadflow.journal import (
+    Arc,
+    Film,
+    FilmHeat,
+    FilmHeatEquilibrium,
+    FilmHeatField,
+    JournalBearing,
+    Lobes,
+    MassConserving,
+    Sommerfeld,
+)
+from loadflow.tribology import ExponentialOil
+from loadflow.tribology.couette import adiabatic_rise
+from loadflow.validation.check import Check
+
+Rung = Literal["isoviscous", "adiabatic"]
+_SOURCE = "ROSS (another code), fixed_{}.json"
+_CELSIUS = 273.15
+
+
+@dataclass(frozen=True)
+class LadderRow:
+    """A number of the two-groove bearing of 400 mm in ROSS, how far it may be off, and its name."""
+
+    rung: Rung
+    name: str
+    field: str
+    expected: float
+    tolerance: float
+    kind: Literal["relative", "absolute"]
+    unit: str
+    factor: float = 1.0
+    index: int | None = None
+    zero: float = 0.0
+
+    def check(self, state: FilmHeatEquilibrium) -> Check:
+        """The row beside a `state` of the bearing."""
+        value = getattr(state, self.field)
+        got = float(value if self.index is None else value[self.index])
+        number = (got - self.zero) * self.factor
+        name = f"{self.rung} film, {self.name}"
+        source = _SOURCE.format(self.rung)
+        return Check(name, source, self.expected, number, self.tolerance, self.kind, self.unit)
+
+
+def _row(rung: Rung, name: str, field: str, expected: float, within: float, **more) -> LadderRow:  # type: ignore[no-untyped-def]
+    words = {"kind": "absolute", "unit": "-"} | more
+    return LadderRow(rung, name, field, expected, within, **words)
+
+
+_SHARE = {"kind": "relative"}
+_DEGREES = {"unit": "°", "factor": 180 / np.pi}
+_WARM = {"unit": "°C", "zero": _CELSIUS}
+LADDER = (
+    _row("isoviscous", "ε", "eccentricity_ratio", 0.54099, 0.005),
+    _row("isoviscous", "attitude", "attitude_angle", 48.333, 0.5, **_DEGREES),
+    _row("isoviscous", "loss", "friction_power", 11675.3, 0.02, **_SHARE, unit="W"),
+    _row("isoviscous", "side flow", "side_flow", 0.33523, 0.02, **_SHARE, unit="l/s", factor=1e3),
+    _row("adiabatic", "ε", "eccentricity_ratio", 0.61135, 0.01),
+    _row("adiabatic", "attitude", "attitude_angle", 46.125, 1.0, **_DEGREES),
+    _row("adiabatic", "loss", "friction_power", 8380.1, 0.03, **_SHARE, unit="W"),
+    _row("adiabatic", "side flow", "side_flow", 0.36829, 0.02, **_SHARE, unit="l/s", factor=1e3),
+    _row("adiabatic", "p_max", "maximum_pressure", 2.8018, 0.02, **_SHARE, unit="MPa", factor=1e-6),
+    _row("adiabatic", "T_max", "maximum_temperature", 71.99, 1.5, **_WARM),
+    _row("adiabatic", "T of the shaft", "temperature", 63.46, 1.5, **_WARM),
+    _row("adiabatic", "T in, loaded pad", "leading_temperature", 56.17, 1.5, **_WARM, index=1),
+    _row("adiabatic", "T out, loaded pad", "trailing_temperature", 71.46, 1.5, **_WARM, index=0),
+    _row("adiabatic", "T in, upper pad", "leading_temperature", 62.56, 1.5, **_WARM, index=0),
+    _row("adiabatic", "T out, upper pad", "trailing_temperature", 66.15, 1.5, **_WARM, index=1),
+)
+"""Rows of the ladder from one viscosity to that of every cell."""
+
+
+def ladder_bearing() -> JournalBearing:
+    """Bearing of 400 mm with two axial grooves of 4° across the load."""
+    radius, clearance = 0.1999996, 194.564e-6
+    shape = Lobes(2, groove=np.radians(4.0))
+    return JournalBearing(2 * radius, 0.263144, clearance / radius, shape=shape)
+
+
+@lru_cache
+def ladder_state(rung: Rung) -> FilmHeatEquilibrium:
+    """The bearing under 112.8 kN at 900 rpm, oil supplied at 323 K.
+
+    The film conserves mass: the flow of the unloaded half in the source is that through its
+    leading edge all along, and its loss that of a film sheared by its share of liquid.
+    """
+    oil = ExponentialOil(
+        reference_viscosity=0.01901574,
+        reference_temperature=322.9833,
+        constant_steepness=0.0300690 if rung == "adiabatic" else 0.0,
+        reference_density=854.952,
+        constant_specific_heat=1951.50,
+        constant_conductivity=0.15,
+    )
+    heat = FilmHeat(oil, inlet_temperature=323.0, carry_over=0.8)
+    film = Film(None, MassConserving(), edge_pressure=100.0, grid=(80, 20), heat=heat)
+    state = ladder_bearing().equilibrium((112814.907, 0.0), 94.24778, film)
+    assert isinstance(state, FilmHeatEquilibrium)
+    return state
+
+
+def couette_check(cells: int = 100) -> Check:
+    """Adiabatic shear between parallel walls, the viscosity falling with temperature."""
+    oil = ExponentialOil(
+        reference_viscosity=0.0277,
+        constant_steepness=0.0341,
+        reference_density=860.0,
+        constant_specific_heat=1951.8,
+    )
+    gap, radius, speed, length = 100e-6, 0.5, 10.471976, 0.1
+    exact = adiabatic_rise(
+        length,
+        viscosity=0.0277,
+        speed=speed,
+        gap=gap,
+        heat_capacity=860 * 1951.8,
+        steepness=0.0341,
+    )
+    bearing = JournalBearing(2 * radius, 0.1, gap / radius, shape=Arc(0.0, length / radius))
+    heat = FilmHeat(oil, oil.reference_temperature, carry_over=0.0)
+    film = Film(None, Sommerfeld(), heat=heat, grid=(cells, 2))
+    field = bearing.pressure((0.0, 0.0), speed / radius, film)
+    assert isinstance(field, FilmHeatField)
+    rise = float(field.trailing_temperature[0]) - oil.reference_temperature
+    name = f"rise of a sheared film, {cells} cells"
+    return Check(name, "closed form", float(exact), rise, 1e-3, unit="K")
+
+
+def checks() -> Iterator[Check]:
+    """All rows."""
+    yield couette_check()
+    yield from (row.check(ladder_state(row.rung)) for row in LADDER)
