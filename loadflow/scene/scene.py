@@ -40,7 +40,7 @@ from loadflow.scene.loads import Loads, check_simulation
 from loadflow.scene.messages import message, shown
 from loadflow.scene.places import Location, places_of, sections_of
 from loadflow.scene.section import LARGEST_INTEGER, Section, too_large
-from loadflow.shaft.beam import BearingSeat
+from loadflow.shaft.beam import BearingSupport
 from loadflow.shaft.options import (
     Concept,
     DirectDrive,
@@ -115,7 +115,7 @@ class Shaft(Section, BaseModel):
         return self
 
     @property
-    def seated(self) -> dict[str, BearingSeat]:
+    def seated(self) -> dict[str, BearingSupport]:
         """Seats, by bearing, whose stiffness comes from a journal or rolling bearing."""
         return {
             name: seat
