@@ -6,6 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import brentq
 
+from loadflow import shaft
 from loadflow.errors import InputError, SolverError
 from loadflow.shaft import (
     Beam,
@@ -238,3 +239,13 @@ def test_mistakes_are_named():
 
     with pytest.raises(SolverError, match="do not converge"):
         bearing_loads(suspended(FREE, OWN), force, moment, models={"N2": silent})
+
+
+def test_former_names_still_work_and_say_what_they_are_called_now():
+    assert shaft.BearingSeat is shaft.BearingSupport
+    assert shaft.Seated is CoupledBearing
+    force, moment, state = wander(5)
+    loads = suspended(FREE, OWN), force, moment, {"N2": seated(power(1.0), state, quick=True)}
+    with pytest.warns(DeprecationWarning, match="coupled_loads"):
+        found = shaft.seated_loads(*loads)
+    assert found.identical(coupled_loads(*loads))
