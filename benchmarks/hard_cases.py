@@ -40,6 +40,48 @@ def main() -> None:
     (ROOT / "docs" / "hard-cases.md").write_text("\n".join(_page()) + "\n", encoding="utf-8")
 
 
+RULE = """## When an iteration has an answer
+
+One rule for every solver (`loadflow.numerics.convergence`): films at rest and in time, pads,
+shells, `reduced`, rigid and flexible rings, shaft on bearings. A residual is a sum of terms that
+nearly cancel: below some roundings of its largest terms nothing can bring it. A residual is
+small that is within its tolerance or at that level; an answer is a state of small residual whose
+last step was short enough, or as short as rounding lets a step be. What fails it is refused with
+both numbers, "residual … after … steps, where rounding allows …". Of 285 loads between 1e-12 and
+1e12 N, all laws, 48 were refused before the rule, most of them light; 19 are now, all with So >
+7e4, whose films are thinner than the last digit of the position.
+
+`.ci/other_processor` runs the numerical tests with kernels compiled for a plain processor
+(`NUMBA_CPU_NAME=generic`) beside an old instruction set of the BLAS
+(`OPENBLAS_CORETYPE=Prescott`). Results have the same bits on one processor. On another they move
+by (largest difference over the largest magnitude of a variable, `python
+benchmarks/reproducibility.py`):
+
+| results | moved by |
+|---|---:|
+| journal bearing at rest: laws, lobes, pads, supply, tilt, shell; with K and C | 1.5e-11 |
+| journal bearing in time, 200 steps: `grid`, `reduced`, `map` | 7.5e-13 |
+| four-point bearing, 1 N to 1 MN | 6.5e-16 |
+| rotor: steady state, and 30 s with control | 5.7e-8 |
+
+## Journal bearings drawn at random
+
+`python benchmarks/robustness.py` draws every family over So 1e-3 … 300, B/D 0.1 … 4 and all laws
+(ranges and seeds stand in it). "No answer there" is an error that says why there is none: the
+shaft meets the bore with the load not yet carried, a groove runs dry. For 13 of them, tilts that
+are held and fixed bores, this was checked by the winding number of the force around all
+positions next to contact. Not solved yet: soft shells on cells longer than the bearing is wide,
+some pads, orbits at So > 80.
+
+| family | draws | answered | no answer there | not found | other errors |
+|---|---:|---:|---:|---:|---:|
+| cylinder | 300 | 300 | 0 | 0 | 0 |
+| arcs, lobes, tilting pads, relief | 300 | 285 | 5 | 10 | 0 |
+| tilt, moment, bend | 300 | 211 | 79 | 10 | 0 |
+| supply | 150 | 146 | 3 | 1 | 0 |
+| elastic shells | 60 | 43 | 8 | 9 | 0 |
+"""
+
 DRAWN = """## Random draws
 
 Every solver over its whole documented range of inputs, drawn at random; each draw gives an answer
@@ -71,6 +113,7 @@ def _page() -> Iterator[str]:
         yield "|---|---|---|---|---:|---:|---|"
         yield from (_row(case) for case in CASES if case.room == room)
         yield ""
+    yield RULE
     yield DRAWN
     yield from _draws()
 

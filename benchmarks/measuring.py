@@ -16,6 +16,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 import numpy as np
 import xarray as xr
 
+from loadflow.scene.bearings import Rolling
 from loadflow.scene.cases import Case, list_cases
 from loadflow.scene.loads import Loads
 from loadflow.scene.scene import Scene, read_scene
@@ -168,7 +169,8 @@ class Bench:
         )
 
     def with_loads(self, **keys: Any) -> Scene:
-        scene = read_scene(SCENE)
+        # the ladder's rolling bearing is the ball ring, whose rings have rungs
+        scene = read_scene(SCENE).model_copy(update={"rolling": Rolling()})
         chosen = Loads.model_validate(scene.loads.model_dump() | keys)
         return scene.model_copy(update={"loads": chosen})
 

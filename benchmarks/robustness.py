@@ -232,7 +232,7 @@ def orbit(point: Point) -> Callable[[], Any]:
     force = size[:, None] * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
     options = dict(point.film)
     if rng.random() < 1 / 3:
-        options |= {"rung": "reduced", "grid": (60, 12)}
+        options |= {"rung": "reduced", "grid": (60, 12), "inlet": None}
     elif rng.random() < 0.3:
         options["periodic"] = True
     oil = Lubricant(point.viscosity)

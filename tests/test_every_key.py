@@ -47,6 +47,11 @@ BASES = {
     "warm film": {
         "journal": FILM | {"heat": {"transfer": 100.0}}, "reduction": {"size": 0.03},
     },
+    "rough film": {
+        "journal": FILM | {"contact": {"pattern": 3.0, "asperities": {
+            "roughness": 1e-6, "contact_modulus": 1e11, "factor": 1e-3}}},
+        "reduction": {"size": 0.03},
+    },
     "elastic film": {"journal": FILM | {"shell": {"kind": "local", "compliance": 1e-12}}},
     "film in motion": {
         "journal": FILM | {"motion": "transient", "rung": "reduced"},
@@ -77,6 +82,7 @@ READERS = {
     "files": ("loads", "seeds", "reduction"),
     "bearings": ("shaft", "journal", "rolling", "friction"),
     "warm film": ("journal",),
+    "rough film": ("journal",),
     "elastic film": ("journal",),
     "film in motion": ("journal", "reduction"),
     "tilted film": ("shaft", "journal"),
@@ -97,7 +103,12 @@ OTHERS = {
     "loads.wind_class": ["II"],
     "friction.step": [0.5],
     "loads.winds": [["none.bts"]],
-    "loads.case_list": ["none.csv"],
+    "loads.cases": ["none.csv"],
+    "loads.channels": [{"speed": ["RotSpeed"]}],
+    "loads.gauge_distance": [1.5],
+    "loads.frame": ["fixed", "rotating"],
+    "journal.cavitation.kind": ["mass-conserving", "reynolds"],
+    "journal.rung": ["reduced", "map"],
     "loads.pattern": [r"v(?P<wind_speed>\d+)"],
     "loads.dlc": ["1.3", "6.4"],
     "loads.wind_speeds": [[14.0], [60.0]],
@@ -111,6 +122,10 @@ OTHERS = {
     "journal.supply": [{"grooves": [{"angle": 1.0, "arc": 0.2, "pressure": 6e5}]}],
     "journal.heat": [{"oil": "mineral-vg-320"}],
     "journal.heat.oil": ["mineral-vg-460", "iso-vg-68"],
+    "journal.contact": [
+        {"asperities": {"roughness": 1e-6, "contact_modulus": 1e11, "factor": 1e-3}}
+    ],
+    "journal.contact.friction": [0.3, "bronze"],
     "journal.shell": [{"kind": "local", "compliance": 1e-12}],
     "journal.limits.sommerfeld_range": [[0.5, 5.0]],
     "journal.limits.material": [[[400.0, 5e6]]],
@@ -120,6 +135,7 @@ OTHERS = {
     "shaft.direct_drive": [{}],
     "shaft.moment": [{}],
     "shaft.two_point.beam": [{}],
+    "shaft.two_point.beam.seats": [[{"radial": 1e9}, {}]],
     "shaft.three_point.beam": [{}],
     "shaft.integrated.beam": [{}],
     "shaft.direct_drive.beam": [{}],
@@ -128,6 +144,10 @@ OTHERS = {
     "journal.supply.grooves.0.shape": ["circle"],
     "journal.supply.grooves.0.restrictor": [{"diameter": 0.004, "length": 0.05}],
     "journal.supply.pump": [{"flow": [0.0, 0.01], "pressure": [8e5, 2e5]}],
+    "rolling.geometry.profile": ["straight"],
+    "rolling.geometry.crown_radius": [18.0],
+    "rolling.geometry.law": ["palmgren"],
+    "rolling.geometry.arrangement": ["face-to-face"],
     "rolling.geometry.kind": ["ball", "roller"],
     "rolling.further": [[{"bearing": "N", "geometry": BALLS}]],
     "rolling.bearing": ["N2", "N"],
@@ -274,7 +294,8 @@ def _rolling(scene, add):
     from loadflow.planning.accuracy import finer
 
     inputs = _inputs(scene)
-    for one in filter(None, (scene, finer(scene, "rolling"))):  # as the run's own check does
+    # with the effect of the rings on, too, as the run's own check has it
+    for one in filter(None, (scene, finer(scene, "elastic rings"))):
         found = rolling.load_distribution(one, ONE, inputs)
         add(found)
         _judge(scene, add, rolling, found)
@@ -313,7 +334,10 @@ FOUND = {
 
 CONFLICT = (
     "leave", "set ", "takes the place", "follows from", "give ", "missing", "unknown key",
-    "and only it, takes", "; only", "keep one", "for a circle", "not given with",
+    "and only it, takes", "; only", "keep one", "for a circle", "not given with", "for slewing",
+    "and only to it",
+    "is not allowed: \"grid\" for",
+    "is not allowed: \"map\" or \"grid\" for",
 )  # fmt: skip
 """Words with which a scene is refused that says two things which do not go together."""
 
@@ -328,7 +352,8 @@ def outcome(base, place, section, path, value):
     try:
         scene = scene_of(data, place)
     except InputError as error:
-        known = section in str(error) and first in str(error)
+        known = section in str(error) and any(str(part) in str(error) for part in (first, path[-1]))
+        known |= "rung = " in str(error)  # names the rung, and what it does not know
         return "refused" if known and any(w in str(error) for w in CONFLICT) else "illegal"
     if any(key == known or key.startswith(f"{known}.") for known in unused_keys(scene)):
         return "told"

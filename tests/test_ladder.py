@@ -79,7 +79,10 @@ def test_benchmarks_and_plan_name_a_rung_by_the_same_function(monkeypatch):
         for name, entry in rungs.items():
             if "settings" in entry:
                 model = table.removesuffix(", transient")
-                assert rung_key(make_scene({"name": "r"}), model, **entry["settings"]) == name
+                assert (
+                    rung_key(make_scene({"name": "r", "rolling": {}}), model, **entry["settings"])
+                    == name
+                )
                 named += 1
     assert named > 30
 

@@ -8,6 +8,7 @@ from .cavitation import Reynolds as Reynolds
 from .cavitation import Sommerfeld as Sommerfeld
 from .cone import ConicalBearing as ConicalBearing
 from .conical_pair import ConicalPair as ConicalPair
+from .contact import Contact as Contact
 from .dimensionless import UnitBearing as UnitBearing
 from .energy import EnergyBalance as EnergyBalance
 from .energy import energy_balance as energy_balance
@@ -37,6 +38,7 @@ from .shells import LinedShell as LinedShell
 from .shells import LocalShell as LocalShell
 from .shells import MatrixShell as MatrixShell
 from .shells import ThickShell as ThickShell
+from .stribeck import stribeck as stribeck
 from .supply import Capillary as Capillary
 from .supply import ConstantFlow as ConstantFlow
 from .supply import Groove as Groove

@@ -13,6 +13,7 @@ from typing import Any, Literal, TypedDict
 
 from loadflow.errors import InputError
 from loadflow.journal.cavitation import CavitationLaw, Reynolds
+from loadflow.journal.contact import Contact
 from loadflow.journal.heat import Heat
 from loadflow.journal.lubricant import Lubricant
 from loadflow.journal.rungs import check_rung
@@ -40,7 +41,7 @@ class FilmKeywords(TypedDict, total=False):
     grading: Grading
     shell: Shell | None
     heat: Heat | None
-    contact: object | None
+    contact: Contact | None
     rung: str
 
 
@@ -84,8 +85,8 @@ class Film:
         Elastic shell, whose gap follows the pressure above that of the ends; rigid by default.
     heat : Heat, optional
         Oil and cooling: the film is as warm as its own friction makes it; isothermal by default.
-    contact : optional
-        Contact of asperities; none by default.
+    contact : Contact, optional
+        Asperities, which share load, flow and friction with the oil; smooth surfaces by default.
     rung : {"grid", "reduced", "map", "chart", "table", "butenschoen", "holland", "hahn"}
         Model: finite volumes; few unknowns across the width; the mobility map; closed forms and
         tables of ISO 7902, which leave total_fill, stiffness and damping None; the historical
@@ -115,7 +116,7 @@ class Film:
     grading: Grading = "auto"
     shell: Shell | None = None
     heat: Heat | None = None
-    contact: object | None = None
+    contact: Contact | None = None
     rung: str = "grid"
 
     def __post_init__(self) -> None:

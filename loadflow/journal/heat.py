@@ -71,6 +71,9 @@ class Heat:
     def temperature(self, friction_power: ArrayLike, side_flow: ArrayLike, at: ArrayLike) -> Array:
         """Effective temperature (K) that friction (W) and flow (m³/s) of a film at `at` ask for."""
         carried = 2.0 * self.liquid.density(at) * self.heat_capacity * np.asarray(side_flow)
+        # a film that stands still neither warms its oil nor moves it
+        standing = (carried == 0.0) & (self.transfer == 0.0) & (np.asarray(friction_power) == 0.0)
+        carried = np.where(standing, 1.0, carried)
         lost = carried + self.transfer
         gained = carried * self.inlet_temperature + self.transfer * self.ambient_temperature
         with np.errstate(divide="ignore"):  # no flow, no transfer: it never stops to warm

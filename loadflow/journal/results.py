@@ -26,7 +26,8 @@ Array = NDArray[np.float64]
 
 
 _INNER = {
-    **dict.fromkeys(("force", "film_force", "eccentricity", "moment", "tilt"), ("axis",)),
+    **dict.fromkeys(("force", "film_force", "contact_force"), ("axis",)),
+    **dict.fromkeys(("eccentricity", "moment", "tilt"), ("axis",)),
     **dict.fromkeys(("stiffness", "damping"), ("dof", "along")),
     **dict.fromkeys(("groove_flow", "groove_pressure"), ("groove",)),
     **dict.fromkeys(("pressure", "fill", "deformation"), ("around", "across")),
@@ -172,6 +173,16 @@ class Equilibrium(_Result):
         Largest growth of the gap by the elastic shell, m; 0 where it is rigid.
     temperature : array (…), optional
         Effective temperature of the film, K; None without heat.
+    contact_force : array (…, 2), optional
+        Part of `force` that touching asperities carry, N; as the next three, None without contact.
+        Then `minimum_film` is that of the mean gap between the rough surfaces, `eccentricity_ratio`
+        may exceed 1, and `friction_power` contains `contact_power`.
+    contact_pressure : array (…), optional
+        Largest mean pressure of asperities, Pa.
+    contact_power : array (…), optional
+        Power of boundary friction μ ∬p_a dA R |ω|, W.
+    contact_share : array (…), optional
+        Part of `contact_force` along `force`, over its size.
 
     Examples
     --------
@@ -211,6 +222,10 @@ class Equilibrium(_Result):
     pad_tilt: Array = field(default_factory=lambda: np.zeros(0))
     shell_deformation: Array = field(default_factory=lambda: np.zeros(()))
     temperature: Array | None = None
+    contact_force: Array | None = None
+    contact_pressure: Array | None = None
+    contact_power: Array | None = None
+    contact_share: Array | None = None
 
 
 @dataclass(frozen=True, repr=False)
@@ -255,7 +270,8 @@ class FilmField(_Result):
         Axial position of the cell centres from mid-plane, m.
     eccentricity_ratio, minimum_film, maximum_pressure, friction_power, side_flow, supply_flow, \
 supply_power, groove_flow, groove_pressure, starved, total_fill, stiffness, damping, converged, \
-iterations, residual, moment, tilt, pad_tilt, shell_deformation
+iterations, residual, moment, tilt, pad_tilt, shell_deformation, contact_force, contact_pressure, \
+contact_power, contact_share
         As in `Equilibrium`.
     deformation : array (…, nx, nz)
         Growth of the gap of the cells by the elastic shell, m.
@@ -298,6 +314,10 @@ iterations, residual, moment, tilt, pad_tilt, shell_deformation
     tilt: Array = field(default_factory=lambda: np.zeros(2))
     pad_tilt: Array = field(default_factory=lambda: np.zeros(0))
     shell_deformation: Array = field(default_factory=lambda: np.zeros(()))
+    contact_force: Array | None = None
+    contact_pressure: Array | None = None
+    contact_power: Array | None = None
+    contact_share: Array | None = None
 
 
 def stack(rows: list[dict[str, Any]], shape: tuple[int, ...]) -> dict[str, Any]:

@@ -118,9 +118,9 @@ RUNGS: dict[str, Rung] = {
         Rung(
             "grid",
             f"{_MODELS}.grid",
-            frozenset(_BORES | {"heat"}),
-            frozenset(_BORES | {"step", "periodic"}),
-            frozenset(_BORES),
+            frozenset(_BORES | {"contact", "heat"}),
+            frozenset(_BORES | {"contact", "step", "periodic"}),
+            frozenset(_BORES | {"contact"}),
         ),
     )
 }

@@ -122,7 +122,9 @@ class _Balance:
         state = self.at_rest(self.force[places], speed * thinner, places)
         lighter = self.heat.liquid.density(temperature) / reference.density
         reynolds = state["reynolds_number"] * lighter / thinner**2
-        more = ("friction_power", "side_flow", "supply_flow", "supply_power", "groove_flow")
+        power, flow = ("friction_power", "contact_power"), ("side_flow", "supply_flow")
+        scaled = (*power, *flow, "supply_power", "groove_flow")
+        more = [name for name in scaled if name in state]
         return state | {
             "speed": speed,
             "reynolds_number": reynolds,

@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
+from threadpoolctl import threadpool_limits
 
 from loadflow.errors import LoadflowError, SolverError
 from loadflow.planning.effects import Verdict, concerned, estimates, switched
@@ -37,6 +38,7 @@ WORTH = 0.1
 Report = Callable[[str, int, int], None]
 
 
+@threadpool_limits.wrap(limits=1)
 def pilot(scene: Scene, say: Report = lambda stage, done, total: None) -> Verdict | None:
     """Measure the effects of a scene.
 

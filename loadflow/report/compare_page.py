@@ -13,11 +13,12 @@ from jinja2 import Environment, PackageLoader, select_autoescape
 from loadflow.report.sketch import sketch
 
 GROUPS = (
-    ("Capacity", ("load_factor", "minimum_film", "film_to_roughness", "eccentricity_ratio",
-        "film_pressure", "static_safety", "contact_pressure", "modified_life", "rating_life")),
+    ("In short", ("load_factor", "energy", "friction")),
+    ("Capacity", ("minimum_film", "film_to_roughness", "eccentricity_ratio", "film_pressure",
+        "static_safety", "contact_pressure", "modified_life", "rating_life")),
     ("What fails before rating life does", ("row_share", "row_overload", "film_parameter", "tilt",
         "mixed_time")),
-    ("Losses and oil", ("friction", "energy", "oil_flow", "pump")),
+    ("Oil", ("oil_flow", "pump")),
 )  # fmt: skip
 """Rows of the table, in groups."""
 
@@ -41,7 +42,7 @@ def write_comparison(path: Path, data: Mapping[str, Any]) -> Path:
     path : Path
         HTML file to write.
     data : mapping
-        `loadflow.studies.compare.Comparison.as_dict`.
+        `loadflow.studies.compare_result.Comparison.as_dict`.
 
     Returns
     -------

@@ -397,12 +397,14 @@ def _newton(
         q[:] = q_new
         gradient[:] = trial
         hessian[:, :] = h_new
+    # every contact rounds its own approach: what that leaves in a component need not cancel around
+    # the ring, and is bounded by Cauchy–Schwarz; a direction without stiffness feels nothing
+    approach = 0.0
+    for b in range(5):
+        approach += math.sqrt(max(scaled[b, b], 0.0)) * abs(q[b] / scale[b])
     answered, rounding = True, 0.0
     for a in range(5):
-        terms = 0.0
-        for b in range(5):
-            terms += abs(scaled[a, b] * q[b] / scale[b])
-        level = rounding_level(terms)
+        level = rounding_level(math.sqrt(max(scaled[a, a], 0.0)) * approach)
         answered = answered and is_small(abs(rhs[a]), tolerance * reference, level)
         rounding = max(rounding, level / max(reference, 1e-300))
     return answered, residual, iterations, pivot <= 1e-12, rounding

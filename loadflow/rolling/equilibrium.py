@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -26,6 +28,17 @@ class Control:
 
 
 @dataclass(frozen=True)
+class FormedStiffness:
+    """A stiffness that the iteration has anyway, shape (..., 5, 5)."""
+
+    value: Array
+
+    def __call__(self) -> Array:
+        """Return it."""
+        return self.value
+
+
+@dataclass(frozen=True)
 class RingEquilibrium:
     """Where the inner ring comes to rest under each load.
 
@@ -35,8 +48,8 @@ class RingEquilibrium:
         Load on the inner ring at the bearing centre, N and N m.
     displacement : ndarray, shape (..., 5)
         (ux, uy, uz, θx, θy) of the inner ring relative to the outer, m and rad.
-    stiffness : ndarray, shape (..., 5, 5)
-        Tangent d(Fx, Fy, Fz, Mx, My)/d(ux, uy, uz, θx, θy); N/m, N, N m/rad.
+    form_stiffness : callable
+        Forms `stiffness`, which costs more than the equilibrium where rings are flexible.
     converged : ndarray of bool
         Whether every component is balanced within the tolerance.
     residual : ndarray
@@ -52,11 +65,16 @@ class RingEquilibrium:
     force: Array
     moment: Array
     displacement: Array
-    stiffness: Array
+    form_stiffness: Callable[[], Array]
     converged: NDArray[np.bool_]
     residual: Array
     iterations: NDArray[np.int64]
     singular: NDArray[np.bool_]
+
+    @cached_property
+    def stiffness(self) -> Array:
+        """Tangent d(Fx, Fy, Fz, Mx, My)/d(ux, uy, uz, θx, θy), (..., 5, 5); N/m, N, N m/rad."""
+        return self.form_stiffness()
 
 
 def solve(
@@ -126,7 +144,7 @@ def solve(
         force=f,
         moment=m,
         displacement=q.reshape(*shape, 5),
-        stiffness=stiffness.reshape(*shape, 5, 5),
+        form_stiffness=FormedStiffness(stiffness.reshape(*shape, 5, 5)),
         converged=converged.reshape(shape),
         residual=residual.reshape(shape),
         iterations=iterations.reshape(shape),

@@ -18,17 +18,19 @@ from loadflow.running.runner import Report, run
 from loadflow.scene.candidates import candidates_of
 from loadflow.scene.scene import Candidate, Journal, Scene, make_scene
 from loadflow.storage import write_text
-from loadflow.studies.compare import Comparison, Finished, compared
+from loadflow.studies.compare import Finished, compared
+from loadflow.studies.compare_result import Comparison
 
 SHARED = ("loads", "shaft")
 """Stages whose parts are the same for all candidates, unless the shaft feels its bearings."""
 
-ROLLING_SAMPLES = 600
-"""Samples of each case in which a rolling bearing is solved, where the scene does not say."""
+ROLLING_SHARE = 0.05
+"""Share of the samples in which a rolling bearing is solved, where the scene does not say."""
 
-SHAPED_SAMPLES = 24
-"""The same of a journal bearing that cannot be followed through the whole series in reasonable
-time: pads, lobes, elastic shells, tilted shafts."""
+SHAPED_CLASSES = 5
+"""Classes of speed, and of load, of which one sample is solved, the extremes first, in journal
+bearings that cannot be followed through the whole series in reasonable time: pads, lobes, elastic
+shells, tilted shafts."""
 
 
 @dataclass(frozen=True)
@@ -153,7 +155,7 @@ def candidates_for(scene: Scene) -> tuple[dict[str, Candidate], list[str]]:
     if scene.candidates:
         return dict(scene.candidates), []
     found: dict[str, Candidate] = {}
-    if {"geometry", "lubricant"} & scene.journal.changed:
+    if "journal" in scene.model_fields_set:
         title = "journal bearings of the scene"
         found["own-journal"] = Candidate(title=title, journal=scene.journal)
     sized = candidates_of(scene.turbine.name)
@@ -197,17 +199,18 @@ def candidate_scene(base: Scene, name: str, candidate: Candidate, steps: int) ->
     """
     results: list[str] = []
     update: dict[str, Any] = {"name": name, "candidates": {}}
-    samples = ROLLING_SAMPLES
+    fewer: dict[str, Any] = {"size": ROLLING_SHARE}
     if candidate.journal is not None:
         results.append("journal.film")
         update["journal"] = journal = _modelled(candidate.journal)
-        samples = samples if journal.in_motion else SHAPED_SAMPLES
+        if not journal.in_motion:
+            share = min(1.0, SHAPED_CLASSES**2 / steps)
+            fewer = {"size": share, "classes": SHAPED_CLASSES}
     if candidate.rolling is not None:
         results += ["rolling.loads", "rolling.life"]
         update["rolling"] = candidate.rolling
     if not base.reduction.changed:
-        size = min(1.0, samples / steps)
-        update["reduction"] = base.reduction.model_copy(update={"size": size})
+        update["reduction"] = base.reduction.model_copy(update=fewer)
     return base.model_copy(update=update | {"results": results})
 
 

@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import Any
 
 import xarray as xr
+from threadpoolctl import threadpool_limits
 
 import loadflow
 from loadflow.cube import open_cube, save_cube
@@ -253,6 +254,7 @@ def _run(
     return Run(folder, tree, failures, unused_keys(scene), plan.shortfalls)
 
 
+@threadpool_limits.wrap(limits=1)  # cases are what runs in parallel, here as in other processes
 def _carry_out(
     plan: Plan,
     folder: Path,

@@ -153,6 +153,8 @@ class Loads(Section, BaseModel):
         """The content of the file belongs to the scene: a run must not change with the file."""
         if channels is None:
             return None
+        if not isinstance(channels, str | dict):
+            raise ValueError(f"must be a file or a table of channels, not {channels!r}")
         return {key: list(names) for key, names in read_channels(channels).items()}
 
     @property

@@ -18,6 +18,7 @@ from pydantic import BaseModel, Field, ValidationError, field_validator, model_v
 
 from loadflow.errors import InputError
 from loadflow.journal import (
+    Contact,
     Film,
     GasMixture,
     Heat,
@@ -33,13 +34,14 @@ from loadflow.journal.line import Line
 from loadflow.journal.models.model import Verb, why_not
 from loadflow.rolling.friction import Churning
 from loadflow.scene.bearings import Rolling
-from loadflow.scene.candidates import ABOUT, candidates_of, machine
+from loadflow.scene.candidates import ABOUT
 from loadflow.scene.films import Law, RungName
 from loadflow.scene.limits import JournalLimits
 from loadflow.scene.loads import Loads, check_simulation
 from loadflow.scene.messages import message, shown
-from loadflow.scene.places import Location, places_of, sections_of
+from loadflow.scene.places import places_of
 from loadflow.scene.section import LARGEST_INTEGER, Section, too_large
+from loadflow.scene.written import SCHEMA, anchored, in_sections, origins
 from loadflow.shaft.beam import BearingSupport
 from loadflow.shaft.options import (
     Concept,
@@ -50,7 +52,7 @@ from loadflow.shaft.options import (
     TwoPoint,
 )
 from loadflow.storage import check_name
-from loadflow.turbines import load_turbine, turbine_names
+from loadflow.turbines import load_turbine
 
 Result = Literal[
     "loads.statistics",
@@ -63,10 +65,6 @@ Result = Literal[
 ]
 
 Positive = Annotated[float, Field(gt=0)]
-
-SCHEMA = 2
-"""Version of the form of scenes. 2: ``[bearings.PLACE]`` and ``[candidates.NAME]``; 1, or nothing:
-``[journal]`` and ``[rolling]``, which are still read."""
 
 
 class Turbine(Section, BaseModel):
@@ -138,9 +136,14 @@ class Seeds(Section, BaseModel):
 
 
 class Reduction(Section, BaseModel):
-    """Quasi-static histogram reduction: share of the samples kept, and how they are picked."""
+    """Quasi-static histogram reduction: share of the samples kept, and how they are picked.
+
+    One sample of each class of speed and load is kept at least; ``classes`` is their number along
+    each, that of the source (4.30) if left out.
+    """
 
     size: Annotated[float, Field(gt=0, le=1)] = 0.1
+    classes: Annotated[int, Field(ge=2, le=200)] | None = None
     pick: Literal["random", "extremes", "envelope"] = "extremes"
     seed: Annotated[int, Field(ge=0)] = 0
 
@@ -171,10 +174,11 @@ class Journal(Section, BaseModel):
     with a ``matrix`` of influence numbers, or the name of a file that holds it.
 
     ``shaft_roughness`` and ``shell_roughness`` are R_z, m, about 6.3 R_a of the 0.2 and 0.4 µm that
-    Autodesk Inventor's plain bearing calculator recommends. Where a smooth film would be thinner
-    than both together the surfaces touch: such samples have no film and are counted as
-    ``in_contact``. There the shaft rubs with ``boundary_friction``: bronze [Jonuschies 2015, Table
-    3-1]. ``limits`` are what the verdicts hold the bearing against.
+    Autodesk Inventor's plain bearing calculator recommends. Where the film would be thinner than
+    both together the surfaces touch: such samples are counted as ``in_contact``. With ``contact``,
+    the asperities of `loadflow.journal.Contact`, they are solved as the others, standstill
+    included. Without, they have no film, and the shaft rubs there with ``boundary_friction``:
+    bronze [Jonuschies 2015, Table 3-1]. ``limits`` are what the verdicts hold the bearing against.
     """
 
     bearings: Annotated[list[str], Field(min_length=1)] = ["N", "N2"]
@@ -195,6 +199,7 @@ class Journal(Section, BaseModel):
     motion: Literal["quasi-static", "transient"] = "quasi-static"
     tilt: bool = False
     shell: LocalShell | LinedShell | ThickShell | MatrixShell | None = None
+    contact: Contact | None = None
     shaft_roughness: Positive = 1.3e-6
     shell_roughness: Positive = 2.5e-6
     boundary_friction: Annotated[float, Field(gt=0, le=1)] = 0.15
@@ -257,7 +262,7 @@ class Journal(Section, BaseModel):
     def film(self) -> dict[str, Any]:
         """The film at the temperature of its lubricant, as keywords of the verbs."""
         mesh = ("grid", "grading", "rung")
-        names = ("lubricant", "cavitation", "edge_pressure", "supply", *mesh, "shell")
+        names = ("lubricant", "cavitation", "edge_pressure", "supply", *mesh, "shell", "contact")
         inlet = None if self.inlet == "none" else self.inlet
         return {name: getattr(self, name) for name in names} | {"inlet": inlet}
 
@@ -406,7 +411,7 @@ class Scene(Section, BaseModel):
         if not isinstance(data, dict):
             return data
         stated = {*data} & {"journal", "rolling"}
-        return _results_that_the_shaft_can_give(in_sections(data), stated)
+        return _results_that_the_shaft_can_give(in_sections(data, get_args(Result)), stated)
 
     @model_validator(mode="after")
     def _simulates(self) -> Self:
@@ -547,7 +552,7 @@ def read_scene(path: str | Path) -> Scene:
         raise InputError(f"{path}: cannot read the scene: {error.strerror}") from error
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise InputError(f"{path}: not a TOML file: {error}") from error
-    return make_scene(_anchored(data, path.parent.absolute()), str(path))
+    return make_scene(anchored(data, path.parent.absolute()), str(path))
 
 
 def make_scene(data: dict[str, Any], source: str = "scene") -> Scene:
@@ -574,7 +579,7 @@ def make_scene(data: dict[str, Any], source: str = "scene") -> Scene:
         return Scene.model_validate(data)
     except ValidationError as error:
         defaults = Scene(name="defaults").model_dump() | {"bearings": {}}
-        raise InputError(message(error, source, _origins(data), defaults)) from error
+        raise InputError(message(error, source, origins(data), defaults)) from error
 
 
 def former_sections(path: str | Path) -> list[str]:
@@ -631,80 +636,6 @@ def with_name(scene: Scene, name: str) -> Scene:
     return scene.model_copy(update={"name": name})
 
 
-def in_sections(data: dict[str, Any]) -> dict[str, Any]:
-    """Data of a scene with its places as the sections that the rooms read.
-
-    What it does not say of shaft and rolling bearings is that of its turbine, where the package has
-    sized ones (`loadflow.scene.candidates.machine`).
-
-    Raises
-    ------
-    ValueError
-        A version of the form that is not known, or places that are no bearings.
-    """
-    read = dict(data)
-    version = read.pop("schema", SCHEMA)
-    if version not in range(1, SCHEMA + 1):
-        raise ValueError(
-            f"schema = {version!r}: must be 1 … {SCHEMA}; a newer version of loadflow wrote it"
-        )
-    turbine = _turbine_of(read)
-    ours = machine(turbine)
-    if "shaft" not in read and "shaft" in ours:
-        read["shaft"] = ours["shaft"]
-    if "bearings" in read:
-        sections = sections_of(read.pop("bearings")).data
-        if twice := sorted(set(sections) & set(read)):
-            raise ValueError(
-                f"bearings: beside [{twice[0]}]; write all of them as [bearings.PLACE]"
-            )
-        if "results" not in read:
-            rooms = {"journal", "rolling"} - set(sections)
-            names = get_args(Result)
-            read["results"] = [name for name in names if name.split(".")[0] not in rooms]
-        read |= sections
-    elif "rolling" not in read and "rolling" in ours:
-        read |= {"rolling": sections_of(_bare(ours["candidates"][ours["rolling"]])).data["rolling"]}
-    if isinstance(read.get("candidates"), dict):
-        read["candidates"] = {
-            name: _candidate(name, stated, turbine) for name, stated in read["candidates"].items()
-        }
-    return read
-
-
-def _candidate(name: str, stated: Any, turbine: str) -> Any:
-    """Data of a candidate in sections; one without places is that of the package."""
-    if not isinstance(stated, dict):
-        return stated
-    if {"journal", "rolling"} & {k for k, v in stated.items() if not _is_place(v)}:
-        return stated  # in sections already
-    places, about = _bare(stated), {key: stated[key] for key in ABOUT if key in stated}
-    if not places:
-        known = candidates_of(turbine)
-        if name not in known:
-            raise ValueError(
-                f"candidates.{name}: says nothing, and is none of those sized for {turbine}: "
-                f"{', '.join(known) or 'there are none'}"
-            )
-        places, about = _bare(known[name]), {k: known[name][k] for k in ABOUT} | about
-    return about | sections_of(places, ("candidates", name)).data
-
-
-def _is_place(value: Any) -> bool:
-    return isinstance(value, dict) and bool({"kind", "like"} & set(value))
-
-
-def _bare(candidate: dict[str, Any]) -> dict[str, Any]:
-    """The places of a candidate."""
-    return {key: value for key, value in candidate.items() if key not in ABOUT}
-
-
-def _turbine_of(data: dict[str, Any]) -> str:
-    turbine = data.get("turbine", {})
-    name = turbine.get("name", "nrel-5mw") if isinstance(turbine, dict) else turbine.name
-    return str(name)
-
-
 def _results_that_the_shaft_can_give(data: dict[str, Any], stated: set[str]) -> dict[str, Any]:
     """Without `results`: all, but none of a bearing by default that the shaft does not have."""
     if "results" in data or "shaft" not in data:
@@ -717,40 +648,3 @@ def _results_that_the_shaft_can_give(data: dict[str, Any], stated: set[str]) -> 
     absent = {room for room, own in by_default.items() if room not in stated and own - there}
     wanted = [name for name in get_args(Result) if name.split(".")[0] not in absent]
     return data | {"results": wanted}
-
-
-def _origins(data: dict[str, Any]) -> dict[Location, Location]:
-    """Where the data of sections was written, of a scene that has its places."""
-    found: dict[Location, Location] = {}
-    try:
-        if "bearings" in data:
-            found |= sections_of(data["bearings"]).origins
-        for name, stated in data.get("candidates", {}).items():
-            where = ("candidates", name)
-            own = sections_of(_bare(stated), where).origins if _bare(stated) else {}
-            found |= {(*where, *section): location for section, location in own.items()}
-    except (ValueError, AttributeError):  # told already
-        pass
-    return found
-
-
-def _anchored(data: dict[str, Any], folder: Path) -> dict[str, Any]:
-    """Make the paths of a scene relative to its file, not to where the user stands."""
-
-    def path(value: Any) -> Any:
-        return str(folder / value) if isinstance(value, str) else value
-
-    found = dict(data)
-    if isinstance(loads := data.get("loads"), dict):
-        several = {
-            key: [path(file) for file in loads[key]]
-            for key in ("files", "winds")
-            if isinstance(loads.get(key), list)
-        }
-        keys = [key for key in ("cases", "case_list", "channels") if key in loads]
-        found["loads"] = loads | several | {key: path(loads[key]) for key in keys}
-    turbine = data.get("turbine")
-    if isinstance(turbine, dict) and isinstance(name := turbine.get("name"), str):
-        file = name if name in turbine_names() or not Path(name).suffix else path(name)
-        found["turbine"] = turbine | {"name": file}
-    return found

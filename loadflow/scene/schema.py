@@ -6,7 +6,8 @@ from typing import Any
 
 from loadflow.rolling import KINDS
 from loadflow.scene.places import FOUR_POINT, JOURNAL
-from loadflow.scene.scene import SCHEMA, Scene
+from loadflow.scene.scene import Scene
+from loadflow.scene.written import SCHEMA
 
 
 def json_schema() -> dict[str, Any]:

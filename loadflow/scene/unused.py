@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from loadflow.journal.rungs import RUNGS
-from loadflow.rolling import RollerBearing, SphericalRollerBearing
+from loadflow.rolling import RollerBearing, SlewingBearing, SphericalRollerBearing
 from loadflow.scene.loads import Loads
 from loadflow.scene.scene import Scene, make_scene
 from loadflow.scene.section import Section
@@ -102,7 +102,8 @@ def _of_loads(scene: Scene) -> Iterator[tuple[str, str]]:
     if loads.source == "files":
         yield from _of_files(loads)
         return
-    yield "case_list", "the loads are simulated, no files are read"
+    for key in ("cases", "channels", "gauge_distance", "frame"):
+        yield key, "the loads are simulated, no files are read"
     yield "weights", "the loads are simulated: their shares follow from the wind speed"
     if not loads.winds:
         yield "pattern", "the loads are simulated, no names of files are read"
@@ -124,7 +125,7 @@ def _of_files(loads: Loads) -> Iterator[tuple[str, str]]:
         for key in ("wind_class", "v_ref", "v_ave"):
             yield key, 'weights = "given" takes the shares of the files'
     if loads.files and all(Path(file).suffix in _CUBES for file in loads.files):
-        for key in ("case_list", "pattern"):
+        for key in ("cases", "pattern", "channels", "gauge_distance", "frame"):
             yield key, "load cubes say themselves what their cases are"
 
 
@@ -177,7 +178,7 @@ _PLACES = {
 def _of_reduction(scene: Scene) -> Iterator[tuple[str, str]]:
     reads = any(r.startswith(("reduction", "rolling.l")) for r in scene.results)
     if scene.journal.in_motion and not reads:
-        for key in ("size", "pick", "seed"):
+        for key in ("size", "classes", "pick", "seed"):
             yield key, "a film in motion reads the whole series"
     elif scene.reduction.size == 1.0:
         for key in ("pick", "seed"):
@@ -195,6 +196,8 @@ def _of_journal(scene: Scene) -> Iterator[tuple[str, str]]:
         )
     if "grading" not in RUNGS[journal.rung].at_rest:
         yield "grading", f'rung "{journal.rung}" has no graded mesh'
+    if journal.inlet == "none" and journal.cavitation.kind not in ("reynolds", "guembel"):
+        yield "inlet", f"the law {journal.cavitation.kind} has no line of fresh oil of its own"
     if journal.heat is None:
         for key in ("limits.oil", "limits.oil_hours", "limits.temperature"):
             yield key, "the temperature of the film is not computed; give journal.heat"
@@ -220,6 +223,10 @@ def _of_rolling(scene: Scene) -> Iterator[tuple[str, str]]:
     geometry = scene.rolling.geometry
     if getattr(geometry, "rows", None) == 1 and getattr(geometry, "row_spacing", 0.0) != 0.0:
         yield "geometry.row_spacing", "the bearing has one row"
+    if not isinstance(geometry, SlewingBearing):
+        for key in ("inner_ring", "outer_ring"):
+            if getattr(scene.rolling, key) is not None:
+                yield key, "only slewing bearings of balls have flexible rings"
 
 
 def _of_friction(scene: Scene) -> Iterator[tuple[str, str]]:

@@ -47,6 +47,9 @@ TEMPERED = 64
 GIVING = table("shell_deformation")
 """What is kept too of an elastic shell."""
 
+TOUCHING = table("contact_pressure", "contact_power", "contact_share")
+"""What is kept too of asperities."""
+
 _CERTAIN = 1.2  # times the load that a film as thin as the roughness carries: no film is asked
 _LIGHT = 10.0  # Sommerfeld number below which the film is asked in any case
 _TRIES = 200  # samples of a start that are asked for the first film
@@ -55,9 +58,9 @@ _TRIES = 200  # samples of a start that are asked for the first film
 def film(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
     """Solve the film for every sample of the reduced series; one group per bearing.
 
-    Where a smooth film would be thinner than both surfaces are rough, such as at standstill, shaft
-    and shell are ``in_contact``, and the sample has no values. A sample whose film was not found
-    has none either, and ``converged`` 0.
+    Where the film is thinner than both surfaces are rough, such as at standstill, shaft and shell
+    are ``in_contact``; the sample has values only if the asperities are described. A sample whose
+    film was not found has none either, and ``converged`` 0.
 
     Raises
     ------
@@ -179,6 +182,8 @@ def surely_touching(options: Journal, force: np.ndarray, speed: np.ndarray) -> n
             cold = min(cold, options.heat.ambient_temperature)
         film = replace(film, lubricant=options.heat.lubricant(cold))
     load, turning = np.hypot(*to_film(force).T), np.abs(speed) > 0
+    if options.contact is not None:  # the film knows what asperities carry
+        return np.zeros_like(turning)
     touching = np.asarray(~turning)
     doubtful = np.zeros_like(turning)
     if options.shell is None:
@@ -202,9 +207,11 @@ def _nothing(options: Journal, count: int) -> dict[str, np.ndarray]:
 
 
 def _drop_contact(options: Journal, found: dict[str, np.ndarray], touching: np.ndarray) -> None:
-    """Mark samples whose smooth film is thinner than the roughness; they keep no values of it."""
+    """Mark samples whose film is thinner than the roughness; a smooth one keeps no values of it."""
     with np.errstate(invalid="ignore"):
         touching |= found["converged"] & (found["minimum_film"] < options.contact_film)
+    if options.contact is not None:
+        return
     for name, values in found.items():
         if name in ("converged", "iterations"):
             values[touching] = 0
@@ -251,6 +258,7 @@ def mean_temperature(options: Journal, force: np.ndarray, speed: np.ndarray) -> 
 def _kept(options: Journal) -> dict[str, tuple[str, str]]:
     """What is kept of every sample of a scene's bearing."""
     giving = GIVING if options.shell is not None else {}
+    giving = giving | (TOUCHING if options.contact is not None else {})
     return KEPT | giving | (WARM if options.heat is not None else {})
 
 
@@ -400,11 +408,12 @@ def mixed_friction(samples: xr.Dataset) -> xr.Dataset:
 
     Tables 5-21 and 5-22 with (5.2): the transition is where ε last crosses E_krit in a series that
     begins on one side of it and ends on the other, a start or a stop; NaN in the others. While the
-    surfaces touch, the boundary friction of the whole load is lost, an upper bound; above E_krit
-    without contact, the friction of the film.
+    surfaces touch, the boundary friction of the whole load is lost, an upper bound, unless the film
+    knows its asperities; above E_krit without contact, the friction of the film.
     """
     time, speed, about = samples["time"].values, np.abs(samples["speed"].values), samples.attrs
     touching, turning = samples["in_contact"].values.astype(bool), speed >= STANDING
+    known = np.isfinite(samples["friction_power"].values)  # in contact, too, with its asperities
     # each sample stands for `weight` steps of the full series
     weight = samples["weight"].values
     seconds = weight * (np.ptp(time) / max(weight.sum() - 1, 1))
@@ -412,7 +421,7 @@ def mixed_friction(samples: xr.Dataset) -> xr.Dataset:
     ratio = np.where(touching, 1.0, samples["eccentricity_ratio"].values)
     mixed = turning & (ratio > critical)
     rubbing = about["boundary_friction"] * about["radius"] * samples["load"].values * speed
-    lost = np.where(touching, rubbing, samples["friction_power"].values)
+    lost = np.where(touching & ~known, rubbing, samples["friction_power"].values)
     when, at = _transition(time, speed, ratio, critical)
     values: dict[str, tuple[Any, str, str]] = {
         "duration": (seconds.sum(), "s", "length of the series"),

@@ -33,6 +33,7 @@ def reduced_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTr
             to_film(moment if by_moment else force),
             time,
             size=scene.reduction.size,
+            classes=scene.reduction.classes,
             pick=scene.reduction.pick,
             seed=scene.reduction.seed,
             source=f"{case.name}, bearing {bearing}",
@@ -97,7 +98,8 @@ def reduced_dataset(
 def reduction_key(scene: Scene) -> str:
     """Name of the reduction in the ladder."""
     pick, size = scene.reduction.pick, scene.reduction.size
-    return "full series" if size == 1.0 else f"histogram, {pick}, {size:g}"
+    classes = f", {scene.reduction.classes} classes" if scene.reduction.classes else ""
+    return "full series" if size == 1.0 else f"histogram, {pick}, {size:g}{classes}"
 
 
 def kept_share(scene: Scene, measured: Measured) -> float:

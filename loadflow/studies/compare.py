@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import Any, Literal
@@ -23,6 +21,8 @@ from loadflow.studies.compare_margins import (
     row_shares,
     shaft_tilt,
 )
+from loadflow.studies.compare_result import QUANTITIES, Comparison, Judged, Number, plain
+from loadflow.studies.compare_words import bearings, conclusion, drawn, facts
 from loadflow.studies.run_lifetime import energy_per_year
 from loadflow.studies.seed_intervals import Groups, interval, joint_life
 from loadflow.verdict import Verdict, from_dataset
@@ -30,7 +30,6 @@ from loadflow.verdict import Verdict, from_dataset
 Sense = Literal["most", "least", "sum"]
 
 HOURS_PER_YEAR = 8766.0
-THRUST = "force along the shaft without a bearing"
 
 
 @dataclass(frozen=True)
@@ -60,204 +59,6 @@ class Finished:
     folder: Path
 
 
-@dataclass(frozen=True)
-class Number:
-    """One answer for one candidate, with what is known of its error.
-
-    Attributes
-    ----------
-    value : float
-        In `unit`; NaN where it has none.
-    unit : str
-        Unit.
-    low, high : float
-        95 % interval by the seeds of the loads; NaN where one seed alone tells nothing.
-    error : float
-        Error by models to expect, as a share of the value; NaN where it was not measured.
-    limit : float
-        Of the value; NaN without one.
-    holds : bool or None
-        Whether it keeps to its limit.
-    case : str
-        Load case of an extreme.
-    time : float
-        Its time in that case, s.
-    place : str
-        Bearing that it is of.
-    note : str
-        What else must be known.
-    """
-
-    value: float
-    unit: str = ""
-    low: float = math.nan
-    high: float = math.nan
-    error: float = math.nan
-    limit: float = math.nan
-    holds: bool | None = None
-    case: str = ""
-    time: float = math.nan
-    place: str = ""
-    note: str = ""
-
-
-@dataclass(frozen=True)
-class Judged:
-    """A candidate with all its numbers.
-
-    Attributes
-    ----------
-    name, title, source, kind : str
-        Of the candidate; the kind is journal, rolling or both.
-    numbers : dict
-        By quantity (`QUANTITIES`).
-    verdicts : tuple of Verdict
-        All of its run.
-    thrust : str
-        What carries the force along the shaft.
-    governs : str
-        The limit that is reached first.
-    change : str
-        What would change the verdict.
-    models : dict
-        Rung of each stage.
-    checks : list
-        How far sampled answers moved with better models: stage, quantity, change.
-    bearings : list
-        What stands at each place.
-    folder : str
-        Of its run, relative to that of the comparison.
-    unanswered : dict
-        Parts without an answer.
-    """
-
-    name: str
-    title: str
-    source: str
-    kind: str
-    numbers: dict[str, Number]
-    verdicts: tuple[Verdict, ...]
-    thrust: str
-    governs: str
-    change: str
-    models: dict[str, str]
-    checks: list[dict[str, Any]]
-    bearings: list[dict[str, Any]]
-    folder: str
-    unanswered: dict[str, str] = field(default_factory=dict)
-
-    @property
-    def broken(self) -> list[Verdict]:
-        """Verdicts that do not hold, but for the lack of a thrust bearing."""
-        return [v for v in self.verdicts if not v.holds and v.quantity != THRUST]
-
-    @property
-    def holds(self) -> bool:
-        """Whether all hold, but for the lack of a thrust bearing."""
-        return not self.broken and not self.unanswered
-
-
-QUANTITIES: dict[str, tuple[str, str]] = {
-    "load_factor": ("capacity margin: loads may grow by, to the first limit", "×"),
-    "minimum_film": ("smallest film", "µm"),
-    "film_to_roughness": ("smallest film over roughness R_z of both surfaces", "–"),
-    "eccentricity_ratio": ("largest eccentricity ratio ε", "–"),
-    "film_pressure": ("largest film pressure", "MPa"),
-    "static_safety": ("static rating over the design load", "–"),
-    "contact_pressure": ("largest contact pressure", "MPa"),
-    "modified_life": ("modified life L10mh of all bearings", "years"),
-    "rating_life": ("rating life L10h of all bearings", "years"),
-    "row_share": ("load on the row that takes the thrust, at largest thrust", "%"),
-    "row_overload": ("the same over an even share", "×"),
-    "film_parameter": ("film parameter Λ at low speed", "–"),
-    "tilt": ("tilt of the shaft to its limit", "%"),
-    "friction": ("mean friction loss", "kW"),
-    "energy": ("energy lost a year", "MWh"),
-    "oil_flow": ("oil that leaves the film", "l/min"),
-    "pump": ("power to supply the oil", "kW"),
-    "mixed_time": ("time in mixed friction a year", "h"),
-}
-"""What is compared: its name and unit, in the order of the table."""
-
-
-@dataclass(frozen=True)
-class Comparison:
-    """Candidates side by side.
-
-    Attributes
-    ----------
-    name : str
-        Of the scene.
-    conclusion : str
-        One sentence.
-    candidates : tuple of Judged
-        Those that hold first, each group by the energy that it loses.
-    facts : dict
-        Loads, seeds, shaft.
-    shaft : list
-        Suspensions, to draw: bearings, positions, masses.
-    failures : dict
-        Candidates without an answer, and why.
-    without_place : list of str
-        Candidates that the shaft has no place for.
-    """
-
-    name: str
-    conclusion: str
-    candidates: tuple[Judged, ...]
-    facts: dict[str, str]
-    shaft: list[dict[str, Any]]
-    failures: dict[str, str]
-    without_place: list[str]
-
-    def as_dict(self) -> dict[str, Any]:
-        """All of it in plain values for JSON; what is not known is None."""
-        return {
-            "name": self.name,
-            "conclusion": self.conclusion,
-            "facts": self.facts,
-            "quantities": {
-                key: {"name": name, "unit": unit} for key, (name, unit) in QUANTITIES.items()
-            },
-            "candidates": [
-                {
-                    "name": one.name,
-                    "title": one.title,
-                    "source": one.source,
-                    "kind": one.kind,
-                    "holds": one.holds,
-                    "thrust": one.thrust,
-                    "governs": one.governs,
-                    "change": one.change,
-                    "numbers": {key: _plain(vars(n)) for key, n in one.numbers.items()},
-                    "verdicts": [v.as_dict() for v in one.verdicts],
-                    "models": one.models,
-                    "checks": one.checks,
-                    "bearings": one.bearings,
-                    "folder": one.folder,
-                    "unanswered": one.unanswered,
-                }
-                for one in self.candidates
-            ],
-            "shaft": self.shaft,
-            "failures": self.failures,
-            "without_place": self.without_place,
-        }
-
-    def to_csv(self) -> str:
-        """All numbers as CSV, one for each line."""
-        text = io.StringIO()
-        heads = ["low", "high", "error", "limit", "holds", "case", "time", "place", "note"]
-        rows = csv.writer(text, lineterminator="\n")
-        rows.writerow(["candidate", "quantity", "value", "unit", *heads])
-        for one in self.candidates:
-            for key, number in one.numbers.items():
-                told = _plain(vars(number))
-                first = [one.name, key, told["value"], number.unit]
-                rows.writerow([*first, *("" if told[h] is None else told[h] for h in heads)])
-        return text.getvalue()
-
-
 def compared(
     scene: Scene,
     finished: Sequence[Finished],
@@ -282,10 +83,10 @@ def compared(
     judged.sort(key=lambda one: (not one.holds, _or_infinite(one.numbers["energy"].value)))
     return Comparison(
         name=scene.name,
-        conclusion=_conclusion(judged),
+        conclusion=conclusion(judged),
         candidates=tuple(judged),
-        facts=_facts(scene, finished),
-        shaft=_drawn(scene),
+        facts=facts(scene, [run.tables for run in finished]),
+        shaft=drawn(scene),
         failures=failures,
         without_place=without_place,
     )
@@ -308,7 +109,7 @@ def _judged(run: Finished, folder: Path) -> Judged:
         change=margin.change,
         models={stage: told["rung"] for stage, told in run.manifest.get("rungs", {}).items()},
         checks=_checks(run.tables),
-        bearings=_bearings(run.scene, kinds),
+        bearings=bearings(run.scene, kinds),
         folder=run.folder.relative_to(folder).as_posix(),
         unanswered=dict(run.manifest.get("failures", {})),
     )
@@ -330,7 +131,7 @@ def _numbers(
     share = 100 * tilt / limit if limit else math.nan
     yield "tilt", Number(
         share, "%", limit=100.0 if limit else math.nan,
-        holds=share <= 100 if limit else None, place=place, note=note,
+        holds=bool(share <= 100) if limit else None, place=place, note=note,
     )  # fmt: skip
 
 
@@ -502,7 +303,8 @@ def _against(number: Number, verdicts: Sequence[Verdict], quantity: str, scale: 
         return number
     of_place = [v for v in own if v.subject.endswith(f" {number.place}")] or own
     limit = of_place[0].limit * scale
-    return Number(**vars(number) | {"limit": limit, "holds": all(v.holds for v in own)})
+    holds = all(v.holds for v in own) if math.isfinite(limit) else None
+    return replace(number, limit=limit, holds=holds)
 
 
 def _error(run: Finished, result: str, quantity: str) -> float:
@@ -535,139 +337,10 @@ def _checks(tables: Mapping[str, xr.Dataset]) -> list[dict[str, Any]]:
         value = float(check["difference"].values[k])
         worst[key] = max(worst.get(key, 0.0), value if math.isfinite(value) else math.inf)
     return [
-        {"stage": stage, "quantity": quantity, "against": against, "change": _plain(value)}
+        {"stage": stage, "quantity": quantity, "against": against, "change": plain(value)}
         for (stage, quantity, against), value in worst.items()
     ]
 
 
-# --- words and inputs -----------------------------------------------------------------------------
-
-
-def _conclusion(judged: Sequence[Judged]) -> str:
-    """One sentence: how many hold, which loses least, what the other kind does."""
-    good = [one for one in judged if one.holds]
-    count = f"{len(good)} of {len(judged)} candidates hold all limits on these loads"
-    if not good:
-        least = max(judged, key=lambda one: _or_zero(one.numbers["load_factor"].value))
-        return (
-            f"None of the {len(judged)} candidates holds all limits on these loads; nearest is "
-            f"{least.title}, which breaks {_listed(least.broken) or 'none that is known'}."
-        )
-    best = good[0]
-    text = f"{count}; of these {_told(best)}"
-    others = [one for one in good if one.kind != best.kind]
-    if others:
-        return f"{text}; the best {others[0].kind} bearings, {_told(others[0])}."
-    other = [one for one in judged if one.kind != best.kind]
-    if other:
-        nearest = max(other, key=lambda one: _or_zero(one.numbers["load_factor"].value))
-        what = _listed(nearest.broken) or "has parts without an answer"
-        return f"{text}; no {nearest.kind} bearings hold: {nearest.title} breaks {what}."
-    return f"{text}."
-
-
-def _told(one: Judged) -> str:
-    energy, factor = one.numbers["energy"], one.numbers["load_factor"]
-    lost = (
-        f"lose {energy.value:.3g} MWh a year"
-        if math.isfinite(energy.value)
-        else "lose no one knows what"
-    )
-    need = ", but need a thrust bearing of their own" if one.thrust.startswith("none") else ""
-    return f"{one.title} {lost} with loads to spare by a factor of {factor.value:.3g}{need}"
-
-
-def _listed(verdicts: Sequence[Verdict]) -> str:
-    return ", ".join(dict.fromkeys(f"{v.quantity} ({v.subject})" for v in verdicts[:3]))
-
-
-def _facts(scene: Scene, finished: Sequence[Finished]) -> dict[str, str]:
-    loads = scene.loads
-    table = next(
-        run.tables[name]
-        for run in finished
-        for name in ("journal", "rolling")
-        if name in run.tables
-    )
-    seeds = Groups.of(table).sizes
-    source = (
-        f"simulated, DLC {', '.join(loads.dlcs)}, {scene.turbine.name}, class {loads.wind_class}, "
-        f"category {loads.category}"
-        if loads.source == "simulate"
-        else f"files, {scene.turbine.name}"
-    )
-    few = min(seeds)
-    told = f"{few} … {max(seeds)}" if few != max(seeds) else f"{few}"
-    return {
-        "Loads": source,
-        "Load cases": f"{table.sizes['case']}, {told} seeds at each wind speed",
-        "Intervals": (
-            "95 % by resampling the seeds of each wind speed"
-            + ("; with so few seeds they are too narrow" if 1 < few < 6 else "")
-            + ("; one seed has none" if few == 1 else "")
-        ),
-        "Lubricant of rolling bearings": f"{scene.friction.lubricant}, "
-        f"{scene.friction.temperature - 273.15:.0f} °C, {scene.friction.cleanliness}",
-    }
-
-
-def _drawn(scene: Scene) -> list[dict[str, Any]]:
-    """Suspensions of the shaft, with what a sketch needs."""
-    return [
-        {
-            "name": name,
-            "bearings": list(concept.bearings),
-            "positions": list(concept.positions),
-            "locating": concept.bearings[concept.locating],
-            "masses": [[float(at), float(mass)] for at, mass in concept.masses if mass > 0],
-        }
-        for name, concept in scene.shaft
-        if concept
-    ]
-
-
-def _bearings(scene: Scene, rooms: Sequence[str]) -> list[dict[str, Any]]:
-    """What stands at each place, in the words of scenes."""
-    found = []
-    if "journal" in rooms:
-        for place in scene.journal.bearings:
-            part = scene.journal.at(place)
-            size = part.geometry
-            found.append(
-                {
-                    "place": place,
-                    "kind": f"journal, {size.shape.kind}",
-                    "measures": f"D {1e3 * size.diameter:.0f} × B {1e3 * size.width:.0f} mm, "
-                    f"clearance {1e3 * size.relative_clearance:.2f} ‰, "
-                    f"{part.lubricant.viscosity:.3g} Pa s",
-                }
-            )
-    if "rolling" in rooms:
-        for place, bearing in scene.rolling.geometries.items():
-            found.append(
-                {
-                    "place": place,
-                    "kind": bearing.kind,
-                    "measures": f"D_pw {1e3 * bearing.pitch_diameter:.0f} mm, "
-                    f"C {bearing.rated_capacity / 1e3:.0f} kN, "
-                    f"C₀ {bearing.static_capacity / 1e3:.0f} kN"
-                    + (" (axial)" if bearing.rated_axially else ""),
-                }
-            )
-    return found
-
-
 def _or_infinite(value: float) -> float:
     return value if math.isfinite(value) else math.inf
-
-
-def _or_zero(value: float) -> float:
-    return value if math.isfinite(value) else 0.0
-
-
-def _plain(data: Any) -> Any:
-    if isinstance(data, Mapping):
-        return {name: _plain(part) for name, part in data.items()}
-    if isinstance(data, np.generic):
-        data = data.item()
-    return None if isinstance(data, float) and not math.isfinite(data) else data

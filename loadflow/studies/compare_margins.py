@@ -31,6 +31,7 @@ SAMPLES = 40
 _WIDEST = 16.0  # factor on load, viscosity: beyond, nothing is asked
 _HALVINGS = 9
 _SLOW = 0.1  # share of the samples that counts as low speed
+_TOLD = 2  # changes that are told
 _WARMER = 60.0  # K: how much warmer the oil is asked to be at most
 
 
@@ -83,8 +84,11 @@ def margin_of(scene: Scene, folder: Path, tables: Tables, verdicts: Sequence[Ver
     if "rolling" in tables:
         for place in scene.rolling.geometries:
             found += _rolling_margins(scene, folder, place, tables, verdicts)
-    known = [one for one in found if math.isfinite(one.factor)]
-    return min(known, key=lambda one: one.factor) if known else Margin(math.nan)
+    known = sorted((one for one in found if math.isfinite(one.factor)), key=lambda one: one.factor)
+    if not known:
+        return Margin(math.nan)
+    changes = dict.fromkeys(one.change for one in known if one.change)
+    return replace(known[0], change="; ".join([*changes][:_TOLD]))
 
 
 # --- films ----------------------------------------------------------------------------------------
@@ -96,7 +100,7 @@ def _film_margins(scene: Scene, folder: Path, place: str, table: xr.Dataset) -> 
     options = stated.model_copy(update={"motion": "quasi-static", "rung": "grid"})
     if (table["in_contact"] > 0).any():
         case = str(table["case"].values[int(np.argmax(table["in_contact"].values))])
-        yield Margin(0.0, place, case, f"shaft and shell touch in {place}", "thicker oil")
+        yield Margin(0.0, place, case, f"shaft and shell touch in {place}", f"{place}: thicker oil")
         return
     asked = (
         ("smallest_film", np.nanargmin, "minimum_film", stated.least_film, "smallest film"),
@@ -115,7 +119,7 @@ def _film_margins(scene: Scene, folder: Path, place: str, table: xr.Dataset) -> 
             allowed = limit / seen * usual  # motion changes a film by the same share there
             if field == "minimum_film":
                 factor, thinner = _film_factors(value, allowed)
-                change = f"oil of {thinner * options.lubricant.viscosity:.2g} Pa s"
+                change = f"{place}: oil of {thinner * options.lubricant.viscosity:.2g} Pa s"
             else:
                 factor, change = _pressure_factor(value, allowed), ""
             yield Margin(factor, place, case, f"{what} in {place}", change)
@@ -174,12 +178,12 @@ def _rolling_margins(
     static = own.get("static rating over the design load")
     if static is not None and math.isfinite(static.value):
         what = f"static rating of {place}"
-        yield Margin(static.value / limits.static_safety, place, static.case, what, "a larger C₀")
+        yield Margin(static.value / limits.static_safety, place, static.case, what)
     bearing = scene.rolling.geometries[place]
     basic = own.get("rating life L10h")
     if basic is not None and math.isfinite(basic.value):
         factor = (basic.value / limits.life) ** (1 / bearing.life_exponent)
-        yield Margin(factor, place, governs=f"rating life of {place}", change="a larger C")
+        yield Margin(factor, place, governs=f"rating life of {place}")
     modified = own.get("modified rating life L10mh")
     if modified is None or not math.isfinite(modified.value):
         return
@@ -194,7 +198,7 @@ def _rolling_margins(
     warmth = np.linspace(0.0, _WARMER, 13)
     lives = [life(1.0, replace(grease, temperature=grease.temperature + w)) for w in warmth]
     short = np.flatnonzero(np.array(lives) < allowed)
-    change = f"oil {warmth[short[0]]:.0f} K warmer" if short.size and short[0] > 0 else ""
+    change = f"{place}: oil {warmth[short[0]]:.0f} K warmer" if short.size and short[0] > 0 else ""
     yield Margin(factor, place, governs=f"modified life of {place}", change=change)
 
 

@@ -79,10 +79,10 @@ def interval(
     if max(groups.sizes, default=0) < 2:
         return math.nan, math.nan
     draw = np.random.default_rng(0)
-    found = [
-        statistic(np.concatenate([draw.choice(group, len(group)) for group in groups.members]))
-        for _ in range(resamples)
-    ]
+    picks = np.concatenate(
+        [draw.choice(group, (resamples, len(group))) for group in groups.members], axis=1
+    )
+    found = [statistic(some) for some in picks]
     tail = (1 - LEVEL) / 2
     low, high = np.nanquantile(np.array(found, float), [tail, 1 - tail])
     return float(low), float(high)

@@ -7,6 +7,7 @@ from toy_film import TENTH, TENTH_RUNG
 from loadflow.errors import InputError
 from loadflow.journal import (
     Capillary,
+    Contact,
     Crown,
     Film,
     GasMixture,
@@ -23,10 +24,12 @@ from loadflow.journal import (
     Supply,
 )
 from loadflow.journal.rungs import FEATURES, RUNGS
+from loadflow.tribology import AsperityContact
 
 SIZE = {"diameter": 0.2, "width": 0.1, "relative_clearance": 1e-3}
 BEARING = JournalBearing(**SIZE)
 OIL = Lubricant(0.03)
+ROUGH = Contact(AsperityContact(roughness=5e-7, contact_modulus=1e11, factor=1e-3))
 LOAD, TIME = (8e3, 1e3), np.linspace(0.0, 0.01, 3)
 
 # of every feature: what asks for it, as fields of the film, of the bearing and of the verb
@@ -41,7 +44,7 @@ ASKING = {
     "grading": ({"grading": "graded"}, {}, {}),
     "shell": ({"shell": LocalShell(1e-12)}, {}, {}),
     "heat": ({"lubricant": None, "heat": Heat()}, {}, {}),
-    "contact": ({"contact": "rough"}, {}, {}),
+    "contact": ({"contact": ROUGH}, {}, {}),
     "step": ({}, {}, {"step": "adaptive"}),
     "periodic": ({}, {}, {"periodic": True}),
 }

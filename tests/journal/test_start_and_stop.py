@@ -67,6 +67,30 @@ def test_samples_in_contact_have_no_film_and_are_not_called_unanswered(start):
     assert table["in_contact"] == touching.sum() > 1
 
 
+def test_with_asperities_samples_in_contact_are_solved(start):
+    _, speed, smooth, without = start
+    asperities = {"roughness": 1e-6, "contact_modulus": 1e11, "factor": 1e-3}
+    scene = scene_with(contact={"asperities": asperities, "friction": 0.1})
+    samples, table = solved(scene, speed[::20])
+    share, touching = samples["contact_share"].values, samples["in_contact"].values
+    assert samples["converged"].all()
+    assert np.isfinite(samples["minimum_film"]).all()
+    assert table["not_converged"] == 0
+    assert share[0] == pytest.approx(1.0)
+    assert share[-1] < 1e-6
+    assert touching[0]
+    assert not touching[-1]
+    # boundary friction of what the asperities carry is less than that of the whole load
+    lost = float(table["mixed_friction_energy"])
+    assert 0 < lost < 20 * float(without["mixed_friction_energy"])
+    apart = ~smooth["in_contact"].values[::20]
+    thick = samples["minimum_film"].values > 10e-6
+    assert thick[apart].any()
+    assert samples["minimum_film"].values[thick] == pytest.approx(
+        smooth["minimum_film"].values[::20][thick], rel=1e-6
+    )
+
+
 def test_contact_costs_no_film(start, monkeypatch):
     scene, *_ = start
     asked = []

@@ -7,6 +7,7 @@ import shutil
 import subprocess
 import sys
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -330,16 +331,16 @@ def test_a_lost_case_is_a_failure_of_the_run_and_the_others_are_kept(
 
 
 def test_what_no_solver_named_fails_one_case_and_is_in_the_log(finished, tmp_path, monkeypatch):
-    import loadflow.stages.shaft as stage
+    from loadflow.stages.registry import STAGES
 
-    good = stage.bearing_loads
+    good = STAGES["shaft"].run
 
     def broken(scene, case, inputs):
         if case.wind_speed > 10:
             raise ZeroDivisionError("at the root of it")
         return good(scene, case, inputs)
 
-    monkeypatch.setattr(stage, "bearing_loads", broken)
+    monkeypatch.setitem(STAGES, "shaft", replace(STAGES["shaft"], run=broken))
     found = run(small_scene(finished), out=tmp_path, report=False)
     assert found.failures == {"dlc1.1_v12_s1, shaft": "ZeroDivisionError: at the root of it"}
     assert "in broken" in (tmp_path / "small/run.log").read_text()

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError
+from loadflow.journal.film.asperity_load import CylinderLoad, NodeLoad
 from loadflow.journal.film.compliance import compliance_of
 from loadflow.journal.film.elastic import ElasticFilm
 from loadflow.journal.film.feed import Feed
@@ -13,6 +14,7 @@ from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.gap import PlainGap
 from loadflow.journal.film.gap_elastic import ElasticGap
 from loadflow.journal.film.gap_mesh import crowded, recess_marks, shaped_mesh
+from loadflow.journal.film.gap_rough import RoughGap, RoughShapedGap
 from loadflow.journal.film.gap_shaped import Bore, ShapedGap
 from loadflow.journal.film.groove_pressure import Pockets
 from loadflow.journal.film.grooves import groove_marks, groove_numbers
@@ -42,8 +44,9 @@ def build_film(diameter: float, width: float, clearance: float, options: Film) -
     numbers = groove_numbers(mesh.angle, mesh.z, width / diameter, supply, grid[0], radius)
     mirrors = 2.0 if mesh.half else 1.0
     flow_unit = mirrors * (clearance * radius) ** 3 / (12.0 * options.liquid.viscosity)
-    return DiscreteFilm(
-        PlainGap(mesh),
+    clear, contact = clearance * radius, options.contact
+    film = DiscreteFilm(
+        PlainGap(mesh) if contact is None else RoughGap(mesh, contact, clear),
         law,
         options.liquid.viscosity,
         clearance,
@@ -51,6 +54,9 @@ def build_film(diameter: float, width: float, clearance: float, options: Film) -
         options.edge_pressure,
         Pockets(numbers, Feed(supply or Supply(), options.liquid), flow_unit),
     )
+    if contact is not None:
+        film.contact = CylinderLoad(contact, radius, width, clear)
+    return film
 
 
 def build_shaped_film(
@@ -94,16 +100,24 @@ def build_shaped_film(
         Pockets(numbers, Feed(supply or Supply(), options.liquid), flow_unit),
         pressure,
     )
+    contact = options.contact
     if options.shell is None:
-        gap = ShapedGap(mesh, bore)
+        if contact is None:
+            gap = ShapedGap(mesh, bore)
+        else:
+            require(not bore.pads, "contact", contact, "None for pads that tilt")
+            gap = RoughShapedGap(mesh, bore, contact)
         film = DiscreteFilm(gap, *words)
     else:
+        require(contact is None, "contact", contact, "None with an elastic shell")
         require(not bore.pads, "shell", options.shell, "None for pads, whose backs are not held")
         compliance = compliance_of(options.shell, mesh, bore.radius)
         gap = ElasticGap(mesh, bore, rims_give=compliance.spreads)
         film = ElasticFilm(compliance, gap, *words)
     film.fill(mesh.groove, pressure)
     film.ambient = _outside(gap, film, options.edge_pressure, shape)
+    if contact is not None:
+        film.contact = NodeLoad(contact, gap, bore.radius, mirrors, film.grooved)
     return gap, film
 
 

@@ -12,6 +12,7 @@ from scipy.linalg.lapack import dgbtrf, dgbtrs
 from loadflow.errors import SolverError
 from loadflow.journal.cavitation import DFILL, DLOAD, DP, FILL, LOAD, SLACK, CavitationLaw, P
 from loadflow.journal.film import _kernels as kernel
+from loadflow.journal.film.asperity_load import AsperityLoad
 from loadflow.journal.film.gap import Gap, turning_frame
 from loadflow.journal.film.groove_pressure import Pockets
 from loadflow.numerics.convergence import EPS, rounding_level
@@ -109,6 +110,7 @@ class DiscreteFilm:
         self.elastic = False  # whether the gap follows the pressure
         self.mirrors = 2.0 if mesh.half else 1.0
         self.ambient: Array | float = 0.0  # of `_load`: what acts outside the film, N
+        self.contact: AsperityLoad | None = None  # of rough surfaces, which may touch
 
     def set_speed(self, speed: float) -> None:
         """Set the speed of the shaft, rad/s."""
@@ -167,6 +169,8 @@ class DiscreteFilm:
         """Growth of the gap volume of each cell, (nx, rows), Pa."""
         across = self.gap.across
         moving = (around.T * velocity) @ across
+        if self.gap.open_share is not None:
+            moving = moving * self.gap.open_share
         return self.slope * (rate * coef[kernel.HM, :-1, : across.shape[1]] - moving)
 
     def balance(self, coef: Array, mass: Array, change: Array | None = None) -> Array:
@@ -225,6 +229,8 @@ class DiscreteFilm:
         fields = [self._residual(outflow)]
         fields += [self.balance(c, self._storage(c, a, local, rate)) for c, a in slopes]
         squeeze = -self.slope * self.state[FILL] * mesh.area
+        if gap.open_share is not None:
+            squeeze = squeeze * gap.open_share
         fields += [squeeze * np.outer(a, b) for a, b in zip(around, across)]
         free = self.pockets.free
         flows = [self.pockets.flows(f)[free] for f in (outflow, *fields[1:])] if free.size else []
@@ -252,9 +258,13 @@ class DiscreteFilm:
                 direct.append(_TURN @ load / ratio - damping @ (_TURN @ local) / ratio)
         if not np.isfinite(load).all():
             raise SingularFilm(f"film matrix has no solution at eccentricity {position}")
+        load, stiffness = frame @ load, frame @ np.array(direct).T @ frame.T
+        if self.contact is not None:
+            touch = self.contact.at(position)
+            load, stiffness = load + touch.load, stiffness + touch.stiffness
         return Linear(
-            load=frame @ load,
-            stiffness=frame @ np.array(direct).T @ frame.T,
+            load=load,
+            stiffness=stiffness,
             damping=frame @ damping @ frame.T,
             columns=columns,
         )
@@ -310,6 +320,11 @@ class DiscreteFilm:
         load = self.state[LOAD]
         kernel.load_of(load, around, self.gap.across, self.mesh.dz, out)
         return self.mirrors * self.radius**2 * out - self.ambient
+
+    def load_of(self, frame: Array, position: Array) -> Array:
+        """Load of film and asperities at the state last placed, N."""
+        load = frame @ self._load(self.gap.around)
+        return load if self.contact is None else load + self.contact.at(position).load
 
     # --- what Newton needs -----------------------------------------------------------------------
     def weights(self, position: Array, velocity: Array, target: Array, speed: Array) -> Array:
@@ -376,7 +391,7 @@ class DiscreteFilm:
             worst = max(worst, self.pockets.missing(self.state[P], outflow, self.scale))
         if force is not None:
             scale = self.load_scale(force)
-            missing = force - frame @ self._load(around)
+            missing = force - self.load_of(frame, position)
             worst = max(worst, math.hypot(*missing[free]) / scale)
         return worst
 
@@ -435,8 +450,8 @@ class DiscreteFilm:
         Where they do not, Newton may well converge, to an ε that depends on where the cells lie.
         """
         cell = 2 * np.pi / self.mesh.shape[0]
-        ratio = min(math.hypot(*position), 1.0)
-        return bool(cell <= _CELLS * math.sqrt(2 * (1 - ratio)))
+        gap = max(1 - min(math.hypot(*position), 1.0), self.gap.roughness)
+        return bool(cell <= _CELLS * math.sqrt(2 * gap))
 
     # --- results ---------------------------------------------------------------------------------
     def dry(self, u: Array) -> bool:
@@ -448,10 +463,10 @@ class DiscreteFilm:
     def field(self, u: Array, position: Array) -> tuple[Array, Array, Array, Array]:
         """Pressure (Pa) and fill of the cells (nx, nz), their angle (nx,), and the load (N)."""
         frame = self.place(u, position)
-        load = frame @ self._load(self.gap.around)
+        load = self.load_of(frame, position)
         angle = self.mesh.angle
         if self.mesh.polar:
-            stretch = self.mesh.strength * float(np.hypot(*position))
+            stretch = self.mesh.stretch(float(np.hypot(*position)))
             narrow = np.sqrt((1 - stretch) / (1 + stretch))
             angle = 2 * np.arctan(narrow * np.tan(0.5 * angle)) + np.arctan2(
                 frame[1, 0], frame[0, 0]

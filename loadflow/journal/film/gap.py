@@ -36,6 +36,10 @@ class Gap(Protocol):
         How readily each degree of freedom moves where nothing holds it.
     across : array (m, rows)
         Modes along the axis, of which `around` (m, nx) is the factor around.
+    roughness : float
+        Of both surfaces, clearances; 0 where they are smooth.
+    open_share : array (nx, rows) or None
+        Derivative of the mean gap of the cells by that of the mean planes; None: smooth, 1.
     """
 
     size: int
@@ -43,6 +47,8 @@ class Gap(Protocol):
     ease: Array
     coef: Array
     across: Array
+    roughness: float
+    open_share: Array | None
 
     @property
     def mesh(self) -> Mesh:
@@ -77,6 +83,7 @@ class PlainGap:
     """Gap of a cylinder around an aligned shaft; its mesh may turn with the eccentricity."""
 
     size = shaft = 2
+    roughness, open_share = 0.0, None
 
     def __init__(self, mesh: Mesh) -> None:
         self.mesh = mesh
@@ -100,7 +107,7 @@ class PlainGap:
         return turning_frame(position)
 
     def _evaluate(self, out: Array, ex: float, ey: float) -> None:
-        stretch = self.mesh.strength * ex if self.mesh.polar else 0.0
+        stretch = self.mesh.stretch(ex) if self.mesh.polar else 0.0
         kernel.gap_coefficients(*self.mesh.trigonometry, stretch, ex, ey, out)
 
     def slopes(self, position: Array) -> list[tuple[Array, Array]]:
@@ -111,7 +118,7 @@ class PlainGap:
         """
         ex, ey = float(position[0]), float(position[1])
         ratio = math.hypot(ex, ey)
-        gap = 1.0 - ratio
+        gap = max(1.0 - ratio, self.roughness)
         step = gap * max(1e-5, min((EPS / max(gap, EPS)) ** (1 / 3), 0.1))
         turns = [(1.0, 0.0), (0.0, 1.0)]
         if self.mesh.polar:
@@ -134,7 +141,7 @@ class PlainGap:
         x, y = position.tolist()
         dx, dy = step.tolist()
         ratio = math.hypot(x, y)
-        limit = 1.0 - KEPT * (1.0 - ratio)
+        limit = self.farthest(ratio)
         if ratio < 0.5:
             length = math.hypot(x + dx, y + dy)
             share = min(1.0, limit / length) if length > 0 else 1.0
@@ -143,6 +150,10 @@ class PlainGap:
         turn = math.atan2(y, x) + max(-0.5, min(0.5, (x * dy - y * dx) / ratio**2))
         length = max(0.3, min(limit, ratio + radial))
         return np.array([length * math.cos(turn), length * math.sin(turn)])
+
+    def farthest(self, ratio: float) -> float:
+        """Eccentricity ratio up to which a step may lead from `ratio`."""
+        return 1.0 - KEPT * (1.0 - ratio)
 
     def narrowest(self, position: Array) -> float:
         """Narrowest gap over the clearance."""

@@ -60,6 +60,23 @@ class Bore:
         return total
 
 
+@dataclass(frozen=True)
+class Places:
+    """Places in a gap: H_0 (n, l), direction (n, 2), z (l,), modes (m, n) around, (m, l) along."""
+
+    base: Array
+    facing: Array
+    z: Array
+    reach: Array
+    lengths: Array
+
+    def gaps(self, position: Array, curvature: Array) -> Array:
+        """Gap (n, l) of a shaft at `position` whose centre line has a `curvature` (2,)."""
+        moved = (self.reach.T * position) @ self.lengths
+        bent = self.facing @ (0.5 * np.outer(curvature, self.z**2))
+        return np.asarray(self.base - moved - bent)
+
+
 class ShapedGap:
     """Gap ``H = H_0(θ, z) − Σ q_j N_j(θ, z)`` on a mesh fixed to the shell.
 
@@ -76,6 +93,8 @@ class ShapedGap:
     along : bool
         Whether to keep a row for each cell across even where the gap does not change there.
     """
+
+    roughness, open_share = 0.0, None
 
     def __init__(self, mesh: ShapedMesh, bore: Bore, along: bool = False) -> None:
         self.mesh = mesh
@@ -106,7 +125,7 @@ class ShapedGap:
 
         shape = (8, nx + 1, rows + (1 if along else 0))
         self.coef, self._by_x, self._by_y = np.zeros(shape), np.zeros(shape), np.zeros(shape)
-        self.line = np.zeros((2, rows))
+        self.line, self.curvature = np.zeros((2, rows)), np.zeros(2)
         self._z = z
         self._sample()
 
@@ -150,8 +169,20 @@ class ShapedGap:
     # --- the shaft's centre line -----------------------------------------------------------------
     def bend(self, curvature: Array) -> None:
         """Bend the shaft: curvature (2,) of its centre line over that of one clearance per R²."""
+        self.curvature = curvature
         self.line = 0.5 * np.outer(curvature, self._z**2)
         self._spots_line = 0.5 * np.outer(curvature, self._spots_z**2)
+
+    def modes_at(self, angle: Array, segment: NDArray[np.int64], z: Array) -> Places:
+        """Gap and modes at angles (n,), rad, in segments (n,), and at z (l,), shaft radii."""
+        facing = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+        return Places(
+            base=self.bore.gap(angle, segment, z),
+            facing=facing,
+            z=z,
+            reach=np.einsum("jid,id->ji", self._shifts(segment), facing),
+            lengths=self._lengthwise(z),
+        )
 
     def gaps(self, position: Array) -> Array:
         """Gap at the sampled places, in clearances."""
@@ -178,12 +209,16 @@ class ShapedGap:
     def place(self, position: Array) -> Array:
         """Evaluate `coef` at `position`; the frame of the mesh is that of the shell."""
         self.moved = self.centre(position)
+        self._evaluate()
+        kernel.faces_across(self.coef, self.mesh.dz, False, self.coef)
+        return np.eye(self.size)
+
+    def _evaluate(self) -> None:
+        """Fill `coef` and its derivatives where the shaft was `moved` to."""
         kernel.shaped_coefficients(
             self._face, self._face_gap, self._cell, self._cell_gap, *self.moved,
             self.coef, self._by_x, self._by_y,
         )  # fmt: skip
-        kernel.faces_across(self.coef, self.mesh.dz, False, self.coef)
-        return np.eye(self.size)
 
     def centre(self, position: Array) -> tuple[Array, Array]:
         """Where the shaft is seen to be from each cell, x and y (nx, rows)."""

@@ -167,6 +167,8 @@ class SurfaceGap:
         Gap of the centred shaft where nothing is cut, in clearances.
     """
 
+    roughness, open_share = 0.0, None
+
     def __init__(
         self, mesh: SurfaceMesh, profile: Profile, clearance: float, base: float = 1.0
     ) -> None:

@@ -12,6 +12,7 @@ from loadflow.journal.film import _kernels as kernel
 from loadflow.journal.film.groove_pressure import UNSUPPLIED
 
 if TYPE_CHECKING:
+    from loadflow.journal.film.asperity_load import AsperityLoad
     from loadflow.journal.film.film import DiscreteFilm
 
 Array = NDArray[np.float64]
@@ -39,9 +40,31 @@ def summary(film: DiscreteFilm, u: Array, position: Array) -> dict[str, Any]:
         film.p_edge, film.p_line, film.grooved,
     )  # fmt: skip
     found = Integrals(peak, dissipation, shear, outflow, liquid / volume)
-    return {
+    row = {
         **in_units(film, found, film.speed, film.gap.narrowest(position)),
         **_supplied(film, u),
+    }
+    if film.contact is not None:
+        rubbing = _rubbing(film, film.contact, position)
+        row["friction_power"] += rubbing["contact_power"]
+        row |= rubbing
+    return row
+
+
+def _rubbing(film: DiscreteFilm, asperities: AsperityLoad, position: Array) -> dict[str, Any]:
+    """What the asperities carry and lose at `position`, named as in `Equilibrium`."""
+    touch, frame = asperities.at(position), film.gap.place(position)
+    carried = touch.load[:2]
+    whole = film.load_of(frame, position)[:2]
+    size = float(whole @ whole)
+    return {
+        "contact_force": carried,
+        "contact_pressure": touch.peak,
+        "contact_power": asperities.contact.coefficient
+        * touch.normal
+        * abs(film.speed)
+        * film.radius,
+        "contact_share": float(carried @ whole) / size if size > 0.0 else 0.0,
     }
 
 

@@ -17,6 +17,7 @@ Array = NDArray[np.float64]
 MAP_STRENGTH = (
     0.95  # of the Sommerfeld map, times the eccentricity ratio: least error up to ε = 0.99
 )
+_FLATTEST = 0.99  # stretch of the map, which ends at 1
 RIM_STRENGTH = 0.8  # share of the sine in the axial grading toward the bearing end
 
 
@@ -96,6 +97,10 @@ class Mesh:
     def shape(self) -> tuple[int, int]:
         """Cells around and across."""
         return self.angle.size, self.z.size
+
+    def stretch(self, ratio: float) -> float:
+        """Stretch of the Sommerfeld map at an eccentricity ratio, which may exceed 1."""
+        return min(self.strength * ratio, _FLATTEST)
 
     @cached_property
     def order(self) -> NDArray[np.int64]:

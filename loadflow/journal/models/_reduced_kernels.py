@@ -5,7 +5,7 @@ Units and laws are those of `_kernels`. The balance of point k of cell column i,
     flux(i + ½) − flux(i − ½) + Δθ H³ Σ stiffness · (p − p_edge) + storage = 0,
     flux = weight · (wedge · F · H − H³ ∂p),   storage = slope · Δθ · weight · (rate · F H − old)
 
-with the cells fixed to the shell. `ring` and `work` are those of the module `ring`.
+with the cells fixed to the shell. `film` and `work` are those of `reduced_film`.
 """
 
 from __future__ import annotations
@@ -19,33 +19,33 @@ from loadflow.journal.models.reduced_film import DISSIPATION, FILLED, OUTFLOW, P
 
 
 @njit(cache=True, nogil=True)
-def place(ring, work, x, y):
+def place(film, work, x, y):
     """Evaluate law and gap at the unknowns and the position (x, y)."""
-    apply_law(ring.law, ring.numbers, ring.scale, work.u, work.state)
-    for i in range(ring.cos.size):
-        work.gap[i] = 1.0 - x * ring.cos[i] - y * ring.sin[i]
-        work.gap_face[i] = 1.0 - x * ring.cos_face[i] - y * ring.sin_face[i]
+    apply_law(film.law, film.numbers, film.scale, work.u, work.state)
+    for i in range(film.cos.size):
+        work.gap[i] = 1.0 - x * film.cos[i] - y * film.sin[i]
+        work.gap_face[i] = 1.0 - x * film.cos_face[i] - y * film.sin_face[i]
 
 
 @njit(cache=True, nogil=True)
-def balance(ring, work, wedge, rate):
+def balance(film, work, wedge, rate):
     """Residual of the cells and its derivatives by the position into `columns`, after `place`.
 
     Returns the largest residual and the load ∫ p (cos θ, sin θ) dA, N.
     """
     nx, m = work.u.shape
     step = 2.0 * np.pi / nx
-    axial = ring.axial
+    axial = film.axial
     p = work.state[P]
     fill = work.state[FILL]
     columns = work.columns
-    squeeze = ring.slope * step
+    squeeze = film.slope * step
     fx = 0.0
     fy = 0.0
     for i in range(nx):
-        base = ring.order[i] * m
-        c = ring.cos[i]
-        s = ring.sin[i]
+        base = film.order[i] * m
+        c = film.cos[i]
+        s = film.sin[i]
         h = work.gap[i]
         h3 = step * h * h * h
         slope3 = -3.0 * step * h * h
@@ -53,7 +53,7 @@ def balance(ring, work, wedge, rate):
         for k in range(m):
             outflow = 0.0
             for j in range(m):
-                outflow += axial.stiffness[k, j] * (p[i, j] - ring.p_edge)
+                outflow += axial.stiffness[k, j] * (p[i, j] - film.p_edge)
             held = squeeze * axial.weights[k]
             by_gap = slope3 * outflow - held * rate * fill[i, k]
             columns[base + k, 0] = (
@@ -68,8 +68,8 @@ def balance(ring, work, wedge, rate):
         fy += load * s
     for i in range(nx):  # face between cell i and the next one
         right = i + 1 if i + 1 < nx else 0
-        base = ring.order[i] * m
-        base_r = ring.order[right] * m
+        base = film.order[i] * m
+        base_r = film.order[right] * m
         h = work.gap_face[i]
         g = h * h * h / step
         by_g = 3.0 * h * h / step
@@ -80,8 +80,8 @@ def balance(ring, work, wedge, rate):
             flow = wedge * fill[upwind, k]
             q = w * (flow * h - g * rise)
             dq = w * (flow - by_g * rise)
-            dx = -dq * ring.cos_face[i]
-            dy = -dq * ring.sin_face[i]
+            dx = -dq * film.cos_face[i]
+            dy = -dq * film.sin_face[i]
             columns[base + k, 0] += q
             columns[base + k, 1] += dx
             columns[base + k, 2] += dy
@@ -91,18 +91,18 @@ def balance(ring, work, wedge, rate):
     largest = 0.0
     for row in range(columns.shape[0]):
         largest = max(largest, abs(columns[row, 0]))
-    return largest, ring.area * step * fx, ring.area * step * fy
+    return largest, film.area * step * fx, film.area * step * fy
 
 
 @njit(cache=True, nogil=True)
-def magnitudes(ring, work, wedge, rate):
+def magnitudes(film, work, wedge, rate):
     """Magnitude of the largest terms of `balance`, after it: in a cell, and in the load, N.
 
     A narrow gap is a difference of numbers near 1, so that what follows from it has fewer digits.
     """
     nx, m = work.u.shape
     step = 2.0 * np.pi / nx
-    axial = ring.axial
+    axial = film.axial
     p = work.state[P]
     fill = work.state[FILL]
     largest, peak, narrow = 0.0, 0.0, 1.0
@@ -113,34 +113,34 @@ def magnitudes(ring, work, wedge, rate):
         narrow = min(narrow, h, h_r)
         around = h_l * h_l * h_l / step + h_r * h_r * h_r / step
         for k in range(m):
-            total = ring.slope * step * axial.weights[k] * rate * fill[i, k] * h
+            total = film.slope * step * axial.weights[k] * rate * fill[i, k] * h
             total += axial.weights[k] * (
                 abs(wedge) * (h_l + h_r)
                 + around * max(abs(p[i, k]), abs(p[left, k]), abs(p[right, k]))
             )
             for j in range(m):
                 stiffness = step * h * h * h * abs(axial.stiffness[k, j])
-                total += stiffness * (abs(p[i, j]) + abs(ring.p_edge))
+                total += stiffness * (abs(p[i, j]) + abs(film.p_edge))
             largest = max(largest, total + abs(work.state[SLACK, i, k]))
             peak = max(peak, abs(work.state[LOAD, i, k]))
     lost = 1.0 + 3.0 / max(narrow, 1e-16)
-    return largest * lost, ring.area * 2.0 * np.pi * axial.weights.sum() * peak * lost
+    return largest * lost, film.area * 2.0 * np.pi * axial.weights.sum() * peak * lost
 
 
 @njit(cache=True, nogil=True)
-def matrix(ring, work, wedge, rate):
+def matrix(film, work, wedge, rate):
     """Band matrix of the derivatives of the residual by the unknowns."""
     nx, m = work.u.shape
     step = 2.0 * np.pi / nx
-    axial = ring.axial
+    axial = film.axial
     band = work.band
     mid = 2 * m
     dp = work.state[DP]
     df = work.state[DFILL]
-    squeeze = ring.slope * step * rate
+    squeeze = film.slope * step * rate
     band[:] = 0.0
     for i in range(nx):
-        base = ring.order[i] * m
+        base = film.order[i] * m
         h = work.gap[i]
         h3 = step * h * h * h
         for k in range(m):
@@ -150,8 +150,8 @@ def matrix(ring, work, wedge, rate):
             band[base + k, mid] += held * df[i, k] + work.state[DSLACK, i, k]
     for i in range(nx):
         right = i + 1 if i + 1 < nx else 0
-        base = ring.order[i] * m
-        base_r = ring.order[right] * m
+        base = film.order[i] * m
+        base_r = film.order[right] * m
         shift = base_r - base
         h = work.gap_face[i]
         g = h * h * h / step
@@ -213,36 +213,36 @@ def substitute(band, columns):
 
 
 @njit(cache=True, nogil=True)
-def carried(ring, work):
+def carried(film, work):
     """Load that each of the columns carries, (fx, fy) of each: a 3 × 2 tuple of scalars."""
     nx, m = work.u.shape
     fx0, fx1, fx2, fy0, fy1, fy2 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for i in range(nx):
         a0, a1, a2 = 0.0, 0.0, 0.0
-        base = ring.order[i] * m
+        base = film.order[i] * m
         for k in range(m):
-            w = ring.axial.weights[k] * work.state[DLOAD, i, k]
+            w = film.axial.weights[k] * work.state[DLOAD, i, k]
             a0 += w * work.columns[base + k, 0]
             a1 += w * work.columns[base + k, 1]
             a2 += w * work.columns[base + k, 2]
-        c = ring.cos[i]
-        s = ring.sin[i]
+        c = film.cos[i]
+        s = film.sin[i]
         fx0 += a0 * c
         fx1 += a1 * c
         fx2 += a2 * c
         fy0 += a0 * s
         fy1 += a1 * s
         fy2 += a2 * s
-    f = ring.area * 2.0 * np.pi / nx
+    f = film.area * 2.0 * np.pi / nx
     return (f * fx0, f * fy0), (f * fx1, f * fy1), (f * fx2, f * fy2)
 
 
 @njit(cache=True, nogil=True)
-def summarise(ring, work, x, y, row):
+def summarise(film, work, x, y, row):
     """Integrals over the half film into `row`, after `place` at (x, y); units of this module."""
     nx, m = work.u.shape
     step = 2.0 * np.pi / nx
-    axial = ring.axial
+    axial = film.axial
     p = work.state[LOAD]
     peak, dissipation, shear, outflow, liquid = -np.inf, 0.0, 0.0, 0.0, 0.0
     half_width = axial.weights.sum() + axial.rim_weight
@@ -251,17 +251,17 @@ def summarise(ring, work, x, y, row):
         h = work.gap[i]
         h3 = step * h * h * h
         g = work.gap_face[i] ** 3 / step
-        middle, leak, inside = 0.0, 0.0, ring.edge_fill * axial.rim_weight
+        middle, leak, inside = 0.0, 0.0, film.edge_fill * axial.rim_weight
         for k in range(m):
-            q = p[i, k] - ring.p_edge
+            q = p[i, k] - film.p_edge
             middle += axial.middle[k] * q
             leak += axial.leak[k] * q
             inside += axial.weights[k] * work.state[FILL, i, k]
             dissipation += g * axial.weights[k] * (p[right, k] - p[i, k]) ** 2
             for j in range(m):
-                dissipation += h3 * q * axial.stiffness[k, j] * (p[i, j] - ring.p_edge)
+                dissipation += h3 * q * axial.stiffness[k, j] * (p[i, j] - film.p_edge)
             peak = max(peak, p[i, k])
-        peak = max(peak, middle + ring.p_edge)
+        peak = max(peak, middle + film.p_edge)
         outflow += max(h3 * leak, 0.0)
         liquid += step * h * inside
         shear += step * half_width / h

@@ -30,7 +30,7 @@ from loadflow.journal.models.reduced_film import (
 )
 from loadflow.numerics import convergence
 
-_CALM = 0.5  # change of the film over its pressure, up to which the shaft goes all the way
+_STEP_LIMIT = 0.5  # change of the film over its pressure, up to which the shaft goes all the way
 _SMALLEST = 1.0 / 256  # of a given step, to which a step that fails may be cut
 _LATE = 8  # Newton steps after which a residual is asked whether it is that of rounding
 
@@ -58,69 +58,69 @@ def limited(x, y, dx, dy):
 
 
 @njit(cache=True, nogil=True)
-def shaft_step(ring, work, x, y, gx, gy):
+def shaft_step(film, work, x, y, gx, gy):
     """Position after a Newton step that carries the missing load (gx, gy).
 
     A step that changes the film by more than its own pressure is shortened.
     """
     nx, m = work.u.shape
-    (ax, ay), (axx, ayx), (axy, ayy) = carried(ring, work)
+    (ax, ay), (axx, ayx), (axy, ayy) = carried(film, work)
     gx += ax
     gy += ay
     det = axx * ayy - axy * ayx
     if det == 0.0:
         return x, y
     change = 0.0
-    peak = ring.scale
+    peak = film.scale
     for i in range(nx):
-        base = ring.order[i] * m
+        base = film.order[i] * m
         for k in range(m):
             change = max(change, abs(work.columns[base + k, 0]))
             peak = max(peak, work.state[LOAD, i, k])
-    haste = max(1.0, change / (peak * _CALM))
-    scale = -1.0 / (det * haste)
+    excess = max(1.0, change / (peak * _STEP_LIMIT))
+    scale = -1.0 / (det * excess)
     return limited(x, y, scale * (ayy * gx - axy * gy), scale * (axx * gy - ayx * gx))
 
 
 @njit(cache=True, nogil=True)
-def newton(ring, work, x, y, fx, fy, speed, rate, tolerance, max_iterations):
+def newton(film, work, x, y, fx, fy, speed, rate, tolerance, max_iterations):
     """Film and shaft at which the load (fx, fy) is carried; one implicit step if rate > 0.
 
-    Starts from `work.u` and (x, y), where the shaft stays unless `ring.free`. Returns position,
+    Starts from `work.u` and (x, y), where the shaft stays unless `film.free`. Returns position,
     residual, Newton steps, whether the residual is small by the rule of `convergence`, and its
     rounding level, which is looked at where the tolerance is not met soon.
     """
     nx, m = work.u.shape
-    wedge = 0.5 * ring.slope * speed
-    flux = (abs(wedge) + ring.scale) * ring.axial.weights.max()
-    force_scale = max(np.hypot(fx, fy), 0.5e-3 * ring.scale * ring.area)
+    wedge = 0.5 * film.slope * speed
+    flux = (abs(wedge) + film.scale) * film.axial.weights.max()
+    force_scale = max(np.hypot(fx, fy), 0.5e-3 * film.scale * film.area)
     spent = 0
     while True:
-        place(ring, work, x, y)
-        worst, lx, ly = balance(ring, work, wedge, rate)
+        place(film, work, x, y)
+        worst, lx, ly = balance(film, work, wedge, rate)
         residual = worst / flux
-        if ring.free:
+        if film.free:
             residual = max(residual, np.hypot(fx - lx, fy - ly) / force_scale)
         done = residual < tolerance or spent == max_iterations or not residual < np.inf
         rounding = 0.0
         if not residual < tolerance and (done or spent >= _LATE):
-            cells, load = magnitudes(ring, work, wedge, rate)
-            rounding = rounding_level(max(cells / flux, load / force_scale if ring.free else 0.0))
+            cells, load = magnitudes(film, work, wedge, rate)
+            rounding = rounding_level(max(cells / flux, load / force_scale if film.free else 0.0))
         answered = is_small(residual, tolerance, min(rounding, _COARSEST))
         if done or answered:
             return x, y, residual, spent, answered, rounding
         spent += 1
-        matrix(ring, work, wedge, rate)
+        matrix(film, work, wedge, rate)
         if not factorise(work.band):
             return x, y, residual, spent, False, rounding
         substitute(work.band, work.columns)
         dx, dy = 0.0, 0.0
-        if ring.free:
-            x_new, y_new = shaft_step(ring, work, x, y, fx - lx, fy - ly)
+        if film.free:
+            x_new, y_new = shaft_step(film, work, x, y, fx - lx, fy - ly)
             dx, dy = x_new - x, y_new - y
             x, y = x_new, y_new
         for i in range(nx):
-            base = ring.order[i] * m
+            base = film.order[i] * m
             for k in range(m):
                 row = base + k
                 work.u[i, k] -= (
@@ -129,31 +129,31 @@ def newton(ring, work, x, y, fx, fy, speed, rate, tolerance, max_iterations):
 
 
 @njit(cache=True, nogil=True)
-def finish(ring, work, x, y, speed, row, stiffness, damping):
+def finish(film, work, x, y, speed, row, stiffness, damping):
     """Results of a film at rest at (x, y): integrals into `row`, and the slopes of the load.
 
     `stiffness` and `damping` (2, 2) are by position (per clearance) and by velocity (clearances
     per second).
     """
     nx, m = work.u.shape
-    place(ring, work, x, y)
-    summarise(ring, work, x, y, row)
-    wedge = 0.5 * ring.slope * speed
-    balance(ring, work, wedge, 0.0)
-    matrix(ring, work, wedge, 0.0)
+    place(film, work, x, y)
+    summarise(film, work, x, y, row)
+    wedge = 0.5 * film.slope * speed
+    balance(film, work, wedge, 0.0)
+    matrix(film, work, wedge, 0.0)
     factorise(work.band)
     substitute(work.band, work.columns)
-    _, by_x, by_y = carried(ring, work)
-    squeeze = ring.slope * 2.0 * np.pi / nx
+    _, by_x, by_y = carried(film, work)
+    squeeze = film.slope * 2.0 * np.pi / nx
     for i in range(nx):
-        base = ring.order[i] * m
+        base = film.order[i] * m
         for k in range(m):
-            held = -squeeze * ring.axial.weights[k] * work.state[FILL, i, k]
+            held = -squeeze * film.axial.weights[k] * work.state[FILL, i, k]
             work.columns[base + k, 0] = 0.0
-            work.columns[base + k, 1] = held * ring.cos[i]
-            work.columns[base + k, 2] = held * ring.sin[i]
+            work.columns[base + k, 1] = held * film.cos[i]
+            work.columns[base + k, 2] = held * film.sin[i]
     substitute(work.band, work.columns)
-    _, by_vx, by_vy = carried(ring, work)
+    _, by_vx, by_vy = carried(film, work)
     for axis in range(2):
         stiffness[axis, 0], stiffness[axis, 1] = -by_x[axis], -by_y[axis]
         damping[axis, 0], damping[axis, 1] = -by_vx[axis], -by_vy[axis]
@@ -187,13 +187,13 @@ def predict(work, ratio, extrapolate, weight, weight_before):
 
 
 @njit(cache=True, nogil=True)
-def march(ring, work, x, y, time, force, speed, tolerance, max_iterations, rows):
+def march(film, work, x, y, time, force, speed, tolerance, max_iterations, rows):
     """Implicit steps of second order (BDF2 of variable step) through all of `time`.
 
     `work.u` and (x, y) are the film at the first time. A step at which Newton fails is cut, load
     and speed interpolated. Fills `rows` (n, RESULTS) and returns how many of them.
     """
-    place(ring, work, x, y)
+    place(film, work, x, y)
     keep(work)
     x_before, y_before = x, y
     step_before = 0.0
@@ -217,7 +217,7 @@ def march(ring, work, x, y, time, force, speed, tolerance, max_iterations, rows)
                     x_new, y_new = x_ahead, y_ahead
             predict(work, ratio, ahead, weight, weight_before)
             x_new, y_new, residual, iterations, converged, rounding = newton(
-                ring,
+                film,
                 work,
                 x_new,
                 y_new,
@@ -246,5 +246,5 @@ def march(ring, work, x, y, time, force, speed, tolerance, max_iterations, rows)
         if not converged:
             rows[n, X], rows[n, Y] = x_new, y_new
             return n + 1
-        summarise(ring, work, x, y, rows[n])
+        summarise(film, work, x, y, rows[n])
     return time.size

@@ -142,4 +142,5 @@ def solve_on_grid(
 
 def _aligned(bearing: JournalGeometry, film: Film, line: Line) -> bool:
     """Whether a rigid cylinder surrounds an aligned shaft."""
-    return plain(bearing, line) and film.shell is None
+    fed_and_rough = film.contact is not None and film.supply is not None  # grooves do not touch
+    return plain(bearing, line) and film.shell is None and not fed_and_rough

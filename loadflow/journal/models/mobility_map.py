@@ -34,7 +34,7 @@ _MOST = 100_000  # steps between two times of a series
 
 
 @dataclass(frozen=True, eq=False)
-class Mapped:
+class BearingMap:
     """A map with the units of one bearing.
 
     Attributes
@@ -88,7 +88,7 @@ def _turned(matrices: Array, angle: Array) -> Array:
     return frame @ matrices.reshape(-1, 2, 2) @ frame.swapaxes(-1, -2)
 
 
-def mapped(bearing: JournalGeometry, options: Film, force: Array) -> Mapped:
+def bearing_map(bearing: JournalGeometry, options: Film, force: Array) -> BearingMap:
     """The map of a bearing and film, tabulated up to the largest of `force` (n, 2)."""
     if options.grading == "auto":
         options = replace(options, grading="graded")
@@ -103,7 +103,7 @@ def mapped(bearing: JournalGeometry, options: Film, force: Array) -> Mapped:
     table = tabulate(bearing.width / bearing.diameter, plain, largest)
     pressure = unit or 1.0
     velocity = pressure * bearing.relative_clearance**2 / (12 * options.liquid.viscosity)
-    return Mapped(bearing, options, table, np.array([pressure * area, velocity]), pressure)
+    return BearingMap(bearing, options, table, np.array([pressure * area, velocity]), pressure)
 
 
 def equilibrium(
@@ -120,7 +120,7 @@ def equilibrium(
         A load at ω = 0, or one that the grid does not carry either; names the first such load.
     """
     force, speed = np.array(force), np.array(speed)  # rows are replaced
-    film = mapped(bearing, options, force)
+    film = bearing_map(bearing, options, force)
     position, iterations = _at_rest(film, force, speed)
     found = film.results(position, force, speed)
     covered = found.pop("in_range") & (~force.any(axis=-1) | (iterations > 0))
@@ -137,7 +137,7 @@ def equilibrium(
     return answer
 
 
-def _at_rest(film: Mapped, force: Array, speed: Array) -> tuple[Array, NDArray[np.int64]]:
+def _at_rest(film: BearingMap, force: Array, speed: Array) -> tuple[Array, NDArray[np.int64]]:
     """Positions (n, 2) in clearances; iterations are 0 where there is no load, or no answer."""
     size = np.hypot(*force.T) / film.units[kernel.LOAD]
     turns = (size > 0) & (speed != 0)
@@ -175,7 +175,7 @@ def orbit(
     SolverError
         No equilibrium to start from, or too many steps between two times.
     """
-    film = mapped(bearing, options, force)
+    film = bearing_map(bearing, options, force)
     start = steps.start
     if start is None:
         first = equilibrium(bearing, film.options, force[:1], speed[:1], line, control)

@@ -49,7 +49,7 @@ def equilibrium(
     """Static equilibria; a load that fails or is not resolved here is solved on the grid."""
     force, speed = np.array(force), np.array(speed)  # of the layout that the kernels know
     film = _film(bearing, options, speed)
-    ring, work = _discrete(film)
+    reduced, work = _discrete(film)
     count = speed.size
     rows = np.zeros((count, at.RESULTS))
     stiffness, damping = np.zeros((count, 2, 2)), np.zeros((count, 2, 2))
@@ -58,14 +58,14 @@ def equilibrium(
         spent, converged = 0, False
         for x, y in starts.of(n):
             x, y, residual, iterations, converged, rounding = newton(
-                ring, work, x, y, force[n, 0], force[n, 1], speed[n], 0.0,
+                reduced, work, x, y, force[n, 0], force[n, 1], speed[n], 0.0,
                 control.tolerance, control.max_iterations,
             )  # fmt: skip
             spent += iterations
             if converged and options.may_grade:
                 converged = film.resolves(np.array([x, y]))
             if converged:
-                finish(ring, work, x, y, speed[n], rows[n], stiffness[n], damping[n])
+                finish(reduced, work, x, y, speed[n], rows[n], stiffness[n], damping[n])
                 starts.keep(n, (x, y))
                 break
         rows[n, at.RESIDUAL :] = residual, spent, converged, rounding
@@ -103,12 +103,12 @@ def orbit(
     time, force, speed = (np.array(values) for values in (time, force, speed))
     film = _film(bearing, options, speed)
     film.raise_scale(float(np.hypot(*force.T).max()) / (bearing.width * bearing.diameter))
-    ring, work = _discrete(film)
+    reduced, work = _discrete(film)
     work.u[:] = film.unknown_of(np.full(work.u.shape, film.p_edge))
     start = steps.start
     first = _estimate(bearing, film, force[:1], speed[:1])[0] if start is None else start
     rows = np.zeros((time.size, at.RESULTS))
-    begin = ring._replace(free=start is None)
+    begin = reduced._replace(free=start is None)
     x, y, residual, iterations, converged, rounding = newton(
         begin, work, first[0], first[1], force[0, 0], force[0, 1], speed[0], 0.0,
         control.tolerance, 2 * control.max_iterations,
@@ -116,10 +116,10 @@ def orbit(
     if not converged:
         why = not_found(residual, rounding, iterations, float(np.hypot(x, y)))
         raise SolverError(f"orbit cannot start: {refusal(force[0], speed[0], why)}")
-    summarise(ring, work, x, y, rows[0])
+    summarise(reduced, work, x, y, rows[0])
     rows[0, at.RESIDUAL :] = residual, iterations, converged, rounding
     solved = march(
-        ring, work, x, y, time, force, speed, control.tolerance, control.max_iterations, rows
+        reduced, work, x, y, time, force, speed, control.tolerance, control.max_iterations, rows
     )
     last = solved - 1
     if not rows[last, at.CONVERGED]:
@@ -172,13 +172,13 @@ def _discrete(film: DiscreteFilm) -> tuple[Ring, Work]:
     angle = film.mesh.angle
     face = angle + np.pi / angle.size
     axial = lobatto(float(film.mesh.z_edges[-1]), POINTS)
-    ring = Ring(
+    reduced = Ring(
         np.cos(angle), np.sin(angle), np.cos(face), np.sin(face), film.mesh.order, axial,
         film.law.address, np.array(film.law.numbers), film.law.fill_at(film.p_edge), film.scale,
         film.p_edge, film.slope,
         2.0 * film.radius**2, True,
     )  # fmt: skip
-    return ring, make_work(angle.size, POINTS)
+    return reduced, make_work(angle.size, POINTS)
 
 
 def _estimate(bearing: JournalGeometry, film: DiscreteFilm, force: Array, speed: Array) -> Array:

@@ -20,7 +20,7 @@ from loadflow.journal.cavitation import Guembel
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
-from loadflow.journal.models import mobility_map as mapped
+from loadflow.journal.models import mobility_map
 from loadflow.journal.models.charts import CLOSED, TABLE, Chart, friction_power, width_of
 from loadflow.journal.models.mobility_map import advance
 from loadflow.journal.models.model import Steps
@@ -137,7 +137,7 @@ class Hahn:
         control: Limits,
     ) -> dict[str, Any]:
         """Static equilibria of the Gümbel film."""
-        return mapped.equilibrium(bearing, self._film(options), force, speed, line, control)
+        return mobility_map.equilibrium(bearing, self._film(options), force, speed, line, control)
 
     def orbit(
         self,
@@ -152,7 +152,7 @@ class Hahn:
     ) -> xr.Dataset:
         """Path of the shaft in the Gümbel film."""
         film = self._film(options)
-        return mapped.orbit(bearing, film, time, force, speed, line, control, steps)
+        return mobility_map.orbit(bearing, film, time, force, speed, line, control, steps)
 
 
 HOLLAND = Superposed("holland", TABLE)

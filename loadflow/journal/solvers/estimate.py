@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.tribology.film import butenschoen
+
+if TYPE_CHECKING:
+    from loadflow.journal.film.film import DiscreteFilm
 
 Array = NDArray[np.float64]
 
@@ -36,6 +41,48 @@ def closed_form_position(
     attitude = np.interp(ratio, _RATIOS, attitudes) if ruptures else 0.5 * np.pi
     turn = np.arctan2(force[..., 1], force[..., 0]) + np.sign(speed) * attitude
     return ratio[..., None] * np.stack([np.cos(turn), np.sin(turn)], axis=-1)
+
+
+_FAR = 64.0  # eccentricity ratio at which nothing is touched in this direction
+_FINE = 0.05  # of the roughness, to which asperities are asked where they carry a load
+
+
+def closer_of(film: DiscreteFilm, load: Array, position: Array) -> Array:
+    """Start of rough surfaces: the closed form, or where asperities alone carry, if that is nearer.
+
+    Together they carry more than either, so that the shaft lies less far out than in both.
+
+    Parameters
+    ----------
+    film : DiscreteFilm
+        With `contact`; without, or without load, the closed form remains.
+    load : array (2,)
+        N.
+    position : array (m,)
+        By the closed form, clearances; what is not eccentricity is held.
+    """
+    size = math.hypot(*load)
+    if film.contact is None or size == 0.0:
+        return position
+    place = position.copy()
+
+    def carries(ratio: float) -> bool:
+        place[:2] = ratio * load / size
+        if not film.gap.narrowest(place) > 0.0:
+            return True
+        return float(film.contact.at(place).load[:2] @ load) >= size * size
+
+    low, high = 0.0, 1.0
+    while not carries(high) and high < _FAR:
+        low, high = high, 2.0 * high
+    if high >= _FAR:
+        return position
+    while high - low > _FINE * film.gap.roughness:
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if carries(middle) else (middle, high)
+    place[:2] = low * load / size
+    nearer = film.speed != 0.0 and math.hypot(*position[:2]) < low
+    return position if nearer else place
 
 
 @lru_cache(maxsize=32)

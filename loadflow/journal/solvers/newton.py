@@ -254,8 +254,8 @@ def solve_patiently(
                 film, force, state.u, state.position, tolerance, max_iterations, free=free
             )
             return replace(end, iterations=spent + end.iterations)
-    unmet = 1e-3 * math.hypot(*missing) / near
-    residual = unmet if state.converged else max(state.residual, unmet)
+    share = 1e-3 * math.hypot(*missing) / near
+    residual = share if state.converged else max(state.residual, share)
     return replace(state, converged=False, iterations=spent, residual=residual)
 
 
@@ -273,7 +273,8 @@ def _solve(matrix: Array, rhs: Array, ease: Array) -> Array:
     det = a * d - b * c
     if det == 0.0:
         return np.zeros(2)
-    return np.array([(d * rhs[0] - b * rhs[1]) / det, (a * rhs[1] - c * rhs[0]) / det])
+    first, second = rhs.tolist()
+    return np.array([(d * first - b * second) / det, (a * second - c * first) / det])
 
 
 def no_film(film: DiscreteFilm) -> Solution:

@@ -16,7 +16,7 @@ from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
 from loadflow.journal.results import field_row, static_row
-from loadflow.journal.solvers.estimate import NEAR, closed_form_position
+from loadflow.journal.solvers.estimate import NEAR, closed_form_position, closer_of
 from loadflow.journal.solvers.newton import (
     Solution,
     no_film,
@@ -90,14 +90,16 @@ def plain_fields(
     control: Limits,
 ) -> tuple[list[dict[str, Any]], Array]:
     """Rows of `FilmField` and axial places of the cells of one half, m."""
-    ratio = np.hypot(places[:, 0], places[:, 1])
-    if ratio.max(initial=0.0) >= 1.0:
-        raise InputError(
-            f"eccentricity {ratio.argmax()}: ratio ε = {ratio.max():.6g} is not allowed: < 1 "
-            f"(radial clearance {bearing.clearance:.6g} m)"
-        )
     rates = np.abs(speeds) + np.hypot(velocities[:, 0], velocities[:, 1])
     film = plain_film(bearing, options, rates)
+    ratio = np.hypot(places[:, 0], places[:, 1])
+    worst = int(ratio.argmax()) if ratio.size else 0
+    if ratio.size and not film.gap.narrowest(places[worst]) > 0.0:
+        limit = "< 1" if film.contact is None else "an overlap that the law of contact covers"
+        raise InputError(
+            f"eccentricity {worst}: ratio ε = {ratio[worst]:.6g} is not allowed: {limit} "
+            f"(radial clearance {bearing.clearance:.6g} m)"
+        )
     rows = []
     for index, (place, moving, omega) in enumerate(zip(places, velocities, speeds.tolist())):
         film.set_speed(omega)
@@ -153,11 +155,11 @@ def _settle(
     tolerance, max_iterations = control.tolerance, control.max_iterations
     film.set_speed(speed)
     lifts = film.pockets.lifts(film.p_edge)
-    if speed == 0.0 and not lifts:
+    if speed == 0.0 and not lifts and (film.contact is None or not load.any()):
         if load.any():
             return film, no_film(film)
         return film, solve_film(film, film.start(), load, load, tolerance, max_iterations)
-    position = _estimate(bearing, load, film)
+    position = closer_of(film, load, _estimate(bearing, load, film))
     attempts = [(film, *start) for start in _starts(film, position, last)]
     if lifts:
         floating = _floating(film, load, position)
@@ -201,12 +203,15 @@ def _refusal(film: DiscreteFilm, load: Array, solution: Solution) -> str:
     head = f"F = ({load[0]:.6g}, {load[1]:.6g}) N at ω = {film.speed:.6g} rad/s"
     if film.dry(solution.u):
         return f"{head}: {_STARVED}"
-    if film.speed == 0.0:
+    if film.speed == 0.0 and film.contact is None:
         if not film.pockets.lifts(film.p_edge):
             return f"{head}: without rotation and squeeze the film carries no load"
         return f"{head}: the supply carries no more than {_lift(film, load):.6g} N, at ε = {_HIGH}"
     ratio = float(np.hypot(*solution.position))
     reached = (solution.residual, solution.rounding, solution.iterations)
+    if film.contact is not None:
+        overlap = (ratio - 1.0) / film.gap.roughness
+        return f"{head}: {not_found(*reached, ratio)}, mean planes {overlap:.3g} σ beyond touching"
     return refusal(load, film.speed, not_found(*reached, ratio))
 
 

@@ -19,7 +19,7 @@ from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
 from loadflow.journal.results import field_row, following, static_row
 from loadflow.journal.shapes import Cylindrical
-from loadflow.journal.solvers.estimate import closed_form_position
+from loadflow.journal.solvers.estimate import closed_form_position, closer_of
 from loadflow.journal.solvers.load_stepping import (
     APART,
     TOUCHING,
@@ -178,7 +178,7 @@ class _Statics:
         film.relax()
         film.set_speed(omega)
         lifts = film.pockets.lifts(film.p_edge)
-        if omega == 0.0 and load.any() and not lifts:
+        if omega == 0.0 and load.any() and not lifts and film.contact is None:
             return no_film(film)
         force, held = np.zeros(gap.size), np.zeros(gap.size)
         force[:2] = load
@@ -190,7 +190,7 @@ class _Statics:
                 force[2:4] = self.line.moment[index] / self.bearing.radius
         estimate = self._estimate(load, held, free)
         free = np.append(free, self._tilting(estimate))
-        if omega == 0.0 and not lifts:
+        if omega == 0.0 and not lifts and not (film.contact is not None and load.any()):
             return solve_film(film, film.start(), estimate, 0.0 * estimate, control.tolerance, 1)
         for _ in range(_PAD_ROUNDS):
             self._idle(free)
@@ -293,9 +293,11 @@ class _Statics:
     def refusal(self, load: Array, solution: Solution) -> str:
         """Why there is no answer, with numbers."""
         head = f"F = ({load[0]:.6g}, {load[1]:.6g}) N at ω = {self.film.speed:.6g} rad/s"
-        if self.film.speed == 0.0 and not self.film.pockets.lifts(self.film.p_edge):
+        still = self.film.speed == 0.0 and self.film.contact is None
+        if still and not self.film.pockets.lifts(self.film.p_edge):
             return f"{head}: without rotation and squeeze the film carries no load"
-        if self.gap.narrowest(solution.position) < TOUCHING and not self.film.elastic:
+        rigid = self.film.contact is None and not self.film.elastic
+        if rigid and self.gap.narrowest(solution.position) < TOUCHING:
             return (
                 f"{head}: the shaft touches the bore, {self._where(solution.position)}, before the "
                 f"film carries the last {100 * min(solution.residual, 1.0):.3g} % of the load"
@@ -330,6 +332,8 @@ class _Statics:
         if self.pads.size:  # pads leave the shaft no side to go to
             along = math.hypot(*position[:2]) / max(math.hypot(*load), 1e-300)
             position[:2] = along * load
+        if self.film.contact is not None and load.any():
+            return closer_of(self.film, load, position)
         for share in (1.0, 0.7, 0.4, 0.1):
             start = self._lifted(np.append(share * position[:2], position[2:]))
             if self.gap.narrowest(start) > _ROOM:

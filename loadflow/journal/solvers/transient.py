@@ -220,13 +220,16 @@ _VARIABLES = (
     "supply_flow",
     "supply_power",
     "total_fill",
+    "contact_pressure",
+    "contact_power",
+    "contact_share",
     "shell_deformation",
     "residual",
     "iterations",
     "steps",
 )
 _GROOVES = ("groove_flow", "groove_pressure")
-_TILTS = ("tilt",)
+_VECTORS = ("tilt", "contact_force")
 
 
 def orbit_dataset(
@@ -242,7 +245,7 @@ def orbit_dataset(
         for dims, names in (
             ("time", _VARIABLES),
             (("time", "groove"), _GROOVES),
-            (("time", "axis"), _TILTS),
+            (("time", "axis"), _VECTORS),
         )
         for name in names
         if name in values

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar, Literal, TypeVar, cast
 
@@ -265,7 +265,8 @@ class RollingBearing(RollingGeometry):
                 tolerance=max(tolerance, 1e-9),
                 max_iterations=max_iterations,
             )
-        return RollingEquilibrium(**vars(rest), bearing=self, contacts=contacts, elements=elements)
+        found = {field.name: getattr(rest, field.name) for field in fields(rest)}
+        return RollingEquilibrium(**found, bearing=self, contacts=contacts, elements=elements)
 
     def orbit(
         self,

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError, SolverError
 from loadflow.rolling.contacts import HEIGHT, NORMAL_R, NORMAL_Z, RADIUS, Contacts, Raceway
-from loadflow.rolling.equilibrium import RingEquilibrium
+from loadflow.rolling.equilibrium import FormedStiffness, RingEquilibrium
 
 if TYPE_CHECKING:
     from loadflow.rolling.raceways import BallRaceways
@@ -192,7 +192,7 @@ def spin_equilibrium(
     rings = replace(
         rest,
         displacement=q.reshape(*shape, 5),
-        stiffness=hessian.reshape(*shape, 5, 5),
+        form_stiffness=FormedStiffness(hessian.reshape(*shape, 5, 5)),
         residual=residual.reshape(shape),
         iterations=np.full(shape, total),
         converged=np.full(shape, True),

@@ -2,7 +2,8 @@
 
 Unknowns x = (ux, uy, uz, R θx, R θy, a): motion of the inner ring's structure relative to the outer
 one's, all lengths, and the ring modes of unit stiffness. `basis` (3, contact, unknown) gives the
-relative shift (r, θ, z) of the two groove centres of each contact. `local` is the compliance of
+relative shift (r, θ, z) of the two groove centres of each contact; `waves` gives the same as few
+waves around the ring, `loadflow.rolling.rings.condensed.RingWaves`. `local` is the compliance of
 the rings right at a contact, along its force. Contacts are numbered kind by kind, the table is
 that of `loadflow.rolling.contacts`. The potential is convex in x.
 """
@@ -14,33 +15,27 @@ import math
 import numpy as np
 from numba import njit
 
-from loadflow.rolling._kernels import cholesky_solve, is_small, rounding_level, stalled
+from loadflow.rolling._kernels import rounding_level, stalled
 from loadflow.rolling.contacts import FREE, GAP, NORMAL_R, NORMAL_Z, STIFFNESS
 
 # Sums may be reordered (so that they use vector units); nothing else of fast mathematics.
 _REORDER = {"reassoc", "contract", "nsz"}
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
-def _compress(stretch, stiffness, local):
-    """Force and slope of a contact δ = (F/K)^(2/3) + c F under the whole stretch δ > 0."""
-    root = math.sqrt(stretch)
-    if local > 0.0:
-        cubic = local * stiffness
-        root = min(root, (stretch / cubic) ** (1.0 / 3.0))
-        for _ in range(60):
-            step = (root * root * (1.0 + cubic * root) - stretch) / (
-                root * (2.0 + 3.0 * cubic * root)
-            )
-            root -= step
-            if stalled(abs(step), rounding_level(root)):
-                break
-    slope = 1.5 * stiffness * root
-    return stiffness * root**3, slope / (1.0 + local * slope)
+@njit(nogil=True, error_model="numpy", cache=True)
+def _root(stretch, cubic):
+    """Root y of y² (1 + cubic y) = stretch > 0, of a contact δ = y² with a spring behind it."""
+    root = min(math.sqrt(stretch), (stretch / cubic) ** (1.0 / 3.0))
+    for _ in range(60):
+        step = (root * root * (1.0 + cubic * root) - stretch) / (root * (2.0 + 3.0 * cubic * root))
+        root -= step
+        if stalled(abs(step), rounding_level(root)):
+            break
+    return root
 
 
 @njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER)
-def _dot(a, b):
+def dot(a, b):
     """Sum of products; loops rather than array expressions, which take seconds to compile."""
     total = 0.0
     for i in range(a.shape[0]):
@@ -49,7 +44,7 @@ def _dot(a, b):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _largest(a, b):
+def largest_product(a, b):
     """Largest |a b|."""
     most = 0.0
     for i in range(a.shape[0]):
@@ -57,290 +52,202 @@ def _largest(a, b):
     return most
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
-def evaluate(x, basis, table, local, push, slope, across, angle, pull):
-    """Energy at x; fills push (3, contact), slope along and across, and angle of the contacts.
+@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER)
+def _spread(x, waves, amount, shift):
+    """Fill the `shift` (3 kind, ball) of all contacts by the unknowns `x`.
 
-    Fills the force `pull` on all unknowns as well. Returns energy, sum of forces, and whether a
-    loaded contact lies beyond 90°.
+    Unknowns to `amount` (wave, 3 kind) of each wave, then waves to balls, four at a time.
     """
-    count, size = basis.shape[1], x.shape[0]
-    balls = count // table.shape[0]
+    trig, owner, wave, amplitude = waves
+    amount[:, :] = 0.0
+    for i in range(owner.shape[0]):
+        size, line, part = x[owner[i]], amount[wave[i]], amplitude[i]
+        for s in range(part.shape[0]):
+            line[s] += size * part[s]
+    for s in range(shift.shape[0]):
+        line = shift[s]
+        line[:] = 0.0
+        for t in range(0, trig.shape[0], 4):
+            a, b, c, d = amount[t, s], amount[t + 1, s], amount[t + 2, s], amount[t + 3, s]
+            ta, tb, tc, td = trig[t], trig[t + 1], trig[t + 2], trig[t + 3]
+            for j in range(line.shape[0]):
+                line[j] += a * ta[j] + b * tb[j] + c * tc[j] + d * td[j]
+
+
+@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER)
+def _gather(push, waves, amount, pull):
+    """Add the forces `push` (3 kind, ball) of all contacts to those on the unknowns."""
+    trig, owner, wave, amplitude = waves
+    for s in range(push.shape[0]):
+        line = push[s]
+        for t in range(0, trig.shape[0], 4):
+            ta, tb, tc, td = trig[t], trig[t + 1], trig[t + 2], trig[t + 3]
+            a = b = c = d = 0.0
+            for j in range(line.shape[0]):
+                a += line[j] * ta[j]
+                b += line[j] * tb[j]
+                c += line[j] * tc[j]
+                d += line[j] * td[j]
+            amount[t, s], amount[t + 1, s], amount[t + 2, s], amount[t + 3, s] = a, b, c, d
+    for i in range(owner.shape[0]):
+        pull[owner[i]] += dot(amplitude[i], amount[wave[i]])
+
+
+@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER)
+def _contacts(shift, table, local, push, slope, across):
+    """Fill push (3 kind, ball), slope along and across (kind, ball) of contacts by their shift.
+
+    Free of branches but for the spring `local`. Returns energy, sum of forces, and whether a loaded
+    contact lies beyond 90°.
+    """
     energy = total = 0.0
-    beyond = False
-    for a in range(size):
+    upright = 1.0
+    for k in range(table.shape[0]):
+        dr, dt, dz = shift[3 * k], shift[3 * k + 1], shift[3 * k + 2]
+        pr, pt, pz = push[3 * k], push[3 * k + 1], push[3 * k + 2]
+        normal_r, normal_z = table[k, NORMAL_R], table[k, NORMAL_Z]
+        free, gap, stiffness = table[k, FREE], table[k, GAP], table[k, STIFFNESS]
+        roots, inverse = slope[k], across[k]
+        for j in range(dr.shape[0]):
+            stretch = (
+                2.0 * (normal_r * dr[j] + normal_z * dz[j])
+                + dr[j] * dr[j] + dt[j] * dt[j] + dz[j] * dz[j] + gap
+            )  # fmt: skip
+            r, z = normal_r + dr[j], normal_z + dz[j]
+            length = math.sqrt(r * r + dt[j] * dt[j] + z * z)
+            roots[j] = math.sqrt(max(stretch, 0.0) / (length + free))
+            inverse[j] = 1.0 / length
+        if local > 0.0:
+            for j in range(dr.shape[0]):
+                if roots[j] > 0.0:
+                    roots[j] = _root(roots[j] * roots[j], local * stiffness)
+        for j in range(dr.shape[0]):
+            root, r = roots[j], normal_r + dr[j]
+            force = stiffness * root * root * root
+            energy += force * (0.4 * root * root + 0.5 * local * force)
+            total += force
+            upright = min(upright, r * force)
+            side = force * inverse[j]
+            along = 1.5 * stiffness * root
+            pr[j], pt[j], pz[j] = side * r, side * dt[j], side * (normal_z + dz[j])
+            inverse[j] = side
+            roots[j] = along / (1.0 + local * along)
+    return energy, total, upright < 0.0
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def shift_of(x, waves, amount, shift):
+    _spread(x, waves, amount, shift)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def forces(x, shift, waves, table, local, amount, push, slope, across, pull):
+    """Energy, sum of forces, and whether a loaded contact lies beyond 90°, at known shifts.
+
+    Fills what `_contacts` fills, and the force `pull` on all unknowns.
+    """
+    energy, total, beyond = _contacts(shift, table, local, push, slope, across)
+    for a in range(x.shape[0]):
         pull[a] = x[a] if a >= 5 else 0.0
         energy += 0.5 * pull[a] * pull[a]
-    for i in range(count):
-        line = table[i // balls]
-        dr, dt, dz = _dot(basis[0, i], x), _dot(basis[1, i], x), _dot(basis[2, i], x)
-        stretch = (
-            2.0 * (line[NORMAL_R] * dr + line[NORMAL_Z] * dz)
-            + dr * dr + dt * dt + dz * dz + line[GAP]
-        )  # fmt: skip
-        r, z = line[NORMAL_R] + dr, line[NORMAL_Z] + dz
-        angle[i] = math.atan2(z, r)
-        push[0, i] = push[1, i] = push[2, i] = slope[i] = across[i] = 0.0
-        if stretch <= 0.0:
-            continue
-        length = math.sqrt(r * r + dt * dt + z * z)
-        delta = stretch / (length + line[FREE])
-        force, slope[i] = _compress(delta, line[STIFFNESS], local)
-        energy += 0.4 * force * (delta - local * force) + 0.5 * local * force * force
-        total += force
-        across[i] = force / length
-        push[0, i], push[1, i], push[2, i] = across[i] * r, across[i] * dt, across[i] * z
-        beyond = beyond or r <= 0.0
-        for a in range(size):
-            pull[a] += (
-                push[0, i] * basis[0, i, a]
-                + push[1, i] * basis[1, i, a]
-                + push[2, i] * basis[2, i, a]
-            )
+    _gather(push, waves, amount, pull)
     return energy, total, beyond
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def tangent(basis, push, slope, across, rows):
-    """Exact Hessian of the potential; `rows` (3 · contact, unknown) is room to work in."""
-    count, size = basis.shape[1], basis.shape[2]
+def evaluate(x, waves, table, local):
+    """Contacts in the state x.
+
+    Returns the shift and push (3 kind, ball) of the contacts, their slopes along and across (kind,
+    ball), and the force on all unknowns.
+    """
+    balls, kinds = waves[0].shape[1], table.shape[0]
+    amount = np.zeros((waves[0].shape[0], 3 * kinds))
+    shift, push = np.zeros((3 * kinds, balls)), np.zeros((3 * kinds, balls))
+    slope, across, pull = np.zeros((kinds, balls)), np.zeros((kinds, balls)), np.zeros(x.shape[0])
+    shift_of(x, waves, amount, shift)
+    forces(x, shift, waves, table, local, amount, push, slope, across, pull)
+    return shift, push, slope, across, pull
+
+
+@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER)
+def _rows(basis, push, slope, across, rows):
+    """Fill the rows whose squares are the tangent; returns how many, padded to whole eights."""
+    balls, size = push.shape[1], basis.shape[2]
     k = 0
-    for i in range(count):
-        if slope[i] == 0.0:
+    for i in range(basis.shape[1]):
+        kind, j = i // balls, i % balls
+        if slope[kind, j] == 0.0:
             continue
-        force = math.sqrt(push[0, i] ** 2 + push[1, i] ** 2 + push[2, i] ** 2)
-        nr, nt, nz = push[0, i] / force, push[1, i] / force, push[2, i] / force
+        pr, pt, pz = push[3 * kind, j], push[3 * kind + 1, j], push[3 * kind + 2, j]
+        force = math.sqrt(pr * pr + pt * pt + pz * pz)
+        nr, nt, nz = pr / force, pt / force, pz / force
         flat = math.sqrt(nr * nr + nz * nz)
         br, bz = -nz / flat, nr / flat  # across, within the plane of the ball
-        along, side = math.sqrt(slope[i]), math.sqrt(across[i])
+        along, side = math.sqrt(slope[kind, j]), math.sqrt(across[kind, j])
+        gr, gt, gz = basis[0, i], basis[1, i], basis[2, i]
+        first, second, third = rows[k], rows[k + 1], rows[k + 2]
+        lean = nt / flat
         for a in range(size):
-            gr, gt, gz = basis[0, i, a], basis[1, i, a], basis[2, i, a]
-            normal = nr * gr + nz * gz
-            rows[k, a] = along * (normal + nt * gt)
-            rows[k + 1, a] = side * (br * gr + bz * gz)
-            rows[k + 2, a] = side * (flat * gt - nt / flat * normal)
+            normal = nr * gr[a] + nz * gz[a]
+            first[a] = along * (normal + nt * gt[a])
+            second[a] = side * (br * gr[a] + bz * gz[a])
+            third[a] = side * (flat * gt[a] - lean * normal)
         k += 3
-    used = rows[:k]
-    hessian = np.dot(used.T, used)
-    for a in range(5, size):
-        hessian[a, a] += 1.0
+    while k % 8:
+        rows[k, :] = 0.0
+        k += 1
+    return k
+
+
+@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER)
+def _squares(rows, count, hessian):
+    """Lower half of rowsᵀ rows, eight rows at a time.
+
+    By loops, as a library of linear algebra starts threads of its own and waits for them.
+    """
+    size = hessian.shape[0]
+    hessian[:, :] = 0.0
+    for k in range(0, count, 8):
+        r0, r1, r2, r3 = rows[k], rows[k + 1], rows[k + 2], rows[k + 3]
+        r4, r5, r6, r7 = rows[k + 4], rows[k + 5], rows[k + 6], rows[k + 7]
+        for a in range(size):
+            line = hessian[a]
+            c0, c1, c2, c3, c4, c5, c6, c7 = (
+                r0[a], r1[a], r2[a], r3[a], r4[a], r5[a], r6[a], r7[a],
+            )  # fmt: skip
+            for b in range(a + 1):
+                line[b] += (
+                    c0 * r0[b] + c1 * r1[b] + c2 * r2[b] + c3 * r3[b]
+                    + c4 * r4[b] + c5 * r5[b] + c6 * r6[b] + c7 * r7[b]
+                )  # fmt: skip
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def tangent(basis, push, slope, across):
+    """Exact Hessian of the potential."""
+    size = basis.shape[2]
+    rows, hessian = np.empty((3 * basis.shape[1] + 8, size)), np.zeros((size, size))
+    _squares(rows, _rows(basis, push, slope, across, rows), hessian)
+    for a in range(size):
+        hessian[a, a] += 1.0 if a >= 5 else 0.0
+        for b in range(a):
+            hessian[b, a] = hessian[a, b]
     return hessian
 
 
-@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER)
-def _factorise(matrix):
-    """Replace the lower half of a positive definite matrix by its Cholesky factor."""
-    for a in range(matrix.shape[0]):
-        for b in range(a + 1):
-            value = matrix[a, b]
-            for k in range(b):
-                value -= matrix[a, k] * matrix[b, k]
-            matrix[a, b] = math.sqrt(value) if a == b else value / matrix[b, b]
-
-
-@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER)
-def _solve(factor, rhs):
-    """Replace `rhs` by the solution with a matrix given by its Cholesky factor."""
-    for a in range(rhs.shape[0]):
-        value = rhs[a]
-        for k in range(a):
-            value -= factor[a, k] * rhs[k]
-        rhs[a] = value / factor[a, a]
-    for a in range(rhs.shape[0] - 1, -1, -1):
-        rhs[a] /= factor[a, a]
-        for k in range(a):
-            rhs[k] -= factor[a, k] * rhs[a]
-
-
 @njit(cache=True, nogil=True, error_model="numpy")
-def _condense(basis, push, slope, across, room, factor, solved, condensed):
-    """Tangent with the modes eliminated.
-
-    Fills the Cholesky `factor` of the modes, the modes `solved` (5, mode) that follow each rigid
-    unknown, and the 5 × 5 tangent that is left.
-    """
-    hessian = tangent(basis, push, slope, across, room)
-    modes = factor.shape[0]
-    for a in range(modes):
-        for b in range(modes):
-            factor[a, b] = hessian[5 + a, 5 + b]
-    _factorise(factor)
-    for a in range(5):
-        for b in range(modes):
-            solved[a, b] = hessian[a, 5 + b]
-        _solve(factor, solved[a])
-    for a in range(5):
-        for b in range(5):
-            condensed[a, b] = hessian[a, b] - _dot(hessian[a, 5:], solved[b])
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def _direction(rest, factor, solved, condensed, cap, small, step):
-    """Fill `step` by Newton's, with a Levenberg shift where the rigid part is singular.
-
-    Returns the largest diagonal term and the smallest pivot of the rigid part.
-    """
-    rhs, modes = np.empty(5), step[5:]
-    largest = norm = 0.0
-    for a in range(5):
-        rhs[a] = rest[a] - _dot(solved[a], rest[5:])
-        largest = max(largest, condensed[a, a])
-        norm += rhs[a] * rhs[a]
-    regular, shift = 0.0, 0.0
-    pivot = -1.0
-    while regular <= 1e-13 and (largest > 0.0 or pivot < 0.0):
-        regular = cholesky_solve(condensed, shift, rhs, small, step)
-        pivot = regular if pivot < 0.0 else pivot
-        shift = max(100.0 * shift, 1e-10 * largest)
-    if largest == 0.0:  # nothing touches: go along the load
-        for a in range(5):
-            step[a] = rhs[a] * cap / math.sqrt(max(norm, 1e-300))
-    for b in range(modes.shape[0]):
-        modes[b] = rest[5 + b]
-    _solve(factor, modes)
-    for a in range(5):
-        for b in range(modes.shape[0]):
-            modes[b] -= solved[a, b] * step[a]
-    return largest, pivot
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def _newton(
-    x, load, basis, table, local, reach, cap, tolerance, limit, room,
-    factor, solved, condensed, known,
-):  # fmt: skip
-    """Minimise energy - load·x from `x`.
-
-    Returns converged, residual, iterations, singular, and the rounding level of the residual.
-
-    Newton with the exact tangent, kept while the residual falls tenfold at each step (`known` says
-    whether a tangent from near `x` is there to begin with), a cap on the step of the contacts, and
-    halving until energy or residual falls. Leaves the exact tangent at the solution.
-    """
-    count, size = basis.shape[1], basis.shape[2]
-    push, small = np.zeros((3, count)), np.zeros((5, 5))
-    slope, across, angle = np.zeros(count), np.zeros(count), np.zeros(count)
-    pull, rest, step, trial = np.zeros(size), np.zeros(size), np.zeros(size), np.zeros(size)
-    one = np.ones(size)
-    for a in range(size):
-        trial[a] = x[a]
-    external = _largest(load, one)
-    iterations, residual, moved, norm, energy = 0, 0.0, 0.0, 0.0, 0.0
-    damping, exact, fresh, beyond = 1.0, False, True, False
-    potential, descent, halvings = 0.0, 0.0, 0
-    while True:
-        energy, total, beyond = evaluate(
-            trial, basis, table, local, push, slope, across, angle, pull
-        )
-        new_norm = 0.0
-        for a in range(size):
-            new_norm += ((load[a] - pull[a]) * reach[a]) ** 2
-        # accept where residual or potential falls, or at the very start
-        if fresh or new_norm < norm * (1.0 - 1e-4 * damping) or (
-            energy - _dot(load, trial) < potential + 1e-4 * damping * descent
-        ):  # fmt: skip
-            for a in range(size):
-                x[a] = trial[a]
-                rest[a] = load[a] - pull[a]
-            norm, before = new_norm, residual
-            reference = max(external, 1e-4 * total)
-            residual = _largest(rest, reach)
-            residual = residual / reference if reference > 0.0 else 0.0
-            moved = _largest(x[:5], one)
-            slow = not fresh and residual > 0.1 * before
-            fresh = False
-            if residual <= tolerance or iterations == limit:
-                break
-            exact = not known or slow
-        elif halvings < 30:
-            halvings += 1
-            damping *= 0.5
-            for a in range(size):
-                trial[a] = x[a] + damping * step[a]
-            continue
-        elif exact:
-            break
-        else:  # an old tangent misled: go back and take the exact one
-            for a in range(size):
-                trial[a] = x[a]
-            known, fresh, halvings = False, True, 0
-            continue
-        if exact:
-            _condense(basis, push, slope, across, room, factor, solved, condensed)
-            known = True
-        _direction(rest, factor, solved, condensed, cap, small, step)
-        iterations += 1
-        shift = 0.0
-        for i in range(count):
-            for c in range(3):
-                shift = max(shift, abs(_dot(basis[c, i], step)))
-        if exact and stalled(max(shift, _largest(step[:5], one)), rounding_level(moved)):
-            break
-        damping = min(1.0, cap / shift) if shift > 0.0 else 1.0
-        potential, descent, halvings = energy - _dot(load, x), -_dot(rest, step), 0
-        for a in range(size):
-            trial[a] = x[a] + damping * step[a]
-    _condense(basis, push, slope, across, room, factor, solved, condensed)
-    stiffest, pivot = _direction(rest, factor, solved, condensed, cap, small, step)
-    reference = max(external, 1e-4 * total, 1e-300)
-    rounding = rounding_level(moved * stiffest) / reference
-    answered = is_small(residual, tolerance, rounding) and not beyond
-    return answered, residual, iterations, pivot <= 1e-12, rounding
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def solve_series(loads, rigid, basis, table, local, reach, cap, tolerance, limit, chunk):
-    """Equilibrium for each load (n, 5) of lengths; warm start inside chunks of `chunk` cases.
-
-    `rigid` (n, 5) is the equilibrium with rigid rings, from which a cold start goes. A case that
-    fails or is singular from a warm start is solved again from a cold one; what then still fails is
-    reached from a larger load in steps.
-    """
-    n, size = loads.shape[0], basis.shape[2]
-    states, stiffness = np.zeros((n, size)), np.zeros((n, 5, 5))
-    residual, iterations = np.zeros(n), np.zeros(n, np.int64)
-    converged, singular = np.zeros(n, np.bool_), np.zeros(n, np.bool_)
-    rounding = np.zeros(n)
-    room = np.empty((3 * basis.shape[1], size))
-    x, load = np.zeros(size), np.zeros(size)
-    factor, solved = np.zeros((size - 5, size - 5)), np.zeros((5, size - 5))
-    for i in range(n):
-        warm = i % chunk > 0 and converged[i - 1] and not singular[i - 1]
-        ok, res, count, free = False, 0.0, 0, False
-        for attempt in range(9):  # warm, cold, then from 1e6 times the load down
-            if attempt == 0 and not warm:
-                continue
-            times = 1.0 if attempt < 2 else 10.0 ** (8 - attempt)
-            for a in range(5):
-                load[a] = times * loads[i, a]
-                for b in range(5):
-                    if attempt == 0:
-                        stiffness[i, a, b] = stiffness[i - 1, a, b]
-            if attempt == 1 or attempt == 2:
-                for a in range(size):
-                    x[a] = rigid[i, a] if a < 5 else 0.0
-            ok, res, more, free, rounding[i] = _newton(
-                x, load, basis, table, local, reach, cap, tolerance, limit, room,
-                factor, solved, stiffness[i], attempt == 0,
-            )  # fmt: skip
-            count += more
-            if ok and (attempt == 1 or (attempt == 0 and not free)):
-                break
-        for a in range(size):
-            states[i, a] = x[a]
-        converged[i], residual[i], iterations[i], singular[i] = ok, res, count, free
-    return states, stiffness, converged, residual, iterations, singular, rounding
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def contact_state(states, basis, table, local):
-    """Force and signed angle (from the radial plane) of each contact, (n, contact)."""
-    count = basis.shape[1]
-    force, angle = np.zeros((len(states), count)), np.zeros((len(states), count))
-    push, pull = np.zeros((3, count)), np.zeros(basis.shape[2])
-    slope, across = np.zeros(count), np.zeros(count)
-    for j in range(len(states)):
-        evaluate(states[j], basis, table, local, push, slope, across, angle[j], pull)
-        for i in range(count):
-            force[j, i] = math.sqrt(push[0, i] ** 2 + push[1, i] ** 2 + push[2, i] ** 2)
+def contact_state(states, waves, table, local):
+    """Force and signed angle (from the radial plane) of each contact, (n, kind, ball)."""
+    balls, kinds = waves[0].shape[1], table.shape[0]
+    force, angle = np.zeros((2, len(states), kinds, balls))
+    for i in range(len(states)):
+        shift, push, _, _, _ = evaluate(states[i], waves, table, local)
+        for k in range(kinds):
+            for j in range(balls):
+                pr, pt, pz = push[3 * k, j], push[3 * k + 1, j], push[3 * k + 2, j]
+                force[i, k, j] = math.sqrt(pr * pr + pt * pt + pz * pz)
+                angle[i, k, j] = math.atan2(
+                    table[k, NORMAL_Z] + shift[3 * k + 2, j], table[k, NORMAL_R] + shift[3 * k, j]
+                )
     return force, angle

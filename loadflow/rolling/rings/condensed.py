@@ -10,11 +10,12 @@ a spring right at each contact, so that a smooth load meets the whole compliance
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache
-from typing import TYPE_CHECKING, Annotated, Protocol, runtime_checkable
+from functools import cached_property, lru_cache
+from typing import TYPE_CHECKING, Annotated, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 from annotated_types import Ge, Gt
+from numpy.typing import NDArray
 
 from loadflow.errors import InputError
 from loadflow.numerics.fields import check_fields
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
 # expected share of a contact force across its nominal line, and along the ring
 _ACROSS, _ALONG = 0.2, 0.02
 _LEFT_OUT, _MOST = 1e-5, 100  # share of the energy that modes may miss, and how many at most
+_ROUNDING = 1e-11  # share of a shift or compliance that is rounding, of the modes above all
 _FALL = 2.0  # harmonic n of the forces is taken to fall as 1/(1 + n)²
 
 
@@ -107,12 +109,15 @@ class RingModes:
         Share of the modes' compliance in the whole, along the nominal contact lines.
     mixing : ndarray, shape (ring mode, mode)
         The modes in those that the rings give, all of the inner ring before all of the outer one.
+    balls : int
+        Balls of a row.
     """
 
     basis: Array
     local: float
     share: float
     mixing: Array
+    balls: int
 
     @property
     def size(self) -> int:
@@ -124,6 +129,50 @@ class RingModes:
         """Factors that turn residuals of the unknowns into forces."""
         modes = np.abs(self.basis[..., 5:]).max(axis=(0, 1))
         return np.concatenate([np.ones(5), 1 / modes])
+
+    @cached_property
+    def waves(self) -> RingWaves:
+        """The basis as waves around the ring."""
+        return RingWaves.of(self.basis, self.balls)
+
+
+class RingWaves(NamedTuple):
+    """Shift of the groove centres by each unknown, as waves over the balls of a row.
+
+    Rings that are the same all round have modes of one harmonic each: a few numbers stand for the
+    shifts of all contacts. Other rings have more of them, up to one for each ball. Only what is
+    rounding is left out.
+
+    Attributes
+    ----------
+    trig : ndarray, shape (wave, ball)
+        Cosines and sines over the balls, with empty waves up to a multiple of four.
+    owner, wave : ndarray of int, shape (part,)
+        Unknown and wave of each part.
+    amplitude : ndarray, shape (part, 3 kind)
+        Shift (r, θ, z) of each kind of contact.
+    """
+
+    trig: Array
+    owner: NDArray[np.int64]
+    wave: NDArray[np.int64]
+    amplitude: Array
+
+    @classmethod
+    def of(cls, basis: Array, balls: int) -> RingWaves:
+        """Split a `basis` (3, kind · ball, unknown)."""
+        size = basis.shape[-1]
+        shift = basis.reshape(3, -1, balls, size).transpose(1, 0, 2, 3).reshape(-1, balls, size)
+        angle = 2 * np.pi / balls * np.outer(np.arange(balls // 2 + 1), np.arange(balls))
+        trig = np.concatenate([np.cos(angle), np.sin(angle[1 : (balls + 1) // 2])])
+        amplitude = np.einsum("tj,sja->ats", trig / np.square(trig).sum(axis=1)[:, None], shift)
+        seen = np.abs(amplitude).max(axis=2)
+        seen = seen > _ROUNDING * seen.max(axis=1, keepdims=True)
+        used = np.flatnonzero(seen.any(axis=0))
+        owner, wave = np.nonzero(seen[:, used])
+        padded = np.zeros((-(-len(used) // 4) * 4, balls))
+        padded[: len(used)] = trig[used]
+        return cls(padded, owner, wave, np.ascontiguousarray(amplitude[owner, used[wave]]))
 
 
 @lru_cache(maxsize=16)
@@ -142,7 +191,11 @@ def ring_modes(bearing: BallRaceways, rings: FlexibleRings, ball_angle: float) -
     basis = np.concatenate([rigid_basis(contacts), shapes], axis=-1)
     basis[1] *= contacts.spatial
     return RingModes(
-        np.ascontiguousarray(basis), local + _master_compliance(bearing, rings), share, mixing
+        np.ascontiguousarray(basis),
+        local + _master_compliance(bearing, rings),
+        share,
+        mixing,
+        bearing.balls,
     )
 
 
@@ -198,6 +251,8 @@ def _condense(factor: Array, contacts: Contacts, modes: int | None) -> tuple[Arr
     if len(order) > modes:
         left = float(np.square(along @ vectors[:, order[modes:]]).sum()) / len(along)
         local = min(_local_compliance(along), left)
+        if local < _ROUNDING * np.square(along).sum() / len(along):
+            local = 0.0
         # the spring at the contacts takes its part of what the kept modes carry
         carried = np.square(along @ kept).sum(axis=0)
         scale = np.sqrt(np.where(carried > local, 1 - local / np.maximum(carried, 1e-300), 1.0))

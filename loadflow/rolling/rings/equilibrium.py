@@ -66,10 +66,9 @@ class FlexibleRingForces:
         from loadflow.rolling.rings import _ring_kernels
 
         force, angle = _ring_kernels.contact_state(
-            self._unknowns[cases], self.modes.basis, self.contacts.table, self.modes.local
+            self._unknowns[cases], self.modes.waves, self.contacts.table, self.modes.local
         )
-        shape = (len(force), len(self.contacts.table), -1)
-        return force.reshape(shape), angle.reshape(shape)
+        return force, angle
 
     @cached_property
     def _state(self) -> tuple[Array, Array]:
@@ -112,6 +111,17 @@ class FlexibleRingForces:
         """Forces summed over the kinds of each group, N, (..., group, ball)."""
         force = self.forces
         return force.reshape(*self._cases, groups, -1, force.shape[-1]).sum(axis=-2)
+
+    def stiffness(self) -> Array:
+        """Tangent of the rings' structures, ring modes eliminated, (..., 5, 5); N/m, N, N m/rad."""
+        from loadflow.rolling.rings import _ring_newton
+
+        found = _ring_newton.stiffness_series(
+            self._unknowns, self.modes.waves, self.modes.basis, self.contacts.table,
+            self.modes.local,
+        )  # fmt: skip
+        found /= np.multiply.outer(self.contacts.scale, self.contacts.scale)
+        return np.asarray(found.reshape(*self._cases, 5, 5))
 
     def ring_displacement(self, ring: Literal["inner", "outer"]) -> Array:
         """Displacement (r, θ, z) of a ring's raceway patches, m, (..., row, diagonal, ball, 3).
@@ -179,7 +189,7 @@ def solve_flexible(
         If ``control.strict`` and a case does not converge, or its contacts turn beyond 90°, where
         the raceways end.
     """
-    from loadflow.rolling.rings import _ring_kernels
+    from loadflow.rolling.rings import _ring_newton
 
     f, m = broadcast_loads(force, moment)
     shape = f.shape[:-1]
@@ -195,9 +205,10 @@ def solve_flexible(
         strict=False,
         chunk=control.chunk,
     )
-    x, stiffness, converged, residual, iterations, singular, rounding = _ring_kernels.solve_series(
+    x, converged, residual, iterations, singular, rounding = _ring_newton.solve_series(
         loads * contacts.scale,
         (rigid.displacement / contacts.scale).reshape(-1, 5),
+        modes.waves,
         modes.basis,
         contacts.table,
         modes.local,
@@ -210,20 +221,20 @@ def solve_flexible(
     if control.strict and not converged.all():
         _refuse_exit(loads, converged, residual, control.tolerance)
         complain(loads, converged, residual, rounding, iterations, shape)
-    per_length = 1 / contacts.scale
     displacement = (x[:, :5] * contacts.scale).reshape(*shape, 5)
+    amplitudes = x[:, 5:].reshape(*shape, -1)
+    elements = FlexibleRingForces(bearing, contacts, rings, modes, displacement, amplitudes)
     found = RingEquilibrium(
         force=f,
         moment=m,
         displacement=displacement,
-        stiffness=(stiffness * per_length[:, None] * per_length).reshape(*shape, 5, 5),
+        form_stiffness=elements.stiffness,
         converged=converged.reshape(shape),
         residual=residual.reshape(shape),
         iterations=iterations.reshape(shape),
         singular=singular.reshape(shape),
     )
-    amplitudes = x[:, 5:].reshape(*shape, -1)
-    return found, FlexibleRingForces(bearing, contacts, rings, modes, displacement, amplitudes)
+    return found, elements
 
 
 def _refuse_exit(

@@ -150,12 +150,12 @@ def settle(
     if not answer.success:
         raise SolverError(f"the motion could not be followed: {answer.message}")
     states = np.ascontiguousarray(answer.y[: modes.size].T)
-    largest = _ring_kernels.contact_state(states, modes.basis, contacts.table, modes.local)[0]
+    largest = _ring_kernels.contact_state(states, modes.waves, contacts.table, modes.local)[0]
     pull, _ = system.forces(states[-1])
     return Transient(
         answer.t,
         states[:, :5] * contacts.scale,
-        largest.max(axis=1),
+        largest.max(axis=(1, 2)),
         float(np.abs((load - pull)[:5]).max() / max(np.abs(load).max(), 1e-300)),
     )
 
@@ -176,8 +176,9 @@ class _System:
 
     def forces(self, x: Array) -> tuple[Array, Array]:
         """Elastic force on all unknowns, damping matrix of the contacts."""
-        push, _, _, pull = self.contact(x)
+        _, push, _, _, pull = self.contact(x)
         basis, table = self.modes.basis, self.contacts.table
+        push = push.reshape(len(table), 3, -1).transpose(1, 0, 2).reshape(3, -1)
         force = np.linalg.norm(push, axis=0)
         stiffness = np.repeat(table[:, STIFFNESS], len(force) // len(table))
         deep = np.clip((force / stiffness) ** (2 / 3) / self.inertia.step, 0, 1)
@@ -192,20 +193,14 @@ class _System:
         """Slope of the elastic force on all unknowns."""
         from loadflow.rolling.rings import _ring_kernels
 
-        push, slope, across, _ = self.contact(x)
-        room = np.empty((3 * len(slope), len(x)))
-        return _ring_kernels.tangent(self.modes.basis, push, slope, across, room)
+        _, push, slope, across, _ = self.contact(x)
+        return _ring_kernels.tangent(self.modes.basis, push, slope, across)
 
-    def contact(self, x: Array) -> tuple[Array, Array, Array, Array]:
-        """Force of each contact (3, contact), its slopes along and across, force on unknowns."""
+    def contact(self, x: Array) -> tuple[Array, Array, Array, Array, Array]:
+        """Shift and force of all contacts, slopes along and across, force on the unknowns."""
         from loadflow.rolling.rings import _ring_kernels
 
-        basis, table = self.modes.basis, self.contacts.table
-        count, size = basis.shape[1:]
-        push, pull = np.zeros((3, count)), np.zeros(size)
-        slope, across, angle = np.zeros((3, count))
-        _ring_kernels.evaluate(x, basis, table, self.modes.local, push, slope, across, angle, pull)
-        return push, slope, across, pull
+        return _ring_kernels.evaluate(x, self.modes.waves, self.contacts.table, self.modes.local)
 
 
 @dataclass(frozen=True, eq=False)

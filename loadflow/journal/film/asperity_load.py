@@ -1,0 +1,161 @@
+"""Load that touching asperities carry at a position of the shaft, with its derivative.
+
+The gap of a rigid bore follows from the position alone, so that the load of its asperities does,
+too. It is integrated on nodes of its own: the zone of contact may be narrower than a cell.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from loadflow.journal.contact import Contact
+from loadflow.journal.film import _rough_kernels as kernel
+from loadflow.journal.film.gap import turning_frame
+from loadflow.journal.film.gap_shaped import ShapedGap
+
+Array = NDArray[np.float64]
+
+_NODES = 96  # Gauss nodes over the zone of contact of a cylinder
+_ACROSS = 4  # Gauss nodes in a cell across
+_STEP = np.radians(0.5)  # largest distance of nodes around; less where the surfaces are smooth
+_FINEST = np.radians(0.05)
+_PER_ZONE = 0.3  # of the half width √(2s) of the zone of contact
+_FAR = 10.0  # film parameter beyond which a cylinder does not touch
+
+
+@dataclass(frozen=True)
+class Touch:
+    """What the asperities carry at one position.
+
+    Attributes
+    ----------
+    load : array (m,)
+        ∫ p_a N_j dA, N.
+    stiffness : array (m, m)
+        Its derivative by the position, N per clearance.
+    normal : float
+        ∬ p_a dA, N.
+    peak : float
+        Largest p_a, Pa.
+    """
+
+    load: Array
+    stiffness: Array
+    normal: float
+    peak: float
+
+
+class AsperityLoad(Protocol):
+    """Asperities of a bearing."""
+
+    contact: Contact
+
+    def at(self, position: Array) -> Touch:
+        """What they carry with the shaft at `position` (m,), clearances."""
+
+
+class CylinderLoad:
+    """Asperities of a cylindrical bore around an aligned shaft.
+
+    Parameters
+    ----------
+    contact : Contact
+        The surfaces.
+    radius, width, clearance : float
+        m.
+    """
+
+    def __init__(self, contact: Contact, radius: float, width: float, clearance: float) -> None:
+        self.contact = contact
+        self._area = radius * width
+        self._roughness = contact.roughness / clearance
+        self._x, self._w = np.polynomial.legendre.leggauss(_NODES)
+
+    def at(self, position: Array) -> Touch:
+        """What they carry with the shaft at `position` (2,), clearances."""
+        ratio = math.hypot(*position)
+        s, frame = self._roughness, turning_frame(position)
+        least = (1.0 - _FAR * s) / max(ratio, 1e-12)
+        load, stiffness = np.zeros(2), np.zeros((2, 2))
+        if least >= 1.0:
+            return Touch(load, stiffness, 0.0, 0.0)
+        half = math.acos(max(least, -1.0))
+        angle = half * self._x
+        reach = np.stack([np.cos(angle), np.sin(angle)])
+        gap = (1.0 - ratio * reach[0])[:, None]
+        weights, one = self._area * half * self._w, np.ones(1)
+        none = np.zeros(gap.shape, dtype=bool)
+        normal, _ = kernel.pressed(
+            gap, s, weights, one, none, reach, np.ones((2, 1)), load, stiffness
+        )
+        scale = self.contact.asperities.scale
+        peak = float(self.contact.asperities.pressure((1.0 - ratio) / s * self.contact.roughness))
+        return Touch(
+            scale * (frame @ load), scale * (frame @ stiffness @ frame.T), scale * normal, peak
+        )
+
+
+class NodeLoad:
+    """Asperities of a bore of any shape, on nodes fixed to the shell.
+
+    Parameters
+    ----------
+    contact : Contact
+        The surfaces.
+    gap : ShapedGap
+        Gap of the mean planes: its cells, modes and the bend of the shaft.
+    radius, mirrors : float
+        Shaft radius, m; 2 where only half of the width is meshed.
+    grooves : array of bool (nx, nz)
+        Cells without asperities.
+    """
+
+    def __init__(
+        self,
+        contact: Contact,
+        gap: ShapedGap,
+        radius: float,
+        mirrors: float,
+        grooves: NDArray[np.bool_],
+    ) -> None:
+        self.contact, self._gap = contact, gap
+        self._area = mirrors * radius**2
+        mesh = gap.mesh
+        self._roughness = contact.roughness / gap.bore.clearance
+        step = min(_STEP, max(_FINEST, _PER_ZONE * math.sqrt(2.0 * self._roughness)))
+        counts = np.maximum(1, np.ceil(mesh.dx / step)).astype(int)
+        angle, self._around, columns = _nodes(mesh.edges, counts, 1)
+        z, self._across, rows = _nodes(mesh.z_edges, np.ones(mesh.z.size, dtype=int), _ACROSS)
+        self._modes = gap.modes_at(angle, mesh.segment[columns], z)
+        self._held = np.ascontiguousarray(grooves[np.ix_(columns, rows)])
+
+    def at(self, position: Array) -> Touch:
+        """What they carry with the shaft at `position` (m,), clearances."""
+        modes, size = self._modes, position.size
+        load, stiffness = np.zeros(size), np.zeros((size, size))
+        normal, peak = kernel.pressed(
+            modes.gaps(position, self._gap.curvature), self._roughness, self._around, self._across,
+            self._held, modes.reach, modes.lengths, load, stiffness,
+        )  # fmt: skip
+        unit = self._area * self.contact.asperities.scale
+        peak *= self.contact.asperities.scale
+        return Touch(unit * load, unit * stiffness, unit * normal, peak)
+
+
+def _nodes(
+    edges: Array, counts: NDArray[np.int64], order: int
+) -> tuple[Array, Array, NDArray[np.int64]]:
+    """Gauss nodes of `counts` parts of each cell, their weights, and the cells they lie in."""
+    x, w = np.polynomial.legendre.leggauss(order)
+    widths = np.repeat(np.diff(edges) / counts, counts)
+    cells = np.repeat(np.arange(counts.size), counts)
+    within = np.concatenate([np.arange(n) for n in counts])
+    starts = edges[:-1][cells] + within * widths
+    places = starts[:, None] + 0.5 * widths[:, None] * (1.0 + x)
+    weights = 0.5 * widths[:, None] * w
+    return places.ravel(), weights.ravel(), np.repeat(cells, order)

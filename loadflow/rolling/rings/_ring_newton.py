@@ -1,0 +1,312 @@
+"""Compiled Newton iteration of the equilibrium with flexible rings, over series of cases.
+
+Words and arrays are those of `loadflow.rolling.rings._ring_kernels`.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+
+from loadflow.rolling._kernels import cholesky_solve, is_small, rounding_level, stalled
+from loadflow.rolling.rings._ring_kernels import (
+    dot,
+    evaluate,
+    forces,
+    largest_product,
+    shift_of,
+    tangent,
+)
+
+# Sums may be reordered (so that they use vector units); nothing else of fast mathematics.
+_REORDER = {"reassoc", "contract", "nsz"}
+
+
+# Steps with a kept tangent that cost about as much as a new one.
+_PATIENCE = 20.0
+_PAIRS = 8  # steps remembered
+
+
+@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER)
+def _factorise(matrix):
+    """Replace the lower half of a positive definite matrix by its Cholesky factor."""
+    for a in range(matrix.shape[0]):
+        for b in range(a + 1):
+            value = matrix[a, b]
+            for k in range(b):
+                value -= matrix[a, k] * matrix[b, k]
+            matrix[a, b] = math.sqrt(value) if a == b else value / matrix[b, b]
+
+
+@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER)
+def _solve(factor, rhs):
+    """Replace `rhs` by the solution with a matrix given by its Cholesky factor."""
+    for a in range(rhs.shape[0]):
+        value = rhs[a]
+        for k in range(a):
+            value -= factor[a, k] * rhs[k]
+        rhs[a] = value / factor[a, a]
+    for a in range(rhs.shape[0] - 1, -1, -1):
+        rhs[a] /= factor[a, a]
+        for k in range(a):
+            rhs[k] -= factor[a, k] * rhs[a]
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _condense(basis, push, slope, across, factor, solved, condensed):
+    """Tangent with the modes eliminated.
+
+    Fills the Cholesky `factor` of the modes, the modes `solved` (5, mode) that follow each rigid
+    unknown, and the 5 × 5 tangent that is left.
+    """
+    hessian = tangent(basis, push, slope, across)
+    modes = factor.shape[0]
+    for a in range(modes):
+        for b in range(modes):
+            factor[a, b] = hessian[5 + a, 5 + b]
+    _factorise(factor)
+    for a in range(5):
+        for b in range(modes):
+            solved[a, b] = hessian[a, 5 + b]
+        _solve(factor, solved[a])
+    for a in range(5):
+        for b in range(5):
+            condensed[a, b] = hessian[a, b] - dot(hessian[a, 5:], solved[b])
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _resisted(basis, push, slope, across):
+    """Smallest pivot of the rigid part of the tangent, over its largest diagonal term.
+
+    A motion that the contacts do not resist leaves the modes at rest, so that the tangent is
+    singular where its rigid part alone is.
+    """
+    rigid, rest, step = tangent(basis[:, :, :5], push, slope, across), np.zeros(5), np.zeros(5)
+    return cholesky_solve(rigid, 0.0, rest, np.zeros((5, 5)), step)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _direction(rest, factor, solved, condensed, cap, small, step):
+    """Fill `step` by Newton's, with a Levenberg shift where the rigid part is singular.
+
+    Returns the largest diagonal term and the smallest pivot of the rigid part.
+    """
+    rhs, modes = np.empty(5), step[5:]
+    largest = norm = 0.0
+    for a in range(5):
+        rhs[a] = rest[a] - dot(solved[a], rest[5:])
+        largest = max(largest, condensed[a, a])
+        norm += rhs[a] * rhs[a]
+    regular, shift = 0.0, 0.0
+    pivot = -1.0
+    while regular <= 1e-13 and (largest > 0.0 or pivot < 0.0):
+        regular = cholesky_solve(condensed, shift, rhs, small, step)
+        pivot = regular if pivot < 0.0 else pivot
+        shift = max(100.0 * shift, 1e-10 * largest)
+    if largest == 0.0:  # nothing touches: go along the load
+        for a in range(5):
+            step[a] = rhs[a] * cap / math.sqrt(max(norm, 1e-300))
+    for b in range(modes.shape[0]):
+        modes[b] = rest[5 + b]
+    _solve(factor, modes)
+    for a in range(5):
+        for b in range(modes.shape[0]):
+            modes[b] -= solved[a, b] * step[a]
+    return largest, pivot
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _secant(rest, factor, solved, condensed, cap, small, moves, changes, held, step):
+    """Fill `step` by the kept tangent, put right by the last `held` steps (limited-memory BFGS).
+
+    `moves` and the `changes` of force along them (pair, unknown), the oldest first.
+    """
+    part, right = np.zeros(held), rest.copy()
+    for p in range(held - 1, -1, -1):
+        part[p] = dot(moves[p], right) / dot(moves[p], changes[p])
+        for a in range(right.shape[0]):
+            right[a] -= part[p] * changes[p, a]
+    _direction(right, factor, solved, condensed, cap, small, step)
+    for p in range(held):
+        more = part[p] - dot(changes[p], step) / dot(moves[p], changes[p])
+        for a in range(right.shape[0]):
+            step[a] += more * moves[p, a]
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _remember(moves, changes, held):
+    """Drop the oldest pair if there is no room; returns the place of the next one."""
+    if held < moves.shape[0]:
+        return held
+    for p in range(held - 1):
+        for a in range(moves.shape[1]):
+            moves[p, a], changes[p, a] = moves[p + 1, a], changes[p + 1, a]
+    return held - 1
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _newton(
+    x, load, waves, basis, table, local, reach, cap, tolerance, limit, factor, solved, condensed,
+    moves, changes, held, known,
+):  # fmt: skip
+    """Minimise energy - load·x from `x`.
+
+    Returns converged, residual, iterations, singular, and the rounding level of the residual,
+    which is formed only where the residual is not within its tolerance.
+
+    Newton with the exact tangent, which is kept as long as it leads to the tolerance within few
+    steps (`known` says whether a tangent from near `x` is there to begin with), a cap on the step
+    of the contacts, and halving until energy or residual falls.
+    """
+    kinds, balls, size = table.shape[0], waves[0].shape[1], x.shape[0]
+    amount, small, one = np.zeros((waves[0].shape[0], 3 * kinds)), np.zeros((5, 5)), np.ones(size)
+    # one by one: arrays unpacked from a larger one count as strided, and their loops stay scalar
+    shift, far = np.zeros((3 * kinds, balls)), np.zeros((3 * kinds, balls))
+    between, push = np.zeros((3 * kinds, balls)), np.zeros((3 * kinds, balls))
+    slope, across = np.zeros((kinds, balls)), np.zeros((kinds, balls))
+    pull, rest, step, trial = np.zeros(size), np.zeros(size), np.zeros(size), np.zeros(size)
+    for a in range(size):
+        trial[a] = x[a]
+    shift_of(x, waves, amount, between)
+    external = largest_product(load, one)
+    iterations, residual, moved, norm, energy = 0, 0.0, 0.0, 0.0, 0.0
+    damping, exact, fresh, beyond = 1.0, False, True, False
+    potential, descent, halvings = 0.0, 0.0, 0
+    while True:
+        energy, total, beyond = forces(
+            trial, between, waves, table, local, amount, push, slope, across, pull
+        )
+        new_norm = 0.0
+        for a in range(size):
+            new_norm += ((load[a] - pull[a]) * reach[a]) ** 2
+        # accept where residual or potential falls, or at the very start
+        if fresh or new_norm < norm * (1.0 - 1e-4 * damping) or (
+            energy - dot(load, trial) < potential + 1e-4 * damping * descent
+        ):  # fmt: skip
+            if not fresh:
+                held = _remember(moves, changes, held)
+            for a in range(size):
+                if not fresh:
+                    moves[held, a] = trial[a] - x[a]
+                    changes[held, a] = rest[a] - (load[a] - pull[a])
+                x[a] = trial[a]
+                rest[a] = load[a] - pull[a]
+            if not fresh and dot(moves[held], changes[held]) > 0.0:
+                held += 1
+            shift, between = between, shift
+            norm, before = new_norm, residual
+            reference = max(external, 1e-4 * total)
+            residual = largest_product(rest, reach)
+            residual = residual / reference if reference > 0.0 else 0.0
+            moved = largest_product(x[:5], one)
+            slow = not fresh and residual * (residual / before) ** _PATIENCE > tolerance
+            fresh = False
+            if residual <= tolerance or iterations == limit:
+                break
+            exact = not known or slow
+        elif halvings < 30:
+            halvings += 1
+            damping *= 0.5
+            _between(x, step, shift, far, damping, trial, between)
+            continue
+        elif exact:
+            break
+        else:  # an old tangent misled: go back and take the exact one
+            _between(x, step, shift, far, 0.0, trial, between)
+            known, fresh, halvings = False, True, 0
+            continue
+        if exact:
+            _condense(basis, push, slope, across, factor, solved, condensed)
+            known, held = True, 0
+        _secant(rest, factor, solved, condensed, cap, small, moves, changes, held, step)
+        iterations += 1
+        shift_of(step, waves, amount, far)
+        longest = _longest(far)
+        if exact and stalled(max(longest, largest_product(step[:5], one)), rounding_level(moved)):
+            break
+        damping = min(1.0, cap / longest) if longest > 0.0 else 1.0
+        potential, descent, halvings = energy - dot(load, x), -dot(rest, step), 0
+        _between(x, step, shift, far, damping, trial, between)
+    rounding = 0.0
+    if residual > tolerance:
+        forces(x, shift, waves, table, local, amount, push, slope, across, pull)
+        _condense(basis, push, slope, across, factor, solved, condensed)
+        stiffest, _ = _direction(rest, factor, solved, condensed, cap, small, step)
+        rounding = rounding_level(moved * stiffest) / max(external, 1e-4 * total, 1e-300)
+    answered = is_small(residual, tolerance, rounding) and not beyond
+    singular = _resisted(basis, push, slope, across) <= 1e-12
+    return answered, residual, iterations, singular, rounding, held
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _longest(shift):
+    """Largest absolute value."""
+    most = 0.0
+    for s in range(shift.shape[0]):
+        for j in range(shift.shape[1]):
+            most = max(most, abs(shift[s, j]))
+    return most
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _between(x, step, shift, far, damping, trial, between):
+    """Fill the state and the shift of the contacts part of a step away."""
+    for a in range(x.shape[0]):
+        trial[a] = x[a] + damping * step[a]
+    for s in range(shift.shape[0]):
+        for j in range(shift.shape[1]):
+            between[s, j] = shift[s, j] + damping * far[s, j]
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def solve_series(loads, rigid, waves, basis, table, local, reach, cap, tolerance, limit, chunk):
+    """Equilibrium for each load (n, 5) of lengths; warm start inside chunks of `chunk` cases.
+
+    `rigid` (n, 5) is the equilibrium with rigid rings, from which a cold start goes. A case that
+    fails or is singular from a warm start is solved again from a cold one; what then still fails is
+    reached from a larger load in steps.
+    """
+    n, size = loads.shape[0], basis.shape[2]
+    states = np.zeros((n, size))
+    residual, iterations = np.zeros(n), np.zeros(n, np.int64)
+    converged, singular = np.zeros(n, np.bool_), np.zeros(n, np.bool_)
+    rounding = np.zeros(n)
+    x, load, condensed = np.zeros(size), np.zeros(size), np.zeros((5, 5))
+    factor, solved = np.zeros((size - 5, size - 5)), np.zeros((5, size - 5))
+    moves, changes, held = np.zeros((_PAIRS, size)), np.zeros((_PAIRS, size)), 0
+    for i in range(n):
+        warm = i % chunk > 0 and converged[i - 1] and not singular[i - 1]
+        ok, res, count, free = False, 0.0, 0, False
+        for attempt in range(9):  # warm, cold, then from 1e6 times the load down
+            if attempt == 0 and not warm:
+                continue
+            times = 1.0 if attempt < 2 else 10.0 ** (8 - attempt)
+            for a in range(5):
+                load[a] = times * loads[i, a]
+            if attempt == 1 or attempt == 2:
+                for a in range(size):
+                    x[a] = rigid[i, a] if a < 5 else 0.0
+            ok, res, more, free, rounding[i], held = _newton(
+                x, load, waves, basis, table, local, reach, cap, tolerance, limit, factor, solved,
+                condensed, moves, changes, held, attempt == 0,
+            )  # fmt: skip
+            count += more
+            if ok and (attempt == 1 or (attempt == 0 and not free)):
+                break
+        for a in range(size):
+            states[i, a] = x[a]
+        converged[i], residual[i], iterations[i], singular[i] = ok, res, count, free
+    return states, converged, residual, iterations, singular, rounding
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def stiffness_series(states, waves, basis, table, local):
+    """Tangent (n, 5, 5) of the rigid unknowns, modes eliminated, in each state."""
+    n, modes = states.shape[0], states.shape[1] - 5
+    stiffness, factor, solved = np.zeros((n, 5, 5)), np.zeros((modes, modes)), np.zeros((5, modes))
+    for i in range(n):
+        _, push, slope, across, _ = evaluate(states[i], waves, table, local)
+        _condense(basis, push, slope, across, factor, solved, stiffness[i])
+    return stiffness

@@ -1,0 +1,142 @@
+"""From a scene as it is written to the sections that the rooms read."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+from loadflow.scene.candidates import ABOUT, candidates_of, machine
+from loadflow.scene.places import Location, sections_of
+from loadflow.turbines import turbine_names
+
+SCHEMA = 2
+"""Version of the form of scenes. 2: ``[bearings.PLACE]`` and ``[candidates.NAME]``; 1, or nothing:
+``[journal]`` and ``[rolling]``, which are still read."""
+
+
+def in_sections(data: dict[str, Any], results: Sequence[str]) -> dict[str, Any]:
+    """Data of a scene with its places as the sections that the rooms read.
+
+    What it does not say of shaft and rolling bearings is that of its turbine, where the package has
+    sized ones (`loadflow.scene.candidates.machine`).
+
+    Parameters
+    ----------
+    data : dict
+        As a scene is written.
+    results : sequence of str
+        All results that there are.
+
+    Raises
+    ------
+    ValueError
+        A version of the form that is not known, or places that are no bearings.
+    """
+    read = dict(data)
+    version = read.pop("schema", SCHEMA)
+    if version not in range(1, SCHEMA + 1):
+        raise ValueError(
+            f"schema = {version!r}: must be 1 … {SCHEMA}; a newer version of loadflow wrote it"
+        )
+    turbine = _turbine_of(read)
+    ours = machine(turbine)
+    if "shaft" not in read and "shaft" in ours:
+        read["shaft"] = ours["shaft"]
+    if "bearings" in read:
+        sections = sections_of(read.pop("bearings")).data
+        if twice := sorted(set(sections) & set(read)):
+            raise ValueError(f"bearings: beside [{twice[0]}]; write all as [bearings.PLACE]")
+        if "results" not in read:
+            rooms = {"journal", "rolling"} - set(sections)
+            read["results"] = [name for name in results if name.split(".")[0] not in rooms]
+        read |= sections
+    if "rolling" not in read and "rolling" in ours:
+        read |= {"rolling": sections_of(_bare(ours["candidates"][ours["rolling"]])).data["rolling"]}
+    if isinstance(read.get("candidates"), dict):
+        read["candidates"] = {
+            name: _candidate(name, stated, turbine) for name, stated in read["candidates"].items()
+        }
+    return read
+
+
+def _candidate(name: str, stated: Any, turbine: str) -> Any:
+    """Data of a candidate in sections; one without places is that of the package."""
+    if not isinstance(stated, dict):
+        return stated
+    if {"journal", "rolling"} & {k for k, v in stated.items() if not _is_place(v)}:
+        return stated  # in sections already
+    places, about = _bare(stated), {key: stated[key] for key in ABOUT if key in stated}
+    if not places:
+        known = candidates_of(turbine)
+        if name not in known:
+            raise ValueError(
+                f"candidates.{name}: says nothing, and is none of those sized for {turbine}: "
+                f"{', '.join(known) or 'there are none'}"
+            )
+        places, about = _bare(known[name]), {k: known[name][k] for k in ABOUT} | about
+    return about | sections_of(places, ("candidates", name)).data
+
+
+def _is_place(value: Any) -> bool:
+    return isinstance(value, dict) and bool({"kind", "like"} & set(value))
+
+
+def _bare(candidate: dict[str, Any]) -> dict[str, Any]:
+    """The places of a candidate."""
+    return {key: value for key, value in candidate.items() if key not in ABOUT}
+
+
+def _turbine_of(data: dict[str, Any]) -> str:
+    turbine = data.get("turbine", {})
+    name = turbine.get("name", "nrel-5mw") if isinstance(turbine, dict) else turbine.name
+    return str(name)
+
+
+def origins(data: dict[str, Any]) -> dict[Location, Location]:
+    """Where the data of sections was written, of a scene that has its places."""
+    found: dict[Location, Location] = {}
+    try:
+        if "bearings" in data:
+            found |= sections_of(data["bearings"]).origins
+        for name, stated in data.get("candidates", {}).items():
+            where = ("candidates", name)
+            own = sections_of(_bare(stated), where).origins if _bare(stated) else {}
+            found |= {(*where, *section): location for section, location in own.items()}
+    except (ValueError, AttributeError):  # told already
+        pass
+    return found
+
+
+def anchored(data: dict[str, Any], folder: Path) -> dict[str, Any]:
+    """Make the paths of a scene relative to its file, not to where the user stands."""
+
+    def path(value: Any) -> Any:
+        return str(folder / value) if isinstance(value, str) else value
+
+    found = dict(data)
+    if isinstance(loads := data.get("loads"), dict):
+        several = {
+            key: [path(file) for file in loads[key]]
+            for key in ("files", "winds")
+            if isinstance(loads.get(key), list)
+        }
+        keys = [key for key in ("cases", "case_list", "channels") if key in loads]
+        found["loads"] = loads | several | {key: path(loads[key]) for key in keys}
+    if "journal" in data:
+        found["journal"] = _with_matrix(data["journal"], path)
+    if isinstance(places := data.get("bearings"), dict):
+        found["bearings"] = {name: _with_matrix(part, path) for name, part in places.items()}
+    turbine = data.get("turbine")
+    if isinstance(turbine, dict) and isinstance(name := turbine.get("name"), str):
+        file = name if name in turbine_names() or not Path(name).suffix else path(name)
+        found["turbine"] = turbine | {"name": file}
+    return found
+
+
+def _with_matrix(bearing: Any, path: Callable[[Any], Any]) -> Any:
+    """A journal bearing with the path to the matrix of its shell, if it has one."""
+    shell = bearing.get("shell") if isinstance(bearing, dict) else None
+    if not isinstance(shell, dict) or "matrix" not in shell:
+        return bearing
+    return bearing | {"shell": shell | {"matrix": path(shell["matrix"])}}

@@ -1,0 +1,223 @@
+"""What a comparison gives: numbers with what is known of their error, candidates, all of them."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from loadflow.verdict import Verdict
+
+THRUST = "force along the shaft without a bearing"
+
+
+@dataclass(frozen=True)
+class Number:
+    """One answer for one candidate, with what is known of its error.
+
+    Attributes
+    ----------
+    value : float
+        In `unit`; NaN where it has none.
+    unit : str
+        Unit.
+    low, high : float
+        95 % interval by the seeds of the loads; NaN where one seed alone tells nothing.
+    error : float
+        Error by models to expect, as a share of the value; NaN where it was not measured.
+    limit : float
+        Of the value; NaN without one.
+    holds : bool or None
+        Whether it keeps to its limit.
+    case : str
+        Load case of an extreme.
+    time : float
+        Its time in that case, s.
+    place : str
+        Bearing that it is of.
+    note : str
+        What else must be known.
+    """
+
+    value: float
+    unit: str = ""
+    low: float = math.nan
+    high: float = math.nan
+    error: float = math.nan
+    limit: float = math.nan
+    holds: bool | None = None
+    case: str = ""
+    time: float = math.nan
+    place: str = ""
+    note: str = ""
+
+
+@dataclass(frozen=True)
+class Judged:
+    """A candidate with all its numbers.
+
+    Attributes
+    ----------
+    name, title, source, kind : str
+        Of the candidate; the kind is journal, rolling or both.
+    numbers : dict
+        By quantity (`QUANTITIES`).
+    verdicts : tuple of Verdict
+        All of its run.
+    thrust : str
+        What carries the force along the shaft.
+    governs : str
+        The limit that is reached first.
+    change : str
+        What would change the verdict.
+    models : dict
+        Rung of each stage.
+    checks : list
+        How far sampled answers moved with better models: stage, quantity, change.
+    bearings : list
+        What stands at each place.
+    folder : str
+        Of its run, relative to that of the comparison.
+    unanswered : dict
+        Parts without an answer.
+    """
+
+    name: str
+    title: str
+    source: str
+    kind: str
+    numbers: dict[str, Number]
+    verdicts: tuple[Verdict, ...]
+    thrust: str
+    governs: str
+    change: str
+    models: dict[str, str]
+    checks: list[dict[str, Any]]
+    bearings: list[dict[str, Any]]
+    folder: str
+    unanswered: dict[str, str] = field(default_factory=dict)
+
+    @property
+    def broken(self) -> list[Verdict]:
+        """Verdicts that do not hold, but for the lack of a thrust bearing."""
+        return [v for v in self.verdicts if not v.holds and v.quantity != THRUST]
+
+    @property
+    def holds(self) -> bool:
+        """Whether all hold, but for the lack of a thrust bearing."""
+        return not self.broken and not self.unanswered
+
+
+QUANTITIES: dict[str, tuple[str, str]] = {
+    "load_factor": ("capacity margin: loads may grow by, to the first limit", "×"),
+    "minimum_film": ("smallest film", "µm"),
+    "film_to_roughness": ("smallest film over roughness R_z of both surfaces", "–"),
+    "eccentricity_ratio": ("largest eccentricity ratio ε", "–"),
+    "film_pressure": ("largest film pressure", "MPa"),
+    "static_safety": ("static rating over the design load", "–"),
+    "contact_pressure": ("largest contact pressure", "MPa"),
+    "modified_life": ("modified life L10mh of all bearings", "years"),
+    "rating_life": ("rating life L10h of all bearings", "years"),
+    "row_share": ("load on the row that takes the thrust, at largest thrust", "%"),
+    "row_overload": ("the same over an even share", "×"),
+    "film_parameter": ("film parameter Λ at low speed", "–"),
+    "tilt": ("tilt of the shaft to its limit", "%"),
+    "friction": ("mean friction loss", "kW"),
+    "energy": ("energy lost a year", "MWh"),
+    "oil_flow": ("oil that leaves the film", "l/min"),
+    "pump": ("power to supply the oil", "kW"),
+    "mixed_time": ("time in mixed friction a year", "h"),
+}
+"""What is compared: its name and unit, in the order of the table."""
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Candidates side by side.
+
+    Attributes
+    ----------
+    name : str
+        Of the scene.
+    conclusion : str
+        One sentence.
+    candidates : tuple of Judged
+        Those that hold first, each group by the energy that it loses.
+    facts : dict
+        Loads, seeds, shaft.
+    shaft : list
+        Suspensions, to draw: bearings, positions, masses.
+    failures : dict
+        Candidates without an answer, and why.
+    without_place : list of str
+        Candidates that the shaft has no place for.
+    """
+
+    name: str
+    conclusion: str
+    candidates: tuple[Judged, ...]
+    facts: dict[str, str]
+    shaft: list[dict[str, Any]]
+    failures: dict[str, str]
+    without_place: list[str]
+
+    def as_dict(self) -> dict[str, Any]:
+        """All of it in plain values for JSON; what is not known is None."""
+        return {
+            "name": self.name,
+            "conclusion": self.conclusion,
+            "facts": self.facts,
+            "quantities": {
+                key: {"name": name, "unit": unit} for key, (name, unit) in QUANTITIES.items()
+            },
+            "candidates": [
+                {
+                    "name": one.name,
+                    "title": one.title,
+                    "source": one.source,
+                    "kind": one.kind,
+                    "holds": one.holds,
+                    "thrust": one.thrust,
+                    "governs": one.governs,
+                    "change": one.change,
+                    "numbers": {key: plain(vars(n)) for key, n in one.numbers.items()},
+                    "verdicts": [v.as_dict() for v in one.verdicts],
+                    "models": one.models,
+                    "checks": one.checks,
+                    "bearings": one.bearings,
+                    "folder": one.folder,
+                    "unanswered": one.unanswered,
+                }
+                for one in self.candidates
+            ],
+            "shaft": self.shaft,
+            "failures": self.failures,
+            "without_place": self.without_place,
+        }
+
+    def to_csv(self) -> str:
+        """All numbers as CSV, one for each line."""
+        text = io.StringIO()
+        heads = ["low", "high", "error", "limit", "holds", "case", "time", "place", "note"]
+        rows = csv.writer(text, lineterminator="\n")
+        rows.writerow(["candidate", "quantity", "value", "unit", *heads])
+        for one in self.candidates:
+            for key, number in one.numbers.items():
+                told = plain(vars(number))
+                first = [one.name, key, told["value"], number.unit]
+                rows.writerow([*first, *("" if told[h] is None else told[h] for h in heads)])
+        return text.getvalue()
+
+
+def plain(data: Any) -> Any:
+    """Plain values for JSON; what is not finite is None."""
+    if isinstance(data, Mapping):
+        return {name: plain(part) for name, part in data.items()}
+    if isinstance(data, np.generic):
+        data = data.item()
+    return None if isinstance(data, float) and not math.isfinite(data) else data

@@ -1,0 +1,299 @@
+"""Candidates on the same loads: numbers, intervals, margins, page."""
+
+import csv
+import doctest
+import importlib
+import json
+import math
+import re
+import shutil
+import subprocess
+from html.parser import HTMLParser
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+from synthetic import cube_file
+
+from loadflow.cli import main
+from loadflow.errors import InputError
+from loadflow.report.sketch import sketch
+from loadflow.running.comparison import candidate_scene, candidates_for, compare
+from loadflow.scene.scene import make_scene
+from loadflow.studies.compare_margins import rolling_losses
+from loadflow.studies.compare_result import QUANTITIES
+from loadflow.studies.seed_intervals import Groups, interval, joint_life
+
+BROWSER = next(
+    filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None
+)
+
+
+@pytest.fixture(scope="module")
+def cube(tmp_path_factory):
+    return cube_file(tmp_path_factory.mktemp("cube") / "loads.h5", steps=200)
+
+
+def scene_of(cube, **more):
+    data = {
+        "name": "side_by_side",
+        "loads": {"files": [str(cube)]},
+        "shaft": {"two_point": {}, "moment": {}},
+        "candidates": {
+            "journal-cylindrical": {}, "two-spherical": {}, "double-row-tapered": {},
+        },
+    }  # fmt: skip
+    return make_scene(data | more)
+
+
+@pytest.fixture(scope="module")
+def found(cube, tmp_path_factory):
+    return compare(scene_of(cube), out=tmp_path_factory.mktemp("runs"))
+
+
+def by_name(found):
+    return {one.name: one for one in found.comparison.candidates}
+
+
+def test_every_candidate_is_answered_on_the_same_loads(found):
+    assert found.failures == {}
+    assert set(by_name(found)) == {"journal-cylindrical", "two-spherical", "double-row-tapered"}
+    loads = {
+        tuple(path.stat().st_size for path in sorted((found.path / one.folder / "loads").iterdir()))
+        for one in found.comparison.candidates
+    }
+    assert len(loads) == 1
+
+
+def test_numbers_are_finite_where_they_are_asked(found):
+    for one in found.comparison.candidates:
+        for key in ("load_factor", "friction", "energy"):
+            assert math.isfinite(one.numbers[key].value), (one.name, key)
+        assert set(one.numbers) <= set(QUANTITIES)
+    film = by_name(found)["journal-cylindrical"].numbers["minimum_film"]
+    assert film.low <= film.value <= film.high
+    assert film.value > film.limit
+    assert film.case.startswith("dlc1.1")
+
+
+def test_the_load_factor_of_a_film_is_where_its_limit_is(found):
+    """Solved again with the loads times the factor, the verdict that governs is at its limit."""
+    one = by_name(found)["journal-cylindrical"]
+    factor = one.numbers["load_factor"]
+    assert factor.holds == one.holds
+    assert factor.place in ("N", "N2")
+    assert one.governs.endswith(factor.place)
+
+
+def test_a_spherical_pair_has_its_thrust_on_one_row(found):
+    share = by_name(found)["two-spherical"].numbers["row_share"]
+    assert share.value > 95
+    assert share.place == "N2"
+    assert by_name(found)["two-spherical"].numbers["row_overload"].value == pytest.approx(
+        share.value / 50
+    )
+
+
+def test_what_carries_the_thrust_is_said(found):
+    assert by_name(found)["journal-cylindrical"].thrust.startswith("none")
+    assert by_name(found)["two-spherical"].thrust.startswith("N2")
+    assert by_name(found)["double-row-tapered"].thrust.startswith("M")
+
+
+def test_those_that_hold_come_first_and_lose_more_and_more(found):
+    rank = [(not one.holds, one.numbers["energy"].value) for one in found.comparison.candidates]
+    assert rank == sorted(rank)
+    assert found.comparison.conclusion.count(".") >= 1
+
+
+def test_it_continues_with_what_is_missing(cube, found):
+    film = found.path / "candidates" / "journal-cylindrical" / "journal"
+    before = {path.name: path.stat().st_mtime_ns for path in film.iterdir()}
+    again = compare(scene_of(cube), out=found.path.parent)
+    after = {path.name: path.stat().st_mtime_ns for path in film.iterdir()}
+    assert after == before
+    assert again.comparison.to_csv() == found.comparison.to_csv()
+
+
+class Links(HTMLParser):
+    def __init__(self):
+        super().__init__()
+        self.links, self.ids = [], set()
+
+    def handle_starttag(self, tag, attrs):
+        given = dict(attrs)
+        self.links += [given["href"]] if tag == "a" else []
+        self.ids |= {given["id"]} if "id" in given else set()
+
+
+def test_the_page_says_the_conclusion_and_its_links_lead_somewhere(found):
+    page = found.page.read_text(encoding="utf-8")
+    assert found.comparison.conclusion in page
+    assert "nan" not in page.lower().replace("tenance", "")
+    parser = Links()
+    parser.feed(page)
+    for link in parser.links:
+        if link.startswith("#"):
+            assert link[1:] in parser.ids
+        else:
+            assert (found.path / link).exists(), link
+
+
+def test_the_table_and_the_json_hold_the_same_numbers(found):
+    with found.table.open(encoding="utf-8") as stream:
+        rows = list(csv.DictReader(stream))
+    data = json.loads((found.path / "compare.json").read_text(encoding="utf-8"))
+    listed = {(row["candidate"], row["quantity"]): row["value"] for row in rows}
+    for one in data["candidates"]:
+        for key, number in one["numbers"].items():
+            told = listed[one["name"], key]
+            assert (float(told) if told else None) == number["value"]
+
+
+def test_the_command_prints_json(cube, tmp_path, capsys):
+    scene = tmp_path / "s.toml"
+    scene.write_text(scene_of(cube).to_toml(), encoding="utf-8")
+    with pytest.raises(SystemExit) as stop:
+        main(["compare", str(scene), "--candidate", "two-spherical", "--workers", "1", "--json",
+              "--out", str(tmp_path / "runs")])  # fmt: skip
+    assert not stop.value.code
+    data = json.loads(capsys.readouterr().out)
+    assert [one["name"] for one in data["candidates"]] == ["two-spherical"]
+    assert Path(data["page"]).exists()
+
+
+def test_an_unknown_candidate_is_named(cube, tmp_path):
+    with pytest.raises(InputError, match="no candidate magic; there are journal-cylindrical"):
+        compare(scene_of(cube), candidates=["magic"], out=tmp_path)
+
+
+def test_without_candidates_the_sized_ones_that_the_shaft_has_places_for_are_taken(cube):
+    scene = scene_of(cube, candidates={}, shaft={"two_point": {}}, results=["loads.statistics"])
+    known, without = candidates_for(scene)
+    assert {"journal-cylindrical", "journal-lemon", "two-spherical"} <= set(known)
+    assert "four-point" in without
+
+
+def test_the_bearings_that_the_scene_states_are_candidates_too(cube):
+    own = {"kind": "journal", "geometry": {"diameter": 1.0, "width": 0.9,
+                                           "relative_clearance": 1e-3}}  # fmt: skip
+    scene = scene_of(cube, candidates={}, bearings={"N": own, "N2": {"like": "N"}})
+    assert "own-journal" in candidates_for(scene)[0]
+    assert "own-rolling" not in candidates_for(scene)[0]
+
+
+def test_cylindrical_bores_are_followed_in_motion_and_others_at_rest(cube):
+    scene = scene_of(cube, candidates={"journal-cylindrical": {}, "journal-lemon": {}})
+    moving, resting = (
+        candidate_scene(scene, name, scene.candidates[name], 1000)
+        for name in ("journal-cylindrical", "journal-lemon")
+    )
+    assert (moving.journal.motion, moving.journal.rung) == ("transient", "reduced")
+    assert moving.journal.at("N2").in_motion
+    assert resting.journal.motion == "quasi-static"
+    assert resting.reduction.classes is not None
+
+
+def test_losses_without_slip_are_near_those_with_every_roller_followed(cube, found, tmp_path):
+    """The friction stage follows each roller; sampled ideal rolling is a third off at most."""
+    import loadflow as lf
+
+    base = candidate_scene(
+        scene_of(cube), "slip", scene_of(cube).candidates["double-row-tapered"], 200
+    ).model_copy(update={"results": ["rolling.loads", "rolling.friction"]})
+    run = lf.run(base, out=tmp_path, report=False)
+    theirs = run.tree["friction"]["mean_friction_power"].sel(bearing="M").mean().item()
+    ours = rolling_losses(base, run.path).power.sel(bearing="M").mean().item()
+    assert ours == pytest.approx(theirs, rel=0.33)
+
+
+def table(values, speeds):
+    return xr.Dataset(
+        {"x": ("case", values)},
+        {"dlc": ("case", ["1.1"] * len(values)), "wind_speed": ("case", speeds)},
+    )
+
+
+def test_an_interval_covers_the_mean_as_often_as_it_says():
+    """Of normal samples with 12 seeds; the percentile bootstrap is known to cover a little less."""
+    draw, inside = np.random.default_rng(3), 0
+    groups = Groups.of(table(np.zeros(12), [8.0] * 12))
+    for _ in range(200):
+        values = draw.normal(size=12)
+        low, high = interval(groups, lambda some, v=values: float(v[some].mean()), 300)
+        inside += low < 0 < high
+    assert 0.85 < inside / 200 < 0.99
+
+
+def test_seeds_are_drawn_within_their_wind_speed():
+    values = np.array([0.0, 0.0, 10.0, 10.0])
+    groups = Groups.of(table(values, [8.0, 8.0, 12.0, 12.0]))
+    assert groups.sizes == (2, 2)
+    assert interval(groups, lambda some: float(values[some].mean())) == (5.0, 5.0)
+
+
+def test_one_seed_gives_no_interval():
+    groups = Groups.of(table(np.zeros(2), [8.0, 12.0]))
+    assert all(map(math.isnan, interval(groups, lambda some: 1.0)))
+
+
+def test_the_life_of_a_system_is_that_of_its_parts():
+    damage = np.array([[1e-5, 1e-5], [3e-5, 3e-5]])
+    share = np.array([0.5, 0.5])
+    each = 1 / 2e-5
+    slope = 1.125
+    assert joint_life(damage, share, slope) == pytest.approx(each * 2 ** (-1 / slope))
+
+
+def test_the_sketch_is_to_scale_along_the_shaft():
+    line = {"name": "two_point", "bearings": ["N", "N2"], "positions": [2.0, 6.0],
+            "locating": "N2", "masses": [[8.0, 6e4]]}  # fmt: skip
+    drawn = sketch([line])
+    boxes = [float(x) for x in re.findall(r'<rect x="([\d.]+)"', drawn)]
+    mass = float(re.search(r'<circle cx="([\d.]+)" cy="[\d.]+" r="5"', drawn)[1])
+    first, second = sorted({x + 9 for x in boxes})
+    assert (mass - second) / (second - first) == pytest.approx(0.5, rel=1e-3)
+    assert "60 t" in drawn
+
+
+@pytest.mark.browser
+@pytest.mark.skipif(BROWSER is None, reason="no Chromium on this machine")
+@pytest.mark.parametrize("width", [400, 1600])
+def test_a_browser_shows_the_page_within_its_width_without_a_console_error(found, tmp_path, width):
+    # the copy says in its title how wide the page is: wide tables scroll inside it
+    probe = (
+        "<script>addEventListener('load', () => {"
+        "const drawn = document.querySelectorAll('svg.sketch rect').length;"
+        "const wide = document.documentElement.scrollWidth > innerWidth;"
+        "document.title = `drawn ${drawn} wide ${wide}`;"
+        "});</script></body>"
+    )
+    copy = tmp_path / "probe.html"
+    text = found.page.read_text(encoding="utf-8")
+    copy.write_text(text.replace("</body>", probe), encoding="utf-8")
+    done = subprocess.run(
+        [
+            BROWSER, "--headless", "--no-sandbox", "--disable-gpu", "--no-first-run",
+            "--disable-background-networking", "--disable-component-update", "--disable-sync",
+            "--enable-logging=stderr", f"--user-data-dir={tmp_path / 'profile'}",
+            f"--window-size={width},1000", "--virtual-time-budget=5000", "--dump-dom",
+            copy.as_uri(),
+        ],
+        capture_output=True, text=True, timeout=120, check=True,
+    )  # fmt: skip
+    assert "<title>drawn 6 wide false</title>" in done.stdout
+    assert "CONSOLE" not in done.stderr
+
+
+@pytest.mark.parametrize(
+    "module",
+    [
+        "report.sketch", "studies.seed_intervals", "scene.candidates", "scene.schema",
+        "scene.templates",
+    ],
+)  # fmt: skip
+def test_examples_of_the_docstrings(module):
+    outcome = doctest.testmod(importlib.import_module(f"loadflow.{module}"))
+    assert outcome.attempted > 0
+    assert outcome.failed == 0

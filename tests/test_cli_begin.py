@@ -1,0 +1,55 @@
+"""Commands to begin with: init, list, and the order of the help."""
+
+import json
+
+import pytest
+
+from loadflow.cli import GROUPS, main
+from loadflow.cli.base import app
+from loadflow.cli.lists import LISTS
+from loadflow.scene.scene import read_scene
+from loadflow.scene.templates import template_text, templates
+
+
+def call(capsys, *arguments, code=0):
+    with pytest.raises(SystemExit) as stop:
+        main(arguments)
+    assert (stop.value.code or 0) == code
+    return capsys.readouterr()
+
+
+def test_init_writes_a_scene_that_is_valid(tmp_path, capsys):
+    path = tmp_path / "mine.toml"
+    assert "loadflow run" in call(capsys, "init", "-o", str(path)).out
+    assert read_scene(path).name == "mine"
+    assert "exists already" in call(capsys, "init", "-o", str(path), code=2).err
+    told = call(capsys, "init", "magic", "-o", str(tmp_path / "x.toml"), code=2).err
+    assert "quick_look" in told
+
+
+@pytest.mark.parametrize("name", templates())
+def test_every_template_says_what_it_is_and_takes_a_name(name):
+    assert templates()[name]
+    assert 'name = "other"' in template_text(name, "other")
+
+
+@pytest.mark.parametrize("name", LISTS)
+def test_every_list_has_rows_as_wide_as_its_heads(name, capsys):
+    heads, rows = LISTS[name]()
+    assert rows
+    assert {len(row) for row in rows} == {len(heads)}
+    found = json.loads(call(capsys, "list", name, "--json").out)
+    assert len(found) == len(rows)
+    assert set(found[0]) == set(heads)
+
+
+def test_lists_are_listed_and_an_unknown_one_is_refused(capsys):
+    assert set(json.loads(call(capsys, "list", "--json").out)) == set(LISTS)
+    assert "turbines" in call(capsys, "list", "magic", code=2).err
+
+
+def test_every_command_has_its_group_and_run_comes_first():
+    names = [c.name or c.callback.__name__ for c in app.registered_commands]
+    assert names[0] == "run"
+    assert set(names) == {name for group in GROUPS.values() for name in group}
+    assert all(c.rich_help_panel in GROUPS for c in app.registered_commands)
