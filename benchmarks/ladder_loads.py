@@ -33,7 +33,7 @@ from loadflow.scene.cases import list_cases
 from loadflow.scene.scene import Scene, Shaft, with_loads
 from loadflow.shaft import (
     Beam,
-    BearingSeat,
+    BearingSupport,
     DirectDrive,
     Integrated,
     MomentBearing,
@@ -185,7 +185,7 @@ def measure_shaft(bench: Bench) -> Rungs:
         return _exact(bench, seconds, includes) | {"error": "exact (statically determinate)"}
 
     found = {name: entry(section) for name, section in rungs.items()}
-    seat = BearingSeat(radial=5e9, takes_moment=True, tilt=TILTING)
+    seat = BearingSupport(radial=5e9, takes_moment=True, tilt=TILTING)
     tough = loaded(Shaft(two_point=replace(two, beam=Beam(seats=(seat, seat)))))
     loads = {"rigid": loaded(rungs["two_point"]), "tough": tough}
     peaks = {

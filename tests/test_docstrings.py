@@ -46,7 +46,10 @@ def public():
                 for alias in node.names:
                     entry = getattr(import_module(room), alias.name)
                     if inspect.isfunction(entry) or inspect.isclass(entry):
-                        yield f"{entry.__module__.removeprefix('loadflow.')}.{alias.name}", entry
+                        yield (
+                            f"{entry.__module__.removeprefix('loadflow.')}.{entry.__name__}",
+                            entry,
+                        )
 
 
 def without_example():
@@ -62,17 +65,10 @@ def test_the_list_of_names_without_an_example_only_becomes_shorter():
 
 
 WITHOUT: set[str] = {
-    "cube.build.make_cube",
-    "cube.build.select",
     "cube.checks.check_case",
-    "cube.checks.check_cube",
     "cube.export.export_cube",
     "cube.files.open_cube",
-    "cube.files.save_cube",
-    "cube.parts.iter_cases",
-    "cube.resampling.resample",
     "cube.schema.Variable",
-    "cube.states.standing_share",
     "journal.aliases.WarmFilm",
     "journal.aliases.warm_equilibrium",
     "journal.grid_error.GridError",
@@ -97,7 +93,6 @@ WITHOUT: set[str] = {
     "rolling.bearings.arrangements.SpectrumLife",
     "rolling.bearings.arrangements.arrangement_lives",
     "rolling.bearings.arrangements.modified_spectrum_life",
-    "rolling.bearings.base.MainBearing",
     "rolling.bearings.base.RollingBearing",
     "rolling.edge_contact.EdgeContact",
     "rolling.former_names.bearing_modification",
@@ -122,7 +117,6 @@ WITHOUT: set[str] = {
     "rolling.friction.roller_drag.rib_shear",
     "rolling.friction.rolling_resistance.elastic_force",
     "rolling.friction.rolling_resistance.hydrodynamic_force",
-    "rolling.friction.slewing_torque.friction_torque_components",
     "rolling.rating.modified_life.LifeModification",
     "rolling.rating.static.verdicts",
     "rolling.rings.beam.RingBeam",
@@ -150,19 +144,16 @@ WITHOUT: set[str] = {
     "rotor.simulation.simulate_condition",
     "running.runner.run",
     "scene.cases.Case",
-    "scene.cases.list_cases",
     "scene.scene.Journal",
     "scene.scene.Scene",
-    "scene.scene.make_scene",
-    "scene.scene.read_scene",
     "scene.scene.with_loads",
     "seeds.grouping.Grouping",
     "seeds.joint.JointEquality",
     "seeds.spectra.SpectralDifference",
     "seeds.sufficiency.Equivalence",
     "seeds.verdict.Stage",
-    "shaft.seated.Seated",
-    "shaft.seated.seated_loads",
+    "shaft.coupled.CoupledBearing",
+    "shaft.coupled.coupled_loads",
     "tribology.hertz.LineContact",
     "tribology.hertz.PointContact",
     "tribology.wear.WearLaw",
@@ -180,17 +171,14 @@ WITHOUT: set[str] = {
     "wind.box.Box",
     "wind.bts.read_bts",
     "wind.bts.write_bts",
-    "wind.cases.LoadCase",
     "wind.coherence.PointGrid",
     "wind.coherence.PolarGrid",
     "wind.expansion.Condition",
-    "wind.expansion.condition",
     "wind.field.Field",
     "wind.hawc2_box.read_hawc2_box",
     "wind.inflow.coherence_factors",
     "wind.inflow.inflow",
     "wind.inflow.transient",
     "wind.mann.mann_box",
-    "wind.turbulence.kaimal_box",
 }
 """Known ones. Take out what gets an example; add none."""

@@ -114,6 +114,14 @@ def make_cube(cases: Sequence[xr.Dataset]) -> Cube:
     ------
     loadflow.errors.InputError
         No case, a case that is not sound, two cases of one name, or different variables.
+
+    Examples
+    --------
+    >>> from loadflow.cube import make_case, make_cube
+    >>> data = {"speed": [1.2, 1.3], "hub_force": [[0.0, 0.0]] * 3, "hub_moment": [[0.0, 0.0]] * 3}
+    >>> seeds = [make_case([0.0, 0.1], data, dlc="1.1", wind_speed=8.0, seed=k) for k in (1, 2)]
+    >>> dict(make_cube(seeds).sizes)["case"]
+    2
     """
     if not cases:
         raise InputError("a load cube needs one case or more, none was given")
@@ -159,6 +167,14 @@ def select(
     ------
     loadflow.errors.InputError
         Nothing matches; the message lists what the cube holds.
+
+    Examples
+    --------
+    >>> from loadflow.cube import make_case, make_cube, select
+    >>> data = {"speed": [1.2, 1.3], "hub_force": [[0.0, 0.0]] * 3, "hub_moment": [[0.0, 0.0]] * 3}
+    >>> seeds = [make_case([0.0, 0.1], data, dlc="1.1", wind_speed=8.0, seed=k) for k in (1, 2)]
+    >>> select(make_cube(seeds), seed=2)["seed"].values.tolist()
+    [2]
     """
     wanted = {"dlc": dlc, "wind_speed": wind_speed, "seed": seed}
     left = {}

@@ -33,6 +33,12 @@ def check_cube(cube: Cube, source: str = "") -> None:
     loadflow.errors.InputError
         Empty cube, missing or wrong units, wrong dimensions, NaN or infinite value, time that
         does not rise in equal steps.
+
+    Examples
+    --------
+    >>> from loadflow.cube import check_cube, make_case, make_cube
+    >>> data = {"speed": [1.2, 1.3], "hub_force": [[0.0, 0.0]] * 3, "hub_moment": [[0.0, 0.0]] * 3}
+    >>> check_cube(make_cube([make_case([0.0, 0.1], data, dlc="1.1", wind_speed=8.0, seed=1)]))
     """
     names = set()
     for name, case in iter_cases(cube):

@@ -47,6 +47,18 @@ def save_cube(cube: Cube, path: str | os.PathLike[str]) -> Path:
     ------
     OSError
         The disk is full, or refuses; a file that was there is left as it was.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from loadflow.cube import make_case, make_cube, open_cube, save_cube
+    >>> data = {"speed": [1.2, 1.3], "hub_force": [[0.0, 0.0]] * 3, "hub_moment": [[0.0, 0.0]] * 3}
+    >>> cube = make_cube([make_case([0.0, 0.1], data, dlc="1.1", wind_speed=8.0, seed=1)])
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     file = save_cube(cube, f"{folder}/loads.h5")
+    ...     again = open_cube(file).load()
+    >>> bool((again["speed"] == cube["speed"]).all())
+    True
     """
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)

@@ -26,6 +26,14 @@ def iter_cases(cube: Cube) -> Iterator[tuple[str, xr.Dataset]]:
     name : str
     case : xarray.Dataset
         The case with scalar coordinates.
+
+    Examples
+    --------
+    >>> from loadflow.cube import iter_cases, make_case, make_cube
+    >>> data = {"speed": [1.2, 1.3], "hub_force": [[0.0, 0.0]] * 3, "hub_moment": [[0.0, 0.0]] * 3}
+    >>> cube = make_cube([make_case([0.0, 0.1], data, dlc="1.1", wind_speed=8.0, seed=1)])
+    >>> [name for name, case in iter_cases(cube)]
+    ['dlc1.1_v8_s1']
     """
     for part in parts(cube).values():
         if "case" not in part.dims:

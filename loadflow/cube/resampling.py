@@ -42,6 +42,15 @@ def resample(cube: Cube, dt: float, duration: float | None = None) -> Cube:
     ------
     loadflow.errors.InputError
         Step not positive, fewer than two steps, or a case shorter than `duration`.
+
+    Examples
+    --------
+    >>> from loadflow.cube import make_case, make_cube, resample
+    >>> nothing = [[0.0] * 3] * 3
+    >>> data = {"speed": [1.2, 1.3, 1.2], "hub_force": nothing, "hub_moment": nothing}
+    >>> case = make_case([0.0, 0.1, 0.2], data, dlc="1.1", wind_speed=8.0, seed=1)
+    >>> resample(make_cube([case]), dt=0.05).sizes["time"]
+    5
     """
     if not dt > 0:
         raise InputError(f"resample: dt = {dt:g} s must be > 0")

@@ -43,6 +43,13 @@ def standing(case: xr.Dataset, rated_speed: float | None = None) -> xr.DataArray
 
 
 def standing_share(case: xr.Dataset, rated_speed: float | None = None) -> xr.DataArray:
-    """Share of the time during which the rotor stands or idles; see `standing`."""
+    """Share of the time during which the rotor stands or idles; see `standing`.
+
+    Examples
+    --------
+    >>> from loadflow.cube import make_series, standing_share
+    >>> float(standing_share(make_series([0.0, 0.1, 0.2, 0.3], {"speed": [1.2, 1.2, 0.0, 0.0]})))
+    0.5
+    """
     share = standing(case, rated_speed).mean("time")
     return share.assign_attrs(units="1", long_name="share of the time standing or idling")

@@ -110,6 +110,8 @@ def read_channels(source: str | os.PathLike[str] | Channels) -> dict[str, tuple[
     where = "channels"
     if isinstance(source, Mapping):
         data: dict[str, Any] = dict(source)
+    elif not isinstance(source, str | os.PathLike):
+        raise InputError(f"channels = {source!r}: must be a table of names, a file or a text")
     elif "=" in str(source) and not Path(source).is_file():
         data = _parse(str(source))
     else:

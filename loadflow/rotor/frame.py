@@ -70,7 +70,7 @@ def frame(turbine: Turbine, options: RotorOptions) -> Frame:
 
 
 def calmed(f: Frame) -> Frame:
-    """The frame with a tower that settles within seconds."""
+    """The frame with a tower whose motion dies out within seconds."""
     critical = 2 * np.sqrt(f.stiffness * f.mass) * np.diag(f.carries)
     return f._replace(damping=np.maximum(f.damping, critical))
 
@@ -102,26 +102,30 @@ def _tower_modes(turbine: Turbine) -> list[_TowerMode]:
         along = kind == "fore_aft"
         rigidity = np.interp(height, bending.height, getattr(bending, f"{kind}_stiffness"))
         shape, slope, curvature = mode_shape(getattr(bending, kind), height)
-        lean = slope[-1]
+        top_slope = slope[-1]
         own = np.trapezoid(density * shape**2, height)
         elastic = np.trapezoid(rigidity * curvature**2, height)
-        # the nacelle is a point; leaning forward moves what lies behind the tower axis down
+        # the nacelle is a point; tilting forward moves what lies behind the tower axis down
         behind = bending.nacelle_downwind if along else 0.0
-        square = (1 + lean * bending.nacelle_above) ** 2 + (lean * behind) ** 2
-        # weight pulls what leans over; that of the rotor acts on its sections, in axes that lean:
+        square = (1 + top_slope * bending.nacelle_above) ** 2 + (top_slope * behind) ** 2
+        # weight pulls what tilts; that of the rotor acts on its sections, in axes that tilt:
         # there the tower top would feel it along the shaft, though it moves level
         stiffness = elastic - np.trapezoid(weight * slope**2, height)
-        stiffness -= bending.nacelle_mass * _GRAVITY * bending.nacelle_above * lean**2
-        stiffness += turbine.rotor_mass * _GRAVITY * lean
-        move = [1 + lean * above, 0, -lean * ahead] if along else [0, 1 + lean * above, 0]
-        turn = [0, lean, 0] if along else [-lean, 0, 0]
+        stiffness -= bending.nacelle_mass * _GRAVITY * bending.nacelle_above * top_slope**2
+        stiffness += turbine.rotor_mass * _GRAVITY * top_slope
+        move = (
+            [1 + top_slope * above, 0, -top_slope * ahead]
+            if along
+            else [0, 1 + top_slope * above, 0]
+        )
+        turn = [0, top_slope, 0] if along else [-top_slope, 0, 0]
         modes.append(
             _TowerMode(
                 reach=np.concatenate([_in_shaft_frame(v, rotor.tilt) for v in (move, turn)]),
                 mass=own + bending.nacelle_mass * square,
                 stiffness=stiffness,
                 damping=2 * bending.damping * np.sqrt(elastic * own),
-                load=bending.nacelle_mass * _GRAVITY * lean * behind,
+                load=bending.nacelle_mass * _GRAVITY * top_slope * behind,
             )
         )
     return modes

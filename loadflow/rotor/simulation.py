@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from .rungs import Same
 
 _MARGIN = 10.0  # s of wind before and after, because the sections meet it early and late
-_CALMING, _CALM_STEP = 40.0, 0.04  # s, for a tower to settle
+_CALMING, _CALM_STEP = 40.0, 0.04  # s, until a tower rests
 
 
 def simulate(
@@ -267,14 +267,14 @@ def _first_state(prepared: Same, case: Condition) -> State:
             idle=case.event == "idling",
             stuck=case.event == "parked, blade stuck",
         )
-        lean = _lean(prepared, case.wind_speed, case.shear_exponent)
-        state.frame[m.frame.carries > 0] = lean[m.frame.carries > 0]
+        deflection = _tower_at_rest(prepared, case.wind_speed, case.shear_exponent)
+        state.frame[m.frame.carries > 0] = deflection[m.frame.carries > 0]
         return state
     return _running_state(prepared, case.wind_speed, case.shear_exponent).copy()
 
 
 @lru_cache(maxsize=64)
-def _lean(prepared: Same, wind_speed: float, shear: float) -> NDArray[np.float64]:
+def _tower_at_rest(prepared: Same, wind_speed: float, shear: float) -> NDArray[np.float64]:
     """Where weight and a steady wind hold the tower of a parked rotor, which sways for minutes."""
     from .frame import calmed
     from .inflow import steady_inflow

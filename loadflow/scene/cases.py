@@ -84,6 +84,13 @@ def list_cases(scene: Scene) -> list[Case]:
     ------
     loadflow.errors.InputError
         No file, a missing file, or two series that cannot be told apart.
+
+    Examples
+    --------
+    >>> from loadflow.scene import list_cases, make_scene
+    >>> scene = make_scene({"name": "look", "loads": {"wind_speeds": [8.0, 12.0], "seeds": 1}})
+    >>> [case.name for case in list_cases(scene)]
+    ['dlc1.1_v8_s1', 'dlc1.1_v12_s1']
     """
     loads = scene.loads
     if loads.winds:

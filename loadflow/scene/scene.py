@@ -41,7 +41,7 @@ from loadflow.scene.messages import message, shown
 from loadflow.scene.places import places_of
 from loadflow.scene.section import LARGEST_INTEGER, Section, too_large
 from loadflow.scene.written import SCHEMA, anchored, in_sections, origins
-from loadflow.shaft.beam import BearingSeat
+from loadflow.shaft.beam import BearingSupport
 from loadflow.shaft.options import (
     Concept,
     DirectDrive,
@@ -112,7 +112,7 @@ class Shaft(Section, BaseModel):
         return self
 
     @property
-    def seated(self) -> dict[str, BearingSeat]:
+    def seated(self) -> dict[str, BearingSupport]:
         """Seats, by bearing, whose stiffness comes from a journal or rolling bearing."""
         return {
             name: seat
@@ -533,6 +533,18 @@ def read_scene(path: str | Path) -> Scene:
     InputError
         The file is missing, is not TOML, or holds a bad key or value; the message names file, key,
         value and what is allowed.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from loadflow.scene import read_scene
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     file = Path(folder) / "look.toml"
+    ...     _ = file.write_text("loads.seeds = 1")
+    ...     scene = read_scene(file)
+    >>> scene.name, scene.loads.seeds
+    ('look', 1)
     """
     path = Path(path)
     try:
@@ -552,6 +564,13 @@ def make_scene(data: dict[str, Any], source: str = "scene") -> Scene:
     ------
     InputError
         As `read_scene`.
+
+    Examples
+    --------
+    >>> from loadflow.scene import make_scene
+    >>> scene = make_scene({"name": "look", "loads": {"wind_speeds": [8.0, 12.0], "seeds": 1}})
+    >>> scene.turbine.name
+    'nrel-5mw'
     """
     data = {"name": Path(source).stem} | data
     for key, value in too_large(data):

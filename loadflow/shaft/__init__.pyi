@@ -1,7 +1,12 @@
 from .beam import Beam as Beam
-from .beam import BearingSeat as BearingSeat
+from .beam import BearingSupport as BearingSupport
 from .beam import ShaftSection as ShaftSection
+from .coupled import CoupledBearing as CoupledBearing
+from .coupled import coupled_loads as coupled_loads
 from .elastic import BearingModel as BearingModel
+from .former_names import BearingSeat as BearingSeat
+from .former_names import Seated as Seated
+from .former_names import seated_loads as seated_loads
 from .options import Concept as Concept
 from .options import DirectDrive as DirectDrive
 from .options import Integrated as Integrated
@@ -9,5 +14,3 @@ from .options import MomentBearing as MomentBearing
 from .options import ThreePoint as ThreePoint
 from .options import TwoPoint as TwoPoint
 from .reactions import bearing_loads as bearing_loads
-from .seated import Seated as Seated
-from .seated import seated_loads as seated_loads

@@ -1,4 +1,4 @@
-"""The shaft as an elastic beam on elastic seats; data only."""
+"""The shaft as an elastic beam on elastic supports; data only."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ class ShaftSection:
 
 
 @dataclass(frozen=True)
-class BearingSeat:
+class BearingSupport:
     """Stiffness of a bearing and of its housing, in series; one that is left out is rigid.
 
     Attributes
@@ -77,8 +77,8 @@ class BearingSeat:
 
     Examples
     --------
-    >>> from loadflow.shaft import BearingSeat
-    >>> BearingSeat(radial=2e9, housing_lateral=1e10).takes_moment
+    >>> from loadflow.shaft import BearingSupport
+    >>> BearingSupport(radial=2e9, housing_lateral=1e10).takes_moment
     False
     """
 
@@ -113,7 +113,7 @@ class BearingSeat:
 
 @dataclass(frozen=True)
 class Beam:
-    """Elastic shaft from the hub centre on, and the seats that it rests on.
+    """Elastic shaft from the hub centre on, and the supports that it rests on.
 
     The default section is the main shaft of the WindPACT 5 MW turbine (NREL/SR-500-32495).
 
@@ -121,7 +121,7 @@ class Beam:
     ----------
     sections : tuple of ShaftSection
         From the hub centre downwind.
-    seats : tuple of BearingSeat
+    seats : tuple of BearingSupport
         One for each bearing; none: rigid, and free to tilt where there are two bearings.
     youngs_modulus : float
         Pa.
@@ -139,7 +139,7 @@ class Beam:
     """
 
     sections: Annotated[tuple[ShaftSection, ...], MinLen(1)] = (ShaftSection(1.04, 0.52),)
-    seats: tuple[BearingSeat, ...] = ()
+    seats: tuple[BearingSupport, ...] = ()
     youngs_modulus: Annotated[float, Gt(0)] = 2.1e11
     poisson: Annotated[float, Ge(0), Lt(0.5)] = 0.3
     shear: bool = True
@@ -156,15 +156,15 @@ class Beam:
                 f"{self.poisson} within 0 … 0.5"
             )
 
-    def seats_of(self, bearings: int) -> tuple[BearingSeat, ...]:
+    def supports_of(self, bearings: int) -> tuple[BearingSupport, ...]:
         """The seats, or rigid ones for that many bearings.
 
         Raises
         ------
         loadflow.errors.InputError
-            Another number of seats than of bearings; a single bearing that takes no moment.
+            Another number of supports than of bearings; a single bearing that takes no moment.
         """
-        seats = self.seats or (BearingSeat(takes_moment=bearings == 1),) * bearings
+        seats = self.seats or (BearingSupport(takes_moment=bearings == 1),) * bearings
         if len(seats) != bearings:
             raise InputError(f"seats: {len(seats)} are given, the shaft has {bearings} bearings")
         if bearings == 1 and not seats[0].takes_moment:

@@ -4,7 +4,7 @@ Reactions that fulfil equilibrium leave as many free as the suspension is static
 among these the bearings and the shaft take those that they deform alike under (Menabrea). So
 equilibrium holds exactly, whatever the stiffness, and rigid bearings are no special case.
 
-Each seat has up to four components: forces along y and z with the displacements (v, w), and
+Each support has up to four components: forces along y and z with the displacements (v, w), and
 moments with the slopes (v′, w′) = (θz, −θy): that is (Fy, Fz, Mz, −My).
 """
 
@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from loadflow.errors import InputError, SolverError
 from loadflow.numerics.convergence import Convergence, rounding_level
-from loadflow.shaft.beam import Beam, BearingSeat
+from loadflow.shaft.beam import Beam, BearingSupport
 from loadflow.shaft.flexibility import Stations, curvature, flexibility
 
 Floats = NDArray[np.float64]
@@ -33,12 +33,12 @@ _TURN = np.array([[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 0, 1], [0, 0, -1, 0]], dtyp
 """From (y, z, θy, θz) to (v, w, v′, w′)."""
 _ITERATIONS = 50
 _STUCK = 2.0**-7  # share of a step that is none
-_FREE = 1e6  # over the flexibility of the shaft: a seat that hardly takes a moment
+_FREE = 1e6  # over the flexibility of the shaft: a support that hardly takes a moment
 
 
 @dataclass(frozen=True)
 class ShaftMotion:
-    """Reactions of the seats and motion of the shaft in them, all (bearing, axis, n).
+    """Reactions of the supports and motion of the shaft in them, all (bearing, axis, n).
 
     Attributes
     ----------
@@ -94,7 +94,7 @@ def elastic_reactions(
     Parameters
     ----------
     beam : Beam
-        Shaft and seats.
+        Shaft and supports.
     positions : tuple of float
         Of the bearings, m from the hub centre.
     places : ndarray, shape (p,)
@@ -104,7 +104,7 @@ def elastic_reactions(
     hub_moment : ndarray, shape (3, n)
         At the hub centre, N m.
     models : mapping of int
-        Models of bearings by number; they replace `radial` and `tilt` of their seats.
+        Models of bearings by number; they replace `radial` and `tilt` of their supports.
     iteration : Iteration
         How far shaft and models are iterated.
 
@@ -116,7 +116,7 @@ def elastic_reactions(
         A bearing without stiffness; the iteration with the models does not converge.
     """
     count, bearings = len(places), len(positions)
-    seats = beam.seats_of(bearings)
+    supports = beam.supports_of(bearings)
     end = max(*positions, *places)
     kinds = np.repeat([False, True, False, True], [count, 1, bearings, bearings])
     line = Stations(np.concatenate([places, [0.0], positions, positions]), kinds)
@@ -126,12 +126,16 @@ def elastic_reactions(
     loads[0, :count], loads[0, count] = forces[:, 1], hub_moment[2]
     loads[1, :count], loads[1, count] = forces[:, 2], -hub_moment[1]
 
-    parts = [(k, c) for k, seat in enumerate(seats) for c in range(4 if seat.takes_moment else 2)]
-    seat, component = np.array(parts).T
-    station, plane = count + 1 + seat + bearings * (component // 2), component % 2
+    parts = [
+        (k, c)
+        for k, support in enumerate(supports)
+        for c in range(4 if support.takes_moment else 2)
+    ]
+    support, component = np.array(parts).T
+    station, plane = count + 1 + support + bearings * (component // 2), component % 2
     arms = np.where(np.repeat([[0, 1]], 2, axis=1) == plane[:, None], np.tile(rigid[station], 2), 0)
     redundant = _Redundant(
-        seat=seat,
+        support=support,
         component=component,
         unit=np.where(component < 2, 1.0, end),
         arms=arms,
@@ -139,13 +143,13 @@ def elastic_reactions(
         bent=np.where(plane[:, None] == plane, flexible[np.ix_(station, station)], 0.0),
         free=np.einsum("rk,rkn->rn", flexible[station], loads[plane]),
     )
-    reaction, base, convergence, settled = redundant.solve(seats, models, iteration)
+    reaction, base, convergence, settled = redundant.solve(supports, models, iteration)
 
     loads[plane, station] -= reaction
     moved = flexible @ loads + rigid @ base.reshape(2, 2, -1)
     at = np.arange(count + 1, count + 1 + bearings)
     reactions = np.zeros((bearings, 4, forces.shape[2]))
-    reactions[seat, component] = reaction
+    reactions[support, component] = reaction
     motion = np.concatenate([moved[:, at], moved[:, at + bearings]]).swapaxes(0, 1)
     bow = curvature(beam, line, loads, np.array(positions), end).swapaxes(0, 1)
     bow = np.concatenate([bow, np.zeros_like(bow)], axis=1)
@@ -153,7 +157,7 @@ def elastic_reactions(
 
 
 def _across(full: Floats) -> tuple[Floats, Floats]:
-    """(b, 4, n) in the order of the seats' components as vectors across and about, (b, axis, n)."""
+    """(b, 4, n) by components of the supports as vectors across and about, (b, axis, n)."""
     along, about = np.zeros((2, full.shape[0], 3, full.shape[2]))
     along[:, 1:] = full[:, :2]
     about[:, 1], about[:, 2] = -full[:, 3], full[:, 2]
@@ -162,25 +166,25 @@ def _across(full: Floats) -> tuple[Floats, Floats]:
 
 @dataclass(frozen=True)
 class _Redundant:
-    """Equations of the reactions, one row for each component of each seat.
+    """Equations of the reactions, one row for each component of each support.
 
     Attributes
     ----------
-    seat, component : ndarray of int, shape (r,)
+    support, component : ndarray of int, shape (r,)
         What the rows are.
     unit : ndarray, shape (r,)
         That makes forces of moments: their length, m, else 1.
     arms : ndarray, shape (r, 4)
-        Motion of the seats by a unit motion of the rigid shaft.
+        Motion of the supports by a unit motion of the rigid shaft.
     due : ndarray, shape (4, n)
         What the reactions must balance.
     bent : ndarray, shape (r, r)
-        Motion by bending under unit reactions of the shaft on the seats, turned around.
+        Motion by bending under unit reactions of the shaft on the supports, turned around.
     free : ndarray, shape (r, n)
         Motion by bending under the loads alone.
     """
 
-    seat: NDArray[np.int64]
+    support: NDArray[np.int64]
     component: NDArray[np.int64]
     unit: Floats
     arms: Floats
@@ -190,16 +194,16 @@ class _Redundant:
 
     def solve(
         self,
-        seats: tuple[BearingSeat, ...],
+        supports: tuple[BearingSupport, ...],
         models: Mapping[int, BearingModel],
         iteration: Iteration,
     ) -> tuple[Floats, Floats, Convergence, NDArray[np.bool_]]:
         """Reactions (r, n), motion of the shaft's end (4, n), how the iteration went, and where."""
-        own, housing = (self._compliance(seats, names) for names in (_BEARING, _HOUSING))
+        own, housing = (self._compliance(supports, names) for names in (_BEARING, _HOUSING))
         bearings = _Bearings(self, models, housing, own)
         # a model that takes a moment starts nearly without: bearings harden, and a step from the
         # soft side never goes too far
-        asked = np.isin(self.seat, list(models)) & (self.component > 1) & (own == 0)
+        asked = np.isin(self.support, list(models)) & (self.component > 1) & (own == 0)
         first = own + np.where(asked, _FREE * np.diag(self.bent), 0.0)
         compliance, offset = np.diag(housing + first)[None], np.zeros_like(self.free)
         reaction = self._balance(compliance, offset)
@@ -249,7 +253,7 @@ class _Redundant:
         return np.where(settled, target, reaction), compliance, offset, settled, convergence
 
     def _open(self, compliance: Floats, offset: Floats, reaction: Floats) -> Floats:
-        """How far shaft and seats gape (n,), m."""
+        """How far shaft and supports gape (n,), m."""
         own = self._own()
         apart = np.einsum("nrs,sn->rn", self.bent + compliance, reaction) + offset - self.free
         return np.asarray(np.hypot.reduce(own.T @ apart, axis=0, initial=0.0))
@@ -266,7 +270,7 @@ class _Redundant:
         return self.unit[:, None] * turn[:, 4:]
 
     def _balance(self, compliance: Floats, offset: Floats) -> Floats:
-        """Reactions in equilibrium under which shaft and seats deform alike."""
+        """Reactions in equilibrium under which shaft and supports deform alike."""
         turn, corner = np.linalg.qr(self.unit[:, None] * self.arms, mode="complete")
         needed = self.unit[:, None] * (turn[:, :4] @ np.linalg.solve(corner[:4].T, self.due))
         own = self._own()
@@ -277,8 +281,8 @@ class _Redundant:
         share = np.linalg.solve(own.T @ total @ own, (own.T @ gap).T[..., None])
         return needed + own @ share[..., 0].T
 
-    def _compliance(self, seats: tuple[BearingSeat, ...], names: tuple[str, ...]) -> Floats:
-        stiffness = [getattr(seats[k], names[c]) for k, c in zip(self.seat, self.component)]
+    def _compliance(self, supports: tuple[BearingSupport, ...], names: tuple[str, ...]) -> Floats:
+        stiffness = [getattr(supports[k], names[c]) for k, c in zip(self.support, self.component)]
         return np.array([0.0 if k is None else 1 / k for k in stiffness])
 
 
@@ -289,7 +293,7 @@ class _Bearings:
     Attributes
     ----------
     rows : _Redundant
-        What the components of the seats are.
+        What the components of the supports are.
     models : mapping of int
         Models of bearings by number.
     housing, own : ndarray, shape (r,)
@@ -302,11 +306,11 @@ class _Bearings:
     own: Floats
 
     def tangent(self, reaction: Floats) -> tuple[Floats, Floats]:
-        """Compliance (n, r, r) of the seats and their motion (r, n) at zero load, linearised."""
+        """Compliance (n, r, r) of the supports and their motion (r, n) at zero load, linearised."""
         compliance = np.repeat(np.diag(self.own)[None], reaction.shape[1], axis=0)
         offset = np.zeros_like(reaction)
         for number, model in self.models.items():
-            rows = np.flatnonzero(self.rows.seat == number)
+            rows = np.flatnonzero(self.rows.support == number)
             full = np.zeros((1, 4, reaction.shape[1]))
             full[0, self.rows.component[rows]] = reaction[rows]
             force, moment = (part[0].T for part in _across(full))
@@ -323,7 +327,7 @@ _HOUSING = ("housing_lateral", "housing_vertical", "housing_tilt", "housing_tilt
 def _ask(
     model: BearingModel, force: Floats, moment: Floats, number: int, size: int
 ) -> tuple[Floats, Floats]:
-    """Motion (n, size) and compliance (n, size, size) of a bearing, in the seats' components."""
+    """Motion (n, size) and compliance (n, size, size) of a bearing, in the supports' components."""
     motion, stiffness = (np.asarray(part, dtype=float) for part in model(force, moment))
     n, given = force.shape[0], motion.shape[-1]
     if given not in (2, 4) or given < size or motion.shape != (n, given):

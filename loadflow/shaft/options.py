@@ -19,8 +19,8 @@ from loadflow.shaft.beam import Beam
 Masses = tuple[tuple[float, float], ...]
 
 
-class _OnTwoSeats:
-    """What suspensions with a first seat behind the hub and a second one a span apart share."""
+class _OnTwoSupports:
+    """What suspensions with a first support behind the hub and a second one a span apart share."""
 
     hub_to_first: float
     span: float
@@ -33,7 +33,7 @@ class _OnTwoSeats:
 
     @property
     def positions(self) -> tuple[float, ...]:
-        """Positions of the two seats, m."""
+        """Positions of the two supports, m."""
         return self.hub_to_first, self.hub_to_first + self.span
 
     @property
@@ -43,7 +43,7 @@ class _OnTwoSeats:
 
 
 @dataclass(frozen=True)
-class TwoPoint(_OnTwoSeats):
+class TwoPoint(_OnTwoSupports):
     """Two bearings on the shaft and a slip-on gearbox behind them: hub – N – N2 – gearbox.
 
     The default distances and the gearbox mass are those of [Jonuschies 2015] (Fig. 5-1).
@@ -104,7 +104,7 @@ class TwoPoint(_OnTwoSeats):
 
 
 @dataclass(frozen=True)
-class ThreePoint(_OnTwoSeats):
+class ThreePoint(_OnTwoSupports):
     """One main bearing N, which locates, and the torque arms of the gearbox as second support G.
 
     The arms stand on both sides; their pair of forces against the torque cancels on the shaft.
@@ -146,7 +146,7 @@ class ThreePoint(_OnTwoSeats):
 
 
 @dataclass(frozen=True)
-class Integrated(_OnTwoSeats):
+class Integrated(_OnTwoSupports):
     """Two bearings N, N2 close together in the housing of the gearbox, which the frame carries.
 
     Its torque reaction stays in the frame. The default distances are assumed.
@@ -180,7 +180,7 @@ class Integrated(_OnTwoSeats):
 
 
 @dataclass(frozen=True)
-class DirectDrive(_OnTwoSeats):
+class DirectDrive(_OnTwoSupports):
     """Two bearings N, N2 and the generator's rotor on the shaft, no gearbox.
 
     The default distances are those of the IEA 15 MW turbine. The air gap hands its torque to the
@@ -271,7 +271,7 @@ Concept = TwoPoint | ThreePoint | Integrated | DirectDrive | MomentBearing
 
 def _check(concept: Concept, positive: tuple[str, ...]) -> None:
     if concept.beam is not None:
-        concept.beam.seats_of(len(concept.bearings))
+        concept.beam.supports_of(len(concept.bearings))
     for name, value in vars(concept).items():
         if name == "beam":
             continue

@@ -53,7 +53,7 @@ def bearing_loads(
     models : mapping, optional
         What bearings do under load, by name: functions of force and moment (n, 3) that return
         displacement (n, 4) and stiffness (n, 4, 4) in y, z, θy, θz. They replace the constant
-        stiffness in the beam's seats; shaft and bearings are iterated until they agree.
+        stiffness in the beam's supports; shaft and bearings are iterated until they agree.
     tolerance : float
         Largest change of a reaction in the last iteration, relative to the largest reaction.
     strict : bool
@@ -72,7 +72,7 @@ def bearing_loads(
     ------
     loadflow.errors.InputError
         Shapes do not match, a load is not finite, or |tilt| is not below 90°; models without a
-        beam, or of a bearing that is not there; none of a seat whose stiffness comes from one.
+        beam, or of a bearing that is not there; none of a support whose stiffness comes from one.
     loadflow.errors.SolverError
         Shaft and bearing models do not converge, and `strict`.
 
@@ -133,10 +133,11 @@ def _numbered(concept: Concept, models: Mapping[str, BearingModel]) -> dict[int,
     if models and concept.beam is None:
         raise InputError("models: a rigid shaft does not feel its bearings; give it a beam")
     seats = concept.beam.seats if concept.beam else ()
-    for name, seat in zip(concept.bearings, seats):
-        if seat.stiffness != "given" and name not in models:
+    for name, support in zip(concept.bearings, seats):
+        if support.stiffness != "given" and name not in models:
             raise InputError(
-                f"models: bearing {name!r} is missing, its seat has stiffness = {seat.stiffness!r}"
+                f"models: bearing {name!r} is missing, its support has "
+                f"stiffness = {support.stiffness!r}"
             )
     return {concept.bearings.index(name): model for name, model in models.items()}
 

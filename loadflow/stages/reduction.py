@@ -39,7 +39,7 @@ def reduced_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTr
             source=f"{case.name}, bearing {bearing}",
         )
         dataset = reduced_dataset(reduced, force, moment, by_moment)
-        groups[str(bearing)] = dataset.assign(_leaning(shaft.sel(bearing=bearing), reduced))
+        groups[str(bearing)] = dataset.assign(_tilted(shaft.sel(bearing=bearing), reduced))
     return xr.DataTree.from_dict(groups)
 
 
@@ -49,12 +49,12 @@ def moment_governs(scene: Scene, bearing: str, moment: np.ndarray) -> bool:
     It does where a bearing takes one, as its rolling elements feel that most. A film gives way to
     it, and is governed by the force.
     """
-    seat = scene.shaft.seated.get(bearing)
-    return bool(np.any(moment[:, 1:])) and (seat is None or seat.stiffness != "journal")
+    support = scene.shaft.seated.get(bearing)
+    return bool(np.any(moment[:, 1:])) and (support is None or support.stiffness != "journal")
 
 
-def _leaning(bearing: xr.Dataset, reduced: Reduced) -> dict[str, Any]:
-    """How the shaft leans in the bearing at the samples kept, where it is a beam."""
+def _tilted(bearing: xr.Dataset, reduced: Reduced) -> dict[str, Any]:
+    """Tilt and bend of the shaft in the bearing at the samples kept, where it is a beam."""
     return {
         name: (("sample", "axis"), _vectors(bearing[name])[reduced.index], bearing[name].attrs)
         for name in ("tilt", "curvature")

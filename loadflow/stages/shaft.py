@@ -11,7 +11,7 @@ import xarray as xr
 
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Journal, Scene
-from loadflow.shaft import Concept, Seated, seated_loads
+from loadflow.shaft import Concept, CoupledBearing, coupled_loads
 from loadflow.shaft import bearing_loads as reactions
 from loadflow.stages.labelling import labelled
 from loadflow.stages.stage import STEPS_PER_CASE, Measured, Rungs, Stage, always, steps_of
@@ -30,7 +30,7 @@ def bearing_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Datase
 
     Where a shaft is a beam, also its `displacement`, `tilt` and `curvature` in each bearing; they
     are NaN in bearings of a rigid shaft beside it. `tilt` is that against the housing. Where the
-    stiffness of seats comes from the scene's bearings, `settled` tells in which samples it does;
+    stiffness of supports comes from the scene's bearings, `settled` tells in which samples it does;
     in the others, such as of a film at standstill, these bearings are rigid.
     """
     from loadflow.turbines import load_turbine
@@ -52,18 +52,18 @@ def bearing_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Datase
 def _suspended(
     scene: Scene, concept: Concept, force: Floats, moment: Floats, speed: Floats, tilt: float
 ) -> xr.Dataset:
-    seats = {name: s for name, s in scene.shaft.seated.items() if name in concept.bearings}
-    if not seats:
+    supports = {name: s for name, s in scene.shaft.seated.items() if name in concept.bearings}
+    if not supports:
         return _against_housings(concept, reactions(concept, force, moment, tilt=tilt))
     rigid = reactions(replace(concept, beam=None), force, moment, tilt=tilt)
     thrust = dict(zip(concept.bearings, rigid["force"].values[:, 0]))
     bearings = {
-        name: _film(scene.journal.at(name), speed, seat.takes_moment)
-        if seat.stiffness == "journal"
-        else _rolling(scene, name, thrust[name], seat.takes_moment)
-        for name, seat in seats.items()
+        name: _film(scene.journal.at(name), speed, support.takes_moment)
+        if support.stiffness == "journal"
+        else _rolling(scene, name, thrust[name], support.takes_moment)
+        for name, support in supports.items()
     }
-    return _against_housings(concept, seated_loads(concept, force, moment, bearings, tilt=tilt))
+    return _against_housings(concept, coupled_loads(concept, force, moment, bearings, tilt=tilt))
 
 
 def _worst(parts: list[xr.Dataset]) -> dict[str, float]:
@@ -76,22 +76,22 @@ def _worst(parts: list[xr.Dataset]) -> dict[str, float]:
     return {name: pick.get(name, max)(values) for name, values in told.items() if values}
 
 
-def _film(options: Journal, speed: Floats, tilting: bool) -> Seated:
+def _film(options: Journal, speed: Floats, tilting: bool) -> CoupledBearing:
     from loadflow.stages.film_support import film_model
 
     fastest = float(np.abs(speed).max())
-    return Seated(
+    return CoupledBearing(
         lambda rows: film_model(options, speed[rows], tilting=tilting, strict=False),
         state=np.arcsinh(speed / (_GLIDING * fastest or 1.0)),
         idle=np.abs(speed) <= STILL * fastest,
     )
 
 
-def _rolling(scene: Scene, name: str, thrust: Floats, tilting: bool) -> Seated:
+def _rolling(scene: Scene, name: str, thrust: Floats, tilting: bool) -> CoupledBearing:
     from loadflow.stages.rolling_support import rolling_model
 
     part = scene.rolling.bearings[name]
-    return Seated(
+    return CoupledBearing(
         lambda rows: rolling_model(part, thrust[rows], tilting=tilting, strict=False),
         state=thrust,
         idle=np.zeros(thrust.size, dtype=bool),
@@ -103,7 +103,7 @@ def _against_housings(concept: Concept, found: xr.Dataset) -> xr.Dataset:
     """`found`, with the tilt of the shaft in each bearing less that of its housing."""
     if concept.beam is None or not concept.beam.seats:
         return found
-    soft = np.array([1 / (seat.housing_tilt or np.inf) for seat in concept.beam.seats])
+    soft = np.array([1 / (support.housing_tilt or np.inf) for support in concept.beam.seats])
     turned = found["moment"] * xr.DataArray(soft, dims="bearing")
     return found.assign(tilt=(found["tilt"] - turned).assign_attrs(found["tilt"].attrs))
 
@@ -132,7 +132,7 @@ def warnings(tree: xr.DataTree) -> list[str]:
     error, said = worst["interpolation_error"].item(), []
     if error > WARN:
         said.append(
-            f"shaft: between the samples solved, loads or lean are off by {100 * error:.2g} % of "
+            f"shaft: between the samples solved, loads or tilt are off by {100 * error:.2g} % of "
             f"their largest ({worst['case'].item()})"
         )
     if rigid := int(found["not_converged"].sum()):
@@ -157,8 +157,8 @@ _TOLD = {
 def _described(scene: Scene) -> str:
     concepts = ((name, concept) for name, concept in scene.shaft if concept)
     names = "+".join(f"{name}, beam" if concept.beam else name for name, concept in concepts)
-    seats = [f"{name} {seat.stiffness}" for name, seat in scene.shaft.seated.items()]
-    return f"{names}, iterated with {', '.join(seats)}" if seats else names
+    supports = [f"{name} {support.stiffness}" for name, support in scene.shaft.seated.items()]
+    return f"{names}, iterated with {', '.join(supports)}" if supports else names
 
 
 def shaft_key(scene: Scene) -> str:
@@ -166,12 +166,12 @@ def shaft_key(scene: Scene) -> str:
     if not scene.shaft.seated:
         return _described(scene)
     kinds = {
-        f"{seat.stiffness}, tilting"
-        if seat.stiffness == "journal" and seat.takes_moment
-        else f"{seat.stiffness}, flexible"
-        if seat.stiffness == "rolling" and scene.rolling.bearings[name].rings == "flexible"
-        else seat.stiffness
-        for name, seat in scene.shaft.seated.items()
+        f"{support.stiffness}, tilting"
+        if support.stiffness == "journal" and support.takes_moment
+        else f"{support.stiffness}, flexible"
+        if support.stiffness == "rolling" and scene.rolling.bearings[name].rings == "flexible"
+        else support.stiffness
+        for name, support in scene.shaft.seated.items()
     }
     return f"on {'+'.join(sorted(kinds))}"
 

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from loadflow.shaft import Beam, BearingSeat, ShaftSection, TwoPoint, bearing_loads
+from loadflow.shaft import Beam, BearingSupport, ShaftSection, TwoPoint, bearing_loads
 from loadflow.shaft.elastic import BearingModel, Floats
 
 from .check import Check
@@ -26,12 +26,12 @@ def checks() -> Iterator[Check]:
     for moment in (1e4, 1e5, 1e6):
         turned = (moment / _TOUGH) ** (2 / 3)
         push = (_SPAN**2 * _SOFT * turned + moment) / (_OVERHANG + _SPAN)
-        found = _taken(push, 1e20, BearingSeat(_SOFT), BearingSeat(takes_moment=True), _hertz)
+        found = _taken(push, 1e20, BearingSupport(_SOFT), BearingSupport(takes_moment=True), _hertz)
         name = f"moment on a bearing that hardens, P = {push:.4g} N"
         yield Check(name, "closed form", moment, found, 1e-8, unit="N m")
-    seat = BearingSeat(radial=3e9, takes_moment=True, tilt=2e8, housing_vertical=4e9)
-    numbers = _taken(1e6, 2.1e11, BearingSeat(_SOFT), seat, None)
-    own = _taken(1e6, 2.1e11, BearingSeat(_SOFT), seat, _constant)
+    seat = BearingSupport(radial=3e9, takes_moment=True, tilt=2e8, housing_vertical=4e9)
+    numbers = _taken(1e6, 2.1e11, BearingSupport(_SOFT), seat, None)
+    own = _taken(1e6, 2.1e11, BearingSupport(_SOFT), seat, _constant)
     name = "moment on a bearing of constant stiffness, iterated"
     yield Check(name, "its numbers as a seat", numbers, own, 1e-10, unit="N m")
 
@@ -39,8 +39,8 @@ def checks() -> Iterator[Check]:
 def _taken(
     push: float,
     youngs_modulus: float,
-    first: BearingSeat,
-    second: BearingSeat,
+    first: BearingSupport,
+    second: BearingSupport,
     model: BearingModel | None,
 ) -> float:
     """Moment on the second bearing."""

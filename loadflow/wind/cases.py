@@ -64,6 +64,12 @@ class LoadCase:
         Start of the gust, s.
     event_delays : tuple of float
         Times of the event after the start of the gust, s.
+
+    Examples
+    --------
+    >>> from loadflow.wind import LOAD_CASES
+    >>> LOAD_CASES["1.1"].turbulent, LOAD_CASES["1.1"].seeds
+    (True, 6)
     """
 
     dlc: str

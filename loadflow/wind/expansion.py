@@ -195,6 +195,15 @@ def condition(
     ------
     InputError
         Also if a deterministic wind has no variant of that number, or the index is none.
+
+    Examples
+    --------
+    >>> from loadflow.wind import Machine, condition
+    >>> machine = Machine(
+    ...     cut_in=3.0, rated=11.4, cut_out=25.0, rotor_diameter=126.0, hub_height=90.0
+    ... )
+    >>> round(condition("1.1", machine, wind_speed=12.0).sigma, 3)  # m/s
+    2.044
     """
     row, options = load_case(dlc), options or WindOptions()
     if not isinstance(index, Integral) or index < 0:

@@ -156,6 +156,14 @@ def kaimal_box(
     ------
     InputError
         As `kaimal`; if two points coincide, lines do not rise or lie below the ground.
+
+    Examples
+    --------
+    >>> from loadflow.wind import kaimal_box
+    >>> box = kaimal_box(12.0, 1.8, y=[-20.0, 0.0, 20.0], z=[70.0, 90.0, 110.0], hub_height=90.0,
+    ...     duration=30.0, dt=0.5, seed=1)
+    >>> box.u.shape[0] == box.time.size
+    True
     """
     lines_y, lines_z = np.asarray(y, float), np.asarray(z, float)
     if (lines_z < 0).any():

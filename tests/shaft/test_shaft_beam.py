@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from loadflow.errors import InputError, SolverError
 from loadflow.shaft import (
     Beam,
-    BearingSeat,
+    BearingSupport,
     DirectDrive,
     Integrated,
     MomentBearing,
@@ -23,10 +23,10 @@ from loadflow.shaft import (
 SOLID = ShaftSection(1.0, 0.4)
 SLIM = Beam((SOLID,), shear=False)
 EI = 2.1e11 * SOLID.inertia
-STIFF = BearingSeat(
+STIFF = BearingSupport(
     radial=3e9, takes_moment=True, tilt=2e8, housing_lateral=2e9, housing_vertical=4e9
 )
-FREE = BearingSeat(radial=3e9)
+FREE = BearingSupport(radial=3e9)
 LOAD = st.floats(-1e7, 1e7)
 VECTOR = st.tuples(LOAD, LOAD, LOAD).map(lambda v: np.array(v)[:, None])
 
@@ -40,8 +40,8 @@ def plain(beam, **changes):
     "concept",
     [
         TwoPoint(beam=SLIM),
-        TwoPoint(beam=Beam(seats=(FREE, BearingSeat())), torque_arm=1.5, shaft_mass=2e4),
-        ThreePoint(beam=Beam(seats=(FREE, BearingSeat(radial=1e8)))),
+        TwoPoint(beam=Beam(seats=(FREE, BearingSupport())), torque_arm=1.5, shaft_mass=2e4),
+        ThreePoint(beam=Beam(seats=(FREE, BearingSupport(radial=1e8)))),
         Integrated(beam=Beam(), shaft_mass=1e4),
         DirectDrive(beam=Beam(), generator_mass=1e5),
         MomentBearing(beam=Beam(seats=(STIFF,)), shaft_mass=1e4),
@@ -62,7 +62,10 @@ def test_a_determinate_suspension_does_not_feel_stiffness(concept):
 @settings(max_examples=40, deadline=None)
 @given(VECTOR, VECTOR, st.floats(1e6, 1e12), st.floats(1e4, 1e11))
 def test_forces_and_moments_balance_whatever_the_stiffness(force, moment, radial, tilt):
-    seats = (BearingSeat(radial, takes_moment=True, tilt=tilt), BearingSeat(None, None, 1e8, True))
+    seats = (
+        BearingSupport(radial, takes_moment=True, tilt=tilt),
+        BearingSupport(None, None, 1e8, True),
+    )
     concept = TwoPoint(beam=Beam(seats=seats), shaft_mass=2e4, torque_arm=1.2)
     found = bearing_loads(concept, force, moment, tilt=0.1)
     rigid = bearing_loads(replace(concept, beam=None), force, moment, tilt=0.1)
@@ -93,7 +96,7 @@ def test_overhang_bends_as_the_textbook_says():
 
 def test_clamped_seats_share_the_moment_as_a_fixed_beam():
     """Both seats clamp: a moment on the overhang is taken by the first seat alone."""
-    clamp = BearingSeat(takes_moment=True)
+    clamp = BearingSupport(takes_moment=True)
     beam = Beam((SOLID,), (clamp, clamp))
     found = bearing_loads(plain(beam), [0.0, 4e5, 1e6], [0.0, 7e5, -3e5])
     alone = bearing_loads(MomentBearing(2.0), [0.0, 4e5, 1e6], [0.0, 7e5, -3e5])
@@ -104,7 +107,7 @@ def test_clamped_seats_share_the_moment_as_a_fixed_beam():
 
 def test_soft_bearings_tilt_a_rigid_shaft():
     """Young's modulus → ∞: displacements are reactions over stiffness, the shaft is straight."""
-    rigid = Beam((SOLID,), (BearingSeat(radial=1e9), BearingSeat(radial=2e9)), 1e20)
+    rigid = Beam((SOLID,), (BearingSupport(radial=1e9), BearingSupport(radial=2e9)), 1e20)
     found = bearing_loads(plain(rigid), [0.0, 3e5, -1e6], [0.0, 2e6, 1e6])
     expected = found["force"].values[:, 1:, 0] / np.array([[1e9], [2e9]])
     assert found["displacement"].values[:, 1:, 0] == pytest.approx(expected)
@@ -131,10 +134,10 @@ def test_loads_superpose_and_shear_only_adds():
 
 def test_stiffness_tends_to_the_rigid_limit():
     errors = []
-    clamped = Beam(seats=(BearingSeat(takes_moment=True),) * 2)
+    clamped = Beam(seats=(BearingSupport(takes_moment=True),) * 2)
     limit = bearing_loads(plain(clamped), [0, 0, 1e6], [0, 1e6, 0])
     for stiffness in (1e12, 1e13, 1e14):
-        seat = BearingSeat(stiffness, takes_moment=True, tilt=stiffness)
+        seat = BearingSupport(stiffness, takes_moment=True, tilt=stiffness)
         found = bearing_loads(plain(Beam(seats=(seat, seat))), [0, 0, 1e6], [0, 1e6, 0])
         errors.append(float(abs(found["moment"] - limit["moment"]).max()))
     assert errors[0] / errors[1] == pytest.approx(10, rel=0.1)
@@ -185,7 +188,7 @@ def test_hardening_bearings_settle_on_their_curve():
 
     rng = np.random.default_rng(4)
     force, moment = 1e6 * rng.standard_normal((2, 3, 30))
-    concept = plain(Beam(seats=(BearingSeat(takes_moment=True, tilt=1e8),) * 2))
+    concept = plain(Beam(seats=(BearingSupport(takes_moment=True, tilt=1e8),) * 2))
     found = bearing_loads(concept, force, moment, models={"N": hardening, "N2": hardening})
     for bearing in ("N", "N2"):
         one = found.sel(bearing=bearing)
@@ -204,9 +207,9 @@ def test_hardening_bearings_settle_on_their_curve():
         (lambda: Beam(()), "at least one"),
         (lambda: Beam((SOLID, SOLID)), r"sections\[0\].length"),
         (lambda: ShaftSection(0.5, 0.5), "inner < outer"),
-        (lambda: BearingSeat(radial=0.0), "radial = 0"),
-        (lambda: BearingSeat(takes_moment=True, tilt=-1.0), "tilt = -1"),
-        (lambda: BearingSeat(tilt=1e8), "takes_moment = False"),
+        (lambda: BearingSupport(radial=0.0), "radial = 0"),
+        (lambda: BearingSupport(takes_moment=True, tilt=-1.0), "tilt = -1"),
+        (lambda: BearingSupport(tilt=1e8), "takes_moment = False"),
         (lambda: bearing_loads(TwoPoint(), [1, 2, 3], [0, 0, 0], models={"N": None}), "rigid"),
         (lambda: bearing_loads(plain(SLIM), [1, 2, 3], [0, 0, 0], models={"M": None}), "'M'"),
         (

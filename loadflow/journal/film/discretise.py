@@ -102,6 +102,7 @@ def build_shaped_film(
         pressure,
     )
     contact = options.contact
+    gap: ShapedGap
     if options.shell is None:
         if contact is not None:
             require(not bore.pads, "contact", contact, "None for pads that tilt")

@@ -145,7 +145,7 @@ def _asked(film: Film, bearing: JournalGeometry, line: Line, steps: Steps) -> di
     """What a model must know, of `FEATURES`, and its value."""
     own = RUNGS[film.rung].law is not None  # such a model has its own inlet, and no mesh
     heat = "film_heat" if film.heat is not None and film.heat.over_area else "heat"
-    wanted = {
+    wanted: dict[str, Any] = {
         heat: film.heat,
         "shape": bearing.shape if bearing.shape.segments else None,
         "relief": bearing.relief or None,

@@ -53,7 +53,17 @@ def friction_torque_loads(
 def friction_torque_components(
     force: Array, moment: Array, pitch_diameter: float, *, friction: float, idle: float
 ) -> Array:
-    """`friction_torque_loads` of the force (..., 3) and moment (..., 2) of a result."""
+    """`friction_torque_loads` of the force (..., 3) and moment (..., 2) of a result.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.rolling.friction import friction_torque_components
+    >>> force, moment = np.array([1e5, 0.0, 1e6]), np.array([2e5, 0.0])
+    >>> torque = friction_torque_components(force, moment, 1.9, friction=0.003, idle=0.0)
+    >>> round(float(torque))  # N m
+    4797
+    """
     axial, radial = force[..., 2], np.hypot(force[..., 0], force[..., 1])
     tilt = np.hypot(moment[..., 0], moment[..., 1])
     return friction_torque_loads(axial, radial, tilt, pitch_diameter, friction=friction, idle=idle)

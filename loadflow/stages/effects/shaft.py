@@ -26,7 +26,8 @@ def _rigid(scene: Scene, on: bool) -> Scene | None:
     stiff = {
         name: replace(concept, beam=None)
         for name, concept in scene.shaft
-        if concept is not None and not any(seat in scene.shaft.seated for seat in concept.bearings)
+        if concept is not None
+        and not any(support in scene.shaft.seated for support in concept.bearings)
     }
     return scene.model_copy(update={"shaft": scene.shaft.model_copy(update=stiff)})
 
@@ -62,7 +63,7 @@ STIFFNESS = Effect(
     is_on=lambda scene: bool(scene.shaft.seated),
     switched=_given,
     indicator=_determinate,
-    out="no seat of the shaft takes its stiffness from a bearing",
-    needs='seats of the beam with stiffness = "journal" or "rolling"',
+    out="no support of the shaft takes its stiffness from a bearing",
+    needs='supports (seats) of the beam with stiffness = "journal" or "rolling"',
     concerns=lambda scene: any(concept.beam is not None for concept in scene.shaft.concepts),
 )

@@ -39,7 +39,7 @@ _KEPT = ("force", "moment", "displacement", "tilt", "curvature")
 
 
 @dataclass(frozen=True)
-class Seated:
+class CoupledBearing:
     """A bearing that the shaft rests on, over a series of n samples.
 
     Attributes
@@ -60,11 +60,11 @@ class Seated:
     quick: bool = False
 
 
-def seated_loads(
+def coupled_loads(
     concept: Concept,
     hub_force: Floats,
     hub_moment: Floats,
-    bearings: Mapping[str, Seated],
+    bearings: Mapping[str, CoupledBearing],
     *,
     tilt: float = 0.0,
     accuracy: float = ACCURACY,
@@ -105,7 +105,7 @@ def seated_loads(
     on_rigid = replace(concept, beam=concept.beam.on_rigid_bearings())
     rigid = bearing_loads(on_rigid, hub_force, hub_moment, tilt=tilt)
     series = _Series(concept, hub_force, hub_moment, tilt, bearings)
-    asked = np.flatnonzero(~np.any([seat.idle for seat in bearings.values()], axis=0))
+    asked = np.flatnonzero(~np.any([bearing.idle for bearing in bearings.values()], axis=0))
     values, settled = _arrays(rigid), np.zeros(hub_force.shape[1], dtype=bool)
     attrs = rigid.attrs | {"solved": 0, "interpolation_error": 0.0}
     if asked.size:
@@ -173,11 +173,11 @@ class _Series:
     force: Floats
     moment: Floats
     tilt: float
-    bearings: Mapping[str, Seated]
+    bearings: Mapping[str, CoupledBearing]
 
     def carried(self, rows: Rows, accuracy: float) -> tuple[_Solved, int, float]:
         """Result of `rows`, number of them solved exactly, error of the others."""
-        costly = any(not seat.quick for seat in self.bearings.values())
+        costly = any(not bearing.quick for bearing in self.bearings.values())
         if not costly or rows.size <= FIRST + MORE:
             return self.solve(rows, self.exact), rows.size, 0.0
         places = self.places(rows)
@@ -209,12 +209,12 @@ class _Series:
         """Loads of the hub and states of the bearings, as far as they vary, (k, d)."""
         torque = 0 if self.concept.torque_support else 1
         loads = [*self.force[1:], *self.moment[torque:]]
-        states = [seat.state for seat in self.bearings.values()]
+        states = [bearing.state for bearing in self.bearings.values()]
         return evened(np.stack([*loads, *states], axis=1)[rows])
 
     def exact(self, rows: Rows) -> dict[str, BearingModel]:
         """The bearings' own models."""
-        return {name: seat.model(rows) for name, seat in self.bearings.items()}
+        return {name: bearing.model(rows) for name, bearing in self.bearings.items()}
 
     def with_tangents(self, rows: Rows) -> _Solved:
         """Result with the bearings' own models, and the tangents of the expensive ones."""
@@ -223,8 +223,8 @@ class _Series:
             found,
             tangents={
                 name: self._tangents(name, rows, found)
-                for name, seat in self.bearings.items()
-                if not seat.quick
+                for name, bearing in self.bearings.items()
+                if not bearing.quick
             },
         )
 

@@ -6,20 +6,21 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import brentq
 
+from loadflow import shaft
 from loadflow.errors import InputError, SolverError
 from loadflow.shaft import (
     Beam,
-    BearingSeat,
-    Seated,
+    BearingSupport,
+    CoupledBearing,
     ShaftSection,
     ThreePoint,
     TwoPoint,
     bearing_loads,
-    seated_loads,
+    coupled_loads,
 )
 
 SOLID = ShaftSection(1.0, 0.4)
-OWN, FREE = BearingSeat(stiffness="rolling", takes_moment=True), BearingSeat()
+OWN, FREE = BearingSupport(stiffness="rolling", takes_moment=True), BearingSupport()
 ALONG = ("force", "moment", "displacement", "tilt")
 
 
@@ -64,7 +65,9 @@ def power(exponent, radial=1e10, tilt=1e8, stiffening=0.0):
 
 def seated(model, state, idle=None, quick=False):
     nowhere = np.zeros(state.size, dtype=bool)
-    return Seated(lambda rows: model(state[rows]), state, nowhere if idle is None else idle, quick)
+    return CoupledBearing(
+        lambda rows: model(state[rows]), state, nowhere if idle is None else idle, quick
+    )
 
 
 def assert_balanced(found, concept, force, moment):
@@ -84,11 +87,11 @@ def assert_balanced(found, concept, force, moment):
 @pytest.mark.parametrize("quick", [True, False])
 def test_a_bearing_of_constant_stiffness_gives_what_its_numbers_give(quick):
     force, moment, state = wander(600)
-    numbers = BearingSeat(radial=1e10, takes_moment=True, tilt=1e8, housing_vertical=5e9)
-    own = BearingSeat(stiffness="rolling", takes_moment=True, housing_vertical=5e9)
+    numbers = BearingSupport(radial=1e10, takes_moment=True, tilt=1e8, housing_vertical=5e9)
+    own = BearingSupport(stiffness="rolling", takes_moment=True, housing_vertical=5e9)
     given_ = bearing_loads(suspended(FREE, numbers), force, moment)
     bearing = {"N2": seated(power(1.0), state, quick=quick)}
-    found = seated_loads(suspended(FREE, own), force, moment, bearing)
+    found = coupled_loads(suspended(FREE, own), force, moment, bearing)
     for name in ALONG:
         size = float(abs(given_[name]).max())
         assert float(abs(found[name] - given_[name]).max()) < 1e-10 * size
@@ -100,7 +103,7 @@ def test_between_the_samples_solved_the_error_is_as_told_and_all_balances():
     force, moment, state = wander(2000)
     concept = suspended(FREE, OWN)
     model = power(2 / 3, stiffening=0.5)
-    found = seated_loads(concept, force, moment, {"N2": seated(model, state)})
+    found = coupled_loads(concept, force, moment, {"N2": seated(model, state)})
     exact = bearing_loads(concept, force, moment, models={"N2": model(state)})
     assert found.attrs["solved"] == 400  # the most: a bearing so soft when unloaded is hard
     assert found.attrs["interpolation_error"] < 2e-2
@@ -115,10 +118,10 @@ def test_between_the_samples_solved_the_error_is_as_told_and_all_balances():
 @given(st.floats(0.5, 1.2), st.floats(1e8, 1e12), st.sampled_from([TwoPoint, ThreePoint]))
 def test_a_determinate_suspension_does_not_feel_its_bearings(exponent, radial, concept):
     force, moment, state = wander(20)
-    own = BearingSeat(stiffness="journal")
+    own = BearingSupport(stiffness="journal")
     bearings = {"N": seated(power(exponent, radial), state)}
     beam = suspended(own, FREE, concept=concept)
-    found = seated_loads(beam, force, moment, bearings)
+    found = coupled_loads(beam, force, moment, bearings)
     rigid = bearing_loads(concept(), force, moment)
     for name in ("force", "moment"):
         assert float(abs(found[name] - rigid[name]).max()) < 1e-12 * abs(rigid["force"]).max()
@@ -130,15 +133,15 @@ def test_a_determinate_suspension_does_not_feel_its_bearings(exponent, radial, c
 def test_a_hardening_support_is_where_one_unknown_says():
     """Rigid shaft, N yields linearly, N2 takes M = k θ^1.5: F_N/k_N = span · θ(M)."""
     soft, tough, push = 2e9, 1e10, 1e6
-    own = BearingSeat(stiffness="rolling", takes_moment=True)
+    own = BearingSupport(stiffness="rolling", takes_moment=True)
     concept = TwoPoint(
         hub_to_first=2.0,
         span=3.0,
         gearbox_mass=0.0,
-        beam=Beam((SOLID,), (BearingSeat(radial=soft), own), youngs_modulus=1e20),
+        beam=Beam((SOLID,), (BearingSupport(radial=soft), own), youngs_modulus=1e20),
     )
     bearing = {"N2": seated(power(2 / 3, radial=1e30, tilt=tough), np.zeros(1))}
-    found = seated_loads(concept, np.array([[0.0], [push], [0.0]]), np.zeros((3, 1)), bearing)
+    found = coupled_loads(concept, np.array([[0.0], [push], [0.0]]), np.zeros((3, 1)), bearing)
 
     def gap(moment):
         at_first = (push * 5.0 - moment) / 3.0
@@ -172,7 +175,7 @@ def test_a_bearing_that_stiffens_in_a_kink_settles():
         return asked
 
     force, moment, state = wander(100)
-    found = seated_loads(suspended(FREE, OWN), force, moment, {"N2": seated(stop, state)})
+    found = coupled_loads(suspended(FREE, OWN), force, moment, {"N2": seated(stop, state)})
     assert found["settled"].all()
     assert found.attrs["residual"] < 1e-7
     one = found.sel(bearing="N2")
@@ -196,8 +199,8 @@ def test_where_a_bearing_has_no_answer_it_is_rigid_and_the_sample_is_flagged(n):
         return asked
 
     concept = suspended(FREE, OWN)
-    found = seated_loads(concept, force, moment, {"N2": seated(film, state, idle)})
-    rigid = bearing_loads(suspended(FREE, BearingSeat(takes_moment=True)), force, moment)
+    found = coupled_loads(concept, force, moment, {"N2": seated(film, state, idle)})
+    rigid = bearing_loads(suspended(FREE, BearingSupport(takes_moment=True)), force, moment)
     # between solved samples the nearest one decides
     lost, sure = ~found["settled"].values[1].astype(bool), (state < 0.28) | (state > 0.32)
     assert (lost == (state < 0.3))[sure].all()
@@ -212,7 +215,7 @@ def test_where_a_bearing_has_no_answer_it_is_rigid_and_the_sample_is_flagged(n):
 def test_a_bearing_that_never_answers_leaves_the_shaft_on_rigid_seats():
     force, moment, state = wander(30)
     idle = np.ones(30, dtype=bool)
-    found = seated_loads(
+    found = coupled_loads(
         suspended(FREE, OWN), force, moment, {"N2": seated(power(1.0), state, idle)}
     )
     assert not found["settled"].any()
@@ -223,16 +226,26 @@ def test_mistakes_are_named():
     force, moment, state = wander(5)
     bearing = seated(power(1.0), state)
     with pytest.raises(InputError, match="rigid shaft"):
-        seated_loads(TwoPoint(), force, moment, {"N2": bearing})
+        coupled_loads(TwoPoint(), force, moment, {"N2": bearing})
     with pytest.raises(InputError, match="'N2' is missing"):
         bearing_loads(suspended(FREE, OWN), force, moment)
     with pytest.raises(InputError, match="leave them out"):
-        BearingSeat(radial=1e9, stiffness="journal")
+        BearingSupport(radial=1e9, stiffness="journal")
     with pytest.raises(InputError, match="'given', 'journal' or 'rolling'"):
-        BearingSeat(stiffness="elastic")
+        BearingSupport(stiffness="elastic")
 
     def silent(force, moment):
         return np.full((len(force), 4), np.nan), np.broadcast_to(np.eye(4), (len(force), 4, 4))
 
     with pytest.raises(SolverError, match="do not converge"):
         bearing_loads(suspended(FREE, OWN), force, moment, models={"N2": silent})
+
+
+def test_former_names_still_work_and_say_what_they_are_called_now():
+    assert shaft.BearingSeat is shaft.BearingSupport
+    assert shaft.Seated is CoupledBearing
+    force, moment, state = wander(5)
+    loads = suspended(FREE, OWN), force, moment, {"N2": seated(power(1.0), state, quick=True)}
+    with pytest.warns(DeprecationWarning, match="coupled_loads"):
+        found = shaft.seated_loads(*loads)
+    assert found.identical(coupled_loads(*loads))
