@@ -185,7 +185,9 @@ def test_contact_in_production_breaks_every_verdict_on_the_film(tmp_path):
     slow = case(8.0, 1)
     slow["speed"][200:210] = 0.003
     file = save_cube(make_cube([slow]), tmp_path / "loads.h5")
-    scene = scene_of(file, results=["journal.film"], reduction={"size": 1.0})
+    # at rest: in motion the squeezed film would last for these seconds
+    film = FILM | {"motion": "quasi-static"}
+    scene = scene_of(file, results=["journal.film"], reduction={"size": 1.0}, journal=film)
     found = {
         v.quantity: v
         for v in lf.run(scene, out=tmp_path, report=False).verdicts
@@ -211,7 +213,7 @@ def test_a_start_is_told_with_its_transition_and_has_a_limit_only_if_one_is_stat
             name=f"start{len(limits)}",
             results=["journal.film"],
             reduction={"size": 1.0},
-            journal=FILM | {"limits": limits},
+            journal=FILM | {"limits": limits, "motion": "quasi-static"},
         )
         judged = lf.run(scene, out=tmp_path, report=False).verdicts
         assert not [v for v in judged if v.quantity == "smallest film"]
