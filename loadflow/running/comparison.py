@@ -159,8 +159,7 @@ def candidates_for(scene: Scene) -> tuple[dict[str, Candidate], list[str]]:
         title = "journal bearings of the scene"
         found["own-journal"] = Candidate(title=title, journal=scene.journal)
     sized = candidates_of(scene.turbine.name)
-    default = make_scene({"turbine": {"name": scene.turbine.name}, "results": ["loads.statistics"]})
-    if scene.rolling != default.rolling:
+    if "rolling" in scene.model_fields_set:
         title = "rolling bearings of the scene"
         found["own-rolling"] = Candidate(title=title, rolling=scene.rolling)
     shell = {

@@ -44,8 +44,7 @@ def machine(turbine: str) -> dict[str, Any]:
     Returns
     -------
     dict
-        `source`, `shaft`, `rolling` (the candidate that stands for its rolling bearings where a
-        scene says nothing) and `candidates`.
+        `source`, `shaft` and `candidates`.
     """
     return _read(turbine) if turbine in machine_names() else {}
 

@@ -18,8 +18,8 @@ SCHEMA = 2
 def in_sections(data: dict[str, Any], results: Sequence[str]) -> dict[str, Any]:
     """Data of a scene with its places as the sections that the rooms read.
 
-    What it does not say of shaft and rolling bearings is that of its turbine, where the package has
-    sized ones (`loadflow.scene.candidates.machine`).
+    A shaft that it does not state is that of its turbine, where the package has one
+    (`loadflow.scene.candidates.machine`).
 
     Parameters
     ----------
@@ -51,8 +51,6 @@ def in_sections(data: dict[str, Any], results: Sequence[str]) -> dict[str, Any]:
             rooms = {"journal", "rolling"} - set(sections)
             read["results"] = [name for name in results if name.split(".")[0] not in rooms]
         read |= sections
-    if "rolling" not in read and "rolling" in ours:
-        read |= {"rolling": sections_of(_bare(ours["candidates"][ours["rolling"]])).data["rolling"]}
     if isinstance(read.get("candidates"), dict):
         read["candidates"] = {
             name: _candidate(name, stated, turbine) for name, stated in read["candidates"].items()

@@ -76,7 +76,7 @@ class RoughGap(PlainGap):
 
     def slopes(self, position: Array) -> list[tuple[Array, Array]]:
         """Derivatives of (`coef`, `around`) by the mesh coordinates of the position."""
-        kept = self.open_share.copy()
+        kept = np.array(self.open_share)
         slopes = super().slopes(position)
         self.open_share = kept
         return slopes
