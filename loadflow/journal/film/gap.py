@@ -83,7 +83,8 @@ class PlainGap:
     """Gap of a cylinder around an aligned shaft; its mesh may turn with the eccentricity."""
 
     size = shaft = 2
-    roughness, open_share = 0.0, None
+    roughness: float = 0.0
+    open_share: Array | None = None
 
     def __init__(self, mesh: Mesh) -> None:
         self.mesh = mesh

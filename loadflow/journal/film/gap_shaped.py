@@ -94,7 +94,8 @@ class ShapedGap:
         Whether to keep a row for each cell across even where the gap does not change there.
     """
 
-    roughness, open_share = 0.0, None
+    roughness: float = 0.0
+    open_share: Array | None = None
 
     def __init__(self, mesh: ShapedMesh, bore: Bore, along: bool = False) -> None:
         self.mesh = mesh

@@ -167,7 +167,8 @@ class SurfaceGap:
         Gap of the centred shaft where nothing is cut, in clearances.
     """
 
-    roughness, open_share = 0.0, None
+    roughness: float = 0.0
+    open_share: Array | None = None
 
     def __init__(
         self, mesh: SurfaceMesh, profile: Profile, clearance: float, base: float = 1.0
