@@ -141,7 +141,7 @@ def model_of(
 def _asked(film: Film, bearing: JournalGeometry, line: Line, steps: Steps) -> dict[str, Any]:
     """What a model must know, of `FEATURES`, and its value."""
     own = RUNGS[film.rung].law is not None  # such a model has its own inlet, and no mesh
-    wanted = {
+    wanted: dict[str, Any] = {
         "shape": bearing.shape if bearing.shape.segments else None,
         "relief": bearing.relief or None,
         "moment": line.moment,
