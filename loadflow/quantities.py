@@ -42,6 +42,7 @@ FILM: dict[str, Quantity] = {
     "maximum_pressure": Quantity("p_max", "Pa", "largest film pressure, absolute"),
     "contact_force": Quantity("F_a", "N", "part of the load that asperities carry"),
     "contact_pressure": Quantity("p_a", "Pa", "largest pressure of touching asperities"),
+    "contact_area": Quantity("A_r/A", "1", "largest real over nominal area of contact"),
     "contact_power": Quantity("P_a", "W", "friction power of touching asperities"),
     "contact_share": Quantity("F_a/F", "1", "share of the load that asperities carry"),
     "sommerfeld_number": Quantity("So", "1", "Sommerfeld number"),

@@ -6,7 +6,7 @@
 `thrust`         thrust bearings; `cone`, `conical_pair`: conical bearings, two of them
 `surfaces`       cone, plane ring, straight pad, profiles; `pads`: where pads sit and give way
 `shapes`         shapes of the bore and their relief
-`shells`         elastic shells
+`shells`         elastic shells; `contact`: asperities; `stribeck`: friction over speed
 `supply`         grooves, pockets, restrictors, pump
 `results`        what comes back
 `heat`           oil and cooling: `Heat`, `FilmHeat`; `heat_results` what comes back

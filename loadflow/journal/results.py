@@ -176,11 +176,13 @@ class Equilibrium(_Result):
     temperature : array (…), optional
         Effective temperature of the film, K; None without heat.
     contact_force : array (…, 2), optional
-        Part of `force` that touching asperities carry, N; as the next three, None without contact.
+        Part of `force` that touching asperities carry, N; as the next four, None without contact.
         Then `minimum_film` is that of the mean gap between the rough surfaces, `eccentricity_ratio`
         may exceed 1, and `friction_power` contains `contact_power`.
     contact_pressure : array (…), optional
         Largest mean pressure of asperities, Pa.
+    contact_area : array (…), optional
+        Real over nominal area of contact there; the elastic law holds while it is well below 1.
     contact_power : array (…), optional
         Power of boundary friction μ ∬p_a dA R |ω|, W.
     contact_share : array (…), optional
@@ -226,6 +228,7 @@ class Equilibrium(_Result):
     temperature: Array | None = None
     contact_force: Array | None = None
     contact_pressure: Array | None = None
+    contact_area: Array | None = None
     contact_power: Array | None = None
     contact_share: Array | None = None
 
@@ -273,7 +276,7 @@ class FilmField(_Result):
     eccentricity_ratio, minimum_film, maximum_pressure, friction_power, side_flow, supply_flow, \
 supply_power, groove_flow, groove_pressure, starved, total_fill, stiffness, damping, converged, \
 iterations, residual, moment, tilt, pad_tilt, shell_deformation, contact_force, contact_pressure, \
-contact_power, contact_share
+contact_area, contact_power, contact_share
         As in `Equilibrium`.
     deformation : array (…, nx, nz)
         Growth of the gap of the cells by the elastic shell, m.
@@ -318,6 +321,7 @@ contact_power, contact_share
     shell_deformation: Array = field(default_factory=lambda: np.zeros(()))
     contact_force: Array | None = None
     contact_pressure: Array | None = None
+    contact_area: Array | None = None
     contact_power: Array | None = None
     contact_share: Array | None = None
 

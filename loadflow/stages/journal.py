@@ -47,7 +47,7 @@ TEMPERED = 64
 GIVING = table("shell_deformation")
 """What is kept too of an elastic shell."""
 
-TOUCHING = table("contact_pressure", "contact_power", "contact_share")
+TOUCHING = table("contact_pressure", "contact_area", "contact_power", "contact_share")
 """What is kept too of asperities."""
 
 _CERTAIN = 1.2  # times the load that a film as thin as the roughness carries: no film is asked

@@ -7,6 +7,7 @@ from hard_case import Outcome, hard, refused, solved
 
 from loadflow.journal import (
     ConstantFlow,
+    Contact,
     GasMixture,
     Groove,
     Guembel,
@@ -18,6 +19,7 @@ from loadflow.journal import (
     Supply,
     ThickShell,
 )
+from loadflow.tribology import AsperityContact
 
 MAIN = JournalBearing(diameter=3.0, width=2.25, relative_clearance=0.5e-3)
 OIL = Lubricant(0.05)
@@ -276,3 +278,39 @@ def soft_rims():
         "touches the elastic shell",
         "z = 1.125 m",
     )
+
+
+ROUGH = Contact(AsperityContact(roughness=1e-6, contact_modulus=115e9, factor=1e-3), friction=0.1)
+
+
+@hard(
+    "journal",
+    "film thinner than the roughness, to overlapping mean planes",
+    why="a smooth gap closes at ε = 1: no film beyond, 1/h³ without bound before it",
+    what="asperities share the load, the oil flows through the mean gap that they leave",
+)
+def thinner_than_rough():
+    loads = [[3e7, 0.0], [1e8, 0.0], [1e9, 0.0]]
+    state = MAIN.equilibrium(loads, 1e-2, OIL, cavitation=Reynolds(), contact=ROUGH)
+    assert np.all(np.diff(state.eccentricity_ratio) > 0)
+    assert state.eccentricity_ratio[-1] > 1
+    assert np.all(state.minimum_film < ROUGH.roughness)
+    assert np.all(state.minimum_film > 0)
+    found = f"ε = {float(state.eccentricity_ratio[-1]):.5f}, "
+    return solved(state, found + f"h_min/σ = {float(state.minimum_film[-1]) / 1e-6:.3f}")
+
+
+@hard(
+    "journal",
+    "speed through zero under load, both ways",
+    why="no wedge, no scale of pressure; a smooth film carries nothing at ω = 0",
+    what="asperities carry all of the load at standstill, a state like every other",
+)
+def through_zero():
+    speeds = np.array([-0.5, -1e-2, -1e-6, 0.0, 1e-6, 1e-2, 0.5])
+    state = MAIN.equilibrium(LOAD, speeds, **MIXED, contact=ROUGH)
+    share = state.contact_share
+    assert share[3] > 1 - 1e-9
+    assert np.all(np.diff(share[:4]) > -1e-9)
+    assert np.all(np.diff(share[3:]) < 1e-9)
+    return solved(state, f"share of contact {share[0]:.4f} … 1 … {share[-1]:.4f}")

@@ -109,6 +109,9 @@ def test_contact_alone_is_the_integral_of_greenwood_and_tripp(shape):
         x, w = np.polynomial.legendre.leggauss(40)
         carried = 0.05 * sum(wi * along(0.05 * xi, np.cos) for xi, wi in zip(x, w))
         rel = 1e-3  # nodes on the cells of the film
+        narrowest = C - float(np.hypot(ex + 0.05 * ty, ey - 0.05 * tx))
+        assert state.contact_pressure == pytest.approx(float(ROUGH.pressure(narrowest)), rel=0.1)
+        assert state.contact_area == pytest.approx(float(ROUGH.area(narrowest)), rel=0.1)
     assert carried == pytest.approx(80e3, rel=rel)
 
 

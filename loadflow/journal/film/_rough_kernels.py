@@ -14,7 +14,7 @@ from loadflow.tribology import kernels as laws
 
 LEAST = 1e-3  # mean gap over the roughness: valleys stay open under any load
 _PRINTED = 1.0  # film parameter down to which φ_x h³ is taken as printed
-_NO_CONTACT = 12.0  # film parameter above which asperities carry less than rounding
+NO_CONTACT = 12.0  # film parameter above which asperities carry less than rounding
 
 
 @njit(cache=True, nogil=True)
@@ -157,19 +157,19 @@ def pressed(gap, s, weights_around, weights_across, held, reach, lengths, load, 
     """Sums over asperities at the nodes of a `gap` (n, rows), in units of K E*.
 
     `reach` (m, n) times `lengths` (m, rows) are the modes; `held` nodes, grooves, carry none.
-    Fills ∫ F N_j and −∫ F' N_j N_k / s, and returns ∫ F and the largest F.
+    Fills ∫ F N_j and −∫ F' N_j N_k / s, and returns ∫ F and the narrowest gap of those that touch.
     """
     n, rows = gap.shape
     size = load.size
-    normal, peak = 0.0, 0.0
+    normal, narrowest = 0.0, NO_CONTACT * s
     load[:] = 0.0
     stiffness[:] = 0.0
     for i in range(n):
         for k in range(rows):
-            if gap[i, k] > _NO_CONTACT * s or held[i, k]:
+            if gap[i, k] > NO_CONTACT * s or held[i, k]:
                 continue
             value, rise = laws.pressure_integral(gap[i, k] / s)
-            peak = max(peak, value)
+            narrowest = min(narrowest, gap[i, k])
             weight = weights_around[i] * weights_across[k]
             normal += weight * value
             for a in range(size):
@@ -177,4 +177,4 @@ def pressed(gap, s, weights_around, weights_across, held, reach, lengths, load, 
                 load[a] += mode * value
                 for b in range(size):
                     stiffness[a, b] -= mode * rise / s * reach[b, i] * lengths[b, k]
-    return normal, peak
+    return normal, narrowest

@@ -40,14 +40,15 @@ class Touch:
         Its derivative by the position, N per clearance.
     normal : float
         ∬ p_a dA, N.
-    peak : float
-        Largest p_a, Pa.
+    pressure, area : float
+        Largest p_a, Pa, and real over nominal area of contact there.
     """
 
     load: Array
     stiffness: Array
     normal: float
-    peak: float
+    pressure: float
+    area: float
 
 
 class AsperityLoad(Protocol):
@@ -83,7 +84,7 @@ class CylinderLoad:
         least = (1.0 - _FAR * s) / max(ratio, 1e-12)
         load, stiffness = np.zeros(2), np.zeros((2, 2))
         if least >= 1.0:
-            return Touch(load, stiffness, 0.0, 0.0)
+            return Touch(load, stiffness, 0.0, 0.0, 0.0)
         half = math.acos(max(least, -1.0))
         angle = half * self._x
         reach = np.stack([np.cos(angle), np.sin(angle)])
@@ -94,9 +95,11 @@ class CylinderLoad:
             gap, s, weights, one, none, reach, np.ones((2, 1)), load, stiffness
         )
         scale = self.contact.asperities.scale
-        peak = float(self.contact.asperities.pressure((1.0 - ratio) / s * self.contact.roughness))
         return Touch(
-            scale * (frame @ load), scale * (frame @ stiffness @ frame.T), scale * normal, peak
+            scale * (frame @ load),
+            scale * (frame @ stiffness @ frame.T),
+            scale * normal,
+            *_worst(self.contact, (1.0 - ratio) / s),
         )
 
 
@@ -138,13 +141,21 @@ class NodeLoad:
         """What they carry with the shaft at `position` (m,), clearances."""
         modes, size = self._modes, position.size
         load, stiffness = np.zeros(size), np.zeros((size, size))
-        normal, peak = kernel.pressed(
+        normal, least = kernel.pressed(
             modes.gaps(position, self._gap.curvature), self._roughness, self._around, self._across,
             self._held, modes.reach, modes.lengths, load, stiffness,
         )  # fmt: skip
         unit = self._area * self.contact.asperities.scale
-        peak *= self.contact.asperities.scale
-        return Touch(unit * load, unit * stiffness, unit * normal, peak)
+        worst = _worst(self.contact, least / self._roughness)
+        return Touch(unit * load, unit * stiffness, unit * normal, *worst)
+
+
+def _worst(contact: Contact, parameter: float) -> tuple[float, float]:
+    """Pressure, Pa, and share of the real area at a film parameter."""
+    if parameter >= kernel.NO_CONTACT:
+        return 0.0, 0.0
+    gap, asperities = parameter * contact.roughness, contact.asperities
+    return float(asperities.pressure(gap)), float(asperities.area(gap))
 
 
 def _nodes(

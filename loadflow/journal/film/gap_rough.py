@@ -62,6 +62,8 @@ class RoughGap(PlainGap):
         Radial clearance, m.
     """
 
+    open_share: Array
+
     def __init__(self, mesh: Mesh, contact: Contact, clearance: float) -> None:
         super().__init__(mesh)
         self.rough = _Rough(contact, clearance)

@@ -59,7 +59,8 @@ def _rubbing(film: DiscreteFilm, asperities: AsperityLoad, position: Array) -> d
     size = float(whole @ whole)
     return {
         "contact_force": carried,
-        "contact_pressure": touch.peak,
+        "contact_pressure": touch.pressure,
+        "contact_area": touch.area,
         "contact_power": asperities.contact.coefficient
         * touch.normal
         * abs(film.speed)

@@ -61,9 +61,8 @@ def closer_of(film: DiscreteFilm, load: Array, position: Array) -> Array:
     position : array (m,)
         By the closed form, clearances; what is not eccentricity is held.
     """
-    size = math.hypot(*load)
-    contact = film.contact
-    if contact is None or size == 0.0:
+    size, asperities = math.hypot(*load), film.contact
+    if asperities is None or size == 0.0:
         return position
     place = position.copy()
 
@@ -71,7 +70,7 @@ def closer_of(film: DiscreteFilm, load: Array, position: Array) -> Array:
         place[:2] = ratio * load / size
         if not film.gap.narrowest(place) > 0.0:
             return True
-        return float(contact.at(place).load[:2] @ load) >= size * size
+        return float(asperities.at(place).load[:2] @ load) >= size * size
 
     low, high = 0.0, 1.0
     while not carries(high) and high < _FAR:

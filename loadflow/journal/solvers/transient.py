@@ -221,6 +221,7 @@ _VARIABLES = (
     "supply_power",
     "total_fill",
     "contact_pressure",
+    "contact_area",
     "contact_power",
     "contact_share",
     "shell_deformation",

@@ -1,0 +1,62 @@
+"""Friction of a rig with three rough bearings beside its measured moments [Sander et al. 2015].
+
+The test bearing of a connecting rod stands between two support bearings that carry half of its
+load each; measured is the moment of the shaft on all three. Given: sizes, oil, K = 0.001, E* = 53.3
+GPa, μ = 0.02, R_q = 0.20 and 0.34 µm. Assumed: relative clearance 1e-3 of all three, rigid and
+aligned bearings, constant viscosity, the law of Reynolds with oil at edge pressure at the widest
+gap, asperities of the combined R_q, as the gap is that of the mean planes of all heights; no flow
+factors. Allowed: 15 % of the largest moment of a load, and 20 % of the speed of the least moment.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from loadflow.journal import Contact, Film, JournalBearing, Lubricant
+from loadflow.tribology import AsperityContact, combined_roughness
+from loadflow.validation.check import Check
+
+SANDER = "Sander, Allmaier, Priebsch, Witt and Skiadas 2015, measured"
+TEST, SUPPORT = JournalBearing(0.0478, 0.0172, 1e-3), JournalBearing(0.054, 0.025, 1e-3)
+ROUGH = AsperityContact(
+    roughness=float(combined_roughness(0.20e-6, 0.34e-6)), contact_modulus=53.3e9, factor=1e-3
+)
+FILM = Film(Lubricant(6.8e-3), contact=Contact(ROUGH, friction=0.02))
+MEASURED = {
+    8e3: {3000: 1.06, 1000: 0.544, 500: 0.43, 400: 0.46, 300: 0.58, 250: 0.747, 200: 1.076,
+          150: 1.71},
+    4e3: {3000: 0.96, 1000: 0.46, 500: 0.297, 400: 0.257, 300: 0.243, 250: 0.34, 150: 0.5},
+}  # fmt: skip
+"""Moment, N m, over the speed, 1/min, for each load, N."""
+
+_LEFT_OUT = "rigid, aligned bearings and constant viscosity leave too much of the load to the oil"
+
+
+def moments(load: float, speeds: np.ndarray) -> np.ndarray:
+    """Moment of the shaft on all three bearings, N m, at speeds (n,), 1/min."""
+    omega = speeds * np.pi / 30
+    tested, supporting = (
+        bearing.equilibrium((force, 0.0), omega, FILM)
+        for bearing, force in ((TEST, load), (SUPPORT, 0.5 * load))
+    )
+    return np.asarray((tested.friction_power + 2 * supporting.friction_power) / omega)
+
+
+def checks() -> Iterator[Check]:
+    """Yield all rows."""
+    for load, measured in MEASURED.items():
+        speeds, values = np.array(list(measured), dtype=float), np.array(list(measured.values()))
+        allowed = 0.15 * values.max()
+        for speed, expected, got in zip(speeds, values, moments(load, speeds)):
+            beyond = speed < 250
+            name = f"M, {load / 1e3:g} kN, {speed:g} 1/min"
+            refused = _LEFT_OUT if beyond else ""
+            yield Check(
+                name, SANDER, float(expected), float(got), allowed, "absolute", "N m", refused
+            )
+        fine = np.geomspace(speeds.min(), 1000.0, 40)
+        least = float(fine[moments(load, fine).argmin()])
+        name = f"speed of least moment, {load / 1e3:g} kN"
+        yield Check(name, SANDER, float(speeds[values.argmin()]), least, 0.2, unit="1/min")
