@@ -24,6 +24,7 @@ from loadflow.rolling import (
 from loadflow.rolling.rings.condensed import ring_modes
 from loadflow.rolling.rings.expansion import RingSections
 from loadflow.rolling.rings.patches import PatchPoints
+from loadflow.scene.bearings import Rolling
 
 STEEL = 210e9
 DRIVE = SlewingBearing(
@@ -314,6 +315,17 @@ def test_warm_and_cold_series_agree():
     assert warm.ball_forces == pytest.approx(cold.ball_forces, abs=1e-5)
     assert warm.maximum_force == pytest.approx(warm.ball_forces.max((-3, -2, -1)), rel=1e-12)
     assert warm.equivalent_load == pytest.approx(cold.equivalent_load, rel=1e-8)
+
+
+def test_the_last_mode_kept_favours_no_direction():
+    scene = Rolling(rings="flexible")  # more modes than are kept
+    bearing, rings = scene.geometry, scene.ring_model
+    turn = 2 * math.pi / bearing.balls
+    angle = np.array([0.3, 0.3 + turn])
+    tilt = 8e5 * np.stack([-np.sin(angle), np.cos(angle)], axis=1)
+    push = np.stack([4e5 * np.cos(angle), 4e5 * np.sin(angle), [3e5, 3e5]], axis=1)
+    first, second = bearing.equilibrium(push, tilt, rings=rings, chunk=1).ball_forces
+    assert second == pytest.approx(np.roll(first, 1, axis=-1), abs=1e-7 * first.max())
 
 
 @pytest.mark.parametrize("sectors", [None, legs(3, 0.4)])
