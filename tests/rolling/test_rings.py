@@ -21,8 +21,10 @@ from loadflow.rolling import (
     legs,
     patch_points,
 )
+from loadflow.rolling.rings.condensed import ring_modes
 from loadflow.rolling.rings.expansion import RingSections
 from loadflow.rolling.rings.patches import PatchPoints
+from loadflow.scene.bearings import Rolling
 
 STEEL = 210e9
 DRIVE = SlewingBearing(
@@ -313,6 +315,41 @@ def test_warm_and_cold_series_agree():
     assert warm.ball_forces == pytest.approx(cold.ball_forces, abs=1e-5)
     assert warm.maximum_force == pytest.approx(warm.ball_forces.max((-3, -2, -1)), rel=1e-12)
     assert warm.equivalent_load == pytest.approx(cold.equivalent_load, rel=1e-8)
+
+
+def test_the_last_mode_kept_favours_no_direction():
+    scene = Rolling(rings="flexible")  # more modes than are kept
+    bearing, rings = scene.geometry, scene.ring_model
+    turn = 2 * math.pi / bearing.balls
+    angle = np.array([0.3, 0.3 + turn])
+    tilt = 8e5 * np.stack([-np.sin(angle), np.cos(angle)], axis=1)
+    push = np.stack([4e5 * np.cos(angle), 4e5 * np.sin(angle), [3e5, 3e5]], axis=1)
+    first, second = bearing.equilibrium(push, tilt, rings=rings, chunk=1).ball_forces
+    assert second == pytest.approx(np.roll(first, 1, axis=-1), abs=1e-7 * first.max())
+
+
+@pytest.mark.parametrize("sectors", [None, legs(3, 0.4)])
+def test_waves_around_the_ring_shift_the_contacts_as_the_basis_does(sectors):
+    ring = dataclasses.replace(OUTER, supports=(flange(0.15, -0.02, sectors=sectors),))
+    modes = ring_modes(DRIVE, FlexibleRings(inner=INNER, outer=ring), 0.03)
+    waves = modes.waves
+    shift = np.zeros((modes.size, *waves.amplitude.shape[1:], DRIVE.balls))
+    for owner, wave, amplitude in zip(waves.owner, waves.wave, waves.amplitude):
+        shift[owner] += np.outer(amplitude, waves.trig[wave])
+    expected = modes.basis.reshape(3, -1, DRIVE.balls, modes.size).transpose(3, 1, 0, 2)
+    error = np.abs(shift.reshape(expected.shape) - expected).max(axis=(1, 2, 3))
+    assert (error < 1e-9 * np.abs(expected).max(axis=(1, 2, 3))).all()
+    if sectors is None:
+        assert len(waves.owner) < 4 * modes.size  # few waves stand for all contacts
+
+
+def test_a_chunk_does_not_depend_on_the_chunks_before_it():
+    t = np.linspace(0, 6, 24)
+    force = np.stack([4e3 * np.cos(t), 2e3 * np.sin(2 * t), 9e3 * np.sin(t)], axis=1)
+    whole = DRIVE.equilibrium(force, rings=BOTH, chunk=8)
+    last = DRIVE.equilibrium(force[16:], rings=BOTH, chunk=8)
+    np.testing.assert_array_equal(whole.displacement[16:], last.displacement)
+    np.testing.assert_array_equal(whole.stiffness[16:], last.stiffness)
 
 
 @pytest.mark.parametrize("fit", ["flange", "legs"])

@@ -187,12 +187,12 @@ def _rows(basis, push, slope, across, rows):
         along, side = math.sqrt(slope[kind, j]), math.sqrt(across[kind, j])
         gr, gt, gz = basis[0, i], basis[1, i], basis[2, i]
         first, second, third = rows[k], rows[k + 1], rows[k + 2]
-        lean = nt / flat
+        ratio = nt / flat
         for a in range(size):
             normal = nr * gr[a] + nz * gz[a]
             first[a] = along * (normal + nt * gt[a])
             second[a] = side * (br * gr[a] + bz * gz[a])
-            third[a] = side * (flat * gt[a] - lean * normal)
+            third[a] = side * (flat * gt[a] - ratio * normal)
         k += 3
     while k % 8:
         rows[k, :] = 0.0

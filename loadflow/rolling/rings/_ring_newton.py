@@ -77,14 +77,35 @@ def _condense(basis, push, slope, across, factor, solved, condensed):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _resisted(basis, push, slope, across):
-    """Smallest pivot of the rigid part of the tangent, over its largest diagonal term.
+def _free(basis, push, slope, across):
+    """Whether the contacts leave a motion without resistance.
 
-    A motion that the contacts do not resist leaves the modes at rest, so that the tangent is
-    singular where its rigid part alone is.
+    Such a motion leaves the modes at rest, so that the tangent is singular where its rigid part
+    alone is. What contacts resist along their forces nearly always decides; else all of it does.
     """
-    rigid, rest, step = tangent(basis[:, :, :5], push, slope, across), np.zeros(5), np.zeros(5)
-    return cholesky_solve(rigid, 0.0, rest, np.zeros((5, 5)), step)
+    balls, rigid, line = push.shape[1], np.zeros((5, 5)), np.zeros(5)
+    rest, step, small = np.zeros(5), np.zeros(5), np.zeros((5, 5))
+    for whole in (False, True):
+        rigid[:, :] = 0.0
+        for i in range(basis.shape[1]):
+            k, j = i // balls, i % balls
+            if slope[k, j] == 0.0:
+                continue
+            pr, pt, pz = push[3 * k, j], push[3 * k + 1, j], push[3 * k + 2, j]
+            side = across[k, j] if whole else 0.0
+            weight = (slope[k, j] - side) / (pr * pr + pt * pt + pz * pz)
+            gr, gt, gz = basis[0, i], basis[1, i], basis[2, i]
+            for a in range(5):
+                line[a] = pr * gr[a] + pt * gt[a] + pz * gz[a]
+                for b in range(a + 1):
+                    rigid[a, b] += weight * line[a] * line[b]
+            if whole:
+                for a in range(5):
+                    for b in range(a + 1):
+                        rigid[a, b] += side * (gr[a] * gr[b] + gt[a] * gt[b] + gz[a] * gz[b])
+        if cholesky_solve(rigid, 0.0, rest, small, step) > 1e-12:
+            return False
+    return True
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -236,7 +257,7 @@ def _newton(
         stiffest, _ = _direction(rest, factor, solved, condensed, cap, small, step)
         rounding = rounding_level(moved * stiffest) / max(external, 1e-4 * total, 1e-300)
     answered = is_small(residual, tolerance, rounding) and not beyond
-    singular = _resisted(basis, push, slope, across) <= 1e-12
+    singular = _free(basis, push, slope, across)
     return answered, residual, iterations, singular, rounding, held
 
 

@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 _ACROSS, _ALONG = 0.2, 0.02
 _LEFT_OUT, _MOST = 1e-5, 100  # share of the energy that modes may miss, and how many at most
 _ROUNDING = 1e-11  # share of a shift or compliance that is rounding, of the modes above all
+_TWIN = 1e-6  # relative distance below which two modes hold the same energy
 _FALL = 2.0  # harmonic n of the forces is taken to fall as 1/(1 + n)²
 
 
@@ -245,6 +246,10 @@ def _condense(factor: Array, contacts: Contacts, modes: int | None) -> tuple[Arr
         held = np.cumsum(values[order]) / values[order].sum()
         enough = int(np.searchsorted(held, 1 - _LEFT_OUT)) + 1
         modes = len(order) if len(order) <= _MOST else min(enough, _MOST)
+        # the cosine and sine of a harmonic stay together: which half of the pair comes first is
+        # rounding, and either alone would favour a direction
+        while modes < len(order) and values[order[modes]] > (1 - _TWIN) * values[order[modes - 1]]:
+            modes += 1
     kept = vectors[:, order[:modes]]
     scale = np.ones(kept.shape[1])
     local = 0.0
