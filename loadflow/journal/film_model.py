@@ -125,6 +125,8 @@ class Film:
             raise InputError("lubricant: not given; a film needs a Lubricant, or heat and its oil")
         if self.lubricant is not None and self.heat is not None:
             raise InputError("lubricant: not given with heat, as it follows from heat.oil")
+        known = self.contact is None or isinstance(self.contact, Contact)
+        require(known, "contact", self.contact, "a Contact, or None")
         check_rung(self.rung)
         require(self.inlet in ("auto", "widest gap", None), "inlet", self.inlet, _INLETS)
         require(self.grading in _GRADINGS, "grading", self.grading, " or ".join(_GRADINGS))

@@ -163,6 +163,15 @@ def test_an_orbit_passes_through_zero_speed_under_load(law, edge):
     assert path.contact_force.dims == ("time", "axis")
 
 
+def test_a_film_that_keeps_its_oil_keeps_it_in_contact():
+    time = np.linspace(0.0, 1.0, 41)
+    turn = 2 * np.pi * time
+    force = np.stack([80e3 * (1 + 0.2 * np.cos(turn)), 20e3 * np.sin(turn)], axis=-1)
+    path = BEARING.orbit(time, force, 1.0, film(law=MassConserving(), edge=1e5, grid=(60, 12)))
+    assert float(path.contact_share.max()) > 0.3
+    assert abs(path.attrs["mass_balance"]) < 1e-3
+
+
 def test_at_rest_for_long_the_film_is_squeezed_out():
     time = np.concatenate([[0.0], np.geomspace(1e-3, 1e5, 120)])
     path = BEARING.orbit(time, np.tile(LOAD, (time.size, 1)), 0.0, film(), start=(0.9 * C, 0.0))

@@ -60,7 +60,7 @@ def test_a_control_is_what_its_keywords_say():
         ({}, "lubricant: not given"),
         ({"film": OIL, "heat": Heat()}, "lubricant: not given with heat"),
         ({"film": FILM, "control": Control(), "strict": False}, "strict: not given with control"),
-        ({"film": Film(OIL, contact="rough")}, "no rung serves for contact .* contact = 'rough'"),
+        ({"film": OIL, "contact": "rough"}, "contact = 'rough' is not allowed: a Contact, or None"),
         ({"film": FILM, "weights": [1.0]}, "weights = .* without heat"),
     ],
 )

@@ -39,6 +39,10 @@ def test_a_film_at_its_temperature_is_that_of_oil_so_viscous(supply):
     for field in fields(alone):
         if field.name not in ("temperature", "residual", "iterations"):
             expected = getattr(alone, field.name)
+            if expected is None:  # what only rough surfaces have
+                assert field.name.startswith("contact_")
+                assert getattr(warm.film, field.name) is None
+                continue
             scale = np.max(np.abs(expected), initial=0.0)
             np.testing.assert_allclose(
                 getattr(warm.film, field.name),
