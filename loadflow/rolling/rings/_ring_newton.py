@@ -296,7 +296,8 @@ def solve_series(loads, rigid, waves, basis, table, local, reach, cap, tolerance
     rounding = np.zeros(n)
     x, load, condensed = np.zeros(size), np.zeros(size), np.zeros((5, 5))
     factor, solved = np.zeros((size - 5, size - 5)), np.zeros((5, size - 5))
-    moves, changes, held = np.zeros((_PAIRS, size)), np.zeros((_PAIRS, size)), 0
+    moves, changes = np.zeros((_PAIRS, size)), np.zeros((_PAIRS, size))
+    held = np.int64(0)  # a literal 0 would have the whole iteration compiled a second time
     for i in range(n):
         warm = i % chunk > 0 and converged[i - 1] and not singular[i - 1]
         ok, res, count, free = False, 0.0, 0, False
