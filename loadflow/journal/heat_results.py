@@ -77,6 +77,16 @@ class FilmHeatEquilibrium(_OverArea, WarmEquilibrium):
         Largest change of a temperature that the last solution of film and heat left, K.
     heat_iterations : array of int (…)
         Fields of temperature tried.
+
+    Examples
+    --------
+    >>> from loadflow.journal import Film, FilmHeat, JournalBearing, Lobes, MassConserving
+    >>> bearing = JournalBearing(diameter=0.2, width=0.1, relative_clearance=1e-3, shape=Lobes(2))
+    >>> heat = FilmHeat("iso-vg-68", inlet_temperature=313.15)
+    >>> film = Film(None, MassConserving(), edge_pressure=1e4, grid=(40, 8), heat=heat)
+    >>> state = bearing.equilibrium((8e3, 0.0), 100.0, film)
+    >>> bool(state.heat_imbalance < 1e-8)
+    True
     """
 
     angle: Array = field(default_factory=lambda: np.zeros(0))
@@ -88,4 +98,14 @@ class FilmHeatField(_OverArea, FilmField):
     """Film and temperature over its area at a given position of the shaft.
 
     Attributes are those of `FilmField` and the temperatures of `FilmHeatEquilibrium`.
+
+    Examples
+    --------
+    >>> from loadflow.journal import Film, FilmHeat, JournalBearing, Lobes, MassConserving
+    >>> bearing = JournalBearing(diameter=0.2, width=0.1, relative_clearance=1e-3, shape=Lobes(2))
+    >>> heat = FilmHeat("iso-vg-68", inlet_temperature=313.15)
+    >>> film = Film(None, MassConserving(), edge_pressure=1e4, grid=(40, 8), heat=heat)
+    >>> found = bearing.pressure((4e-5, 0.0), 100.0, film)
+    >>> bool(found.maximum_temperature > 313.15)
+    True
     """
