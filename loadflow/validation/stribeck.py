@@ -1,12 +1,13 @@
 """Friction of a rig with three rough bearings beside its measured moments [Sander et al. 2015].
 
-The test bearing of a connecting rod stands between two support bearings that carry half of its
-load each; measured is the moment of the shaft on all three. Given: sizes, oil, K = 0.001, E* = 53.3
-GPa, μ = 0.02, R_q = 0.20 and 0.34 µm. Assumed: relative clearance 1e-3 of all three, rigid and
-aligned bearings, constant viscosity, the law of Reynolds with oil at edge pressure at the widest
-gap, asperities of the combined R_q, as the gap is that of the mean planes of all heights; no flow
+The test bearing of a connecting rod stands between two support bearings that carry half of its load
+each; measured is the moment of the shaft on all three. Given: sizes, oil, K = 0.001, E* = 53.3 GPa,
+μ = 0.02, R_q = 0.20 and 0.34 µm. Assumed: relative clearance 1e-3 of all three, rigid and aligned
+bearings, constant viscosity, the law of Reynolds with oil at edge pressure at the widest gap,
+asperities of the combined R_q, as the gap is that of the mean planes of all heights; no flow
 factors. Both roughnesses were tried: with the combined σ of the summits the speeds of the least
-moment are 335 and 207 1/min, outside what is allowed. Allowed: 15 % of the largest moment of a load, and 20 % of the speed of the least moment.
+moment are 335 and 207 1/min, outside what is allowed. Allowed: 15 % of the largest moment of a
+load, and 20 % of the speed of the least moment.
 """
 
 from __future__ import annotations
