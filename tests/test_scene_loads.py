@@ -104,11 +104,11 @@ def test_an_option_reaches_the_loads_and_the_fingerprint_of_their_parts(change):
 
 def test_the_plan_says_which_effects_of_the_rotor_are_off():
     base = {"wind_speeds": [8], "seeds": 1}
-    told = make_plan(make_scene({"loads": dict(base)})).left_out
+    told = make_plan(make_scene({"accuracy": "given", "loads": dict(base)})).left_out
     assert {"dynamic inflow", "dynamic stall"} <= told.keys()
     assert "turn of blades bent both ways" not in told
     on = {"dynamic_inflow": True, "dynamic_stall": True, "bend_twist": 0.0}
-    told = make_plan(make_scene({"loads": base | on})).left_out
+    told = make_plan(make_scene({"accuracy": "given", "loads": base | on})).left_out
     assert not {"dynamic inflow", "dynamic stall"} & told.keys()
     assert "turn of blades bent both ways" in told
 

@@ -101,7 +101,7 @@ _AT_A_TIME = Lock()
 @contextmanager
 def _not_distributed() -> Iterator[None]:
     """Keep xarray in a Dask worker from asking its scheduler for a lock: memory needs none."""
-    if "dask" not in sys.modules:
+    if sys.modules.get("dask") is None:
         yield
         return
     import dask

@@ -273,6 +273,8 @@ def follow(
     time, speed = (loads[name].values.astype(float) for name in ("time", "speed"))
     freeing = moment if options.tilt else None
     temperature = mean_temperature(options, force, speed)
+    if temperature is not None and not np.isfinite(temperature):
+        raise SolverError("no heat balance: no sample of the series has a film that turns")
     film = (options if temperature is None else options.at_temperature(temperature)).film_model
     path = options.geometry.orbit(time, force, speed, film, moment=freeing, start=start)
     if temperature is None:

@@ -204,7 +204,9 @@ def _pressure(limits: JournalLimits, subject: str, table: xr.Dataset) -> Iterato
     value, case, time = _worst(table, "largest_pressure", "most")
     if not case:
         return
-    kelvin = float(table["largest_temperature"].sel(case=case)) if warm else limits.material[0][0]
+    kelvin = float(table["largest_temperature"].sel(case=case)) if warm else np.nan
+    warm = bool(np.isfinite(kelvin))  # a bearing of its own may be cold beside a warm one
+    kelvin = kelvin if warm else limits.material[0][0]
     points = ", ".join(f"{p / 1e6:g} MPa at {t - 273.15:.0f} °C" for t, p in limits.material)
     yield Verdict(
         subject, "largest film pressure", value, limits.pressure_at(kelvin), "at most", "Pa",

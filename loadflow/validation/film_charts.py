@@ -68,6 +68,7 @@ def squeeze_path_checks() -> Iterator[Check]:
     t = B D η/(F ψ²) ∫So_V dε; the path of "map" comes from our own film, the table does not.
     """
     from loadflow.journal import JournalBearing, Lubricant
+    from loadflow.journal.film_model import Inlet
 
     paths: tuple[tuple[float, str], ...] = ((0.5, "map"), (0.5, "holland"), (0.25, "map"))
     for width, rung in paths:
@@ -79,8 +80,9 @@ def squeeze_path_checks() -> Iterator[Check]:
         expected = integral * bearing.width * 0.05 / (load * 1e-6)
         time = np.linspace(0.0, 1.1 * expected, 400)
         force = np.tile([load, 0.0], (400, 1))
+        inlet: Inlet = None if rung == "map" else "auto"  # the closed form has its own
         orbit = bearing.orbit(
-            time, force, 0.0, Lubricant(0.05), inlet=None, grid=(60, 20), rung=rung,
+            time, force, 0.0, Lubricant(0.05), inlet=inlet, grid=(60, 20), rung=rung,
             start=(0.1 * bearing.clearance, 0.0),
         )  # fmt: skip
         got = float(np.interp(0.9, orbit.eccentricity_ratio.values, time))

@@ -80,7 +80,9 @@ def test_equilibrium_beside_the_grid(rung, share):
 def test_what_a_chart_cannot_say_is_none_and_nothing_else_is_nan():
     state = bearing(0.5).equilibrium([(1e5, 0.0), (0.0, 0.0)], [1.0, 1.0], OIL, rung="chart")
     missing = [name for name, value in vars(state).items() if value is None]
-    assert missing == ["total_fill", "stiffness", "damping", "temperature"]  # isothermal
+    smooth = [name for name in missing if name.startswith("contact_")]
+    others = [name for name in missing if name not in smooth]
+    assert others == ["total_fill", "stiffness", "damping", "temperature"]  # isothermal
     values = [np.asarray(v, dtype=float) for v in vars(state).values() if v is not None]
     assert all(np.isfinite(v).all() for v in values)
     assert state.eccentricity_ratio[1] == 0.0

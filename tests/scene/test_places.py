@@ -200,7 +200,7 @@ def test_paths_are_relative_to_the_scene(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path.parent)
     scene = read_scene(f"{tmp_path.name}/s.toml")
     assert scene.loads.files == [str(tmp_path / "a.outb")]
-    assert scene.loads.case_list == str(tmp_path / "cases.csv")
+    assert scene.loads.cases == str(tmp_path / "cases.csv")
     assert with_loads(scene, ["b.outb"]).loads.files == [str(tmp_path.parent / "b.outb")]
     path.write_text('[turbine]\nname = "own.toml"\n', encoding="utf-8")
     with pytest.raises(InputError, match=str(tmp_path / "own.toml")):

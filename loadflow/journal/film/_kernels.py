@@ -56,7 +56,7 @@ def apply_law(address, numbers, scale, u, state):
     _call(address, numbers.ctypes.data, scale, u.size, u.ctypes.data, state.ctypes.data)
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, error_model="numpy")
 def gap_coefficients(cos_face, sin_face, w_face, cos_cell, sin_cell, w_cell, stretch, ex, ey, out):
     """Coefficients of the gap H = 1 − ex cos θ − ey sin θ, `out` (8, nx + 1, 1).
 
@@ -320,7 +320,7 @@ def integrals(state, coef, dz, gz, closed, p_edge, p_line, groove):
     return peak, dissipation, shear, outflow, liquid, volume
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, error_model="numpy")
 def shaped_coefficients(face, face_gap, cell, cell_gap, ex, ey, coef, by_x, by_y):
     """Coefficients of the gap H = H_0 − ex cos θ − ey sin θ and their derivatives by ex and ey.
 

@@ -6,11 +6,12 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
+from pydantic import ValidationError
 
 from loadflow.data import gains
 from loadflow.errors import InputError
 from loadflow.journal import Heat
-from loadflow.scene.scene import Scene
+from loadflow.scene.scene import Journal, Scene
 from loadflow.shaft.beam import ShaftSection
 from loadflow.stages.effects.effect import Effect, Sizes
 from loadflow.stages.effects.situation import Film, Floats, Situation
@@ -127,14 +128,25 @@ def _inlet(scene: Scene) -> float:
 
 
 def _warmed(scene: Scene, on: bool) -> Scene | None:
-    """The scene with a heat balance; a stated viscosity is then that of the oil that enters."""
-    stated = scene.journal.model_dump(exclude_unset=True)
+    """The scene with a heat balance of each bearing, or without any."""
     if on == (scene.journal.heat is not None):
         return scene
+    journal = _with_heat(scene.journal, on)
+    own = {place: _with_heat(part, on) for place, part in scene.journal.own.items()}
+    if journal is None or None in own.values():
+        return None
+    return scene.model_copy(update={"journal": journal.model_copy(update={"own": own})})
+
+
+def _with_heat(journal: Journal, on: bool) -> Journal | None:
+    """A bearing with a heat balance; a stated viscosity is then that of the oil that enters."""
+    if on == (journal.heat is not None):
+        return journal
+    stated = journal.model_dump(exclude_unset=True, exclude={"own"})
     if not on:
-        return with_settings(scene, "journal", {"heat": None})
+        return type(journal).model_validate(stated | {"heat": None})
     stated.pop("lubricant", None)
-    oil, cool = lubricant(MODEL_OIL), scene.journal.lubricant
+    oil, cool = lubricant(MODEL_OIL), journal.lubricant
     inlet = Heat().inlet_temperature
     share = cool.viscosity / float(oil.viscosity(inlet))
     thick, thin = (nu * share for nu in oil.viscosities)
@@ -149,10 +161,9 @@ def _warmed(scene: Scene, on: bool) -> Scene | None:
         # Walther's law does not scale: meet the stated viscosity at the inlet
         exact = cool.viscosity / float(entering.viscosity(inlet))
         entering = replace(entering, viscosities=(thick * exact, thin * exact))
-    except InputError:
+        return type(journal).model_validate(stated | {"heat": Heat(oil=entering)})
+    except (InputError, ValidationError):
         return None
-    journal = type(scene.journal).model_validate(stated | {"heat": Heat(oil=entering)})
-    return scene.model_copy(update={"journal": journal})
 
 
 HEAT = Effect(
