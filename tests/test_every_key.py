@@ -373,6 +373,9 @@ def before(place, base, section):
     return _BEFORE[key]
 
 
+KINDS_OF_TABLES = {"heat.kind"}
+"""Keys that say which other keys a table has, so that none of them changes alone."""
+
 WALKS = [(name, section) for name, sections in READERS.items() for section in sections]
 
 
@@ -390,7 +393,7 @@ def test_every_key_of_a_section_does_something_or_is_told(name, section, place):
         else:
             (silent if "" in tried else stuck).append(".".join(map(str, path)))
     assert silent == []
-    assert stuck == []
+    assert set(stuck) <= KINDS_OF_TABLES
 
 
 def test_the_walk_goes_through_every_section():

@@ -78,7 +78,8 @@ def test_a_start_up_goes_through_to_the_film_and_flags_standstill(tmp_path):
     speed, carried = np.abs(film["speed"].values), film["converged"].values.astype(bool)
     assert not carried[speed == 0.0].any()
     assert carried[speed > 0.3].all()
-    assert run.flagged == {"dlc3.1_v12_s1, journal": int(np.count_nonzero(~carried))}
+    assert run.flagged == {}  # standing in contact is a state, not a missing answer
+    assert (film["in_contact"].values[~carried] == 1).all()
     assert np.isfinite(film["eccentricity_ratio"].values[carried]).all()
 
 

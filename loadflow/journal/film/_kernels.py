@@ -47,7 +47,7 @@ def _call(typing_context, address, numbers, scale, count, u, state):
     return signature, code
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, error_model="numpy")
 def apply_law(address, numbers, scale, u, state):
     """Fill `state` (8, nx, nz) from the unknowns `u` (nx, nz) by the law at `address`.
 
@@ -95,7 +95,7 @@ def gap_coefficients(cos_face, sin_face, w_face, cos_cell, sin_cell, w_cell, str
             out[HINV, i, 0] += w / h
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, error_model="numpy")
 def balance(state, coef, dz, area, gz, closed, wedge, p_edge, p_line, f_line, mass, groove, out):
     """Add the outflow of each cell to `out` (nx, nz); linear in `coef` and `mass` (nx, rows).
 
@@ -138,7 +138,7 @@ def balance(state, coef, dz, area, gz, closed, wedge, p_edge, p_line, f_line, ma
                 out[i, k + 1] -= q
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, error_model="numpy")
 def largest_terms(state, coef, dz, area, gz, closed, wedge, p_edge, p_line, mass, groove):
     """Largest sum of the magnitudes of the terms of `balance` in a cell; grooves have none."""
     _, nx, nz = state.shape
@@ -168,7 +168,7 @@ def largest_terms(state, coef, dz, area, gz, closed, wedge, p_edge, p_line, mass
     return most
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, error_model="numpy")
 def jacobian(state, coef, dz, area, gz, closed, wedge, mass, order, fixed, ab):
     """Band matrix ∂(balance + slack)/∂u in LAPACK's layout, `ab` (n, 3 kl + 1), column by row."""
     _, nx, nz = state.shape
@@ -224,7 +224,7 @@ def jacobian(state, coef, dz, area, gz, closed, wedge, mass, order, fixed, ab):
                 ab[at, mid] = 1.0
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, error_model="numpy")
 def gather(field, order, column):
     """Write `field` (nx, nz) into `column` (n,) in solver order."""
     nx, nz = field.shape
@@ -233,7 +233,7 @@ def gather(field, order, column):
             column[order[i] * nz + k] = field[i, k]
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, error_model="numpy")
 def load_of(load, around, across, dz, out):
     """∫ p N_j over the film for modes N_j = around_j (m, nx) · across_j (m, rows), `out` (m,)."""
     nx, nz = load.shape
@@ -247,7 +247,7 @@ def load_of(load, around, across, dz, out):
             out[j] += around[j, i] * total
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, error_model="numpy")
 def carried_by(slope, around, across, dz, order, columns, out):
     """Change of `load_of` by each of `columns` (l, n) of changes of the unknowns, `out` (l, m)."""
     nx, nz = slope.shape
@@ -263,7 +263,7 @@ def carried_by(slope, around, across, dz, order, columns, out):
                 out[c, j] += around[j, i] * total
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, error_model="numpy")
 def correct(u, columns, weights, order):
     """Subtract Σ weights · columns from `u`; returns the largest change."""
     nx, nz = u.shape
@@ -280,7 +280,7 @@ def correct(u, columns, weights, order):
     return largest
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, error_model="numpy")
 def integrals(state, coef, dz, gz, closed, p_edge, p_line, groove):
     """Integrals over the solved film, in the units of this module.
 
@@ -359,7 +359,7 @@ def shaped_coefficients(face, face_gap, cell, cell_gap, ex, ey, coef, by_x, by_y
             coef[HINV, i, k] = w / h
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, error_model="numpy")
 def mode_slope(by_x, by_y, ax, ay, across, out):
     """Derivative of the coefficients by a mode that moves the shaft by (ax, ay) (nx) · across."""
     nx = ax.size
@@ -372,7 +372,7 @@ def mode_slope(by_x, by_y, ax, ay, across, out):
                 out[row, i, k] = x * by_x[row, i, k] + y * by_y[row, i, k]
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, error_model="numpy")
 def faces_across(coef, dz, slope, out):
     """Fill row H3 of `out` from CELL3 of `coef`: conductances in series from centre to centre.
 

@@ -14,7 +14,7 @@ from loadflow.journal.film._kernels import CELL3, FILL, H3, E, G, P
 ITSELF, BEFORE, AFTER, INNER, OUTER = range(5)
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, error_model="numpy")
 def gap_stencil(
     state, coef, face, face_gap, cell, cell_gap, dz, gz, closed, wedge, rims, storing, groove, out
 ):
@@ -77,7 +77,7 @@ def gap_stencil(
             out[ITSELF, i, k + 1] -= there
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, error_model="numpy")
 def add_stencil(stencil, growth, order, fixed, ab):
     """Add what follows from the `growth` (nx, nz) of each gap by its own unknown to the band."""
     _, nx, nz = stencil.shape
@@ -92,7 +92,7 @@ def add_stencil(stencil, growth, order, fixed, ab):
                     ab[column, mid + row - column] += stencil[at, i, k] * growth[i, k]
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, error_model="numpy")
 def spread(stencil, growth, out):
     """Add the change of the balance by a `growth` (l, nx, nz) of the gaps to `out` (l, nx, nz)."""
     _, nx, nz = stencil.shape
@@ -105,7 +105,7 @@ def spread(stencil, growth, out):
                         out[line, j, m] += stencil[at, i, k] * growth[line, i, k]
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, error_model="numpy")
 def _neighbour(at, i, k, nx):
     """Cell that row `at` of the stencil of cell (i, k) belongs to."""
     if at == BEFORE:
