@@ -8,7 +8,6 @@ import numpy as np
 
 from loadflow.data import ladder
 from loadflow.errors import InputError
-from loadflow.rolling import BallBearing, SlewingBearing
 from loadflow.scene.bearings import FurtherBearing, Rolling
 from loadflow.scene.scene import Scene
 from loadflow.stages.effects.effect import Effect, Sizes
@@ -26,7 +25,7 @@ def _softness(part: FurtherBearing) -> float:
     Both rings in a row, of the sections stated or of squares with sides of `RING` elements.
     """
     bearing: Any = part.geometry
-    balls = isinstance(bearing, SlewingBearing | BallBearing)
+    balls = bearing.element == "ball"
     diameter = float(bearing.ball_diameter if balls else getattr(bearing, "roller_diameter", 0.1))
     count = float(bearing.balls if balls else getattr(bearing, "rollers", 60))
     pitch = float(getattr(bearing, "pitch_diameter", 2.0))
@@ -79,8 +78,9 @@ def _centrifugal(at: Situation) -> Sizes:
     """Centrifugal force m r (ω/2)² of an element against its mean share of the load."""
     found = 0.0
     for name, part in at.scene.rolling.bearings.items():
-        bearing, load = part.geometry, at.bearings[name]
-        if not isinstance(bearing, SlewingBearing):
+        bearing: Any = part.geometry
+        load = at.bearings[name]
+        if bearing.element != "ball":
             continue
         mass = STEEL_DENSITY * np.pi / 6 * bearing.ball_diameter**3
         force = mass * bearing.pitch_diameter / 2 * (at.speed / 2) ** 2
@@ -100,6 +100,6 @@ CENTRIFUGAL = Effect(
     out="main bearings turn too slowly for it; loadflow.rolling.motion.spinning has it",
     needs="loadflow.rolling.motion.spinning, by hand",
     concerns=lambda scene: any(
-        isinstance(part.geometry, SlewingBearing) for part in scene.rolling.bearings.values()
+        part.geometry.element == "ball" for part in scene.rolling.bearings.values()
     ),
 )
