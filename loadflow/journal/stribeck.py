@@ -88,7 +88,9 @@ def stribeck(
     >>> film = Film(Lubricant(0.03), contact=Contact(rough, friction=0.1))
     >>> bearing = JournalBearing(diameter=0.2, width=0.1, relative_clearance=1e-3)
     >>> curve = stribeck(bearing, (80e3, 0.0), (0.1, 50.0), film, points=7)
-    >>> 0.5 < float(curve.transition_speed) < float(curve.minimum_speed) < 5.0
+    >>> round(float(curve.transition_speed), 1)
+    0.9
+    >>> bool(curve.transition_speed < curve.minimum_speed < 5.0)
     True
     """
     import xarray as xr
