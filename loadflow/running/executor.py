@@ -11,7 +11,13 @@ import logging
 import os
 import signal
 from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import CancelledError, ProcessPoolExecutor, as_completed
+from concurrent.futures import (
+    CancelledError,
+    Future,
+    ProcessPoolExecutor,
+    ThreadPoolExecutor,
+    as_completed,
+)
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
@@ -103,6 +109,9 @@ class _Processes:
     def __init__(self, workers: int) -> None:
         self.workers = workers
         self._pool: ProcessPoolExecutor | None = None
+        # starts the processes: a signal interrupts the main thread only, and a process whose start
+        # is cut in two is known to nobody and dies with a traceback
+        self._starter = ThreadPoolExecutor(1)
 
     def outcomes(
         self, work: Callable[[Item], Outcome], items: Iterable[Item]
@@ -140,17 +149,26 @@ class _Processes:
     def _finished(
         self, work: Callable[[Item], Outcome], items: list[Item]
     ) -> Iterator[tuple[int, Outcome]]:
+        numbers = self._starter.submit(self._submitted, work, items).result()
+        for future in as_completed(numbers):
+            yield numbers[future], future.result()
+
+    def _submitted(
+        self, work: Callable[[Item], Outcome], items: list[Item]
+    ) -> dict[Future[Outcome], int]:
         if self._pool is None:
             # spawned, not forked: HDF5 and numba hold threads and locks that do not survive a fork
             self._pool = ProcessPoolExecutor(
                 self.workers, get_context("spawn"), initializer=_start_worker
             )
-        numbers = {self._pool.submit(work, item): k for k, item in enumerate(items)}
-        for future in as_completed(numbers):
-            yield numbers[future], future.result()
+        if hasattr(signal, "pthread_sigmask"):  # inherited: the keyboard is the parent's from birth
+            signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+        return {self._pool.submit(work, item): k for k, item in enumerate(items)}
 
     def kill(self) -> None:
         """End the processes at once: what they write is whole or not there."""
+        self._starter.shutdown(wait=True)
+        self._starter = ThreadPoolExecutor(1)
         pool, self._pool = self._pool, None
         if pool is not None:
             # public only from Python 3.14 on (kill_workers)
