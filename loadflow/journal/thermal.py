@@ -70,7 +70,7 @@ def warm_film(
         A load without a film, or whose balance lies above 150 °C.
     """
     assert isinstance(film.heat, Heat)
-    _check_scalable(film)
+    check_scalable(film)
     balance = _Balance(at_rest, force, speed, film.heat, weights)
     warmth = balance.solve(tolerance, max_iterations)
     state = balance.film(warmth.temperature, np.arange(speed.size))
@@ -226,8 +226,14 @@ def shares(weights: ArrayLike | None, shape: tuple[int, ...]) -> Array | None:
     return share
 
 
-def _check_scalable(film: Film) -> None:
-    """Refuse what does not depend on viscosity times speed alone."""
+def check_scalable(film: Film) -> None:
+    """Refuse what does not depend on viscosity times speed alone.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        A groove with an orifice, a pump or a given flow.
+    """
     supply = film.supply
     if supply is not None:
         feeds = [supply.pump, *(groove.restrictor for groove in supply.grooves)]
