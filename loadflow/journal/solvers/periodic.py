@@ -111,7 +111,6 @@ def close_orbit(
         f"the orbit does not close: its ends differ by {residual:.3g} after {max_periods} "
         f"periods, where rounding allows {rounding:.3g}, at ε = "
         f"{math.hypot(*past[-1].position):.6g}; effective speed "
-        f"effective speed "
         f"{effective_speed(float(speed.mean()), load=load_speed(time, force)):.6g} rad/s"
     )
 
