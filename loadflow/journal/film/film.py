@@ -99,6 +99,7 @@ class DiscreteFilm:
         self.pockets = pockets
         self.fixed = self.grooved = pockets.fixed  # cells held, and those of them without drag
         self.given = pockets.given(edge_pressure)
+        self.lifts = pockets.lifts(edge_pressure)  # whether the supply may carry a load at rest
         self.set_scale(0.0)
         self.set_speed(0.0)
 

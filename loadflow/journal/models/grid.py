@@ -83,8 +83,7 @@ def orbit(
         bearing, film, force, speed, line, steps.start, first_limits
     )
     discrete = statics.film
-    fed = discrete.pockets.lifts(discrete.p_edge)
-    if steps.periodic and statics.gap.axisymmetric and not fed:
+    if steps.periodic and statics.gap.axisymmetric and not discrete.lifts:
         refuse_half_speed_whirl(time, force, speed)
     march_limits = limits.tolerance, limits.max_iterations
     marcher = Marcher(discrete, *march_limits, steps.accuracy, statics.shaft)

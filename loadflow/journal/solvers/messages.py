@@ -66,7 +66,7 @@ def why_unsolved(
         )
     head = f"F = ({load[0]:.6g}, {load[1]:.6g}) N at {at}: "
     if film.speed == 0.0 and film.contact is None:
-        if not film.pockets.lifts(film.p_edge):
+        if not film.lifts:
             return head + AT_REST
         if load.any() and not gap.pads.size and not film.dry(solution.u):
             return head + _most(film, gap, load)

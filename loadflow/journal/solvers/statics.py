@@ -341,8 +341,7 @@ class Statics:
     def _carries(self, force: Array) -> bool:
         """Whether anything may carry a load at the speed that is set."""
         film = self.film
-        turns = film.speed != 0.0 or film.pockets.lifts(film.p_edge)
-        return turns or (film.contact is not None and bool(force.any()))
+        return film.speed != 0.0 or film.lifts or (film.contact is not None and bool(force.any()))
 
     def _checked(self, solution: Solution) -> Solution:
         """The same, not converged where the shell meets the shaft or a fed groove falls dry."""
@@ -395,7 +394,7 @@ class Statics:
     ) -> Iterator[tuple[Array, Array]]:
         """Where Newton may start: from the last solution if the estimate has moved little."""
         film, gap = self.film, self.gap
-        lifts, fed = film.pockets.lifts(film.p_edge), film.pockets.free.size > 0
+        lifts, fed = film.lifts, film.pockets.free.size > 0
         if lifts and fed:
             yield from self._floating(force, estimate)
         if last is not None and last.estimate is not None and _same(last.free, free):
