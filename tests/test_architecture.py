@@ -27,7 +27,7 @@ FLOORS = (
     ("wind", "rotor", "shaft", "seeds", "reduction", "readers"),
     ("cube", "turbines", "tribology"),
     ("numerics",),
-    ("storage", "verdict", "quantities"),
+    ("storage", "schemas", "verdict", "quantities"),
     ("errors", "data"),
 )
 """Rooms from top to bottom. Those of one floor may use each other, if none does in a circle."""

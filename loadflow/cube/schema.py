@@ -5,6 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
+from typing import TYPE_CHECKING
+
+from loadflow.schemas import Schema
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 AXES = ("x", "y", "z")
 
@@ -68,6 +74,24 @@ CASE_COORDS: Mapping[str, Variable] = MappingProxyType(
 """Coordinates on ``case``; what else varied may be added under a name of its own."""
 
 TIME = Variable("s", "time from the start of the series", ("time",))
+
+
+def _labelled(data: xr.Dataset) -> tuple[xr.Dataset, list[str]]:
+    """Version 1 could leave out what a variable means; the table knows it."""
+    told = []
+    for name, known in (VARIABLES | CASE_COORDS | {"time": TIME}).items():
+        if name not in data.variables or not {*data[name].dims} <= {*known.dims}:
+            continue
+        attributes = data[name].attrs
+        if attributes.get("units", "") == known.units and "long_name" not in attributes:
+            attributes["long_name"] = known.long_name
+            told.append(f"{name} is labelled {known.long_name!r}")
+    return data, told
+
+
+CUBE = Schema("load cube", "loadflow_schema", (_labelled,))
+"""Form of cubes on disk, said by an attribute of the file. 2: every variable has ``long_name``;
+1, or no such attribute: it may be missing."""
 
 
 def case_name(dlc: str, wind_speed: float, seed: int) -> str:
