@@ -35,8 +35,9 @@ class Variable:
 
     @property
     def attrs(self) -> dict[str, str]:
-        """Attributes of the xarray variable."""
-        return {"units": self.units, "long_name": self.long_name}
+        """Attributes of the xarray variable; text has no units."""
+        units = {"units": self.units} if self.units else {}
+        return units | {"long_name": self.long_name}
 
 
 _SCALAR = ("case", "time")
@@ -62,7 +63,7 @@ CASE_COORDS: Mapping[str, Variable] = MappingProxyType(
     {
         "dlc": Variable("", "design load case", ("case",)),
         "wind_speed": Variable("m/s", "mean wind speed at hub height", ("case",)),
-        "seed": Variable("", "seed of the turbulence", ("case",)),
+        "seed": Variable("1", "seed of the turbulence", ("case",)),
         "weight": Variable("1", "share of the lifetime", ("case",)),
         "tripped": Variable("s", "overspeed trip: 0 in the run-in, NaN if none", ("case",)),
         "file": Variable("", "file the case was read from", ("case",)),
