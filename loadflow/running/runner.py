@@ -31,12 +31,12 @@ from loadflow.running.cases import Outcome, do_case, is_missing, is_ready, open_
 from loadflow.running.compiling import Compiling
 from loadflow.running.executor import Executor, Lost, executor
 from loadflow.running.folder import (
-    climbs,
     known_verdict,
     part_file,
     part_files,
     prepare,
     record,
+    refinements,
 )
 from loadflow.running.lock import locked
 from loadflow.running.parts import save_part
@@ -218,15 +218,15 @@ def _run(
     profile: Profile | None,
 ) -> Run:
     log.info("loadflow %s, %s, %d workers", loadflow.__version__, folder, where.workers)
-    climbed = climbs(folder, scene)
+    refined = refinements(folder, scene)
     begun = time.perf_counter()
     pilot_verdict = known_verdict(folder, scene) or pilot(scene, say)
     if profile:
         profile.add_wall("pilot", time.perf_counter() - begun)
     while True:
         started = time.perf_counter()
-        plan = make_plan(scene, climbed, pilot_verdict)
-        manifest = prepare(folder, scene, plan, climbed, overwrite, pilot_verdict)
+        plan = make_plan(scene, refined, pilot_verdict)
+        manifest = prepare(folder, scene, plan, refined, overwrite, pilot_verdict)
         timing, failures = _carry_out(plan, folder, where, say, profile, pilot_verdict)
         begun = time.perf_counter()
         tree = _collect(plan, folder)
@@ -239,7 +239,7 @@ def _run(
         if not higher:
             break
         log.info("not accurate enough, better models of: %s", ", ".join(higher))
-        climbed = [*climbed, *higher]
+        refined = [*refined, *higher]
         overwrite = True  # the parts of the coarser models are this run's own
     if report:
         begun = time.perf_counter()
