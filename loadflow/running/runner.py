@@ -47,7 +47,7 @@ from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
 from loadflow.scene.unused import unused_keys
 from loadflow.stages.registry import STAGES
-from loadflow.storage import check_name
+from loadflow.storage import check_name, write_text
 from loadflow.verdict import Verdict, from_dataset, to_dataset
 
 log = logging.getLogger("loadflow.run")
@@ -231,6 +231,7 @@ def _run(
         begun = time.perf_counter()
         tree = _collect(plan, folder)
         save_cube(tree, folder / "result.h5")
+        _export(plan, folder)
         wall = time.perf_counter() - started
         if profile:
             profile.add_wall("result", time.perf_counter() - begun)
@@ -389,6 +390,18 @@ def _collect(plan: Plan, folder: Path) -> xr.DataTree:
             for path, node in _nodes(data)
         }
     )
+
+
+def _export(plan: Plan, folder: Path) -> None:
+    """Write what stages give as text, for other programs."""
+    for step in plan.of_scope("case"):
+        if (exports := step.stage.exports) is None:
+            continue
+        for case in plan.cases:
+            if (part := part_file(folder, step.name, case)).exists():
+                for name, text in exports(case, open_cube(part)).items():
+                    (folder / name).parent.mkdir(exist_ok=True)
+                    write_text(folder / name, text)
 
 
 def _judged(
