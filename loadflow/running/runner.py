@@ -227,7 +227,7 @@ def _run(
     log.info("loadflow %s, %s, %d workers", loadflow.__version__, folder, where.workers)
     refined = refinements(folder, scene)
     begun = time.perf_counter()
-    pilot_verdict = known_verdict(folder, scene) or pilot(scene, say)
+    pilot_verdict = known_verdict(folder, scene) or pilot(scene, say, where.outcomes)
     if profile:
         profile.add_wall("pilot", time.perf_counter() - begun)
     while True:
@@ -305,7 +305,7 @@ def _carry_out(
             begun = time.perf_counter()
             cases = _looked_at(whole, plan.cases, folder, seen)
             by_name = {case.name: case for case in cases}
-            inputs = OpenedLate(by_name, lambda case: open_inputs(whole, case, folder))
+            inputs = OpenedLate(by_name, partial(open_inputs, whole, folder=folder))
             with Compiling() as compiling:
                 save_part(whole.stage.run(plan.scene, cases, inputs), target, whole.digest)
             timing[whole.name] = time.perf_counter() - begun
