@@ -16,7 +16,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from loadflow.errors import LoadflowError, SolverError
-from loadflow.planning.effects import Verdict, concerned, estimates, switched
+from loadflow.planning.effects import EffectVerdict, concerned, estimates, switched
 from loadflow.planning.plan import chosen_models, needed_stages
 from loadflow.scene.cases import Case, list_cases
 from loadflow.scene.scene import Scene
@@ -39,7 +39,7 @@ Report = Callable[[str, int, int], None]
 
 
 @threadpool_limits.wrap(limits=1)
-def pilot(scene: Scene, say: Report = lambda stage, done, total: None) -> Verdict | None:
+def pilot(scene: Scene, say: Report = lambda stage, done, total: None) -> EffectVerdict | None:
     """Measure the effects of a scene.
 
     Parameters
@@ -51,7 +51,7 @@ def pilot(scene: Scene, say: Report = lambda stage, done, total: None) -> Verdic
 
     Returns
     -------
-    Verdict or None
+    EffectVerdict or None
         None where the scene asks for no accuracy, or no effect is worth a measurement.
 
     Raises
@@ -82,7 +82,7 @@ def pilot(scene: Scene, say: Report = lambda stage, done, total: None) -> Verdic
             }
     refused = {name: why for one in found for name, why in one.refused.items()}
     seconds = round(time.process_time() - started, 2)
-    return Verdict(sizes, refused, tuple(case.name for case in looked_at), seconds)
+    return EffectVerdict(sizes, refused, tuple(case.name for case in looked_at), seconds)
 
 
 def hardest(scene: Scene, cases: tuple[Case, ...]) -> list[Case]:
