@@ -22,7 +22,7 @@ from loadflow.journal.solvers.assembly import (
     raise_not_converged,
 )
 from loadflow.journal.solvers.assembly_orbit import series
-from loadflow.journal.surfaces import FLAT, Cone, Flat, Profile
+from loadflow.journal.surfaces import FLAT, Cone, Profile
 from loadflow.numerics.convergence import Limits
 from loadflow.numerics.fields import require
 
@@ -98,8 +98,7 @@ class ConicalBearing:
         if (self.pads is None) != (self.pad_angle is None):
             raise InputError("pads and pad_angle are given together, or none for a whole ring")
         if self.pads is None:
-            flat = isinstance(self.profile, Flat)
-            require(flat, "profile", self.profile, "Flat() for a whole ring")
+            require(self.profile == FLAT, "profile", self.profile, "Flat() for a whole ring")
             require(self.pivot is None, "pivot", self.pivot, "None for a whole ring")
         else:
             even_pads(self.pads, self.pad_angle or 0.0, self.first_pad)

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -124,12 +124,10 @@ def _prepared(
     bearing: JournalGeometry, options: Film, line: Line, rate: float
 ) -> tuple[Statics, EnergyEquation]:
     """Film and energy equation."""
-    heat = options.heat
-    assert isinstance(heat, FilmHeat)
     require(options.shell is None, "shell", options.shell, "None with heat over the area")
     statics = Statics(bearing, options, line, rate)
-    assert isinstance(statics.gap, WarmGap)
-    return statics, EnergyEquation(statics.film, statics.gap, heat)
+    gap, heat = cast("WarmGap", statics.gap), cast("FilmHeat", options.heat)
+    return statics, EnergyEquation(statics.film, gap, heat)
 
 
 def _settled(
