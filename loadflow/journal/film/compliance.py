@@ -25,7 +25,7 @@ _HARMONICS = 2  # times the cells around: what a pressure even over a cell has b
 
 @dataclass(frozen=True, eq=False)
 class Local:
-    """Every cell gives way for itself."""
+    """Every cell deforms under its own pressure alone."""
 
     local: Array
     spreads: bool = False
