@@ -22,7 +22,7 @@ from loadflow.journal.solvers.assembly import (
     raise_not_converged,
 )
 from loadflow.journal.solvers.assembly_orbit import series
-from loadflow.journal.surfaces import FLAT, Cone, Flat, Profile
+from loadflow.journal.surfaces import FLAT, Cone, Profile
 from loadflow.numerics.convergence import Limits
 from loadflow.numerics.fields import require
 
@@ -98,8 +98,7 @@ class ConicalBearing:
         if (self.pads is None) != (self.pad_angle is None):
             raise InputError("pads and pad_angle are given together, or none for a whole ring")
         if self.pads is None:
-            flat = isinstance(self.profile, Flat)
-            require(flat, "profile", self.profile, "Flat() for a whole ring")
+            require(self.profile == FLAT, "profile", self.profile, "Flat() for a whole ring")
             require(self.pivot is None, "pivot", self.pivot, "None for a whole ring")
         else:
             even_pads(self.pads, self.pad_angle or 0.0, self.first_pad)
@@ -138,7 +137,7 @@ class ConicalBearing:
             across, default (80, 20) for a whole ring, (40, 20) for each segment. There is no line
             of fresh oil: `inlet` is "auto" or None.
         velocity : array_like (3,)
-            Of the shaft, m/s; segments that give way stay at rest.
+            Of the shaft, m/s; segments on supports stay at rest.
         tilt : array_like (2,)
             Rotation of the shaft about the first and the second axis, rad.
         control : Control, optional
@@ -165,7 +164,7 @@ class ConicalBearing:
         assembly = self._assembly(film, speed, rate)
         state = self._started(assembly, np.append(place, turned), speed)
         state = AssemblyState(state.position, np.append(moving, np.zeros(2)), state.members)
-        check_room(assembly, state)
+        check_gap(assembly, state)
         limits = control.limits(1e-10, 60)
         state = assembly.solve(state, np.zeros(BODY), HELD, limits)
         if not state.converged and limits.strict:
@@ -290,7 +289,7 @@ class ConicalBearing:
         else:
             place = finite("start", start, 3)
         state = self._started(assembly, np.append(place, turned), first)
-        check_room(assembly, state)
+        check_gap(assembly, state)
         loads = np.column_stack([forces, moments])
         free = _SHIFTS if moment is None else _ALL
         return self.row.orbit(assembly, state, times, loads, speeds, free, control)
@@ -407,7 +406,7 @@ def loading(
     return wanted, turned, _ALL
 
 
-def check_room(assembly: Assembly, state: AssemblyState) -> None:
+def check_gap(assembly: Assembly, state: AssemblyState) -> None:
     """Refuse a position at which the shaft touches the bearing."""
     narrowest = assembly.narrowest(state)
     if narrowest <= 0.0:

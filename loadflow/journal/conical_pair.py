@@ -15,7 +15,7 @@ from loadflow.journal.cone import (
     HELD,
     RATIOS,
     ConicalBearing,
-    check_room,
+    check_gap,
     loading,
 )
 from loadflow.journal.film_model import Control, Film, Keywords, film_and_control
@@ -115,7 +115,7 @@ class ConicalPair:
         assembly = self._assembly(film, speed, float(np.linalg.norm(moving)))
         state = self._started(assembly, np.append(place, turned), speed)
         state = AssemblyState(state.position, np.append(moving, np.zeros(2)), state.members)
-        check_room(assembly, state)
+        check_gap(assembly, state)
         limits = control.limits(1e-10, 60)
         state = assembly.solve(state, np.zeros(BODY), HELD, limits)
         if not state.converged and limits.strict:

@@ -148,7 +148,7 @@ class Equilibrium(_Result):
         Oil that each groove gives to the film, m³/s, and its pressure, Pa, absolute.
     starved : array of bool (…)
         Whether a fed groove gives less than the film would draw from it at the pressure of the
-        rims, so that its own pressure falls below that.
+        ends, so that its own pressure falls below that.
     total_fill : array (…)
         ∫F h dA/∫h dA, (3.43).
     reynolds_number : array (…)

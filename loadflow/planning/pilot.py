@@ -17,7 +17,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from loadflow.errors import LoadflowError, SolverError
-from loadflow.planning.effects import Verdict, concerned, estimates, switched
+from loadflow.planning.effects import EffectVerdict, concerned, estimates, switched
 from loadflow.planning.plan import chosen_models, needed_stages
 from loadflow.scene.cases import Case, list_cases
 from loadflow.scene.scene import Scene
@@ -51,7 +51,7 @@ def pilot(
     scene: Scene,
     say: Report = lambda stage, done, total: None,
     outcomes: Outcomes = in_turn,
-) -> Verdict | None:
+) -> EffectVerdict | None:
     """Measure the effects of a scene.
 
     Parameters
@@ -66,7 +66,7 @@ def pilot(
 
     Returns
     -------
-    Verdict or None
+    EffectVerdict or None
         None where the scene asks for no accuracy, no effect is worth a measurement, or no case
         could be measured.
 
@@ -103,7 +103,7 @@ def pilot(
             }
     refused = {name: why for one in found for name, why in one.refused.items()}
     seconds = round(sum(one.seconds for one in found), 2)
-    return Verdict(
+    return EffectVerdict(
         sizes, refused, tuple(case.name for case in looked_at if case in measured), seconds
     )
 

@@ -24,7 +24,7 @@ from loadflow.cube import open_cube, save_cube
 from loadflow.errors import LoadflowError, SolverError
 from loadflow.planning import verification as check
 from loadflow.planning.accuracy import can_refine
-from loadflow.planning.effects import Verdict as PilotVerdict
+from loadflow.planning.effects import EffectVerdict
 from loadflow.planning.pilot import pilot
 from loadflow.planning.plan import Plan, Step, make_plan
 from loadflow.running.cases import (
@@ -269,7 +269,7 @@ def _carry_out(
     where: Executor,
     say: Report,
     profile: Profile | None,
-    pilot_verdict: PilotVerdict | None,
+    pilot_verdict: EffectVerdict | None,
 ) -> tuple[dict[str, float], dict[str, str]]:
     """Do what is missing of a plan; return seconds by stage, and what has no answer."""
     timing: dict[str, float] = {}

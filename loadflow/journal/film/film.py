@@ -177,12 +177,12 @@ class DiscreteFilm:
         """Outflow of every cell (nx, nz) at the state last placed, or by a `change` of it."""
         mesh = self.mesh
         field = np.zeros(mesh.shape)
-        state, rim, line, full = self.state, self.p_edge, self.p_line, self.line_fill
+        state, edge, line, full = self.state, self.p_edge, self.p_line, self.line_fill
         if change is not None:
-            state, rim, line, full = change, 0.0, 0.0, 0.0
+            state, edge, line, full = change, 0.0, 0.0, 0.0
         kernel.balance(
             state, coef, mesh.dz, mesh.area, mesh.gz, mesh.closed, self.wedge,
-            rim, line, full, mass, self.fixed, field,
+            edge, line, full, mass, self.fixed, field,
         )  # fmt: skip
         return field
 
@@ -241,7 +241,7 @@ class DiscreteFilm:
         for column, field in zip(columns, fields):
             kernel.gather(field, mesh.order, column)
         self._solve((lu, pivots), columns)
-        self._lag((lu, pivots), columns, gap.size)
+        self._add_shell_squeeze((lu, pivots), columns, gap.size)
         if free.size:
             columns = self._freed(columns, np.array(flows), mass)
 
@@ -283,7 +283,9 @@ class DiscreteFilm:
         band = self.mesh.bandwidth
         dgbtrs(lu, band, band, columns.T, pivots, overwrite_b=1)
 
-    def _lag(self, factors: tuple[Array, NDArray[np.int32]], columns: Array, size: int) -> None:
+    def _add_shell_squeeze(
+        self, factors: tuple[Array, NDArray[np.int32]], columns: Array, size: int
+    ) -> None:
         """Let the derivatives by velocity know what else moves with the shaft: nothing, if rigid.
 
         After the Newton step, `columns` hold `size` derivatives by position (fewer where the mesh
@@ -344,10 +346,10 @@ class DiscreteFilm:
         """Apply a Newton step to `u`; returns its largest change over the scale of pressure."""
         return kernel.correct(u, columns, weights, self.mesh.order) / self.scale
 
-    def relax(self, give: float = 1.0) -> None:
-        """Let go of what pressure has deformed; from now on the shell gives way by a share `give`.
+    def relax(self, share: float = 1.0) -> None:
+        """Undo what pressure has deformed; the shell then has a `share` of its compliance.
 
-        A rigid shell does not.
+        A rigid shell does not deform.
         """
 
     @property
@@ -447,7 +449,7 @@ class DiscreteFilm:
         return self.slope * self.state[FILL] * volume
 
     def stock(self) -> tuple[float, float]:
-        """Liquid outside the grooves, m³, and what it gains over rims and grooves, m³/s."""
+        """Liquid outside the grooves, m³, and what it gains over ends and grooves, m³/s."""
         mass = np.zeros((self.mesh.shape[0], self.gap.across.shape[1]))
         outflow = self.balance(self.gap.coef, mass)
         free = ~self.fixed

@@ -16,9 +16,9 @@ from loadflow.journal.models.model import Steps
 from loadflow.journal.results import columns_of
 from loadflow.journal.solvers.periodic import (
     Method,
+    check_half_speed_whirl,
     check_period,
     close_orbit,
-    refuse_half_speed_whirl,
 )
 from loadflow.journal.solvers.statics import equilibrium_rows, field_rows, orbit_start
 from loadflow.journal.solvers.transient import (
@@ -84,7 +84,7 @@ def orbit(
     )
     discrete = statics.film
     if steps.periodic and statics.gap.axisymmetric and not discrete.lifts:
-        refuse_half_speed_whirl(time, force, speed)
+        check_half_speed_whirl(time, force, speed)
     march_limits = limits.tolerance, limits.max_iterations
     marcher = Marcher(discrete, *march_limits, steps.accuracy, statics.shaft)
     if steps.periodic:

@@ -94,13 +94,13 @@ def bearing_map(bearing: JournalGeometry, options: Film, force: Array) -> Bearin
         options = replace(options, grading="graded")
     # refuses, in the user's units, what no film can have
     build_film(bearing.diameter, bearing.width, bearing.relative_clearance, options)
-    plain, unit = scaled(options)
+    dimensionless, unit = scaled(options)
     area = bearing.width * bearing.diameter
     largest = 0.0
     if unit > 0.0:
         most = float(np.hypot(*force.T).max()) / (area * unit)
         largest = 2.0 ** math.ceil(math.log2(max(most, 0.25)))
-    table = tabulate(bearing.width / bearing.diameter, plain, largest)
+    table = tabulate(bearing.width / bearing.diameter, dimensionless, largest)
     pressure = unit or 1.0
     velocity = pressure * bearing.relative_clearance**2 / (12 * options.liquid.viscosity)
     return BearingMap(bearing, options, table, np.array([pressure * area, velocity]), pressure)

@@ -66,7 +66,7 @@ class Motion:
 REST = Motion()
 
 
-class _Verdict:
+class _Check:
     """Whether the Newton steps of a film have led to an answer, by the rule of `convergence`.
 
     Residual and rounding level are looked at after steps that are short enough.
@@ -137,7 +137,7 @@ def solve_film(
     """Pressure of the film at a given position and velocity."""
     u = u.copy()
     weights, motion = np.ones(1), Motion(offset=-velocity)
-    verdict = _Verdict(film, tolerance, motion)
+    check = _Check(film, tolerance, motion)
     for iteration in range(1, max_iterations + 1):
         try:
             linear = film.linearise(u, position, velocity)
@@ -149,9 +149,9 @@ def solve_film(
         if share < _STUCK:
             break
         change = film.correct(u, linear.columns[:1], share * weights)
-        if verdict.after(iteration, change, u, position, linear):
-            return verdict.solution(u, position, linear, True, iteration)
-    return verdict.unanswered(u, position, linear, iteration)
+        if check.after(iteration, change, u, position, linear):
+            return check.solution(u, position, linear, True, iteration)
+    return check.unanswered(u, position, linear, iteration)
 
 
 def solve_equilibrium(
@@ -173,7 +173,7 @@ def solve_equilibrium(
     u = u.copy()
     scale, gap = film.gap.dof_scale[free], film.gap.narrowest(position)
     old = (motion.volume_rate, motion.volume)
-    verdict = _Verdict(film, tolerance, motion, force, free)
+    check = _Check(film, tolerance, motion, force, free)
     for iteration in range(1, max_iterations + 1):
         velocity = motion.velocity(position)
         try:
@@ -195,9 +195,9 @@ def solve_equilibrium(
         position, gap = target, film.gap.narrowest(target)
         if not gap > _PRESSED and not film.elastic:
             break
-        if verdict.after(iteration, change, u, position, linear):
-            return verdict.solution(u, position, linear, True, iteration)
-    return verdict.unanswered(u, position, linear, iteration)
+        if check.after(iteration, change, u, position, linear):
+            return check.solution(u, position, linear, True, iteration)
+    return check.unanswered(u, position, linear, iteration)
 
 
 def _moved(
