@@ -17,7 +17,8 @@ from loadflow.journal.transition import load_capacity
 from loadflow.journal.validity import critical_reynolds_number, reynolds_number
 from loadflow.quantities import table
 from loadflow.scene.cases import Case
-from loadflow.scene.scene import Journal, Scene
+from loadflow.scene.journal import Journal
+from loadflow.scene.scene import Scene
 from loadflow.stages.frames import to_film
 from loadflow.stages.labelling import label, labelled, of_samples
 from loadflow.stages.reduction import kept_share
