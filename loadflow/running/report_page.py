@@ -89,7 +89,8 @@ def _sections(
         )
     if "seeds" in tables:
         yield _seed_section(folder, tables["seeds"], manifest)
-    if (folder / "reduction").is_dir() and "reduction" in manifest["stages"]:
+    histogram = scene.reduction.method == "histogram"
+    if histogram and (folder / "reduction").is_dir() and "reduction" in manifest["stages"]:
         yield Section(
             "Reduction",
             "Bivariate histogram of speed and load before and after the quasi-static reduction.",

@@ -9,6 +9,7 @@ from __future__ import annotations
 import hashlib
 import math
 import tomllib
+from dataclasses import replace
 from math import inf
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self, get_args
@@ -30,7 +31,7 @@ from loadflow.journal import (
     ThickShell,
 )
 from loadflow.journal.line import Line
-from loadflow.journal.models.model import Verb, why_not
+from loadflow.journal.models.model import Steps, Verb, why_not
 from loadflow.rolling.friction import Churning
 from loadflow.scene.bearings import Rolling
 from loadflow.scene.candidates import ABOUT
@@ -143,16 +144,35 @@ class Seeds(Section, BaseModel):
 
 
 class Reduction(Section, BaseModel):
-    """Quasi-static histogram reduction: share of the samples kept, and how they are picked.
+    """Reduction of each series to design loads.
 
-    One sample of each class of speed and load is kept at least; ``classes`` is their number along
-    each, that of the source (4.30) if left out.
+    ``method = "histogram"`` (quasi-static) keeps a share ``size`` of the samples. One of each class
+    of speed and load is kept at least; ``classes`` is their number along each, that of
+    [Jonuschies 2015] (4.30) if left out.
+
+    ``"stationary"`` takes the mean load at the mean speed, the largest at the lowest, and the
+    instants at which something is extreme. ``"periodic"`` takes the mean, the largest harmonic
+    below the lower of two ``bounds`` (Hz) and ``additional`` ones between them, or those nearest to
+    ``orders`` of the rotor's speed; films are driven round the orbit that closes. Without bounds
+    the film of a journal bearing says them, else they are half the speed and half the sampling
+    rate. Both are chosen by hand: no accuracy can be asked of what they find, so that ``accuracy``
+    is "given".
     """
 
+    method: Literal["histogram", "stationary", "periodic"] = "histogram"
+    bounds: tuple[Positive, Positive] | None = None
+    additional: Annotated[int, Field(ge=0, le=20)] = 2
+    orders: Annotated[list[Positive], Field(min_length=1)] | None = None
     size: Annotated[float, Field(gt=0, le=1)] = 0.1
     classes: Annotated[int, Field(ge=2, le=200)] | None = None
     pick: Literal["random", "extremes", "envelope"] = "extremes"
     seed: Annotated[int, Field(ge=0)] = 0
+
+    @model_validator(mode="after")
+    def _bounds_rise(self) -> Self:
+        if self.bounds is not None and self.bounds[0] > self.bounds[1]:
+            raise ValueError(f"bounds = {list(self.bounds)}: the second must be the larger one")
+        return self
 
 
 class Journal(Section, BaseModel):
@@ -423,6 +443,10 @@ class Scene(Section, BaseModel):
         if not isinstance(data, dict):
             return data
         stated = {*data} & {"journal", "rolling"}
+        reduction = data.get("reduction")
+        method = reduction.get("method") if isinstance(reduction, dict) else None
+        if method in ("stationary", "periodic"):
+            data = {"accuracy": "given"} | data
         return _results_that_the_shaft_can_give(in_sections(data, USUAL), stated)
 
     @model_validator(mode="after")
@@ -445,6 +469,32 @@ class Scene(Section, BaseModel):
                     raise ValueError(
                         f"{key} = {bearing!r}: the shaft has the bearings {have}; set {key} to "
                         f"what it has, or leave what begins with {room} out of results"
+                    )
+        return self
+
+    @model_validator(mode="after")
+    def _design_loads_are_given(self) -> Self:
+        method, journal = self.reduction.method, self.journal
+        if method == "histogram":
+            return self
+        if self.asks:
+            raise ValueError(
+                f'reduction.method = "{method}": its loads are chosen by hand; set accuracy = '
+                '"given", or leave accuracy out'
+            )
+        if method == "periodic" and not journal.in_motion and self.wants("journal"):
+            for place in journal.bearings:
+                one = journal.at(place)
+                film = replace(one.film_model.isothermal(), rung="grid")
+                line = Line(moment=np.zeros((1, 2))) if journal.tilt else Line()
+                steps = Steps(None, periodic=True)
+                why = why_not("in_motion", film, one.geometry, line, steps)
+                if why is not None:
+                    raise ValueError(f'reduction.method = "periodic", journal: {why}')
+                if journal.tilt and self.shaft.leans(place):
+                    raise ValueError(
+                        'reduction.method = "periodic": a closed orbit does not know the tilt of a '
+                        "shaft with a beam; leave out journal.tilt or the beam"
                     )
         return self
 

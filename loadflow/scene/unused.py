@@ -179,9 +179,17 @@ _PLACES = {
 
 def _of_reduction(scene: Scene) -> Iterator[tuple[str, str]]:
     reads = any(r.startswith(("reduction", "rolling.l")) for r in scene.results)
+    if scene.reduction.method != "periodic":
+        for key in ("bounds", "additional", "orders"):
+            yield key, 'only method = "periodic" has harmonics'
+    elif scene.reduction.orders is not None:
+        yield "additional", "orders say which harmonics there are"
     if scene.journal.in_motion and not reads:
-        for key in ("size", "classes", "pick", "seed"):
+        for key in ("method", "size", "classes", "pick", "seed", "bounds", "additional", "orders"):
             yield key, "a film in motion reads the whole series"
+    elif scene.reduction.method != "histogram":
+        for key in ("size", "classes", "pick", "seed"):
+            yield key, f'method = "{scene.reduction.method}" keeps no samples of classes'
     elif scene.reduction.size == 1.0:
         for key in ("pick", "seed"):
             yield key, "size = 1 keeps every sample"
