@@ -414,7 +414,8 @@ def _common_row(film: DiscreteFilm, solution: Solution, whirl: float = 0.0) -> d
     row: dict[str, Any] = summary(film, solution.u, solution.position)
     shaft, lengths = film.gap.shaft, np.ones(film.gap.shaft)
     lengths[2:] = film.radius  # of the degrees of freedom: those of tilts are arms
-    pads = np.intersect1d(np.arange(film.gap.size)[solution.free], np.arange(shaft, film.gap.size))
+    rows = np.arange(film.gap.size)[solution.free]
+    pads = rows[rows >= shaft]
     stiffness, damping = without_pads(solution.linear, shaft, pads, whirl)
     both = np.outer(lengths, lengths) / clearance
     row["eccentricity_ratio"] = float(np.hypot(*solution.position[:2]))

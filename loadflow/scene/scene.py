@@ -42,7 +42,7 @@ from loadflow.scene.loads import Loads, check_simulation
 from loadflow.scene.messages import message, shown
 from loadflow.scene.places import places_of
 from loadflow.scene.section import LARGEST_INTEGER, Section, too_large
-from loadflow.scene.written import SCHEMA, anchored, in_sections, origins
+from loadflow.scene.written import SCENE, anchored, in_sections, origins
 from loadflow.shaft.beam import BearingSupport
 from loadflow.shaft.options import (
     Concept,
@@ -567,7 +567,7 @@ class Scene(Section, BaseModel):
             | places_of(candidate.get("journal"), candidate.get("rolling"))
             for name, candidate in data["candidates"].items()
         }
-        return tomli_w.dumps({"schema": SCHEMA} | data)
+        return tomli_w.dumps({SCENE.key: SCENE.version} | data)
 
     def digest(self, *sections: str) -> str:
         """SHA-256 of the resolved scene, or of some of its sections."""

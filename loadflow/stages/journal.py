@@ -157,7 +157,9 @@ def _closing(options: Journal, bearing: str, reduced: xr.Dataset) -> xr.Dataset:
     _take_path(found, path, slice(None))
     if warm is not None:
         found["temperature"][:] = warm
-    found["sommerfeld_number"][:] = _numbers(held, force, speed)
+    found["sommerfeld_number"][:] = options.geometry.sommerfeld_number(
+        np.hypot(*force.T), speed, held.lubricant.viscosity
+    )
     touching = np.zeros(speed.size, dtype=bool)
     _drop_contact(options, found, touching)
     samples = of_samples(found, kept) | _loaded(vectors, touching)
@@ -172,13 +174,6 @@ def _take_path(found: dict[str, np.ndarray], path: xr.Dataset, places: slice) ->
         if name in path:
             found[name][places] = path[name].values
     found["converged"][places] = True
-
-
-def _numbers(options: Journal, force: np.ndarray, speed: np.ndarray) -> list[float]:
-    """Sommerfeld numbers of loads (n, 2) and speeds (n,)."""
-    viscosity = options.lubricant.viscosity
-    points = zip(np.hypot(*force.T).tolist(), speed.tolist())
-    return [options.geometry.sommerfeld_number(*point, viscosity) for point in points]
 
 
 def _moving(options: Journal, bearing: str, loads: xr.Dataset, reactions: xr.Dataset) -> xr.Dataset:
@@ -197,7 +192,9 @@ def _moving(options: Journal, bearing: str, loads: xr.Dataset, reactions: xr.Dat
         if options.heat is not None:
             held = options.at_temperature(float(path["temperature"][0]))
         _take_path(found, path, left)
-        found["sommerfeld_number"][left] = _numbers(held, force[left], speed[left])
+        found["sommerfeld_number"][left] = options.geometry.sommerfeld_number(
+            np.hypot(*force[left].T), speed[left], held.lubricant.viscosity
+        )
     _drop_contact(options, found, touching)
     samples = xr.Dataset(
         {
@@ -240,14 +237,10 @@ def surely_touching(options: Journal, force: np.ndarray, speed: np.ndarray) -> n
     load, turning = np.hypot(*to_film(force).T), np.abs(speed) > 0
     if options.contact is not None:  # the film knows what asperities carry
         return np.zeros_like(turning)
-    touching = np.asarray(~turning)
-    doubtful = np.zeros_like(turning)
+    touching, doubtful = np.asarray(~turning), np.zeros_like(turning)
     if options.shell is None:
-        viscosity = film.liquid.viscosity
-        doubtful[turning] = [
-            options.geometry.sommerfeld_number(*point, viscosity) > _LIGHT
-            for point in zip(load[turning].tolist(), np.abs(speed[turning]).tolist())
-        ]
+        number = options.geometry.sommerfeld_number(load, speed, film.liquid.viscosity)
+        doubtful = turning & (number > _LIGHT)
     if doubtful.any():
         capacity = load_capacity(options.geometry, options.contact_film, speed[doubtful], film)
         touching[doubtful] = load[doubtful] > _CERTAIN * capacity

@@ -24,7 +24,7 @@ Array = NDArray[np.float64]
 
 _EXACT = 1e-8  # residual of the linear systems of a shell that spreads, over their right-hand side
 _KRYLOV = 60  # steps of GMRES that are tried
-_SMALLEST = 1.0 / 2**20  # share of a step below which it has no room
+_SMALLEST = 1.0 / 2**20  # share of a step below which there is none
 
 
 class ElasticFilm(DiscreteFilm):
@@ -70,21 +70,28 @@ class ElasticFilm(DiscreteFilm):
         """Where a step of the shaft may lead: as far as the shell gives way."""
         return position + step
 
-    def room_left(self, position: Array) -> float:
+    def clearance_left(self, position: Array) -> float:
         """Narrowest gap over the clearance, that between cells included."""
-        return min(self.gap.room(position), self.gap.narrowest(position))
+        return min(self.gap.least(position), self.gap.narrowest(position))
 
-    def room(self, u: Array, columns: Array, weights: Array, way: tuple[Array, Array]) -> float:
+    def narrowest(self, u: Array, position: Array) -> float:
+        """Narrowest gap over the clearance at any unknowns `u` and `position`."""
+        self.place(u, position)
+        return self.gap.narrowest(position)
+
+    def step_share(
+        self, u: Array, columns: Array, weights: Array, way: tuple[Array, Array]
+    ) -> float:
         """Share of a Newton step that leaves at least a third of the narrowest gap."""
         start, target = way
-        least = KEPT * self.gap.room(start)
+        least = KEPT * self.gap.least(start)
         share = 1.0
         while share > _SMALLEST:
             trial = u.copy()
             kernel.correct(trial, columns, share * weights, self.mesh.order)
             self._apply_law(trial)
             self._grow()
-            if self.gap.room(start + share * (target - start)) >= least:
+            if self.gap.least(start + share * (target - start)) >= least:
                 return share
             share *= 0.5
         return share

@@ -73,7 +73,7 @@ class Feed:
         Returns
         -------
         mismatch : array (m,)
-            Zero where pressure and flow have settled.
+            Zero where pressure and flow agree.
         by_pressure : array (m,)
             Its derivative by the pressure of the same groove.
         by_flow : array (m, m)

@@ -88,7 +88,6 @@ class DiscreteFilm:
         self.law = law
         self._address, self._numbers = law.address, np.array(law.numbers, dtype=float)
         self.ruptures = law.ruptures
-        self.creeps = law.moves_by_cells
         self.p_edge = edge_pressure
         self.p_line = edge_pressure if end_pressure is None else end_pressure
         self.ends_supply = end_pressure is not None and not gap.mesh.closed
@@ -100,6 +99,7 @@ class DiscreteFilm:
         self.pockets = pockets
         self.fixed = self.grooved = pockets.fixed  # cells held, and those of them without drag
         self.given = pockets.given(edge_pressure)
+        self.lifts = pockets.lifts(edge_pressure)  # whether the supply may carry a load at rest
         self.set_scale(0.0)
         self.set_speed(0.0)
 
@@ -128,7 +128,7 @@ class DiscreteFilm:
         self.given = np.where(columns[:, None] & ~self.grooved, pressure, self.given)
         self.fixed = self.grooved = self.grooved | columns[:, None]
 
-    def rest(self, columns: NDArray[np.bool_]) -> None:
+    def unload(self, columns: NDArray[np.bool_]) -> None:
         """Hold `columns` (nx,) of cells at edge pressure: pads without load."""
         self.fixed = self.grooved | columns[:, None]
 
@@ -243,7 +243,7 @@ class DiscreteFilm:
         self._solve((lu, pivots), columns)
         self._lag((lu, pivots), columns, gap.size)
         if free.size:
-            columns = self._settle(columns, np.array(flows), mass)
+            columns = self._freed(columns, np.array(flows), mass)
 
         carried = self.mirrors * self.radius**2 * self._carried(columns)
         load = self._load(around) - carried[0]
@@ -290,7 +290,7 @@ class DiscreteFilm:
         turns) and `size` by velocity.
         """
 
-    def _settle(self, columns: Array, direct: Array, mass: Array) -> Array:
+    def _freed(self, columns: Array, direct: Array, mass: Array) -> Array:
         """Let the pressure of the free grooves follow their flow in all `columns`."""
         pockets, mesh = self.pockets, self.mesh
         change = np.zeros_like(self.state)
@@ -304,7 +304,7 @@ class DiscreteFilm:
             row[:] = pockets.flows(outflow)[pockets.free]
         pressure = pockets.of_free(self.state[P])
         slope = pockets.of_free(self.state[DP])
-        return pockets.settle(columns, direct, through, pressure, slope, self.scale)
+        return pockets.eliminate(columns, direct, through, pressure, slope, self.scale)
 
     def _carried(self, columns: Array) -> Array:
         """Change of ∫ p N_j dA by each of `columns` (l, n), (l, m), in units of R²."""
@@ -355,15 +355,25 @@ class DiscreteFilm:
         """Growth of the gap of the cells by the last pressure, (nx, nz), m."""
         return np.zeros(self.mesh.shape)
 
-    def room_left(self, position: Array) -> float:
+    def clearance_left(self, position: Array) -> float:
         """Narrowest gap over the clearance, that between cells included; no limit if rigid."""
         return math.inf
 
+    def narrowest(self, u: Array, position: Array) -> float:
+        """Narrowest gap over the clearance at any unknowns `u` and `position`."""
+        return self.gap.narrowest(position)
+
+    def newton_steps(self, most: int) -> int:
+        """Newton steps to allow, at least `most`: a rupture that moves by cells needs one each."""
+        return max(most, self.mesh.shape[0]) if self.law.moves_by_cells else most
+
     def target(self, position: Array, step: Array) -> Array:
-        """Where a step of the shaft may lead, if there is `room`."""
+        """Where a step of the shaft may lead, before `step_share` shortens it."""
         return self.gap.advance(position, step)
 
-    def room(self, u: Array, columns: Array, weights: Array, way: tuple[Array, Array]) -> float:
+    def step_share(
+        self, u: Array, columns: Array, weights: Array, way: tuple[Array, Array]
+    ) -> float:
         """Share of a Newton step that leaves a film between shaft and shell; `way`: from, to."""
         return 1.0
 

@@ -68,7 +68,7 @@ class ElasticGap(ShapedGap):
         cos, sin = self._cell[:2, :, None]
         return face, self._cell_gap - ex * cos - ey * sin
 
-    def room(self, position: Array) -> float:
+    def least(self, position: Array) -> float:
         """Narrowest gap, in clearances, that the balance of the film takes up."""
         return min(float(gaps.min()) for gaps in self.films(*self.centre(position)))
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from loadflow.journal.film.mesh import Mesh, graded_share
 from loadflow.journal.film_model import check_grid
-from loadflow.journal.shapes import Recess, Relief, Segment
+from loadflow.journal.shapes import Relief, Segment
 
 Array = NDArray[np.float64]
 _TURN = 2 * np.pi
@@ -158,12 +158,13 @@ def _rim_distance(edges: Array) -> float:
     return float((rim**3 / 3.0 - above @ widths) / rim**2)
 
 
-def recess_marks(relief: tuple[Relief, ...], radius: float, width: float) -> tuple[list, list]:
-    """Angles and axial places (shaft radii) of the edges of all recesses."""
-    recesses = [part for part in relief if isinstance(part, Recess)]
-    turns = [angle for recess in recesses for angle in recess.around()]
-    places = [z for recess in recesses for z in recess.across(width) if abs(z) < 0.5 * width]
-    return turns, [z / radius for z in places]
+def relief_marks(
+    relief: tuple[Relief, ...], radius: float, width: float
+) -> tuple[list[float], list[float]]:
+    """Angles and axial places (shaft radii) at which the gap steps."""
+    steps = [part.steps(width) for part in relief]
+    turns = [angle for around, _ in steps for angle in around]
+    return turns, [z / radius for _, across in steps for z in across]
 
 
 def _around_segments(

@@ -25,7 +25,7 @@ Array = NDArray[np.float64]
 BODY = 5  # degrees of freedom of the shaft
 _SHIFTS = np.arange(3)
 _QUADRATIC = 1e-7  # a step this small leaves an error near its square
-_CALM = 0.5  # change of the film, over its pressure, up to which the shaft goes all the way
+_STEP_LIMIT = 0.5  # change of the film, over its pressure, beyond which a step is shortened
 _LARGEST = 3.0  # factor of a pad's Newton step toward the pivot
 _CYCLE = 10  # Newton steps after which half of them are halved, so that ruptures do not alternate
 _ALONE = 4  # first steps in which a film that changes more is corrected with the shaft held
@@ -253,8 +253,7 @@ class Assembly:
         limits : Limits
             Tolerance on the scaled residual, Newton steps.
         """
-        cells = [m.film.mesh.shape[0] for m in self.members if m.film.creeps]
-        most = max(limits.max_iterations, *cells, 0)
+        most = max(m.film.newton_steps(limits.max_iterations) for m in self.members)
         residual = math.inf
         for iteration in range(1, most + 1):
             try:
@@ -298,21 +297,21 @@ class Assembly:
             if member.film.gap.gaps(self.place(member, own, state.position)).min() < _PRESSED:
                 return state, math.nan
         change = max(_change(m.film, s) for m, s in zip(self.members, state.members))
-        calm, whole = min(1.0, _CALM / max(change, 1e-300)), share
-        if calm < 1.0 and alone:
-            calm = 0.0
+        limited, whole = min(1.0, _STEP_LIMIT / max(change, 1e-300)), share
+        if limited < 1.0 and alone:
+            limited = 0.0
         step = np.zeros(BODY)
         if free.size:
             scale = self.scale[free]
             matrix = stiffness[np.ix_(free, free)] * np.outer(scale, scale)
-            step[free] = calm * scale * _solve(matrix, scale * (force - load)[free])
+            step[free] = limited * scale * _solve(matrix, scale * (force - load)[free])
         moves = []
         for member, own, part in zip(self.members, state.members, parts):
-            pad = calm * part.first + part.follow @ (member.turns[0] @ step)
+            pad = limited * part.first + part.follow @ (member.turns[0] @ step)
             move = member.sees @ step - member.gives @ pad
             share = min(share, member.film.gap.share(self.place(member, own, state.position), move))
             moves.append((pad, move))
-        members, change = [], 1.0 if calm == 0.0 else 0.0
+        members, change = [], 1.0 if limited == 0.0 else 0.0
         for member, own, (pad, move) in zip(self.members, state.members, moves):
             gap = member.film.gap
             assert own.linear is not None

@@ -24,7 +24,7 @@ from loadflow.journal.heat import HOTTEST, FilmHeat
 from loadflow.journal.line import Line
 from loadflow.journal.results import field_row, static_row
 from loadflow.journal.solvers.newton import Solution
-from loadflow.journal.solvers.statics_shaped import ShapedStatics
+from loadflow.journal.solvers.statics import Statics
 from loadflow.numerics.anderson import Anderson
 from loadflow.numerics.convergence import Limits
 from loadflow.numerics.fields import require
@@ -85,7 +85,7 @@ def warm_rows(
         if not found.converged and last is not None:
             found = _settled(equation, film_of, None)
         if not found.converged and control.strict:
-            why = found.why or statics.refusal(load, found.solution)
+            why = found.why or statics.message(found.solution, load)
             raise SolverError(f"load {index}: {why}")
         if found.converged and found.warmth is not None:
             last = found.solution, found.warmth.cells
@@ -113,7 +113,7 @@ def warm_fields(
 
         found = _settled(equation, film_of, None)
         if not found.converged and control.strict:
-            why = found.why or statics.refusal(np.zeros(2), found.solution)
+            why = found.why or statics.message(found.solution)
             raise SolverError(f"film {index}: {why}")
         row = field_row(statics.film, _flagged(found))
         rows.append(row | _heat_columns(equation, found))
@@ -122,12 +122,12 @@ def warm_fields(
 
 def _prepared(
     bearing: JournalGeometry, options: Film, line: Line, rate: float
-) -> tuple[ShapedStatics, EnergyEquation]:
+) -> tuple[Statics, EnergyEquation]:
     """Film and energy equation."""
     heat = options.heat
     assert isinstance(heat, FilmHeat)
     require(options.shell is None, "shell", options.shell, "None with heat over the area")
-    statics = ShapedStatics(bearing, options, line, rate)
+    statics = Statics(bearing, options, line, rate)
     assert isinstance(statics.gap, WarmGap)
     return statics, EnergyEquation(statics.film, statics.gap, heat)
 
