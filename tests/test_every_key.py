@@ -47,6 +47,11 @@ BASES = {
     "warm film": {
         "journal": FILM | {"heat": {"transfer": 100.0}}, "reduction": {"size": 0.03},
     },
+    "cold": {
+        "loads": WIND | {"seeds": 1, "rung": "tables"}, "environment": {"temperature": 263.15},
+        "journal": FILM | {"heat": {"transfer": 100.0}}, "reduction": {"size": 0.03},
+        "results": ["journal.film", "rolling.friction"],
+    },
     "rough film": {
         "journal": FILM | {"contact": {"pattern": 3.0, "asperities": {
             "roughness": 1e-6, "contact_modulus": 1e11, "factor": 1e-3}}},
@@ -90,6 +95,7 @@ READERS = {
     "files": ("loads", "seeds", "reduction"),
     "bearings": ("shaft", "journal", "rolling", "friction"),
     "warm film": ("journal",),
+    "cold": ("environment",),
     "rough film": ("journal",),
     "elastic film": ("journal",),
     "film in motion": ("journal", "reduction"),
@@ -329,6 +335,11 @@ def _dynamics(scene, add):
     add(dynamics.summary({ONE: tree}))
 
 
+def _environment(scene, add):
+    _loads(scene, add)
+    _journal(scene, add)
+
+
 def _reduction(scene, add):
     if scene.journal.in_motion:
         _journal(scene, add)
@@ -351,6 +362,7 @@ FOUND = {
     "loads": _loads, "turbine": _loads, "shaft": lambda s, add: _shaft(s, add) and None,
     "seeds": _seeds, "reduction": _reduction, "journal": _journal, "rolling": _rolling,
     "friction": _friction, "dynamics": _dynamics,
+    "environment": _environment,
 }  # fmt: skip
 
 

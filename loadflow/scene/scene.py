@@ -34,8 +34,9 @@ from loadflow.journal.line import Line
 from loadflow.journal.models.model import Steps, Verb, why_not
 from loadflow.rolling.friction import Churning
 from loadflow.scene.bearings import Rolling
-from loadflow.scene.candidates import ABOUT
+from loadflow.scene.candidates import ABOUT, machine
 from loadflow.scene.dynamics import Dynamics
+from loadflow.scene.environment import Environment, surrounded
 from loadflow.scene.films import HeatTable, Law, RungName
 from loadflow.scene.limits import JournalLimits
 from loadflow.scene.loads import Loads, check_simulation
@@ -43,6 +44,7 @@ from loadflow.scene.messages import message, shown
 from loadflow.scene.places import places_of
 from loadflow.scene.section import LARGEST_INTEGER, Section, too_large
 from loadflow.scene.written import SCENE, anchored, in_sections, origins
+from loadflow.shaft import scaled_suspension
 from loadflow.shaft.beam import BearingSupport
 from loadflow.shaft.options import (
     Concept,
@@ -54,6 +56,8 @@ from loadflow.shaft.options import (
 )
 from loadflow.storage import check_name
 from loadflow.turbines import load_turbine
+from loadflow.turbines.files import scaled_name
+from loadflow.turbines.similarity import factor_of_power
 
 Result = Literal[
     "loads.statistics",
@@ -76,7 +80,12 @@ Positive = Annotated[float, Field(gt=0)]
 
 
 class Turbine(Section, BaseModel):
-    """The turbine: a name that `loadflow.turbines` knows, or a path to a file of the same form."""
+    """The turbine: a name that `loadflow.turbines` knows, or a path to a file of the same form.
+
+    A name with ``@`` and a power in W, such as ``nrel-5mw@8e6``, is scaled to it by similarity; so
+    is the suspension of the known turbine, where the scene states none. Bearings are not: they are
+    to be sized anew.
+    """
 
     name: str = "nrel-5mw"
 
@@ -119,6 +128,11 @@ class Shaft(Section, BaseModel):
         if len(with_first) > 1:
             raise ValueError(f"{' and '.join(with_first)} all have a bearing N; keep one of them")
         return self
+
+    def scaled(self, factor: float) -> Shaft:
+        """The suspensions with all lengths times a factor, by similarity."""
+        parts = {name: concept and scaled_suspension(concept, factor) for name, concept in self}
+        return Shaft(**parts)
 
     @property
     def seated(self) -> dict[str, BearingSupport]:
@@ -422,6 +436,7 @@ class Scene(Section, BaseModel):
     results: Annotated[list[Result], Field(min_length=1)] = list(USUAL)
     accuracy: Positive | dict[Result, Positive] | Literal["given"] = 0.05
     turbine: Turbine = Turbine()
+    environment: Environment = Environment()
     loads: Loads = Loads()
     shaft: Shaft = Shaft(two_point=TwoPoint(), moment=MomentBearing())
     seeds: Seeds = Seeds()
@@ -447,7 +462,11 @@ class Scene(Section, BaseModel):
         method = reduction.get("method") if isinstance(reduction, dict) else None
         if method in ("stationary", "periodic"):
             data = {"accuracy": "given"} | data
-        return _results_that_the_shaft_can_give(in_sections(data, USUAL), stated)
+        own_shaft = "shaft" in data
+        data = surrounded(in_sections(data, USUAL))
+        if not own_shaft:
+            data = _with_scaled_shaft(data)
+        return _results_that_the_shaft_can_give(data, stated)
 
     @model_validator(mode="after")
     def _simulates(self) -> Self:
@@ -696,6 +715,22 @@ def with_name(scene: Scene, name: str) -> Scene:
     """Return the scene under another name, which is checked as that of a file is."""
     make_scene({"name": name}, "name of the run")
     return scene.model_copy(update={"name": name})
+
+
+def _with_scaled_shaft(data: dict[str, Any]) -> dict[str, Any]:
+    """Without a shaft of its own: that of the known turbine, as large as its scaled one."""
+    turbine = data.get("turbine")
+    name = turbine.get("name") if isinstance(turbine, dict) else getattr(turbine, "name", None)
+    try:
+        base, power = scaled_name(name) if isinstance(name, str) else ("", None)
+        known = load_turbine(base) if power is not None else None
+    except InputError:  # told by the turbine's own check, with its key
+        return data
+    if power is None or known is None:
+        return data
+    stated = machine(base).get("shaft")
+    usual = Shaft.model_validate(stated) if stated else Scene.model_fields["shaft"].default
+    return data | {"shaft": usual.scaled(factor_of_power(power, known.rated_power))}
 
 
 def _results_that_the_shaft_can_give(data: dict[str, Any], stated: set[str]) -> dict[str, Any]:
