@@ -8,16 +8,21 @@ from __future__ import annotations
 
 import hashlib
 import tomllib
+from dataclasses import replace
 from math import inf
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self, get_args
 
+import numpy as np
 from pydantic import BaseModel, Field, ValidationError, field_validator, model_validator
 
 from loadflow.errors import InputError
+from loadflow.journal.line import Line
+from loadflow.journal.models.model import Steps, why_not
 from loadflow.scene.bearings import Rolling
-from loadflow.scene.candidates import ABOUT
+from loadflow.scene.candidates import ABOUT, machine
 from loadflow.scene.dynamics import Dynamics
+from loadflow.scene.environment import Environment, surrounded
 from loadflow.scene.friction import Friction
 from loadflow.scene.journal import Journal
 from loadflow.scene.loads import Loads, check_simulation
@@ -29,6 +34,8 @@ from loadflow.scene.written import SCENE, anchored, in_sections, origins
 from loadflow.shaft.options import MomentBearing, TwoPoint
 from loadflow.storage import check_name
 from loadflow.turbines import load_turbine
+from loadflow.turbines.files import scaled_name
+from loadflow.turbines.similarity import factor_of_power
 
 Result = Literal[
     "loads.statistics",
@@ -51,7 +58,12 @@ Positive = Annotated[float, Field(gt=0)]
 
 
 class Turbine(Section, BaseModel):
-    """The turbine: a name that `loadflow.turbines` knows, or a path to a file of the same form."""
+    """The turbine: a name that `loadflow.turbines` knows, or a path to a file of the same form.
+
+    A name with ``@`` and a power in W, such as ``nrel-5mw@8e6``, is scaled to it by similarity; so
+    is the suspension of the known turbine, where the scene states none. Bearings are not: they are
+    to be sized anew.
+    """
 
     name: str = "nrel-5mw"
 
@@ -71,16 +83,35 @@ class Seeds(Section, BaseModel):
 
 
 class Reduction(Section, BaseModel):
-    """Quasi-static histogram reduction: share of the samples kept, and how they are picked.
+    """Reduction of each series to design loads.
 
-    One sample of each class of speed and load is kept at least; ``classes`` is their number along
-    each, that of the source (4.30) if left out.
+    ``method = "histogram"`` (quasi-static) keeps a share ``size`` of the samples. One of each class
+    of speed and load is kept at least; ``classes`` is their number along each, that of
+    [Jonuschies 2015] (4.30) if left out.
+
+    ``"stationary"`` takes the mean load at the mean speed, the largest at the lowest, and the
+    instants at which something is extreme. ``"periodic"`` takes the mean, the largest harmonic
+    below the lower of two ``bounds`` (Hz) and ``additional`` ones between them, or those nearest to
+    ``orders`` of the rotor's speed; films are driven round the orbit that closes. Without bounds
+    the film of a journal bearing says them, else they are half the speed and half the sampling
+    rate. Both are chosen by hand: no accuracy can be asked of what they find, so that ``accuracy``
+    is "given".
     """
 
+    method: Literal["histogram", "stationary", "periodic"] = "histogram"
+    bounds: tuple[Positive, Positive] | None = None
+    additional: Annotated[int, Field(ge=0, le=20)] = 2
+    orders: Annotated[list[Positive], Field(min_length=1)] | None = None
     size: Annotated[float, Field(gt=0, le=1)] = 0.1
     classes: Annotated[int, Field(ge=2, le=200)] | None = None
     pick: Literal["random", "extremes", "envelope"] = "extremes"
     seed: Annotated[int, Field(ge=0)] = 0
+
+    @model_validator(mode="after")
+    def _bounds_rise(self) -> Self:
+        if self.bounds is not None and self.bounds[0] > self.bounds[1]:
+            raise ValueError(f"bounds = {list(self.bounds)}: the second must be the larger one")
+        return self
 
 
 class Candidate(Section, BaseModel):
@@ -127,6 +158,7 @@ class Scene(Section, BaseModel):
     results: Annotated[list[Result], Field(min_length=1)] = list(USUAL)
     accuracy: Positive | dict[Result, Positive] | Literal["given"] = 0.05
     turbine: Turbine = Turbine()
+    environment: Environment = Environment()
     loads: Loads = Loads()
     shaft: Shaft = Shaft(two_point=TwoPoint(), moment=MomentBearing())
     seeds: Seeds = Seeds()
@@ -148,7 +180,15 @@ class Scene(Section, BaseModel):
         if not isinstance(data, dict):
             return data
         stated = {*data} & {"journal", "rolling"}
-        return _results_that_the_shaft_can_give(in_sections(data, USUAL), stated)
+        reduction = data.get("reduction")
+        method = reduction.get("method") if isinstance(reduction, dict) else None
+        if method in ("stationary", "periodic"):
+            data = {"accuracy": "given"} | data
+        own_shaft = "shaft" in data
+        data = surrounded(in_sections(data, USUAL))
+        if not own_shaft:
+            data = _with_scaled_shaft(data)
+        return _results_that_the_shaft_can_give(data, stated)
 
     @model_validator(mode="after")
     def _simulates(self) -> Self:
@@ -170,6 +210,32 @@ class Scene(Section, BaseModel):
                     raise ValueError(
                         f"{key} = {bearing!r}: the shaft has the bearings {have}; set {key} to "
                         f"what it has, or leave what begins with {room} out of results"
+                    )
+        return self
+
+    @model_validator(mode="after")
+    def _design_loads_are_given(self) -> Self:
+        method, journal = self.reduction.method, self.journal
+        if method == "histogram":
+            return self
+        if self.asks:
+            raise ValueError(
+                f'reduction.method = "{method}": its loads are chosen by hand; set accuracy = '
+                '"given", or leave accuracy out'
+            )
+        if method == "periodic" and not journal.in_motion and self.wants("journal"):
+            for place in journal.bearings:
+                one = journal.at(place)
+                film = replace(one.film_model.isothermal(), rung="grid")
+                line = Line(moment=np.zeros((1, 2))) if journal.tilt else Line()
+                steps = Steps(None, periodic=True)
+                why = why_not("in_motion", film, one.geometry, line, steps)
+                if why is not None:
+                    raise ValueError(f'reduction.method = "periodic", journal: {why}')
+                if journal.tilt and self.shaft.leans(place):
+                    raise ValueError(
+                        'reduction.method = "periodic": a closed orbit does not know the tilt of a '
+                        "shaft with a beam; leave out journal.tilt or the beam"
                     )
         return self
 
@@ -356,6 +422,22 @@ def with_name(scene: Scene, name: str) -> Scene:
     """Return the scene under another name, which is checked as that of a file is."""
     make_scene({"name": name}, "name of the run")
     return scene.model_copy(update={"name": name})
+
+
+def _with_scaled_shaft(data: dict[str, Any]) -> dict[str, Any]:
+    """Without a shaft of its own: that of the known turbine, as large as its scaled one."""
+    turbine = data.get("turbine")
+    name = turbine.get("name") if isinstance(turbine, dict) else getattr(turbine, "name", None)
+    try:
+        base, power = scaled_name(name) if isinstance(name, str) else ("", None)
+        known = load_turbine(base) if power is not None else None
+    except InputError:  # told by the turbine's own check, with its key
+        return data
+    if power is None or known is None:
+        return data
+    stated = machine(base).get("shaft")
+    usual = Shaft.model_validate(stated) if stated else Scene.model_fields["shaft"].default
+    return data | {"shaft": usual.scaled(factor_of_power(power, known.rated_power))}
 
 
 def _results_that_the_shaft_can_give(data: dict[str, Any], stated: set[str]) -> dict[str, Any]:

@@ -7,6 +7,7 @@ from typing import Self
 from pydantic import BaseModel, model_validator
 
 from loadflow.scene.section import Section
+from loadflow.shaft import scaled_suspension
 from loadflow.shaft.beam import BearingSupport
 from loadflow.shaft.options import (
     Concept,
@@ -50,6 +51,11 @@ class Shaft(Section, BaseModel):
         if len(with_first) > 1:
             raise ValueError(f"{' and '.join(with_first)} all have a bearing N; keep one of them")
         return self
+
+    def scaled(self, factor: float) -> Shaft:
+        """The suspensions with all lengths times a factor, by similarity."""
+        parts = {name: concept and scaled_suspension(concept, factor) for name, concept in self}
+        return Shaft(**parts)
 
     @property
     def seated(self) -> dict[str, BearingSupport]:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.scene.journal import Journal
-from loadflow.stages.journal import mean_temperature
+from loadflow.stages.film_temperature import mean_temperature
 
 Floats = NDArray[np.float64]
 Response = Callable[[Floats, Floats, float], float]

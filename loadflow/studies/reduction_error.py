@@ -11,7 +11,8 @@ import xarray as xr
 
 from loadflow.errors import SolverError
 from loadflow.scene.journal import Journal
-from loadflow.stages.journal import fast_film, mean_temperature
+from loadflow.stages.film_temperature import mean_temperature
+from loadflow.stages.journal import fast_film
 from loadflow.studies.bearing_series import BearingSeries
 
 Floats = np.ndarray
