@@ -18,7 +18,7 @@ from loadflow.planning.plan import make_plan
 from loadflow.scene.cases import list_cases
 from loadflow.scene.scene import Scene, make_scene
 from loadflow.scene.unused import unused_keys
-from loadflow.stages import friction, journal, loads, reduction, rolling, seeds, shaft
+from loadflow.stages import dynamics, friction, journal, loads, reduction, rolling, seeds, shaft
 from loadflow.studies.run_lifetime import run_lifetime
 from loadflow.studies.verdicts import verdicts
 
@@ -58,6 +58,10 @@ BASES = {
         "results": ["journal.film"],
     },
     "tilted film": {"journal": FILM | {"tilt": True}, "shaft": {"two_point": {"beam": {}}}},
+    "rotor dynamics": {"journal": FILM, "shaft": {"two_point": {"beam": {}}},
+                       "dynamics": {"unbalance": 50.0}, "results": ["journal.dynamics"]},
+    "rotor dynamics, rigid": {"journal": FILM, "shaft": {"two_point": {}},
+                              "results": ["journal.dynamics"]},
     "rigid and tilted": {"journal": FILM | {"tilt": True}, "shaft": {"two_point": {}}},
     "tapered rollers": {
         "shaft": {"two_point": {}},
@@ -86,6 +90,8 @@ READERS = {
     "elastic film": ("journal",),
     "film in motion": ("journal", "reduction"),
     "tilted film": ("shaft", "journal"),
+    "rotor dynamics": ("dynamics",),
+    "rotor dynamics, rigid": ("dynamics",),
     "rigid and tilted": ("journal",),
     "tapered rollers": ("rolling", "friction"),
     "three points": ("shaft",),
@@ -144,6 +150,7 @@ OTHERS = {
     "journal.supply.grooves.0.shape": ["circle"],
     "journal.supply.grooves.0.restrictor": [{"diameter": 0.004, "length": 0.05}],
     "journal.supply.pump": [{"flow": [0.0, 0.01], "pressure": [8e5, 2e5]}],
+    "dynamics.speed_range": [[0.8, 1.6]],
     "rolling.geometry.profile": ["straight"],
     "rolling.geometry.crown_radius": [18.0],
     "rolling.geometry.law": ["palmgren"],
@@ -307,6 +314,12 @@ def _friction(scene, add):
     add(rolling.load_distribution(scene, ONE, inputs))
 
 
+def _dynamics(scene, add):
+    tree = dynamics.dynamics(scene, ONE, _inputs(scene))
+    add(tree)
+    add(dynamics.summary({ONE: tree}))
+
+
 def _reduction(scene, add):
     if scene.journal.in_motion:
         _journal(scene, add)
@@ -328,7 +341,7 @@ def _seeds(scene, add):
 FOUND = {
     "loads": _loads, "turbine": _loads, "shaft": lambda s, add: _shaft(s, add) and None,
     "seeds": _seeds, "reduction": _reduction, "journal": _journal, "rolling": _rolling,
-    "friction": _friction,
+    "friction": _friction, "dynamics": _dynamics,
 }  # fmt: skip
 
 

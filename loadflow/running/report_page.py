@@ -14,6 +14,7 @@ from loadflow.errors import InputError
 from loadflow.planning.verification import WARN
 from loadflow.report import Picture, Section, Table, figures, write_page
 from loadflow.report.style import readable
+from loadflow.running.dynamics_page import dynamics_section
 from loadflow.running.folder import read_manifest
 from loadflow.scene.scene import Scene, read_scene
 from loadflow.scene.unused import unused_keys
@@ -100,6 +101,8 @@ def _sections(
             *_per_bearing(folder, "journal", shown[:1], figures.orbit),
         ]
         yield Section("Journal bearing", tables=[_case_table(tables["journal"])], pictures=pictures)
+    if "dynamics" in tables:
+        yield dynamics_section(tables["dynamics"])
     if "rolling" in tables:
         yield Section(
             "Rolling bearing",

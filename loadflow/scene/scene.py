@@ -34,13 +34,14 @@ from loadflow.journal.models.model import Verb, why_not
 from loadflow.rolling.friction import Churning
 from loadflow.scene.bearings import Rolling
 from loadflow.scene.candidates import ABOUT
+from loadflow.scene.dynamics import Dynamics
 from loadflow.scene.films import HeatTable, Law, RungName
 from loadflow.scene.limits import JournalLimits
 from loadflow.scene.loads import Loads, check_simulation
 from loadflow.scene.messages import message, shown
 from loadflow.scene.places import places_of
 from loadflow.scene.section import LARGEST_INTEGER, Section, too_large
-from loadflow.scene.written import SCHEMA, anchored, in_sections, origins
+from loadflow.scene.written import SCENE, anchored, in_sections, origins
 from loadflow.shaft.beam import BearingSupport
 from loadflow.shaft.options import (
     Concept,
@@ -58,10 +59,17 @@ Result = Literal[
     "seeds.equality",
     "reduction.histogram",
     "journal.film",
+    "journal.dynamics",
     "rolling.loads",
     "rolling.life",
     "rolling.friction",
 ]
+
+BY_NAME: tuple[Result, ...] = ("journal.dynamics",)
+"""Results that are computed only where a scene asks for them by name."""
+
+USUAL: tuple[Result, ...] = tuple(name for name in get_args(Result) if name not in BY_NAME)
+"""Results of a scene that names none."""
 
 Positive = Annotated[float, Field(gt=0)]
 
@@ -381,8 +389,9 @@ class Scene(Section, BaseModel):
     name : str
         Name of the run and of its folder.
     results : list of str
-        What is wanted; the plan runs only the stages that these need. Left out: all, but those of
-        journal or rolling bearings of which the scene says nothing and the shaft has none.
+        What is wanted; the plan runs only the stages that these need. Left out: all but
+        `BY_NAME`, and but those of journal or rolling bearings of which the scene says nothing and
+        the shaft has none.
     accuracy : float, dict or "given"
         Largest relative error allowed, of every result or by result; 5 % if nothing is said. The
         plan takes the cheapest models and effects that hold it, wherever the scene names none.
@@ -390,7 +399,7 @@ class Scene(Section, BaseModel):
     """
 
     name: Annotated[str, Field(pattern=r"^[A-Za-z0-9_.-]+$")]
-    results: Annotated[list[Result], Field(min_length=1)] = list(get_args(Result))
+    results: Annotated[list[Result], Field(min_length=1)] = list(USUAL)
     accuracy: Positive | dict[Result, Positive] | Literal["given"] = 0.05
     turbine: Turbine = Turbine()
     loads: Loads = Loads()
@@ -398,6 +407,7 @@ class Scene(Section, BaseModel):
     seeds: Seeds = Seeds()
     reduction: Reduction = Reduction()
     journal: Journal = Journal()
+    dynamics: Dynamics = Dynamics()
     rolling: Rolling = Rolling()
     friction: Friction = Friction()
     candidates: dict[str, Candidate] = {}
@@ -413,7 +423,7 @@ class Scene(Section, BaseModel):
         if not isinstance(data, dict):
             return data
         stated = {*data} & {"journal", "rolling"}
-        return _results_that_the_shaft_can_give(in_sections(data, get_args(Result)), stated)
+        return _results_that_the_shaft_can_give(in_sections(data, USUAL), stated)
 
     @model_validator(mode="after")
     def _simulates(self) -> Self:
@@ -507,7 +517,7 @@ class Scene(Section, BaseModel):
             | places_of(candidate.get("journal"), candidate.get("rolling"))
             for name, candidate in data["candidates"].items()
         }
-        return tomli_w.dumps({"schema": SCHEMA} | data)
+        return tomli_w.dumps({SCENE.key: SCENE.version} | data)
 
     def digest(self, *sections: str) -> str:
         """SHA-256 of the resolved scene, or of some of its sections."""
@@ -648,5 +658,5 @@ def _results_that_the_shaft_can_give(data: dict[str, Any], stated: set[str]) -> 
         return data
     by_default = {"journal": {*Journal().bearings}, "rolling": {Rolling().bearing}}
     absent = {room for room, own in by_default.items() if room not in stated and own - there}
-    wanted = [name for name in get_args(Result) if name.split(".")[0] not in absent]
+    wanted = [name for name in USUAL if name.split(".")[0] not in absent]
     return data | {"results": wanted}

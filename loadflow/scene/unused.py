@@ -25,6 +25,7 @@ _RESULTS = {
     "seeds": ("seeds",),
     "reduction": ("reduction", "journal", "rolling.l"),
     "journal": ("journal",),
+    "dynamics": ("journal.dynamics",),
     "rolling": ("rolling",),
     "friction": ("rolling",),
 }
@@ -73,6 +74,7 @@ def _all(scene: Scene) -> Iterator[tuple[str, str]]:
         ("journal", _of_journal),
         ("rolling", _of_rolling),
         ("friction", _of_friction),
+        ("dynamics", _of_dynamics),
     ):
         for key, reason in rules(scene) if section not in unread else ():
             if _differs(scene, section, key):
@@ -249,3 +251,10 @@ def _of_friction(scene: Scene) -> Iterator[tuple[str, str]]:
     ):
         for key in ribs:
             yield key, "the rollers press on no rib: friction.rib_angle is 0"
+
+
+def _of_dynamics(scene: Scene) -> Iterator[tuple[str, str]]:
+    films = set(scene.journal.bearings)
+    if not any(c.beam is not None and films & set(c.bearings) for c in scene.shaft.concepts):
+        for key in ("modes", "unbalance"):
+            yield key, "no suspension with a journal bearing has a beam"

@@ -135,10 +135,9 @@ def _moving(options: Journal, bearing: str, loads: xr.Dataset, reactions: xr.Dat
             if name in path:
                 found[name][left] = path[name].values
         found["converged"][left] = True
-        found["sommerfeld_number"][left] = [
-            options.geometry.sommerfeld_number(*point, held.lubricant.viscosity)
-            for point in zip(np.hypot(*force[left].T).tolist(), speed[left].tolist())
-        ]
+        found["sommerfeld_number"][left] = options.geometry.sommerfeld_number(
+            np.hypot(*force[left].T), speed[left], held.lubricant.viscosity
+        )
     _drop_contact(options, found, touching)
     samples = xr.Dataset(
         {
@@ -181,14 +180,10 @@ def surely_touching(options: Journal, force: np.ndarray, speed: np.ndarray) -> n
     load, turning = np.hypot(*to_film(force).T), np.abs(speed) > 0
     if options.contact is not None:  # the film knows what asperities carry
         return np.zeros_like(turning)
-    touching = np.asarray(~turning)
-    doubtful = np.zeros_like(turning)
+    touching, doubtful = np.asarray(~turning), np.zeros_like(turning)
     if options.shell is None:
-        viscosity = film.liquid.viscosity
-        doubtful[turning] = [
-            options.geometry.sommerfeld_number(*point, viscosity) > _LIGHT
-            for point in zip(load[turning].tolist(), np.abs(speed[turning]).tolist())
-        ]
+        number = options.geometry.sommerfeld_number(load, speed, film.liquid.viscosity)
+        doubtful = turning & (number > _LIGHT)
     if doubtful.any():
         capacity = load_capacity(options.geometry, options.contact_film, speed[doubtful], film)
         touching[doubtful] = load[doubtful] > _CERTAIN * capacity

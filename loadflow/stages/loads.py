@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from loadflow.cube import CASE_COORDS, iter_cases, open_cube
+from loadflow.cube import CASE_COORDS, case_named, iter_cases, open_cube
 from loadflow.scene.cases import CUBES, Case, wind_of
 from loadflow.scene.given_winds import RUN_IN, given_field
 from loadflow.scene.loads import Loads
@@ -60,7 +60,7 @@ def _read(scene: Scene, case: Case) -> xr.Dataset:
 
     path = Path(case.file)
     if path.suffix in CUBES:
-        return dict(iter_cases(open_cube(path)))[case.entry].load()
+        return case_named(open_cube(path), case.entry).load()
     cube = read_loads(path, turbine=scene.turbine.name, quiet=True, **scene.loads.reading)
     return next(series for _, series in iter_cases(cube))
 
