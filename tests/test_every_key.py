@@ -47,6 +47,11 @@ BASES = {
     "warm film": {
         "journal": FILM | {"heat": {"transfer": 100.0}}, "reduction": {"size": 0.03},
     },
+    "cold": {
+        "loads": WIND | {"seeds": 1, "rung": "tables"}, "environment": {"temperature": 263.15},
+        "journal": FILM | {"heat": {"transfer": 100.0}}, "reduction": {"size": 0.03},
+        "results": ["journal.film", "rolling.friction"],
+    },
     "rough film": {
         "journal": FILM | {"contact": {"pattern": 3.0, "asperities": {
             "roughness": 1e-6, "contact_modulus": 1e11, "factor": 1e-3}}},
@@ -57,6 +62,10 @@ BASES = {
         "journal": FILM | {"motion": "transient", "rung": "reduced"},
         "results": ["journal.film"],
     },
+    "periodic loads": {
+        "journal": FILM, "reduction": {"method": "periodic", "bounds": [0.05, 0.3]},
+    },
+    "stationary loads": {"journal": FILM, "reduction": {"method": "stationary"}},
     "tilted film": {"journal": FILM | {"tilt": True}, "shaft": {"two_point": {"beam": {}}}},
     "rotor dynamics": {"journal": FILM, "shaft": {"two_point": {"beam": {}}},
                        "dynamics": {"unbalance": 50.0}, "results": ["journal.dynamics"]},
@@ -86,9 +95,12 @@ READERS = {
     "files": ("loads", "seeds", "reduction"),
     "bearings": ("shaft", "journal", "rolling", "friction"),
     "warm film": ("journal",),
+    "cold": ("environment",),
     "rough film": ("journal",),
     "elastic film": ("journal",),
     "film in motion": ("journal", "reduction"),
+    "periodic loads": ("reduction",),
+    "stationary loads": ("reduction",),
     "tilted film": ("shaft", "journal"),
     "rotor dynamics": ("dynamics",),
     "rotor dynamics, rigid": ("dynamics",),
@@ -151,6 +163,9 @@ OTHERS = {
     "journal.supply.grooves.0.restrictor": [{"diameter": 0.004, "length": 0.05}],
     "journal.supply.pump": [{"flow": [0.0, 0.01], "pressure": [8e5, 2e5]}],
     "dynamics.speed_range": [[0.8, 1.6]],
+    "reduction.method": ["stationary", "histogram"],
+    "reduction.bounds": [[0.02, 0.2]],
+    "reduction.orders": [[1.0]],
     "rolling.geometry.profile": ["straight"],
     "rolling.geometry.crown_radius": [18.0],
     "rolling.geometry.law": ["palmgren"],
@@ -320,6 +335,11 @@ def _dynamics(scene, add):
     add(dynamics.summary({ONE: tree}))
 
 
+def _environment(scene, add):
+    _loads(scene, add)
+    _journal(scene, add)
+
+
 def _reduction(scene, add):
     if scene.journal.in_motion:
         _journal(scene, add)
@@ -342,6 +362,7 @@ FOUND = {
     "loads": _loads, "turbine": _loads, "shaft": lambda s, add: _shaft(s, add) and None,
     "seeds": _seeds, "reduction": _reduction, "journal": _journal, "rolling": _rolling,
     "friction": _friction, "dynamics": _dynamics,
+    "environment": _environment,
 }  # fmt: skip
 
 

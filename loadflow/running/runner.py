@@ -52,7 +52,7 @@ from loadflow.running.report_page import write_report
 from loadflow.running.warm_up import compile_kernels
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
-from loadflow.scene.unused import unused_keys
+from loadflow.scene.unused import scaling_note, unused_keys
 from loadflow.stages.registry import STAGES
 from loadflow.storage import check_name, write_text
 from loadflow.verdict import Verdict, from_dataset, to_dataset
@@ -79,6 +79,8 @@ class Run:
         Keys of the scene that are set but change nothing, and why.
     shortfalls : tuple of str
         Results that are not expected to be as accurate as asked for: how far off, why, what helps.
+    notes : tuple of str
+        What is doubtful about the scene itself, such as a turbine that is scaled.
     """
 
     path: Path
@@ -86,6 +88,7 @@ class Run:
     failures: dict[str, str] = field(default_factory=dict)
     unused: dict[str, str] = field(default_factory=dict)
     shortfalls: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
 
     @property
     def flagged(self) -> dict[str, int]:
@@ -112,7 +115,7 @@ class Run:
         ignored = [f"{key}: has no effect, {why}" for key, why in self.unused.items()]
         stages = (*STAGES.values(), check.CHECK)
         found = [said for stage in stages for said in stage.warnings(self.tree)]
-        return [*ignored, *found]
+        return [*self.notes, *ignored, *found]
 
     @property
     def report(self) -> Path:
@@ -259,7 +262,7 @@ def _run(
     if profile:
         profile.write(folder / "profile.json", where.workers)
     log.info("finished, %d parts have no answer", len(failures))
-    return Run(folder, tree, failures, unused_keys(scene), plan.shortfalls)
+    return Run(folder, tree, failures, unused_keys(scene), plan.shortfalls, scaling_note(scene))
 
 
 @threadpool_limits.wrap(limits=1)  # cases are what runs in parallel, here as in other processes

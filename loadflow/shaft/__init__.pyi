@@ -17,5 +17,6 @@ from .options import MomentBearing as MomentBearing
 from .options import ThreePoint as ThreePoint
 from .options import TwoPoint as TwoPoint
 from .reactions import bearing_loads as bearing_loads
+from .similarity import scaled_suspension as scaled_suspension
 from .vibration import modes as modes
 from .vibration import unbalance_response as unbalance_response

@@ -17,7 +17,9 @@ from loadflow.journal.transition import load_capacity
 from loadflow.journal.validity import critical_reynolds_number, reynolds_number
 from loadflow.quantities import table
 from loadflow.scene.cases import Case
-from loadflow.scene.scene import Journal, Scene
+from loadflow.scene.journal import Journal
+from loadflow.scene.scene import Scene
+from loadflow.stages.film_temperature import mean_temperature
 from loadflow.stages.frames import to_film
 from loadflow.stages.labelling import label, labelled, of_samples
 from loadflow.stages.reduction import kept_share
@@ -42,8 +44,6 @@ KEPT = table(
 WARM = table("temperature")
 """What is kept too where there is a heat balance."""
 
-TEMPERED = 64
-"""Samples of a series whose mean friction and flow give the temperature of a film in motion."""
 GIVING = table("shell_deformation")
 """What is kept too of an elastic shell."""
 
@@ -58,6 +58,8 @@ _TRIES = 200  # samples of a start that are asked for the first film
 def film(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
     """Solve the film for every sample of the reduced series; one group per bearing.
 
+    Periodic design loads drive it round the orbit that closes.
+
     Where the film is thinner than both surfaces are rough, such as at standstill, shaft and shell
     are ``in_contact``; the sample has values only if the asperities are described. A sample whose
     film was not found has none either, and ``converged`` 0.
@@ -67,12 +69,23 @@ def film(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
     loadflow.errors.SolverError
         No sample at all has an equilibrium or is in contact.
     """
-    return xr.DataTree.from_dict(
-        {
-            name: _resting(scene.journal.at(name), name, inputs["reduction"][name].to_dataset())
-            for name in scene.journal.bearings
-        }
-    )
+    found = {}
+    for name in scene.journal.bearings:
+        reduced = inputs["reduction"][name].to_dataset()
+        found[name] = driven(scene.journal.at(name), name, reduced)
+    return xr.DataTree.from_dict(found)
+
+
+def driven(options: Journal, bearing: str, reduced: xr.Dataset) -> xr.Dataset:
+    """Film of one bearing under reduced loads: at rest, or round one period if they close.
+
+    Raises
+    ------
+    loadflow.errors.SolverError
+        No sample has an equilibrium or is in contact; the orbit does not close.
+    """
+    solve = _closing if reduced.attrs.get("closed") else _resting
+    return solve(options, bearing, reduced)
 
 
 def orbit(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
@@ -116,6 +129,54 @@ def _resting(options: Journal, bearing: str, reduced: xr.Dataset) -> xr.Dataset:
     return _placed(options, given.assign(samples), found["eccentricity"])
 
 
+def _closing(options: Journal, bearing: str, reduced: xr.Dataset) -> xr.Dataset:
+    """Film on the closed orbit under one period of a load.
+
+    Raises
+    ------
+    loadflow.errors.SolverError
+        The orbit does not close.
+    """
+    vectors = reduced["force"].values
+    force, speed = to_film(vectors), reduced["speed"].values
+    warm = mean_temperature(options, force, speed)
+    held = options if warm is None else options.at_temperature(warm)
+    # the only rung that closes an orbit
+    film, moment = replace(held.film_model, rung="grid"), to_film(reduced["moment"].values)
+    try:
+        path = held.geometry.orbit(
+            reduced["time"].values,
+            force,
+            speed,
+            film,
+            periodic=True,
+            moment=moment if options.tilt else None,
+        )
+    except SolverError as error:
+        raise SolverError(f"bearing {bearing}: {error}") from error
+    found, kept = _nothing(options, speed.size), _kept(options)
+    _take_path(found, path, slice(None))
+    if warm is not None:
+        found["temperature"][:] = warm
+    found["sommerfeld_number"][:] = options.geometry.sommerfeld_number(
+        np.hypot(*force.T), speed, held.lubricant.viscosity
+    )
+    touching = np.zeros(speed.size, dtype=bool)
+    _drop_contact(options, found, touching)
+    samples = of_samples(found, kept) | _loaded(vectors, touching)
+    about = {name: path.attrs[name] for name in ("closure", "periods")} | {"motion": "periodic"}
+    given = reduced[["time", "speed", "weight"]].assign(samples)
+    return _placed(held, given, found["eccentricity"]).assign_attrs(about)
+
+
+def _take_path(found: dict[str, np.ndarray], path: xr.Dataset, places: slice) -> None:
+    """Put an orbit where it belongs in what is kept."""
+    for name in found:
+        if name in path:
+            found[name][places] = path[name].values
+    found["converged"][places] = True
+
+
 def _moving(options: Journal, bearing: str, loads: xr.Dataset, reactions: xr.Dataset) -> xr.Dataset:
     """Film along the series, from the first sample on in which the surfaces need not touch."""
     vectors = reactions["force"].transpose("time", "axis").values.astype(float)
@@ -131,10 +192,7 @@ def _moving(options: Journal, bearing: str, loads: xr.Dataset, reactions: xr.Dat
             raise SolverError(f"bearing {bearing}: {error}") from error
         if options.heat is not None:
             held = options.at_temperature(float(path["temperature"][0]))
-        for name in found:
-            if name in path:
-                found[name][left] = path[name].values
-        found["converged"][left] = True
+        _take_path(found, path, left)
         found["sommerfeld_number"][left] = options.geometry.sommerfeld_number(
             np.hypot(*force[left].T), speed[left], held.lubricant.viscosity
         )
@@ -220,31 +278,6 @@ def _loaded(force: np.ndarray, touching: np.ndarray) -> dict[str, Any]:
         "axial_load": ("sample", axial, label("N", "force along the shaft, its size")),
         "in_contact": ("sample", touching, about),
     }
-
-
-def mean_temperature(options: Journal, force: np.ndarray, speed: np.ndarray) -> float | None:
-    """Temperature (K) of a film in motion under `force` (n, 2) in its frame; None without heat.
-
-    It is that of the mean friction and flow of `TEMPERED` equilibria spread over the series.
-
-    Raises
-    ------
-    loadflow.errors.SolverError
-        No heat balance below the largest temperature.
-    """
-    if options.heat is None:
-        return None
-    some = np.unique(np.linspace(0, speed.size - 1, TEMPERED).round().astype(int))
-    warm = options.geometry.equilibrium(
-        force[some],
-        speed[some],
-        options.film_model,
-        weights=np.ones(some.size),
-        strict=False,
-    )
-    if not np.any(warm.converged):
-        raise SolverError("orbit cannot start: no heat balance of its mean friction and flow")
-    return float(np.asarray(warm.temperature)[0])
 
 
 def _kept(options: Journal) -> dict[str, tuple[str, str]]:
