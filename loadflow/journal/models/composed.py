@@ -35,7 +35,7 @@ from loadflow.journal.models.width_modes import half_width_nodes, whole_width
 from loadflow.journal.results import operating_columns, without_supply
 from loadflow.journal.shells import LinedShell, LocalShell
 from loadflow.journal.solvers.estimate import NEAR, closed_form_position
-from loadflow.journal.solvers.newton import not_found, refusal
+from loadflow.journal.solvers.messages import no_equilibrium, not_found
 from loadflow.numerics.convergence import Limits, unresolved
 from loadflow.numerics.fields import require
 
@@ -307,7 +307,7 @@ def orbit(
             )
     if not converged:
         why = not_found(residual, rounding, iterations, float(np.hypot(*first[:2])))
-        raise SolverError(f"orbit cannot start: {refusal(force[0], speed[0], why)}")
+        raise SolverError(f"orbit cannot start: {no_equilibrium(force[0], speed[0], why)}")
     summarise(film, work, first, rows[0])
     rows[0, at.RESIDUAL :] = residual, iterations, converged, rounding
     solved = march(
