@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from loadflow.errors import SolverError
 from loadflow.journal.film.film import EVERY, DiscreteFilm
 from loadflow.journal.film.integrals import summary
-from loadflow.journal.results import attitude_angle
+from loadflow.journal.rows import attitude_angle
 from loadflow.journal.solvers.newton import Motion, Solution, solve_equilibrium
 from loadflow.numerics.convergence import unresolved
 from loadflow.quantities import FILM
