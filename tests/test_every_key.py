@@ -313,7 +313,7 @@ def _journal(scene, add):
 
 
 def _rolling(scene, add):
-    from loadflow.planning.accuracy import finer
+    from loadflow.planning.choice import finer
 
     inputs = _inputs(scene)
     # with the effect of the rings on, too, as the run's own check has it

@@ -23,7 +23,7 @@ import loadflow
 from loadflow.cube import open_cube, save_cube
 from loadflow.errors import LoadflowError, SolverError
 from loadflow.planning import verification as check
-from loadflow.planning.accuracy import can_refine
+from loadflow.planning.choice import can_refine
 from loadflow.planning.effects import EffectVerdict
 from loadflow.planning.pilot import pilot
 from loadflow.planning.plan import Plan, Step, make_plan
