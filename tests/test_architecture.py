@@ -26,7 +26,7 @@ FLOORS = (
     ("journal", "rolling"),
     ("wind", "rotor", "shaft", "seeds", "reduction", "readers"),
     ("cube", "turbines", "tribology"),
-    ("numerics",),
+    ("numerics", "plots"),
     ("storage", "verdict", "quantities"),
     ("errors", "data"),
 )

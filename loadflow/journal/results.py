@@ -3,20 +3,24 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from loadflow.journal.film._kernels import HINV, HM
 from loadflow.journal.film.groove_pressure import UNSUPPLIED
 from loadflow.journal.film.integrals import summary
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.validity import critical_reynolds_number, reynolds_number
-from loadflow.quantities import FILM
+from loadflow.numerics.shown import Shown
+from loadflow.quantities import FILM, Quantity
 
 if TYPE_CHECKING:
     import xarray as xr
+    from matplotlib.figure import Figure
 
     from loadflow.journal.film.film import DiscreteFilm, Linear
     from loadflow.journal.lubricant import Lubricant
@@ -30,7 +34,7 @@ _INNER = {
     **dict.fromkeys(("eccentricity", "moment", "tilt"), ("axis",)),
     **dict.fromkeys(("stiffness", "damping"), ("dof", "along")),
     **dict.fromkeys(("groove_flow", "groove_pressure"), ("groove",)),
-    **dict.fromkeys(("pressure", "fill", "deformation"), ("around", "across")),
+    **dict.fromkeys(("pressure", "fill", "deformation", "gap"), ("around", "across")),
     **dict.fromkeys(("film_temperature", "film_viscosity"), ("around", "across")),
     **dict.fromkeys(("leading_temperature", "trailing_temperature"), ("mixing groove",)),
     "pad_tilt": ("pad",),
@@ -40,7 +44,7 @@ _INNER = {
 """Dimensions of a result beside those of the loads."""
 
 
-class _Result:
+class _Result(Shown):
     """What results of a film have in common."""
 
     eccentricity_ratio: Array
@@ -48,6 +52,10 @@ class _Result:
     maximum_pressure: Array
     converged: NDArray[np.bool_]
     iterations: NDArray[np.int64]
+
+    def shown_quantities(self) -> Mapping[str, Quantity]:
+        """Quantities of a film."""
+        return FILM
 
     @property
     def _shape(self) -> tuple[int, ...]:
@@ -232,6 +240,34 @@ class Equilibrium(_Result):
     contact_power: Array | None = None
     contact_share: Array | None = None
 
+    def plot(self) -> Figure:
+        """Draw K and C over the speeds, or the shaft centre in the clearance circle.
+
+        The first where the equilibria are of several speeds under one load each.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+
+        Examples
+        --------
+        >>> from loadflow.journal import JournalBearing, Lubricant
+        >>> bearing = JournalBearing(diameter=0.2, width=0.1, relative_clearance=1e-3)
+        >>> state = bearing.equilibrium((5e3, 0.0), [50.0, 80.0], Lubricant(0.05), grid=(36, 8))
+        >>> len(state.plot().axes)
+        2
+        """
+        from loadflow import plots
+
+        speeds, loads = np.ravel(self.speed), np.reshape(self.force, (-1, 2))
+        if np.unique(speeds).size > 1 and np.unique(loads, axis=0).shape[0] == 1:
+            return plots.coefficients(speeds, self.stiffness, self.damping)
+        place, ratio = np.reshape(self.eccentricity, (-1, 2)), np.ravel(self.eccentricity_ratio)
+        size = np.hypot(*place.T)
+        known = np.flatnonzero(size > 0)
+        clearance = size[known[0]] / ratio[known[0]] if known.size else 1.0
+        return plots.clearance_circle(place / clearance, np.ravel(self.minimum_film) * 1e6)
+
 
 @dataclass(frozen=True, repr=False)
 class WarmEquilibrium(Equilibrium):
@@ -280,6 +316,8 @@ contact_area, contact_power, contact_share
         As in `Equilibrium`.
     deformation : array (…, nx, nz)
         Growth of the gap of the cells by the elastic shell, m.
+    gap : array (…, nx, nz)
+        Mean gap of the cells, m.
 
     Examples
     --------
@@ -297,6 +335,7 @@ contact_area, contact_power, contact_share
     pressure: Array
     fill: Array
     deformation: Array
+    gap: Array
     angle: Array
     z: Array
     eccentricity_ratio: Array
@@ -324,6 +363,33 @@ contact_area, contact_power, contact_share
     contact_area: Array | None = None
     contact_power: Array | None = None
     contact_share: Array | None = None
+
+    def plot(self, case: int = 0) -> Figure:
+        """Draw the pressure unwrapped and around the shaft, and the gap.
+
+        Parameters
+        ----------
+        case : int
+            Number of the position, in C order.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+
+        Examples
+        --------
+        >>> from loadflow.journal import JournalBearing, Lubricant
+        >>> bearing = JournalBearing(diameter=0.2, width=0.1, relative_clearance=1e-3)
+        >>> len(bearing.pressure((5e-5, 0.0), 50.0, Lubricant(0.05), grid=(36, 8)).plot().axes)
+        4
+        """
+        from loadflow import plots
+
+        angle, pressure, gap = (
+            values.reshape(-1, *values.shape[len(self._shape) :])[case]
+            for values in (self.angle, self.pressure, self.gap)
+        )
+        return plots.pressure(angle, self.z, pressure, gap)
 
 
 def stack(rows: list[dict[str, Any]], shape: tuple[int, ...]) -> dict[str, Any]:
@@ -394,16 +460,20 @@ def without_supply(count: int) -> dict[str, Any]:
 def field_row(film: DiscreteFilm, solution: Solution) -> dict[str, Any]:
     """One row of `FilmField`, but for z; the half film is mirrored."""
     *cells, angle, load = film.field(solution.u, solution.position)
-    cells.append(film.deformation)
+    # of each cell ∫h dA and ∫dA/h are known; the root of their ratio is its gap
+    whole, inverse = film.gap.coef[HM, : angle.size], film.gap.coef[HINV, : angle.size]
+    heights = np.sqrt(whole / inverse) * film.relative_clearance * film.radius
+    cells += [film.deformation, np.broadcast_to(heights, cells[0].shape)]
     if film.mesh.half:
         cells = [np.concatenate([values[:, ::-1], values], axis=1) for values in cells]
-    pressure, fill, deformation = cells
+    pressure, fill, deformation, gap = cells
     return {
         "film_force": -load[:2],
         "force": load[:2],
         "pressure": pressure,
         "fill": fill,
         "deformation": deformation,
+        "gap": gap,
         "angle": angle,
         **_common_row(film, solution),
     }

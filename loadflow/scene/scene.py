@@ -34,6 +34,7 @@ from loadflow.journal.models.model import Verb, why_not
 from loadflow.rolling.friction import Churning
 from loadflow.scene.bearings import Rolling
 from loadflow.scene.candidates import ABOUT
+from loadflow.scene.design import Design
 from loadflow.scene.films import HeatTable, Law, RungName
 from loadflow.scene.limits import JournalLimits
 from loadflow.scene.loads import Loads, check_simulation
@@ -401,6 +402,7 @@ class Scene(Section, BaseModel):
     rolling: Rolling = Rolling()
     friction: Friction = Friction()
     candidates: dict[str, Candidate] = {}
+    design: Design = Design()
 
     @field_validator("name")
     @classmethod
