@@ -15,6 +15,7 @@ from loadflow.cli import (  # noqa: F401  they register their commands
     points,
     processing,
     scenes,
+    viewing,
 )
 from loadflow.cli.base import app, err
 from loadflow.cli.signals import Stopped, leave, stoppable, tell_stopped
