@@ -21,6 +21,7 @@ from loadflow.journal.line import Line
 from loadflow.journal.models.model import Steps, why_not
 from loadflow.scene.bearings import Rolling
 from loadflow.scene.candidates import ABOUT, machine
+from loadflow.scene.design import Design
 from loadflow.scene.dynamics import Dynamics
 from loadflow.scene.environment import Environment, surrounded
 from loadflow.scene.friction import Friction
@@ -168,6 +169,7 @@ class Scene(Section, BaseModel):
     rolling: Rolling = Rolling()
     friction: Friction = Friction()
     candidates: dict[str, Candidate] = {}
+    design: Design = Design()
 
     @field_validator("name")
     @classmethod
