@@ -270,6 +270,14 @@ class WarmEquilibrium(Equilibrium):
         What is left of the heat balance, K.
     heat_iterations : array of int (…)
         Temperatures tried.
+
+    Examples
+    --------
+    >>> from loadflow.journal import Heat, JournalBearing
+    >>> bearing = JournalBearing(diameter=0.2, width=0.1, relative_clearance=1e-3)
+    >>> state = bearing.equilibrium((1e4, 0.0), 100.0, heat=Heat(), grid=(40, 8))
+    >>> bool(state.converged), bool(state.outlet_temperature > state.temperature > 313.15)
+    (True, True)
     """
 
     outlet_temperature: Array = field(default_factory=lambda: np.zeros(()))

@@ -153,6 +153,13 @@ class Scene(Section, BaseModel):
         Largest relative error allowed, of every result or by result; 5 % if nothing is said. The
         plan takes the cheapest models and effects that hold it, wherever the scene names none.
         ``"given"`` leaves all models as the scene has them, the defaults where it names none.
+
+    Examples
+    --------
+    >>> from loadflow.scene import make_scene
+    >>> scene = make_scene({"name": "look", "accuracy": 0.02, "loads": {"seeds": 2}})
+    >>> scene.loads.seeds, scene.allowed("journal.film"), scene.wants("rolling")
+    (2, 0.02, True)
     """
 
     name: Annotated[str, Field(pattern=r"^[A-Za-z0-9_.-]+$")]
@@ -409,6 +416,13 @@ def with_loads(scene: Scene, files: list[str], **reading: Any) -> Scene:
     ------
     InputError
         A bad value among them.
+
+    Examples
+    --------
+    >>> from loadflow.scene import make_scene, with_loads
+    >>> scene = with_loads(make_scene({"name": "look"}), ["/data/runs/*.outb"], frame="rotating")
+    >>> scene.loads.source, scene.loads.frame
+    ('files', 'rotating')
     """
     given = {key: value for key, value in reading.items() if value is not None}
     absolute = [str(Path(file).absolute()) for file in files]

@@ -32,6 +32,13 @@ class Airfoil:
     zero_lift, lift_slope : float, optional
         Potential flow that unsteady airfoils build on: angle of attack without lift, rad, and slope
         of the lift coefficient, 1/rad; left out, they follow from the polar.
+
+    Examples
+    --------
+    >>> from loadflow.turbines import load_turbine
+    >>> foil = next(iter(load_turbine("nrel-5mw").airfoils.values()))
+    >>> foil.angle.shape == foil.lift.shape == foil.drag.shape
+    True
     """
 
     name: str
@@ -73,6 +80,12 @@ class Mode:
     coefficients : tuple of float
         Coefficients of x², x³, … with x = distance from the root over blade length; they add up
         to 1, so that the modal coordinate is the deflection of the tip.
+
+    Examples
+    --------
+    >>> from loadflow.turbines import Mode
+    >>> Mode("flap1", (0.0, 0.0, 1.0)).name
+    'flap1'
     """
 
     name: str
@@ -102,6 +115,13 @@ class Blade:
     modes : tuple of Mode
     prebend : ndarray, shape (n,) or (0,)
         Distance of each section upwind of the pitch axis, m; empty: a straight blade.
+
+    Examples
+    --------
+    >>> from loadflow.turbines import load_turbine
+    >>> blade = load_turbine("nrel-5mw").blade
+    >>> len(blade.airfoil) == blade.radius.size, [mode.name for mode in blade.modes]
+    (True, ['flap1', 'flap2', 'edge1'])
     """
 
     radius: Array
@@ -150,6 +170,13 @@ class RotorGeometry:
         rad; tilt lifts the upwind end of the shaft, cone leans the blades upwind.
     hub_mass, hub_inertia : float
         kg; kg m² about the shaft.
+
+    Examples
+    --------
+    >>> from loadflow.turbines import load_turbine
+    >>> rotor = load_turbine("nrel-5mw").rotor
+    >>> rotor.radius, rotor.blades
+    (63.0, 3)
     """
 
     radius: Positive
@@ -188,6 +215,12 @@ class Drivetrain:
         the time it takes to close, s.
     torsional_stiffness, torsional_damping : float
         Between rotor and generator, at the speed of the rotor, N m/rad (0: rigid) and N m s/rad.
+
+    Examples
+    --------
+    >>> from loadflow.turbines import Drivetrain
+    >>> Drivetrain(gear_ratio=97.0, generator_inertia=534.0).torsional_stiffness  # rigid
+    0.0
     """
 
     gear_ratio: Positive
@@ -237,6 +270,12 @@ class Control:
     individual_gain, individual_limit : float
         Of the individual pitch control: integral gain on the tilt and yaw moment, rad/(N m s), and
         largest deviation from the collective pitch, rad.
+
+    Examples
+    --------
+    >>> from loadflow.turbines import load_turbine
+    >>> round(load_turbine("nrel-5mw").control.pitch_rate, 4)  # rad/s
+    0.1396
     """
 
     region_2_gain: Positive
@@ -317,6 +356,12 @@ class Supervision:
         From a fault to the reaction of the control, s.
     brake_speed : float
         Rotor speed below which the brake closes in a stop, rad/s.
+
+    Examples
+    --------
+    >>> from loadflow.turbines import Supervision
+    >>> Supervision(overspeed=1.15).brake_speed
+    0.1
     """
 
     idling_pitch: Positive = 70.0 * _DEGREE
@@ -347,6 +392,13 @@ class Turbine:
     frequencies : dict of float by name
         Natural frequencies that a load spectrum may show, Hz.
     supervision : Supervision
+
+    Examples
+    --------
+    >>> from loadflow.turbines import load_turbine
+    >>> turbine = load_turbine("nrel-5mw")
+    >>> turbine.rated_power / 1e6, turbine.rotor.hub_height, turbine.tower.height
+    (5.0, 90.0, 87.6)
     """
 
     name: str
