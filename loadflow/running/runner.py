@@ -79,6 +79,8 @@ class Run:
         Keys of the scene that are set but change nothing, and why.
     shortfalls : tuple of str
         Results that are not expected to be as accurate as asked for: how far off, why, what helps.
+    taken : tuple of str
+        What neither scene nor turbine state, and what was taken instead.
     """
 
     path: Path
@@ -86,6 +88,7 @@ class Run:
     failures: dict[str, str] = field(default_factory=dict)
     unused: dict[str, str] = field(default_factory=dict)
     shortfalls: tuple[str, ...] = ()
+    taken: tuple[str, ...] = ()
 
     @property
     def flagged(self) -> dict[str, int]:
@@ -112,7 +115,7 @@ class Run:
         ignored = [f"{key}: has no effect, {why}" for key, why in self.unused.items()]
         stages = (*STAGES.values(), check.CHECK)
         found = [said for stage in stages for said in stage.warnings(self.tree)]
-        return [*ignored, *found]
+        return [*ignored, *self.taken, *found]
 
     @property
     def report(self) -> Path:
@@ -258,7 +261,8 @@ def _run(
     if profile:
         profile.write(folder / "profile.json", where.workers)
     log.info("finished, %d parts have no answer", len(failures))
-    return Run(folder, tree, failures, unused_keys(scene), plan.shortfalls)
+    elsewhere = tuple(scene.taken)
+    return Run(folder, tree, failures, unused_keys(scene), plan.shortfalls, elsewhere)
 
 
 @threadpool_limits.wrap(limits=1)  # cases are what runs in parallel, here as in other processes
@@ -304,7 +308,7 @@ def _carry_out(
             begun = time.perf_counter()
             cases = _looked_at(whole, plan.cases, folder, seen)
             by_name = {case.name: case for case in cases}
-            inputs = OpenedLate(by_name, lambda case: open_inputs(whole, case, folder))
+            inputs = OpenedLate(by_name, partial(open_inputs, whole, folder=folder))
             with Compiling() as compiling:
                 save_part(whole.stage.run(plan.scene, cases, inputs), target, whole.digest)
             timing[whole.name] = time.perf_counter() - begun

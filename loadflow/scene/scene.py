@@ -31,16 +31,18 @@ from loadflow.journal import (
 )
 from loadflow.journal.line import Line
 from loadflow.journal.models.model import Verb, why_not
+from loadflow.numerics.fields import LARGEST_INTEGER, shown
 from loadflow.rolling.friction import Churning
 from loadflow.scene.bearings import Rolling
 from loadflow.scene.candidates import ABOUT
 from loadflow.scene.films import HeatTable, Law, RungName
 from loadflow.scene.limits import JournalLimits
 from loadflow.scene.loads import Loads, check_simulation
-from loadflow.scene.messages import message, shown
+from loadflow.scene.messages import message
+from loadflow.scene.own_shaft import taken
 from loadflow.scene.places import places_of
-from loadflow.scene.section import LARGEST_INTEGER, Section, too_large
-from loadflow.scene.written import SCHEMA, anchored, in_sections, origins
+from loadflow.scene.section import Section, too_large
+from loadflow.scene.written import SCHEMA, anchored, in_sections, named_by_file, origins
 from loadflow.shaft.beam import BearingSupport
 from loadflow.shaft.options import (
     Concept,
@@ -51,7 +53,7 @@ from loadflow.shaft.options import (
     TwoPoint,
 )
 from loadflow.storage import check_name
-from loadflow.turbines import load_turbine
+from loadflow.turbines import load_turbine, turbine_digest
 
 Result = Literal[
     "loads.statistics",
@@ -67,9 +69,17 @@ Positive = Annotated[float, Field(gt=0)]
 
 
 class Turbine(Section, BaseModel):
-    """The turbine: a name that `loadflow.turbines` knows, or a path to a file of the same form."""
+    """The turbine: a name that `loadflow.turbines` knows, or a path to a file.
+
+    ``file`` may stand in place of ``name``: a TOML file of a turbine, or a windIO file (.yaml).
+    """
 
     name: str = "nrel-5mw"
+
+    @model_validator(mode="before")
+    @classmethod
+    def _from_file(cls, data: Any) -> Any:
+        return named_by_file(data)
 
     @field_validator("name")
     @classmethod
@@ -481,6 +491,11 @@ class Scene(Section, BaseModel):
             )
         return self
 
+    @property
+    def taken(self) -> list[str]:
+        """What neither scene nor turbine state, and what is taken instead."""
+        return taken(self.turbine.name, self.shaft.model_dump(mode="json", exclude_none=True))
+
     def wants(self, room: str) -> bool:
         """Whether a result of `room` is wanted."""
         return any(result.split(".")[0] == room for result in self.results)
@@ -510,9 +525,12 @@ class Scene(Section, BaseModel):
         return tomli_w.dumps({"schema": SCHEMA} | data)
 
     def digest(self, *sections: str) -> str:
-        """SHA-256 of the resolved scene, or of some of its sections."""
+        """SHA-256 of the resolved scene, or of some of its sections, and the turbine's file."""
         include = set(sections) if sections else None
-        return hashlib.sha256(self.model_dump_json(include=include).encode()).hexdigest()
+        told = self.model_dump_json(include=include)
+        if include is None or "turbine" in include:
+            told += turbine_digest(self.turbine.name)
+        return hashlib.sha256(told.encode()).hexdigest()
 
 
 def read_scene(path: str | Path) -> Scene:
