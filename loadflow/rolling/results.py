@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, Generic, TypeVar
 
 import numpy as np
@@ -144,12 +145,12 @@ class ContactResult(RingEquilibrium, Generic[Bearing]):
         return self.element_forces
 
     # --- safety and life -------------------------------------------------------------------------
-    @property
+    @cached_property
     def maximum_force(self) -> Array:
         """Largest force on a rolling element, N."""
         return self.bearing.maximum_force(self.elements)
 
-    @property
+    @cached_property
     def raceway_pressure(self) -> tuple[Array, ...]:
         """Largest Hertzian pressure at each raceway, Pa: inner, outer; of each row of three-row."""
         return self.bearing.raceway_pressure(self.elements)

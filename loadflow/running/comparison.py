@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import shutil
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -16,7 +17,8 @@ from loadflow.running.folder import finished_parts, read_manifest
 from loadflow.running.parts import digest_of
 from loadflow.running.runner import Report, run
 from loadflow.scene.candidates import candidates_of
-from loadflow.scene.scene import Candidate, Journal, Scene, make_scene
+from loadflow.scene.journal import Journal
+from loadflow.scene.scene import Candidate, Scene, make_scene, read_scene
 from loadflow.storage import write_text
 from loadflow.studies.compare import Finished, compared
 from loadflow.studies.compare_result import Comparison
@@ -101,29 +103,104 @@ def compare(
     """
     known, without_place = candidates_for(scene)
     chosen = _chosen(known, candidates)
-    base = _base(scene)
+    how = Means(workers, scheduler, overwrite, progress)
+    loads = shared_loads(scene, out, how)
+    finished, failures = run_candidates(loads, chosen, loads.folder / "candidates", how)
+    found = compared(loads.scene, finished, loads.folder, failures, without_place)
+    done = Compared(loads.folder, found, failures)
+    write_comparison(done.page, found.as_dict())
+    write_text(done.table, found.to_csv())
+    write_text(done.path / "compare.json", json.dumps(found.as_dict(), indent=1))
+    return done
+
+
+@dataclass(frozen=True)
+class Means:
+    """How runs are carried out: as of `loadflow.run`."""
+
+    workers: int = 1
+    scheduler: str | None = None
+    overwrite: bool = False
+    progress: Report | None = None
+
+    def say(self, stage: str, done: int, total: int) -> None:
+        """Tell of progress, if anybody listens."""
+        if self.progress is not None:
+            self.progress(stage, done, total)
+
+
+@dataclass(frozen=True)
+class SharedLoads:
+    """The loads and shaft that all candidates of a scene share, finished.
+
+    Attributes
+    ----------
+    scene : Scene
+        With the models that its loads and shaft were made with, and nothing but these wanted.
+    plan : Plan
+        Of that scene.
+    folder : Path
+        Of its run.
+    """
+
+    scene: Scene
+    plan: Plan
+    folder: Path
+
+    @property
+    def steps(self) -> int:
+        """Length of the shortest series."""
+        return min(case.steps for case in self.plan.cases)
+
+
+def shared_loads(scene: Scene, out: str | Path, how: Means) -> SharedLoads:
+    """Loads and shaft of a scene, made if the run of its name below `out` lacks them.
+
+    Raises
+    ------
+    loadflow.errors.LoadflowError
+        As `loadflow.run`.
+    """
     folder = Path(out) / scene.name
-    plan = make_plan(base)
-    if not _there(plan, folder):
+    base = _base(scene)
+    settled = _as_run(base, scene, folder)
+    if settled is None or not _there(make_plan(settled), folder):
         run(
-            base, out=out, workers=workers, scheduler=scheduler, overwrite=overwrite, report=False,
-            progress=progress,
+            base, out=out, workers=how.workers, scheduler=how.scheduler, overwrite=how.overwrite,
+            report=False, progress=how.progress,
         )  # fmt: skip
+        settled = _as_run(base, scene, folder) or base
+    return SharedLoads(settled, make_plan(settled), folder)
+
+
+def run_candidates(
+    loads: SharedLoads, chosen: Mapping[str, Candidate], below: Path, how: Means
+) -> tuple[list[Finished], dict[str, str]]:
+    """Run each candidate in a folder of its name `below`, on the same loads.
+
+    Returns
+    -------
+    tuple
+        Those that have an answer, and why others have none, by name.
+
+    Raises
+    ------
+    loadflow.errors.LoadflowError
+        None has one.
+    """
     finished, failures = [], {}
-    steps = min(case.steps for case in plan.cases)
     for name, candidate in chosen.items():
-        own = candidate_scene(base, name, candidate, steps)
-        place = folder / "candidates" / name
-        _share(plan, make_plan(own), folder, place)
+        own = candidate_scene(loads.scene, name, candidate, loads.steps)
+        place = below / name
+        _share(loads.plan, make_plan(own), loads.folder, place)
 
         def tell(stage: str, done: int, total: int, name: str = name) -> None:
-            if progress is not None:
-                progress(f"{name}: {stage}", done, total)
+            how.say(f"{name}: {stage}", done, total)
 
         try:
             result = run(
-                own, out=place.parent, workers=workers, scheduler=scheduler, overwrite=overwrite,
-                report=False, progress=tell,
+                own, out=below, workers=how.workers, scheduler=how.scheduler,
+                overwrite=how.overwrite, report=False, progress=tell,
             )  # fmt: skip
         except LoadflowError as error:
             failures[name] = str(error)
@@ -136,12 +213,7 @@ def compare(
     if not finished:
         lines = "\n".join(f"  {name}: {why}" for name, why in failures.items())
         raise LoadflowError(f"no candidate has an answer:\n{lines}")
-    found = compared(base, finished, folder, failures, without_place)
-    done = Compared(folder, found, failures)
-    write_comparison(done.page, found.as_dict())
-    write_text(done.table, found.to_csv())
-    write_text(folder / "compare.json", json.dumps(found.as_dict(), indent=1))
-    return done
+    return finished, failures
 
 
 def candidates_for(scene: Scene) -> tuple[dict[str, Candidate], list[str]]:
@@ -240,6 +312,20 @@ def _base(scene: Scene) -> Scene:
     loads = make_plan(scene).scene.loads if scene.accuracy is not None else scene.loads
     update = {"loads": loads, "results": ["loads.statistics"], "candidates": {}}
     return scene.model_copy(update=update)
+
+
+def _as_run(base: Scene, scene: Scene, folder: Path) -> Scene | None:
+    """The scene with loads and shaft as a run in the folder has them, its effects as decided.
+
+    What a pilot measured for one candidate must not change the loads of it alone. None where the
+    run is of another scene, or there is none.
+    """
+    if not (folder / "manifest.json").exists() or not (folder / "scene.toml").exists():
+        return None
+    if read_manifest(folder).get("wanted") not in (base.digest(), scene.digest()):
+        return None
+    stated = read_scene(folder / "scene.toml")
+    return base.model_copy(update={"loads": stated.loads, "shaft": stated.shaft})
 
 
 def _there(plan: Plan, folder: Path) -> bool:

@@ -23,8 +23,8 @@ import loadflow
 from loadflow.cube import open_cube, save_cube
 from loadflow.errors import LoadflowError, SolverError
 from loadflow.planning import verification as check
-from loadflow.planning.accuracy import can_refine
-from loadflow.planning.effects import Verdict as PilotVerdict
+from loadflow.planning.choice import can_refine
+from loadflow.planning.effects import EffectVerdict
 from loadflow.planning.pilot import pilot
 from loadflow.planning.plan import Plan, Step, make_plan
 from loadflow.running.cases import (
@@ -38,12 +38,12 @@ from loadflow.running.cases import (
 from loadflow.running.compiling import Compiling
 from loadflow.running.executor import Executor, Lost, executor
 from loadflow.running.folder import (
-    climbs,
     known_verdict,
     part_file,
     part_files,
     prepare,
     record,
+    refinements,
 )
 from loadflow.running.lock import locked
 from loadflow.running.parts import save_part
@@ -52,9 +52,9 @@ from loadflow.running.report_page import write_report
 from loadflow.running.warm_up import compile_kernels
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
-from loadflow.scene.unused import unused_keys
+from loadflow.scene.unused import scaling_note, unused_keys
 from loadflow.stages.registry import STAGES
-from loadflow.storage import check_name
+from loadflow.storage import check_name, write_text
 from loadflow.verdict import Verdict, from_dataset, to_dataset
 
 log = logging.getLogger("loadflow.run")
@@ -79,8 +79,9 @@ class Run:
         Keys of the scene that are set but change nothing, and why.
     shortfalls : tuple of str
         Results that are not expected to be as accurate as asked for: how far off, why, what helps.
-    taken : tuple of str
-        What neither scene nor turbine state, and what was taken instead.
+    notes : tuple of str
+        What is doubtful about the scene itself, such as a turbine that is scaled, or what neither
+        scene nor turbine state, and what was taken instead.
     """
 
     path: Path
@@ -88,7 +89,7 @@ class Run:
     failures: dict[str, str] = field(default_factory=dict)
     unused: dict[str, str] = field(default_factory=dict)
     shortfalls: tuple[str, ...] = ()
-    taken: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
 
     @property
     def flagged(self) -> dict[str, int]:
@@ -115,7 +116,7 @@ class Run:
         ignored = [f"{key}: has no effect, {why}" for key, why in self.unused.items()]
         stages = (*STAGES.values(), check.CHECK)
         found = [said for stage in stages for said in stage.warnings(self.tree)]
-        return [*ignored, *self.taken, *found]
+        return [*self.notes, *ignored, *found]
 
     @property
     def report(self) -> Path:
@@ -228,19 +229,20 @@ def _run(
     profile: Profile | None,
 ) -> Run:
     log.info("loadflow %s, %s, %d workers", loadflow.__version__, folder, where.workers)
-    climbed = climbs(folder, scene)
+    refined = refinements(folder, scene)
     begun = time.perf_counter()
-    pilot_verdict = known_verdict(folder, scene) or pilot(scene, say)
+    pilot_verdict = known_verdict(folder, scene) or pilot(scene, say, where.outcomes)
     if profile:
         profile.add_wall("pilot", time.perf_counter() - begun)
     while True:
         started = time.perf_counter()
-        plan = make_plan(scene, climbed, pilot_verdict)
-        manifest = prepare(folder, scene, plan, climbed, overwrite, pilot_verdict)
+        plan = make_plan(scene, refined, pilot_verdict)
+        manifest = prepare(folder, scene, plan, refined, overwrite, pilot_verdict)
         timing, failures = _carry_out(plan, folder, where, say, profile, pilot_verdict)
         begun = time.perf_counter()
         tree = _collect(plan, folder)
         save_cube(tree, folder / "result.h5")
+        _export(plan, folder)
         wall = time.perf_counter() - started
         if profile:
             profile.add_wall("result", time.perf_counter() - begun)
@@ -249,7 +251,7 @@ def _run(
         if not higher:
             break
         log.info("not accurate enough, better models of: %s", ", ".join(higher))
-        climbed = [*climbed, *higher]
+        refined = [*refined, *higher]
         overwrite = True  # the parts of the coarser models are this run's own
     if report:
         begun = time.perf_counter()
@@ -261,8 +263,8 @@ def _run(
     if profile:
         profile.write(folder / "profile.json", where.workers)
     log.info("finished, %d parts have no answer", len(failures))
-    elsewhere = tuple(scene.taken)
-    return Run(folder, tree, failures, unused_keys(scene), plan.shortfalls, elsewhere)
+    notes = (*scaling_note(scene), *scene.taken)
+    return Run(folder, tree, failures, unused_keys(scene), plan.shortfalls, notes)
 
 
 @threadpool_limits.wrap(limits=1)  # cases are what runs in parallel, here as in other processes
@@ -272,7 +274,7 @@ def _carry_out(
     where: Executor,
     say: Report,
     profile: Profile | None,
-    pilot_verdict: PilotVerdict | None,
+    pilot_verdict: EffectVerdict | None,
 ) -> tuple[dict[str, float], dict[str, str]]:
     """Do what is missing of a plan; return seconds by stage, and what has no answer."""
     timing: dict[str, float] = {}
@@ -402,6 +404,18 @@ def _collect(plan: Plan, folder: Path) -> xr.DataTree:
             for path, node in _nodes(data)
         }
     )
+
+
+def _export(plan: Plan, folder: Path) -> None:
+    """Write what stages give as text, for other programs."""
+    for step in plan.of_scope("case"):
+        if (exports := step.stage.exports) is None:
+            continue
+        for case in plan.cases:
+            if (part := part_file(folder, step.name, case)).exists():
+                for name, text in exports(case, open_cube(part)).items():
+                    (folder / name).parent.mkdir(exist_ok=True)
+                    write_text(folder / name, text)
 
 
 def _judged(

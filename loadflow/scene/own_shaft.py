@@ -14,6 +14,7 @@ from loadflow.errors import InputError
 from loadflow.scene.candidates import machine
 from loadflow.shaft.options import DirectDrive, Integrated, MomentBearing, ThreePoint, TwoPoint
 from loadflow.turbines import Turbine, load_turbine
+from loadflow.turbines.files import scaled_name
 
 KINDS: Mapping[str, tuple[type, str]] = {
     "two_point": (TwoPoint, "nrel-5mw"),
@@ -58,9 +59,11 @@ def own_shaft(name: str, stated: Any) -> Any:
     """
     ours: Mapping[str, Any] = machine(name).get("shaft", {})
     try:
-        turbine = load_turbine(name)
+        turbine, by_similarity = load_turbine(name), scaled_name(name)[1] is not None
     except InputError:
         return stated
+    if stated is None and by_similarity:
+        return None  # so is its shaft
     if stated is None:
         usual = "direct_drive" if turbine.drivetrain.gear_ratio == 1.0 else "two_point"
         stated = dict(ours) or {usual: {}, "moment": {}}
@@ -85,6 +88,8 @@ def taken(name: str, shaft: Mapping[str, Any]) -> list[str]:
         The resolved shaft of the scene as plain data.
     """
     turbine = load_turbine(name)
+    if scaled_name(name)[1] is not None:
+        return []  # told as a whole
     lines = [f"turbine {turbine.name}: {said}" for said in turbine.assumed]
     ours: Mapping[str, Any] = machine(name).get("shaft", {})
     for kind, options in shaft.items():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -48,7 +49,7 @@ def _simulate(scene: Scene, case: Case) -> xr.Dataset:
         field=field,
         dt=loads.step,
         rung=loads.rung,
-        options=loads.rotor_options,
+        options=replace(loads.rotor_options, air_density=scene.environment.air_density),
     )
     # a cube has the pitch of blade 1 and the wind along the mean
     series = series.drop_dims("blade").assign(wind=series["wind"].sel(axis="x", drop=True))
@@ -181,7 +182,7 @@ ROTOR = Rungs(
 STAGE = Stage(
     "loads",
     run=hub_loads,
-    sections=lambda scene: ("turbine", "loads"),
+    sections=lambda scene: ("turbine", "loads", "environment"),
     models=(WIND, ROTOR),
     summarise=summary,
     warnings=warnings,

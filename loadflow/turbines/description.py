@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import MISSING, fields
+from dataclasses import fields
 from importlib import resources
 from pathlib import Path
 from typing import Annotated, Any, Self, TypeVar, get_args
@@ -280,17 +280,6 @@ def _fields(table: Any) -> dict[str, Any]:
     if issubclass(table, BaseModel):
         return {name: info.annotation for name, info in table.model_fields.items()}
     return {field.name: None for field in fields(table)}
-
-
-def required_keys(part: type) -> list[str]:
-    """Keys of a table that have no default."""
-    if issubclass(part, BaseModel):
-        return [name for name, info in part.model_fields.items() if info.is_required()]
-    return [
-        f.name
-        for f in fields(part)  # type: ignore[arg-type]
-        if f.default is MISSING and f.default_factory is MISSING
-    ]
 
 
 def _maker(function: Callable[..., Made], *arguments: Any) -> Callable[[], Made]:

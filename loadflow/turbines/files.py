@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import math
 import tomllib
 from functools import cache, lru_cache
 from importlib import resources
@@ -14,6 +15,7 @@ from loadflow.numerics.fields import unknown_key
 
 from .description import turbine_from
 from .schema import Turbine
+from .similarity import factor_of_power, scaled
 from .windio import from_windio
 
 _WINDIO = (".yaml", ".yml")
@@ -40,7 +42,8 @@ def load_turbine(turbine: str | Path | Turbine) -> Turbine:
         Name of a turbine of the package (see `turbine_names`), path of a TOML file of the same
         form, of a windIO file (.yaml), or of a TOML file that completes a windIO file (``windio =
         "….yaml"`` beside the tables that the file lacks), or a turbine already read, which is
-        handed back.
+        handed back. A name followed by ``@`` and a rated power in W, such as
+        ``"nrel-5mw@8e6"``, is that turbine scaled by similarity (`loadflow.turbines.scaled`).
 
     Returns
     -------
@@ -59,6 +62,9 @@ def load_turbine(turbine: str | Path | Turbine) -> Turbine:
     """
     if isinstance(turbine, Turbine):
         return turbine
+    base, power = scaled_name(turbine)
+    if power is not None:
+        return _scaled(base, power)
     path = Path(turbine)
     if path.suffix not in (".toml", *_WINDIO):
         if str(turbine) not in turbine_names():
@@ -70,6 +76,42 @@ def load_turbine(turbine: str | Path | Turbine) -> Turbine:
     return _unchanged(path.absolute(), _stamps(path))
 
 
+def scaled_name(turbine: str | Path) -> tuple[str, float | None]:
+    """Name of a turbine and the power (W) that it is scaled to; None if it is not.
+
+    Raises
+    ------
+    InputError
+        What stands behind ``@`` is no power.
+
+    Examples
+    --------
+    >>> from loadflow.turbines.files import scaled_name
+    >>> scaled_name("nrel-5mw@8e6"), scaled_name("nrel-5mw")
+    (('nrel-5mw', 8000000.0), ('nrel-5mw', None))
+    """
+    name, mark, power = Path(turbine).name.rpartition("@")
+    if not mark or Path(turbine).suffix in (".toml", *_WINDIO):
+        return str(turbine), None
+    base = str(Path(turbine).with_name(name)) if name else ""
+    try:
+        number = float(power)
+    except ValueError:
+        number = math.nan
+    if not name or not (math.isfinite(number) and number > 0):
+        raise InputError(
+            f"turbine {str(turbine)!r}: a rated power in W is needed behind @, such as nrel-5mw@8e6"
+        )
+    return base, number
+
+
+@cache
+def _scaled(base: str, power: float) -> Turbine:
+    """A turbine of another power, made once."""
+    known = load_turbine(base)
+    return scaled(known, factor_of_power(power, known.rated_power))
+
+
 def turbine_digest(name: str) -> str:
     """SHA-256 of the file of a turbine and of that which it completes; empty for a shipped one.
 
@@ -78,10 +120,11 @@ def turbine_digest(name: str) -> str:
     >>> turbine_digest("nrel-5mw")
     ''
     """
-    if name in turbine_names():
+    base, _ = scaled_name(name)
+    if base in turbine_names():
         return ""
     found = hashlib.sha256()
-    for path in _files(Path(name)):
+    for path in _files(Path(base)):
         found.update(path.read_bytes())
     return found.hexdigest()
 

@@ -18,8 +18,17 @@ from synthetic import cube_file
 
 from loadflow.cli import main
 from loadflow.errors import InputError
+from loadflow.planning.effects import EffectVerdict
+from loadflow.planning.plan import make_plan
 from loadflow.report.sketch import sketch
-from loadflow.running.comparison import candidate_scene, candidates_for, compare
+from loadflow.running.comparison import (
+    SHARED,
+    Means,
+    candidate_scene,
+    candidates_for,
+    compare,
+    shared_loads,
+)
 from loadflow.scene.scene import make_scene
 from loadflow.studies.compare_margins import rolling_losses
 from loadflow.studies.compare_result import QUANTITIES
@@ -297,3 +306,25 @@ def test_examples_of_the_docstrings(module):
     outcome = doctest.testmod(importlib.import_module(f"loadflow.{module}"))
     assert outcome.attempted > 0
     assert outcome.failed == 0
+
+
+def test_a_pilot_of_one_candidate_leaves_the_loads_of_all_as_they_are(tmp_path):
+    """What is measured with one bearing must not change the loads of it alone."""
+    look = {"wind_speeds": [12.0], "seeds": 1, "duration": 30.0, "rung": "tables", "step": 0.1}
+    scene = make_scene(
+        {"name": "look", "loads": look, "shaft": {"two_point": {}, "moment": {}},
+         "candidates": {"journal-cylindrical": {}}}
+    )  # fmt: skip
+    loads = shared_loads(scene, tmp_path, Means())
+    own = candidate_scene(loads.scene, "one", scene.candidates["journal-cylindrical"], loads.steps)
+    huge = {"bearing load max": 0.9, "bearing force DEL": 0.9, "minimum film": 0.9}
+    verdict = EffectVerdict(sizes=dict.fromkeys(("dynamic inflow", "dynamic stall"), huge))
+    digests = {step.name: step.digest for step in loads.plan.steps}
+    for step in make_plan(own, verdict=verdict).steps:
+        if step.name in SHARED:
+            assert step.digest == digests[step.name]
+    open_ones = candidate_scene(scene, "one", scene.candidates["journal-cylindrical"], loads.steps)
+    first, other = (make_plan(open_ones, verdict=one).steps[0] for one in (None, verdict))
+    assert first.digest != other.digest  # where they are not settled, it does
+    again = shared_loads(scene, tmp_path, Means())
+    assert again.plan.steps == loads.plan.steps
