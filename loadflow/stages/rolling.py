@@ -240,7 +240,7 @@ def summary(parts: Mapping[Case, xr.Dataset]) -> xr.Dataset:
                 ("load_case", "bearing"), each, label("h", f"{of_all} {under}"),
             ),
             f"system_{kind}life_hours": (
-                "load_case", system_life(each, slope), label("h", f"{system} {under}"),
+                "load_case", system_hours(each, slope), label("h", f"{system} {under}"),
             ),
         }  # fmt: skip
     return joined.assign(found).assign_coords(load_case=dlcs).assign_attrs(weibull_slope=slope)
@@ -256,6 +256,13 @@ def hours_together(cases: xr.Dataset, life: str, share: np.ndarray | None = None
     per_hour = cases["mean_speed"] / (2 * np.pi) * 3600 / (cases[life] * 1e6)
     damage = ((per_hour * weight).sum("case", skipna=False) / weight.sum()).values
     return np.where(np.isnan(damage), np.nan, safety.ratio(1.0, damage))
+
+
+def system_hours(lives: np.ndarray, slope: float) -> np.ndarray:
+    """Life (..., bearing) of all bearings as a system; NaN where one of them has none."""
+    known = np.isfinite(lives) | (lives == np.inf)
+    together = system_life(np.where(known, lives, np.inf), slope)
+    return np.where(known.all(axis=-1), together, np.nan)
 
 
 def _extremes(samples: xr.Dataset) -> xr.Dataset:
