@@ -14,13 +14,14 @@ import numpy as np
 from loadflow.shaft import Beam, BearingSupport, ShaftSection, TwoPoint, bearing_loads
 from loadflow.shaft.elastic import BearingModel, Floats
 
-from .check import Check
+from .check import Check, evidence
 
 _OVERHANG, _SPAN = 2.0, 3.0
 _SOFT, _TOUGH = 2e9, 1e10
 _STIFF = 1e20
 
 
+@evidence("closed form")
 def checks() -> Iterator[Check]:
     """Yield moments that a hardening bearing takes, and loads of one of constant stiffness."""
     for moment in (1e4, 1e5, 1e6):
@@ -33,7 +34,8 @@ def checks() -> Iterator[Check]:
     numbers = _taken(1e6, 2.1e11, BearingSupport(_SOFT), seat, None)
     own = _taken(1e6, 2.1e11, BearingSupport(_SOFT), seat, _constant)
     name = "moment on a bearing of constant stiffness, iterated"
-    yield Check(name, "its numbers as a seat", numbers, own, 1e-10, unit="N m")
+    source = "the same numbers as a support"
+    yield Check(name, source, numbers, own, 1e-10, unit="N m", evidence="consistency")
 
 
 def _taken(
