@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from loadflow.validation import _pressure_dam
 from loadflow.validation.check import Check, evidence
 
 if TYPE_CHECKING:
@@ -268,8 +269,9 @@ def slider_checks() -> Iterator[Check]:
 
 
 def checks() -> Iterator[Check]:
-    """Everything printed about shapes of the gap."""
+    """All rows of shapes of the gap."""
     yield from coefficient_checks()
     yield from pad_checks()
     yield from comsol_checks()
     yield from slider_checks()
+    yield from _pressure_dam.checks()
