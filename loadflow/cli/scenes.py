@@ -309,6 +309,9 @@ def bench(
 @app.command()
 def validate(
     names: Annotated[list[str] | None, typer.Argument(help="Tables; default: all.")] = None,
+    failed: Annotated[
+        bool, typer.Option("--failed", help="Only what is out of its tolerance.")
+    ] = False,
     as_json: AsJson = False,
 ) -> None:
     """Print the sources' numbers beside ours; fails if one is out of its tolerance."""
@@ -319,11 +322,12 @@ def validate(
         raise InputError(f"no table {', '.join(sorted(unknown))}; there are {', '.join(known)}")
     rows = [(name, check) for name in names or known for check in validation.all_checks(name)]
     bad = sum(not check.ok for _, check in rows)
+    shown = [(name, check) for name, check in rows if not (failed and check.ok)]
     if as_json:
-        print_json([{"table": name, **vars(c), "ok": c.ok} for name, c in rows])
+        print_json([{"table": name, **vars(c), "ok": c.ok} for name, c in shown])
     else:
         table = Table("table", "number", "source", "printed", "ours", "deviation", "allowed", "")
-        for name, check in rows:
+        for name, check in shown:
             scale, sign = (1, "") if check.kind == "absolute" else (100, " %")
             table.add_row(
                 name,
@@ -335,7 +339,8 @@ def validate(
                 f"{check.tolerance * scale:.3g}{sign}",
                 check.verdict if check.ok else f"[red]{check.verdict}[/]",
             )
-        out.print(table)
+        if shown:
+            out.print(table)
         compared = [check for _, check in rows if not check.refused]
         held = f"{sum(c.ok for c in compared)} of {len(compared)} within their tolerance"
         refused = len(rows) - len(compared)
