@@ -17,7 +17,7 @@ def test_importing_the_package_loads_no_heavy_library():
 
 
 def test_importing_the_package_takes_less_than_0_3_s_of_processor_time():
-    code = "import time; start = time.process_time(); import loadflow; print(time.process_time() - start)"
+    code = "from time import process_time as t; a = t(); import loadflow; print(t() - a)"
     result = subprocess.run(
         [sys.executable, "-c", code], capture_output=True, text=True, check=True
     )

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
+
+from loadflow.numerics.shown import Shown
+from loadflow.quantities import FILM, Quantity
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -23,11 +27,19 @@ _PADS: Table = {
     "maximum_pressure": ((), "Pa", "largest film pressure, absolute"),
     "friction_torque": ((), "N m", "friction torque of the film on the shaft"),
     "friction_power": ((), "W", "friction power of the film"),
-    "flow": ((), "m3/s", "oil that enters at the leading edges of the pads"),
-    "side_flow": (("end",), "m3/s", "oil that leaves at the inner and the outer end"),
+    "flow": ((), "m^3/s", "oil that enters at the leading edges of the pads"),
+    "side_flow": (("end",), "m^3/s", "oil that leaves at the inner and the outer end"),
     "mass_balance": ((), "1", "oil that leaves the cells less what enters, over what is dragged"),
-    "stiffness_matrix": (("load", "motion"), "SI", "derivative of the load by the position"),
-    "damping_matrix": (("load", "motion"), "SI", "derivative of the load by the velocity"),
+    "stiffness_matrix": (
+        ("load", "motion"),
+        "N/m, N, N m",
+        "load per motion",
+    ),
+    "damping_matrix": (
+        ("load", "motion"),
+        "N s/m, N s, N m s",
+        "load per velocity",
+    ),
     "pressure": (("pad", "along", "across"), "Pa", "film pressure on the nodes, absolute"),
     "angle": (("pad", "along"), "rad", "angle of the nodes from the first axis"),
     "place": (("across",), "m", "distance of the nodes from the apex or the axis"),
@@ -38,8 +50,22 @@ _PADS: Table = {
 }
 
 
+class _Shown(Shown):
+    """Shown by the table of the class."""
+
+    _table: ClassVar[Table]
+
+    def shown_quantities(self) -> Mapping[str, Quantity]:
+        """Quantities of pads."""
+        known = {name: FILM[name].symbol for name in self._table if name in FILM}
+        return {
+            name: Quantity(known.get(name, ""), units, text)
+            for name, (_, units, text) in self._table.items()
+        }
+
+
 @dataclass(frozen=True, repr=False)
-class PadResult:
+class PadResult(_Shown):
     """What all bearings of pads answer.
 
     Attributes
@@ -245,7 +271,7 @@ class ConicalResult(PadResult):
 
 
 @dataclass(frozen=True, repr=False)
-class PairResult:
+class PairResult(_Shown):
     """Films of two cones against each other.
 
     Attributes
@@ -300,8 +326,8 @@ class PairResult:
         "eccentricity": (("space",), "m", "shaft relative to the bearing"),
         "tilt": (("axis",), "rad", "rotation of the shaft about both axes"),
         "load_share": (("cone",), "1", "share of each cone in the sum of the normal forces"),
-        "stiffness": (("load", "motion"), "SI", "derivative of the load by the position"),
-        "damping": (("load", "motion"), "SI", "derivative of the load by the velocity"),
+        "stiffness": (("load", "motion"), "N/m, N, N m", "load per motion"),
+        "damping": (("load", "motion"), "N s/m, N s, N m s", "load per velocity"),
     } | {
         name: _PADS[name]
         for name in (

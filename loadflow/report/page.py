@@ -8,7 +8,7 @@ from pathlib import Path
 from jinja2 import Environment, PackageLoader, select_autoescape
 from matplotlib.figure import Figure
 
-from loadflow.report.style import to_png
+from loadflow.plots.style import to_png
 from loadflow.storage import write_text
 
 

@@ -80,7 +80,8 @@ class Run:
     shortfalls : tuple of str
         Results that are not expected to be as accurate as asked for: how far off, why, what helps.
     notes : tuple of str
-        What is doubtful about the scene itself, such as a turbine that is scaled.
+        What is doubtful about the scene itself, such as a turbine that is scaled, or what neither
+        scene nor turbine state, and what was taken instead.
     """
 
     path: Path
@@ -278,7 +279,8 @@ def _run(
     if profile:
         profile.write(folder / "profile.json", where.workers)
     log.info("finished, %d parts have no answer", len(failures))
-    return Run(folder, tree, failures, unused_keys(scene), plan.shortfalls, scaling_note(scene))
+    notes = (*scaling_note(scene), *scene.taken)
+    return Run(folder, tree, failures, unused_keys(scene), plan.shortfalls, notes)
 
 
 @threadpool_limits.wrap(limits=1)  # cases are what runs in parallel, here as in other processes

@@ -19,22 +19,26 @@ from pydantic import BaseModel, Field, ValidationError, field_validator, model_v
 from loadflow.errors import InputError
 from loadflow.journal.line import Line
 from loadflow.journal.models.model import Steps, why_not
+from loadflow.numerics.fields import LARGEST_INTEGER, shown
 from loadflow.scene.bearings import Rolling
 from loadflow.scene.candidates import ABOUT, machine
+from loadflow.scene.design import Design
 from loadflow.scene.dynamics import Dynamics
 from loadflow.scene.environment import Environment, surrounded
 from loadflow.scene.friction import Friction
 from loadflow.scene.journal import Journal
 from loadflow.scene.loads import Loads, check_simulation
-from loadflow.scene.messages import message, shown
+from loadflow.scene.messages import message
+from loadflow.scene.own_shaft import taken
 from loadflow.scene.places import places_of
-from loadflow.scene.section import LARGEST_INTEGER, Section, too_large
+from loadflow.scene.section import Section, too_large
 from loadflow.scene.series import Reduction, Seeds
 from loadflow.scene.shaft import Shaft
+from loadflow.scene.turbine import Turbine
 from loadflow.scene.written import SCENE, anchored, in_sections, origins
 from loadflow.shaft.options import MomentBearing, TwoPoint
 from loadflow.storage import check_name
-from loadflow.turbines import load_turbine
+from loadflow.turbines import load_turbine, turbine_digest
 from loadflow.turbines.files import scaled_name
 from loadflow.turbines.similarity import factor_of_power
 
@@ -56,23 +60,6 @@ USUAL: tuple[Result, ...] = tuple(name for name in get_args(Result) if name not 
 """Results of a scene that names none."""
 
 Positive = Annotated[float, Field(gt=0)]
-
-
-class Turbine(Section, BaseModel):
-    """The turbine: a name that `loadflow.turbines` knows, or a path to a file of the same form.
-
-    A name with ``@`` and a power in W, such as ``nrel-5mw@8e6``, is scaled to it by similarity; so
-    is the suspension of the known turbine, where the scene states none. Bearings are not: they are
-    to be sized anew.
-    """
-
-    name: str = "nrel-5mw"
-
-    @field_validator("name")
-    @classmethod
-    def _readable(cls, name: str) -> str:
-        load_turbine(name)
-        return name
 
 
 class Candidate(Section, BaseModel):
@@ -136,6 +123,7 @@ class Scene(Section, BaseModel):
     rolling: Rolling = Rolling()
     friction: Friction = Friction()
     candidates: dict[str, Candidate] = {}
+    design: Design = Design()
 
     @field_validator("name")
     @classmethod
@@ -250,6 +238,11 @@ class Scene(Section, BaseModel):
             )
         return self
 
+    @property
+    def taken(self) -> list[str]:
+        """What neither scene nor turbine state, and what is taken instead."""
+        return taken(self.turbine.name, self.shaft.model_dump(mode="json", exclude_none=True))
+
     def wants(self, room: str) -> bool:
         """Whether a result of `room` is wanted."""
         return any(result.split(".")[0] == room for result in self.results)
@@ -279,9 +272,12 @@ class Scene(Section, BaseModel):
         return tomli_w.dumps({SCENE.key: SCENE.version} | data)
 
     def digest(self, *sections: str) -> str:
-        """SHA-256 of the resolved scene, or of some of its sections."""
+        """SHA-256 of the resolved scene, or of some of its sections, and the turbine's file."""
         include = set(sections) if sections else None
-        return hashlib.sha256(self.model_dump_json(include=include).encode()).hexdigest()
+        told = self.model_dump_json(include=include)
+        if include is None or "turbine" in include:
+            told += turbine_digest(self.turbine.name)
+        return hashlib.sha256(told.encode()).hexdigest()
 
 
 def read_scene(path: str | Path) -> Scene:

@@ -30,7 +30,7 @@ KEPT = {
     "film_parameter": ("1", "least Λ of the loaded contacts"),
     "slip_power": ("W", "power lost in slip"),
     "slip": ("1", "slip of the slower row: missing spin of rollers, mean sliding of balls"),
-    "slip_power_density": ("W/m2", "largest slip power over contact area"),
+    "slip_power_density": ("W/m^2", "largest slip power over contact area"),
 }
 
 
@@ -237,7 +237,7 @@ def _extremes(samples: xr.Dataset) -> xr.Dataset:
             "temperature": (samples["temperature"], "K", "temperature of the bearing"),
             "largest_slip_power_density": (
                 largest["slip_power_density"],
-                "W/m2",
+                "W/m^2",
                 "largest slip power over contact area",
             ),
         }

@@ -37,8 +37,8 @@ KEPT = {
 
 # what is kept of each bearing of the shaft: units and meaning
 EACH = {
-    "bearing_life": ("1e6 rev", "rating life L10"),
-    "bearing_modified_life": ("1e6 rev", "modified life L10m, ISO 281"),
+    "bearing_life": ("1e6 revolution", "rating life L10"),
+    "bearing_modified_life": ("1e6 revolution", "modified life L10m, ISO 281"),
     "bearing_viscosity_ratio": ("1", "smallest viscosity ratio κ of what turns"),
     "bearing_thin_share": ("1", "share of the revolutions with κ below 0.1, a_ISO taken as 0.1"),
     "bearing_static_safety": ("1", "smallest static safety, by force, characteristic loads"),
@@ -78,7 +78,7 @@ def load_distribution(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Da
         name: ("bearing", np.array([found[name] for found in each]), label(*EACH[name]))
         for name in EACH
     } | {
-        "life": ((), life_of(answer, reduced), label("1e6 rev", "rating life L10")),
+        "life": ((), life_of(answer, reduced), label("1e6 revolution", "rating life L10")),
         "mean_speed": ((), _mean_speed(reduced), label("rad/s", "mean speed")),
     }
     worst = int(np.argmax(answer.maximum_force))
@@ -252,7 +252,7 @@ def _extremes(samples: xr.Dataset) -> xr.Dataset:
             "1",
             "smallest pressure safety",
         ),
-        "life": (samples["life"], "1e6 rev", "rating life"),
+        "life": (samples["life"], "1e6 revolution", "rating life"),
         **{name: (samples[name], *labels) for name, labels in EACH.items()},
         "mean_speed": (samples["mean_speed"], "rad/s", "mean speed"),
         "largest_residual": (samples["residual"].max(), "1", "largest residual"),
