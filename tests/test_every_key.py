@@ -322,7 +322,7 @@ def _journal(scene, add):
 
 
 def _rolling(scene, add):
-    from loadflow.planning.accuracy import finer
+    from loadflow.planning.choice import finer
 
     inputs = _inputs(scene)
     # with the effect of the rings on, too, as the run's own check has it
@@ -441,8 +441,9 @@ def test_every_key_of_a_section_does_something_or_is_told(name, section, place):
 
 def test_the_walk_goes_through_every_section():
     walked = {section for _, section in WALKS}
-    # candidates are bearings again, for another command
-    assert walked | {"name", "results", "accuracy", "candidates"} == set(Scene.model_fields)
+    # candidates are bearings again, and the design a search among them, for other commands
+    others = {"name", "results", "accuracy", "candidates", "design"}
+    assert walked | others == set(Scene.model_fields)
 
 
 def test_name_results_and_accuracy_change_the_plan(place):

@@ -9,7 +9,8 @@ import synthetic
 from benchmarks.ladder.measuring import rung_key
 from loadflow.planning.ladder import STEPS_PER_CASE, gains, ladder
 from loadflow.planning.plan import make_plan
-from loadflow.scene.scene import Journal, Loads, Reduction, Rolling, Seeds, Shaft, make_scene
+from loadflow.scene.journal import Journal
+from loadflow.scene.scene import Loads, Reduction, Rolling, Seeds, Shaft, make_scene
 from loadflow.wind import LOAD_CASES
 
 

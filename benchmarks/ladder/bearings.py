@@ -28,7 +28,8 @@ from benchmarks.ladder.measuring import (
     with_ratios,
 )
 from loadflow.scene.cases import Case
-from loadflow.scene.scene import Journal, Rolling, Scene
+from loadflow.scene.journal import Journal
+from loadflow.scene.scene import Rolling, Scene
 from loadflow.stages import reduction, rolling
 from loadflow.stages.frames import to_film, to_rolling
 

@@ -23,7 +23,8 @@ from benchmarks.ladder.measuring import (
     sentence,
     with_ratios,
 )
-from loadflow.scene.scene import Journal, Scene
+from loadflow.scene.journal import Journal
+from loadflow.scene.scene import Scene
 
 CHOSEN: list[dict[str, Any]] = [
     {"rung": "reduced", "grid": (60, 20)},

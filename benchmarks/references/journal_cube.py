@@ -23,7 +23,8 @@ import numpy as np
 
 from benchmarks.common import arguments
 from loadflow.cube import open_cube
-from loadflow.scene.scene import Journal, read_scene
+from loadflow.scene.journal import Journal
+from loadflow.scene.scene import read_scene
 from loadflow.stages.frames import to_film
 
 BEFORE, BEHIND = 350, 50  # steps of a window around the largest eccentricity

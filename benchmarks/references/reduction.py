@@ -16,7 +16,7 @@ import numpy as np
 from benchmarks.common import ROOT, arguments, head, put, row
 from loadflow.cube import open_cube, select
 from loadflow.reduction import histogram
-from loadflow.scene.scene import Journal
+from loadflow.scene.journal import Journal
 from loadflow.stages.reduction import reduced_dataset
 from loadflow.studies.bearing_series import BearingSeries, iter_bearings
 from loadflow.studies.reduction_error import (

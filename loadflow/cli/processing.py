@@ -22,7 +22,7 @@ from loadflow.errors import InputError
 
 if TYPE_CHECKING:
     from loadflow.cube import Cube
-    from loadflow.scene.scene import Journal
+    from loadflow.scene.journal import Journal
 
 
 class Test(StrEnum):
@@ -179,7 +179,8 @@ def reduce_series(
 
 def _journal(scene: Path | None) -> Journal:
     """The journal bearing of a scene, or the reference bearing."""
-    from loadflow.scene.scene import Journal, read_scene
+    from loadflow.scene.journal import Journal
+    from loadflow.scene.scene import read_scene
 
     return Journal() if scene is None else read_scene(scene).journal
 

@@ -242,10 +242,10 @@ CYLINDER = Cylindrical()
 
 @dataclass(frozen=True)
 class Crown:
-    """Bore that widens toward both rims, against the bending of the shaft (Fig. 1-8).
+    """Bore that widens toward both ends, against the bending of the shaft (Fig. 1-8).
 
     The gap grows by ``height · ((|z| − B/2 + length) / length)^exponent`` over the last `length`
-    before each rim.
+    before each end.
 
     Attributes
     ----------

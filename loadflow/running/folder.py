@@ -12,7 +12,7 @@ from typing import Any
 
 import loadflow
 from loadflow.errors import InputError, NewerVersionError
-from loadflow.planning.effects import Verdict
+from loadflow.planning.effects import EffectVerdict
 from loadflow.planning.plan import Plan
 from loadflow.running.parts import digest_of, set_aside, unsound
 from loadflow.scene.cases import Case
@@ -72,11 +72,11 @@ def refinements(folder: Path, scene: Scene) -> list[str]:
     return manifest["refined"] if manifest.get("wanted") == scene.digest() else []
 
 
-def known_verdict(folder: Path, scene: Scene) -> Verdict | None:
+def known_verdict(folder: Path, scene: Scene) -> EffectVerdict | None:
     """Return what a pilot of this scene found before; None without one."""
     manifest = _manifest(folder)
     found = manifest.get("pilot") if manifest.get("wanted") == scene.digest() else None
-    return Verdict.from_json(found) if found else None
+    return EffectVerdict.from_json(found) if found else None
 
 
 def read_manifest(folder: Path) -> dict[str, Any]:
@@ -144,7 +144,7 @@ def prepare(
     plan: Plan,
     refined: list[str],
     overwrite: bool,
-    verdict: Verdict | None = None,
+    verdict: EffectVerdict | None = None,
 ) -> dict[str, Any]:
     """Clear the folder of what a run left there that is of no use; return its manifest.
 

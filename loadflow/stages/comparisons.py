@@ -12,7 +12,8 @@ import xarray as xr
 from loadflow.errors import SolverError
 from loadflow.reduction import damage_equivalent_load
 from loadflow.scene.cases import Case
-from loadflow.scene.scene import Journal, Scene
+from loadflow.scene.journal import Journal
+from loadflow.scene.scene import Scene
 from loadflow.stages.effects.film import HEAT, MOTION
 from loadflow.stages.effects.rolling import RINGS
 from loadflow.stages.frames import to_film

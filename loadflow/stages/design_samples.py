@@ -22,7 +22,8 @@ from loadflow.reduction import (
     periodic,
     stationary,
 )
-from loadflow.scene.scene import Journal, Reduction
+from loadflow.scene.journal import Journal
+from loadflow.scene.scene import Reduction
 from loadflow.stages.film_response import SAMPLES, film_response
 from loadflow.stages.frames import to_film
 from loadflow.stages.labelling import label

@@ -11,7 +11,8 @@ import xarray as xr
 from loadflow.errors import SolverError
 from loadflow.journal import coefficient_table, rotor_coefficients
 from loadflow.scene.cases import Case
-from loadflow.scene.scene import Journal, Scene
+from loadflow.scene.journal import Journal
+from loadflow.scene.scene import Scene
 from loadflow.shaft import Concept, Disc, LineSupport, ShaftLine, modes, unbalance_response
 from loadflow.shaft.beam import Beam, BearingSupport
 from loadflow.stages.film_support import TURN

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from loadflow.errors import SolverError
-from loadflow.scene.scene import Journal
+from loadflow.scene.journal import Journal
 from loadflow.shaft import BearingModel
 from loadflow.stages.journal import equilibria
 

@@ -13,7 +13,8 @@ from loadflow.errors import SolverError
 from loadflow.rolling import FrictionOptions, RollingBearing, roller_slip
 from loadflow.rolling.friction import balanced_temperature
 from loadflow.scene.cases import Case
-from loadflow.scene.scene import Friction, Scene
+from loadflow.scene.friction import Friction
+from loadflow.scene.scene import Scene
 from loadflow.stages.frames import to_rolling
 from loadflow.stages.labelling import label, labelled
 from loadflow.stages.stage import Link, Links, Rungs, Stage, always, load_links
@@ -29,7 +30,7 @@ KEPT = {
     "film_parameter": ("1", "least Λ of the loaded contacts"),
     "slip_power": ("W", "power lost in slip"),
     "slip": ("1", "slip of the slower row: missing spin of rollers, mean sliding of balls"),
-    "slip_power_density": ("W/m2", "largest slip power over contact area"),
+    "slip_power_density": ("W/m^2", "largest slip power over contact area"),
 }
 
 
@@ -239,7 +240,7 @@ def _extremes(samples: xr.Dataset) -> xr.Dataset:
             "temperature": (samples["temperature"], "K", "temperature of the bearing"),
             "largest_slip_power_density": (
                 largest["slip_power_density"],
-                "W/m2",
+                "W/m^2",
                 "largest slip power over contact area",
             ),
         }

@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from loadflow.errors import SolverError
-from loadflow.rolling import Lubrication, SlewingBearing, modified_spectrum_life, system_life
+from loadflow.rolling import Lubrication, modified_spectrum_life, system_life
 from loadflow.rolling.rating import life, safety
 from loadflow.scene.bearings import FurtherBearing
 from loadflow.scene.cases import Case
@@ -37,8 +37,8 @@ KEPT = {
 
 # what is kept of each bearing of the shaft: units and meaning
 EACH = {
-    "bearing_life": ("1e6 rev", "rating life L10"),
-    "bearing_modified_life": ("1e6 rev", "modified life L10m, ISO 281"),
+    "bearing_life": ("1e6 revolution", "rating life L10"),
+    "bearing_modified_life": ("1e6 revolution", "modified life L10m, ISO 281"),
     "bearing_viscosity_ratio": ("1", "smallest viscosity ratio κ of what turns"),
     "bearing_thin_share": ("1", "share of the revolutions with κ below 0.1, a_ISO taken as 0.1"),
     "bearing_static_safety": ("1", "smallest static safety, by force, characteristic loads"),
@@ -79,7 +79,7 @@ def load_distribution(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Da
         name: ("bearing", np.array([found[name] for found in each]), label(*EACH[name]))
         for name in EACH
     } | {
-        "life": ((), each[0]["bearing_life"], label("1e6 rev", "rating life L10")),
+        "life": ((), each[0]["bearing_life"], label("1e6 revolution", "rating life L10")),
         "mean_speed": ((), _mean_speed(reduced), label("rad/s", "mean speed")),
     }
     worst = int(np.argmax(answer.maximum_force))
@@ -181,13 +181,14 @@ def _design_safety(
 
 
 def _worst(scene: Scene, reduced: xr.Dataset, worst: int) -> xr.Dataset:
-    """Every ball force of the worst sample of a slewing bearing."""
+    """Every ball force of the worst sample of a bearing whose balls have two diagonals."""
     bearing = scene.rolling.geometry
-    if not isinstance(bearing, SlewingBearing):
+    around = (*bearing.group_dims, bearing.element)
+    if "diagonal" not in around:
         return xr.Dataset()
     hardest = solve_bearing(scene, scene.rolling.bearing, reduced.isel(sample=worst))
-    around = ("row", "diagonal", "ball")
-    angle = 2 * np.pi / bearing.balls * np.arange(bearing.balls)
+    count = hardest.ball_forces.shape[-1]
+    angle = 2 * np.pi / count * np.arange(count)
     angles = label("rad", "operating contact angle, worst sample")
     return xr.Dataset(
         {
@@ -275,7 +276,7 @@ def _extremes(samples: xr.Dataset) -> xr.Dataset:
             "1",
             "smallest pressure safety",
         ),
-        "life": (samples["life"], "1e6 rev", "rating life"),
+        "life": (samples["life"], "1e6 revolution", "rating life"),
         **{name: (samples[name], *labels) for name, labels in EACH.items()},
         "mean_speed": (samples["mean_speed"], "rad/s", "mean speed"),
         "largest_residual": (samples["residual"].max(), "1", "largest residual"),

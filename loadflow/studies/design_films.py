@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from loadflow.scene.scene import Journal
+from loadflow.scene.journal import Journal
 from loadflow.stages.design_samples import Governed, closed_samples, stationary_samples
 from loadflow.stages.journal import driven, extremes
 from loadflow.studies.bearing_series import BearingSeries

@@ -44,14 +44,14 @@ def run_lifetime(scene: Scene, tables: Tables) -> xr.Dataset | None:
     found: dict[str, xr.DataArray] = {}
     for name, work in (("rolling", _lives), ("journal", _film_energy), ("friction", _energy)):
         if name in tables:
-            share = _shares(scene, tables[name])
+            share = case_shares(scene, tables[name])
             if share is None:
                 return None
             found |= work(scene, tables[name], share)
     return xr.Dataset(found) if found else None
 
 
-def _shares(scene: Scene, table: xr.Dataset) -> np.ndarray | None:
+def case_shares(scene: Scene, table: xr.Dataset) -> np.ndarray | None:
     """Share of the lifetime of each case, of 1 in all; None where none has one."""
     if scene.loads.weights == "given" and scene.loads.source == "files":
         given = table["weight"].values.astype(float)

@@ -24,7 +24,7 @@ from loadflow.journal import (
     Supply,
     TiltingPads,
 )
-from loadflow.scene.scene import make_journal
+from loadflow.scene.journal import make_journal
 from loadflow.tribology import ExponentialOil
 from loadflow.tribology.couette import adiabatic_rise
 from loadflow.validation.film_heat import LADDER, ladder_bearing, ladder_state

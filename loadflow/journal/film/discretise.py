@@ -105,7 +105,7 @@ def shaped_film(
         require(contact is None, "contact", contact, "None with an elastic shell")
         require(not bore.pads, "shell", options.shell, "None for pads, whose backs are not held")
         compliance = compliance_of(options.shell, mesh, bore.radius)
-        gap = ElasticGap(mesh, bore, rims_give=compliance.spreads)
+        gap = ElasticGap(mesh, bore, ends_deform=compliance.spreads)
         film = ElasticFilm(compliance, gap, *oil, pressure)
     film.fill(mesh.groove, pressure)
     film.ambient = _outside(gap, film, options.edge_pressure, bearing.shape)
@@ -133,7 +133,7 @@ def _oil(
 
 
 def _rigid_gap(mesh: ShapedMesh, bore: Bore, options: Film) -> ShapedGap:
-    """Gap of a shell that does not give way."""
+    """Gap of a rigid shell."""
     contact = options.contact
     if contact is not None:
         require(not bore.pads, "contact", contact, "None for pads that tilt")

@@ -43,11 +43,11 @@ class ShapedMesh(Mesh):
     graded: bool
 
     @property
-    def rims(self) -> tuple[float, float]:
+    def end_distances(self) -> tuple[float, float]:
         """Distances of the outermost cell centres to the ends, as exact as graded cells allow."""
         if not self.graded:
-            return super().rims
-        distance = _rim_distance(self.z_edges[self.z_edges >= 0.0])
+            return super().end_distances
+        distance = _end_distance(self.z_edges[self.z_edges >= 0.0])
         return distance, distance
 
     @cached_property
@@ -144,7 +144,7 @@ def _halved(low: float, high: float, angle: float) -> Array:
     return np.append(_halved(low, middle, angle)[:-1], _halved(middle, high, angle))
 
 
-def _rim_distance(edges: Array) -> float:
+def _end_distance(edges: Array) -> float:
     """Distance from the outermost cell centre to the end that makes a parabola's load exact.
 
     `edges` run from mid-plane 0 to the end b. Cells of p'' = −1 have the exact flow p' = −z at
@@ -154,8 +154,8 @@ def _rim_distance(edges: Array) -> float:
     centres, widths = 0.5 * (edges[1:] + edges[:-1]), np.diff(edges)
     falls = np.append(edges[1:-1] * np.diff(centres), 0.0)
     above = np.cumsum(falls[::-1])[::-1]  # pressure over that of the outermost cell
-    rim = float(edges[-1])
-    return float((rim**3 / 3.0 - above @ widths) / rim**2)
+    end = float(edges[-1])
+    return float((end**3 / 3.0 - above @ widths) / end**2)
 
 
 def relief_marks(

@@ -120,12 +120,12 @@ class RoughShapedGap(ShapedGap):
         """Position after `step`, of which every place keeps a third of its gap or roughness."""
         gaps = self.gaps(position)
         closing = (self._reach.T * step) @ self._lengths
-        room = np.minimum(
+        allowed = np.minimum(
             (1.0 - KEPT) * np.maximum(gaps, self.roughness),
             np.maximum(gaps + self.rough.deepest, 0.0),
         )
-        tight = closing > room
-        share = float((room[tight] / closing[tight]).min(initial=1.0))
+        tight = closing > allowed
+        share = float((allowed[tight] / closing[tight]).min(initial=1.0))
         return position + share * step
 
     def narrowest(self, position: Array) -> float:

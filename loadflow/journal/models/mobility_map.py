@@ -19,7 +19,7 @@ from loadflow.journal.models import mobility_films as row
 from loadflow.journal.models.grid import solve_on_grid
 from loadflow.journal.models.mobility import MobilityMap, scaled, tabulate
 from loadflow.journal.models.model import Steps
-from loadflow.journal.results import operating_columns, without_supply
+from loadflow.journal.rows import operating_columns, without_supply
 from loadflow.journal.solvers.transient import orbit_dataset
 from loadflow.quantities import FILM
 
@@ -94,13 +94,13 @@ def bearing_map(bearing: JournalGeometry, options: Film, force: Array) -> Bearin
         options = replace(options, grading="graded")
     # refuses, in the user's units, what no film can have
     build_film(bearing.diameter, bearing.width, bearing.relative_clearance, options)
-    plain, unit = scaled(options)
+    dimensionless, unit = scaled(options)
     area = bearing.width * bearing.diameter
     largest = 0.0
     if unit > 0.0:
         most = float(np.hypot(*force.T).max()) / (area * unit)
         largest = 2.0 ** math.ceil(math.log2(max(most, 0.25)))
-    table = tabulate(bearing.width / bearing.diameter, plain, largest)
+    table = tabulate(bearing.width / bearing.diameter, dimensionless, largest)
     pressure = unit or 1.0
     velocity = pressure * bearing.relative_clearance**2 / (12 * options.liquid.viscosity)
     return BearingMap(bearing, options, table, np.array([pressure * area, velocity]), pressure)
@@ -133,7 +133,7 @@ def equilibrium(
         "residual": residual,
     }
     for index in np.flatnonzero(~covered):
-        solve_on_grid(bearing, film.options, int(index), answer, control)
+        solve_on_grid(bearing, film.options, int(index), line, answer, control)
     return answer
 
 

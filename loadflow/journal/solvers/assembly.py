@@ -1,8 +1,8 @@
 """One shaft on several films: pads of a thrust bearing, segments of a cone, two cones.
 
 The shaft is a rigid body of five degrees of freedom (x, y, z, rotations about x and y). Every film
-sees them through a matrix of its own, and may lie on a pad that gives way. Film, pads and shaft
-are solved by one Newton iteration; the pads are condensed out of each film's linearisation.
+sees them through a matrix of its own, and may lie on an elastic or tilting pad. Films, pads and
+shaft are solved by one Newton iteration; pads are condensed out of each film's linearisation.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from loadflow.errors import SolverError
 from loadflow.journal.film import _kernels as kernel
 from loadflow.journal.film.film import Linear, SingularFilm
+from loadflow.journal.film.imbalance import imbalance
 from loadflow.journal.film.surface_film import SurfaceFilm
 from loadflow.numerics.convergence import Limits
 
@@ -47,7 +48,7 @@ class Member:
         The film; it keeps the work arrays, so that one film is in one member only.
     attached : array (m, 5)
         Position of the film (clearances) by that of the shaft (m, rad) in the axes of the pad.
-    gives : array (m, k)
+    by_pad : array (m, k)
         Position of the film by the k motions of the pad (m, rad).
     support : array (k, k)
         Stiffness of the pad's support, N/m and N m/rad; 0 where the pad tilts freely.
@@ -62,7 +63,7 @@ class Member:
 
     film: SurfaceFilm
     attached: Array
-    gives: Array
+    by_pad: Array
     support: Array
     normal: Array
     turns: tuple[Array, ...] = (np.eye(BODY),)
@@ -162,7 +163,7 @@ class Assembly:
 
     def place(self, member: Member, state: MemberState, position: Array) -> Array:
         """Position of a film, in its clearances."""
-        return np.asarray(member.sees @ position - member.gives @ state.pad)
+        return np.asarray(member.sees @ position - member.by_pad @ state.pad)
 
     def narrowest(self, state: AssemblyState) -> float:
         """Narrowest gap, m."""
@@ -179,35 +180,35 @@ class Assembly:
         stiffness, damping = (
             member.unit * x for x in (state.linear.stiffness, state.linear.damping)
         )
-        attached, gives = member.attached, member.gives
-        if not gives.shape[1]:
+        attached, by_pad = member.attached, member.by_pad
+        if not by_pad.shape[1]:
             nothing = np.zeros((0, BODY))
             return _Condensed(
                 attached.T @ load, attached.T @ stiffness @ attached,
                 attached.T @ damping @ attached, np.zeros(0), nothing,
             )  # fmt: skip
-        matrix = gives.T @ stiffness @ gives + member.support
-        sizes = np.abs(gives).max(axis=0)
+        matrix = by_pad.T @ stiffness @ by_pad + member.support
+        sizes = np.abs(by_pad).max(axis=0)
 
         def follow(rhs: Array) -> Array:
             scaled = matrix / np.outer(sizes, sizes)
             return np.asarray((_solve(scaled, (rhs.T / sizes).T).T / sizes).T)
 
-        missing = gives.T @ load - member.support @ state.pad
+        missing = by_pad.T @ load - member.support @ state.pad
         pressed = float(member.normal @ load)
         first = follow(missing)
         if pressed > 0.0 and not member.support.any():
             # the centre of pressure shall meet the pivot: a pad without film has no moment, either
-            lost = member.normal @ stiffness @ gives
+            lost = member.normal @ stiffness @ by_pad
             share = float(lost @ first) / pressed
             first /= max(1.0 - share, 1.0 / _LARGEST)
-        by_place = follow(gives.T @ stiffness @ attached)
-        left = attached - gives @ by_place
-        by_speed = follow(gives.T @ damping @ left)
+        by_place = follow(by_pad.T @ stiffness @ attached)
+        left = attached - by_pad @ by_place
+        by_speed = follow(by_pad.T @ damping @ left)
         return _Condensed(
-            attached.T @ (load - stiffness @ gives @ first),
+            attached.T @ (load - stiffness @ by_pad @ first),
             attached.T @ stiffness @ left,
-            attached.T @ (damping @ left - stiffness @ gives @ by_speed),
+            attached.T @ (damping @ left - stiffness @ by_pad @ by_speed),
             first,
             by_place,
         )
@@ -308,7 +309,7 @@ class Assembly:
         moves = []
         for member, own, part in zip(self.members, state.members, parts):
             pad = limited * part.first + part.follow @ (member.turns[0] @ step)
-            move = member.sees @ step - member.gives @ pad
+            move = member.sees @ step - member.by_pad @ pad
             share = min(share, member.film.gap.share(self.place(member, own, state.position), move))
             moves.append((pad, move))
         members, change = [], 1.0 if limited == 0.0 else 0.0
@@ -333,13 +334,13 @@ class Assembly:
             film = member.film
             place = self.place(member, own, state.position)
             moving = member.sees @ state.velocity
-            worst = max(worst, film.imbalance(own.u, place, moving, None, state.rate, own.old))
+            worst = max(worst, imbalance(film, own.u, place, moving, None, state.rate, own.old))
             load = member.unit * film.field(own.u, place)[3]
             total += sum(turn.T @ member.attached.T @ load for turn in member.turns)
             least += 1e-3 * film.scale * film.radius**2
             if own.pad.size:
-                size = np.abs(member.gives).max(axis=0)
-                missing = (member.gives.T @ load - member.support @ own.pad) / size
+                size = np.abs(member.by_pad).max(axis=0)
+                missing = (member.by_pad.T @ load - member.support @ own.pad) / size
                 pressed = max(
                     float(np.abs(load).max()), 1e-3 * member.unit * film.scale * film.radius**2
                 )

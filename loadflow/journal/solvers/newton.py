@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.journal.film.film import EVERY, DiscreteFilm, Linear, SingularFilm
+from loadflow.journal.film.imbalance import imbalance, rounding
 from loadflow.numerics.convergence import COARSEST, answered, rounding_level
 
 Array = NDArray[np.float64]
@@ -66,7 +67,7 @@ class Motion:
 REST = Motion()
 
 
-class _Verdict:
+class _Check:
     """Whether the Newton steps of a film have led to an answer, by the rule of `convergence`.
 
     Residual and rounding level are looked at after steps that are short enough.
@@ -89,9 +90,9 @@ class _Verdict:
         motion = self.motion
         velocity, old = motion.velocity(position), (motion.volume_rate, motion.volume)
         where = (u, position, velocity, self.force)
-        self.residual = self.film.imbalance(*where, *old, self.free)
+        self.residual = imbalance(self.film, *where, *old, self.free)
         slope = linear.stiffness + motion.rate * linear.damping
-        self.rounding = self.film.rounding(position, velocity, slope, self.force, self.free)
+        self.rounding = rounding(self.film, position, velocity, slope, self.force, self.free)
 
     def after(
         self, iteration: int, change: float, u: Array, position: Array, linear: Linear
@@ -137,7 +138,7 @@ def solve_film(
     """Pressure of the film at a given position and velocity."""
     u = u.copy()
     weights, motion = np.ones(1), Motion(offset=-velocity)
-    verdict = _Verdict(film, tolerance, motion)
+    check = _Check(film, tolerance, motion)
     for iteration in range(1, max_iterations + 1):
         try:
             linear = film.linearise(u, position, velocity)
@@ -149,9 +150,9 @@ def solve_film(
         if share < _STUCK:
             break
         change = film.correct(u, linear.columns[:1], share * weights)
-        if verdict.after(iteration, change, u, position, linear):
-            return verdict.solution(u, position, linear, True, iteration)
-    return verdict.unanswered(u, position, linear, iteration)
+        if check.after(iteration, change, u, position, linear):
+            return check.solution(u, position, linear, True, iteration)
+    return check.unanswered(u, position, linear, iteration)
 
 
 def solve_equilibrium(
@@ -173,7 +174,7 @@ def solve_equilibrium(
     u = u.copy()
     scale, gap = film.gap.dof_scale[free], film.gap.narrowest(position)
     old = (motion.volume_rate, motion.volume)
-    verdict = _Verdict(film, tolerance, motion, force, free)
+    check = _Check(film, tolerance, motion, force, free)
     for iteration in range(1, max_iterations + 1):
         velocity = motion.velocity(position)
         try:
@@ -195,9 +196,9 @@ def solve_equilibrium(
         position, gap = target, film.gap.narrowest(target)
         if not gap > _PRESSED and not film.elastic:
             break
-        if verdict.after(iteration, change, u, position, linear):
-            return verdict.solution(u, position, linear, True, iteration)
-    return verdict.unanswered(u, position, linear, iteration)
+        if check.after(iteration, change, u, position, linear):
+            return check.solution(u, position, linear, True, iteration)
+    return check.unanswered(u, position, linear, iteration)
 
 
 def _moved(

@@ -48,7 +48,7 @@ def load_speed(time: Array, force: Array) -> float:
     return float((angle[-1] - angle[0]) / (time[-1] - time[0]))
 
 
-def refuse_half_speed_whirl(time: Array, force: Array, speed: Array) -> None:
+def check_half_speed_whirl(time: Array, force: Array, speed: Array) -> None:
     """Name a steady load that turns at half the speed of the shaft: no film carries it.
 
     Raises
