@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.quantities import FILM
+from loadflow.numerics.shown import Shown
+from loadflow.quantities import FILM, Quantity
 
 if TYPE_CHECKING:
     import xarray as xr
+    from matplotlib.figure import Figure
 
 Array = NDArray[np.float64]
 
@@ -22,7 +25,7 @@ _INNER = {
     **dict.fromkeys(("eccentricity", "moment", "tilt"), ("axis",)),
     **dict.fromkeys(("stiffness", "damping"), ("dof", "along")),
     **dict.fromkeys(("groove_flow", "groove_pressure"), ("groove",)),
-    **dict.fromkeys(("pressure", "fill", "deformation"), ("around", "across")),
+    **dict.fromkeys(("pressure", "fill", "deformation", "gap"), ("around", "across")),
     **dict.fromkeys(("film_temperature", "film_viscosity"), ("around", "across")),
     **dict.fromkeys(("leading_temperature", "trailing_temperature"), ("mixing groove",)),
     "pad_tilt": ("pad",),
@@ -33,7 +36,7 @@ _INNER = {
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
-class FilmState:
+class FilmState(Shown):
     """What an equilibrium and a film at a given position have in common; see `Equilibrium`."""
 
     eccentricity_ratio: Array
@@ -61,6 +64,10 @@ class FilmState:
     contact_area: Array | None = None
     contact_power: Array | None = None
     contact_share: Array | None = None
+
+    def shown_quantities(self) -> Mapping[str, Quantity]:
+        """Quantities of a film."""
+        return FILM
 
     @property
     def _shape(self) -> tuple[int, ...]:
@@ -220,6 +227,34 @@ class Equilibrium(FilmState):
     laminar: NDArray[np.bool_]
     temperature: Array | None = None
 
+    def plot(self) -> Figure:
+        """Draw K and C over the speeds, or the shaft centre in the clearance circle.
+
+        The first where the equilibria are of several speeds under one load each.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+
+        Examples
+        --------
+        >>> from loadflow.journal import JournalBearing, Lubricant
+        >>> bearing = JournalBearing(diameter=0.2, width=0.1, relative_clearance=1e-3)
+        >>> state = bearing.equilibrium((5e3, 0.0), [50.0, 80.0], Lubricant(0.05), grid=(36, 8))
+        >>> len(state.plot().axes)
+        2
+        """
+        from loadflow import plots
+
+        speeds, loads = np.ravel(self.speed), np.reshape(self.force, (-1, 2))
+        if np.unique(speeds).size > 1 and np.unique(loads, axis=0).shape[0] == 1:
+            return plots.coefficients(speeds, self.stiffness, self.damping)
+        place, ratio = np.reshape(self.eccentricity, (-1, 2)), np.ravel(self.eccentricity_ratio)
+        size = np.hypot(*place.T)
+        known = np.flatnonzero(size > 0)
+        clearance = size[known[0]] / ratio[known[0]] if known.size else 1.0
+        return plots.clearance_circle(place / clearance, np.ravel(self.minimum_film) * 1e6)
+
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class WarmEquilibrium(Equilibrium):
@@ -235,6 +270,14 @@ class WarmEquilibrium(Equilibrium):
         What is left of the heat balance, K.
     heat_iterations : array of int (…)
         Temperatures tried.
+
+    Examples
+    --------
+    >>> from loadflow.journal import Heat, JournalBearing
+    >>> bearing = JournalBearing(diameter=0.2, width=0.1, relative_clearance=1e-3)
+    >>> state = bearing.equilibrium((1e4, 0.0), 100.0, heat=Heat(), grid=(40, 8))
+    >>> bool(state.converged), bool(state.outlet_temperature > state.temperature > 313.15)
+    (True, True)
     """
 
     outlet_temperature: Array = field(default_factory=lambda: np.zeros(()))
@@ -268,6 +311,8 @@ contact_area, contact_power, contact_share
         As in `Equilibrium`.
     deformation : array (…, nx, nz)
         Growth of the gap of the cells by the elastic shell, m.
+    gap : array (…, nx, nz)
+        Mean gap of the cells, m.
 
     Examples
     --------
@@ -285,5 +330,33 @@ contact_area, contact_power, contact_share
     pressure: Array
     fill: Array
     deformation: Array
+    gap: Array
     angle: Array
     z: Array
+
+    def plot(self, case: int = 0) -> Figure:
+        """Draw the pressure unwrapped and around the shaft, and the gap.
+
+        Parameters
+        ----------
+        case : int
+            Number of the position, in C order.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+
+        Examples
+        --------
+        >>> from loadflow.journal import JournalBearing, Lubricant
+        >>> bearing = JournalBearing(diameter=0.2, width=0.1, relative_clearance=1e-3)
+        >>> len(bearing.pressure((5e-5, 0.0), 50.0, Lubricant(0.05), grid=(36, 8)).plot().axes)
+        4
+        """
+        from loadflow import plots
+
+        angle, pressure, gap = (
+            values.reshape(-1, *values.shape[len(self._shape) :])[case]
+            for values in (self.angle, self.pressure, self.gap)
+        )
+        return plots.pressure(angle, self.z, pressure, gap)

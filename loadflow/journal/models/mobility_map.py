@@ -133,7 +133,7 @@ def equilibrium(
         "residual": residual,
     }
     for index in np.flatnonzero(~covered):
-        solve_on_grid(bearing, film.options, int(index), answer, control)
+        solve_on_grid(bearing, film.options, int(index), line, answer, control)
     return answer
 
 
