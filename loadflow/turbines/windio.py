@@ -244,8 +244,8 @@ def _control(
     gear = float(merged.get("drivetrain", {}).get("gear_ratio", 1.0))
     radius, ratio = merged["rotor"].get("radius"), source.number("tip speed ratio")
     rotor_speed = source.number("rated rotor speed")
-    if rotor_speed is None and (tip := source.number("largest tip speed")) and radius:
-        rotor_speed = tip / radius
+    if (tip := source.number("largest tip speed")) and radius:
+        rotor_speed = min(rotor_speed or np.inf, tip / radius)
     lowest = source.number("lowest rotor speed") or None
     power = merged.get("rated_power")
     if rotor_speed is not None:
