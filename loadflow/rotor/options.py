@@ -61,6 +61,12 @@ class RotorOptions:
         Excess mass of blade 1, share of its mass.
     pitch_imbalance : float
         Pitch offset of blade 1, rad.
+
+    Examples
+    --------
+    >>> from loadflow.rotor import RotorOptions
+    >>> RotorOptions(dynamic_stall=True, skew_factor=0.0).air_density
+    1.225
     """
 
     modes: tuple[str, ...] = ("flap1", "flap2", "edge1")

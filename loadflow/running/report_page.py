@@ -12,8 +12,9 @@ import xarray as xr
 from loadflow.cube import open_cube
 from loadflow.errors import InputError
 from loadflow.planning.verification import WARN
+from loadflow.plots.journal import film_series, orbit
+from loadflow.plots.style import readable
 from loadflow.report import Picture, Section, Table, figures, write_page
-from loadflow.report.style import readable
 from loadflow.running.dynamics_page import dynamics_section
 from loadflow.running.folder import read_manifest
 from loadflow.scene.scene import Scene, read_scene
@@ -108,8 +109,8 @@ def _sections(
         )
     if "journal" in tables:
         pictures = [
-            *_per_bearing(folder, "journal", shown, figures.film),
-            *_per_bearing(folder, "journal", shown[:1], figures.orbit),
+            *_per_bearing(folder, "journal", shown, film_series),
+            *_per_bearing(folder, "journal", shown[:1], orbit),
         ]
         yield Section("Journal bearing", tables=[_case_table(tables["journal"])], pictures=pictures)
     if "dynamics" in tables:

@@ -173,6 +173,22 @@ def run(
     loadflow.errors.LoadflowError
         Another process is at work on the run; the disk is full or refuses; the scheduler or all
         workers are lost. What is finished stays, and the run goes on from there.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from loadflow.cube import make_case, make_cube, save_cube
+    >>> from loadflow.running.runner import run
+    >>> from loadflow.scene import make_scene
+    >>> data = {"speed": [1.2] * 50, "hub_force": [[3e5] * 50] * 3, "hub_moment": [[1e6] * 50] * 3}
+    >>> case = make_case([0.1 * k for k in range(50)], data, dlc="1.1", wind_speed=8.0, seed=1)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     loads = {"files": [str(save_cube(make_cube([case]), f"{folder}/loads.h5"))]}
+    ...     scene = make_scene({"name": "look", "results": ["loads.statistics"], "loads": loads})
+    ...     done = run(scene, out=folder, report=False)
+    ...     there = (done.path / "manifest.json").exists()
+    >>> there, list(done.tree.children)
+    (True, ['loads', 'statistics'])
     """
     # absolute, as the workers of a cluster stand elsewhere
     folder = Path(out).absolute() / check_name(scene.name, "name of the run")

@@ -22,6 +22,7 @@ from loadflow.journal.models.model import Steps, why_not
 from loadflow.numerics.fields import LARGEST_INTEGER, shown
 from loadflow.scene.bearings import Rolling
 from loadflow.scene.candidates import ABOUT, machine
+from loadflow.scene.design import Design
 from loadflow.scene.dynamics import Dynamics
 from loadflow.scene.environment import Environment, surrounded
 from loadflow.scene.friction import Friction
@@ -168,6 +169,13 @@ class Scene(Section, BaseModel):
         Largest relative error allowed, of every result or by result; 5 % if nothing is said. The
         plan takes the cheapest models and effects that hold it, wherever the scene names none.
         ``"given"`` leaves all models as the scene has them, the defaults where it names none.
+
+    Examples
+    --------
+    >>> from loadflow.scene import make_scene
+    >>> scene = make_scene({"name": "look", "accuracy": 0.02, "loads": {"seeds": 2}})
+    >>> scene.loads.seeds, scene.allowed("journal.film"), scene.wants("rolling")
+    (2, 0.02, True)
     """
 
     name: Annotated[str, Field(pattern=r"^[A-Za-z0-9_.-]+$")]
@@ -184,6 +192,7 @@ class Scene(Section, BaseModel):
     rolling: Rolling = Rolling()
     friction: Friction = Friction()
     candidates: dict[str, Candidate] = {}
+    design: Design = Design()
 
     @field_validator("name")
     @classmethod
@@ -253,6 +262,15 @@ class Scene(Section, BaseModel):
                         'reduction.method = "periodic": a closed orbit does not know the tilt of a '
                         "shaft with a beam; leave out journal.tilt or the beam"
                     )
+        return self
+
+    @model_validator(mode="after")
+    def _yaw_bearings_swing(self) -> Self:
+        part = self.rolling.bearings.get("Y")
+        if part is not None and part.oscillation is None:
+            raise ValueError("rolling bearing Y: the yaw bearing swings; give its oscillation")
+        if self.wants("journal") and "Y" in self.journal.bearings:
+            raise ValueError("journal.bearings = 'Y': the yaw bearing is a rolling bearing")
         return self
 
     @model_validator(mode="after")
@@ -431,6 +449,13 @@ def with_loads(scene: Scene, files: list[str], **reading: Any) -> Scene:
     ------
     InputError
         A bad value among them.
+
+    Examples
+    --------
+    >>> from loadflow.scene import make_scene, with_loads
+    >>> scene = with_loads(make_scene({"name": "look"}), ["/data/runs/*.outb"], frame="rotating")
+    >>> scene.loads.source, scene.loads.frame
+    ('files', 'rotating')
     """
     given = {key: value for key, value in reading.items() if value is not None}
     absolute = [str(Path(file).absolute()) for file in files]

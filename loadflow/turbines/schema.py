@@ -37,6 +37,13 @@ class Airfoil:
     moment : ndarray, shape (n,) or (0,)
         Coefficient of the moment about the quarter chord, nose-up positive, referred to the square
         of the chord; empty: not known, taken as 0.
+
+    Examples
+    --------
+    >>> from loadflow.turbines import load_turbine
+    >>> foil = next(iter(load_turbine("nrel-5mw").airfoils.values()))
+    >>> foil.angle.shape == foil.lift.shape == foil.drag.shape
+    True
     """
 
     name: str
@@ -81,6 +88,12 @@ class Mode:
     coefficients : tuple of float
         Coefficients of x², x³, … with x = distance from the root over blade length; they add up
         to 1, so that the modal coordinate is the deflection of the tip.
+
+    Examples
+    --------
+    >>> from loadflow.turbines import Mode
+    >>> Mode("flap1", (0.0, 0.0, 1.0)).name
+    'flap1'
     """
 
     name: str
@@ -113,6 +126,13 @@ class Blade:
     torsion_span, torsion_stiffness, centre_ahead : ndarray, shape (t,) or (0,)
         Distance from the root, m; torsional stiffness, N m²; distance of the quarter chord ahead of
         the axis about which the blade twists, m. Empty: not known, the blade does not twist.
+
+    Examples
+    --------
+    >>> from loadflow.turbines import load_turbine
+    >>> blade = load_turbine("nrel-5mw").blade
+    >>> len(blade.airfoil) == blade.radius.size, [mode.name for mode in blade.modes]
+    (True, ['flap1', 'flap2', 'edge1'])
     """
 
     radius: Array
@@ -178,6 +198,13 @@ class RotorGeometry:
         rad; tilt lifts the upwind end of the shaft, cone leans the blades upwind.
     hub_mass, hub_inertia : float
         kg; kg m² about the shaft.
+
+    Examples
+    --------
+    >>> from loadflow.turbines import load_turbine
+    >>> rotor = load_turbine("nrel-5mw").rotor
+    >>> rotor.radius, rotor.blades
+    (63.0, 3)
     """
 
     radius: Positive
@@ -221,6 +248,12 @@ class Drivetrain:
     hub_to_bearing, bearing_span : float, optional
         From the hub centre to the first main bearing along the shaft, and from there to the
         second, m: the places of the main bearings where a scene states none.
+
+    Examples
+    --------
+    >>> from loadflow.turbines import Drivetrain
+    >>> Drivetrain(gear_ratio=97.0, generator_inertia=534.0).torsional_stiffness  # rigid
+    0.0
     """
 
     gear_ratio: Positive
@@ -281,6 +314,12 @@ class Control:
     individual_gain, individual_limit : float
         Of the individual pitch control: integral gain on the tilt and yaw moment, rad/(N m s), and
         largest deviation from the collective pitch, rad.
+
+    Examples
+    --------
+    >>> from loadflow.turbines import load_turbine
+    >>> round(load_turbine("nrel-5mw").control.pitch_rate, 4)  # rad/s
+    0.1396
     """
 
     region_15_start: Positive
@@ -384,6 +423,12 @@ class Supervision:
         From a fault to the reaction of the control, s.
     brake_speed : float
         Rotor speed below which the brake closes in a stop, rad/s.
+
+    Examples
+    --------
+    >>> from loadflow.turbines import Supervision
+    >>> Supervision(overspeed=1.15).brake_speed
+    0.1
     """
 
     idling_pitch: Positive = 70.0 * _DEGREE
@@ -416,6 +461,13 @@ class Turbine:
     supervision : Supervision
     assumed : tuple of str
         What the file did not say, and what was taken instead.
+
+    Examples
+    --------
+    >>> from loadflow.turbines import load_turbine
+    >>> turbine = load_turbine("nrel-5mw")
+    >>> turbine.rated_power / 1e6, turbine.rotor.hub_height, turbine.tower.height
+    (5.0, 90.0, 87.6)
     """
 
     name: str
