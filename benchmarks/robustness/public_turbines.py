@@ -131,7 +131,7 @@ TURBINES = (
         },
     ),
 )
-"""Values beside: ElastoDyn and ServoDyn files of the repositories; the 22 MW of windIO's examples."""
+"""Values beside: ElastoDyn and ServoDyn of the repositories; for the 22 MW, windIO's examples."""
 
 
 def content(public: Public, path: str, clones: Path) -> str:

@@ -118,11 +118,11 @@ def _parsed(path: Path, time: int, size: int) -> Any:
         """Reads data only; a later anchor of one name replaces the earlier one."""
 
         def compose_node(self, parent: Any, index: Any) -> Any:
-            event = self.peek_event()  # type: ignore[no-untyped-call]
+            event = self.peek_event()
             anchor = getattr(event, "anchor", None)
             if anchor in self.anchors and not isinstance(event, yaml.AliasEvent):
                 del self.anchors[anchor]
-            return super().compose_node(parent, index)  # type: ignore[no-untyped-call]
+            return super().compose_node(parent, index)
 
     try:
         text = path.read_text(encoding="utf-8")

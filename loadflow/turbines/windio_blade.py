@@ -16,7 +16,8 @@ _UPPER = [(i, j) for i in range(6) for j in range(i, 6)]
 
 def foil_table(source: Source) -> tuple[dict[str, Any], dict[str, float]]:
     """Polars by name, and the relative thickness of each; angles in radians."""
-    foils, thickness = {}, {}
+    foils: dict[str, Any] = {}
+    thickness: dict[str, float] = {}
     for entry in source.path("airfoils") or []:
         name = str(entry["name"])
         given = entry.get("rthick", entry.get("relative_thickness"))
