@@ -1,4 +1,4 @@
-"""The pages of the site: commands are read as the command line reads them, scenes and Python run."""
+"""The pages of the site: commands are read as the command line reads them, scenes and code run."""
 
 import re
 import shlex
