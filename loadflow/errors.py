@@ -11,9 +11,17 @@ class InputError(LoadflowError, ValueError):
     """Bad input: a scene, a file or an argument. The command line ends with exit code 2."""
 
 
+class NewerVersionError(InputError):
+    """Data on disk have a form that only a newer loadflow can read."""
+
+
 class SolverError(LoadflowError, RuntimeError):
     """A model has no answer for sound input, or did not converge. Exit code 1."""
 
 
 class ValidityWarning(UserWarning):
     """A model is used outside the range in which it holds; the message names the numbers."""
+
+
+class FormerVersionWarning(UserWarning):
+    """Data on disk have an older form; the message says what was brought up to date, and how."""

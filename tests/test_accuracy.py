@@ -228,7 +228,7 @@ def test_a_run_climbs_where_its_own_cases_need_it_and_gives_the_same_when_taken_
     assert rung_of(make_plan(scene).scene, "journal") == "reduced, 60"
     run = lf.run(scene, out=tmp_path, report=False)
     manifest = json.loads((run.path / "manifest.json").read_text(encoding="utf-8"))
-    assert manifest["climbed"][0] == "journal"
+    assert manifest["refined"][0] == "journal"
     assert "refined" in manifest["rungs"]["journal"]["reason"]
     check = run.tree["check"].to_dataset()
     film = check.isel(check=check["stage"].values == "journal")

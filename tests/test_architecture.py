@@ -7,6 +7,8 @@ faults may only become fewer: one that is listed but gone fails its test, so tha
 from __future__ import annotations
 
 import ast
+import re
+from collections import Counter
 from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
@@ -27,7 +29,7 @@ FLOORS = (
     ("wind", "rotor", "shaft", "seeds", "reduction", "readers"),
     ("cube", "turbines", "tribology"),
     ("numerics", "plots"),
-    ("storage", "verdict", "quantities"),
+    ("storage", "schemas", "verdict", "quantities"),
     ("errors", "data"),
 )
 """Rooms from top to bottom. Those of one floor may use each other, if none does in a circle."""
@@ -175,3 +177,39 @@ def circles(graph: Graph) -> set[str]:
     )
     short = ([name.removeprefix("loadflow.") for name in group] for group in groups)
     return {", ".join(group) for group in short if len(group) > 1}
+
+
+CALLED_BY_OTHERS = {"emit", "handleError", "on_end", "on_start"}
+"""Methods that logging and numba call, by names that they chose."""
+
+
+def test_no_name_is_defined_and_used_nowhere():
+    repository = ROOT.parent
+    folders = [
+        repository / name for name in ("loadflow", "tests", "benchmarks", "pipelines", "docs")
+    ]
+    files = [f for folder in folders for f in folder.rglob("*") if f.suffix in SOURCES]
+    words = Counter(re.findall(r"\w+", "\n".join(f.read_text(encoding="utf-8") for f in files)))
+    unused = {name for name in defined() if words[name] == 1 and not name.startswith("__")}
+    assert unused - CALLED_BY_OTHERS == set()
+
+
+SOURCES = {".py", ".pyi", ".md", ".toml", ".html"}
+
+
+def defined() -> Iterator[str]:
+    """Functions, classes and methods of the package, and what modules assign."""
+    for path in modules().values():
+        tree = ast.parse(path.read_text(encoding="utf-8"))
+        for node in ast.walk(tree):
+            if isinstance(node, ast.FunctionDef | ast.ClassDef) and not is_validator(node):
+                yield node.name
+        for node in tree.body:
+            targets = node.targets if isinstance(node, ast.Assign) else []
+            yield from (target.id for target in targets if isinstance(target, ast.Name))
+
+
+def is_validator(node: ast.FunctionDef | ast.ClassDef) -> bool:
+    """Whether a decorator registers it, as those of pydantic, typer and numba do."""
+    registers = ("validator", "command", "callback", "overload", "register")
+    return any(word in ast.unparse(d) for d in node.decorator_list for word in registers)

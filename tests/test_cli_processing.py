@@ -12,7 +12,7 @@ from loadflow.cli import main
 from loadflow.cube import make_cube, open_cube, save_cube
 from loadflow.journal import Groove, Supply
 from loadflow.reduction import damage_equivalent_load, read_parameter_file, stationary
-from loadflow.scene.scene import Journal
+from loadflow.scene.journal import Journal
 from loadflow.seeds import group_seeds_jointly
 from loadflow.stages.film_response import film_response
 from loadflow.stages.frames import to_film

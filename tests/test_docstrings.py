@@ -144,7 +144,7 @@ WITHOUT: set[str] = {
     "rotor.simulation.simulate_condition",
     "running.runner.run",
     "scene.cases.Case",
-    "scene.scene.Journal",
+    "scene.journal.Journal",
     "scene.scene.Scene",
     "scene.scene.with_loads",
     "seeds.grouping.Grouping",

@@ -8,7 +8,7 @@ from synthetic import cube_file
 
 import loadflow as lf
 from loadflow.cli import main
-from loadflow.planning.effects import Verdict, switched
+from loadflow.planning.effects import EffectVerdict, switched
 from loadflow.planning.pilot import hardest, pilot
 from loadflow.planning.plan import make_plan, needed_stages
 from loadflow.scene.cases import list_cases
@@ -198,7 +198,7 @@ def test_the_pilot_measures_what_the_plan_then_counts(cube, verdict):
 def test_the_pilot_says_the_same_again(cube, verdict):
     again = pilot(scene_of(cube))
     assert replace(again, seconds=0.0) == replace(verdict, seconds=0.0)
-    assert Verdict.from_json(json.loads(json.dumps(verdict.to_json()))) == verdict
+    assert EffectVerdict.from_json(json.loads(json.dumps(verdict.to_json()))) == verdict
 
 
 def test_models_as_given_need_no_pilot(cube):

@@ -18,7 +18,7 @@ from loadflow.planning.plan import make_plan
 from loadflow.scene.cases import list_cases
 from loadflow.scene.scene import Scene, make_scene
 from loadflow.scene.unused import unused_keys
-from loadflow.stages import friction, journal, loads, reduction, rolling, seeds, shaft
+from loadflow.stages import dynamics, friction, journal, loads, reduction, rolling, seeds, shaft
 from loadflow.studies.run_lifetime import run_lifetime
 from loadflow.studies.verdicts import verdicts
 
@@ -47,6 +47,11 @@ BASES = {
     "warm film": {
         "journal": FILM | {"heat": {"transfer": 100.0}}, "reduction": {"size": 0.03},
     },
+    "cold": {
+        "loads": WIND | {"seeds": 1, "rung": "tables"}, "environment": {"temperature": 263.15},
+        "journal": FILM | {"heat": {"transfer": 100.0}}, "reduction": {"size": 0.03},
+        "results": ["journal.film", "rolling.friction"],
+    },
     "rough film": {
         "journal": FILM | {"contact": {"pattern": 3.0, "asperities": {
             "roughness": 1e-6, "contact_modulus": 1e11, "factor": 1e-3}}},
@@ -57,7 +62,15 @@ BASES = {
         "journal": FILM | {"motion": "transient", "rung": "reduced"},
         "results": ["journal.film"],
     },
+    "periodic loads": {
+        "journal": FILM, "reduction": {"method": "periodic", "bounds": [0.05, 0.3]},
+    },
+    "stationary loads": {"journal": FILM, "reduction": {"method": "stationary"}},
     "tilted film": {"journal": FILM | {"tilt": True}, "shaft": {"two_point": {"beam": {}}}},
+    "rotor dynamics": {"journal": FILM, "shaft": {"two_point": {"beam": {}}},
+                       "dynamics": {"unbalance": 50.0}, "results": ["journal.dynamics"]},
+    "rotor dynamics, rigid": {"journal": FILM, "shaft": {"two_point": {}},
+                              "results": ["journal.dynamics"]},
     "rigid and tilted": {"journal": FILM | {"tilt": True}, "shaft": {"two_point": {}}},
     "tapered rollers": {
         "shaft": {"two_point": {}},
@@ -82,10 +95,15 @@ READERS = {
     "files": ("loads", "seeds", "reduction"),
     "bearings": ("shaft", "journal", "rolling", "friction"),
     "warm film": ("journal",),
+    "cold": ("environment",),
     "rough film": ("journal",),
     "elastic film": ("journal",),
     "film in motion": ("journal", "reduction"),
+    "periodic loads": ("reduction",),
+    "stationary loads": ("reduction",),
     "tilted film": ("shaft", "journal"),
+    "rotor dynamics": ("dynamics",),
+    "rotor dynamics, rigid": ("dynamics",),
     "rigid and tilted": ("journal",),
     "tapered rollers": ("rolling", "friction"),
     "three points": ("shaft",),
@@ -144,6 +162,10 @@ OTHERS = {
     "journal.supply.grooves.0.shape": ["circle"],
     "journal.supply.grooves.0.restrictor": [{"diameter": 0.004, "length": 0.05}],
     "journal.supply.pump": [{"flow": [0.0, 0.01], "pressure": [8e5, 2e5]}],
+    "dynamics.speed_range": [[0.8, 1.6]],
+    "reduction.method": ["stationary", "histogram"],
+    "reduction.bounds": [[0.02, 0.2]],
+    "reduction.orders": [[1.0]],
     "rolling.geometry.profile": ["straight"],
     "rolling.geometry.crown_radius": [18.0],
     "rolling.geometry.law": ["palmgren"],
@@ -291,7 +313,7 @@ def _journal(scene, add):
 
 
 def _rolling(scene, add):
-    from loadflow.planning.accuracy import finer
+    from loadflow.planning.choice import finer
 
     inputs = _inputs(scene)
     # with the effect of the rings on, too, as the run's own check has it
@@ -305,6 +327,17 @@ def _friction(scene, add):
     inputs = _inputs(scene)
     add(friction.losses(scene, ONE, inputs))
     add(rolling.load_distribution(scene, ONE, inputs))
+
+
+def _dynamics(scene, add):
+    tree = dynamics.dynamics(scene, ONE, _inputs(scene))
+    add(tree)
+    add(dynamics.summary({ONE: tree}))
+
+
+def _environment(scene, add):
+    _loads(scene, add)
+    _journal(scene, add)
 
 
 def _reduction(scene, add):
@@ -328,7 +361,8 @@ def _seeds(scene, add):
 FOUND = {
     "loads": _loads, "turbine": _loads, "shaft": lambda s, add: _shaft(s, add) and None,
     "seeds": _seeds, "reduction": _reduction, "journal": _journal, "rolling": _rolling,
-    "friction": _friction,
+    "friction": _friction, "dynamics": _dynamics,
+    "environment": _environment,
 }  # fmt: skip
 
 

@@ -1,18 +1,17 @@
 """The ladder knows every rung that a scene can choose, and what it says still holds."""
 
-from pathlib import Path
 from typing import get_args
 
 import numpy as np
 import pytest
 import synthetic
 
+from benchmarks.ladder.measuring import rung_key
 from loadflow.planning.ladder import STEPS_PER_CASE, gains, ladder
 from loadflow.planning.plan import make_plan
-from loadflow.scene.scene import Journal, Loads, Reduction, Rolling, Seeds, Shaft, make_scene
+from loadflow.scene.journal import Journal
+from loadflow.scene.scene import Loads, Reduction, Rolling, Seeds, Shaft, make_scene
 from loadflow.wind import LOAD_CASES
-
-BENCHMARKS = Path(__file__).parents[1] / "benchmarks"
 
 
 def choices(section, name):
@@ -70,10 +69,7 @@ def test_each_suspension_is_measured(shaft):
     assert all(step.seconds for step in plan.steps)
 
 
-def test_benchmarks_and_plan_name_a_rung_by_the_same_function(monkeypatch):
-    monkeypatch.syspath_prepend(BENCHMARKS)
-    from measuring import rung_key
-
+def test_benchmarks_and_plan_name_a_rung_by_the_same_function():
     named = 0
     for table, rungs in ladder().items():
         for name, entry in rungs.items():
@@ -140,11 +136,10 @@ def test_a_finer_film_grid_is_dearer_and_more_accurate():
         assert coarse["errors"][quantity]["max"] > fine["errors"][quantity]["max"]
 
 
-def test_stored_film_errors_still_hold(monkeypatch):
+def test_stored_film_errors_still_hold():
     """Measured again at two loads; the coarser reference leaves out at most half of the error."""
-    monkeypatch.syspath_prepend(BENCHMARKS)
-    from ladder_bearings import film_errors, reference_film
-    from measuring import Setting
+    from benchmarks.ladder.bearings import film_errors, reference_film
+    from benchmarks.ladder.measuring import Setting
 
     options = Journal()
     setting = Setting(sommerfeld=(1.0, 10.0), speeds=(1.267,))
@@ -155,11 +150,10 @@ def test_stored_film_errors_still_hold(monkeypatch):
         assert errors[quantity]["max"] > stored["max"] / 10, quantity
 
 
-def test_stored_errors_of_the_film_in_motion_still_hold(monkeypatch):
+def test_stored_errors_of_the_film_in_motion_still_hold():
     """Measured again on sines of the turbine's size; the cases of the ladder are other ones."""
-    monkeypatch.syspath_prepend(BENCHMARKS)
-    from ladder_orbit import MODELS, REFERENCE, compare, solve
-    from measuring import Errors
+    from benchmarks.ladder.measuring import Errors
+    from benchmarks.ladder.orbit import MODELS, REFERENCE, compare, solve
 
     options, time = Journal(), 0.025 * np.arange(120)
     force = np.stack([1.8e6 + 4e5 * np.sin(3.8 * time), 3e5 * np.cos(1.3 * time)], axis=-1)
@@ -178,12 +172,10 @@ def within(found, stored):
     return stored["max"] / 10 < found["max"] < 1.5 * stored["max"]
 
 
-def test_stored_errors_of_the_wind_still_hold(monkeypatch):
+def test_stored_errors_of_the_wind_still_hold():
     """One minute at 12 m/s on rigid blades, against the next but one grid."""
-    monkeypatch.syspath_prepend(BENCHMARKS)
-    from ladder_loads import describe, deviations
-    from ladder_wind import loads_in, thinned, turbulence
-
+    from benchmarks.ladder.loads import describe, deviations
+    from benchmarks.ladder.wind import loads_in, thinned, turbulence
     from loadflow.scene.cases import list_cases
 
     loads = {"wind_speeds": [12.0], "seeds": 1, "duration": 60.0, "rung": "tables"}
@@ -200,11 +192,9 @@ def test_stored_errors_of_the_wind_still_hold(monkeypatch):
         assert within(errors[quantity], stored[quantity]), quantity
 
 
-def test_stored_errors_of_binned_lives_still_hold(monkeypatch):
+def test_stored_errors_of_binned_lives_still_hold():
     """Measured again on noise of the turbine's size."""
-    monkeypatch.syspath_prepend(BENCHMARKS)
-    from ladder_life import MODELS, Loads, compare, life_of
-
+    from benchmarks.ladder.life import MODELS, Loads, compare, life_of
     from loadflow.rolling import main_bearings
 
     rng = np.random.default_rng(1)
@@ -219,12 +209,10 @@ def test_stored_errors_of_binned_lives_still_hold(monkeypatch):
         assert within(errors["life"], ladder()["life"][name]["errors"]["life"]), name
 
 
-def test_stored_errors_of_friction_still_hold(monkeypatch):
+def test_stored_errors_of_friction_still_hold():
     """Measured again on waves and noise, the four-point bearing in ideal rolling."""
-    monkeypatch.syspath_prepend(BENCHMARKS)
-    from ladder_friction import compare, solve
-    from measuring import Errors
-
+    from benchmarks.ladder.friction import compare, solve
+    from benchmarks.ladder.measuring import Errors
     from loadflow.scene.cases import Case
     from loadflow.stages import shaft
 
@@ -239,8 +227,7 @@ def test_stored_errors_of_friction_still_hold(monkeypatch):
     assert within(errors.summary()["friction power"], stored["friction power"]), errors.summary()
 
 
-def test_the_page_shows_what_is_stored(monkeypatch):
-    monkeypatch.syspath_prepend(BENCHMARKS)
-    from ladder import DOC, page
+def test_the_page_shows_what_is_stored():
+    from benchmarks.ladder.__main__ import DOC, page
 
     assert DOC.read_text(encoding="utf-8") == page(ladder(), gains())

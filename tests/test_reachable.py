@@ -20,7 +20,8 @@ from loadflow.journal.shapes import Relief, Shape
 from loadflow.journal.shells import Shell
 from loadflow.journal.supply import Restrictor
 from loadflow.scene import read_scene
-from loadflow.scene.scene import Journal, make_scene
+from loadflow.scene.journal import Journal
+from loadflow.scene.scene import make_scene
 from loadflow.stages.journal import equilibria
 from loadflow.studies import journal_point
 

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from loadflow.cli.base import AsJson, app, print_quantities
+from loadflow.cli.base import AsJson, app, out, print_json, print_quantities, print_rows
 from loadflow.errors import InputError
+
+if TYPE_CHECKING:
+    from loadflow.journal import Film, JournalBearing
 
 
 @app.command("wind")
@@ -118,6 +121,17 @@ def journal(
     supply_pressure: Annotated[
         float | None, typer.Option(help="In the grooves, absolute, Pa; default that at its ends.")
     ] = None,
+    coefficients: Annotated[
+        Path | None,
+        typer.Option(
+            help="Table of stiffness and damping to write, .csv, with the columns of ROSS; its "
+            "rows are --speed-rpm, or --over-rpm."
+        ),
+    ] = None,
+    over_rpm: Annotated[
+        tuple[float, float, int] | None,
+        typer.Option(help="Speeds of --coefficients: first, last (1/min), and how many."),
+    ] = None,
     as_json: AsJson = False,
 ) -> None:
     """Solve the film of a journal bearing for one load, or for a reduced series."""
@@ -151,6 +165,13 @@ def journal(
         },
         keys={"edge_pressure": edge_pressure, "rung": rung, "inlet": inlet, "grid": grid},
     )
+    if over_rpm is not None and coefficients is None:
+        raise InputError("--over-rpm are the speeds of a table: give its file with --coefficients")
+    if coefficients is not None:
+        _coefficients(
+            coefficients, bearing, film, (force_x, force_y), speed_rpm, over_rpm, series, as_json
+        )
+        return
     if series is not None:
         if force_x is not None or force_y or speed_rpm is not None:
             raise InputError("--series brings its own loads: leave out --force-… and --speed-rpm")
@@ -161,6 +182,42 @@ def journal(
         force, speed = (force_x, force_y), speed_rpm * math.pi / 30
         answer = journal_point(force, speed, bearing, film)
     print_quantities(answer, as_json)
+
+
+def _coefficients(
+    file: Path,
+    bearing: JournalBearing,
+    film: Film,
+    force: tuple[float | None, float],
+    speed_rpm: float | None,
+    over_rpm: tuple[float, float, int] | None,
+    series: Path | None,
+    as_json: bool,
+) -> None:
+    """Write stiffness and damping over speed, and show them."""
+    from loadflow.studies.journal_point import journal_coefficients
+
+    if series is not None or force[0] is None:
+        raise InputError("--coefficients: give one load with --force-x, no --series")
+    if (speed_rpm is None) == (over_rpm is None):
+        raise InputError("--coefficients: give either --speed-rpm or --over-rpm")
+    rows = (speed_rpm, speed_rpm, 1) if speed_rpm is not None else over_rpm
+    assert rows is not None
+    first, last, count = rows
+    if count < 1 or (count > 1 and not 0 < first < last):
+        raise InputError(f"--over-rpm {first:g} {last:g} {count}: 0 < first < last, one or more")
+    table = journal_coefficients(
+        file,
+        (force[0], force[1]),
+        (first * math.pi / 30, last * math.pi / 30, count),
+        bearing,
+        film,
+    )
+    if as_json:
+        print_json({"file": str(file), "rows": table})
+        return
+    print_rows(tuple(table[0]), [[f"{value:.4g}" for value in row.values()] for row in table])
+    out.print(f"table    {file}", soft_wrap=True)
 
 
 @app.command()

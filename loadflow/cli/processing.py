@@ -22,7 +22,7 @@ from loadflow.errors import InputError
 
 if TYPE_CHECKING:
     from loadflow.cube import Cube
-    from loadflow.scene.scene import Journal
+    from loadflow.scene.journal import Journal
 
 
 class Test(StrEnum):
@@ -144,7 +144,12 @@ def reduce_series(
         typer.Option(help="Scene whose journal bearing is asked; default: a reference bearing."),
     ] = None,
     film: Annotated[
-        bool, typer.Option("--film", help="Histogram: compare the films of full and reduced.")
+        bool,
+        typer.Option(
+            "--film",
+            help="Histogram: compare the films of full and reduced; others: solve the film under "
+            "the design loads, periodic ones round the orbit that closes.",
+        ),
     ] = False,
     bearing: Annotated[
         list[str] | None, typer.Option(help="Which bearing; repeatable; default: all.")
@@ -161,10 +166,10 @@ def reduce_series(
     source = open_checked(cube)
     where: dict[str, Any] = {"bearings": bearing or [], "turbine": turbine, "source": str(cube)}
     if method is Kind.stationary:
-        _stationary(source, output, where, as_json)
+        _stationary(source, output, where, _journal(scene) if film or scene else None, as_json)
     elif method is Kind.periodic:
         options = {"bounds": bounds, "additional": additional, "orders": order}
-        _periodic(source, output, where, options, scene, as_json)
+        _periodic(source, output, where, options, scene, film, as_json)
     else:
         histogram: dict[str, Any] = {"size": size, "pick": pick.value, "rounding": rounding.value}
         histogram |= {"classes": classes, "seed": seed}
@@ -174,7 +179,8 @@ def reduce_series(
 
 def _journal(scene: Path | None) -> Journal:
     """The journal bearing of a scene, or the reference bearing."""
-    from loadflow.scene.scene import Journal, read_scene
+    from loadflow.scene.journal import Journal
+    from loadflow.scene.scene import read_scene
 
     return Journal() if scene is None else read_scene(scene).journal
 
@@ -208,8 +214,11 @@ def _histogram(
     out.print(f"page     {page}", soft_wrap=True)
 
 
-def _stationary(cube: Cube, folder: Path, where: dict[str, Any], as_json: bool) -> None:
+def _stationary(
+    cube: Cube, folder: Path, where: dict[str, Any], journal: Journal | None, as_json: bool
+) -> None:
     from loadflow.studies.bearing_series import iter_bearings
+    from loadflow.studies.design_films import HEADS, as_row, stationary_films
     from loadflow.studies.design_loads import (
         STATIONARY_HEADS,
         stationary_row,
@@ -217,12 +226,17 @@ def _stationary(cube: Cube, folder: Path, where: dict[str, Any], as_json: bool) 
         write_stationary,
     )
 
-    rows = [row for series in iter_bearings(cube, **where) for row in stationary_rows(series)]
+    rows, films = [], []
+    for series in iter_bearings(cube, **where):
+        rows += stationary_rows(series)
+        films += [] if journal is None else stationary_films(series, journal)
     file = write_stationary(rows, folder)
     if as_json:
-        print_json({"file": str(file), "loads": rows})
+        print_json({"file": str(file), "loads": rows} | ({"films": films} if films else {}))
         return
     print_rows(STATIONARY_HEADS, [stationary_row(row) for row in rows])
+    if films:
+        print_rows(HEADS, [as_row(film) for film in films])
     out.print(f"table    {file}", soft_wrap=True)
 
 
@@ -232,21 +246,29 @@ def _periodic(
     where: dict[str, Any],
     options: dict[str, Any],
     scene: Path | None,
+    film: bool,
     as_json: bool,
 ) -> None:
     from loadflow.studies.bearing_series import iter_bearings
+    from loadflow.studies.design_films import HEADS, as_row, periodic_film
     from loadflow.studies.design_loads import PERIODIC_HEADS, periodic_parts, write_periodic
     from loadflow.turbines import load_turbine
 
-    if scene is not None and options["bounds"]:
-        raise InputError("give either --bounds or --scene, whose bearing would find them")
+    if scene is not None and options["bounds"] and not film:
+        raise InputError(
+            "give either --bounds or --scene, whose bearing would find them, or both with --film"
+        )
     journal = None if options["bounds"] else _journal(scene)
     named = load_turbine(where["turbine"]).frequencies
     series = iter_bearings(cube, **where)
     parts = list(periodic_parts(series, journal=journal, named=named, **options))
     page = write_periodic(parts, folder, Path(where["source"]).name)
+    films = [periodic_film(part, _journal(scene)) for part in parts] if film else []
     if as_json:
-        print_json({"page": str(page), "loads": [part.as_dict() for part in parts]})
+        found: dict[str, Any] = {"page": str(page), "loads": [part.as_dict() for part in parts]}
+        print_json(found | ({"films": films} if films else {}))
         return
     print_rows(PERIODIC_HEADS, [row for part in parts for row in part.rows()])
+    if films:
+        print_rows(HEADS, [as_row(film) for film in films])
     out.print(f"page     {page}", soft_wrap=True)

@@ -154,7 +154,7 @@ def plan(
     """Show which stages, models and effects a scene needs, their expected time and error."""
     from loadflow.planning.pilot import pilot
     from loadflow.planning.plan import make_plan
-    from loadflow.running.folder import climbs, finished_parts, known_verdict
+    from loadflow.running.folder import finished_parts, known_verdict, refinements
     from loadflow.scene.unused import unused_keys, unused_warnings
 
     reading = _reading(cases, pattern, channels, gauge_distance, frame)
@@ -164,7 +164,7 @@ def plan(
     if verdict is None and measure:
         with progress(quiet=as_json) as show:
             verdict = pilot(wanted, show)
-    made = make_plan(wanted, climbs(folder, wanted), verdict)
+    made = make_plan(wanted, refinements(folder, wanted), verdict)
     there = finished_parts(folder, made)
     steps = [
         {

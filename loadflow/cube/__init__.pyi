@@ -10,6 +10,7 @@ from .export import export_cube as export_cube
 from .files import open_cube as open_cube
 from .files import save_cube as save_cube
 from .parts import Cube as Cube
+from .parts import case_named as case_named
 from .parts import iter_cases as iter_cases
 from .resampling import resample as resample
 from .schema import CASE_COORDS as CASE_COORDS

@@ -244,6 +244,4 @@ def _order(name: Hashable, dims: Sequence[Hashable]) -> Sequence[Hashable]:
 
 
 def _attrs(name: str) -> dict[str, str]:
-    if name not in CASE_COORDS:
-        return {}
-    return {k: v for k, v in CASE_COORDS[name].attrs.items() if v}
+    return CASE_COORDS[name].attrs if name in CASE_COORDS else {}

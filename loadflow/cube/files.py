@@ -15,6 +15,7 @@ import xarray as xr
 from loadflow.cube.build import make_cube
 from loadflow.cube.hdf5 import check_hdf5
 from loadflow.cube.parts import Cube
+from loadflow.cube.schema import CUBE
 from loadflow.errors import InputError
 from loadflow.storage import check_room, written_whole
 
@@ -68,7 +69,7 @@ def save_cube(cube: Cube, path: str | os.PathLike[str]) -> Path:
 
 
 def write_cube(cube: Cube, path: Path) -> None:
-    """Write a cube to a file that nobody reads yet.
+    """Write a cube to a file that nobody reads yet, with the version of its form.
 
     HDF5 that meets a full disk ends the process, without a message. So a cube is put together in
     memory, and a large one is begun only where there is room for it.
@@ -82,9 +83,11 @@ def write_cube(cube: Cube, path: Path) -> None:
         keys: dict[str, Any] = {
             "encoding": {leaf.path: _encoding(leaf.to_dataset()) for leaf in cube.leaves}
         }
+        cube = cube.copy()
     else:
         cube = cube.drop_encoding()
         keys = {"encoding": _encoding(cube)}
+    cube.attrs = {**cube.attrs, CUBE.key: CUBE.version}
     if cube.nbytes > IN_MEMORY:
         check_room(path.parent, cube.nbytes)
         cube.to_netcdf(path, engine=ENGINE, **keys)
@@ -130,7 +133,8 @@ def open_cube(path: str | os.PathLike[str], chunks: Any = None) -> Cube:
     Raises
     ------
     loadflow.errors.InputError
-        No such file or folder, nothing in it, or a file that is truncated or no HDF5.
+        No such file or folder, nothing in it, a file that is truncated or no HDF5, or one of a
+        newer loadflow.
     """
     path = Path(path)
     if chunks is not None:
@@ -172,11 +176,21 @@ def _open(path: Path, chunks: Any) -> Cube:
     check_hdf5(path)
     try:
         tree = xr.open_datatree(path, engine=ENGINE, chunks=chunks)
-        if tree.children:
-            return tree.map_over_datasets(_labels_loaded)
-        return _labels_loaded(tree.to_dataset())
+        version = tree.attrs.get(CUBE.key, 1)
+        CUBE.check(version, str(path))
+        cube = (
+            tree.map_over_datasets(_labels_loaded)
+            if tree.children
+            else _labels_loaded(tree.to_dataset())
+        )
+    except InputError:
+        raise
     except Exception as error:  # h5py and h5netcdf raise of nearly every kind on damaged files
         raise InputError(f"{path}: cannot be read as HDF5; a part is damaged ({error})") from error
+    cube.attrs.pop(CUBE.key, None)
+    if isinstance(cube, xr.DataTree):
+        return cube.map_over_datasets(lambda part: CUBE.upgrade(part, version, str(path)))
+    return CUBE.upgrade(cube, version, str(path))
 
 
 def _order(case: xr.Dataset) -> tuple[str, float, int]:

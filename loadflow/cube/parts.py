@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+import numpy as np
 import xarray as xr
 
 from loadflow.cube.schema import case_name
@@ -43,6 +44,31 @@ def iter_cases(cube: Cube) -> Iterator[tuple[str, xr.Dataset]]:
         for i in range(part.sizes["case"]):
             case = part.isel(case=i)
             yield str(case["case"].values), case
+
+
+def case_named(cube: Cube, name: str) -> xr.Dataset:
+    """Return one case of a cube, without loading its series or looking at the others.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        The cube has no such case.
+
+    Examples
+    --------
+    >>> from loadflow.cube import case_named, make_case, make_cube
+    >>> data = {"speed": [1.2, 1.3], "hub_force": [[0.0, 0.0]] * 3, "hub_moment": [[0.0, 0.0]] * 3}
+    >>> cube = make_cube([make_case([0.0, 0.1], data, dlc="1.1", wind_speed=8.0, seed=1)])
+    >>> case_named(cube, "dlc1.1_v8_s1").sizes["time"]
+    2
+    """
+    for part in parts(cube).values():
+        if "case" not in part.dims:
+            if str((one := label_case(part))["case"].values) == name:
+                return one
+        elif (found := np.flatnonzero(part["case"].values == name)).size:
+            return part.isel(case=int(found[0]))
+    raise InputError(f"the cube has no load case {name!r}")
 
 
 def parts(cube: Cube) -> dict[str, xr.Dataset]:

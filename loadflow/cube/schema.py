@@ -5,6 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
+from typing import TYPE_CHECKING
+
+from loadflow.schemas import Schema
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 AXES = ("x", "y", "z")
 
@@ -29,8 +35,9 @@ class Variable:
 
     @property
     def attrs(self) -> dict[str, str]:
-        """Attributes of the xarray variable."""
-        return {"units": self.units, "long_name": self.long_name}
+        """Attributes of the xarray variable; text has no units."""
+        units = {"units": self.units} if self.units else {}
+        return units | {"long_name": self.long_name}
 
 
 _SCALAR = ("case", "time")
@@ -56,7 +63,7 @@ CASE_COORDS: Mapping[str, Variable] = MappingProxyType(
     {
         "dlc": Variable("", "design load case", ("case",)),
         "wind_speed": Variable("m/s", "mean wind speed at hub height", ("case",)),
-        "seed": Variable("", "seed of the turbulence", ("case",)),
+        "seed": Variable("1", "seed of the turbulence", ("case",)),
         "weight": Variable("1", "share of the lifetime", ("case",)),
         "tripped": Variable("s", "overspeed trip: 0 in the run-in, NaN if none", ("case",)),
         "file": Variable("", "file the case was read from", ("case",)),
@@ -68,6 +75,24 @@ CASE_COORDS: Mapping[str, Variable] = MappingProxyType(
 """Coordinates on ``case``; what else varied may be added under a name of its own."""
 
 TIME = Variable("s", "time from the start of the series", ("time",))
+
+
+def _labelled(data: xr.Dataset) -> tuple[xr.Dataset, list[str]]:
+    """Version 1 could leave out what a variable means; the table knows it."""
+    told = []
+    for name, known in (VARIABLES | CASE_COORDS | {"time": TIME}).items():
+        if name not in data.variables or not {*data[name].dims} <= {*known.dims}:
+            continue
+        attributes = data[name].attrs
+        if attributes.get("units", "") == known.units and "long_name" not in attributes:
+            attributes["long_name"] = known.long_name
+            told.append(f"{name} is labelled {known.long_name!r}")
+    return data, told
+
+
+CUBE = Schema("load cube", "loadflow_schema", (_labelled,))
+"""Form of cubes on disk, said by an attribute of the file. 2: every variable has ``long_name``;
+1, or no such attribute: it may be missing."""
 
 
 def case_name(dlc: str, wind_speed: float, seed: int) -> str:

@@ -1,6 +1,6 @@
 """Package data: polars, reference tables, speed and error of the rungs.
 
-``ladder.json`` and ``gains.json`` are written by ``benchmarks/ladder.py``.
+``ladder.json`` and ``gains.json`` are written by ``python -m benchmarks.ladder``.
 """
 
 from __future__ import annotations

@@ -6,6 +6,8 @@ from .cavitation import Guembel as Guembel
 from .cavitation import MassConserving as MassConserving
 from .cavitation import Reynolds as Reynolds
 from .cavitation import Sommerfeld as Sommerfeld
+from .coefficients import coefficient_table as coefficient_table
+from .coefficients import rotor_coefficients as rotor_coefficients
 from .cone import ConicalBearing as ConicalBearing
 from .conical_pair import ConicalPair as ConicalPair
 from .contact import Contact as Contact

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
 from annotated_types import Gt, Lt
+from numpy.typing import ArrayLike
 
 from loadflow.journal.shapes import CYLINDER, Relief, Shape
 from loadflow.numerics.fields import require
@@ -38,7 +39,7 @@ class JournalGeometry:
     >>> geometry = JournalGeometry(diameter=3.0, width=2.25, relative_clearance=0.5e-3)
     >>> geometry.clearance, geometry.width_ratio
     (0.00075, 0.75)
-    >>> round(geometry.sommerfeld_number(2e6, 1.2451, 0.05), 2)
+    >>> round(float(geometry.sommerfeld_number(2e6, 1.2451, 0.05)), 2)
     1.19
     """
 
@@ -70,9 +71,13 @@ class JournalGeometry:
         """B/D."""
         return self.width / self.diameter
 
-    def sommerfeld_number(self, force: float, speed: float, viscosity: float) -> float:
-        """So = F ψ²/(B D η |ω|), (1.13) of [Jonuschies 2015]; 0 without load."""
-        if force == 0.0:
-            return 0.0
-        drag = self.width * self.diameter * viscosity * abs(speed)
-        return force * self.relative_clearance**2 / drag if drag else np.inf
+    def sommerfeld_number(self, force: ArrayLike, speed: ArrayLike, viscosity: float) -> Any:
+        """So = F ψ²/(B D η |ω|), (1.13) of [Jonuschies 2015]; 0 without load, else ∞ at rest.
+
+        Of numbers a number, of arrays of sizes of forces (N) and speeds (rad/s) an array.
+        """
+        load = np.asarray(force) * self.relative_clearance**2
+        drag = self.width * self.diameter * viscosity * np.abs(speed)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            found = np.where(load == 0.0, 0.0, np.divide(load, drag))
+        return found[()]

@@ -117,7 +117,7 @@ class Pads:
         radius = self.surface.radius
         unit = np.array([clearance] * 3 + [clearance / radius] * 2)[self.surface.rigid]
         rigid = np.eye(BODY)[self.surface.rigid]
-        gives, support, normal = self._support()
+        by_pad, support, normal = self._support()
         turns = [_turn(0.0 if self.closed else centre) for centre in self.centres]
         members = []
         for group in [turns] if alike else [[turn] for turn in turns]:
@@ -141,7 +141,7 @@ class Pads:
                 Member(
                     own,
                     attached=rigid / unit[:, None],
-                    gives=rigid @ gives / unit[:, None],
+                    by_pad=rigid @ by_pad / unit[:, None],
                     support=support,
                     normal=rigid @ normal / unit,
                     turns=tuple(group),
@@ -191,8 +191,8 @@ class Pads:
         """
         found = []
         for member in members:
-            room = member.unit * member.film.gap.narrowest(member.sees @ position)
-            found.append(self.lifted(max(room, 0.0), speed))
+            gap = member.unit * member.film.gap.narrowest(member.sees @ position)
+            found.append(self.lifted(max(gap, 0.0), speed))
         return found
 
     def orbit(
@@ -286,11 +286,11 @@ def even_pads(pads: int, pad_angle: float, first_pad: float) -> tuple[float, ...
         No pad, an angle that is not > 0, or more than fit on the circle.
     """
     require(pads == int(pads) and pads >= 1, "pads", pads, "a whole number ≥ 1")
-    room = 2.0 * math.pi / pads
-    allowed = f"rad, 0 < … ≤ 2π/pads = {room:.6g}"
-    require(0 < pad_angle <= room * (1 + 1e-9), "pad_angle", pad_angle, allowed)
+    pitch = 2.0 * math.pi / pads
+    allowed = f"rad, 0 < … ≤ 2π/pads = {pitch:.6g}"
+    require(0 < pad_angle <= pitch * (1 + 1e-9), "pad_angle", pad_angle, allowed)
     require(math.isfinite(first_pad), "first_pad", first_pad, "rad, finite")
-    return tuple(first_pad + 0.5 * pad_angle + room * number for number in range(int(pads)))
+    return tuple(first_pad + 0.5 * pad_angle + pitch * number for number in range(int(pads)))
 
 
 def check_film(film: Film) -> Film:

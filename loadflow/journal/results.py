@@ -156,7 +156,7 @@ class Equilibrium(_Result):
         Oil that each groove gives to the film, m³/s, and its pressure, Pa, absolute.
     starved : array of bool (…)
         Whether a fed groove gives less than the film would draw from it at the pressure of the
-        rims, so that its own pressure falls below that.
+        ends, so that its own pressure falls below that.
     total_fill : array (…)
         ∫F h dA/∫h dA, (3.43).
     reynolds_number : array (…)
@@ -335,7 +335,6 @@ contact_area, contact_power, contact_share
     pressure: Array
     fill: Array
     deformation: Array
-    gap: Array
     angle: Array
     z: Array
     eccentricity_ratio: Array
@@ -363,6 +362,7 @@ contact_area, contact_power, contact_share
     contact_area: Array | None = None
     contact_power: Array | None = None
     contact_share: Array | None = None
+    gap: Array = field(default_factory=lambda: np.zeros((0, 0)))
 
     def plot(self, case: int = 0) -> Figure:
         """Draw the pressure unwrapped and around the shaft, and the gap.
@@ -484,7 +484,8 @@ def _common_row(film: DiscreteFilm, solution: Solution, whirl: float = 0.0) -> d
     row: dict[str, Any] = summary(film, solution.u, solution.position)
     shaft, lengths = film.gap.shaft, np.ones(film.gap.shaft)
     lengths[2:] = film.radius  # of the degrees of freedom: those of tilts are arms
-    pads = np.intersect1d(np.arange(film.gap.size)[solution.free], np.arange(shaft, film.gap.size))
+    rows = np.arange(film.gap.size)[solution.free]
+    pads = rows[rows >= shaft]
     stiffness, damping = without_pads(solution.linear, shaft, pads, whirl)
     both = np.outer(lengths, lengths) / clearance
     row["eccentricity_ratio"] = float(np.hypot(*solution.position[:2]))

@@ -59,6 +59,16 @@ class Cylindrical:
         """None: the bore runs all the way round."""
         return ()
 
+    @property
+    def groove_pressure(self) -> None:
+        """There are no grooves between segments."""
+        return None
+
+    @property
+    def grooves_between(self) -> bool:
+        """Whether grooves fill what the segments leave free."""
+        return False
+
 
 @dataclass(frozen=True)
 class Arc:
@@ -94,6 +104,11 @@ class Arc:
         """The one arc."""
         half = 0.5 * self.span
         return (Segment(self.angle - half, self.angle + half, self.angle, 0.0, False),)
+
+    @property
+    def grooves_between(self) -> bool:
+        """Whether grooves fill what the arc leaves free: the edge pressure acts there."""
+        return False
 
 
 @dataclass(frozen=True)
@@ -151,6 +166,11 @@ class Lobes:
             _segment(m - 0.5 * arc, arc, self.preload, self.offset, False) for m in middles
         )
 
+    @property
+    def grooves_between(self) -> bool:
+        """Whether grooves fill what the segments leave free."""
+        return True
+
 
 @dataclass(frozen=True)
 class TiltingPads:
@@ -206,6 +226,11 @@ class TiltingPads:
         starts = [pivot - self.offset * self.arc for pivot in pivots]
         return tuple(_segment(s, self.arc, self.preload, self.offset, True) for s in starts)
 
+    @property
+    def grooves_between(self) -> bool:
+        """Whether grooves fill what the segments leave free."""
+        return True
+
 
 def _segment(start: float, arc: float, preload: float, offset: float, tilting: bool) -> Segment:
     return Segment(start, start + arc, start + offset * arc, preload, tilting)
@@ -217,10 +242,10 @@ CYLINDER = Cylindrical()
 
 @dataclass(frozen=True)
 class Crown:
-    """Bore that widens toward both rims, against the bending of the shaft (Fig. 1-8).
+    """Bore that widens toward both ends, against the bending of the shaft (Fig. 1-8).
 
     The gap grows by ``height · ((|z| − B/2 + length) / length)^exponent`` over the last `length`
-    before each rim.
+    before each end.
 
     Attributes
     ----------
@@ -257,6 +282,10 @@ class Crown:
         length = half if self.length is None else min(self.length, half)
         share = np.maximum(np.abs(z) - half + length, 0.0) / length
         return np.broadcast_to(self.height * share**self.exponent, (angle.size, z.size))
+
+    def steps(self, width: float) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        """Angles (rad) and axial places (m) at which the gap steps: none."""
+        return (), ()
 
     def symmetric(self, width: float) -> bool:
         """Whether both halves of the width are alike."""
@@ -304,9 +333,10 @@ class Recess:
         inside = (away < 0.5 * self.arc)[:, None] & ((z > low) & (z < high))[None, :]
         return np.where(inside, self.depth, 0.0)
 
-    def around(self) -> tuple[float, float]:
-        """Angles of both ends, rad."""
-        return self.angle - 0.5 * self.arc, self.angle + 0.5 * self.arc
+    def steps(self, width: float) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        """Angles (rad) and axial places (m) at which the gap steps: its ends inside the bearing."""
+        around = self.angle - 0.5 * self.arc, self.angle + 0.5 * self.arc
+        return around, tuple(z for z in self.across(width) if abs(z) < 0.5 * width)
 
     def across(self, width: float) -> tuple[float, float]:
         """Axial places of both ends, m; beyond the ends where it is as long as the bearing."""
@@ -381,6 +411,10 @@ class Contour:
         low = np.minimum(share.astype(int), places.size - 1)
         high = np.minimum(low + 1, places.size - 1)
         return (1 - share + low) * around[low].T + (share - low) * around[high].T
+
+    def steps(self, width: float) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        """Angles (rad) and axial places (m) at which the gap steps: none."""
+        return (), ()
 
     def symmetric(self, width: float) -> bool:
         """Whether both halves of the width are alike."""

@@ -110,12 +110,12 @@ def stribeck(
     size = float(np.hypot(*load))
     answer = bearing.equilibrium(load, speed, film, control=control)
     coefficient = answer.friction_power / (bearing.radius * speed * size)
-    calm = replace(control or Control(), strict=False)
+    lenient = replace(control or Control(), strict=False)
 
     def at(logarithm: float) -> tuple[float, float]:
         """Coefficient of friction and share of contact at a speed."""
         omega = float(np.exp(logarithm))
-        state = bearing.equilibrium(load, omega, film, control=calm)
+        state = bearing.equilibrium(load, omega, film, control=lenient)
         return float(state.friction_power) / (bearing.radius * omega * size), _share_of(state)
 
     logs = np.log(speed)

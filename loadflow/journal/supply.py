@@ -1,19 +1,37 @@
-"""How oil reaches the film: grooves and pockets of the shell, restrictors, pump. Options only."""
+"""How oil reaches the film: grooves and pockets of the shell, restrictors, pump."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from typing import Annotated, Literal
 
+import numpy as np
 from annotated_types import Ge, Gt, MinLen
 
+from loadflow.journal.lubricant import Lubricant
 from loadflow.numerics.fields import require
 
 _TURN = 6.283185307179586
 
 
+class _Restrictor:
+    """What a groove, a pump or a heat balance asks of a restrictor."""
+
+    laminar = False
+    """Whether flow times viscosity alone tells the pressure that is lost."""
+
+    @property
+    def given_flow(self) -> float | None:
+        """Flow that it keeps whatever the pressure, m³/s; None: the flow follows."""
+        return None
+
+    def pressure_drop(self, flow: float, lubricant: Lubricant) -> tuple[float, float]:
+        """Pressure that `flow` (m³/s) loses, Pa, and its slope."""
+        return 0.0, 0.0
+
+
 @dataclass(frozen=True)
-class Capillary:
+class Capillary(_Restrictor):
     """Laminar restrictor: Δp = 128 η l Q/(π d⁴).
 
     Attributes
@@ -30,13 +48,20 @@ class Capillary:
     diameter: Annotated[float, Gt(0)]
     length: Annotated[float, Gt(0)]
 
+    laminar = True
+
     def __post_init__(self) -> None:
         require(self.diameter > 0, "diameter", self.diameter, "m, > 0")
         require(self.length > 0, "length", self.length, "m, > 0")
 
+    def pressure_drop(self, flow: float, lubricant: Lubricant) -> tuple[float, float]:
+        """Pressure that `flow` (m³/s) loses, Pa, and its slope."""
+        slope = 128 * lubricant.viscosity * self.length / (np.pi * self.diameter**4)
+        return slope * flow, slope
+
 
 @dataclass(frozen=True)
-class Orifice:
+class Orifice(_Restrictor):
     """Sharp-edged restrictor: Δp = ρ/2 (Q/(α A))².
 
     Attributes
@@ -60,9 +85,15 @@ class Orifice:
         alpha = self.discharge_coefficient
         require(alpha > 0, "discharge_coefficient", alpha, "> 0")
 
+    def pressure_drop(self, flow: float, lubricant: Lubricant) -> tuple[float, float]:
+        """Pressure that `flow` (m³/s) loses, Pa, and its slope."""
+        area = self.discharge_coefficient * 0.25 * np.pi * self.diameter**2
+        factor = 0.5 * lubricant.density / area**2
+        return factor * flow * abs(flow), 2 * factor * abs(flow)
+
 
 @dataclass(frozen=True)
-class ConstantFlow:
+class ConstantFlow(_Restrictor):
     """Flow control: one pump for each pocket, or a valve that keeps its flow.
 
     Attributes
@@ -80,6 +111,11 @@ class ConstantFlow:
 
     def __post_init__(self) -> None:
         require(self.flow > 0, "flow", self.flow, "m³/s, > 0")
+
+    @property
+    def given_flow(self) -> float:
+        """Its flow, m³/s."""
+        return self.flow
 
 
 Restrictor = Capillary | Orifice | ConstantFlow
@@ -177,6 +213,16 @@ class Pump:
         )
         falling = all(a >= b for a, b in zip(self.pressure, self.pressure[1:]))
         require(falling, "pressure", self.pressure, "Pa, not increasing with flow")
+
+    def at(self, flow: float) -> tuple[float, float]:
+        """Pressure at `flow` (m³/s), Pa, and its slope."""
+        if len(self.flow) == 1:
+            return self.pressure[0], 0.0
+        points = np.array(self.flow)
+        part = int(np.clip(np.searchsorted(points, flow) - 1, 0, points.size - 2))
+        rise = self.pressure[part + 1] - self.pressure[part]
+        slope = float(rise / (points[part + 1] - points[part]))
+        return float(self.pressure[part] + slope * (flow - points[part])), slope
 
 
 @dataclass(frozen=True)

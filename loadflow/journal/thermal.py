@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -22,7 +22,6 @@ from numpy.typing import ArrayLike, NDArray
 from loadflow.errors import InputError, SolverError
 from loadflow.journal.film_model import Film
 from loadflow.journal.heat import HOTTEST, Heat
-from loadflow.journal.supply import Capillary
 from loadflow.numerics.fields import require
 
 Array = NDArray[np.float64]
@@ -69,9 +68,8 @@ def warm_film(
     loadflow.errors.SolverError
         A load without a film, or whose balance lies above 150 °C.
     """
-    assert isinstance(film.heat, Heat)
     _check_scalable(film)
-    balance = _Balance(at_rest, force, speed, film.heat, weights)
+    balance = _Balance(at_rest, force, speed, cast("Heat", film.heat), weights)
     warmth = balance.solve(tolerance, max_iterations)
     state = balance.film(warmth.temperature, np.arange(speed.size))
     found = state["converged"] & (warmth.residual <= tolerance)
@@ -230,6 +228,6 @@ def _check_scalable(film: Film) -> None:
     """Refuse what does not depend on viscosity times speed alone."""
     supply = film.supply
     if supply is not None:
-        feeds = [supply.pump, *(groove.restrictor for groove in supply.grooves)]
-        if not all(feed is None or isinstance(feed, Capillary) for feed in feeds):
+        restrictors = [g.restrictor for g in supply.grooves if g.restrictor is not None]
+        if supply.pump is not None or not all(part.laminar for part in restrictors):
             raise InputError("supply: with heat, a groove has a given pressure or a capillary")

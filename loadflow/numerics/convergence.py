@@ -19,8 +19,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
 
 from loadflow.numerics.fields import require
+
+Level = TypeVar("Level", float, NDArray[np.float64])
 
 EPS = 2.220446049250313e-16
 """Relative distance of neighbouring floating-point numbers."""
@@ -105,7 +111,7 @@ class Limits:
     strict: bool = True
 
 
-def rounding_level(terms: float) -> float:
+def rounding_level(terms: Level) -> Level:
     """Level of rounding of a sum whose terms have the magnitude `terms`, in the same unit.
 
     Examples

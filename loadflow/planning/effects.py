@@ -17,7 +17,7 @@ from loadflow.stages.registry import STAGES
 
 
 @dataclass(frozen=True)
-class Verdict:
+class EffectVerdict:
     """What a pilot found.
 
     Attributes
@@ -47,7 +47,7 @@ class Verdict:
         }
 
     @classmethod
-    def from_json(cls, data: Mapping[str, Any]) -> Verdict:
+    def from_json(cls, data: Mapping[str, Any]) -> EffectVerdict:
         """The inverse of `to_json`."""
         return cls(**dict(data) | {"cases": tuple(data["cases"])})
 
@@ -60,12 +60,12 @@ class Estimates:
     ----------
     indicators : mapping
         Closed-form sizes, by effect and quantity.
-    verdict : Verdict, optional
+    verdict : EffectVerdict, optional
         What a pilot measured; it goes before the indicators.
     """
 
     indicators: Mapping[str, Sizes] = field(default_factory=dict)
-    verdict: Verdict | None = None
+    verdict: EffectVerdict | None = None
 
     def size(self, effect: Effect, quantity: str) -> float:
         """Share by which an answer changes without an effect; 0 of what it does not move."""
@@ -82,7 +82,10 @@ class Estimates:
 
 
 def estimates(
-    scene: Scene, stages: Iterable[str], cases: tuple[Case, ...], verdict: Verdict | None = None
+    scene: Scene,
+    stages: Iterable[str],
+    cases: tuple[Case, ...],
+    verdict: EffectVerdict | None = None,
 ) -> Estimates:
     """Return the indicators of all effects of the stages, and what a pilot measured.
 
@@ -94,7 +97,7 @@ def estimates(
         Stages that will run.
     cases : tuple of Case
         Load cases.
-    verdict : Verdict, optional
+    verdict : EffectVerdict, optional
         Of a pilot of this scene.
     """
     effects = concerned(scene, stages)

@@ -1,6 +1,6 @@
 """What each model costs and how far it is off: the measured ladder, and a scene's place on it.
 
-``loadflow/data/ladder.json`` is written by ``benchmarks/ladder.py``: for each table and rung the
+``python -m benchmarks.ladder`` writes ``loadflow/data/ladder.json``: for each table and rung the
 processor time per unit of work, and the error of what users read against a stated reference. What
 a rung is called, the stages say themselves.
 """

@@ -1,26 +1,28 @@
 """The pilot of a run: how large is each effect, on a few samples of a few of its own cases.
 
 The cases are those of the largest estimated loads. Each is solved on a short stretch with all
-effects that can be on, then with one of them out at a time. It runs in one process before all
-others, so that its verdict does not depend on how many there are.
+effects that can be on, then with one of them out at a time. A case is measured as a whole wherever
+that is, so that the verdict does not depend on how many processes there are.
 """
 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
 from threadpoolctl import threadpool_limits
 
 from loadflow.errors import LoadflowError, SolverError
-from loadflow.planning.effects import Verdict, concerned, estimates, switched
+from loadflow.planning.effects import EffectVerdict, concerned, estimates, switched
 from loadflow.planning.plan import chosen_models, needed_stages
 from loadflow.scene.cases import Case, list_cases
 from loadflow.scene.scene import Scene
 from loadflow.stages.effects.effect import Effect, Sizes
+from loadflow.stages.effects.registry import EFFECTS
 from loadflow.stages.effects.situation import situation
 from loadflow.stages.probes import PROBES, Answers
 from loadflow.stages.registry import STAGES
@@ -36,10 +38,20 @@ WORTH = 0.1
 """Share of the smallest error allowed, below which an indicator needs no measurement."""
 
 Report = Callable[[str, int, int], None]
+Outcomes = Callable[[Callable[[Case], Any], Iterable[Case]], Iterable[tuple[Case, Any]]]
 
 
-@threadpool_limits.wrap(limits=1)
-def pilot(scene: Scene, say: Report = lambda stage, done, total: None) -> Verdict | None:
+def in_turn(work: Callable[[Case], Any], cases: Iterable[Case]) -> Iterator[tuple[Case, Any]]:
+    """Work on one case after another in this process."""
+    for case in cases:
+        yield case, work(case)
+
+
+def pilot(
+    scene: Scene,
+    say: Report = lambda stage, done, total: None,
+    outcomes: Outcomes = in_turn,
+) -> EffectVerdict | None:
     """Measure the effects of a scene.
 
     Parameters
@@ -48,11 +60,15 @@ def pilot(scene: Scene, say: Report = lambda stage, done, total: None) -> Verdic
         What is wanted.
     say : callable
         Told of progress: ("pilot", done, total).
+    outcomes : callable
+        Maps the measurement over cases, in other processes if it likes, and yields each case with
+        what came of it, in any order. A case that came to nothing is left out of the verdict.
 
     Returns
     -------
-    Verdict or None
-        None where the scene asks for no accuracy, or no effect is worth a measurement.
+    EffectVerdict or None
+        None where the scene asks for no accuracy, no effect is worth a measurement, or no case
+        could be measured.
 
     Raises
     ------
@@ -61,28 +77,35 @@ def pilot(scene: Scene, say: Report = lambda stage, done, total: None) -> Verdic
     """
     if not scene.asks:
         return None
-    started, cases = time.process_time(), tuple(list_cases(scene))
+    cases = tuple(list_cases(scene))
     chosen = chosen_models(scene, cases).scene
-    effects = [*_worth_measuring(scene, chosen, cases)]
+    effects = [effect.name for effect in _worth_measuring(scene, chosen, cases)]
     if not effects:
         return None
     looked_at = hardest(scene, cases)
     say("pilot", 0, len(looked_at))
-    found: list[_Found] = []
-    for done, case in enumerate(looked_at, 1):
-        found.append(_measure(chosen, case, effects))
+    measured: dict[Case, _Found] = {}
+    work = partial(_measure, chosen, tuple(effects))
+    for done, (case, outcome) in enumerate(outcomes(work, looked_at), 1):
+        if isinstance(outcome, _Found):
+            measured[case] = outcome
         say("pilot", done, len(looked_at))
+    found = [measured[case] for case in looked_at if case in measured]
+    if not found:
+        return None
     sizes = {}
     for effect in effects:
-        seen = [one.sizes[effect.name] for one in found if effect.name in one.sizes]
+        seen = [one.sizes[effect] for one in found if effect in one.sizes]
         if seen:
-            sizes[effect.name] = {
+            sizes[effect] = {
                 quantity: max(one.get(quantity, 0.0) for one in seen)
                 for quantity in sorted({name for one in seen for name in one})
             }
     refused = {name: why for one in found for name, why in one.refused.items()}
-    seconds = round(time.process_time() - started, 2)
-    return Verdict(sizes, refused, tuple(case.name for case in looked_at), seconds)
+    seconds = round(sum(one.seconds for one in found), 2)
+    return EffectVerdict(
+        sizes, refused, tuple(case.name for case in looked_at if case in measured), seconds
+    )
 
 
 def hardest(scene: Scene, cases: tuple[Case, ...]) -> list[Case]:
@@ -118,13 +141,19 @@ def _worth_measuring(scene: Scene, chosen: Scene, cases: tuple[Case, ...]) -> It
 
 @dataclass(frozen=True)
 class _Found:
-    """Of one case: sizes by effect, and the effects that cannot be on."""
+    """Of one case: sizes by effect, the effects that cannot be on, and the processor time, s."""
 
     sizes: Mapping[str, Sizes]
     refused: Mapping[str, str]
+    seconds: float
 
 
-def _measure(chosen: Scene, case: Case, effects: list[Effect]) -> _Found:
+@threadpool_limits.wrap(limits=1)
+def _measure(chosen: Scene, names: tuple[str, ...], case: Case) -> _Found:
+    """Switch the effects of these names on one case; a process of its own knows them by name."""
+    started = time.process_time()
+    by_name = {effect.name: effect for effect in EFFECTS}
+    effects = [by_name[name] for name in names]
     scene, case = _short(chosen, case)
     sizes: dict[str, Sizes] = {}
     refused: dict[str, str] = {}
@@ -160,7 +189,7 @@ def _measure(chosen: Scene, case: Case, effects: list[Effect]) -> _Found:
                 refused[effect.name] = with_it
             elif not isinstance(left, str):
                 sizes[effect.name] = _changes(with_it, left)
-    return _Found(sizes, refused)
+    return _Found(sizes, refused, time.process_time() - started)
 
 
 def _short(scene: Scene, case: Case) -> tuple[Scene, Case]:

@@ -8,9 +8,11 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from loadflow import __version__
-from loadflow.planning.accuracy import AS_GIVEN, Choice, Errors, choose, refine, shortfalls
-from loadflow.planning.effects import Verdict, concerned, estimates
+from loadflow.planning.accuracy import Errors
+from loadflow.planning.choice import AS_GIVEN, Choice, choose, refine
+from loadflow.planning.effects import EffectVerdict, concerned, estimates
 from loadflow.planning.ladder import expected_seconds, measured
+from loadflow.planning.shortfalls import shortfalls
 from loadflow.planning.verification import CHECK
 from loadflow.scene.cases import Case, list_cases
 from loadflow.scene.scene import Scene
@@ -118,7 +120,9 @@ class Plan:
         return (step for step in self.steps if step.stage.scope == scope)
 
 
-def make_plan(scene: Scene, refined: Iterable[str] = (), verdict: Verdict | None = None) -> Plan:
+def make_plan(
+    scene: Scene, refined: Iterable[str] = (), verdict: EffectVerdict | None = None
+) -> Plan:
     """Choose the stages that the wanted results need, and their models.
 
     Parameters
@@ -127,7 +131,7 @@ def make_plan(scene: Scene, refined: Iterable[str] = (), verdict: Verdict | None
         What is wanted.
     refined : iterable of str
         Models and effects that were found too coarse or missing, once for each better one to take.
-    verdict : Verdict, optional
+    verdict : EffectVerdict, optional
         What a pilot of this scene measured; without it the indicators of the effects count.
 
     Returns
@@ -168,7 +172,7 @@ def chosen_models(
     scene: Scene,
     cases: tuple[Case, ...],
     refined: Iterable[str] = (),
-    verdict: Verdict | None = None,
+    verdict: EffectVerdict | None = None,
 ) -> Choice:
     """Return the models of a plan, the rest of it aside."""
     stages = needed_stages(scene)

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import InputError, SolverError
+from loadflow.numerics.convergence import is_small, rounding_level, unresolved
 from loadflow.tribology.hertz import effective_modulus
 
 if TYPE_CHECKING:
@@ -126,7 +127,7 @@ def edge_contact(
     while True:
         y = (np.arange(columns) + 0.5) / columns * 2 * half - half
         steps = length / rows, 2 * half / columns
-        pressure, approach, residual, iterations = _conjugate_gradients(
+        found, pressure, approach, residual, rounding, iterations = _conjugate_gradients(
             lengthwise + curvature * y**2 / 2,
             _kernel(cells, steps, e_star),
             force,
@@ -137,9 +138,9 @@ def edge_contact(
         if not pressure[:, [0, -1]].any():
             break
         half *= 1.5  # a short contact is wider than the line
-    if residual > tolerance:
+    if not found:
         raise SolverError(
-            f"edge contact: residual {residual:.3g} after {iterations} steps, "
+            f"edge contact: {unresolved(residual, rounding, iterations)}; "
             f"force {force:g} N, tilt {tilt:g} rad"
         )
     return EdgeContact(
@@ -177,8 +178,11 @@ def _conjugate_gradients(
     steps: tuple[float, float],
     tolerance: float,
     limit: int,
-) -> tuple[Array, float, float, int]:
-    """Pressure, approach, residual and steps of the frictionless contact under a force."""
+) -> tuple[bool, Array, float, float, float, int]:
+    """Whether found, pressure, approach, residual, its rounding level and steps of the contact.
+
+    The contact is frictionless; the residual is a distance over the approach.
+    """
     shape = gap.shape
     area = steps[0] * steps[1]
 
@@ -189,15 +193,18 @@ def _conjugate_gradients(
     p = np.full(shape, force / (area * gap.size))
     direction = np.zeros(shape)
     descent, previous = 0.0, 1.0
-    approach = residual = math.inf
+    approach = residual = rounding = math.inf
     for step in range(1, limit + 1):
-        g = gap + bend(p)
+        bent = bend(p)
+        g = gap + bent
         touching = p > 0
         approach = float(g[touching].mean())
         g = g - approach
         residual = float(np.abs(g[touching]).max()) / abs(approach)
-        if residual <= tolerance and (g[~touching] >= -tolerance * abs(approach)).all():
-            return p, approach, residual, step
+        rounding = rounding_level(float(np.abs(bent).max()) / abs(approach))
+        apart = g[~touching] / abs(approach)
+        if is_small(residual, tolerance, rounding) and (apart >= -max(tolerance, rounding)).all():
+            return True, p, approach, residual, rounding, step
         square = float((g[touching] ** 2).sum())
         direction = np.where(touching, g + descent * square / previous * direction, 0.0)
         previous = square
@@ -209,4 +216,4 @@ def _conjugate_gradients(
         descent = 0.0 if overlap.any() else 1.0
         p[overlap] -= length * g[overlap]
         p *= force / (area * p.sum())
-    return p, approach, max(residual, 2 * tolerance), limit
+    return False, p, approach, residual, rounding, limit

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, Generic, Literal, TypeVar
 
 import numpy as np
@@ -151,12 +152,12 @@ class ContactResult(Shown, RingEquilibrium, Generic[Bearing]):
         return self.element_forces
 
     # --- safety and life -------------------------------------------------------------------------
-    @property
+    @cached_property
     def maximum_force(self) -> Array:
         """Largest force on a rolling element, N."""
         return self.bearing.maximum_force(self.elements)
 
-    @property
+    @cached_property
     def raceway_pressure(self) -> tuple[Array, ...]:
         """Largest Hertzian pressure at each raceway, Pa: inner, outer; of each row of three-row."""
         return self.bearing.raceway_pressure(self.elements)

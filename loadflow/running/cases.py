@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import time
 import traceback
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from loadflow.cube import open_cube
 from loadflow.errors import InputError, SolverError
@@ -16,6 +17,10 @@ from loadflow.running.folder import part_file
 from loadflow.running.parts import save_part
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
+
+Key = TypeVar("Key")
+Place = TypeVar("Place")
+Opened = TypeVar("Opened")
 
 
 @dataclass(frozen=True)
@@ -39,14 +44,17 @@ class Outcome:
     traces: list[str] = field(default_factory=list)
 
 
-def do_case(case: Case, scene: Scene, plan: Plan, folder: Path) -> Outcome:
-    """Run the stages of one case that are missing.
+def do_case(case: Case, scene: Scene, steps: tuple[Step, ...], folder: Path) -> Outcome:
+    """Run those of the steps of one case that are missing.
+
+    It is told the steps, not the plan: that has all cases in it, and would go to a worker with each
+    of them.
 
     What fails in one case is kept as its failure, and the other cases go on; bad input and a disk
     that refuses concern them all, and are raised.
     """
     done = Outcome()
-    for step in plan.of_scope("case"):
+    for step in steps:
         name, target = step.name, part_file(folder, step.name, case)
         if target.exists() or not is_ready(step, case, folder):
             continue
@@ -85,3 +93,27 @@ def is_ready(step: Step, case: Case, folder: Path) -> bool:
 def open_inputs(step: Step, case: Case, folder: Path) -> dict[str, Any]:
     """Open what the stage reads of this case."""
     return {need: open_cube(part_file(folder, need, case)) for need in step.needs}
+
+
+class OpenedLate(Mapping[Key, Opened]):
+    """Parts that are opened each time they are asked for, and not kept: memory stays the same.
+
+    Parameters
+    ----------
+    places : mapping
+        What is opened, by key.
+    opening : callable
+        Opens one of them.
+    """
+
+    def __init__(self, places: Mapping[Key, Place], opening: Callable[[Place], Opened]) -> None:
+        self._places, self._opening = places, opening
+
+    def __getitem__(self, key: Key) -> Opened:
+        return self._opening(self._places[key])
+
+    def __iter__(self) -> Iterator[Key]:
+        return iter(self._places)
+
+    def __len__(self) -> int:
+        return len(self._places)

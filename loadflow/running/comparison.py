@@ -18,7 +18,8 @@ from loadflow.running.parts import digest_of
 from loadflow.running.runner import Report, run
 from loadflow.scene.candidates import candidates_of
 from loadflow.scene.design import Design
-from loadflow.scene.scene import Candidate, Journal, Scene, make_scene, read_scene
+from loadflow.scene.journal import Journal
+from loadflow.scene.scene import Candidate, Scene, make_scene, read_scene
 from loadflow.storage import write_text
 from loadflow.studies.compare import Finished, compared
 from loadflow.studies.compare_result import Comparison

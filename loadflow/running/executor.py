@@ -116,17 +116,15 @@ class _Processes:
     def outcomes(
         self, work: Callable[[Item], Outcome], items: Iterable[Item]
     ) -> Iterator[tuple[Item, Outcome | Lost]]:
-        left = list(items)
+        left = dict(enumerate(items))
         in_a_row = 0
         while left:
             # a single worker gets one item at a time, so that one that kills it is known
-            batch = left if self.workers > 1 else left[:1]
+            batch = [*left] if self.workers > 1 else [next(iter(left))]
             try:
-                for k, outcome in self._finished(work, batch):
+                for k, outcome in self._finished(work, [left[key] for key in batch]):
                     in_a_row = 0
-                    item = batch[k]
-                    left = [other for other in left if other is not item]
-                    yield item, outcome
+                    yield left.pop(batch[k]), outcome
             except BrokenProcessPool:
                 self.kill()
                 in_a_row += 1
@@ -144,7 +142,10 @@ class _Processes:
                         "enough memory? Started again, the run goes on where it was"
                     ) from None
                 else:
-                    yield left.pop(0), Lost("its worker process was killed; is memory short?")
+                    yield (
+                        left.pop(batch[0]),
+                        Lost("its worker process was killed; is memory short?"),
+                    )
 
     def _finished(
         self, work: Callable[[Item], Outcome], items: list[Item]

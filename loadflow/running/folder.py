@@ -11,21 +11,35 @@ from pathlib import Path
 from typing import Any
 
 import loadflow
-from loadflow.errors import InputError
-from loadflow.planning.effects import Verdict
+from loadflow.errors import InputError, NewerVersionError
+from loadflow.planning.effects import EffectVerdict
 from loadflow.planning.plan import Plan
 from loadflow.running.parts import digest_of, set_aside, unsound
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
+from loadflow.schemas import Schema
 from loadflow.stages.stage import Stage
 from loadflow.storage import target_of, write_text
 
 FILES = ("scene.toml", "manifest.json", "result.h5", "report.html", "profile.json", "run.log")
 """What a run writes beside its parts."""
 
+
+def _refined(manifest: dict[str, Any]) -> tuple[dict[str, Any], list[str]]:
+    """Version 1 called the stages whose models were refined ``climbed``."""
+    if "climbed" not in manifest:
+        return manifest, []
+    data = dict(manifest)
+    data["refined"] = data.pop("climbed")
+    return data, ["climbed is refined today"]
+
+
+MANIFEST = Schema("manifest", "schema", (_refined,))
+"""Form of manifests. 2: ``refined``; 1, or nothing: ``climbed``."""
+
 _KINDS: dict[str, type | tuple[type, ...]] = {
     "wanted": str,
-    "climbed": list,
+    "refined": list,
     "stages": dict,
     "rungs": dict,
     "cases": list,
@@ -52,17 +66,17 @@ def part_files(folder: Path, stage: Stage, cases: Iterable[Case]) -> list[Path]:
     return [part_file(folder, stage.name, case) for case in cases]
 
 
-def climbs(folder: Path, scene: Scene) -> list[str]:
+def refinements(folder: Path, scene: Scene) -> list[str]:
     """Return the stages for which this scene has had to take a better model before, in order."""
     manifest = _manifest(folder)
-    return manifest["climbed"] if manifest.get("wanted") == scene.digest() else []
+    return manifest["refined"] if manifest.get("wanted") == scene.digest() else []
 
 
-def known_verdict(folder: Path, scene: Scene) -> Verdict | None:
+def known_verdict(folder: Path, scene: Scene) -> EffectVerdict | None:
     """Return what a pilot of this scene found before; None without one."""
     manifest = _manifest(folder)
     found = manifest.get("pilot") if manifest.get("wanted") == scene.digest() else None
-    return Verdict.from_json(found) if found else None
+    return EffectVerdict.from_json(found) if found else None
 
 
 def read_manifest(folder: Path) -> dict[str, Any]:
@@ -71,7 +85,7 @@ def read_manifest(folder: Path) -> dict[str, Any]:
     Raises
     ------
     loadflow.errors.InputError
-        There is none, or it is damaged.
+        There is none, it is damaged, or a newer loadflow wrote it.
     """
     path = folder / "manifest.json"
     try:
@@ -80,10 +94,14 @@ def read_manifest(folder: Path) -> dict[str, Any]:
         raise InputError(f"{path}: there is none; `loadflow run` makes it") from error
     except ValueError as error:  # no JSON, or not even text
         raise InputError(f"{path}: damaged ({error}); `loadflow run` makes it anew") from error
+    known = isinstance(found, dict)
+    if known:
+        version = found.pop(MANIFEST.key, 1)
+        found = MANIFEST.upgrade(found, version, str(path))
     wrong = [
         key
         for key, kind in _KINDS.items()
-        if not isinstance(found, dict) or (key in found and not isinstance(found[key], kind))
+        if not known or (key in found and not isinstance(found[key], kind))
     ]
     if wrong:
         raise InputError(
@@ -98,6 +116,8 @@ def _manifest(folder: Path) -> dict[str, Any]:
         return {}
     try:
         return read_manifest(folder)
+    except NewerVersionError:
+        raise
     except InputError as error:
         log.warning("%s", error)
         return {}
@@ -122,9 +142,9 @@ def prepare(
     folder: Path,
     scene: Scene,
     plan: Plan,
-    climbed: list[str],
+    refined: list[str],
     overwrite: bool,
-    verdict: Verdict | None = None,
+    verdict: EffectVerdict | None = None,
 ) -> dict[str, Any]:
     """Clear the folder of what a run left there that is of no use; return its manifest.
 
@@ -146,8 +166,9 @@ def prepare(
     manifest = _manifest(folder)
     write_text(folder / "scene.toml", plan.scene.to_toml())
     manifest |= {
+        MANIFEST.key: MANIFEST.version,
         "wanted": scene.digest(),
-        "climbed": climbed,
+        "refined": refined,
         "stages": manifest.get("stages", {}) | {step.name: step.digest for step in plan.steps},
         "rungs": {
             step.name: {"rung": step.rung, "error": step.error or "not measured"}

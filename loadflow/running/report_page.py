@@ -15,9 +15,10 @@ from loadflow.planning.verification import WARN
 from loadflow.plots.journal import film_series, orbit
 from loadflow.plots.style import readable
 from loadflow.report import Picture, Section, Table, figures, write_page
+from loadflow.running.dynamics_page import dynamics_section
 from loadflow.running.folder import read_manifest
 from loadflow.scene.scene import Scene, read_scene
-from loadflow.scene.unused import unused_keys
+from loadflow.scene.unused import scaling_note, unused_keys
 from loadflow.stages.loads import doubts, trips, when_tripped
 from loadflow.stages.statistics import SLOPE
 from loadflow.studies.extreme_loads import safety_factor
@@ -89,7 +90,8 @@ def _sections(
         )
     if "seeds" in tables:
         yield _seed_section(folder, tables["seeds"], manifest)
-    if (folder / "reduction").is_dir() and "reduction" in manifest["stages"]:
+    histogram = scene.reduction.method == "histogram"
+    if histogram and (folder / "reduction").is_dir() and "reduction" in manifest["stages"]:
         yield Section(
             "Reduction",
             "Bivariate histogram of speed and load before and after the quasi-static reduction.",
@@ -101,6 +103,8 @@ def _sections(
             *_per_bearing(folder, "journal", shown[:1], orbit),
         ]
         yield Section("Journal bearing", tables=[_case_table(tables["journal"])], pictures=pictures)
+    if "dynamics" in tables:
+        yield dynamics_section(tables["dynamics"])
     if "rolling" in tables:
         yield Section(
             "Rolling bearing",
@@ -132,6 +136,8 @@ def _overview(scene: Scene, tables: dict[str, xr.Dataset], manifest: dict[str, A
     if failures:
         without = [[part, why] for part, why in failures.items()]
         notes.append(Table("Without an answer", ["part", "why"], without))
+    if scaled := scaling_note(scene):
+        notes.append(Table("Doubtful", ["what"], [[text] for text in scaled]))
     if unused := unused_keys(scene):
         rows = [[key, why] for key, why in unused.items()]
         notes.append(Table("Keys without effect", ["key", "why"], rows))

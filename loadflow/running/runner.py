@@ -23,20 +23,27 @@ import loadflow
 from loadflow.cube import open_cube, save_cube
 from loadflow.errors import LoadflowError, SolverError
 from loadflow.planning import verification as check
-from loadflow.planning.accuracy import can_refine
-from loadflow.planning.effects import Verdict as PilotVerdict
+from loadflow.planning.choice import can_refine
+from loadflow.planning.effects import EffectVerdict
 from loadflow.planning.pilot import pilot
 from loadflow.planning.plan import Plan, Step, make_plan
-from loadflow.running.cases import Outcome, do_case, is_missing, is_ready, open_inputs
+from loadflow.running.cases import (
+    OpenedLate,
+    Outcome,
+    do_case,
+    is_missing,
+    is_ready,
+    open_inputs,
+)
 from loadflow.running.compiling import Compiling
 from loadflow.running.executor import Executor, Lost, executor
 from loadflow.running.folder import (
-    climbs,
     known_verdict,
     part_file,
     part_files,
     prepare,
     record,
+    refinements,
 )
 from loadflow.running.lock import locked
 from loadflow.running.parts import save_part
@@ -45,9 +52,9 @@ from loadflow.running.report_page import write_report
 from loadflow.running.warm_up import compile_kernels
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
-from loadflow.scene.unused import unused_keys
+from loadflow.scene.unused import scaling_note, unused_keys
 from loadflow.stages.registry import STAGES
-from loadflow.storage import check_name
+from loadflow.storage import check_name, write_text
 from loadflow.verdict import Verdict, from_dataset, to_dataset
 
 log = logging.getLogger("loadflow.run")
@@ -72,6 +79,8 @@ class Run:
         Keys of the scene that are set but change nothing, and why.
     shortfalls : tuple of str
         Results that are not expected to be as accurate as asked for: how far off, why, what helps.
+    notes : tuple of str
+        What is doubtful about the scene itself, such as a turbine that is scaled.
     """
 
     path: Path
@@ -79,6 +88,7 @@ class Run:
     failures: dict[str, str] = field(default_factory=dict)
     unused: dict[str, str] = field(default_factory=dict)
     shortfalls: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
 
     @property
     def flagged(self) -> dict[str, int]:
@@ -105,7 +115,7 @@ class Run:
         ignored = [f"{key}: has no effect, {why}" for key, why in self.unused.items()]
         stages = (*STAGES.values(), check.CHECK)
         found = [said for stage in stages for said in stage.warnings(self.tree)]
-        return [*ignored, *found]
+        return [*self.notes, *ignored, *found]
 
     @property
     def report(self) -> Path:
@@ -218,19 +228,20 @@ def _run(
     profile: Profile | None,
 ) -> Run:
     log.info("loadflow %s, %s, %d workers", loadflow.__version__, folder, where.workers)
-    climbed = climbs(folder, scene)
+    refined = refinements(folder, scene)
     begun = time.perf_counter()
-    pilot_verdict = known_verdict(folder, scene) or pilot(scene, say)
+    pilot_verdict = known_verdict(folder, scene) or pilot(scene, say, where.outcomes)
     if profile:
         profile.add_wall("pilot", time.perf_counter() - begun)
     while True:
         started = time.perf_counter()
-        plan = make_plan(scene, climbed, pilot_verdict)
-        manifest = prepare(folder, scene, plan, climbed, overwrite, pilot_verdict)
+        plan = make_plan(scene, refined, pilot_verdict)
+        manifest = prepare(folder, scene, plan, refined, overwrite, pilot_verdict)
         timing, failures = _carry_out(plan, folder, where, say, profile, pilot_verdict)
         begun = time.perf_counter()
         tree = _collect(plan, folder)
         save_cube(tree, folder / "result.h5")
+        _export(plan, folder)
         wall = time.perf_counter() - started
         if profile:
             profile.add_wall("result", time.perf_counter() - begun)
@@ -239,7 +250,7 @@ def _run(
         if not higher:
             break
         log.info("not accurate enough, better models of: %s", ", ".join(higher))
-        climbed = [*climbed, *higher]
+        refined = [*refined, *higher]
         overwrite = True  # the parts of the coarser models are this run's own
     if report:
         begun = time.perf_counter()
@@ -251,7 +262,7 @@ def _run(
     if profile:
         profile.write(folder / "profile.json", where.workers)
     log.info("finished, %d parts have no answer", len(failures))
-    return Run(folder, tree, failures, unused_keys(scene), plan.shortfalls)
+    return Run(folder, tree, failures, unused_keys(scene), plan.shortfalls, scaling_note(scene))
 
 
 @threadpool_limits.wrap(limits=1)  # cases are what runs in parallel, here as in other processes
@@ -261,7 +272,7 @@ def _carry_out(
     where: Executor,
     say: Report,
     profile: Profile | None,
-    pilot_verdict: PilotVerdict | None,
+    pilot_verdict: EffectVerdict | None,
 ) -> tuple[dict[str, float], dict[str, str]]:
     """Do what is missing of a plan; return seconds by stage, and what has no answer."""
     timing: dict[str, float] = {}
@@ -274,7 +285,7 @@ def _carry_out(
         compile_kernels(plan, where, say)
     compiled = time.perf_counter()
     say("load cases", done, len(plan.cases))
-    work = partial(do_case, scene=plan.scene, plan=plan, folder=folder)
+    work = partial(do_case, scene=plan.scene, steps=tuple(plan.of_scope("case")), folder=folder)
     for case, outcome in where.outcomes(work, todo):
         done += 1
         if isinstance(outcome, Lost):
@@ -296,7 +307,8 @@ def _carry_out(
         if not (target := part_file(folder, whole.name)).exists():
             begun = time.perf_counter()
             cases = _looked_at(whole, plan.cases, folder, seen)
-            inputs = {case.name: open_inputs(whole, case, folder) for case in cases}
+            by_name = {case.name: case for case in cases}
+            inputs = OpenedLate(by_name, partial(open_inputs, whole, folder=folder))
             with Compiling() as compiling:
                 save_part(whole.stage.run(plan.scene, cases, inputs), target, whole.digest)
             timing[whole.name] = time.perf_counter() - begun
@@ -376,8 +388,9 @@ def _collect(plan: Plan, folder: Path) -> xr.DataTree:
             groups[step.name] = open_cube(part_file(folder, step.name))
         elif step.stage.summarise:
             files = {case: part_file(folder, step.name, case) for case in plan.cases}
-            parts = {case: open_cube(file) for case, file in files.items() if file.exists()}
-            missing[step.name] = [case.name for case in files if case not in parts]
+            there = {case: file for case, file in files.items() if file.exists()}
+            missing[step.name] = [case.name for case in files if case not in there]
+            parts = OpenedLate(there, open_cube)
             found = step.stage.summarise(parts) if parts else None
             if found is not None:
                 groups[step.name] = found
@@ -389,6 +402,18 @@ def _collect(plan: Plan, folder: Path) -> xr.DataTree:
             for path, node in _nodes(data)
         }
     )
+
+
+def _export(plan: Plan, folder: Path) -> None:
+    """Write what stages give as text, for other programs."""
+    for step in plan.of_scope("case"):
+        if (exports := step.stage.exports) is None:
+            continue
+        for case in plan.cases:
+            if (part := part_file(folder, step.name, case)).exists():
+                for name, text in exports(case, open_cube(part)).items():
+                    (folder / name).parent.mkdir(exist_ok=True)
+                    write_text(folder / name, text)
 
 
 def _judged(

@@ -85,12 +85,12 @@ def _in_miniature(job: str, plan: Plan, folders: dict[str, Path]) -> str:
     try:
         if job == "loads":
             steps = tuple(step for step in small.steps if not step.needs)
-            told = do_case(case, scene, replace(small, steps=steps), folder).failures
+            told = do_case(case, scene, steps, folder).failures
             return "; ".join(told.values())
         first = next(step for step in small.steps if not step.needs)
         series = made_up_loads(scene, case)
         save_part(series, part_file(folder, first.name, case), first.digest)
-        failed = do_case(case, scene, small, folder).failures
+        failed = do_case(case, scene, tuple(small.of_scope("case")), folder).failures
         for step in small.of_scope("run"):
             if is_ready(step, case, folder):
                 inputs = {case.name: open_inputs(step, case, folder)}

@@ -7,8 +7,8 @@ that each room owns; it knows no physics.
 from __future__ import annotations
 
 import hashlib
-import math
 import tomllib
+from dataclasses import replace
 from math import inf
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self, get_args
@@ -17,58 +17,54 @@ import numpy as np
 from pydantic import BaseModel, Field, ValidationError, field_validator, model_validator
 
 from loadflow.errors import InputError
-from loadflow.journal import (
-    Contact,
-    Film,
-    GasMixture,
-    JournalBearing,
-    LinedShell,
-    LocalShell,
-    Lubricant,
-    MatrixShell,
-    Supply,
-    ThickShell,
-)
 from loadflow.journal.line import Line
-from loadflow.journal.models.model import Verb, why_not
-from loadflow.rolling.friction import Churning
+from loadflow.journal.models.model import Steps, why_not
 from loadflow.scene.bearings import Rolling
-from loadflow.scene.candidates import ABOUT
+from loadflow.scene.candidates import ABOUT, machine
 from loadflow.scene.design import Design
-from loadflow.scene.films import HeatTable, Law, RungName
-from loadflow.scene.limits import JournalLimits
+from loadflow.scene.dynamics import Dynamics
+from loadflow.scene.environment import Environment, surrounded
+from loadflow.scene.friction import Friction
+from loadflow.scene.journal import Journal
 from loadflow.scene.loads import Loads, check_simulation
 from loadflow.scene.messages import message, shown
 from loadflow.scene.places import places_of
 from loadflow.scene.section import LARGEST_INTEGER, Section, too_large
-from loadflow.scene.written import SCHEMA, anchored, in_sections, origins
-from loadflow.shaft.beam import BearingSupport
-from loadflow.shaft.options import (
-    Concept,
-    DirectDrive,
-    Integrated,
-    MomentBearing,
-    ThreePoint,
-    TwoPoint,
-)
+from loadflow.scene.shaft import Shaft
+from loadflow.scene.written import SCENE, anchored, in_sections, origins
+from loadflow.shaft.options import MomentBearing, TwoPoint
 from loadflow.storage import check_name
 from loadflow.turbines import load_turbine
+from loadflow.turbines.files import scaled_name
+from loadflow.turbines.similarity import factor_of_power
 
 Result = Literal[
     "loads.statistics",
     "seeds.equality",
     "reduction.histogram",
     "journal.film",
+    "journal.dynamics",
     "rolling.loads",
     "rolling.life",
     "rolling.friction",
 ]
 
+BY_NAME: tuple[Result, ...] = ("journal.dynamics",)
+"""Results that are computed only where a scene asks for them by name."""
+
+USUAL: tuple[Result, ...] = tuple(name for name in get_args(Result) if name not in BY_NAME)
+"""Results of a scene that names none."""
+
 Positive = Annotated[float, Field(gt=0)]
 
 
 class Turbine(Section, BaseModel):
-    """The turbine: a name that `loadflow.turbines` knows, or a path to a file of the same form."""
+    """The turbine: a name that `loadflow.turbines` knows, or a path to a file of the same form.
+
+    A name with ``@`` and a power in W, such as ``nrel-5mw@8e6``, is scaled to it by similarity; so
+    is the suspension of the known turbine, where the scene states none. Bearings are not: they are
+    to be sized anew.
+    """
 
     name: str = "nrel-5mw"
 
@@ -77,54 +73,6 @@ class Turbine(Section, BaseModel):
     def _readable(cls, name: str) -> str:
         load_turbine(name)
         return name
-
-
-class Shaft(Section, BaseModel):
-    """Suspensions to compute; a table that is left out costs nothing.
-
-    ``two_point``, ``integrated`` and ``direct_drive`` have the bearings N (floating) and N2
-    (locating), ``three_point`` the bearing N and the gearbox's torque arms G; one of these at most.
-    ``moment`` has the bearing M. With a ``beam`` in its table the shaft bends, and tilts in its
-    bearings; an empty one takes the defaults. A seat of the beam with ``stiffness = "journal"`` or
-    ``"rolling"`` gives under each load as the bearing of that kind that the scene has there.
-    """
-
-    two_point: TwoPoint | None = None
-    three_point: ThreePoint | None = None
-    integrated: Integrated | None = None
-    direct_drive: DirectDrive | None = None
-    moment: MomentBearing | None = None
-
-    @property
-    def concepts(self) -> tuple[Concept, ...]:
-        """The suspensions that the scene has."""
-        return tuple(concept for _, concept in self if concept)
-
-    @property
-    def bearings(self) -> tuple[str, ...]:
-        """Names of the bearings that these suspensions have."""
-        return tuple(name for concept in self.concepts for name in concept.bearings)
-
-    @model_validator(mode="after")
-    def _each_bearing_once(self) -> Self:
-        with_first = [name for name, concept in self if concept and "N" in concept.bearings]
-        if len(with_first) > 1:
-            raise ValueError(f"{' and '.join(with_first)} all have a bearing N; keep one of them")
-        return self
-
-    @property
-    def seated(self) -> dict[str, BearingSupport]:
-        """Seats, by bearing, whose stiffness comes from a journal or rolling bearing."""
-        return {
-            name: seat
-            for concept in self.concepts
-            for name, seat in zip(concept.bearings, concept.beam.seats if concept.beam else ())
-            if seat.stiffness != "given"
-        }
-
-    def leans(self, bearing: str) -> bool:
-        """Whether the shaft is a beam there, so that its tilt in the bearing is known."""
-        return any(c.beam is not None and bearing in c.bearings for c in self.concepts)
 
 
 class Seeds(Section, BaseModel):
@@ -136,164 +84,35 @@ class Seeds(Section, BaseModel):
 
 
 class Reduction(Section, BaseModel):
-    """Quasi-static histogram reduction: share of the samples kept, and how they are picked.
+    """Reduction of each series to design loads.
 
-    One sample of each class of speed and load is kept at least; ``classes`` is their number along
-    each, that of the source (4.30) if left out.
+    ``method = "histogram"`` (quasi-static) keeps a share ``size`` of the samples. One of each class
+    of speed and load is kept at least; ``classes`` is their number along each, that of
+    [Jonuschies 2015] (4.30) if left out.
+
+    ``"stationary"`` takes the mean load at the mean speed, the largest at the lowest, and the
+    instants at which something is extreme. ``"periodic"`` takes the mean, the largest harmonic
+    below the lower of two ``bounds`` (Hz) and ``additional`` ones between them, or those nearest to
+    ``orders`` of the rotor's speed; films are driven round the orbit that closes. Without bounds
+    the film of a journal bearing says them, else they are half the speed and half the sampling
+    rate. Both are chosen by hand: no accuracy can be asked of what they find, so that ``accuracy``
+    is "given".
     """
 
+    method: Literal["histogram", "stationary", "periodic"] = "histogram"
+    bounds: tuple[Positive, Positive] | None = None
+    additional: Annotated[int, Field(ge=0, le=20)] = 2
+    orders: Annotated[list[Positive], Field(min_length=1)] | None = None
     size: Annotated[float, Field(gt=0, le=1)] = 0.1
     classes: Annotated[int, Field(ge=2, le=200)] | None = None
     pick: Literal["random", "extremes", "envelope"] = "extremes"
     seed: Annotated[int, Field(ge=0)] = 0
 
-
-class Journal(Section, BaseModel):
-    """Journal bearings: which ones of the shaft, and one set of data for all of them.
-
-    Bearings with data of their own are in ``own``, by place; `at` gives the data of each. Motion,
-    tilt, rung and grid are those of all.
-
-    ``motion = "quasi-static"`` solves the equilibrium of every sample of the reduced series;
-    ``"transient"`` follows the shaft through the whole series, step by step.
-    ``rung = "map"`` tabulates the film once, for long series (docs/journal-map.md).
-
-    With a table ``heat`` the friction of the film warms its oil, which takes the place of
-    ``lubricant``: each equilibrium for itself, a film in motion to one temperature for the whole
-    series, as its loads change faster than a bearing warms. With ``kind = "film"`` an energy
-    equation gives every cell of the film at rest its own temperature.
-
-    With ``tilt`` the shaft leans in them as the beam of its suspension does, tilted and bent; if it
-    has none, it tilts freely under the moment that the shaft stage gives. The film is then solved
-    over its full width.
-
-    ``cavitation`` is the law of the ruptured film; its key ``kind`` says which:
-    gas-mixture, sommerfeld, guembel, reynolds or mass-conserving. ``inlet`` replaces the oil on a
-    line at the widest gap, or does not; "auto" leaves it to the law.
-
-    A ``shell`` makes the bore elastic; its key ``kind`` says how: local, lined, thick, or matrix
-    with a ``matrix`` of influence numbers, or the name of a file that holds it.
-
-    ``shaft_roughness`` and ``shell_roughness`` are R_z, m, about 6.3 R_a of the 0.2 and 0.4 µm that
-    Autodesk Inventor's plain bearing calculator recommends. Where the film would be thinner than
-    both together the surfaces touch: such samples are counted as ``in_contact``. With ``contact``,
-    the asperities of `loadflow.journal.Contact`, they are solved as the others, standstill
-    included. Without, they have no film, and the shaft rubs there with ``boundary_friction``:
-    bronze [Jonuschies 2015, Table 3-1]. ``limits`` are what the verdicts hold the bearing against.
-    """
-
-    bearings: Annotated[list[str], Field(min_length=1)] = ["N", "N2"]
-    own: dict[str, Journal] = {}
-    geometry: JournalBearing = JournalBearing(diameter=3.0, width=2.25, relative_clearance=0.5e-3)
-    lubricant: Lubricant = Lubricant(viscosity=0.050)
-    cavitation: Law = GasMixture(0.05e6)
-    edge_pressure: Annotated[float, Field(ge=0)] = 0.5e6
-    supply: Supply | None = None
-    inlet: Literal["auto", "widest gap", "none"] = "auto"
-    grid: tuple[Annotated[int, Field(ge=12, le=720)], Annotated[int, Field(ge=4, le=240)]] = (
-        60,
-        20,
-    )
-    grading: Literal["auto", "uniform", "graded"] = "auto"
-    rung: RungName = "grid"
-    heat: HeatTable | None = None
-    motion: Literal["quasi-static", "transient"] = "quasi-static"
-    tilt: bool = False
-    shell: LocalShell | LinedShell | ThickShell | MatrixShell | None = None
-    contact: Contact | None = None
-    shaft_roughness: Positive = 1.3e-6
-    shell_roughness: Positive = 2.5e-6
-    boundary_friction: Annotated[float, Field(gt=0, le=1)] = 0.15
-    limits: JournalLimits = JournalLimits()
-
     @model_validator(mode="after")
-    def _one_model_for_all(self) -> Self:
-        for place, other in self.own.items():
-            for name in _OF_ALL:
-                if getattr(other, name) != getattr(self, name):
-                    raise ValueError(
-                        f"{name}: all journal bearings of a scene have one, but {place} has "
-                        f"{getattr(other, name)!r} beside {getattr(self, name)!r}"
-                    )
+    def _bounds_rise(self) -> Self:
+        if self.bounds is not None and self.bounds[0] > self.bounds[1]:
+            raise ValueError(f"bounds = {list(self.bounds)}: the second must be the larger one")
         return self
-
-    def at(self, place: str) -> Journal:
-        """The data of one of the bearings."""
-        if place not in self.own:
-            return self
-        return self.own[place].model_copy(update={name: getattr(self, name) for name in _OF_ALL})
-
-    @model_validator(mode="after")
-    def _smoother_than_the_gap(self) -> Self:
-        if self.contact_film >= self.geometry.clearance:
-            raise ValueError(
-                f"shaft_roughness and shell_roughness: together {self.contact_film:g} m, must be "
-                f"< the radial clearance {self.geometry.clearance:g} m"
-            )
-        return self
-
-    @property
-    def contact_film(self) -> float:
-        """Film, m, below which the surfaces touch: the sum of their R_z."""
-        return self.shaft_roughness + self.shell_roughness
-
-    @property
-    def critical_eccentricity_ratio(self) -> float:
-        """ε above which friction is mixed; infinite for bores whose gap closes at no certain ε."""
-        return math.inf if self.geometry.shape.segments else self.limits.eccentricity_ratio
-
-    @property
-    def least_film(self) -> float:
-        """Smallest film allowed, m: as stated, or R_z + W_t of both surfaces and a margin (3.1)."""
-        stated = self.limits.minimum_film
-        return stated or self.contact_film + self.limits.waviness + self.limits.margin
-
-    @property
-    def in_motion(self) -> bool:
-        """Whether the film follows the whole series; it does not read the reduced one then."""
-        return self.motion == "transient"
-
-    @property
-    def film_model(self) -> Film:
-        """The film that these keys describe."""
-        heat = self.heat
-        return Film(heat=heat, **self.film | ({} if heat is None else {"lubricant": None}))
-
-    @property
-    def film(self) -> dict[str, Any]:
-        """The film at the temperature of its lubricant, as keywords of the verbs."""
-        mesh = ("grid", "grading", "rung")
-        names = ("lubricant", "cavitation", "edge_pressure", "supply", *mesh, "shell", "contact")
-        inlet = None if self.inlet == "none" else self.inlet
-        return {name: getattr(self, name) for name in names} | {"inlet": inlet}
-
-    def at_temperature(self, temperature: float) -> Journal:
-        """The bearing with its oil held at `temperature`, K."""
-        if self.heat is None:
-            return self
-        return self.model_copy(update={"lubricant": self.heat.lubricant(temperature), "heat": None})
-
-    @model_validator(mode="after")
-    def _one_oil(self) -> Self:
-        if self.heat is not None and "lubricant" in self.changed:
-            raise ValueError("lubricant: follows from heat.oil and its temperature; leave it out")
-        return self
-
-    @model_validator(mode="after")
-    def _a_model_that_knows_the_film(self) -> Self:
-        film, heat = self.film_model, self.heat
-        if self.in_motion and heat is not None and not heat.over_area:
-            film = film.isothermal()  # at the one temperature of its series
-        verb: Verb = "in_motion" if self.in_motion else "at_rest"
-        line = Line(moment=np.zeros((1, 2))) if self.tilt else Line()
-        why = why_not(verb, film, self.geometry, line)
-        if why is not None:
-            raise ValueError(why)
-        return self
-
-
-_OF_ALL = ("motion", "tilt", "rung", "grid", "grading")
-"""What all journal bearings of a scene share: how the film is modelled."""
 
 
 class Candidate(Section, BaseModel):
@@ -319,61 +138,6 @@ class Candidate(Section, BaseModel):
         return (*journal, *(self.rolling.geometries if self.rolling else ()))
 
 
-class Friction(Section, BaseModel):
-    """Lubricant, surfaces, cooling of the rolling bearings, for friction, slip and modified life.
-
-    ``lubricant`` is a name of `loadflow.tribology.lubricant_names`; ``temperature`` (K),
-    ``roughness`` (m), ``starvation``, ``hysteresis``, ``boundary_friction``, ``roller_drag``
-    (N m s), ``churning`` and ``seal_torque`` (N m) are those of `loadflow.rolling.FrictionOptions`,
-    as are ``rib_angle`` (rad), ``rib_height`` (m), ``rib_radius`` (m) and ``rib_friction``. The
-    first three follow from the bearing where they are left out, see `loadflow.stages.friction`.
-    Churning and seals have no values of their own: they count only if they are given.
-
-    With a ``conductance`` (W/K) to ``ambient_temperature`` (K) each bearing has the temperature in
-    a load case at which that carries off its mean friction; else it is ``temperature``.
-
-    ``cleanliness`` is one of `loadflow.rolling.rating.modified_life.CLEANLINESS`; with lubricant
-    and temperature it gives the modified life. Loads are taken every ``step`` (s); rollers have
-    shorter steps of their own.
-    """
-
-    lubricant: str = "lgep-2"
-    temperature: Annotated[float, Field(gt=200, le=500)] = 313.15
-    conductance: Positive | None = None
-    ambient_temperature: Annotated[float, Field(gt=200, le=400)] = 293.15
-    roughness: Positive = 0.6e-6
-    starvation: Annotated[float, Field(gt=0, le=1)] = 0.7
-    hysteresis: Annotated[float, Field(ge=0, le=0.1)] = 0.01
-    boundary_friction: Annotated[float, Field(ge=0, le=1)] = 0.12
-    rib_angle: Annotated[float, Field(ge=0, le=0.5)] | None = None
-    rib_height: Annotated[float, Field(ge=0)] | None = None
-    rib_radius: Positive | None = None
-    rib_friction: Annotated[float, Field(ge=0, le=1)] = 0.05
-    roller_drag: Annotated[float, Field(ge=0)] = 1e-3
-    churning: Churning = Churning()
-    seal_torque: Annotated[float, Field(ge=0)] = 0.0
-    step: Positive = 0.1
-    cleanliness: str = "grease, normal cleanliness"
-
-    @field_validator("cleanliness")
-    @classmethod
-    def _clean(cls, name: str) -> str:
-        from loadflow.rolling.rating.modified_life import CLEANLINESS
-
-        if name not in CLEANLINESS:
-            raise ValueError(f"must be one of {'; '.join(CLEANLINESS)}")
-        return name
-
-    @field_validator("lubricant")
-    @classmethod
-    def _known(cls, name: str) -> str:
-        from loadflow.tribology import lubricant_names
-
-        if name not in lubricant_names():
-            raise ValueError(f"must be one of {', '.join(lubricant_names())}")
-        return name
-
-
 class Scene(Section, BaseModel):
     """What is wanted, and from what; see the modules of the sections for units.
 
@@ -382,8 +146,9 @@ class Scene(Section, BaseModel):
     name : str
         Name of the run and of its folder.
     results : list of str
-        What is wanted; the plan runs only the stages that these need. Left out: all, but those of
-        journal or rolling bearings of which the scene says nothing and the shaft has none.
+        What is wanted; the plan runs only the stages that these need. Left out: all but
+        `BY_NAME`, and but those of journal or rolling bearings of which the scene says nothing and
+        the shaft has none.
     accuracy : float, dict or "given"
         Largest relative error allowed, of every result or by result; 5 % if nothing is said. The
         plan takes the cheapest models and effects that hold it, wherever the scene names none.
@@ -391,14 +156,16 @@ class Scene(Section, BaseModel):
     """
 
     name: Annotated[str, Field(pattern=r"^[A-Za-z0-9_.-]+$")]
-    results: Annotated[list[Result], Field(min_length=1)] = list(get_args(Result))
+    results: Annotated[list[Result], Field(min_length=1)] = list(USUAL)
     accuracy: Positive | dict[Result, Positive] | Literal["given"] = 0.05
     turbine: Turbine = Turbine()
+    environment: Environment = Environment()
     loads: Loads = Loads()
     shaft: Shaft = Shaft(two_point=TwoPoint(), moment=MomentBearing())
     seeds: Seeds = Seeds()
     reduction: Reduction = Reduction()
     journal: Journal = Journal()
+    dynamics: Dynamics = Dynamics()
     rolling: Rolling = Rolling()
     friction: Friction = Friction()
     candidates: dict[str, Candidate] = {}
@@ -415,7 +182,15 @@ class Scene(Section, BaseModel):
         if not isinstance(data, dict):
             return data
         stated = {*data} & {"journal", "rolling"}
-        return _results_that_the_shaft_can_give(in_sections(data, get_args(Result)), stated)
+        reduction = data.get("reduction")
+        method = reduction.get("method") if isinstance(reduction, dict) else None
+        if method in ("stationary", "periodic"):
+            data = {"accuracy": "given"} | data
+        own_shaft = "shaft" in data
+        data = surrounded(in_sections(data, USUAL))
+        if not own_shaft:
+            data = _with_scaled_shaft(data)
+        return _results_that_the_shaft_can_give(data, stated)
 
     @model_validator(mode="after")
     def _simulates(self) -> Self:
@@ -437,6 +212,32 @@ class Scene(Section, BaseModel):
                     raise ValueError(
                         f"{key} = {bearing!r}: the shaft has the bearings {have}; set {key} to "
                         f"what it has, or leave what begins with {room} out of results"
+                    )
+        return self
+
+    @model_validator(mode="after")
+    def _design_loads_are_given(self) -> Self:
+        method, journal = self.reduction.method, self.journal
+        if method == "histogram":
+            return self
+        if self.asks:
+            raise ValueError(
+                f'reduction.method = "{method}": its loads are chosen by hand; set accuracy = '
+                '"given", or leave accuracy out'
+            )
+        if method == "periodic" and not journal.in_motion and self.wants("journal"):
+            for place in journal.bearings:
+                one = journal.at(place)
+                film = replace(one.film_model.isothermal(), rung="grid")
+                line = Line(moment=np.zeros((1, 2))) if journal.tilt else Line()
+                steps = Steps(None, periodic=True)
+                why = why_not("in_motion", film, one.geometry, line, steps)
+                if why is not None:
+                    raise ValueError(f'reduction.method = "periodic", journal: {why}')
+                if journal.tilt and self.shaft.leans(place):
+                    raise ValueError(
+                        'reduction.method = "periodic": a closed orbit does not know the tilt of a '
+                        "shaft with a beam; leave out journal.tilt or the beam"
                     )
         return self
 
@@ -509,7 +310,7 @@ class Scene(Section, BaseModel):
             | places_of(candidate.get("journal"), candidate.get("rolling"))
             for name, candidate in data["candidates"].items()
         }
-        return tomli_w.dumps({"schema": SCHEMA} | data)
+        return tomli_w.dumps({SCENE.key: SCENE.version} | data)
 
     def digest(self, *sections: str) -> str:
         """SHA-256 of the resolved scene, or of some of its sections."""
@@ -599,21 +400,6 @@ def former_sections(path: str | Path) -> list[str]:
     return [name for name in ("journal", "rolling") if name in data]
 
 
-def make_journal(data: dict[str, Any], source: str = "journal") -> Journal:
-    """Build the section of the journal bearings alone; `source` names it in messages.
-
-    Raises
-    ------
-    InputError
-        As `read_scene`.
-    """
-    try:
-        return Journal.model_validate(data)
-    except ValidationError as error:
-        defaults = Journal().model_dump()
-        raise InputError(message(error, source, {(): ("journal",)}, defaults)) from error
-
-
 def with_loads(scene: Scene, files: list[str], **reading: Any) -> Scene:
     """Return the scene with its load series read from `files` (names or glob patterns).
 
@@ -640,6 +426,22 @@ def with_name(scene: Scene, name: str) -> Scene:
     return scene.model_copy(update={"name": name})
 
 
+def _with_scaled_shaft(data: dict[str, Any]) -> dict[str, Any]:
+    """Without a shaft of its own: that of the known turbine, as large as its scaled one."""
+    turbine = data.get("turbine")
+    name = turbine.get("name") if isinstance(turbine, dict) else getattr(turbine, "name", None)
+    try:
+        base, power = scaled_name(name) if isinstance(name, str) else ("", None)
+        known = load_turbine(base) if power is not None else None
+    except InputError:  # told by the turbine's own check, with its key
+        return data
+    if power is None or known is None:
+        return data
+    stated = machine(base).get("shaft")
+    usual = Shaft.model_validate(stated) if stated else Scene.model_fields["shaft"].default
+    return data | {"shaft": usual.scaled(factor_of_power(power, known.rated_power))}
+
+
 def _results_that_the_shaft_can_give(data: dict[str, Any], stated: set[str]) -> dict[str, Any]:
     """Without `results`: all, but none of a bearing by default that the shaft does not have."""
     if "results" in data or "shaft" not in data:
@@ -650,5 +452,5 @@ def _results_that_the_shaft_can_give(data: dict[str, Any], stated: set[str]) -> 
         return data
     by_default = {"journal": {*Journal().bearings}, "rolling": {Rolling().bearing}}
     absent = {room for room, own in by_default.items() if room not in stated and own - there}
-    wanted = [name for name in get_args(Result) if name.split(".")[0] not in absent]
+    wanted = [name for name in USUAL if name.split(".")[0] not in absent]
     return data | {"results": wanted}

@@ -7,7 +7,7 @@ from typing import Any
 from loadflow.rolling import KINDS
 from loadflow.scene.places import FOUR_POINT, JOURNAL
 from loadflow.scene.scene import Scene
-from loadflow.scene.written import SCHEMA
+from loadflow.scene.written import SCENE
 
 
 def json_schema() -> dict[str, Any]:
@@ -44,11 +44,11 @@ def json_schema() -> dict[str, Any]:
     several = {"type": "array", "items": {"$ref": "#/$defs/Bearing"}}
     parts["Place"] = {"anyOf": [{"$ref": "#/$defs/Bearing"}, several]}
     place = {"$ref": "#/$defs/Place"}
-    known["schema"] = {
+    known[SCENE.key] = {
         "type": "integer",
         "minimum": 1,
-        "maximum": SCHEMA,
-        "default": SCHEMA,
+        "maximum": SCENE.version,
+        "default": SCENE.version,
         "description": "Version of the form of scenes.",
     }
     known["bearings"] = {

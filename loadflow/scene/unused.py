@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
+from loadflow.journal import Heat
 from loadflow.journal.rungs import RUNGS
 from loadflow.rolling import RollerBearing, SlewingBearing, SphericalRollerBearing
 from loadflow.scene.loads import Loads
 from loadflow.scene.scene import Scene, make_scene
 from loadflow.scene.section import Section
+from loadflow.turbines.files import scaled_name
 from loadflow.wind.cases import LOAD_CASES, STANDING, LoadCase
 
 _CUBES = (".h5", ".nc")
@@ -25,6 +27,7 @@ _RESULTS = {
     "seeds": ("seeds",),
     "reduction": ("reduction", "journal", "rolling.l"),
     "journal": ("journal",),
+    "dynamics": ("journal.dynamics",),
     "rolling": ("rolling",),
     "friction": ("rolling",),
 }
@@ -54,8 +57,9 @@ def unused_keys(scene: Scene) -> dict[str, str]:
 
 
 def unused_warnings(scene: Scene) -> list[str]:
-    """Return a sentence on each of them."""
-    return [f"{key}: has no effect, {reason}" for key, reason in unused_keys(scene).items()]
+    """Return a sentence on each of them, and on a turbine that is scaled."""
+    unused = [f"{key}: has no effect, {reason}" for key, reason in unused_keys(scene).items()]
+    return [*scaling_note(scene), *unused]
 
 
 def _all(scene: Scene) -> Iterator[tuple[str, str]]:
@@ -64,6 +68,9 @@ def _all(scene: Scene) -> Iterator[tuple[str, str]]:
     for section in sorted(unread):
         if getattr(scene, section) != getattr(default, section):
             yield section, "no wanted result reads this section"
+    for key, reason in _of_environment(scene):
+        if key in scene.environment.changed:
+            yield f"environment.{key}", reason
     for key, reason in _of_loads(scene):
         if key in scene.loads.changed:
             yield f"loads.{key}", reason
@@ -73,6 +80,7 @@ def _all(scene: Scene) -> Iterator[tuple[str, str]]:
         ("journal", _of_journal),
         ("rolling", _of_rolling),
         ("friction", _of_friction),
+        ("dynamics", _of_dynamics),
     ):
         for key, reason in rules(scene) if section not in unread else ():
             if _differs(scene, section, key):
@@ -92,6 +100,27 @@ def _differs(scene: Scene, section: str, key: str) -> bool:
     for table in tables:
         part = getattr(part, table)
     return last in part.changed if isinstance(part, Section) else bool(getattr(part, last))
+
+
+def _of_environment(scene: Scene) -> Iterator[tuple[str, str]]:
+    if scene.loads.source == "files":
+        yield "air_density", "the loads are read from files"
+    films = [scene.journal.at(place) for place in scene.journal.bearings]
+    warm = [film.heat for film in films if isinstance(film.heat, Heat)]
+    gives = any(heat.transfer > 0 for heat in warm) or scene.friction.conductance is not None
+    if not (gives or scene.environment.cold_start):
+        yield "temperature", "no bearing gives heat off to its surroundings, or starts cold"
+
+
+def scaling_note(scene: Scene) -> tuple[str, ...]:
+    """A sentence on a turbine that is scaled by similarity; none of one that is not."""
+    base, power = scaled_name(scene.turbine.name)
+    if power is None:
+        return ()
+    return (
+        f"turbine: {base} scaled to {power / 1e6:.4g} MW by similarity: real turbines of that size "
+        "are lighter and softer, and gravity does not follow; bearings keep the size they have",
+    )
 
 
 # --- loads ------------------------------------------------------------------------------------
@@ -157,6 +186,8 @@ def _of_rotor(loads: Loads, rows: list[LoadCase]) -> Iterator[tuple[str, str]]:
 
 def _of_shaft(scene: Scene) -> Iterator[tuple[str, str]]:
     """Places of masses that are zero."""
+    if scaled_name(scene.turbine.name)[1] is not None:  # all places are other ones
+        return
     for name, concept in scene.shaft:
         for place, mass in _PLACES.items() if concept else ():
             if not hasattr(concept, place) or getattr(concept, mass) > 0:
@@ -177,9 +208,17 @@ _PLACES = {
 
 def _of_reduction(scene: Scene) -> Iterator[tuple[str, str]]:
     reads = any(r.startswith(("reduction", "rolling.l")) for r in scene.results)
+    if scene.reduction.method != "periodic":
+        for key in ("bounds", "additional", "orders"):
+            yield key, 'only method = "periodic" has harmonics'
+    elif scene.reduction.orders is not None:
+        yield "additional", "orders say which harmonics there are"
     if scene.journal.in_motion and not reads:
-        for key in ("size", "classes", "pick", "seed"):
+        for key in ("method", "size", "classes", "pick", "seed", "bounds", "additional", "orders"):
             yield key, "a film in motion reads the whole series"
+    elif scene.reduction.method != "histogram":
+        for key in ("size", "classes", "pick", "seed"):
+            yield key, f'method = "{scene.reduction.method}" keeps no samples of classes'
     elif scene.reduction.size == 1.0:
         for key in ("pick", "seed"):
             yield key, "size = 1 keeps every sample"
@@ -249,3 +288,10 @@ def _of_friction(scene: Scene) -> Iterator[tuple[str, str]]:
     ):
         for key in ribs:
             yield key, "the rollers press on no rib: friction.rib_angle is 0"
+
+
+def _of_dynamics(scene: Scene) -> Iterator[tuple[str, str]]:
+    films = set(scene.journal.bearings)
+    if not any(c.beam is not None and films & set(c.bearings) for c in scene.shaft.concepts):
+        for key in ("modes", "unbalance"):
+            yield key, "no suspension with a journal bearing has a beam"

@@ -8,11 +8,22 @@ from typing import Any
 
 from loadflow.scene.candidates import ABOUT, candidates_of, machine
 from loadflow.scene.places import Location, sections_of
+from loadflow.schemas import Schema
 from loadflow.turbines import turbine_names
 
-SCHEMA = 2
-"""Version of the form of scenes. 2: ``[bearings.PLACE]`` and ``[candidates.NAME]``; 1, or nothing:
-``[journal]`` and ``[rolling]``, which are still read."""
+
+def _with_places(data: dict[str, Any]) -> tuple[dict[str, Any], list[str]]:
+    """Version 1 has sections, which are what the rooms read today: nothing but words changes."""
+    stated = [name for name in ("journal", "rolling") if name in data]
+    return data, [
+        f"[{name}] is [bearings.PLACE] today, as `loadflow scene --show` prints it"
+        for name in stated
+    ]
+
+
+SCENE = Schema("scene", "schema", (_with_places,))
+"""Form of scenes. 2: ``[bearings.PLACE]`` and ``[candidates.NAME]``; 1: ``[journal]`` and
+``[rolling]``. A scene that does not say its version may be written either way."""
 
 
 def in_sections(data: dict[str, Any], results: Sequence[str]) -> dict[str, Any]:
@@ -30,15 +41,13 @@ def in_sections(data: dict[str, Any], results: Sequence[str]) -> dict[str, Any]:
 
     Raises
     ------
+    loadflow.errors.InputError
+        A version of the form that is not known.
     ValueError
-        A version of the form that is not known, or places that are no bearings.
+        Places that are no bearings.
     """
     read = dict(data)
-    version = read.pop("schema", SCHEMA)
-    if version not in range(1, SCHEMA + 1):
-        raise ValueError(
-            f"schema = {version!r}: must be 1 … {SCHEMA}; a newer version of loadflow wrote it"
-        )
+    read = SCENE.upgrade(read, read.pop(SCENE.key, SCENE.version))
     turbine = _turbine_of(read)
     ours = machine(turbine)
     if "shaft" not in read and "shaft" in ours:

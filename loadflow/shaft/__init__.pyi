@@ -7,6 +7,9 @@ from .elastic import BearingModel as BearingModel
 from .former_names import BearingSeat as BearingSeat
 from .former_names import Seated as Seated
 from .former_names import seated_loads as seated_loads
+from .line import Disc as Disc
+from .line import LineSupport as LineSupport
+from .line import ShaftLine as ShaftLine
 from .options import Concept as Concept
 from .options import DirectDrive as DirectDrive
 from .options import Integrated as Integrated
@@ -14,3 +17,6 @@ from .options import MomentBearing as MomentBearing
 from .options import ThreePoint as ThreePoint
 from .options import TwoPoint as TwoPoint
 from .reactions import bearing_loads as bearing_loads
+from .similarity import scaled_suspension as scaled_suspension
+from .vibration import modes as modes
+from .vibration import unbalance_response as unbalance_response

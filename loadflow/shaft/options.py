@@ -2,14 +2,15 @@
 
 Distances are measured along the shaft, downwind from the hub centre (the rotor apex). Every concept
 tells its `bearings`, their `positions` (m), the number of the `locating` one, the `masses` on the
-shaft as pairs of position (m) and mass (kg), and its `beam`: None for a rigid shaft.
+shaft as pairs of position (m) and mass (kg), its `integration`, and its `beam`: None for a rigid
+shaft.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Annotated, ClassVar, cast
+from typing import Annotated, ClassVar, Literal, cast
 
 from annotated_types import Ge, Gt
 
@@ -17,6 +18,8 @@ from loadflow.errors import InputError
 from loadflow.shaft.beam import Beam
 
 Masses = tuple[tuple[float, float], ...]
+Integration = Literal["resolved", "partly integrated", "fully integrated"]
+"""How far the drivetrain shares its parts with the suspension, Table 2-3 of [Jonuschies 2015]."""
 
 
 class _OnTwoSupports:
@@ -27,6 +30,7 @@ class _OnTwoSupports:
 
     bearings: ClassVar[tuple[str, ...]] = ("N", "N2")
     locating: ClassVar[int] = 1
+    integration: ClassVar[Integration] = "fully integrated"
 
     def __post_init__(self) -> None:
         _check(cast("Concept", self), positive=("hub_to_first", "span"))
@@ -86,6 +90,8 @@ class TwoPoint(_OnTwoSupports):
     torque_arm: float = 0.0
     beam: Beam | None = None
 
+    integration: ClassVar[Integration] = "resolved"
+
     @property
     def gearbox_position(self) -> float:
         """Position of the centre of mass of the gearbox, m."""
@@ -137,6 +143,7 @@ class ThreePoint(_OnTwoSupports):
 
     bearings: ClassVar[tuple[str, ...]] = ("N", "G")
     locating: ClassVar[int] = 0
+    integration: ClassVar[Integration] = "partly integrated"
 
     @property
     def masses(self) -> Masses:
@@ -250,6 +257,7 @@ class MomentBearing:
 
     bearings: ClassVar[tuple[str, ...]] = ("M",)
     locating: ClassVar[int] = 0
+    integration: ClassVar[Integration] = "fully integrated"
     torque_support: ClassVar[None] = None
 
     def __post_init__(self) -> None:

@@ -8,8 +8,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.scene.scene import Journal
-from loadflow.stages.journal import mean_temperature
+from loadflow.scene.journal import Journal
+from loadflow.stages.film_temperature import mean_temperature
 
 Floats = NDArray[np.float64]
 Response = Callable[[Floats, Floats, float], float]

@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 from loadflow.errors import SolverError
-from loadflow.scene.scene import Journal
+from loadflow.scene.journal import Journal
 from loadflow.shaft import BearingModel
 from loadflow.stages.journal import equilibria
 
 Floats = np.ndarray
 
-_TURN = np.kron(np.eye(2), [[0.0, -1.0], [1.0, 0.0]])
+TURN = np.kron(np.eye(2), [[0.0, -1.0], [1.0, 0.0]])
 """From (y, z, θy, θz) of the cube to the axes of the film, (−z, y, −θz, θy)."""
 
 
@@ -33,7 +33,7 @@ def film_model(
         Raise `loadflow.errors.SolverError` for a load that no film carries; else it has NaN.
     """
     n, size = len(speed), 4 if tilting else 2
-    turn, aligned = _TURN[:size, :size], options.model_copy(update={"tilt": False})
+    turn, aligned = TURN[:size, :size], options.model_copy(update={"tilt": False})
     last, motion = np.full((n, 6), np.nan), np.empty((n, size))
     stiffness = np.empty((n, size, size))
 

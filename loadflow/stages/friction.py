@@ -13,7 +13,8 @@ from loadflow.errors import SolverError
 from loadflow.rolling import FrictionOptions, RollingBearing, roller_slip
 from loadflow.rolling.friction import balanced_temperature
 from loadflow.scene.cases import Case
-from loadflow.scene.scene import Friction, Scene
+from loadflow.scene.friction import Friction
+from loadflow.scene.scene import Scene
 from loadflow.stages.frames import to_rolling
 from loadflow.stages.labelling import label, labelled
 from loadflow.stages.stage import Link, Links, Rungs, Stage, always, load_links

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -17,12 +16,14 @@ from loadflow.journal.transition import load_capacity
 from loadflow.journal.validity import critical_reynolds_number, reynolds_number
 from loadflow.quantities import table
 from loadflow.scene.cases import Case
-from loadflow.scene.scene import Journal, Scene
+from loadflow.scene.journal import Journal
+from loadflow.scene.scene import Scene
+from loadflow.stages.film_summary import summary
+from loadflow.stages.film_temperature import mean_temperature
 from loadflow.stages.frames import to_film
-from loadflow.stages.labelling import label, labelled, of_samples
+from loadflow.stages.labelling import label, of_samples
 from loadflow.stages.reduction import kept_share
 from loadflow.stages.stage import Link, Links, Measured, Rungs, Stage, load_links, steps_of
-from loadflow.stages.summary import over_cases
 
 KEPT = table(
     "eccentricity_ratio",
@@ -42,12 +43,10 @@ KEPT = table(
 WARM = table("temperature")
 """What is kept too where there is a heat balance."""
 
-TEMPERED = 64
-"""Samples of a series whose mean friction and flow give the temperature of a film in motion."""
-GIVING = table("shell_deformation")
+ELASTIC = table("shell_deformation")
 """What is kept too of an elastic shell."""
 
-TOUCHING = table("contact_pressure", "contact_area", "contact_power", "contact_share")
+CONTACT = table("contact_pressure", "contact_area", "contact_power", "contact_share")
 """What is kept too of asperities."""
 
 _CERTAIN = 1.2  # times the load that a film as thin as the roughness carries: no film is asked
@@ -58,6 +57,8 @@ _TRIES = 200  # samples of a start that are asked for the first film
 def film(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
     """Solve the film for every sample of the reduced series; one group per bearing.
 
+    Periodic design loads drive it round the orbit that closes.
+
     Where the film is thinner than both surfaces are rough, such as at standstill, shaft and shell
     are ``in_contact``; the sample has values only if the asperities are described. A sample whose
     film was not found has none either, and ``converged`` 0.
@@ -67,12 +68,23 @@ def film(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
     loadflow.errors.SolverError
         No sample at all has an equilibrium or is in contact.
     """
-    return xr.DataTree.from_dict(
-        {
-            name: _resting(scene.journal.at(name), name, inputs["reduction"][name].to_dataset())
-            for name in scene.journal.bearings
-        }
-    )
+    found = {}
+    for name in scene.journal.bearings:
+        reduced = inputs["reduction"][name].to_dataset()
+        found[name] = driven(scene.journal.at(name), name, reduced)
+    return xr.DataTree.from_dict(found)
+
+
+def driven(options: Journal, bearing: str, reduced: xr.Dataset) -> xr.Dataset:
+    """Film of one bearing under reduced loads: at rest, or round one period if they close.
+
+    Raises
+    ------
+    loadflow.errors.SolverError
+        No sample has an equilibrium or is in contact; the orbit does not close.
+    """
+    solve = _closing if reduced.attrs.get("closed") else _resting
+    return solve(options, bearing, reduced)
 
 
 def orbit(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
@@ -116,6 +128,54 @@ def _resting(options: Journal, bearing: str, reduced: xr.Dataset) -> xr.Dataset:
     return _placed(options, given.assign(samples), found["eccentricity"])
 
 
+def _closing(options: Journal, bearing: str, reduced: xr.Dataset) -> xr.Dataset:
+    """Film on the closed orbit under one period of a load.
+
+    Raises
+    ------
+    loadflow.errors.SolverError
+        The orbit does not close.
+    """
+    vectors = reduced["force"].values
+    force, speed = to_film(vectors), reduced["speed"].values
+    warm = mean_temperature(options, force, speed)
+    held = options if warm is None else options.at_temperature(warm)
+    # the only rung that closes an orbit
+    film, moment = replace(held.film_model, rung="grid"), to_film(reduced["moment"].values)
+    try:
+        path = held.geometry.orbit(
+            reduced["time"].values,
+            force,
+            speed,
+            film,
+            periodic=True,
+            moment=moment if options.tilt else None,
+        )
+    except SolverError as error:
+        raise SolverError(f"bearing {bearing}: {error}") from error
+    found, kept = _nothing(options, speed.size), _kept(options)
+    _take_path(found, path, slice(None))
+    if warm is not None:
+        found["temperature"][:] = warm
+    found["sommerfeld_number"][:] = options.geometry.sommerfeld_number(
+        np.hypot(*force.T), speed, held.lubricant.viscosity
+    )
+    touching = np.zeros(speed.size, dtype=bool)
+    _drop_contact(options, found, touching)
+    samples = of_samples(found, kept) | _loaded(vectors, touching)
+    about = {name: path.attrs[name] for name in ("closure", "periods")} | {"motion": "periodic"}
+    given = reduced[["time", "speed", "weight"]].assign(samples)
+    return _placed(held, given, found["eccentricity"]).assign_attrs(about)
+
+
+def _take_path(found: dict[str, np.ndarray], path: xr.Dataset, places: slice) -> None:
+    """Put an orbit where it belongs in what is kept."""
+    for name in found:
+        if name in path:
+            found[name][places] = path[name].values
+    found["converged"][places] = True
+
+
 def _moving(options: Journal, bearing: str, loads: xr.Dataset, reactions: xr.Dataset) -> xr.Dataset:
     """Film along the series, from the first sample on in which the surfaces need not touch."""
     vectors = reactions["force"].transpose("time", "axis").values.astype(float)
@@ -131,14 +191,10 @@ def _moving(options: Journal, bearing: str, loads: xr.Dataset, reactions: xr.Dat
             raise SolverError(f"bearing {bearing}: {error}") from error
         if options.heat is not None:
             held = options.at_temperature(float(path["temperature"][0]))
-        for name in found:
-            if name in path:
-                found[name][left] = path[name].values
-        found["converged"][left] = True
-        found["sommerfeld_number"][left] = [
-            options.geometry.sommerfeld_number(*point, held.lubricant.viscosity)
-            for point in zip(np.hypot(*force[left].T).tolist(), speed[left].tolist())
-        ]
+        _take_path(found, path, left)
+        found["sommerfeld_number"][left] = options.geometry.sommerfeld_number(
+            np.hypot(*force[left].T), speed[left], held.lubricant.viscosity
+        )
     _drop_contact(options, found, touching)
     samples = xr.Dataset(
         {
@@ -181,14 +237,10 @@ def surely_touching(options: Journal, force: np.ndarray, speed: np.ndarray) -> n
     load, turning = np.hypot(*to_film(force).T), np.abs(speed) > 0
     if options.contact is not None:  # the film knows what asperities carry
         return np.zeros_like(turning)
-    touching = np.asarray(~turning)
-    doubtful = np.zeros_like(turning)
+    touching, doubtful = np.asarray(~turning), np.zeros_like(turning)
     if options.shell is None:
-        viscosity = film.liquid.viscosity
-        doubtful[turning] = [
-            options.geometry.sommerfeld_number(*point, viscosity) > _LIGHT
-            for point in zip(load[turning].tolist(), np.abs(speed[turning]).tolist())
-        ]
+        number = options.geometry.sommerfeld_number(load, speed, film.liquid.viscosity)
+        doubtful = turning & (number > _LIGHT)
     if doubtful.any():
         capacity = load_capacity(options.geometry, options.contact_film, speed[doubtful], film)
         touching[doubtful] = load[doubtful] > _CERTAIN * capacity
@@ -227,36 +279,11 @@ def _loaded(force: np.ndarray, touching: np.ndarray) -> dict[str, Any]:
     }
 
 
-def mean_temperature(options: Journal, force: np.ndarray, speed: np.ndarray) -> float | None:
-    """Temperature (K) of a film in motion under `force` (n, 2) in its frame; None without heat.
-
-    It is that of the mean friction and flow of `TEMPERED` equilibria spread over the series.
-
-    Raises
-    ------
-    loadflow.errors.SolverError
-        No heat balance below the largest temperature.
-    """
-    if options.heat is None:
-        return None
-    some = np.unique(np.linspace(0, speed.size - 1, TEMPERED).round().astype(int))
-    warm = options.geometry.equilibrium(
-        force[some],
-        speed[some],
-        options.film_model,
-        weights=np.ones(some.size),
-        strict=False,
-    )
-    if not np.any(warm.converged):
-        raise SolverError("orbit cannot start: no heat balance of its mean friction and flow")
-    return float(np.asarray(warm.temperature)[0])
-
-
 def _kept(options: Journal) -> dict[str, tuple[str, str]]:
     """What is kept of every sample of a scene's bearing."""
-    giving = GIVING if options.shell is not None else {}
-    giving = giving | (TOUCHING if options.contact is not None else {})
-    return KEPT | giving | (WARM if options.heat is not None else {})
+    more = ELASTIC if options.shell is not None else {}
+    more = more | (CONTACT if options.contact is not None else {})
+    return KEPT | more | (WARM if options.heat is not None else {})
 
 
 def follow(
@@ -331,126 +358,6 @@ def _placed(options: Journal, samples: xr.Dataset, eccentricity: np.ndarray) -> 
         laminar=int(reynolds < critical_reynolds_number(bearing.relative_clearance)),
         largest_reynolds_number=reynolds,
     )
-
-
-def summary(parts: Mapping[Case, xr.DataTree]) -> xr.Dataset:
-    """Reduce each case to extremes and weighted means; dimensions ``bearing`` and ``case``."""
-    return over_cases({case: _summary_of(tree) for case, tree in parts.items()})
-
-
-def _summary_of(tree: xr.DataTree) -> xr.Dataset:
-    nodes = [node.to_dataset().load() for node in tree.children.values()]
-    parts = [extremes(samples).merge(mixed_friction(samples)) for samples in nodes]
-    return xr.concat(parts, "bearing", combine_attrs="override").assign_coords(
-        bearing=list(tree.children)
-    )
-
-
-EXTREMES = {
-    "largest_eccentricity_ratio": ("eccentricity_ratio", np.nanargmax, "1", "largest ε"),
-    "smallest_film": ("minimum_film", np.nanargmin, "m", "smallest film"),
-    "largest_pressure": ("maximum_pressure", np.nanargmax, "Pa", "largest pressure"),
-    "largest_sommerfeld_number": ("sommerfeld_number", np.nanargmax, "1", "largest So"),
-    "largest_load": ("load", np.nanargmax, "N", "largest radial load"),
-    "largest_axial_load": ("axial_load", np.nanargmax, "N", "largest force along the shaft"),
-    "largest_temperature": ("temperature", np.nanargmax, "K", "largest effective temperature"),
-}
-"""Extremes of a series: of what, which, units and meaning; each also has its ``_time``."""
-
-MEANS = {
-    "mean_eccentricity_ratio": ("eccentricity_ratio", "1", "mean ε"),
-    "mean_sommerfeld_number": ("sommerfeld_number", "1", "mean So"),
-    "mean_friction_power": ("friction_power", "W", "mean friction power"),
-    "mean_side_flow": ("side_flow", "m^3/s", "mean side flow"),
-    "mean_supply_flow": ("supply_flow", "m^3/s", "mean flow of the grooves"),
-    "mean_supply_power": ("supply_power", "W", "mean supply power"),
-}
-"""Means over the samples that have a film, each with its weight: of what, units and meaning."""
-
-
-def extremes(samples: xr.Dataset) -> xr.Dataset:
-    """Reduce the film of a series of weighted loads to extremes and means.
-
-    Samples in contact or without an answer have no values; they are counted.
-    """
-    weight, found = samples["weight"], {}
-    for name, (of, which, units, meaning) in EXTREMES.items():
-        if of not in samples:
-            continue
-        values, time = samples[of].values, samples.get("time")
-        there = bool(np.isfinite(values).any())
-        at = int(which(np.where(np.isfinite(values), values, np.nan))) if there else 0
-        found[name] = xr.DataArray(values[at] if there else np.nan), units, meaning
-        if time is not None:
-            when = float(time.values[at]) if there else np.nan
-            found[f"{name}_time"] = xr.DataArray(when), "s", f"time of the {meaning}"
-    for name, (of, units, meaning) in MEANS.items():
-        found[name] = samples[of].weighted(weight).mean(), units, meaning
-    answered = samples["converged"].astype(bool)
-    touching = samples["in_contact"].astype(bool) if "in_contact" in samples else ~answered & False
-    residual = samples["residual"].where(~touching, 0.0)
-    found |= {
-        "largest_residual": (residual.max(), "1", "largest residual"),
-        "not_converged": ((~answered & ~touching).sum(), "1", "samples without an answer"),
-        "in_contact": (touching.sum(), "1", "samples in which shaft and shell touch"),
-    }
-    return labelled(found)
-
-
-STANDING = 0.01 * np.pi / 30
-"""Speed, rad/s, below which a shaft counts as standing: 0.01 1/min, the last digit of Table 5-22 in
-[Jonuschies 2015]."""
-
-
-def mixed_friction(samples: xr.Dataset) -> xr.Dataset:
-    """How long and how far the shaft turns in contact and above E_krit, as [Jonuschies 2015] asks.
-
-    Tables 5-21 and 5-22 with (5.2): the transition is where ε last crosses E_krit in a series that
-    begins on one side of it and ends on the other, a start or a stop; NaN in the others. While the
-    surfaces touch, the boundary friction of the whole load is lost, an upper bound, unless the film
-    knows its asperities; above E_krit without contact, the friction of the film.
-    """
-    time, speed, about = samples["time"].values, np.abs(samples["speed"].values), samples.attrs
-    touching, turning = samples["in_contact"].values.astype(bool), speed >= STANDING
-    known = np.isfinite(samples["friction_power"].values)  # in contact, too, with its asperities
-    # each sample stands for `weight` steps of the full series
-    weight = samples["weight"].values
-    seconds = weight * (np.ptp(time) / max(weight.sum() - 1, 1))
-    critical = about["critical_eccentricity_ratio"]
-    ratio = np.where(touching, 1.0, samples["eccentricity_ratio"].values)
-    mixed = turning & (ratio > critical)
-    rubbing = about["boundary_friction"] * about["radius"] * samples["load"].values * speed
-    lost = np.where(touching & ~known, rubbing, samples["friction_power"].values)
-    when, at = _transition(time, speed, ratio, critical)
-    values: dict[str, tuple[Any, str, str]] = {
-        "duration": (seconds.sum(), "s", "length of the series"),
-        "contact_time": (seconds[touching & turning].sum(), "s", "time in contact while turning"),
-        "mixed_friction_time": (seconds[mixed].sum(), "s", "time above E_krit while turning"),
-        "mixed_friction_revolutions": (
-            (seconds * speed)[mixed].sum() / (2 * np.pi), "1", "revolutions above E_krit",
-        ),
-        "mixed_friction_energy": (np.nansum((seconds * lost)[mixed]), "J", "friction above E_krit"),
-        "transition_time": (when, "s", "time of the transition at E_krit"),
-        "transition_speed": (at, "rad/s", "speed of the transition at E_krit"),
-    }  # fmt: skip
-    return labelled(
-        {name: (xr.DataArray(v), units, meaning) for name, (v, units, meaning) in values.items()}
-    )
-
-
-def _transition(
-    time: np.ndarray, speed: np.ndarray, ratio: np.ndarray, critical: float
-) -> tuple[float, float]:
-    """Time and speed at which ε last crosses E_krit; NaN where it begins and ends on one side."""
-    known = np.flatnonzero(np.isfinite(ratio))
-    above = ratio[known] > critical
-    if known.size < 2 or above[0] == above[-1]:
-        return np.nan, np.nan
-    last = int(np.flatnonzero(above[1:] != above[:-1])[-1])
-    i, j = known[last], known[last + 1]
-    share = (critical - ratio[i]) / (ratio[j] - ratio[i])
-    when, at = (float(x[i] + share * (x[j] - x[i])) for x in (time, speed))
-    return when, at
 
 
 FINEST_GRID = 480

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from loadflow.cube import CASE_COORDS, iter_cases, open_cube
+from loadflow.cube import CASE_COORDS, case_named, iter_cases, open_cube
 from loadflow.scene.cases import CUBES, Case, wind_of
 from loadflow.scene.given_winds import RUN_IN, given_field
 from loadflow.scene.loads import Loads
@@ -48,7 +49,7 @@ def _simulate(scene: Scene, case: Case) -> xr.Dataset:
         field=field,
         dt=loads.step,
         rung=loads.rung,
-        options=loads.rotor_options,
+        options=replace(loads.rotor_options, air_density=scene.environment.air_density),
     )
     # a cube has the pitch of blade 1 and the wind along the mean
     series = series.drop_dims("blade").assign(wind=series["wind"].sel(axis="x", drop=True))
@@ -60,7 +61,7 @@ def _read(scene: Scene, case: Case) -> xr.Dataset:
 
     path = Path(case.file)
     if path.suffix in CUBES:
-        return dict(iter_cases(open_cube(path)))[case.entry].load()
+        return case_named(open_cube(path), case.entry).load()
     cube = read_loads(path, turbine=scene.turbine.name, quiet=True, **scene.loads.reading)
     return next(series for _, series in iter_cases(cube))
 
@@ -181,7 +182,7 @@ ROTOR = Rungs(
 STAGE = Stage(
     "loads",
     run=hub_loads,
-    sections=lambda scene: ("turbine", "loads"),
+    sections=lambda scene: ("turbine", "loads", "environment"),
     models=(WIND, ROTOR),
     summarise=summary,
     warnings=warnings,

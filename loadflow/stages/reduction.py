@@ -10,15 +10,22 @@ import xarray as xr
 from loadflow.reduction import Reduced, histogram
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
+from loadflow.stages.design_samples import Governed, periodic_samples, stationary_samples
 from loadflow.stages.frames import to_film
 from loadflow.stages.labelling import label
 from loadflow.stages.stage import Link, Measured, Rungs, Stage, always, load_links
 
 
 def reduced_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
-    """Reduce the series by the histogram of speed and load (4.28–4.36); one group per bearing.
+    """Reduce the series to design loads, one group per bearing, as `Reduction.method` says.
 
-    A bearing is classed by what governs it, see `moment_governs`.
+    By the histogram of speed and load (4.28–4.36), to stationary (4.3.1) or to periodic loads
+    (4.3.2). A bearing is reduced by what governs it, see `moment_governs`.
+
+    Raises
+    ------
+    loadflow.errors.SolverError
+        Periodic loads without bounds, of which the film has no closed orbit.
     """
     loads, shaft = inputs["loads"].load(), inputs["shaft"].load()
     speed = loads["speed"].values.astype(float)
@@ -28,6 +35,11 @@ def reduced_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTr
         force = _vectors(shaft["force"].sel(bearing=bearing))
         moment = _vectors(shaft["moment"].sel(bearing=bearing))
         by_moment = moment_governs(scene, str(bearing), moment)
+        if scene.reduction.method != "histogram":
+            one = shaft.sel(bearing=bearing)
+            whole = Governed(time, speed, _known(one), by_moment, f"{case.name}, bearing {bearing}")
+            groups[str(bearing)] = _designed(scene, str(bearing), whole)
+            continue
         reduced = histogram(
             speed,
             to_film(moment if by_moment else force),
@@ -41,6 +53,23 @@ def reduced_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTr
         dataset = reduced_dataset(reduced, force, moment, by_moment)
         groups[str(bearing)] = dataset.assign(_tilted(shaft.sel(bearing=bearing), reduced))
     return xr.DataTree.from_dict(groups)
+
+
+def _designed(scene: Scene, bearing: str, loads: Governed) -> xr.Dataset:
+    """Stationary or periodic loads of a bearing."""
+    if scene.reduction.method == "stationary":
+        return stationary_samples(loads)
+    asked = bearing in scene.journal.bearings and not loads.by_moment
+    return periodic_samples(loads, scene.reduction, scene.journal.at(bearing) if asked else None)
+
+
+def _known(bearing: xr.Dataset) -> dict[str, tuple[np.ndarray, Any]]:
+    """Vectors of a bearing that are known throughout."""
+    return {
+        name: (_vectors(bearing[name]), bearing[name].attrs)
+        for name in ("force", "moment", "tilt", "curvature")
+        if name in bearing and bool(bearing[name].notnull().all())
+    }
 
 
 def moment_governs(scene: Scene, bearing: str, moment: np.ndarray) -> bool:
@@ -98,6 +127,8 @@ def reduced_dataset(
 def reduction_key(scene: Scene) -> str:
     """Name of the reduction in the ladder."""
     pick, size = scene.reduction.pick, scene.reduction.size
+    if scene.reduction.method != "histogram":
+        return scene.reduction.method
     classes = f", {scene.reduction.classes} classes" if scene.reduction.classes else ""
     return "full series" if size == 1.0 else f"histogram, {pick}, {size:g}{classes}"
 
@@ -120,14 +151,18 @@ STAGE = Stage(
         }
     },
     needs=always("loads", "shaft"),
-    sections=always("reduction"),
+    sections=lambda scene: (
+        ("reduction", "journal") if scene.reduction.method == "periodic" else ("reduction",)
+    ),
     models=(
         Rungs(
             "reduction",
             section="reduction",
             key=reduction_key,
             better=lambda scene: (
-                {"size": min(1.0, 2 * scene.reduction.size)} if scene.reduction.size < 1.0 else {}
+                {"size": min(1.0, 2 * scene.reduction.size)}
+                if scene.reduction.size < 1.0 and scene.reduction.method == "histogram"
+                else {}
             ),
         ),
     ),

@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import lru_cache
 
 from loadflow.stages import (
+    dynamics,
     friction,
     journal,
     loads,
@@ -18,7 +19,7 @@ from loadflow.stages.stage import Rungs, Stage
 
 STAGES: dict[str, Stage] = {
     module.STAGE.name: module.STAGE
-    for module in (loads, shaft, statistics, seeds, reduction, journal, rolling, friction)
+    for module in (loads, shaft, statistics, seeds, reduction, journal, dynamics, rolling, friction)
 }
 
 

@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from loadflow.errors import SolverError
-from loadflow.rolling import Lubrication, SlewingBearing, modified_spectrum_life, system_life
+from loadflow.rolling import Lubrication, modified_spectrum_life, system_life
 from loadflow.rolling.rating import life, safety
 from loadflow.scene.bearings import FurtherBearing
 from loadflow.scene.cases import Case
@@ -165,13 +165,14 @@ def _design_safety(
 
 
 def _worst(scene: Scene, reduced: xr.Dataset, worst: int) -> xr.Dataset:
-    """Every ball force of the worst sample of a slewing bearing."""
+    """Every ball force of the worst sample of a bearing whose balls have two diagonals."""
     bearing = scene.rolling.geometry
-    if not isinstance(bearing, SlewingBearing):
+    around = (*bearing.group_dims, bearing.element)
+    if "diagonal" not in around:
         return xr.Dataset()
     hardest = solve_bearing(scene, scene.rolling.bearing, reduced.isel(sample=worst))
-    around = ("row", "diagonal", "ball")
-    angle = 2 * np.pi / bearing.balls * np.arange(bearing.balls)
+    count = hardest.ball_forces.shape[-1]
+    angle = 2 * np.pi / count * np.arange(count)
     angles = label("rad", "operating contact angle, worst sample")
     return xr.Dataset(
         {

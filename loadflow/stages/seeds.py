@@ -12,6 +12,7 @@ import xarray as xr
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
 from loadflow.seeds import Method, equality, group_seeds_jointly, holm
+from loadflow.stages.labelling import label
 from loadflow.stages.reduction import moment_governs
 from loadflow.stages.stage import Rungs, Stage, always
 
@@ -108,7 +109,7 @@ def _one_group(
             "test": list(TESTS),
             "dlc": ("group", [group[0].dlc]),
             "wind_speed": ("group", [group[0].wind_speed], {"units": "m/s"}),
-            "seeds": ("group", [len(group)]),
+            "seeds": ("group", [len(group)], label("1", "seeds in the group")),
         },
     )
 

@@ -10,7 +10,8 @@ import numpy as np
 import xarray as xr
 
 from loadflow.scene.cases import Case
-from loadflow.scene.scene import Journal, Scene
+from loadflow.scene.journal import Journal
+from loadflow.scene.scene import Scene
 from loadflow.shaft import Concept, CoupledBearing, coupled_loads
 from loadflow.shaft import bearing_loads as reactions
 from loadflow.stages.labelling import labelled

@@ -164,6 +164,8 @@ class Stage:
         What it models on rungs; the last one is its own.
     summarise : callable, optional
         Joins what it gave, by case; None where there is nothing to tell.
+    exports : callable, optional
+        ``exports(case, data)`` → text files that a run writes of what it gave, by name.
     warnings : callable
         Results of a run → sentences on what is doubtful.
     work : callable
@@ -185,6 +187,7 @@ class Stage:
     sections: Callable[[Scene], tuple[str, ...]] = lambda scene: ()
     models: tuple[Rungs, ...] = ()
     summarise: Callable[[Mapping[Case, Any]], Any] | None = None
+    exports: Callable[[Case, Any], Mapping[str, str]] | None = None
     warnings: Callable[[Any], list[str]] = lambda tree: []
     work: Callable[[Scene, tuple[Case, ...], Measured], float | None] = (
         lambda scene, cases, measured: steps_of(cases) / STEPS_PER_CASE

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 import xarray as xr
 
+from loadflow.cube import CASE_COORDS
 from loadflow.scene.cases import Case
 
 
@@ -15,14 +16,13 @@ def over_cases(parts: Mapping[Case, xr.Dataset]) -> xr.Dataset:
     joined = xr.concat(
         plain, "case", combine_attrs="override", coords="minimal", compat="override"
     ).transpose(..., "case")
-    cases = list(parts)
-    return joined.assign_coords(
-        case=("case", [case.name for case in cases]),
-        dlc=("case", [case.dlc for case in cases]),
-        wind_speed=("case", [case.wind_speed for case in cases], {"units": "m/s"}),
-        seed=("case", [case.seed for case in cases]),
-        weight=("case", [case.weight for case in cases], {"long_name": "share of lifetime"}),
-    )
+    said = {name: [getattr(case, name) for case in parts] for name in SAID}
+    coords = {name: ("case", said[name], CASE_COORDS[name].attrs) for name in SAID}
+    return joined.assign_coords(coords | {"case": ("case", [case.name for case in parts])})
+
+
+SAID = ("dlc", "wind_speed", "seed", "weight")
+"""What the cases of a scene say of themselves, with the labels that cubes give it."""
 
 
 LABELS = (

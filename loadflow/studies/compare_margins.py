@@ -15,7 +15,9 @@ import xarray as xr
 from loadflow.cube import open_cube
 from loadflow.errors import SolverError
 from loadflow.rolling import Lubrication, RollingBearing, modified_spectrum_life
-from loadflow.scene.scene import Friction, Journal, Scene
+from loadflow.scene.friction import Friction
+from loadflow.scene.journal import Journal
+from loadflow.scene.scene import Scene
 from loadflow.shaft import Beam, ShaftSection, bearing_loads
 from loadflow.stages.friction import friction_options, least_film_parameter
 from loadflow.stages.journal import equilibria

@@ -65,10 +65,16 @@ def facts(scene: Scene, runs: Sequence[Mapping[str, xr.Dataset]]) -> dict[str, s
         if loads.source == "simulate"
         else f"files, {scene.turbine.name}"
     )
+    concepts = ", ".join(
+        f"{name.replace('_', ' ')} ({concept.integration})"
+        for name, concept in scene.shaft
+        if concept
+    )
     few = min(seeds)
     told = f"{few} … {max(seeds)}" if few != max(seeds) else f"{few}"
     return {
         "Loads": source,
+        "Suspension": concepts,
         "Load cases": f"{table.sizes['case']}, {told} seeds at each wind speed",
         "Intervals": (
             "95 % by resampling the seeds of each wind speed"
@@ -87,6 +93,7 @@ def drawn(scene: Scene) -> list[dict[str, Any]]:
             "name": name,
             "bearings": list(concept.bearings),
             "positions": list(concept.positions),
+            "integration": concept.integration,
             "locating": concept.bearings[concept.locating],
             "masses": [[float(at), float(mass)] for at, mass in concept.masses if mass > 0],
         }

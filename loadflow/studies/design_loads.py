@@ -22,7 +22,7 @@ from loadflow.reduction import (
     stationary,
 )
 from loadflow.report import Picture, Section, Table, load_figures, write_page
-from loadflow.scene.scene import Journal
+from loadflow.scene.journal import Journal
 from loadflow.stages.film_response import film_response
 from loadflow.studies.bearing_series import BearingSeries
 

@@ -16,7 +16,9 @@ from loadflow.journal.models.model import why_not
 from loadflow.rolling import RollingBearing, modified_spectrum_life, system_life
 from loadflow.rolling.rating.life import rating_life_spectrum
 from loadflow.scene.bearings import FurtherBearing
-from loadflow.scene.scene import Candidate, Friction, Journal
+from loadflow.scene.friction import Friction
+from loadflow.scene.journal import Journal
+from loadflow.scene.scene import Candidate
 from loadflow.stages.friction import friction_options
 from loadflow.stages.journal import equilibria, shaft_line, surely_touching
 from loadflow.stages.rolling import rest

@@ -49,7 +49,8 @@ def journal_film(
         A key that is unknown, missing, out of range or given twice.
     """
     from loadflow.journal import JournalBearing
-    from loadflow.scene.scene import make_journal, read_scene
+    from loadflow.scene.journal import make_journal
+    from loadflow.scene.scene import read_scene
 
     data: dict[str, Any] = {"cavitation": {"kind": "reynolds"}, "edge_pressure": 0.0}
     if scene is not None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
@@ -10,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import xarray as xr
 
-from loadflow.errors import SolverError
+from loadflow.errors import InputError, SolverError
 from loadflow.journal.rungs import RUNGS
 from loadflow.quantities import table
 
@@ -114,7 +115,8 @@ def journal_series(path: Path, bearing: JournalBearing, film: Film) -> xr.Datase
         No load at all has an equilibrium.
     """
     from loadflow.reduction import read_parameter_file
-    from loadflow.stages.journal import KEPT, WARM, extremes
+    from loadflow.stages.film_summary import extremes
+    from loadflow.stages.journal import KEPT, WARM
     from loadflow.stages.labelling import of_samples
 
     reduced = read_parameter_file(path)
@@ -127,6 +129,44 @@ def journal_series(path: Path, bearing: JournalBearing, film: Film) -> xr.Datase
         series=f"{path}: {reduced.source}, {reduced.weight.size} of {reduced.total} samples",
         model=_model(film),
     )
+
+
+def journal_coefficients(
+    file: Path,
+    force: Load,
+    speeds: tuple[float, float, int],
+    bearing: JournalBearing,
+    film: Film,
+) -> list[dict[str, float]]:
+    """Write stiffness and damping over speed as a table for rotor dynamics; return its rows.
+
+    Parameters
+    ----------
+    file : Path
+        To write, ``.csv``; see `loadflow.journal.coefficient_table`.
+    force : sequence of float
+        N.
+    speeds : tuple
+        First and last (rad/s), and how many.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        As `loadflow.journal.rotor_coefficients`; the folder of the file is not there.
+    loadflow.errors.SolverError
+        No equilibrium at one of the speeds.
+    """
+    from loadflow.journal import coefficient_table, rotor_coefficients
+    from loadflow.storage import write_text
+
+    if not file.parent.is_dir():
+        raise InputError(f"{file}: its folder is not there")
+    text = coefficient_table(rotor_coefficients(bearing, force, np.linspace(*speeds), film))
+    write_text(file, text)
+    return [
+        {name: float(value) for name, value in row.items()}
+        for row in csv.DictReader(text.splitlines())
+    ]
 
 
 def _model(film: Film) -> str:

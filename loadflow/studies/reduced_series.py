@@ -15,7 +15,7 @@ from loadflow.cube import Cube
 from loadflow.errors import InputError
 from loadflow.reduction import histogram, phases, write_parameter_file
 from loadflow.report import Picture, Section, Table, figures, write_page
-from loadflow.scene.scene import Journal
+from loadflow.scene.journal import Journal
 from loadflow.stages.reduction import reduced_dataset
 from loadflow.studies.bearing_series import BearingSeries, iter_bearings, suspension
 from loadflow.studies.reduction_error import HEADS as FILM_HEADS

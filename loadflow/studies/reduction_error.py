@@ -10,8 +10,9 @@ import numpy as np
 import xarray as xr
 
 from loadflow.errors import SolverError
-from loadflow.scene.scene import Journal
-from loadflow.stages.journal import fast_film, mean_temperature
+from loadflow.scene.journal import Journal
+from loadflow.stages.film_temperature import mean_temperature
+from loadflow.stages.journal import fast_film
 from loadflow.studies.bearing_series import BearingSeries
 
 Floats = np.ndarray

@@ -14,8 +14,9 @@ from loadflow.rolling.rating.static import (
     STATIC_RATING,
     STATIC_SOURCE,
 )
+from loadflow.scene.journal import Journal
 from loadflow.scene.limits import JournalLimits, RollingLimits
-from loadflow.scene.scene import Journal, Scene
+from loadflow.scene.scene import Scene
 from loadflow.verdict import Verdict
 from loadflow.wind.cases import LOAD_CASES
 

@@ -2,7 +2,7 @@
 
 Each rung takes the ratio of the summed curvatures of the two principal planes, at least 1, and
 returns the ellipticity k and the complete elliptic integrals K and E. Largest errors of stiffness
-and pressure are measured by ``benchmarks/rolling_life.py`` (``docs/rolling.md``).
+and pressure are measured by ``benchmarks/references/rolling_life.py`` (``docs/rolling.md``).
 
 References
 ----------

@@ -8,6 +8,7 @@ from .schema import Mode as Mode
 from .schema import RotorGeometry as RotorGeometry
 from .schema import Supervision as Supervision
 from .schema import Turbine as Turbine
+from .similarity import scaled as scaled
 from .tower import Tower as Tower
 from .tower import TowerBending as TowerBending
 from .windio import from_windio as from_windio

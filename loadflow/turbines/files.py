@@ -27,6 +27,7 @@ from .schema import (
     Supervision,
     Turbine,
 )
+from .similarity import factor_of_power, scaled
 from .tower import Tower, TowerBending
 
 _PARTS = {
@@ -56,7 +57,9 @@ def load_turbine(turbine: str | Path | Turbine) -> Turbine:
     ----------
     turbine : str, Path or Turbine
         Name of a turbine of the package (see `turbine_names`), path of a TOML file of the same
-        shape, or a turbine already read, which is handed back.
+        shape, or a turbine already read, which is handed back. A name followed by ``@`` and a rated
+        power in W, such as ``"nrel-5mw@8e6"``, is that turbine scaled by similarity
+        (`loadflow.turbines.scaled`).
 
     Returns
     -------
@@ -74,6 +77,9 @@ def load_turbine(turbine: str | Path | Turbine) -> Turbine:
     """
     if isinstance(turbine, Turbine):
         return turbine
+    base, power = scaled_name(turbine)
+    if power is not None:
+        return _scaled(base, power)
     path = Path(turbine)
     if path.suffix != ".toml":
         if str(turbine) not in turbine_names():
@@ -83,6 +89,42 @@ def load_turbine(turbine: str | Path | Turbine) -> Turbine:
             )
         return _shipped(str(turbine))
     return _read(path)
+
+
+def scaled_name(turbine: str | Path) -> tuple[str, float | None]:
+    """Name of a turbine and the power (W) that it is scaled to; None if it is not.
+
+    Raises
+    ------
+    InputError
+        What stands behind ``@`` is no power.
+
+    Examples
+    --------
+    >>> from loadflow.turbines.files import scaled_name
+    >>> scaled_name("nrel-5mw@8e6"), scaled_name("nrel-5mw")
+    (('nrel-5mw', 8000000.0), ('nrel-5mw', None))
+    """
+    name, mark, power = Path(turbine).name.rpartition("@")
+    if not mark or Path(turbine).suffix == ".toml":
+        return str(turbine), None
+    base = str(Path(turbine).with_name(name)) if name else ""
+    try:
+        number = float(power)
+    except ValueError:
+        number = math.nan
+    if not name or not (math.isfinite(number) and number > 0):
+        raise InputError(
+            f"turbine {str(turbine)!r}: a rated power in W is needed behind @, such as nrel-5mw@8e6"
+        )
+    return base, number
+
+
+@cache
+def _scaled(base: str, power: float) -> Turbine:
+    """A turbine of another power, made once."""
+    known = load_turbine(base)
+    return scaled(known, factor_of_power(power, known.rated_power))
 
 
 @cache

@@ -2,8 +2,9 @@
 
 Rows whose source ends in "rebuilt" are not printed but recomputed from the printed inputs by an
 independent calculation. Not comparable, because the text gives no numbers: every friction torque
-over speed, masses of the crank drive, hysteresis factor, any result of Kruk. Misprints of the
-source are put right; the switches that bring them back are named in the modules.
+over speed (what parameters move of it is in `friction_rig`), masses of the crank drive, hysteresis
+factor, any result of Kruk. Misprints of the source are put right; the switches that bring them back
+are named in the modules.
 """
 
 from __future__ import annotations

@@ -3,9 +3,9 @@
 The source's ring sections are lost, so that every row of it (`printed`, shown by the table
 ``rolling``) assumes sections and supports, which its label states. `SOLID_FOUR`, `SOLID_DRIVE` hold
 answers of rings in three dimensions with the contact resolved (no Hertz, no master points), formed
-by ``python benchmarks/ring_contact.py``; `UNCONDENSED` those with every ring mode and ball centre
-an unknown, ``python benchmarks/ring_reference.py``. Rows that need scikit-fem are left out without
-it.
+by ``python -m benchmarks.references.ring_contact``; `UNCONDENSED` those with every ring mode and
+ball centre an unknown, ``python -m benchmarks.references.ring_reference``. Rows that need
+scikit-fem are left out without it.
 """
 
 from __future__ import annotations

@@ -236,6 +236,17 @@ class CoherenceFactors:
             ]
         )
 
+    @cached_property
+    def reach(self) -> NDArray[np.int64]:
+        """Diagonals below the main one that count in single precision, (knots,).
+
+        On a polar grid distant radii no longer know of each other at most frequencies.
+        """
+        rows = np.sqrt((self.table**2).sum(axis=-1, keepdims=True))
+        counts = (np.abs(self.table) > np.finfo(np.float32).eps * rows).any(axis=1)
+        place = np.arange(self.grid.order)
+        return np.asarray((counts * (place[:, None] - place)).max(axis=(1, 2)))
+
     def correlate(self, noise: NDArray[np.complex64], decay: Floats) -> None:
         """Give independent unit noise the coherence of the grid, in place.
 
@@ -246,6 +257,8 @@ class CoherenceFactors:
         decay : (nf,) ndarray
             Decay κ at each frequency, rising, 1/m.
         """
+        from loadflow.wind._kernels import multiply_banded
+
         knots = len(self.decay)
         step = np.log(self.decay[1] / self.decay[0])
         place = np.log(decay / self.decay[0]) / step
@@ -257,9 +270,12 @@ class CoherenceFactors:
             part = slice(edges[k], edges[k + 1])
             columns = pairs[..., 2 * part.start : 2 * part.stop]
             upper = np.repeat((place[part] - k).astype(np.float32), 2)
-            columns[...] = self.table[k] @ (columns * (1 - upper)) + self.table[k + 1] @ (
-                columns * upper
-            )
+            low, high = self.table[k : k + 2]
+            reach = int(self.reach[k : k + 2].max())
+            if reach < self.grid.order // 2:  # most of a full product would be zeros
+                multiply_banded(columns, upper, low, high, reach)
+            else:
+                columns[...] = low @ (columns * (1 - upper)) + high @ (columns * upper)
         noise[..., edges[-1] :] *= self.grid.uncorrelated[..., None].astype(np.float32)
 
 

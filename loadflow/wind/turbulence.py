@@ -107,13 +107,15 @@ def kaimal(
     >>> field.u.dtype.name, field.hub.shape
     ('float32', (121,))
     """
+    from loadflow.wind._kernels import time_first
+
     grid = PolarGrid(np.asarray(radius, float), np.asarray(angles, float))
     scale = _length_scale(hub_height, length_scale)
     parts, time = _components(
         _choose(method, factors, grid, scale), wind_speed, sigma, duration, dt, seed,
         components, scaling, lateral, hub=(0, 0),
     )  # fmt: skip
-    fields = [np.ascontiguousarray(part.transpose(2, 1, 0)) for part in parts]
+    fields = [time_first(part) for part in parts]
     u, v, w = (*fields, None, None)[:3]
     assert u is not None
     return Field(time, grid.radius, grid.angle, u, v, w, wind_speed, shear_exponent)

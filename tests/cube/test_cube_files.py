@@ -6,7 +6,8 @@ import xarray as xr
 
 import loadflow as lf
 from loadflow.cube import check_cube, iter_cases, make_case, make_cube, open_cube, save_cube
-from loadflow.errors import InputError
+from loadflow.cube.schema import CUBE
+from loadflow.errors import FormerVersionWarning, InputError, NewerVersionError
 
 
 def case(seed=1, wind_speed=4.0, n=200, **varied):
@@ -112,3 +113,59 @@ def test_chunks_without_dask_say_what_to_install(tmp_path, monkeypatch):
     path = save_cube(make_cube([case(1), case(2)]), tmp_path / "loads.h5")
     with pytest.raises(InputError, match=r"chunks= needs .*loadflow\[dask\]"):
         open_cube(path, chunks={})
+
+
+# --- versions of the form ----------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("lengths", [(200, 200), (200, 300)])
+def test_a_file_says_its_version_and_a_cube_in_memory_does_not(tmp_path, lengths):
+    cube = make_cube([case(seed, n=n) for seed, n in enumerate(lengths, 1)])
+    path = save_cube(cube, tmp_path / "loads.h5")
+    with xr.open_datatree(path, engine="h5netcdf") as raw:
+        assert raw.attrs[CUBE.key] == CUBE.version
+    assert CUBE.key not in cube.attrs
+    assert CUBE.key not in open_cube(path).attrs
+
+
+def written_by_an_older_version(cube, path):
+    """A cube as it was before files said their version, and without the labels of `speed`."""
+    cube = cube.copy(deep=True)
+    for part in [cube] if isinstance(cube, xr.Dataset) else [leaf.dataset for leaf in cube.leaves]:
+        part["speed"].attrs.pop("long_name")
+    cube.to_netcdf(path, engine="h5netcdf")
+    return path
+
+
+@pytest.mark.parametrize("lengths", [(200, 200), (200, 300)])
+def test_an_older_cube_is_read_and_what_it_lacked_is_told(tmp_path, lengths):
+    cube = make_cube([case(seed, n=n) for seed, n in enumerate(lengths, 1)])
+    old = written_by_an_older_version(cube, tmp_path / "old.h5")
+    with pytest.warns(FormerVersionWarning, match=r"old\.h5: load cube .*speed is labelled"):
+        opened = open_cube(old)
+    assert_same(opened, cube)
+    check_cube(opened)
+
+
+def test_units_that_an_older_cube_lacks_are_not_guessed(tmp_path):
+    cube = make_cube([case(1)])
+    del cube["speed"].attrs["units"]
+    cube.to_netcdf(tmp_path / "old.h5", engine="h5netcdf")
+    with pytest.raises(InputError, match="'units' is missing"):
+        check_cube(open_cube(tmp_path / "old.h5"))
+
+
+@pytest.mark.parametrize("version", [CUBE.version + 1, 99])
+def test_a_cube_of_a_newer_version_is_refused(tmp_path, version):
+    cube = make_cube([case(1)]).assign_attrs({CUBE.key: version})
+    cube.to_netcdf(tmp_path / "new.h5", engine="h5netcdf")
+    with pytest.raises(NewerVersionError, match=rf"new\.h5: {CUBE.key} = {version}: .*a newer"):
+        open_cube(tmp_path / "new.h5")
+
+
+@pytest.mark.parametrize("version", [0, -3, 1.5, "two"])
+def test_a_version_that_is_none_is_refused(tmp_path, version):
+    cube = make_cube([case(1)]).assign_attrs({CUBE.key: version})
+    cube.to_netcdf(tmp_path / "odd.h5", engine="h5netcdf")
+    with pytest.raises(InputError, match=rf"odd\.h5: {CUBE.key} = .*must be 1 … {CUBE.version}$"):
+        open_cube(tmp_path / "odd.h5")

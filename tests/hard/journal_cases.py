@@ -200,7 +200,9 @@ def stretched():
     what="a named error with ε and the clearance",
 )
 def outside():
-    return refused(lambda: MAIN.pressure((1.1 * MAIN.clearance, 0.0), 1.0, OIL), "ε = 1.1", "< 1")
+    return refused(
+        lambda: MAIN.pressure((1.1 * MAIN.clearance, 0.0), 1.0, OIL), "ε = 1.1", "touches the bore"
+    )
 
 
 @hard(

@@ -1,6 +1,6 @@
 """Solvers that go through series, and the turbulence: an answer that holds, or a named error.
 
-A sample here; ``python benchmarks/hard_fuzz.py`` draws 10,000 of each, and 1,000 orbits.
+A sample here; ``python -m benchmarks.robustness.hard_fuzz`` draws 10,000 of each, and 1,000 orbits.
 """
 
 import numpy as np

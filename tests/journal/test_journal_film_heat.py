@@ -24,7 +24,7 @@ from loadflow.journal import (
     Supply,
     TiltingPads,
 )
-from loadflow.scene.scene import make_journal
+from loadflow.scene.journal import make_journal
 from loadflow.tribology import ExponentialOil
 from loadflow.tribology.couette import adiabatic_rise
 from loadflow.validation.film_heat import LADDER, ladder_bearing, ladder_state
@@ -165,12 +165,12 @@ def test_stiffness_is_the_slope_of_the_force_at_the_same_viscosities():
     """The temperatures are held while the shaft moves."""
     from loadflow.journal.film.energy_equation import EnergyEquation
     from loadflow.journal.line import Line
-    from loadflow.journal.solvers.statics_shaped import ShapedStatics
+    from loadflow.journal.solvers.statics import Statics
     from loadflow.numerics.convergence import Limits
 
     options = film(law=GasMixture(1e4))
     state = LOBES.equilibrium(LOAD, SPEED, options)
-    statics = ShapedStatics(LOBES, options, Line(), SPEED)
+    statics = Statics(LOBES, options, Line(), SPEED)
     equation = EnergyEquation(statics.film, statics.gap, options.heat)
     half = state.film_temperature[:, state.film_temperature.shape[1] // 2 :]
     equation.thicken(half)

@@ -6,7 +6,7 @@ import pytest
 import loadflow as lf
 from loadflow.errors import InputError
 from loadflow.journal import Contour, Crown, Lobes
-from loadflow.scene.scene import Journal
+from loadflow.scene.journal import Journal
 from loadflow.stages.journal import equilibria
 
 SCENE = """

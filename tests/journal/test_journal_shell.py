@@ -25,7 +25,7 @@ from loadflow.journal import (
     ThickShell,
     TiltingPads,
 )
-from loadflow.scene.scene import Journal
+from loadflow.scene.journal import Journal
 from loadflow.stages.journal import equilibria, follow
 from loadflow.validation.shell import annular_seal, plane_ring, soft_arc
 

@@ -10,7 +10,8 @@ from pathlib import Path
 
 import pytest
 
-SCRIPT = Path(__file__).parents[2] / "benchmarks" / "public_files.py"
+ROOT = Path(__file__).parents[2]
+SCRIPT = "benchmarks.robustness.public_files"
 
 
 @pytest.mark.slow
@@ -18,6 +19,7 @@ def test_public_files_are_read_mapped_or_refused_as_the_table_says():
     clones = os.environ.get("LOADFLOW_CLONES", "")
     if not clones:
         pytest.skip("set LOADFLOW_CLONES to a folder for clones of public repositories")
-    done = subprocess.run([sys.executable, SCRIPT, clones], capture_output=True, text=True)
+    command = [sys.executable, "-m", SCRIPT, str(Path(clones).absolute())]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     assert done.stdout.count("| read |") + done.stdout.count("| mapped |") == 15

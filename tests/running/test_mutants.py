@@ -1,18 +1,14 @@
 """Files that are damaged at random: an answer, or an `InputError`; never anything else."""
 
-import sys
 from pathlib import Path
 
 import pytest
 
+from benchmarks.robustness import mutants
 from loadflow.errors import InputError
 from loadflow.planning.plan import make_plan
 from loadflow.scene.scene import make_scene
 from loadflow.turbines import load_turbine, turbine_names
-
-sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
-
-import mutants
 
 FILE = Path(load_turbine.__code__.co_filename).parent / "nrel-5mw.toml"
 

@@ -14,9 +14,9 @@ import pytest
 import workers
 from small_run import contents, small_scene
 
-from loadflow.errors import InputError, LoadflowError
+from loadflow.errors import FormerVersionWarning, InputError, LoadflowError, NewerVersionError
 from loadflow.running.executor import Lost, executor, usable_cores
-from loadflow.running.folder import read_manifest
+from loadflow.running.folder import MANIFEST, read_manifest, refinements
 from loadflow.running.lock import locked
 from loadflow.running.parts import digest_of, is_sound, save_part
 from loadflow.running.runner import run
@@ -95,6 +95,7 @@ def test_a_damaged_part_is_made_again_and_said(finished, copied, caplog, harm):
         b"[1, 2]",
         b'{"stages": 3}',
         b'{"climbed": {}}',
+        b'{"schema": 2, "refined": {}}',
         b"\xff\xfe\x00",
         b"null",
     ],
@@ -111,6 +112,37 @@ def test_a_damaged_manifest_is_said_and_made_again_from_the_parts(
     assert "manifest.json: damaged" in caplog.text
     assert (copied / PART).stat().st_mtime_ns == stamp
     assert read_manifest(manifest.parent)["cases"] == ["dlc1.1_v8_s1", "dlc1.1_v12_s1"]
+
+
+def test_a_manifest_of_an_older_version_is_read_and_brought_up_to_date(finished, copied):
+    path = copied / "small/manifest.json"
+    old = json.loads(path.read_text(encoding="utf-8"))
+    assert old.pop(MANIFEST.key) == MANIFEST.version
+    old["climbed"] = [*old.pop("refined"), "reduction"]
+    path.write_text(json.dumps(old), encoding="utf-8")
+    with pytest.warns(FormerVersionWarning, match=r"manifest\.json: manifest .*climbed is refined"):
+        assert read_manifest(path.parent)["refined"] == ["reduction"]
+    with pytest.warns(FormerVersionWarning):
+        assert refinements(path.parent, small_scene(finished)) == ["reduction"]
+    old["climbed"] = []
+    path.write_text(json.dumps(old), encoding="utf-8")
+    stamp = (copied / PART).stat().st_mtime_ns
+    with pytest.warns(FormerVersionWarning):
+        assert again(finished, copied)
+    assert (copied / PART).stat().st_mtime_ns == stamp
+    new = json.loads(path.read_text(encoding="utf-8"))
+    assert new[MANIFEST.key] == MANIFEST.version
+    assert "climbed" not in new
+
+
+def test_a_manifest_of_a_newer_version_stops_the_run_and_is_left_as_it_is(finished, copied):
+    path = copied / "small/manifest.json"
+    newer = json.loads(path.read_text(encoding="utf-8")) | {MANIFEST.key: MANIFEST.version + 1}
+    path.write_text(json.dumps(newer), encoding="utf-8")
+    content = path.read_bytes()
+    with pytest.raises(NewerVersionError, match=r"manifest\.json: schema = 3: .*a newer loadflow"):
+        again(finished, copied)
+    assert path.read_bytes() == content
 
 
 def test_only_what_a_run_wrote_is_ever_deleted(finished, copied):

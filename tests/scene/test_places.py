@@ -2,17 +2,18 @@
 
 import json
 import tomllib
+import warnings
 
 import pytest
 
 from loadflow.cli import main
-from loadflow.errors import InputError
+from loadflow.errors import FormerVersionWarning, InputError
 from loadflow.rolling import SlewingBearing, SphericalRollerBearing
 from loadflow.scene.candidates import candidates_of, machine_names
 from loadflow.scene.places import PLACE_KINDS, places_of, sections_of
 from loadflow.scene.scene import make_scene, read_scene, with_loads
 from loadflow.scene.schema import json_schema
-from loadflow.scene.written import SCHEMA
+from loadflow.scene.written import SCENE
 
 SPHERICAL = {
     "kind": "spherical",
@@ -91,7 +92,7 @@ def test_the_resolved_form_has_places_and_reads_back_as_itself(tmp_path):
     path = tmp_path / "s.toml"
     path.write_text(scene.to_toml(), encoding="utf-8")
     data = tomllib.loads(path.read_text(encoding="utf-8"))
-    assert data["schema"] == SCHEMA
+    assert data["schema"] == SCENE.version
     assert not {"journal", "rolling"} & set(data)
     assert [part["kind"] for part in data["bearings"]["N"]] == ["journal", "spherical"]
     assert data["bearings"]["M"]["kind"] == "four-point"
@@ -100,9 +101,29 @@ def test_the_resolved_form_has_places_and_reads_back_as_itself(tmp_path):
 
 
 def test_a_version_that_is_not_known_yet_is_refused():
-    with pytest.raises(InputError, match=f"must be 1 … {SCHEMA}"):
-        make_scene({"schema": SCHEMA + 1})
-    assert make_scene({"schema": 1}) == make_scene({})
+    with pytest.raises(InputError, match=f"must be 1 … {SCENE.version}; a newer loadflow wrote"):
+        make_scene({"schema": SCENE.version + 1})
+
+
+@pytest.mark.parametrize("version", [0, -1, 1.5, "two", True, None, [2]])
+def test_a_version_that_is_none_is_refused(version):
+    with pytest.raises(InputError, match=f"must be 1 … {SCENE.version}$"):
+        make_scene({"schema": version})
+
+
+def test_an_older_scene_is_read_and_its_owner_told_how_to_write_it(tmp_path):
+    path = tmp_path / "old.toml"
+    path.write_text(
+        'schema = 1\nname = "old"\n[journal]\nbearings = ["N"]\nboundary_friction = 0.1\n',
+        encoding="utf-8",
+    )
+    with pytest.warns(FormerVersionWarning, match=r"\[journal\] is \[bearings\.PLACE\] today"):
+        old = read_scene(path)
+    path.write_text(old.to_toml(), encoding="utf-8")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", FormerVersionWarning)
+        assert read_scene(path) == old
+    assert old.journal.boundary_friction == 0.1
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ surface of a cell, `area`, then differs from its width `dz`; it scales what the 
 and stores.
 
 Coefficients of the gap have the shape (8, nx + 1, rows): one row where the gap does not change
-along the axis, else one for each row of cells and a last one for the far rim.
+along the axis, else one for each row of cells and a last one for the far end.
 """
 
 from __future__ import annotations
@@ -99,7 +99,7 @@ def gap_coefficients(cos_face, sin_face, w_face, cos_cell, sin_cell, w_cell, str
 def balance(state, coef, dz, area, gz, closed, wedge, p_edge, p_line, f_line, mass, groove, out):
     """Add the outflow of each cell to `out` (nx, nz); linear in `coef` and `mass` (nx, rows).
 
-    A groove that reaches a rim is closed there.
+    A groove that reaches a bearing end is closed there.
     """
     _, nx, nz = state.shape
     row = 1 if coef.shape[2] > 1 else 0

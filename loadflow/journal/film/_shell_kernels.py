@@ -16,16 +16,16 @@ ITSELF, BEFORE, AFTER, INNER, OUTER = range(5)
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def gap_stencil(
-    state, coef, face, face_gap, cell, cell_gap, dz, gz, closed, wedge, rims, storing, groove, out
+    state, coef, face, face_gap, cell, cell_gap, dz, gz, closed, wedge, ends, storing, groove, out
 ):
     """Fill `out` (5, nx, nz) at the state and gap last placed.
 
     `face`, `cell` and their gaps are those of `_kernels.shaped_coefficients`, the gaps in place and
-    deformed; `rims` are edge pressure, pressure and fill of an inlet line; `storing` (Pa) is the
+    deformed; `ends` are edge pressure, pressure and fill of an inlet line; `storing` (Pa) is the
     squeeze pressure of a growth of the gap in one implicit step.
     """
     _, nx, nz = state.shape
-    p_edge, p_line, f_line = rims
+    p_edge, p_line, f_line = ends
     p, fill = state[P], state[FILL]
     out[:] = 0.0
     for i in range(nx + 1):

@@ -8,6 +8,7 @@ pressure, m/Pa; whether it ``spreads``, so that a pressure widens other gaps, to
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import singledispatch
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,7 +25,7 @@ _HARMONICS = 2  # times the cells around: what a pressure even over a cell has b
 
 @dataclass(frozen=True, eq=False)
 class Local:
-    """Every cell gives way for itself."""
+    """Every cell deforms under its own pressure alone."""
 
     local: Array
     spreads: bool = False
@@ -81,25 +82,31 @@ class Harmonic:
 Compliance = Local | Numbers | Harmonic
 
 
+@singledispatch
 def compliance_of(shell: Shell, mesh: Mesh, radius: float) -> Compliance:
-    """Put `shell` on the cells of `mesh` around a shaft of `radius`, m.
+    """Put `shell` on the cells of `mesh` around a shaft of `radius`, m: one function for each kind.
 
     Raises
     ------
     loadflow.errors.InputError
         A lining that is not local, a shell inside the bore, a matrix of another grid.
     """
-    if isinstance(shell, LocalShell):
-        return Local(np.full(mesh.shape, shell.compliance))
-    if isinstance(shell, LinedShell):
-        shell.check_local(2 * radius * float(mesh.z_edges[-1]))
-        return Local(np.full(mesh.shape, shell.compliance))
-    if isinstance(shell, MatrixShell):
-        return _given(shell, mesh)
-    return _thick(shell, mesh, radius)
+    raise InputError(f"shell = {shell!r} is not allowed: a shell of loadflow.journal, or None")
 
 
-def _given(shell: MatrixShell, mesh: Mesh) -> Numbers:
+@compliance_of.register
+def _local(shell: LocalShell, mesh: Mesh, radius: float) -> Local:
+    return Local(np.full(mesh.shape, shell.compliance))
+
+
+@compliance_of.register
+def _lined(shell: LinedShell, mesh: Mesh, radius: float) -> Local:
+    shell.check_local(2 * radius * float(mesh.z_edges[-1]))
+    return Local(np.full(mesh.shape, shell.compliance))
+
+
+@compliance_of.register
+def _given(shell: MatrixShell, mesh: Mesh, radius: float) -> Numbers:
     """The given numbers; on half of the width each cell stands for its mirror image, too."""
     nx, nz = mesh.shape
     across = 2 * nz if mesh.half else nz
@@ -116,6 +123,7 @@ def _given(shell: MatrixShell, mesh: Mesh) -> Numbers:
     return Numbers(np.ascontiguousarray(numbers), np.diag(numbers).reshape(nx, nz).copy())
 
 
+@compliance_of.register
 def _thick(shell: ThickShell, mesh: Mesh, radius: float) -> Harmonic:
     from loadflow.journal.film.cylinder import bore_compliance
 

@@ -6,22 +6,25 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError
+from loadflow.journal.cavitation import CavitationLaw
 from loadflow.journal.film.asperity_load import CylinderLoad, NodeLoad
 from loadflow.journal.film.compliance import compliance_of
 from loadflow.journal.film.elastic import ElasticFilm
 from loadflow.journal.film.feed import Feed
 from loadflow.journal.film.film import DiscreteFilm
-from loadflow.journal.film.gap import PlainGap
+from loadflow.journal.film.gap import CylindricalGap
 from loadflow.journal.film.gap_elastic import ElasticGap
-from loadflow.journal.film.gap_mesh import crowded, recess_marks, shaped_mesh
+from loadflow.journal.film.gap_mesh import ShapedMesh, crowded, relief_marks, shaped_mesh
 from loadflow.journal.film.gap_rough import RoughGap, RoughShapedGap
 from loadflow.journal.film.gap_shaped import Bore, ShapedGap
 from loadflow.journal.film.gap_warm import WarmGap
 from loadflow.journal.film.groove_pressure import Pockets
 from loadflow.journal.film.grooves import groove_marks, groove_numbers
-from loadflow.journal.film.mesh import build_mesh
+from loadflow.journal.film.mesh import Mesh, build_mesh
 from loadflow.journal.film_model import Film
-from loadflow.journal.shapes import Arc, Shape
+from loadflow.journal.geometry import JournalGeometry
+from loadflow.journal.line import Line
+from loadflow.journal.shapes import Shape
 from loadflow.journal.supply import Supply
 from loadflow.numerics.fields import require
 
@@ -30,102 +33,113 @@ Array = NDArray[np.float64]
 FULL_GRID = (120, 24)  # the same where both halves of the width differ
 
 
-def build_film(diameter: float, width: float, clearance: float, options: Film) -> DiscreteFilm:
-    """Discrete film of a bearing (m, m, relative clearance)."""
-    law, supply = options.law, options.supply
+def is_cylindrical(bearing: JournalGeometry, film: Film, line: Line) -> bool:
+    """Whether a rigid cylinder surrounds an aligned shaft, in a film of one temperature."""
+    fed_and_rough = film.contact is not None and film.supply is not None  # grooves do not touch
+    given = film.shell is not None or film.heat is not None or fed_and_rough
+    return not (bearing.shape.segments or bearing.relief or given) and line.straight
+
+
+def build_film(
+    diameter: float, width: float, relative_clearance: float, options: Film
+) -> DiscreteFilm:
+    """Discrete film of a cylindrical bearing (m) around an aligned shaft."""
+    return cylindrical_film(diameter, width, relative_clearance, options)[1]
+
+
+def cylindrical_film(
+    diameter: float, width: float, relative_clearance: float, options: Film
+) -> tuple[CylindricalGap, DiscreteFilm]:
+    """Gap and discrete film of a cylindrical bearing (m) around an aligned shaft."""
+    law, supply, contact = options.law, options.supply, options.contact
     options.check_oil()
-    smooth = law.smooth
     inlet = options.inlet_line
     require(not (inlet and supply), "inlet", options.inlet, "None where a supply is given")
     graded = options.grading == "graded"
     if options.grading == "auto":
-        graded = not smooth and supply is None
-    grid, radius = options.cells, 0.5 * diameter
-    mesh = build_mesh(width / diameter, grid, graded, inlet, supply, radius)
-    numbers = groove_numbers(mesh.angle, mesh.z, width / diameter, supply, grid[0], radius)
-    mirrors = 2.0 if mesh.half else 1.0
-    flow_unit = mirrors * (clearance * radius) ** 3 / (12.0 * options.liquid.viscosity)
-    clear, contact = clearance * radius, options.contact
-    film = DiscreteFilm(
-        PlainGap(mesh) if contact is None else RoughGap(mesh, contact, clear),
-        law,
-        options.liquid.viscosity,
-        clearance,
-        radius,
-        options.edge_pressure,
-        Pockets(numbers, Feed(supply or Supply(), options.liquid), flow_unit),
-    )
+        graded = not law.smooth and supply is None
+    radius, ratio, around = 0.5 * diameter, width / diameter, options.cells[0]
+    clearance = relative_clearance * radius
+    mesh = build_mesh(ratio, options.cells, graded, inlet, supply, radius)
+    gap = CylindricalGap(mesh) if contact is None else RoughGap(mesh, contact, clearance)
+    film = DiscreteFilm(gap, *_oil(mesh, options, ratio, relative_clearance, radius, around))
     if contact is not None:
-        film.contact = CylinderLoad(contact, radius, width, clear)
-    return film
+        film.contact = CylinderLoad(contact, radius, width, clearance)
+    return gap, film
 
 
-def build_shaped_film(
-    bore: Bore, shape: Shape, options: Film, straight: bool, crowd: tuple[float, ...] = ()
+def shaped_film(
+    bearing: JournalGeometry, options: Film, straight: bool, crowd: tuple[float, ...] = ()
 ) -> tuple[ShapedGap, DiscreteFilm]:
-    """Discrete film of a bearing of any shape; `straight`: around an aligned, straight shaft.
+    """Gap and discrete film of any bearing; `straight`: around an aligned, straight shaft.
 
     Cells crowd at the angles `crowd`, rad.
     """
-    law, supply = options.law, options.supply
+    law, supply, contact = options.law, options.supply, options.contact
     require(
         options.inlet != "widest gap",
         "inlet",
         options.inlet,
         "None but for a cylindrical, aligned bearing",
     )
-    pressure = getattr(shape, "groove_pressure", None)
+    bore, pressure = Bore.of(bearing), bearing.shape.groove_pressure
     pressure = options.edge_pressure if pressure is None else pressure
     options.check_oil(pressure)
-    smooth = law.smooth
     half = straight and all(part.symmetric(bore.width) for part in bore.relief)
-    grid = options.cells if half or smooth or options.grid else FULL_GRID
-    graded = options.grading == "graded" or (options.grading == "auto" and not smooth)
-    turns, places = recess_marks(bore.relief, bore.radius, bore.width)
+    grid = options.cells if half or law.smooth or options.grid else FULL_GRID
+    graded = options.grading == "graded" or (options.grading == "auto" and not law.smooth)
+    turns, places = relief_marks(bore.relief, bore.radius, bore.width)
     around, ends = groove_marks(supply.grooves if supply else (), grid[0], bore.radius)
-    ratio = bore.width / (2 * bore.radius)
+    ratio = bearing.width_ratio
     mesh = shaped_mesh(
         ratio, grid, half, graded, bore.segments, [*turns, *around], [*places, *ends, *-ends]
     )
     for angle in crowd:
         mesh = crowded(mesh, angle)
-    numbers = groove_numbers(mesh.angle, mesh.z, ratio, supply, grid[0], bore.radius)
-    mirrors = 2.0 if half else 1.0
-    flow_unit = mirrors * bore.clearance**3 / (12.0 * options.liquid.viscosity)
-    words = (
-        law,
-        options.liquid.viscosity,
-        bore.clearance / bore.radius,
-        bore.radius,
-        options.edge_pressure,
-        Pockets(numbers, Feed(supply or Supply(), options.liquid), flow_unit),
-        pressure,
-    )
-    contact = options.contact
+    oil = _oil(mesh, options, ratio, bearing.relative_clearance, bore.radius, grid[0])
     gap: ShapedGap
     if options.shell is None:
-        if contact is not None:
-            require(not bore.pads, "contact", contact, "None for pads that tilt")
-            require(
-                options.heat is None, "contact", contact, "None with a heat balance of the film"
-            )
-            gap = RoughShapedGap(mesh, bore, contact)
-        elif options.heat is not None:
-            gap = WarmGap(mesh, bore)
-        else:
-            gap = ShapedGap(mesh, bore)
-        film = DiscreteFilm(gap, *words)
+        gap = _rigid_gap(mesh, bore, options)
+        film = DiscreteFilm(gap, *oil, pressure)
     else:
         require(contact is None, "contact", contact, "None with an elastic shell")
         require(not bore.pads, "shell", options.shell, "None for pads, whose backs are not held")
         compliance = compliance_of(options.shell, mesh, bore.radius)
-        gap = ElasticGap(mesh, bore, rims_give=compliance.spreads)
-        film = ElasticFilm(compliance, gap, *words)
+        gap = ElasticGap(mesh, bore, ends_deform=compliance.spreads)
+        film = ElasticFilm(compliance, gap, *oil, pressure)
     film.fill(mesh.groove, pressure)
-    film.ambient = _outside(gap, film, options.edge_pressure, shape)
+    film.ambient = _outside(gap, film, options.edge_pressure, bearing.shape)
     if contact is not None:
-        film.contact = NodeLoad(contact, gap, bore.radius, mirrors, film.grooved)
+        film.contact = NodeLoad(contact, gap, bore.radius, film.mirrors, film.grooved)
     return gap, film
+
+
+def _oil(
+    mesh: Mesh,
+    options: Film,
+    ratio: float,
+    relative_clearance: float,
+    radius: float,
+    around: int,
+) -> tuple[CavitationLaw, float, float, float, float, Pockets]:
+    """What a discrete film knows beside its gap; `around`: cells around that were asked for."""
+    supply, liquid = options.supply, options.liquid
+    numbers = groove_numbers(mesh.angle, mesh.z, ratio, supply, around, radius)
+    mirrors = 2.0 if mesh.half else 1.0
+    flow_unit = mirrors * (relative_clearance * radius) ** 3 / (12.0 * liquid.viscosity)
+    pockets = Pockets(numbers, Feed(supply or Supply(), liquid), flow_unit)
+    lengths = relative_clearance, radius
+    return options.law, liquid.viscosity, *lengths, options.edge_pressure, pockets
+
+
+def _rigid_gap(mesh: ShapedMesh, bore: Bore, options: Film) -> ShapedGap:
+    """Gap of a rigid shell."""
+    contact = options.contact
+    if contact is not None:
+        require(not bore.pads, "contact", contact, "None for pads that tilt")
+        require(options.heat is None, "contact", contact, "None with a heat balance of the film")
+        return RoughShapedGap(mesh, bore, contact)
+    return ShapedGap(mesh, bore) if options.heat is None else WarmGap(mesh, bore)
 
 
 def _outside(
@@ -138,7 +152,7 @@ def _outside(
     if not gap.bore.segments:
         return 0.0
     load = edge_pressure * gap.uniform()
-    if not isinstance(shape, Arc):
+    if shape.grooves_between:
         load -= (film.p_line - edge_pressure) * gap.facing_groove()
     return np.asarray(film.mirrors * film.radius**2 * load)
 

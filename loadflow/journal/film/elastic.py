@@ -1,4 +1,4 @@
-"""Film in a shell that gives way: the gap follows the pressure in the same Newton iteration.
+"""Film in an elastic shell: the gap follows the pressure in the same Newton iteration.
 
 The shell needs no unknowns of its own: its growth is that of the pressure at hand, so that every
 residual of the film is one of film and shell. What the gap of a cell owes to its own pressure
@@ -24,7 +24,7 @@ Array = NDArray[np.float64]
 
 _EXACT = 1e-8  # residual of the linear systems of a shell that spreads, over their right-hand side
 _KRYLOV = 60  # steps of GMRES that are tried
-_SMALLEST = 1.0 / 2**20  # share of a step below which it has no room
+_SMALLEST = 1.0 / 2**20  # share of a step below which there is none
 
 
 class ElasticFilm(DiscreteFilm):
@@ -39,7 +39,7 @@ class ElasticFilm(DiscreteFilm):
         self.compliance = compliance
         self.elastic = True
         self.stencil = np.empty((5, *gap.mesh.shape))
-        self._give = 1.0  # share of its compliance that the shell has
+        self._share = 1.0  # share of its compliance that the shell has
 
     def place(self, u: Array, position: Array) -> Array:
         """Evaluate law, shell and gap at `u` and `position`; returns the axes of the frame."""
@@ -47,15 +47,15 @@ class ElasticFilm(DiscreteFilm):
         self._grow()
         return self.gap.place(position)
 
-    def relax(self, give: float = 1.0) -> None:
-        """Let go of what pressure has deformed; from now on the shell has a share of its `give`."""
-        self._give = give
+    def relax(self, share: float = 1.0) -> None:
+        """Undo what pressure has deformed; the shell then has a `share` of its compliance."""
+        self._share = share
         self.gap.grow(np.zeros(self.mesh.shape))
 
     @property
     def _per_clearance(self) -> float:
         """Growth of the gap that counts, in clearances, over that of the shell, m."""
-        return self._give / (self.relative_clearance * self.radius)
+        return self._share / (self.relative_clearance * self.radius)
 
     def _grow(self) -> None:
         pressure = self.state[LOAD] - self.p_edge
@@ -67,24 +67,31 @@ class ElasticFilm(DiscreteFilm):
         return self.gap.growth * (self.relative_clearance * self.radius)
 
     def target(self, position: Array, step: Array) -> Array:
-        """Where a step of the shaft may lead: as far as the shell gives way."""
+        """Where a step of the shaft may lead: as far as the shell deforms."""
         return position + step
 
-    def room_left(self, position: Array) -> float:
+    def clearance_left(self, position: Array) -> float:
         """Narrowest gap over the clearance, that between cells included."""
-        return min(self.gap.room(position), self.gap.narrowest(position))
+        return min(self.gap.least(position), self.gap.narrowest(position))
 
-    def room(self, u: Array, columns: Array, weights: Array, way: tuple[Array, Array]) -> float:
+    def narrowest(self, u: Array, position: Array) -> float:
+        """Narrowest gap over the clearance at any unknowns `u` and `position`."""
+        self.place(u, position)
+        return self.gap.narrowest(position)
+
+    def step_share(
+        self, u: Array, columns: Array, weights: Array, way: tuple[Array, Array]
+    ) -> float:
         """Share of a Newton step that leaves at least a third of the narrowest gap."""
         start, target = way
-        least = KEPT * self.gap.room(start)
+        least = KEPT * self.gap.least(start)
         share = 1.0
         while share > _SMALLEST:
             trial = u.copy()
             kernel.correct(trial, columns, share * weights, self.mesh.order)
             self._apply_law(trial)
             self._grow()
-            if self.gap.room(start + share * (target - start)) >= least:
+            if self.gap.least(start + share * (target - start)) >= least:
                 return share
             share *= 0.5
         return share
@@ -103,10 +110,10 @@ class ElasticFilm(DiscreteFilm):
     def _assemble(self, mass: Array, rate: float) -> None:
         super()._assemble(mass, rate)
         mesh = self.mesh
-        rims = (self.p_edge, self.p_line, self.line_fill)
+        ends = (self.p_edge, self.p_line, self.line_fill)
         shell_kernel.gap_stencil(
             self.state, self.gap.coef, *self.gap.nodes, mesh.dz, mesh.gz, mesh.closed, self.wedge,
-            rims, self.slope * rate, self.fixed, self.stencil,
+            ends, self.slope * rate, self.fixed, self.stencil,
         )  # fmt: skip
         growth = self._per_clearance * self.compliance.local * self.state[DLOAD]
         shell_kernel.add_stencil(self.stencil, growth, mesh.order, self.fixed, self.ab)
@@ -141,7 +148,9 @@ class ElasticFilm(DiscreteFilm):
         else:
             columns[:] = found.reshape(columns.shape) * sizes
 
-    def _lag(self, factors: tuple[Array, NDArray[np.int32]], columns: Array, size: int) -> None:
+    def _add_shell_squeeze(
+        self, factors: tuple[Array, NDArray[np.int32]], columns: Array, size: int
+    ) -> None:
         """Let the derivatives by velocity have the squeeze of the shell that follows the shaft."""
         by_place, by_velocity = columns[1 : size + 1], columns[size + 1 : 2 * size + 1]
         pressure = -self.state[DLOAD] * self._fields(by_place)

@@ -163,7 +163,7 @@ class EnergyEquation:
             size = max(float(np.abs(source).max()), 1e-300)
             residual = float(np.abs(missing[: self.size]).max()) / size
             step = _solved(matrix + csc_matrix((by_own, (diagonal, diagonal))), missing)
-            # nothing is colder than what is given; from there Newton climbs without overshooting
+            # nothing is colder than what is given; from there Newton rises without overshooting
             step = t - np.maximum(t - step, heat.coldest)
             t = t - step
             if not float(t.max()) < _BURNT:

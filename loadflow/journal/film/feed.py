@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.journal.lubricant import Lubricant
-from loadflow.journal.supply import Capillary, ConstantFlow, Orifice, Pump, Restrictor, Supply
+from loadflow.journal.supply import Supply
 
 Array = NDArray[np.float64]
 
@@ -45,8 +45,8 @@ class Feed:
     @property
     def largest_flow(self) -> float:
         """Largest of the constant flows, m³/s."""
-        parts = [g.restrictor for g in self.supply.grooves]
-        return max([0.0, *(r.flow for r in parts if isinstance(r, ConstantFlow))])
+        flows = (g.restrictor.given_flow for g in self.supply.grooves if g.restrictor is not None)
+        return max([0.0, *(flow for flow in flows if flow is not None)])
 
     def guess(self, edge_pressure: float) -> list[float]:
         """Pressure of every groove, Pa: as given, or halfway to its source."""
@@ -73,7 +73,7 @@ class Feed:
         Returns
         -------
         mismatch : array (m,)
-            Zero where pressure and flow have settled.
+            Zero where pressure and flow agree.
         by_pressure : array (m,)
             Its derivative by the pressure of the same groove.
         by_flow : array (m, m)
@@ -85,12 +85,15 @@ class Feed:
         source, slope = self._source(float(flow.sum()))
         for row, number in enumerate(self.free):
             groove = self.supply.grooves[number]
-            if isinstance(groove.restrictor, ConstantFlow):
-                missing[row] = scale * (flow[row] / groove.restrictor.flow - 1.0)
-                by_pressure[row] = 0.0
-                by_flow[row, row] = scale / groove.restrictor.flow
-                continue
-            drop, rise = pressure_drop(groove.restrictor, float(flow[row]), self.lubricant)
+            restrictor, drop, rise = groove.restrictor, 0.0, 0.0
+            if restrictor is not None:
+                given = restrictor.given_flow
+                if given is not None:
+                    missing[row] = scale * (flow[row] / given - 1.0)
+                    by_pressure[row] = 0.0
+                    by_flow[row, row] = scale / given
+                    continue
+                drop, rise = restrictor.pressure_drop(float(flow[row]), self.lubricant)
             before = groove.pressure if source is None else source
             missing[row] = pressure[row] - before + drop
             by_flow[row] = -slope
@@ -102,8 +105,10 @@ class Feed:
         pump = self.supply.pump
         if pump is None:
             return None, 0.0
-        pressure, slope = pump_pressure(pump, flow)
-        drop, rise = pressure_drop(pump.line, flow, self.lubricant)
+        pressure, slope = pump.at(flow)
+        if pump.line is None:
+            return pressure, slope
+        drop, rise = pump.line.pressure_drop(flow, self.lubricant)
         return pressure - drop, slope - rise
 
     def power(self, pressure: Array, flow: Array) -> float:
@@ -114,32 +119,7 @@ class Feed:
         """
         if self.supply.pump is not None:
             total = float(flow.sum())
-            return total * (pump_pressure(self.supply.pump, total)[0] - self.supply.tank_pressure)
+            return total * (self.supply.pump.at(total)[0] - self.supply.tank_pressure)
         stated = np.array([g.pressure for g in self.supply.grooves])
         before = np.where(stated > 0, stated, pressure)
         return float(flow @ (before - self.supply.tank_pressure))
-
-
-def pressure_drop(
-    restrictor: Restrictor | None, flow: float, lubricant: Lubricant
-) -> tuple[float, float]:
-    """Pressure that `flow` (m³/s) loses in a restrictor, Pa, and its slope."""
-    if isinstance(restrictor, Capillary):
-        bore = restrictor
-        slope = 128 * lubricant.viscosity * bore.length / (np.pi * bore.diameter**4)
-        return slope * flow, slope
-    if isinstance(restrictor, Orifice):
-        area = restrictor.discharge_coefficient * 0.25 * np.pi * restrictor.diameter**2
-        factor = 0.5 * lubricant.density / area**2
-        return factor * flow * abs(flow), 2 * factor * abs(flow)
-    return 0.0, 0.0
-
-
-def pump_pressure(pump: Pump, flow: float) -> tuple[float, float]:
-    """Pressure of a pump at `flow` (m³/s), Pa, and its slope."""
-    if len(pump.flow) == 1:
-        return pump.pressure[0], 0.0
-    points = np.array(pump.flow)
-    part = int(np.clip(np.searchsorted(points, flow) - 1, 0, points.size - 2))
-    slope = (pump.pressure[part + 1] - pump.pressure[part]) / (points[part + 1] - points[part])
-    return float(pump.pressure[part] + slope * (flow - points[part])), float(slope)

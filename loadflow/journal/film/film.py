@@ -88,7 +88,6 @@ class DiscreteFilm:
         self.law = law
         self._address, self._numbers = law.address, np.array(law.numbers, dtype=float)
         self.ruptures = law.ruptures
-        self.creeps = law.moves_by_cells
         self.p_edge = edge_pressure
         self.p_line = edge_pressure if end_pressure is None else end_pressure
         self.ends_supply = end_pressure is not None and not gap.mesh.closed
@@ -100,6 +99,7 @@ class DiscreteFilm:
         self.pockets = pockets
         self.fixed = self.grooved = pockets.fixed  # cells held, and those of them without drag
         self.given = pockets.given(edge_pressure)
+        self.lifts = pockets.lifts(edge_pressure)  # whether the supply may carry a load at rest
         self.set_scale(0.0)
         self.set_speed(0.0)
 
@@ -128,7 +128,7 @@ class DiscreteFilm:
         self.given = np.where(columns[:, None] & ~self.grooved, pressure, self.given)
         self.fixed = self.grooved = self.grooved | columns[:, None]
 
-    def rest(self, columns: NDArray[np.bool_]) -> None:
+    def unload(self, columns: NDArray[np.bool_]) -> None:
         """Hold `columns` (nx,) of cells at edge pressure: pads without load."""
         self.fixed = self.grooved | columns[:, None]
 
@@ -177,12 +177,12 @@ class DiscreteFilm:
         """Outflow of every cell (nx, nz) at the state last placed, or by a `change` of it."""
         mesh = self.mesh
         field = np.zeros(mesh.shape)
-        state, rim, line, full = self.state, self.p_edge, self.p_line, self.line_fill
+        state, edge, line, full = self.state, self.p_edge, self.p_line, self.line_fill
         if change is not None:
-            state, rim, line, full = change, 0.0, 0.0, 0.0
+            state, edge, line, full = change, 0.0, 0.0, 0.0
         kernel.balance(
             state, coef, mesh.dz, mesh.area, mesh.gz, mesh.closed, self.wedge,
-            rim, line, full, mass, self.fixed, field,
+            edge, line, full, mass, self.fixed, field,
         )  # fmt: skip
         return field
 
@@ -241,9 +241,9 @@ class DiscreteFilm:
         for column, field in zip(columns, fields):
             kernel.gather(field, mesh.order, column)
         self._solve((lu, pivots), columns)
-        self._lag((lu, pivots), columns, gap.size)
+        self._add_shell_squeeze((lu, pivots), columns, gap.size)
         if free.size:
-            columns = self._settle(columns, np.array(flows), mass)
+            columns = self._freed(columns, np.array(flows), mass)
 
         carried = self.mirrors * self.radius**2 * self._carried(columns)
         load = self._load(around) - carried[0]
@@ -283,14 +283,16 @@ class DiscreteFilm:
         band = self.mesh.bandwidth
         dgbtrs(lu, band, band, columns.T, pivots, overwrite_b=1)
 
-    def _lag(self, factors: tuple[Array, NDArray[np.int32]], columns: Array, size: int) -> None:
+    def _add_shell_squeeze(
+        self, factors: tuple[Array, NDArray[np.int32]], columns: Array, size: int
+    ) -> None:
         """Let the derivatives by velocity know what else moves with the shaft: nothing, if rigid.
 
         After the Newton step, `columns` hold `size` derivatives by position (fewer where the mesh
         turns) and `size` by velocity.
         """
 
-    def _settle(self, columns: Array, direct: Array, mass: Array) -> Array:
+    def _freed(self, columns: Array, direct: Array, mass: Array) -> Array:
         """Let the pressure of the free grooves follow their flow in all `columns`."""
         pockets, mesh = self.pockets, self.mesh
         change = np.zeros_like(self.state)
@@ -304,7 +306,7 @@ class DiscreteFilm:
             row[:] = pockets.flows(outflow)[pockets.free]
         pressure = pockets.of_free(self.state[P])
         slope = pockets.of_free(self.state[DP])
-        return pockets.settle(columns, direct, through, pressure, slope, self.scale)
+        return pockets.eliminate(columns, direct, through, pressure, slope, self.scale)
 
     def _carried(self, columns: Array) -> Array:
         """Change of ∫ p N_j dA by each of `columns` (l, n), (l, m), in units of R²."""
@@ -344,10 +346,10 @@ class DiscreteFilm:
         """Apply a Newton step to `u`; returns its largest change over the scale of pressure."""
         return kernel.correct(u, columns, weights, self.mesh.order) / self.scale
 
-    def relax(self, give: float = 1.0) -> None:
-        """Let go of what pressure has deformed; from now on the shell gives way by a share `give`.
+    def relax(self, share: float = 1.0) -> None:
+        """Undo what pressure has deformed; the shell then has a `share` of its compliance.
 
-        A rigid shell does not.
+        A rigid shell does not deform.
         """
 
     @property
@@ -355,15 +357,25 @@ class DiscreteFilm:
         """Growth of the gap of the cells by the last pressure, (nx, nz), m."""
         return np.zeros(self.mesh.shape)
 
-    def room_left(self, position: Array) -> float:
+    def clearance_left(self, position: Array) -> float:
         """Narrowest gap over the clearance, that between cells included; no limit if rigid."""
         return math.inf
 
+    def narrowest(self, u: Array, position: Array) -> float:
+        """Narrowest gap over the clearance at any unknowns `u` and `position`."""
+        return self.gap.narrowest(position)
+
+    def newton_steps(self, most: int) -> int:
+        """Newton steps to allow, at least `most`: a rupture that moves by cells needs one each."""
+        return max(most, self.mesh.shape[0]) if self.law.moves_by_cells else most
+
     def target(self, position: Array, step: Array) -> Array:
-        """Where a step of the shaft may lead, if there is `room`."""
+        """Where a step of the shaft may lead, before `step_share` shortens it."""
         return self.gap.advance(position, step)
 
-    def room(self, u: Array, columns: Array, weights: Array, way: tuple[Array, Array]) -> float:
+    def step_share(
+        self, u: Array, columns: Array, weights: Array, way: tuple[Array, Array]
+    ) -> float:
         """Share of a Newton step that leaves a film between shaft and shell; `way`: from, to."""
         return 1.0
 
@@ -437,7 +449,7 @@ class DiscreteFilm:
         return self.slope * self.state[FILL] * volume
 
     def stock(self) -> tuple[float, float]:
-        """Liquid outside the grooves, m³, and what it gains over rims and grooves, m³/s."""
+        """Liquid outside the grooves, m³, and what it gains over ends and grooves, m³/s."""
         mass = np.zeros((self.mesh.shape[0], self.gap.across.shape[1]))
         outflow = self.balance(self.gap.coef, mass)
         free = ~self.fixed

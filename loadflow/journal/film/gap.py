@@ -32,7 +32,7 @@ class Gap(Protocol):
         Number of degrees of freedom m, and of those of the shaft.
     coef : array (8, nx + 1, rows)
         Coefficients of the gap where the shaft was last placed, rows as in `_kernels`.
-    ease : array (m,)
+    dof_scale : array (m,)
         How readily each degree of freedom moves where nothing holds it.
     across : array (m, rows)
         Modes along the axis, of which `around` (m, nx) is the factor around.
@@ -44,7 +44,7 @@ class Gap(Protocol):
 
     size: int
     shaft: int
-    ease: Array
+    dof_scale: Array
     coef: Array
     across: Array
     roughness: float
@@ -71,6 +71,48 @@ class Gap(Protocol):
         """Narrowest gap over the clearance; ≤ 0 where the shaft would touch the bore."""
 
 
+class BoreGap(Gap, Protocol):
+    """What statics asks of the gap in a bore, beside what the film does.
+
+    Attributes
+    ----------
+    axisymmetric : bool
+        Whether a cylinder surrounds an aligned shaft.
+    tilts : bool
+        Whether rotations of the shaft are among its degrees of freedom.
+    pads : array of int
+        Degrees of freedom of the pads that tilt.
+    first_gap : float
+        Narrowest gap, in clearances, that a first position must leave.
+    """
+
+    axisymmetric: bool
+    tilts: bool
+    pads: NDArray[np.int64]
+    first_gap: float
+
+    def held(self, tilt: Array | None, bend: Array | None) -> Array:
+        """Centred position (m,) of a shaft whose line has the given tilt and curvature."""
+
+    def converging(self, position: Array) -> NDArray[np.int64]:
+        """Pads whose film can hold them at `position`: those toward which it narrows."""
+
+    def lifted(self, position: Array, sense: float) -> Array:
+        """Position with pads tilted so that their gap converges in the sense of rotation."""
+
+    def closest(self, position: Array) -> tuple[float, float, float]:
+        """Narrowest gap (clearances), its angle (rad) and axial place (shaft radii)."""
+
+    def closing(self, position: Array, limit: float) -> tuple[float, ...]:
+        """Angles, rad, at which the gap has a minimum below `limit`, clearances."""
+
+    def reach(self, direction: Array, least: float) -> float:
+        """How far the centred shaft may go along a unit vector (2,); it leaves a gap `least`."""
+
+    def widest(self, position: Array, free: slice | NDArray[np.int64]) -> Array:
+        """Position of the widest narrowest gap, when only the degrees of freedom `free` move."""
+
+
 def turning_frame(position: Array) -> Array:
     """Axes of the frame that turns with the eccentricity: along it, and a quarter turn on."""
     x, y = position.tolist()
@@ -79,10 +121,13 @@ def turning_frame(position: Array) -> Array:
     return np.array([[cos, -sin], [sin, cos]])
 
 
-class PlainGap:
+class CylindricalGap:
     """Gap of a cylinder around an aligned shaft; its mesh may turn with the eccentricity."""
 
     size = shaft = 2
+    axisymmetric, tilts = True, False
+    pads: NDArray[np.int64] = np.arange(0)
+    first_gap = 0.0  # that of the closed form, which is its own
     roughness: float = 0.0
     open_share: Array | None = None
 
@@ -91,7 +136,7 @@ class PlainGap:
         shape = (8, mesh.angle.size + 1, 1)
         self.coef = np.zeros(shape)
         self.across = np.ones((2, 1))
-        self.ease = np.ones(2)
+        self.dof_scale = np.ones(2)
         self._shifted = (np.zeros(shape), np.zeros(shape))
 
     @property
@@ -159,6 +204,36 @@ class PlainGap:
     def narrowest(self, position: Array) -> float:
         """Narrowest gap over the clearance."""
         return 1.0 - math.hypot(*position)
+
+    # --- what statics asks -----------------------------------------------------------------------
+    def held(self, tilt: Array | None, bend: Array | None) -> Array:
+        """Centred position; the shaft is aligned and straight."""
+        return np.zeros(2)
+
+    def converging(self, position: Array) -> NDArray[np.int64]:
+        """There are no pads."""
+        return self.pads
+
+    def lifted(self, position: Array, sense: float) -> Array:
+        """The position itself: there are no pads."""
+        return position
+
+    def closest(self, position: Array) -> tuple[float, float, float]:
+        """Narrowest gap (clearances), its angle (rad), and mid-plane."""
+        return 1.0 - math.hypot(*position), math.atan2(position[1], position[0]), 0.0
+
+    def closing(self, position: Array, limit: float) -> tuple[float, ...]:
+        """Angle, rad, of the narrowest gap where it is below `limit`, clearances."""
+        gap, angle, _ = self.closest(position)
+        return (angle,) if gap < limit else ()
+
+    def reach(self, direction: Array, least: float) -> float:
+        """How far the centred shaft may go along a unit vector (2,); it leaves a gap `least`."""
+        return 1.0 - least
+
+    def widest(self, position: Array, free: slice | NDArray[np.int64]) -> Array:
+        """The centre."""
+        return np.zeros(2)
 
 
 def _around(coef: Array) -> Array:

@@ -1,4 +1,4 @@
-"""Gap of a shell that gives way: that of `ShapedGap`, grown cell by cell."""
+"""Gap of an elastic shell: that of `ShapedGap`, grown cell by cell."""
 
 from __future__ import annotations
 
@@ -23,17 +23,17 @@ class ElasticGap(ShapedGap):
     ----------
     mesh, bore
         As for `ShapedGap`.
-    rims_give : bool
+    ends_deform : bool
         Whether the growth goes on to the bearing ends, or ends there with the pressure.
     """
 
-    def __init__(self, mesh: ShapedMesh, bore: Bore, rims_give: bool) -> None:
+    def __init__(self, mesh: ShapedMesh, bore: Bore, ends_deform: bool) -> None:
         super().__init__(mesh, bore, along=True)
         self._rigid_face, self._rigid_cell = self._face_gap, self._cell_gap
         columns = np.arange(mesh.shape[0])
         first, last = (columns[-1], 0) if mesh.closed else (0, columns[-1])
         self._sides = np.append(first, columns), np.append(columns, last)
-        self._to_spots = _around(self._spots_angle, mesh), _across(self._spots_z, mesh, rims_give)
+        self._to_spots = _around(self._spots_angle, mesh), _across(self._spots_z, mesh, ends_deform)
         self.growth = np.zeros(mesh.shape)
 
     def grow(self, growth: Array) -> None:
@@ -68,7 +68,7 @@ class ElasticGap(ShapedGap):
         cos, sin = self._cell[:2, :, None]
         return face, self._cell_gap - ex * cos - ey * sin
 
-    def room(self, position: Array) -> float:
+    def least(self, position: Array) -> float:
         """Narrowest gap, in clearances, that the balance of the film takes up."""
         return min(float(gaps.min()) for gaps in self.films(*self.centre(position)))
 
@@ -100,17 +100,17 @@ def _around(angle: Array, mesh: ShapedMesh) -> _Line:
     return _Line.through(mesh.angle[cells] + 2 * np.pi * turns, cells, angle)
 
 
-def _across(z: Array, mesh: ShapedMesh, rims_give: bool) -> _Line:
+def _across(z: Array, mesh: ShapedMesh, ends_deform: bool) -> _Line:
     """Lines between the cells across, to `z`, mirrored at mid-plane where that is an end.
 
-    Behind the cells there is a row that stays: the bearing ends, if they do not give.
+    Behind the cells there is a row that stays: the bearing ends, if they do not deform.
     """
     count = mesh.z.size
     nodes, rows = mesh.z, np.arange(count)
-    if not rims_give:
+    if not ends_deform:
         nodes, rows = np.append(nodes, mesh.z_edges[-1]), np.append(rows, count)
     if mesh.half:
         nodes, rows = np.append(-mesh.z[0], nodes), np.append(0, rows)
-    elif not rims_give:
+    elif not ends_deform:
         nodes, rows = np.append(mesh.z_edges[0], nodes), np.append(count, rows)
     return _Line.through(nodes, rows, z)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from loadflow.journal.film.mesh import Mesh, graded_share
 from loadflow.journal.film_model import check_grid
-from loadflow.journal.shapes import Recess, Relief, Segment
+from loadflow.journal.shapes import Relief, Segment
 
 Array = NDArray[np.float64]
 _TURN = 2 * np.pi
@@ -43,11 +43,11 @@ class ShapedMesh(Mesh):
     graded: bool
 
     @property
-    def rims(self) -> tuple[float, float]:
+    def end_distances(self) -> tuple[float, float]:
         """Distances of the outermost cell centres to the ends, as exact as graded cells allow."""
         if not self.graded:
-            return super().rims
-        distance = _rim_distance(self.z_edges[self.z_edges >= 0.0])
+            return super().end_distances
+        distance = _end_distance(self.z_edges[self.z_edges >= 0.0])
         return distance, distance
 
     @cached_property
@@ -144,7 +144,7 @@ def _halved(low: float, high: float, angle: float) -> Array:
     return np.append(_halved(low, middle, angle)[:-1], _halved(middle, high, angle))
 
 
-def _rim_distance(edges: Array) -> float:
+def _end_distance(edges: Array) -> float:
     """Distance from the outermost cell centre to the end that makes a parabola's load exact.
 
     `edges` run from mid-plane 0 to the end b. Cells of p'' = −1 have the exact flow p' = −z at
@@ -154,16 +154,17 @@ def _rim_distance(edges: Array) -> float:
     centres, widths = 0.5 * (edges[1:] + edges[:-1]), np.diff(edges)
     falls = np.append(edges[1:-1] * np.diff(centres), 0.0)
     above = np.cumsum(falls[::-1])[::-1]  # pressure over that of the outermost cell
-    rim = float(edges[-1])
-    return float((rim**3 / 3.0 - above @ widths) / rim**2)
+    end = float(edges[-1])
+    return float((end**3 / 3.0 - above @ widths) / end**2)
 
 
-def recess_marks(relief: tuple[Relief, ...], radius: float, width: float) -> tuple[list, list]:
-    """Angles and axial places (shaft radii) of the edges of all recesses."""
-    recesses = [part for part in relief if isinstance(part, Recess)]
-    turns = [angle for recess in recesses for angle in recess.around()]
-    places = [z for recess in recesses for z in recess.across(width) if abs(z) < 0.5 * width]
-    return turns, [z / radius for z in places]
+def relief_marks(
+    relief: tuple[Relief, ...], radius: float, width: float
+) -> tuple[list[float], list[float]]:
+    """Angles and axial places (shaft radii) at which the gap steps."""
+    steps = [part.steps(width) for part in relief]
+    turns = [angle for around, _ in steps for angle in around]
+    return turns, [z / radius for _, across in steps for z in across]
 
 
 def _around_segments(

@@ -1,4 +1,4 @@
-"""Gaps between rough surfaces: those of `PlainGap` and `ShapedGap`, closed only by asperities.
+"""Gaps between rough surfaces, which only asperities close: `CylindricalGap`, `ShapedGap`.
 
 The shaft may pass the place where smooth surfaces would touch; the oil flows through the mean gap
 that is left, `narrowest` is its smallest value.
@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from loadflow.journal.contact import Contact
 from loadflow.journal.film import _rough_kernels as kernel
-from loadflow.journal.film.gap import KEPT, PlainGap
+from loadflow.journal.film.gap import KEPT, CylindricalGap
 from loadflow.journal.film.gap_mesh import ShapedMesh
 from loadflow.journal.film.gap_shaped import Bore, ShapedGap
 from loadflow.journal.film.mesh import Mesh
@@ -49,7 +49,7 @@ class _Rough:
         return float(kernel.mean_film(gap, self.roughness)[0])
 
 
-class RoughGap(PlainGap):
+class RoughGap(CylindricalGap):
     """Gap of a rough cylinder around an aligned, rough shaft.
 
     Parameters
@@ -120,12 +120,12 @@ class RoughShapedGap(ShapedGap):
         """Position after `step`, of which every place keeps a third of its gap or roughness."""
         gaps = self.gaps(position)
         closing = (self._reach.T * step) @ self._lengths
-        room = np.minimum(
+        allowed = np.minimum(
             (1.0 - KEPT) * np.maximum(gaps, self.roughness),
             np.maximum(gaps + self.rough.deepest, 0.0),
         )
-        tight = closing > room
-        share = float((room[tight] / closing[tight]).min(initial=1.0))
+        tight = closing > allowed
+        share = float((allowed[tight] / closing[tight]).min(initial=1.0))
         return position + share * step
 
     def narrowest(self, position: Array) -> float:

@@ -11,11 +11,14 @@ from numpy.typing import NDArray
 from loadflow.journal.film import _kernels as kernel
 from loadflow.journal.film.gap import KEPT
 from loadflow.journal.film.gap_mesh import ShapedMesh
+from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.shapes import Relief, Segment
 
 Array = NDArray[np.float64]
 _STAYS = 1e-3  # readiness of a shaft that nothing holds to move, against that of its pad
 _SMALL_LIFT = 0.03  # tilt of a pad, in clearances, from which it may grow threefold in a step
+_LIFT = 0.3  # share of the gap over the pivot by which a pad is tilted at first
+_FLAT = 0.02  # curvature of a pad's gap, in clearances, that still holds it
 _FINE = np.radians(0.5)  # distance of the angles at which the narrowest gap is sought
 
 
@@ -28,6 +31,12 @@ class Bore:
     radius: float
     width: float
     clearance: float
+
+    @classmethod
+    def of(cls, bearing: JournalGeometry) -> Bore:
+        """Bore of a bearing."""
+        shape, lengths = bearing.shape, (bearing.radius, bearing.width, bearing.clearance)
+        return cls(shape.segments, bearing.relief, *lengths)
 
     @property
     def along(self) -> bool:
@@ -96,6 +105,8 @@ class ShapedGap:
 
     roughness: float = 0.0
     open_share: Array | None = None
+    axisymmetric = False
+    first_gap = 0.02
 
     def __init__(self, mesh: ShapedMesh, bore: Bore, along: bool = False) -> None:
         self.mesh = mesh
@@ -103,7 +114,8 @@ class ShapedGap:
         self.tilts = not mesh.half
         self.shaft = 4 if self.tilts else 2
         self.size = self.shaft + len(bore.pads)
-        self.ease = np.repeat([_STAYS, 1.0], [self.shaft, len(bore.pads)])
+        self.dof_scale = np.repeat([_STAYS, 1.0], [self.shaft, len(bore.pads)])
+        self.pads = np.arange(self.shaft, self.size)
         nx, nz = mesh.shape
         along = along or self.tilts or bore.along
         rows = nz if along else 1
@@ -168,6 +180,15 @@ class ShapedGap:
         self._spots_line = np.zeros((2, z.size))
 
     # --- the shaft's centre line -----------------------------------------------------------------
+    def held(self, tilt: Array | None, bend: Array | None) -> Array:
+        """Centred position of a shaft tilted by `tilt` (2,), rad, and bent by `bend` (2,), 1/m."""
+        position, unit = np.zeros(self.size), self.bore.radius / self.bore.clearance
+        if bend is not None:
+            self.bend(bend * self.bore.radius * unit)
+        if tilt is not None:
+            position[2:4] = tilt * unit
+        return position
+
     def bend(self, curvature: Array) -> None:
         """Bend the shaft: curvature (2,) of its centre line over that of one clearance per R²."""
         self.curvature = curvature
@@ -258,6 +279,33 @@ class ShapedGap:
         """Tilt of a pad against the shaft: its own less the way of the shaft past it."""
         return float(position[row] + position[:2] @ self._tangents[row - self.shaft])
 
+    def converging(self, position: Array) -> NDArray[np.int64]:
+        """Pads whose film can hold them at `position`: those toward which it narrows."""
+        if not self.pads.size:
+            return self.pads
+        pivots = (self.bore.segments[number] for number in self.bore.pads)
+        holds = [
+            part.preload / (1.0 - part.preload) + _turned(position, part.narrowest)[0] > _FLAT
+            for part in pivots
+        ]
+        return self.pads[holds]
+
+    def lifted(self, position: Array, sense: float) -> Array:
+        """Position with pads tilted so that their gap converges in the sense of rotation."""
+        position = position.copy()
+        position[self.pads] = 0.0
+        for row in self.converging(position):
+            part = self.bore.segments[self.bore.pads[row - self.shaft]]
+            pivot = part.narrowest
+            toward, aside = _turned(position, pivot)
+            lift = _LIFT * (1.0 - toward) / math.sin(max(pivot - part.start, part.end - pivot))
+            position[row] = math.copysign(lift, sense) - aside
+        return position
+
+    def columns_of(self, pads: NDArray[np.int64]) -> NDArray[np.bool_]:
+        """Columns of cells (nx,) that belong to `pads`."""
+        return np.isin(self.mesh.segment, np.array(self.bore.pads)[pads - self.shaft])
+
     def widest_lift(self, row: int, position: Array, sign: float) -> float:
         """Lift of a pad, times `sign`, at which its one end meets the shaft."""
         flat = position.copy()
@@ -288,20 +336,37 @@ class ShapedGap:
                 angles.append(float(self._spots_angle[nearest]))
         return tuple(angles)
 
-    def roomiest(self, position: Array, free: NDArray[np.int64]) -> Array:
-        """Position with the widest narrowest gap, when only the degrees of freedom `free` move."""
+    def reach(self, direction: Array, least: float) -> float:
+        """How far the centred shaft may go along a unit vector (2,); it leaves a gap `least`."""
+        step = np.zeros(self.size)
+        step[:2] = direction
+        closing = (self._reach.T * step) @ self._lengths
+        gaps = self.gaps(np.zeros(self.size)) - least
+        closes = closing > 0.0
+        return float((gaps[closes] / closing[closes]).min(initial=np.inf))
+
+    def widest(self, position: Array, free: slice | NDArray[np.int64]) -> Array:
+        """Position of the widest narrowest gap, when only the degrees of freedom `free` move."""
         from scipy.optimize import linprog
 
+        free = np.arange(self.size)[free]
         held = position.copy()
         held[free] = 0.0
-        room = self.gaps(held).ravel()
+        gaps = self.gaps(held).ravel()
         taken = (self._reach[free, :, None] * self._lengths[free, None, :]).reshape(free.size, -1)
-        # widest t with taken·q + t ≤ room
+        # widest t with taken·q + t ≤ gaps
         answer = linprog(
             np.append(np.zeros(free.size), -1.0),
-            A_ub=np.column_stack([taken.T, np.ones(room.size)]),
-            b_ub=room,
+            A_ub=np.column_stack([taken.T, np.ones(gaps.size)]),
+            b_ub=gaps,
             bounds=[(None, None)] * free.size + [(None, 1.0)],
         )
         held[free] = answer.x[:-1]
         return held
+
+
+def _turned(position: Array, angle: float) -> tuple[float, float]:
+    """Eccentricity toward `angle`, and a quarter turn on."""
+    cos, sin = math.cos(angle), math.sin(angle)
+    x, y = position[:2].tolist()
+    return x * cos + y * sin, y * cos - x * sin

@@ -184,7 +184,7 @@ class SurfaceGap:
         factors, self.across = self.motions(mesh.z)
         self._factors, self._ends = factors, self.motions(mesh.faces)[1]
         self.size = self.shaft = len(factors)
-        self.ease = np.ones(self.size)
+        self.dof_scale = np.ones(self.size)
 
         def sampled(start: Array, end: Array) -> tuple[Array, Array, Array]:
             angle = 0.5 * (start + end)

@@ -91,7 +91,7 @@ class Pockets:
         """Values of a `field` (nx, nz) in the free grooves."""
         return field.ravel()[self.samples[self.free]]
 
-    def settle(
+    def eliminate(
         self,
         columns: Array,
         direct: Array,
@@ -124,7 +124,7 @@ class Pockets:
         held, answer = columns[: -self.free.size], columns[-self.free.size :]
         flow = direct - through[: held.shape[0]]
         # restrictors are linearised at the flow that the step of the film leaves, not at that of a
-        # film which has not yet settled round a groove
+        # film which has not yet converged round a groove
         mismatch, by_pressure, by_flow = self.feed.mismatch(pressure, flow[0], scale)
         matrix = np.diag(by_pressure * slope) + by_flow @ through[held.shape[0] :].T
         change = np.concatenate([[mismatch], flow[1:] @ by_flow.T])

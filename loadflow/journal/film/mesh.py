@@ -18,7 +18,7 @@ MAP_STRENGTH = (
     0.95  # of the Sommerfeld map, times the eccentricity ratio: least error up to ε = 0.99
 )
 _FLATTEST = 0.99  # stretch of the map, which ends at 1
-RIM_STRENGTH = 0.8  # share of the sine in the axial grading toward the bearing end
+END_STRENGTH = 0.8  # share of the sine in the axial grading toward the bearing end
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,14 +80,14 @@ class Mesh:
         return bool(self.z_edges[0] == 0.0)
 
     @property
-    def rims(self) -> tuple[float, float]:
+    def end_distances(self) -> tuple[float, float]:
         """Distances of the outermost cell centres to the ends of `z_edges`."""
         return float(self.z[0] - self.z_edges[0]), float(self.z_edges[-1] - self.z[-1])
 
     @cached_property
     def gz(self) -> Array:
         """Inverse distances between cell centres and to the ends (nz + 1,); 0 at mid-plane."""
-        first, last = self.rims
+        first, last = self.end_distances
         inverse = 1.0 / np.concatenate([[first], np.diff(self.z), [last]])
         if self.half:
             inverse[0] = 0.0
@@ -133,9 +133,9 @@ def _gauss(edges: Array, nodes: int) -> tuple[Array, Array, Array]:
 
 
 def graded_share(cells: int) -> Array:
-    """Edges of `cells` from mid-plane 0 to rim 1 that crowd at the bearing end."""
+    """Edges of `cells` from mid-plane 0 to end 1 that crowd at the bearing end."""
     share = np.linspace(0.0, 1.0, cells + 1)
-    return (1 - RIM_STRENGTH) * share + RIM_STRENGTH * np.sin(0.5 * np.pi * share)
+    return (1 - END_STRENGTH) * share + END_STRENGTH * np.sin(0.5 * np.pi * share)
 
 
 @lru_cache(maxsize=32)

@@ -19,6 +19,12 @@ import math
 import numpy as np
 from numba import njit
 
+from loadflow.numerics import convergence
+
+is_small = njit(cache=True, nogil=True)(convergence.is_small)
+stalled = njit(cache=True, nogil=True)(convergence.stalled)
+_FINEST = convergence.rounding_level(1.0)
+
 # entries of `axes`: steps of ξ, χ, y; the scale s1; the largest ξ and s
 D_XI, D_CHI, D_Y, S1, XI_MAX, S_MAX = range(6)
 # entries of `units`: N of s = 1, clearances per second of velocity 1
@@ -27,6 +33,7 @@ LOAD, VELOCITY = range(2)
 STRETCH = 0.25  # power in k
 RADIAL_POWER, TANGENTIAL_POWER = 1.5, 1.0
 _BRACKETS = 60
+_BALANCED = 1e-9  # of the logarithm of the ratio of two velocities
 _CLOSEST = 1e-9  # of the clearance: gap below which the map is asked as if it were this
 _GAMMA = 1.0 / (2.0 + math.sqrt(2.0))
 _E32 = 6.0 + math.sqrt(2.0)
@@ -238,24 +245,25 @@ def _surplus(motion, axes, xi, size, wanted, raw):
 
 
 @njit(cache=True, nogil=True)
-def steady(motion, axes, units, size, speed, gap, chi, iterations):
+def steady(motion, axes, units, size, speed, gap, chi, iterations, residual):
     """Fill `gap` and `chi` (> 0) (n,) of the shaft at rest under loads s > 0 and speeds > 0.
 
-    The tangential velocity of the map then balances the flow of the oil, ω ε / 2. `iterations` is
-    0 for a load beyond the map, which gets the gap at its end.
+    The tangential velocity of the map then balances the flow of the oil, ω ε / 2; `residual` is
+    the logarithm of their ratio. A bracket that has closed to the rounding of its ends is an
+    answer as well. `iterations` is 0 where there is none: beyond the map, or out of patience.
     """
-    raw = np.empty(2)
+    raw, finest = np.empty(2), _FINEST * axes[XI_MAX]
     for n in range(size.size):
         wanted = 0.5 * speed[n] / units[VELOCITY]
         low, high, side = 0.0, axes[XI_MAX], 0
         at_low, _ = _surplus(motion, axes, low, size[n], wanted, raw)
         at_high, turn = _surplus(motion, axes, high, size[n], wanted, raw)
-        xi = high
+        xi, here = high, at_high
         if at_high < 0.0:
             for iterations[n] in range(1, _BRACKETS + 1):
                 xi = high - at_high * (high - low) / (at_high - at_low)
                 here, turn = _surplus(motion, axes, xi, size[n], wanted, raw)
-                if abs(here) < 1e-9 or high - low < 1e-11:
+                if is_small(abs(here), _BALANCED, 0.0) or stalled(high - low, finest):
                     break
                 if here > 0.0:
                     low, at_low = xi, here
@@ -265,8 +273,9 @@ def steady(motion, axes, units, size, speed, gap, chi, iterations):
                     high, at_high = xi, here
                     at_low *= 0.5 if side < 0 else 1.0
                     side = -1
-        gap[n] = math.exp(-xi)
-        chi[n] = turn
+            else:
+                iterations[n] = 0
+        gap[n], chi[n], residual[n] = math.exp(-xi), turn, abs(here)
 
 
 @njit(cache=True, nogil=True)

@@ -20,7 +20,7 @@ from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
 from loadflow.journal.results import operating_columns, without_supply
-from loadflow.journal.solvers.newton import refusal
+from loadflow.journal.solvers.messages import no_equilibrium
 from loadflow.numerics.fields import require
 from loadflow.tribology import film, film_tables
 
@@ -96,7 +96,7 @@ class Chart:
             bad = int(np.flatnonzero(~found)[0])
             end = f"the chart ends there, at ε = {self.largest:.6g}"
             why = f"So = {number[bad]:.6g}: {end}"
-            raise SolverError(f"load {bad}: {refusal(force[bad], speed[bad], why)}")
+            raise SolverError(f"load {bad}: {no_equilibrium(force[bad], speed[bad], why)}")
         turn = np.arctan2(force[:, 1], force[:, 0]) + np.sign(speed) * attitude
         position = ratio[:, None] * np.stack([np.cos(turn), np.sin(turn)], axis=-1)
         known = np.nan_to_num(ratio)

@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import SolverError
-from loadflow.journal.film.film import EVERY
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
@@ -17,17 +16,11 @@ from loadflow.journal.models.model import Steps
 from loadflow.journal.results import columns_of
 from loadflow.journal.solvers.periodic import (
     Method,
+    check_half_speed_whirl,
     check_period,
     close_orbit,
-    refuse_half_speed_whirl,
 )
-from loadflow.journal.solvers.statics import plain_fields, plain_film, plain_rows, plain_start
-from loadflow.journal.solvers.statics_shaped import (
-    equilibrium_rows,
-    field_rows,
-    orbit_start,
-    plain,
-)
+from loadflow.journal.solvers.statics import equilibrium_rows, field_rows, orbit_start
 from loadflow.journal.solvers.transient import (
     Marcher,
     march,
@@ -37,7 +30,6 @@ from loadflow.journal.solvers.transient import (
 )
 from loadflow.journal.solvers.warm import warm_fields, warm_rows
 from loadflow.numerics.convergence import Limits
-from loadflow.numerics.fields import require
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -53,10 +45,7 @@ def equilibrium(
     """Static equilibria: fields of `Equilibrium`, (n, …)."""
     if film.heat is not None:
         return columns_of(warm_rows(bearing, film, force, speed, line, limits))
-    if _aligned(bearing, film, line):
-        return columns_of(plain_rows(bearing, film, force, speed, limits))
-    rows = equilibrium_rows(bearing, film, force, speed, line, limits, line.whirl)
-    return columns_of(rows)
+    return columns_of(equilibrium_rows(bearing, film, force, speed, line, limits))
 
 
 def pressure(
@@ -71,8 +60,6 @@ def pressure(
     """Films at given positions: fields of `FilmField`, (n, …), and axial places of the cells, m."""
     if film.heat is not None:
         rows, z = warm_fields(bearing, film, position, velocity, speed, line, limits)
-    elif _aligned(bearing, film, line):
-        rows, z = plain_fields(bearing, film, position, velocity, speed, limits)
     else:
         rows, z = field_rows(bearing, film, position, velocity, speed, line, limits)
     return columns_of(rows), z if z[0] < 0 else np.concatenate([-z[::-1], z])
@@ -89,26 +76,17 @@ def orbit(
     steps: Steps,
 ) -> xr.Dataset:
     """Path of the shaft by implicit steps, or its closed path."""
-    aligned, start = _aligned(bearing, film, line), steps.start
-    if start is not None and aligned:
-        inside = bool(np.hypot(*start) < 1)
-        allowed = f"|start| < c = {bearing.clearance} m"
-        require(inside, "start", start * bearing.clearance, allowed)
     if steps.periodic:
         check_period(time, force, speed)
     first_limits = replace(limits, max_iterations=2 * limits.max_iterations)
-    free: slice | NDArray[np.int64] = EVERY
-    forces = force
-    if aligned:
-        discrete = plain_film(bearing, film.for_history(), speed)
-        if steps.periodic and not discrete.pockets.lifts(discrete.p_edge):
-            refuse_half_speed_whirl(time, force, speed)
-        first = plain_start(bearing, discrete, force, speed, start, first_limits)
-    else:
-        discrete, first, forces, free = orbit_start(
-            bearing, film, force, speed, line, start, first_limits
-        )
-    marcher = Marcher(discrete, limits.tolerance, limits.max_iterations, steps.accuracy, free)
+    statics, first, forces = orbit_start(
+        bearing, film, force, speed, line, steps.start, first_limits
+    )
+    discrete = statics.film
+    if steps.periodic and statics.gap.axisymmetric and not discrete.lifts:
+        check_half_speed_whirl(time, force, speed)
+    march_limits = limits.tolerance, limits.max_iterations
+    marcher = Marcher(discrete, *march_limits, steps.accuracy, statics.shaft)
     if steps.periodic:
         way: Method = "marching" if steps.periodic == "marching" else "direct"
         rows, ends, about = close_orbit(
@@ -138,14 +116,8 @@ def solve_on_grid(
     force, speed = answer["force"][index], answer["speed"][index]
     own = Limits(_TOLERANCE, _STEPS, limits.strict)
     try:
-        [state] = plain_rows(bearing, film, force[None], np.array([speed]), own)
+        [state] = equilibrium_rows(bearing, film, force[None], np.array([speed]), Line(), own)
     except SolverError as error:
         raise SolverError(str(error).replace("load 0:", f"load {index}:", 1)) from error
     for name, values in answer.items():
         values[index] = state[name]
-
-
-def _aligned(bearing: JournalGeometry, film: Film, line: Line) -> bool:
-    """Whether a rigid cylinder surrounds an aligned shaft."""
-    fed_and_rough = film.contact is not None and film.supply is not None  # grooves do not touch
-    return plain(bearing, line) and film.shell is None and not fed_and_rough

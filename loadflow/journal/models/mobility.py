@@ -117,10 +117,10 @@ def scaled(options: Film) -> tuple[Film, float]:
     """The film without dimensions, and its unit of pressure, Pa; 0 where the load is the unit."""
     law = options.law
     unit = law.pressure_unit(options.edge_pressure)
-    plain = law.scaled(unit)
+    scaled_law = law.scaled(unit)
     edge = 1.0 if unit else 0.0
     lubricant = Lubricant(1.0 / 12.0)
-    return replace(options, lubricant=lubricant, cavitation=plain, edge_pressure=edge), unit
+    return replace(options, lubricant=lubricant, cavitation=scaled_law, edge_pressure=edge), unit
 
 
 @lru_cache(maxsize=16)

@@ -94,13 +94,13 @@ def bearing_map(bearing: JournalGeometry, options: Film, force: Array) -> Bearin
         options = replace(options, grading="graded")
     # refuses, in the user's units, what no film can have
     build_film(bearing.diameter, bearing.width, bearing.relative_clearance, options)
-    plain, unit = scaled(options)
+    dimensionless, unit = scaled(options)
     area = bearing.width * bearing.diameter
     largest = 0.0
     if unit > 0.0:
         most = float(np.hypot(*force.T).max()) / (area * unit)
         largest = 2.0 ** math.ceil(math.log2(max(most, 0.25)))
-    table = tabulate(bearing.width / bearing.diameter, plain, largest)
+    table = tabulate(bearing.width / bearing.diameter, dimensionless, largest)
     pressure = unit or 1.0
     velocity = pressure * bearing.relative_clearance**2 / (12 * options.liquid.viscosity)
     return BearingMap(bearing, options, table, np.array([pressure * area, velocity]), pressure)
@@ -121,7 +121,7 @@ def equilibrium(
     """
     force, speed = np.array(force), np.array(speed)  # rows are replaced
     film = bearing_map(bearing, options, force)
-    position, iterations = _at_rest(film, force, speed)
+    position, iterations, residual = _at_rest(film, force, speed)
     found = film.results(position, force, speed)
     covered = found.pop("in_range") & (~force.any(axis=-1) | (iterations > 0))
     answer = {
@@ -130,29 +130,33 @@ def equilibrium(
         "eccentricity_ratio": np.hypot(*position.T),
         "iterations": iterations,
         "converged": covered,
-        "residual": np.zeros(speed.size),
+        "residual": residual,
     }
     for index in np.flatnonzero(~covered):
         solve_on_grid(bearing, film.options, int(index), answer, control)
     return answer
 
 
-def _at_rest(film: BearingMap, force: Array, speed: Array) -> tuple[Array, NDArray[np.int64]]:
+def _at_rest(
+    film: BearingMap, force: Array, speed: Array
+) -> tuple[Array, NDArray[np.int64], Array]:
     """Positions (n, 2) in clearances; iterations are 0 where there is no load, or no answer."""
     size = np.hypot(*force.T) / film.units[kernel.LOAD]
     turns = (size > 0) & (speed != 0)
     gap, chi = np.ones(size.size), np.zeros(size.size)
     gap[size > 0] = math.exp(-film.table.axes[kernel.XI_MAX])
     iterations = np.zeros(size.size, dtype=np.int64)
-    part = gap[turns], chi[turns], iterations[turns]
+    residual = np.zeros(size.size)
+    part = gap[turns], chi[turns], iterations[turns], residual[turns]
     kernel.steady(
         film.table.motion, film.table.axes, film.units, size[turns], np.abs(speed[turns]), *part
     )
-    gap[turns], chi[turns], iterations[turns] = part
+    gap[turns], chi[turns], iterations[turns], residual[turns] = part
     k = (gap / (2 - gap)) ** kernel.STRETCH
     turn = np.arctan2(force[:, 1], force[:, 0])
     turn += np.sign(speed) * 2 * np.arctan(k * np.tan(0.5 * chi))
-    return (1 - gap)[:, None] * np.stack([np.cos(turn), np.sin(turn)], axis=-1), iterations
+    position = (1 - gap)[:, None] * np.stack([np.cos(turn), np.sin(turn)], axis=-1)
+    return position, iterations, residual
 
 
 def orbit(

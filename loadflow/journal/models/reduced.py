@@ -30,7 +30,7 @@ from loadflow.journal.models.reduced_film import Ring, Work, make_work
 from loadflow.journal.models.width_modes import lobatto
 from loadflow.journal.results import operating_columns, without_supply
 from loadflow.journal.solvers.estimate import NEAR, closed_form_position
-from loadflow.journal.solvers.newton import not_found, refusal
+from loadflow.journal.solvers.messages import no_equilibrium, not_found
 from loadflow.journal.solvers.transient import orbit_dataset
 from loadflow.numerics.convergence import Limits, unresolved
 
@@ -115,7 +115,7 @@ def orbit(
     )  # fmt: skip
     if not converged:
         why = not_found(residual, rounding, iterations, float(np.hypot(x, y)))
-        raise SolverError(f"orbit cannot start: {refusal(force[0], speed[0], why)}")
+        raise SolverError(f"orbit cannot start: {no_equilibrium(force[0], speed[0], why)}")
     summarise(reduced, work, x, y, rows[0])
     rows[0, at.RESIDUAL :] = residual, iterations, converged, rounding
     solved = march(

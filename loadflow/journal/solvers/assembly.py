@@ -1,8 +1,8 @@
 """One shaft on several films: pads of a thrust bearing, segments of a cone, two cones.
 
 The shaft is a rigid body of five degrees of freedom (x, y, z, rotations about x and y). Every film
-sees them through a matrix of its own, and may lie on a pad that gives way. Film, pads and shaft
-are solved by one Newton iteration; the pads are condensed out of each film's linearisation.
+sees them through a matrix of its own, and may lie on an elastic or tilting pad. Films, pads and
+shaft are solved by one Newton iteration; pads are condensed out of each film's linearisation.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ Array = NDArray[np.float64]
 BODY = 5  # degrees of freedom of the shaft
 _SHIFTS = np.arange(3)
 _QUADRATIC = 1e-7  # a step this small leaves an error near its square
-_CALM = 0.5  # change of the film, over its pressure, up to which the shaft goes all the way
+_STEP_LIMIT = 0.5  # change of the film, over its pressure, beyond which a step is shortened
 _LARGEST = 3.0  # factor of a pad's Newton step toward the pivot
 _CYCLE = 10  # Newton steps after which half of them are halved, so that ruptures do not alternate
 _ALONE = 4  # first steps in which a film that changes more is corrected with the shaft held
@@ -47,7 +47,7 @@ class Member:
         The film; it keeps the work arrays, so that one film is in one member only.
     attached : array (m, 5)
         Position of the film (clearances) by that of the shaft (m, rad) in the axes of the pad.
-    gives : array (m, k)
+    by_pad : array (m, k)
         Position of the film by the k motions of the pad (m, rad).
     support : array (k, k)
         Stiffness of the pad's support, N/m and N m/rad; 0 where the pad tilts freely.
@@ -62,7 +62,7 @@ class Member:
 
     film: SurfaceFilm
     attached: Array
-    gives: Array
+    by_pad: Array
     support: Array
     normal: Array
     turns: tuple[Array, ...] = (np.eye(BODY),)
@@ -162,7 +162,7 @@ class Assembly:
 
     def place(self, member: Member, state: MemberState, position: Array) -> Array:
         """Position of a film, in its clearances."""
-        return np.asarray(member.sees @ position - member.gives @ state.pad)
+        return np.asarray(member.sees @ position - member.by_pad @ state.pad)
 
     def narrowest(self, state: AssemblyState) -> float:
         """Narrowest gap, m."""
@@ -179,35 +179,35 @@ class Assembly:
         stiffness, damping = (
             member.unit * x for x in (state.linear.stiffness, state.linear.damping)
         )
-        attached, gives = member.attached, member.gives
-        if not gives.shape[1]:
+        attached, by_pad = member.attached, member.by_pad
+        if not by_pad.shape[1]:
             nothing = np.zeros((0, BODY))
             return _Condensed(
                 attached.T @ load, attached.T @ stiffness @ attached,
                 attached.T @ damping @ attached, np.zeros(0), nothing,
             )  # fmt: skip
-        matrix = gives.T @ stiffness @ gives + member.support
-        sizes = np.abs(gives).max(axis=0)
+        matrix = by_pad.T @ stiffness @ by_pad + member.support
+        sizes = np.abs(by_pad).max(axis=0)
 
         def follow(rhs: Array) -> Array:
             scaled = matrix / np.outer(sizes, sizes)
             return np.asarray((_solve(scaled, (rhs.T / sizes).T).T / sizes).T)
 
-        missing = gives.T @ load - member.support @ state.pad
+        missing = by_pad.T @ load - member.support @ state.pad
         pressed = float(member.normal @ load)
         first = follow(missing)
         if pressed > 0.0 and not member.support.any():
             # the centre of pressure shall meet the pivot: a pad without film has no moment, either
-            lost = member.normal @ stiffness @ gives
+            lost = member.normal @ stiffness @ by_pad
             share = float(lost @ first) / pressed
             first /= max(1.0 - share, 1.0 / _LARGEST)
-        by_place = follow(gives.T @ stiffness @ attached)
-        left = attached - gives @ by_place
-        by_speed = follow(gives.T @ damping @ left)
+        by_place = follow(by_pad.T @ stiffness @ attached)
+        left = attached - by_pad @ by_place
+        by_speed = follow(by_pad.T @ damping @ left)
         return _Condensed(
-            attached.T @ (load - stiffness @ gives @ first),
+            attached.T @ (load - stiffness @ by_pad @ first),
             attached.T @ stiffness @ left,
-            attached.T @ (damping @ left - stiffness @ gives @ by_speed),
+            attached.T @ (damping @ left - stiffness @ by_pad @ by_speed),
             first,
             by_place,
         )
@@ -253,8 +253,7 @@ class Assembly:
         limits : Limits
             Tolerance on the scaled residual, Newton steps.
         """
-        cells = [m.film.mesh.shape[0] for m in self.members if m.film.creeps]
-        most = max(limits.max_iterations, *cells, 0)
+        most = max(m.film.newton_steps(limits.max_iterations) for m in self.members)
         residual = math.inf
         for iteration in range(1, most + 1):
             try:
@@ -298,21 +297,21 @@ class Assembly:
             if member.film.gap.gaps(self.place(member, own, state.position)).min() < _PRESSED:
                 return state, math.nan
         change = max(_change(m.film, s) for m, s in zip(self.members, state.members))
-        calm, whole = min(1.0, _CALM / max(change, 1e-300)), share
-        if calm < 1.0 and alone:
-            calm = 0.0
+        limited, whole = min(1.0, _STEP_LIMIT / max(change, 1e-300)), share
+        if limited < 1.0 and alone:
+            limited = 0.0
         step = np.zeros(BODY)
         if free.size:
             scale = self.scale[free]
             matrix = stiffness[np.ix_(free, free)] * np.outer(scale, scale)
-            step[free] = calm * scale * _solve(matrix, scale * (force - load)[free])
+            step[free] = limited * scale * _solve(matrix, scale * (force - load)[free])
         moves = []
         for member, own, part in zip(self.members, state.members, parts):
-            pad = calm * part.first + part.follow @ (member.turns[0] @ step)
-            move = member.sees @ step - member.gives @ pad
+            pad = limited * part.first + part.follow @ (member.turns[0] @ step)
+            move = member.sees @ step - member.by_pad @ pad
             share = min(share, member.film.gap.share(self.place(member, own, state.position), move))
             moves.append((pad, move))
-        members, change = [], 1.0 if calm == 0.0 else 0.0
+        members, change = [], 1.0 if limited == 0.0 else 0.0
         for member, own, (pad, move) in zip(self.members, state.members, moves):
             gap = member.film.gap
             assert own.linear is not None
@@ -339,8 +338,8 @@ class Assembly:
             total += sum(turn.T @ member.attached.T @ load for turn in member.turns)
             least += 1e-3 * film.scale * film.radius**2
             if own.pad.size:
-                size = np.abs(member.gives).max(axis=0)
-                missing = (member.gives.T @ load - member.support @ own.pad) / size
+                size = np.abs(member.by_pad).max(axis=0)
+                missing = (member.by_pad.T @ load - member.support @ own.pad) / size
                 pressed = max(
                     float(np.abs(load).max()), 1e-3 * member.unit * film.scale * film.radius**2
                 )

@@ -15,7 +15,7 @@ from loadflow.numerics.convergence import Limits
 
 Array = NDArray[np.float64]
 
-_ROOM = 0.5  # share of the narrowest film that a first guess must leave
+_LEFT = 0.5  # share of the narrowest film that a first guess must leave
 _SMALLEST = 1.0 / 256  # of a given step, to which a step that fails may be cut
 
 
@@ -115,7 +115,7 @@ def _step(
     ahead = last.state
     if len(past) > 1:
         ahead = _ahead(past[-2].state, last.state, ratio)
-        if assembly.narrowest(ahead) < _ROOM * assembly.narrowest(last.state):
+        if assembly.narrowest(ahead) < _LEFT * assembly.narrowest(last.state):
             ahead = last.state
     members = []
     for number, (member, own) in enumerate(zip(assembly.members, ahead.members)):

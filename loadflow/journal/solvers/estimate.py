@@ -9,15 +9,20 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from loadflow.errors import SolverError
+from loadflow.journal.solvers.messages import narrowest_place
 from loadflow.tribology.film import butenschoen
 
 if TYPE_CHECKING:
     from loadflow.journal.film.film import DiscreteFilm
+    from loadflow.journal.film.gap import BoreGap
+    from loadflow.journal.geometry import JournalGeometry
 
 Array = NDArray[np.float64]
 
 NEAR = 0.3  # share of the narrowest gap that the estimate may move for a warm start
 
+_SHARES = (1.0, 0.7, 0.4, 0.1)  # of the closed form, at which the bore is tried
 _RATIOS = np.concatenate([np.linspace(0.0, 0.9, 91)[1:], 1.0 - np.geomspace(0.099, 1e-4, 60)])
 
 
@@ -41,6 +46,52 @@ def closed_form_position(
     attitude = np.interp(ratio, _RATIOS, attitudes) if ruptures else 0.5 * np.pi
     turn = np.arctan2(force[..., 1], force[..., 0]) + np.sign(speed) * attitude
     return ratio[..., None] * np.stack([np.cos(turn), np.sin(turn)], axis=-1)
+
+
+def first_position(
+    bearing: JournalGeometry,
+    film: DiscreteFilm,
+    gap: BoreGap,
+    load: Array,
+    held: Array,
+    free: slice | NDArray[np.int64],
+) -> Array:
+    """Where Newton starts: the closed form of the cylinder, shrunk to what the bore leaves.
+
+    Parameters
+    ----------
+    bearing, film, gap
+        The bearing, its film at the speed that is set, and the gap of that.
+    load : array (2,)
+        N.
+    held : array (m,)
+        Centred position with what is given of the shaft.
+    free : slice or array of int
+        Degrees of freedom of the shaft that move.
+
+    Raises
+    ------
+    loadflow.errors.SolverError
+        The shaft touches the bore wherever it is.
+    """
+    position, size = held.copy(), float(np.hypot(*load))
+    if film.speed != 0.0:
+        number = bearing.sommerfeld_number(size, film.speed, film.viscosity)
+        form = bearing.width_ratio, number, load, film.speed, film.ruptures
+        position[:2] = closed_form_position(*form)
+    if gap.pads.size:  # pads leave the shaft no side to go to
+        position[:2] = math.hypot(*position[:2]) / max(size, 1e-300) * load
+    if film.contact is not None and load.any():
+        return closer_of(film, load, position)
+    for share in _SHARES:
+        start = gap.lifted(np.append(share * position[:2], position[2:]), film.speed)
+        if gap.narrowest(start) > gap.first_gap:
+            return start
+    start = gap.widest(held, free)
+    if gap.narrowest(start) <= 0.0:
+        place = narrowest_place(bearing, gap, start)
+        raise SolverError(f"the shaft touches the bore in any position: {place}")
+    return start
 
 
 _FAR = 64.0  # eccentricity ratio at which nothing is touched in this direction

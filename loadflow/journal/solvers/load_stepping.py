@@ -16,12 +16,15 @@ Array = NDArray[np.float64]
 
 _FIRST_LOAD = 0.2  # share of the load from which it is raised in steps
 _LEAST_LOAD = 1e-3  # share below which a step of the load is given up
-_STEPS, _BRIEF = 400, 25  # Newton steps of all of them, and of each
+_STEPS, _STEPS_EACH = 400, 25  # Newton steps of all of them, and of each
 _STRIDE = 0.25  # first share of the way from the load at the start to the one that is wanted
 _SHORTEST = 1e-3  # of the lesser of both loads, below which such a step is given up
-_QUICK, _BUDGET = 14, 10  # Newton steps of each, and of all in multiples of those of a solution
-_EASY = 7  # Newton steps below which the next of these steps is twice as long
-_ROOM = 0.02  # gap, in clearances, that the first position leaves in the shell at rest
+_STEPS_SHORT, _BUDGET = (
+    14,
+    10,
+)  # Newton steps of each, and of all in multiples of those of a solution
+_FEW = 7  # Newton steps below which the next of these steps is twice as long
+_FIRST_GAP = 0.02  # in clearances, that the first position leaves in the shell at rest
 _BACK = 0.7  # share of a step, or of the way, that is tried next
 _NEAREST = 0.01  # share of the way to a position from which it is approached at least
 _APPROACHES = 30  # steps of that
@@ -44,7 +47,7 @@ def solve_in_load_steps(
         share = min(1.0, done + step)
         if done == 0.0:
             place[free] = share * position[free]
-        state = solve_equilibrium(film, share * force, u, place, tolerance, _BRIEF, free=free)
+        state = solve_equilibrium(film, share * force, u, place, tolerance, _STEPS_EACH, free=free)
         spent += state.iterations
         if not state.converged:
             step *= 0.5
@@ -52,7 +55,7 @@ def solve_in_load_steps(
             return replace(state, iterations=spent)
         else:
             done, u, place = share, state.u, state.position
-            step *= 1.5 if state.iterations < _BRIEF // 2 else 1.0
+            step *= 1.5 if state.iterations < _STEPS_EACH // 2 else 1.0
     film.place(state.u, state.position)
     missing = (1.0 - done) * math.hypot(*force[free]) / film.load_scale(force)
     return replace(state, converged=False, iterations=spent, residual=missing)
@@ -75,14 +78,14 @@ def solve_from_held(
     if not state.converged:
         return state
     first, spent, share, stride = state.linear.load, state.iterations, 0.0, _STRIDE
-    brief = max_iterations if film.creeps else _QUICK
+    short = max_iterations if film.law.moves_by_cells else _STEPS_SHORT
     trial = state
     lightest = math.hypot(*first[free]) / film.load_scale(force)
     shortest = _SHORTEST * min(1.0, max(lightest, _SHORTEST))
     while stride >= shortest and spent < _BUDGET * max_iterations:
         at = min(1.0, share + stride)
         load = force + (1.0 - at) * (first - force)
-        steps = max_iterations if at == 1.0 else brief
+        steps = max_iterations if at == 1.0 else short
         start = (state.u, state.position)
         trial = solve_equilibrium(film, load, *start, tolerance, steps, free=free)
         spent += trial.iterations
@@ -92,7 +95,7 @@ def solve_from_held(
             return replace(trial, iterations=spent)
         else:
             state, share = trial, at
-            stride *= 2.0 if trial.iterations < _EASY else 1.0
+            stride *= 2.0 if trial.iterations < _FEW else 1.0
     missing = (1.0 - share) * math.hypot(*(force - first)[free]) / film.load_scale(force)
     if film.gap.narrowest(trial.position) < TOUCHING:  # what the steps have come to
         state = replace(state, position=trial.position)
@@ -104,14 +107,14 @@ def solve_from_held(
 def solve_by_approach(
     film: DiscreteFilm, position: Array, velocity: Array, tolerance: float, max_iterations: int
 ) -> Solution:
-    """As `solve_film`; where the shell at rest would leave no room, the shaft comes in steps."""
+    """As `solve_film`; where the shell at rest would leave no gap, the shaft comes in steps."""
     gap, limits = film.gap, (tolerance, max_iterations)
     way = np.where(np.arange(gap.size) < 2, position, 0.0)
     share = 1.0
-    while gap.narrowest(position - (1.0 - share) * way) < _ROOM and share > _NEAREST:
+    while gap.narrowest(position - (1.0 - share) * way) < _FIRST_GAP and share > _NEAREST:
         share *= _BACK
     place = position - (1.0 - share) * way
-    state = _settled(film, place, *limits)
+    state = _first_film(film, place, *limits)
     spent, u = state.iterations, state.u
     for _ in range(_APPROACHES):
         place = position - (1.0 - share) * way
@@ -120,22 +123,22 @@ def solve_by_approach(
         spent += state.iterations
         if share == 1.0 or not state.converged:
             break
-        room, step, u = gap.narrowest(place), 1.0 - share, state.u
-        while gap.narrowest(place + step * way) < KEPT * room and step > _NEAREST:
+        least, step, u = KEPT * gap.narrowest(place), 1.0 - share, state.u
+        while gap.narrowest(place + step * way) < least and step > _NEAREST:
             step *= _BACK
         share = min(1.0, share + step)
     return replace(state, converged=state.converged and share == 1.0, iterations=spent)
 
 
-def _settled(
+def _first_film(
     film: DiscreteFilm, position: Array, tolerance: float, max_iterations: int
 ) -> Solution:
-    """Film at a place with room, from a start at rest or, if that closes it, from a rigid shell."""
+    """Film at a place, from a start at rest or, if that closes the gap, from a rigid shell."""
     rest, limits = 0.0 * position, (tolerance, max_iterations)
     first = solve_film(film, film.start(), position, rest, *limits)
-    if first.converged and film.room_left(position) > APART:
+    if first.converged and film.clearance_left(position) > APART:
         return first
-    film.relax(give=0.0)
+    film.relax(share=0.0)
     rigid = solve_film(film, film.start(), position, rest, *limits)
     film.relax()
     state = solve_film(film, rigid.u, position, rest, *limits)

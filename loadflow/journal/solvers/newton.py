@@ -3,25 +3,21 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.journal.film.film import EVERY, DiscreteFilm, Linear, SingularFilm
-from loadflow.numerics.convergence import COARSEST, answered, rounding_level, unresolved
+from loadflow.numerics.convergence import COARSEST, answered, rounding_level
 
 Array = NDArray[np.float64]
 
 _QUADRATIC = 1e-7  # a step this small leaves an error near its square: the last factors are exact
-_CALM = (
-    0.5  # change of the film, over the scale of pressure, up to which the shaft goes all the way
-)
-
-
+_STEP_LIMIT = 0.5  # change of the film, over its pressure, beyond which a step is shortened
 _LATE = 8  # Newton steps after which longer steps are asked whether rounding makes them
 _PRESSED = 1e-13  # narrowest gap, in clearances, that is none
-_STUCK = 1e-3  # share of a Newton step that an elastic shell must leave room for
+_STUCK = 1e-3  # share of a Newton step that must be left by an elastic shell
 
 
 @dataclass(frozen=True)
@@ -70,7 +66,7 @@ class Motion:
 REST = Motion()
 
 
-class _Verdict:
+class _Check:
     """Whether the Newton steps of a film have led to an answer, by the rule of `convergence`.
 
     Residual and rounding level are looked at after steps that are short enough.
@@ -141,7 +137,7 @@ def solve_film(
     """Pressure of the film at a given position and velocity."""
     u = u.copy()
     weights, motion = np.ones(1), Motion(offset=-velocity)
-    verdict = _Verdict(film, tolerance, motion)
+    check = _Check(film, tolerance, motion)
     for iteration in range(1, max_iterations + 1):
         try:
             linear = film.linearise(u, position, velocity)
@@ -149,13 +145,13 @@ def solve_film(
             if iteration == 1:
                 return no_film(film)
             break
-        share = film.room(u, linear.columns[:1], weights, (position, position))
+        share = film.step_share(u, linear.columns[:1], weights, (position, position))
         if share < _STUCK:
             break
         change = film.correct(u, linear.columns[:1], share * weights)
-        if verdict.after(iteration, change, u, position, linear):
-            return verdict.solution(u, position, linear, True, iteration)
-    return verdict.unanswered(u, position, linear, iteration)
+        if check.after(iteration, change, u, position, linear):
+            return check.solution(u, position, linear, True, iteration)
+    return check.unanswered(u, position, linear, iteration)
 
 
 def solve_equilibrium(
@@ -175,9 +171,9 @@ def solve_equilibrium(
     same is one implicit step in time. Only the degrees of freedom `free` move; the others are held.
     """
     u = u.copy()
-    ease, gap = film.gap.ease[free], film.gap.narrowest(position)
+    scale, gap = film.gap.dof_scale[free], film.gap.narrowest(position)
     old = (motion.volume_rate, motion.volume)
-    verdict = _Verdict(film, tolerance, motion, force, free)
+    check = _Check(film, tolerance, motion, force, free)
     for iteration in range(1, max_iterations + 1):
         velocity = motion.velocity(position)
         try:
@@ -187,10 +183,10 @@ def solve_equilibrium(
                 return no_film(film)
             break
         slope = linear.stiffness + motion.rate * linear.damping
-        haste = film.size(linear.columns[0]) / _CALM
+        excess = film.size(linear.columns[0]) / _STEP_LIMIT
         step = np.zeros(position.size)
         missing = (force - linear.load)[free]
-        step[free] = _solve(slope[free][:, free], missing, ease) / max(haste, 1.0)
+        step[free] = _solve(slope[free][:, free], missing, scale) / max(excess, 1.0)
         target, weights, share = _moved(film, u, linear, position, step, motion)
         if share < _STUCK or not np.isfinite(target).all():
             break
@@ -199,9 +195,9 @@ def solve_equilibrium(
         position, gap = target, film.gap.narrowest(target)
         if not gap > _PRESSED and not film.elastic:
             break
-        if verdict.after(iteration, change, u, position, linear):
-            return verdict.solution(u, position, linear, True, iteration)
-    return verdict.unanswered(u, position, linear, iteration)
+        if check.after(iteration, change, u, position, linear):
+            return check.solution(u, position, linear, True, iteration)
+    return check.unanswered(u, position, linear, iteration)
 
 
 def _moved(
@@ -211,56 +207,14 @@ def _moved(
     target = film.target(position, step)
     velocity = motion.velocity(position)
     weights = film.weights(position, velocity, target, motion.velocity(target))
-    share = film.room(u, linear.columns, weights, (position, target))
+    share = film.step_share(u, linear.columns, weights, (position, target))
     if share < 1.0:
         target, weights = position + share * (target - position), share * weights
     return target, weights, share
 
 
-def solve_patiently(
-    film: DiscreteFilm,
-    force: Array,
-    position: Array,
-    tolerance: float,
-    max_iterations: int,
-    free: slice | NDArray[np.int64] = EVERY,
-) -> Solution:
-    """As `solve_equilibrium`, for the few loads at which that fails: film solved at every position.
-
-    The step of the shaft is halved until the missing force shrinks.
-    """
-    rest = np.zeros(position.size)
-    wanted, ease = force[free], film.gap.ease[free]
-    near = 1e-3 * film.load_scale(wanted)
-    state = solve_film(film, film.start(), position, rest, tolerance, max_iterations)
-    spent = state.iterations
-    missing = wanted - state.linear.load[free]
-    while state.converged and spent < 10 * max_iterations:
-        step = np.zeros(position.size)
-        step[free] = _solve(state.linear.stiffness[free][:, free], missing, ease)
-        for _ in range(20):
-            target = film.gap.advance(state.position, step)
-            trial = solve_film(film, state.u, target, rest, tolerance, max_iterations)
-            spent += trial.iterations
-            left = wanted - trial.linear.load[free]
-            if trial.converged and math.hypot(*left) < math.hypot(*missing):
-                break
-            step = 0.5 * step
-        state, missing = trial, left
-        if not film.gap.narrowest(state.position) > _PRESSED:
-            break
-        if math.hypot(*missing) < near:
-            end = solve_equilibrium(
-                film, force, state.u, state.position, tolerance, max_iterations, free=free
-            )
-            return replace(end, iterations=spent + end.iterations)
-    share = 1e-3 * math.hypot(*missing) / near
-    residual = share if state.converged else max(state.residual, share)
-    return replace(state, converged=False, iterations=spent, residual=residual)
-
-
-def _solve(matrix: Array, rhs: Array, ease: Array) -> Array:
-    """Solve for a step. A singular 2×2 system gives none; a larger one moves what moves with ease.
+def _solve(matrix: Array, rhs: Array, scale: Array) -> Array:
+    """Solve for a step. A singular 2×2 system gives none; a larger one the least, over `scale`.
 
     The second is a shaft on one single pad, free to go sideways while the pad follows. What is not
     finite gives NaN.
@@ -268,7 +222,7 @@ def _solve(matrix: Array, rhs: Array, ease: Array) -> Array:
     if not (np.isfinite(matrix).all() and np.isfinite(rhs).all()):
         return np.full(rhs.size, np.nan)
     if rhs.size != 2:
-        return ease * np.asarray(np.linalg.lstsq(matrix * ease, rhs, rcond=1e-10)[0])
+        return scale * np.asarray(np.linalg.lstsq(matrix * scale, rhs, rcond=1e-10)[0])
     (a, b), (c, d) = matrix.tolist()
     det = a * d - b * c
     if det == 0.0:
@@ -282,17 +236,3 @@ def no_film(film: DiscreteFilm) -> Solution:
     nothing = np.full((film.gap.size, film.gap.size), np.nan)
     linear = Linear(nothing[0], nothing, nothing, nothing)
     return Solution(film.start(), nothing[0], linear, False, 0, np.inf)
-
-
-def refusal(force: Array, speed: float, why: str) -> str:
-    """Say in words that no film carries `force` (2,), and `why`; at rest there can be none."""
-    head = f"F = ({force[0]:.6g}, {force[1]:.6g}) N at ω = {speed:.6g} rad/s"
-    if speed == 0.0:
-        return f"{head}: without rotation and squeeze the film carries no load"
-    return f"{head}: {why}"
-
-
-def not_found(residual: float, rounding: float, iterations: float, ratio: float) -> str:
-    """Say that Newton's method ended at the eccentricity `ratio` without an answer."""
-    reached = unresolved(residual, rounding, iterations)
-    return f"no equilibrium found; {reached}, at ε = {ratio:.6g}"

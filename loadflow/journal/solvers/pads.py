@@ -9,7 +9,6 @@ small leads to none at all.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -17,7 +16,14 @@ from numpy.typing import NDArray
 
 from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.gap_shaped import ShapedGap
-from loadflow.journal.solvers.newton import Solution, no_film, solve_equilibrium, solve_film
+from loadflow.journal.results import following
+from loadflow.journal.solvers.newton import (
+    Motion,
+    Solution,
+    no_film,
+    solve_equilibrium,
+    solve_film,
+)
 
 Array = NDArray[np.float64]
 Rows = NDArray[np.int64]
@@ -82,14 +88,40 @@ def balance_pads(
     return replace(state, iterations=spent), np.abs(moments) < _LEFT * scale
 
 
+def unload_other_pads(film: DiscreteFilm, gap: ShapedGap, pads: Rows) -> None:
+    """Take the film off all pads that tilt but `pads`."""
+    film.unload(gap.columns_of(np.setdiff1d(gap.pads, pads)))
+
+
+def film_on_pads(
+    film: DiscreteFilm,
+    gap: ShapedGap,
+    position: Array,
+    velocity: Array,
+    pads: Rows,
+    tolerance: float,
+    max_iterations: int,
+) -> Solution:
+    """Film at a given position of the shaft, `pads` without moment; they follow its `velocity`."""
+    limits, nothing = (tolerance, max_iterations), np.zeros(gap.size)
+    first = solve_film(film, film.start(), position, nothing, *limits)
+    if pads.size:
+        first = solve_equilibrium(film, nothing, first.u, position, *limits, free=pads)
+    if not velocity.any() or not first.converged:
+        return first
+    every, moving = np.append(np.arange(gap.shaft), pads), velocity.copy()
+    stiffness = first.linear.stiffness[np.ix_(every, every)]
+    moving[pads] = -following(stiffness, gap.shaft) @ moving[: gap.shaft]
+    start, motion = (first.u, first.position), Motion(offset=-moving)
+    return solve_equilibrium(film, nothing, *start, *limits, motion, pads)
+
+
 def solve_with_pads(
     film: DiscreteFilm,
     gap: ShapedGap,
     force: Array,
     position: Array,
     shaft: Rows,
-    tilting: Callable[[Array], Rows],
-    idle: Callable[[Rows], None],
     tolerance: float,
     max_iterations: int,
 ) -> Solution:
@@ -105,25 +137,21 @@ def solve_with_pads(
         Where to start.
     shaft : array of int
         Degrees of freedom of the shaft that move.
-    tilting : callable
-        Pads that the film may hold at a position.
-    idle : callable
-        Takes the film off all pads but those given.
     tolerance, max_iterations
         Of each film.
     """
 
-    def settled(start: Solution) -> tuple[Solution, Rows]:
-        pads, spent = tilting(start.position), 0
+    def balanced(start: Solution) -> tuple[Solution, Rows]:
+        pads, spent = gap.converging(start.position), 0
         while True:
-            idle(pads)
+            unload_other_pads(film, gap, pads)
             state, held = balance_pads(film, gap, start, pads, tolerance, max_iterations)
             spent += state.iterations
             if held.all() or not state.converged:
                 return replace(state, iterations=spent), pads
             pads = pads[held]
 
-    state, pads = settled(replace(no_film(film), position=position))
+    state, pads = balanced(replace(no_film(film), position=position))
     spent, scale = state.iterations, film.load_scale(force)
     missing = force[shaft] - state.linear.load[shaft]
     for _ in range(_SHAFTS):
@@ -142,7 +170,7 @@ def solve_with_pads(
         step[shaft] = np.linalg.lstsq(stiffness + _ASIDE * scale * np.eye(shaft.size), missing)[0]
         step = gap.advance(state.position, step) - state.position
         for _ in range(_HALVINGS):
-            trial, some = settled(replace(state, position=state.position + step))
+            trial, some = balanced(replace(state, position=state.position + step))
             spent += trial.iterations
             left = force[shaft] - trial.linear.load[shaft]
             allowed = 1.0 if steady else 2.0

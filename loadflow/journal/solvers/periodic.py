@@ -13,6 +13,7 @@ from loadflow.errors import InputError, SolverError
 from loadflow.journal.solvers.newton import Solution
 from loadflow.journal.solvers.transient import Marcher, Past, march
 from loadflow.numerics.anderson import Anderson
+from loadflow.numerics.convergence import is_small, rounding_level
 from loadflow.tribology.film import effective_speed
 
 Array = NDArray[np.float64]
@@ -47,7 +48,7 @@ def load_speed(time: Array, force: Array) -> float:
     return float((angle[-1] - angle[0]) / (time[-1] - time[0]))
 
 
-def refuse_half_speed_whirl(time: Array, force: Array, speed: Array) -> None:
+def check_half_speed_whirl(time: Array, force: Array, speed: Array) -> None:
     """Name a steady load that turns at half the speed of the shaft: no film carries it.
 
     Raises
@@ -91,11 +92,13 @@ def close_orbit(
     period = time[-1] - time[0]
     past = marcher.begin(float(time[0]), start)
     accelerate, residual = Anderson(_DEPTH), math.inf
+    # both states are within a clearance; every step of the period adds its roundings
+    rounding = rounding_level(float(time.size))
     for number in range(1, max_periods + 1):
         rows, end = march(marcher, past, time, force, speed)
         following = [replace(p, time=p.time - period) for p in end[-2:]]
         last, residual = residual, _distance(marcher, past[-1], following[-1])
-        if residual < closure:
+        if is_small(residual, closure, rounding):
             about = {"closure": residual, "periods": number}
             return [rows[-1], *rows], (past[-1], end[-1]), about
         if method == "direct" and len(past) == len(following):
@@ -105,8 +108,9 @@ def close_orbit(
         else:
             past = following
     raise SolverError(
-        f"the orbit does not close: its ends differ by {residual:.3g} after {max_periods} periods, "
-        f"at ε = {math.hypot(*past[-1].position):.6g}; effective speed "
+        f"the orbit does not close: its ends differ by {residual:.3g} after {max_periods} "
+        f"periods, where rounding allows {rounding:.3g}, at ε = "
+        f"{math.hypot(*past[-1].position):.6g}; effective speed "
         f"{effective_speed(float(speed.mean()), load=load_speed(time, force)):.6g} rad/s"
     )
 

@@ -1,238 +1,445 @@
-"""Films of the plain bearing around an aligned shaft: at rest under loads, and at given places."""
+"""Statics of a film in any bore: shafts at rest under loads, films at given positions.
+
+One path for every bore: a first position, Newton's method for film and shaft together, and, where
+that leads nowhere, a finer mesh or steps of the load. A bore, what surrounds it and the
+line of the shaft only say which degrees of freedom there are: eccentricity alone where a cylinder
+surrounds an aligned shaft, else also tilts of the shaft and of pads.
+"""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import Any
+from functools import cached_property
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import InputError, SolverError
-from loadflow.journal.film.discretise import build_film
-from loadflow.journal.film.film import DiscreteFilm
+from loadflow.journal.film.discretise import cylindrical_film, is_cylindrical, shaped_film
+from loadflow.journal.film.film import EVERY, DiscreteFilm
+from loadflow.journal.film.gap import BoreGap
+from loadflow.journal.film.gap_shaped import ShapedGap
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
 from loadflow.journal.results import field_row, static_row
-from loadflow.journal.solvers.estimate import NEAR, closed_form_position, closer_of
+from loadflow.journal.solvers.estimate import NEAR, first_position
+from loadflow.journal.solvers.load_stepping import (
+    APART,
+    solve_by_approach,
+    solve_from_held,
+    solve_in_load_steps,
+)
+from loadflow.journal.solvers.messages import narrowest_place, why_unsolved
 from loadflow.journal.solvers.newton import (
     Solution,
     no_film,
-    not_found,
-    refusal,
     solve_equilibrium,
     solve_film,
-    solve_patiently,
 )
-from loadflow.journal.solvers.statics_shaped import equilibrium_rows
-from loadflow.numerics.convergence import Limits, unresolved
+from loadflow.journal.solvers.pads import film_on_pads, solve_with_pads, unload_other_pads
+from loadflow.numerics.convergence import Limits
+from loadflow.numerics.fields import require
 
 Array = NDArray[np.float64]
+Rows = NDArray[np.int64]
 
-_HIGH = 0.99  # eccentricity ratio at which the lift of a supply is stated
-_AFLOAT = 0.5  # eccentricity ratio at which a shaft is sought that its supply carries
-_STARVED = (
-    "the supply is starved, a groove would fall below the cavitation pressure: MassConserving and "
-    "GasMixture follow a groove that is not full"
-)
-
-
-def plain_film(bearing: JournalGeometry, options: Film, rates: Array) -> DiscreteFilm:
-    """Film of a plain bearing, scaled to the largest of `rates`, 1/s."""
-    film = build_film(bearing.diameter, bearing.width, bearing.relative_clearance, options)
-    film.set_scale(float(np.abs(rates).max()))
-    return film
+_PAD_ROUNDS = 8  # solutions in which pads may come under load, or lose theirs
+_CROWDED = 2  # meshes that are tried beside the one asked for
+_SAME = 0.02  # angle, rad, by which the place of the narrowest gap must have moved for another
+_NARROW = 0.2  # narrowest gap, in clearances, above which no mesh but that is tried
+_FLOATING = 0.5  # share of the way to the bore at which a shaft is sought that its supply carries
 
 
-def plain_rows(
-    bearing: JournalGeometry, options: Film, loads: Array, speeds: Array, control: Limits
+def equilibrium_rows(
+    bearing: JournalGeometry,
+    options: Film,
+    loads: Array,
+    speeds: Array,
+    line: Line,
+    control: Limits,
 ) -> list[dict[str, Any]]:
-    """Rows of `Equilibrium`."""
-    film = plain_film(bearing, options, speeds)
-    if film.pockets.free.size:  # the supply must raise the pressure that carries the load
-        film.raise_scale(_mean_pressure(bearing, loads))
-    finer = plain_film(bearing, options.graded(), speeds) if options.may_grade else None
+    """Rows of `Equilibrium` for `loads` (n, 2), N, and `speeds` (n,), rad/s.
+
+    Raises
+    ------
+    loadflow.errors.SolverError
+        If ``control.strict``, the first load without an answer.
+    """
+    statics = Statics(bearing, options, line, float(np.abs(speeds).max()))
+    if statics.film.pockets.free.size:  # the supply must raise the pressure that carries the load
+        statics.raise_scale(loads)
     rows = []
     last: Solution | None = None
     for index, (load, omega) in enumerate(zip(loads, speeds.tolist())):
-        used, solution = _settle(bearing, film, finer, load, omega, last, control)
-        crowds = options.supply is not None and omega != 0.0 and not used.dry(solution.u)
-        if not solution.converged and crowds:
-            row = _on_crowded_cells(bearing, options, load, omega, control)
-            if row["converged"]:
-                rows.append(row)
-                continue
+        used, solution = statics.resolve(index, load, omega, last, control)
         if not solution.converged and control.strict:
-            raise SolverError(f"load {index}: {_refusal(used, load, solution)}")
-        if solution.converged and used is film:
-            last = solution
-        rows.append(static_row(bearing, used, load, options.liquid, solution))
+            raise SolverError(f"load {index}: {used.message(solution, load)}")
+        last = solution if solution.converged and used is statics else last
+        rows.append(static_row(bearing, used.film, load, options.liquid, solution, line.whirl))
     return rows
 
 
-def _on_crowded_cells(
-    bearing: JournalGeometry, options: Film, load: Array, speed: float, control: Limits
-) -> dict[str, Any]:
-    """Row of a load at which the gap closes between cells that the grooves hold in their places."""
-    loads, speeds = load[None], np.array([speed])
-    calm = replace(control, strict=False)
-    return equilibrium_rows(bearing, options, loads, speeds, Line(), calm, whirl=0.0)[0]
-
-
-def plain_fields(
+def field_rows(
     bearing: JournalGeometry,
     options: Film,
     places: Array,
     velocities: Array,
     speeds: Array,
+    line: Line,
     control: Limits,
 ) -> tuple[list[dict[str, Any]], Array]:
-    """Rows of `FilmField` and axial places of the cells of one half, m."""
-    rates = np.abs(speeds) + np.hypot(velocities[:, 0], velocities[:, 1])
-    film = plain_film(bearing, options, rates)
-    ratio = np.hypot(places[:, 0], places[:, 1])
-    worst = int(ratio.argmax()) if ratio.size else 0
-    if ratio.size and not film.gap.narrowest(places[worst]) > 0.0:
-        limit = "< 1" if film.contact is None else "an overlap that the law of contact covers"
-        raise InputError(
-            f"eccentricity {worst}: ratio ε = {ratio[worst]:.6g} is not allowed: {limit} "
-            f"(radial clearance {bearing.clearance:.6g} m)"
-        )
+    """Rows of `FilmField` and axial places of the cells, m.
+
+    `places` (n, 2) are in clearances, `velocities` (n, 2) in clearances per second.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        The first position at which the shaft touches the bore.
+    loadflow.errors.SolverError
+        If ``control.strict``, the first film without an answer.
+    """
+    require(line.moment is None, "moment", "given", "tilt is given where the position is")
+    fastest = np.abs(speeds) + np.hypot(velocities[:, 0], velocities[:, 1])
+    statics = Statics(bearing, options, line, float(fastest.max()))
     rows = []
     for index, (place, moving, omega) in enumerate(zip(places, velocities, speeds.tolist())):
-        film.set_speed(omega)
-        steps = _steps(film, control.max_iterations)
-        solution = solve_film(film, film.start(), place, moving, control.tolerance, steps)
-        if control.strict and film.dry(solution.u):
-            raise SolverError(f"film {index} at ε = {np.hypot(*place):.6g}: {_STARVED}")
-        if control.strict and not solution.converged:
-            raise SolverError(
-                f"film {index} at ε = {np.hypot(*place):.6g}, ω = {omega:.6g} rad/s: "
-                + unresolved(solution.residual, solution.rounding, solution.iterations)
-            )
-        rows.append(field_row(film, solution))
-    return rows, film.mesh.z * bearing.radius
+        solution = statics.hold(index, place, moving, omega, control)
+        if not solution.converged and control.strict:
+            raise SolverError(f"film {index}: {statics.message(solution)}")
+        rows.append(field_row(statics.film, solution))
+    return rows, statics.film.mesh.z * bearing.radius
 
 
-def plain_start(
+def orbit_start(
     bearing: JournalGeometry,
-    film: DiscreteFilm,
+    options: Film,
     loads: Array,
     speeds: Array,
-    place: Array | None,
+    line: Line,
+    start: Array | None,
     control: Limits,
-) -> Solution:
-    """First state of an orbit, at `place` (clearances) or at the equilibrium of the first load."""
-    film.raise_scale(_mean_pressure(bearing, loads))
+) -> tuple[Statics, Solution, Array]:
+    """Film, first state and generalised loads (n, m) of an orbit.
+
+    It begins at `start`, in clearances, or at the equilibrium of the first load.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        Pads that tilt; a start outside the bore.
+    loadflow.errors.SolverError
+        No film to start from.
+    """
+    if is_cylindrical(bearing, options, line):
+        options = options.for_history()
+    statics = Statics(bearing, options, line, float(np.abs(speeds).max()))
+    require(not statics.gap.pads.size, "shape", bearing.shape.kind, "a fixed bore for an orbit")
+    forces = statics.raise_scale(loads)
     omega = float(speeds[0])
-    film.set_speed(omega)
-    if place is None:
-        _, first = _settle(bearing, film, None, loads[0], omega, None, control)
+    if start is None:
+        first = statics.solve(0, loads[0], omega, None, control)
     else:
-        first = solve_film(film, film.start(), place, np.zeros(2), control.tolerance, 100)
+        first = statics.hold(0, start, np.zeros(2), omega, control, name="start")
     if not first.converged:
-        raise SolverError(f"orbit cannot start: {_refusal(film, loads[0], first)}")
-    return first
+        raise SolverError(f"orbit cannot start: {statics.message(first, loads[0])}")
+    return statics, first, forces
 
 
-def _mean_pressure(bearing: JournalGeometry, loads: Array) -> float:
-    """Largest load over the projected area, Pa."""
-    return float(np.hypot(*loads.T).max()) / (bearing.width * bearing.diameter)
+class Statics:
+    """One film and what is given of the shaft's line, solved load by load.
+
+    Parameters
+    ----------
+    bearing, options, line
+        The bearing, its film and what is given of the shaft.
+    rate : float
+        Largest speed or rate of squeeze, 1/s.
+    crowd : tuple of float, optional
+        Angles, rad, at which cells crowd, on a mesh that is fixed to the shell; by default the
+        mesh is the one that suits the bore.
+    """
+
+    gap: BoreGap
+    film: DiscreteFilm
+    shaft: slice | Rows
+
+    def __init__(
+        self,
+        bearing: JournalGeometry,
+        options: Film,
+        line: Line,
+        rate: float,
+        crowd: tuple[float, ...] | None = None,
+    ) -> None:
+        self.bearing, self.line, self.options, self.rate = bearing, line, options, rate
+        self.crowd = crowd
+        if crowd is None and is_cylindrical(bearing, options, line):
+            lengths = bearing.diameter, bearing.width, bearing.relative_clearance
+            self.gap, self.film = cylindrical_film(*lengths, options)
+        else:
+            self.gap, self.film = shaped_film(bearing, options, line.straight, crowd or ())
+        self.film.set_scale(rate)
+        count = 2 if line.moment is None else self.gap.shaft
+        self.shaft = EVERY if count == self.gap.size else np.arange(count)  # what moves of it
+
+    @property
+    def can_refine(self) -> bool:
+        """Whether a load that the cells do not resolve is tried on a graded mesh."""
+        return self.gap.axisymmetric and self.options.may_grade
+
+    @cached_property
+    def finer(self) -> Statics:
+        """The same on a graded mesh."""
+        return self._on(self.options.graded())
+
+    def _on(self, options: Film, crowd: tuple[float, ...] | None = None) -> Statics:
+        """The same on another mesh, to the same scale."""
+        other = Statics(self.bearing, options, self.line, self.rate, crowd)
+        other.film.raise_scale(self.film.scale)
+        return other
+
+    def raise_scale(self, loads: Array) -> Array:
+        """Raise the scale of pressure to the mean of the largest of `loads`; generalised loads."""
+        forces = np.array([self._force(index, load) for index, load in enumerate(loads)])
+        largest = float(np.hypot.reduce(forces, axis=1).max())
+        self.film.raise_scale(largest / (self.bearing.width * self.bearing.diameter))
+        return forces
+
+    def resolve(
+        self,
+        index: int,
+        load: Array,
+        omega: float,
+        last: Solution | None,
+        control: Limits,
+        meshes: int = _CROWDED,
+    ) -> tuple[Statics, Solution]:
+        """Equilibrium under load number `index`, and the film it was found on.
+
+        Cells that do not resolve the gap are graded. Where the gap closes between the cells of a
+        mesh fixed to the shell there may be no equilibrium on it, so that cells crowd there, on up
+        to `meshes` others.
+        """
+        refine = self.can_refine
+        solution = self.solve(index, load, omega, last, control, in_steps=not refine)
+        resolved = not refine or self.film.resolves(solution.position)
+        if (solution.converged and resolved) or not self._carries(self._force(index, load)):
+            return self, solution
+        if refine:
+            return self.finer.resolve(index, load, omega, None, control)
+        crowded = self._crowded(solution) if meshes else None
+        if crowded is None:
+            return self, solution
+        left = meshes if self.gap.axisymmetric else meshes - 1
+        return crowded.resolve(index, load, omega, None, control, left)
+
+    def _crowded(self, solution: Solution) -> Statics | None:
+        """The film on cells that crowd where the gap of a `solution` closes; None: as before."""
+        if self.gap.axisymmetric:  # grooves hold the cells in their places
+            fed = self.options.supply is not None and not self.film.dry(solution.u)
+            return self._on(self.options, ()) if fed and self.film.speed != 0.0 else None
+        if self.film.elastic or not np.isfinite(solution.position).all():
+            return None
+        crowd, before = self.gap.closing(solution.position, _NARROW), self.crowd or ()
+        same = len(crowd) == len(before) and np.allclose(crowd, before, atol=_SAME)
+        return None if same else self._on(self.options, crowd)
+
+    def solve(
+        self,
+        index: int,
+        load: Array,
+        omega: float,
+        last: Solution | None,
+        control: Limits,
+        in_steps: bool = True,
+    ) -> Solution:
+        """Equilibrium under load number `index` on this mesh.
+
+        From the `last` solution, if that is near, and from a first position; if `in_steps` also by
+        steps of the load.
+        """
+        film, gap = self.film, self.gap
+        film.relax()
+        film.set_speed(omega)
+        force = self._force(index, load)
+        carries = self._carries(force)
+        if not carries and force.any():
+            return no_film(film)
+        estimate = first_position(self.bearing, film, gap, load, self._held(index), self.shaft)
+        limits = control.tolerance, film.newton_steps(control.max_iterations)
+        if not carries:
+            return solve_film(film, film.start(), estimate, np.zeros(gap.size), *limits)
+        solution, estimate, pads = self._by_newton(force, estimate, last, limits)
+        if not solution.converged and in_steps:
+            solution = self._in_steps(force, estimate, pads, limits)
+        return self._checked(replace(solution, estimate=estimate))
+
+    def hold(
+        self,
+        index: int,
+        place: Array,
+        velocity: Array,
+        omega: float,
+        control: Limits,
+        name: str = "eccentricity",
+    ) -> Solution:
+        """Film at a given `place`; pads take the tilt without moment and follow the `velocity`.
+
+        Raises
+        ------
+        loadflow.errors.InputError
+            The shaft touches the bore.
+        """
+        film, gap = self.film, self.gap
+        film.relax()
+        film.set_speed(omega)
+        position, moving = self._held(index), np.zeros(gap.size)
+        position[:2], moving[:2] = place, velocity
+        position = gap.lifted(position, omega)
+        limits = control.tolerance, film.newton_steps(control.max_iterations)
+        if film.elastic:
+            return self._checked(solve_by_approach(film, position, moving, *limits))
+        if not gap.narrowest(position) > 0.0:
+            touch = "the shaft touches the bore"
+            why = touch if film.contact is None else f"{touch} beyond the law of contact"
+            raise InputError(
+                f"{name} {index}: ε = {math.hypot(*place):.6g} is not allowed: {why}, "
+                + narrowest_place(self.bearing, gap, position)
+            )
+        if not gap.pads.size:
+            return self._checked(solve_film(film, film.start(), position, moving, *limits))
+        pads = self._on_pads(gap.converging(position))
+        return self._checked(film_on_pads(film, self._shaped, position, moving, pads, *limits))
+
+    def message(self, solution: Solution, load: Array | None = None) -> str:
+        """Why there is no answer for `load`, or at the position given, with numbers."""
+        return why_unsolved(self.bearing, self.film, self.gap, solution, load)
+
+    # --- inside ----------------------------------------------------------------------------------
+    def _force(self, index: int, load: Array) -> Array:
+        """Generalised load (m,), N."""
+        if self.gap.size == load.size:
+            return load
+        force = np.zeros(self.gap.size)
+        force[:2] = load
+        if self.line.moment is not None:
+            force[2:4] = self.line.moment[index] / self.bearing.radius
+        return force
+
+    def _held(self, index: int) -> Array:
+        """Centred position of the shaft with what is given of its line."""
+        tilt, bend = self.line.tilt, self.line.bend
+        return self.gap.held(
+            None if tilt is None else tilt[index], None if bend is None else bend[index]
+        )
+
+    def _carries(self, force: Array) -> bool:
+        """Whether anything may carry a load at the speed that is set."""
+        film = self.film
+        return film.speed != 0.0 or film.lifts or (film.contact is not None and bool(force.any()))
+
+    def _checked(self, solution: Solution) -> Solution:
+        """The same, not converged where the shell meets the shaft or a fed groove falls dry."""
+        film = self.film
+        sound = film.clearance_left(solution.position) > APART and not film.dry(solution.u)
+        return replace(solution, converged=solution.converged and sound)
+
+    @property
+    def _shaped(self) -> ShapedGap:
+        """The gap, of which only a shaped one has pads."""
+        return cast("ShapedGap", self.gap)
+
+    def _on_pads(self, pads: Rows) -> Rows:
+        """Take the film off all other pads."""
+        if self.gap.pads.size:
+            unload_other_pads(self.film, self._shaped, pads)
+        return pads
+
+    def _free(self, pads: Rows) -> slice | Rows:
+        """Degrees of freedom that move, those of `pads` among them."""
+        return np.append(np.arange(self.gap.size)[self.shaft], pads) if pads.size else self.shaft
+
+    def _by_newton(
+        self, force: Array, estimate: Array, last: Solution | None, limits: tuple[float, int]
+    ) -> tuple[Solution, Array, Rows]:
+        """Newton from every start; with it the position and the pads that it ended at."""
+        film, gap = self.film, self.gap
+        pads = gap.converging(estimate)
+        for _ in range(_PAD_ROUNDS):
+            free = self._free(self._on_pads(pads))
+            for start in self._starts(force, estimate, last, free, pads, limits):
+                solution = solve_equilibrium(film, force, *start, *limits, free=free)
+                if solution.converged:
+                    break
+            tilting = gap.converging(solution.position)
+            if not solution.converged or np.array_equal(tilting, pads):
+                break
+            estimate = np.append(solution.position[:2], estimate[2:])
+            estimate, last, pads = gap.lifted(estimate, film.speed), None, tilting
+        return solution, estimate, pads
+
+    def _starts(
+        self,
+        force: Array,
+        estimate: Array,
+        last: Solution | None,
+        free: slice | Rows,
+        pads: Rows,
+        limits: tuple[float, int],
+    ) -> Iterator[tuple[Array, Array]]:
+        """Where Newton may start: from the last solution if the estimate has moved little."""
+        film, gap = self.film, self.gap
+        lifts, fed = film.lifts, film.pockets.free.size > 0
+        if lifts and fed:
+            yield from self._floating(force, estimate)
+        if last is not None and last.estimate is not None and _same(last.free, free):
+            position = estimate.copy()
+            position[free] = last.position[free]
+            reach = NEAR * film.narrowest(last.u, position)
+            if math.hypot(*(estimate - last.estimate)[:2]) < reach:
+                yield last.u, position
+        if pads.size:
+            still = np.zeros(gap.size)
+            first = film_on_pads(film, self._shaped, estimate, still, pads, *limits)
+            if first.converged:
+                yield first.u, first.position
+        yield film.start(), estimate
+        if lifts and not fed:
+            yield from self._floating(force, estimate)
+
+    def _floating(self, force: Array, estimate: Array) -> Iterator[tuple[Array, Array]]:
+        """Start for a shaft that its supply carries: well off the bore, its film solved."""
+        film, gap, load = self.film, self.gap, force[:2]
+        way, position = load / (float(np.hypot(*load)) or 1.0), estimate.copy()
+        far = _FLOATING * min(gap.reach(way, 0.0), 1.0)
+        if film.speed == 0.0 or float(np.hypot(*position[:2])) > far:
+            position[:2] = far * way
+            position = gap.lifted(position, film.speed)
+        if gap.narrowest(position) > 0.0:
+            state = solve_film(film, film.start(), position, np.zeros(gap.size), 1e-6, 30)
+            yield state.u, position
+
+    def _in_steps(
+        self, force: Array, estimate: Array, pads: Rows, limits: tuple[float, int]
+    ) -> Solution:
+        """Equilibrium where Newton finds none at once."""
+        film, free = self.film, self._free(pads)
+        if film.elastic:
+            return solve_in_load_steps(film, force, estimate, limits[0], free)
+        if pads.size:
+            shaft = np.arange(self.gap.size)[self.shaft]
+            solution = solve_with_pads(film, self._shaped, force, estimate, shaft, *limits)
+            if solution.converged:
+                return solution
+            self._on_pads(pads)
+        return solve_from_held(film, force, estimate, *limits, free)
 
 
-def _settle(
-    bearing: JournalGeometry,
-    film: DiscreteFilm,
-    finer: DiscreteFilm | None,
-    load: Array,
-    speed: float,
-    last: Solution | None,
-    control: Limits,
-) -> tuple[DiscreteFilm, Solution]:
-    """Equilibrium from the closed form, robustly; the film it was found on comes with it."""
-    tolerance, max_iterations = control.tolerance, control.max_iterations
-    film.set_speed(speed)
-    lifts = film.pockets.lifts(film.p_edge)
-    if speed == 0.0 and not lifts and (film.contact is None or not load.any()):
-        if load.any():
-            return film, no_film(film)
-        return film, solve_film(film, film.start(), load, load, tolerance, max_iterations)
-    position = closer_of(film, load, _estimate(bearing, load, film))
-    attempts = [(film, *start) for start in _starts(film, position, last)]
-    if lifts:
-        floating = _floating(film, load, position)
-        attempts.insert(0 if film.pockets.free.size else len(attempts), floating)
-    if finer is not None:
-        finer.set_speed(speed)
-        attempts.append((finer, finer.start(), position))
-    for used, u, start in attempts:
-        steps = _steps(used, max_iterations)
-        solution = solve_equilibrium(used, load, u, start, tolerance, steps)
-        if solution.converged and (finer in (None, used) or used.resolves(solution.position)):
-            dry = used.dry(solution.u)
-            return used, replace(solution, estimate=position, converged=not dry)
-    used = finer or film
-    solution = solve_patiently(used, load, position, tolerance, max_iterations)
-    return used, replace(solution, estimate=position)
-
-
-def _starts(
-    film: DiscreteFilm, position: Array, last: Solution | None
-) -> Iterator[tuple[Array, Array]]:
-    """Where Newton may start: from the last solution if the closed form has moved little."""
-    if last is not None and last.estimate is not None:
-        moved = position - last.estimate
-        if np.hypot(*moved) < NEAR * (1 - np.hypot(*last.position)):
-            yield last.u, last.position
-    yield film.start(), position
-
-
-def _estimate(bearing: JournalGeometry, load: Array, film: DiscreteFilm) -> Array:
-    """Position by Butenschön's closed form, in clearances."""
-    if film.speed == 0.0:
-        return np.zeros(2)
-    wanted = bearing.sommerfeld_number(float(np.hypot(*load)), film.speed, film.viscosity)
-    ratio = bearing.width / bearing.diameter
-    return closed_form_position(ratio, wanted, load, film.speed, film.ruptures)
-
-
-def _refusal(film: DiscreteFilm, load: Array, solution: Solution) -> str:
-    """Why no film carries `load`, in words."""
-    head = f"F = ({load[0]:.6g}, {load[1]:.6g}) N at ω = {film.speed:.6g} rad/s"
-    if film.dry(solution.u):
-        return f"{head}: {_STARVED}"
-    if film.speed == 0.0 and film.contact is None:
-        if not film.pockets.lifts(film.p_edge):
-            return f"{head}: without rotation and squeeze the film carries no load"
-        return f"{head}: the supply carries no more than {_lift(film, load):.6g} N, at ε = {_HIGH}"
-    ratio = float(np.hypot(*solution.position))
-    reached = (solution.residual, solution.rounding, solution.iterations)
-    if film.contact is not None:
-        overlap = (ratio - 1.0) / film.gap.roughness
-        return f"{head}: {not_found(*reached, ratio)}, mean planes {overlap:.3g} σ beyond touching"
-    return refusal(load, film.speed, not_found(*reached, ratio))
-
-
-def _steps(film: DiscreteFilm, max_iterations: int) -> int:
-    """Newton steps that a load may take; the rupture of Reynolds moves by one cell in each."""
-    return max(max_iterations, film.mesh.shape[0] if film.creeps else 0)
-
-
-def _floating(
-    film: DiscreteFilm, load: Array, position: Array
-) -> tuple[DiscreteFilm, Array, Array]:
-    """Start for a shaft that its supply carries: well off the shell, the film settled."""
-    ratio = float(np.hypot(*position))
-    if film.speed == 0.0 or ratio > _AFLOAT:
-        position = _AFLOAT * load / (float(np.hypot(*load)) or 1.0)
-    state = solve_film(film, film.start(), position, np.zeros(2), 1e-6, 30)
-    return film, state.u, position
-
-
-def _lift(film: DiscreteFilm, load: Array) -> float:
-    """Load that the supply carries against `load` with the shaft nearly on the shell, N."""
-    way = load / (float(np.hypot(*load)) or 1.0)
-    state = solve_film(film, film.start(), _HIGH * way, np.zeros(2), 1e-6, 100)
-    return float(state.linear.load @ way)
+def _same(free: slice | Rows, other: slice | Rows) -> bool:
+    """Whether both are the same degrees of freedom."""
+    return free is other or np.array_equal(np.asarray(free), np.asarray(other))

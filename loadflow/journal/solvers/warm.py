@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,7 +24,7 @@ from loadflow.journal.heat import HOTTEST, FilmHeat
 from loadflow.journal.line import Line
 from loadflow.journal.results import field_row, static_row
 from loadflow.journal.solvers.newton import Solution
-from loadflow.journal.solvers.statics_shaped import ShapedStatics
+from loadflow.journal.solvers.statics import Statics
 from loadflow.numerics.anderson import Anderson
 from loadflow.numerics.convergence import Limits
 from loadflow.numerics.fields import require
@@ -36,11 +36,11 @@ FilmOf = Callable[["Solution | None"], Solution]
 TOLERANCE, TRIES = 1e-7, 100
 """Largest change of a temperature that is left, K, and the fields of temperature tried."""
 _DEPTH = 6  # earlier fields that count
-_PLAIN, _SHORT = 20, 0.3  # fields after which only this share of each change is made
+_ACCELERATED, _SHORT = 20, 0.3  # fields after which only this share of each change is made
 _NEAR = 0.5  # change, K, below which the method is trusted again
 _WORSE = 1.5  # of the smallest change so far, that from which the next field goes back
-_SCORCHED = 10  # fields in a row above the largest temperature, after which none is tried
-_HALVED = 12  # steps of the temperature that are halved before the film is given up
+_TOO_HOT = 10  # fields in a row above the largest temperature, after which none is tried
+_HALVINGS = 12  # steps of the temperature that are halved before the film is given up
 
 
 @dataclass(frozen=True)
@@ -81,11 +81,11 @@ def warm_rows(
         def film_of(before: Solution | None, index: int = index, omega: float = omega) -> Solution:
             return statics.solve(index, loads[index], omega, before, each)
 
-        found = _settled(equation, film_of, last)
+        found = _coupled(equation, film_of, last)
         if not found.converged and last is not None:
-            found = _settled(equation, film_of, None)
+            found = _coupled(equation, film_of, None)
         if not found.converged and control.strict:
-            why = found.why or statics.refusal(load, found.solution)
+            why = found.why or statics.message(found.solution, load)
             raise SolverError(f"load {index}: {why}")
         if found.converged and found.warmth is not None:
             last = found.solution, found.warmth.cells
@@ -111,9 +111,9 @@ def warm_fields(
         def film_of(before: Solution | None, index: int = index, omega: float = omega) -> Solution:
             return statics.hold(index, places[index], velocities[index], omega, control)
 
-        found = _settled(equation, film_of, None)
+        found = _coupled(equation, film_of, None)
         if not found.converged and control.strict:
-            why = found.why or statics.refusal(np.zeros(2), found.solution)
+            why = found.why or statics.message(found.solution)
             raise SolverError(f"film {index}: {why}")
         row = field_row(statics.film, _flagged(found))
         rows.append(row | _heat_columns(equation, found))
@@ -122,17 +122,15 @@ def warm_fields(
 
 def _prepared(
     bearing: JournalGeometry, options: Film, line: Line, rate: float
-) -> tuple[ShapedStatics, EnergyEquation]:
+) -> tuple[Statics, EnergyEquation]:
     """Film and energy equation."""
-    heat = options.heat
-    assert isinstance(heat, FilmHeat)
     require(options.shell is None, "shell", options.shell, "None with heat over the area")
-    statics = ShapedStatics(bearing, options, line, rate)
-    assert isinstance(statics.gap, WarmGap)
-    return statics, EnergyEquation(statics.film, statics.gap, heat)
+    statics = Statics(bearing, options, line, rate)
+    gap, heat = cast("WarmGap", statics.gap), cast("FilmHeat", options.heat)
+    return statics, EnergyEquation(statics.film, gap, heat)
 
 
-def _settled(
+def _coupled(
     equation: EnergyEquation, film_of: FilmOf, last: tuple[Solution, Array] | None
 ) -> _Warm:
     """Film and temperatures that agree, from those of the `last` load or from cold oil."""
@@ -141,7 +139,7 @@ def _settled(
     before, now = (None, cold) if last is None else last
     good, warmth, residual = cold, None, np.inf
     method, halved, spent = Anderson(_DEPTH), 0, 0
-    best, share, nearest, scorched = np.inf, 1.0, (now, now), 0
+    best, share, nearest, too_hot = np.inf, 1.0, (now, now), 0
     for iteration in range(1, TRIES + 1):
         equation.thicken(now)
         solution = film_of(before)
@@ -149,7 +147,7 @@ def _settled(
         solution = replace(solution, iterations=spent)
         if not solution.converged:
             halved += 1
-            if halved > _HALVED or (now is good and before is None):
+            if halved > _HALVINGS or (now is good and before is None):
                 break
             method.forget()
             before, now = None, 0.5 * (now + good)
@@ -160,8 +158,8 @@ def _settled(
             return _Warm(solution, None, residual, iteration, False, str(error))
         before, good = solution, now
         residual = float(np.abs(warmth.cells - now).max())
-        scorched = scorched + 1 if float(min(now.max(), warmth.cells.max())) > HOTTEST else 0
-        if scorched > _SCORCHED:
+        too_hot = too_hot + 1 if float(min(now.max(), warmth.cells.max())) > HOTTEST else 0
+        if too_hot > _TOO_HOT:
             break
         if residual < best:
             best, nearest, share = residual, (now, warmth.cells), min(1.0, 2.0 * share)
@@ -170,16 +168,18 @@ def _settled(
             hot = f"the film gets hotter than {HOTTEST} K: {hottest:.4g} K"
             fine = hottest < HOTTEST
             return _Warm(solution, warmth, residual, iteration, fine, "" if fine else hot)
-        if iteration >= _PLAIN and residual > _NEAR:
+        if iteration >= _ACCELERATED and residual > _NEAR:
             method.forget()
             now = now + _SHORT * (warmth.cells - now)
             continue
-        if iteration < _PLAIN and residual > _WORSE * best:  # from the best field again, less far
+        if (
+            iteration < _ACCELERATED and residual > _WORSE * best
+        ):  # from the best field again, less far
             method.forget()
             share *= 0.5
             now = nearest[0] + share * (nearest[1] - nearest[0])
             continue
-        share = share if iteration < _PLAIN else _SHORT
+        share = share if iteration < _ACCELERATED else _SHORT
         relaxed = now + share * (warmth.cells - now)
         now = method.next(now.ravel(), relaxed.ravel()).reshape(now.shape)
         low, high = warmth.cells.min() - 5.0, warmth.cells.max() + 5.0
@@ -187,7 +187,7 @@ def _settled(
     why = ""
     if warmth is not None:
         why = f"temperatures: {residual:.3g} K left after {iteration} fields"
-    if scorched:
+    if too_hot:
         why = f"the film gets hotter than {HOTTEST} K"
     return _Warm(solution, warmth, residual, iteration, False, why)
 

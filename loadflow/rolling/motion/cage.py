@@ -16,11 +16,13 @@ from annotated_types import Ge, Gt
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError, SolverError
-from loadflow.numerics.convergence import Convergence
+from loadflow.numerics.convergence import Convergence, is_small
 from loadflow.numerics.fields import check_fields
 from loadflow.tribology.film import butenschoen, butenschoen_squeeze
 
 Array = NDArray[np.float64]
+
+_RTOL = 1e-6  # of the steps in time
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -138,7 +140,8 @@ def cage_orbit(
     start : float
         First guess of ε.
     tolerance : float
-        Largest change of ε and of the angle (rad) over a cycle.
+        Largest change of ε and of the angle (rad) over a cycle; none is asked below what the
+        steps in time leave open, about 1e-6.
     max_cycles : int
         Cycles before giving up.
 
@@ -160,18 +163,22 @@ def cage_orbit(
     state = np.array([-math.log1p(-start), drive.at(t[0])[1]])
     for cycle in range(1, max_cycles + 1):
         path = solve_ivp(
-            _rates, (t[0], t[-1]), state, "LSODA", t, rtol=1e-6, atol=1e-8, args=(rim, drive)
+            _rates, (t[0], t[-1]), state, "LSODA", t, rtol=_RTOL, atol=1e-8, args=(rim, drive)
         )
         if not path.success:
             raise SolverError(f"cage: cycle {cycle}: {path.message}")
         ends = -np.expm1(-path.y[0, [0, -1]])
         turn = math.remainder(path.y[1, -1] - path.y[1, 0], 2 * math.pi)
         change = max(abs(float(ends[1] - ends[0])), abs(turn))
+        finest = _RTOL * max(1.0, float(np.abs(path.y[1]).max()))
         state = path.y[:, -1]
-        if change <= tolerance:
+        if is_small(change, tolerance, finest):
             break
     else:
-        raise SolverError(f"cage: the path is open by {change:.3g} after {max_cycles} cycles")
+        raise SolverError(
+            f"cage: the path is open by {change:.3g} after {max_cycles} cycles, where the steps "
+            f"in time allow {finest:.3g}"
+        )
     ratio, angle = -np.expm1(-path.y[0]), path.y[1]
     return CageOrbit(
         time=t,

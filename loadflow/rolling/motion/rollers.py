@@ -237,7 +237,8 @@ def film_motion(
         μ' of the cage's pockets.
     tolerance : float
         Allowed first-order error of a step, over the ideal spin. The steps are of second order;
-        with the default the spin is within 0.1 % of a tight reference (`benchmarks/friction.py`).
+        with the default the spin is within 0.1 % of a tight reference
+        (`benchmarks/peers/friction.py`).
     periodic : bool
         Run twice and keep the second pass.
 

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError, SolverError
+from loadflow.numerics.convergence import rounding_level, unresolved
 from loadflow.rolling.contacts import HEIGHT, NORMAL_R, NORMAL_Z, RADIUS, Contacts, Raceway
 from loadflow.rolling.equilibrium import FormedStiffness, RingEquilibrium
 
@@ -166,7 +167,10 @@ def spin_equilibrium(
             rest_load = load - np.einsum("kbij,nkbi->nj", jacobian, pull)
             hessian = np.einsum("kbia,nkbij,kbjc->nac", jacobian, tangent, jacobian, optimize=True)
             residual = np.abs(rest_load * scale).max(axis=1) / reference
-            if (residual <= tolerance).all():
+            terms = np.einsum("kbij,nkbi->nj", np.abs(jacobian), np.abs(pull)) * scale
+            rounding = rounding_level(terms.max(axis=1) / reference)
+            small = residual <= np.maximum(tolerance, rounding)
+            if small.all():
                 break
             total += 1
             scaled = hessian * scale[:, None] * scale
@@ -179,13 +183,14 @@ def spin_equilibrium(
             np.arctan2(away[..., 1], away[..., 0]),
             np.arctan2(seat[..., 1], seat[..., 0]),
         )
-        if (change <= _WANTED).all() and (residual <= tolerance).all():
+        if (change <= _WANTED).all() and small.all():
             break
-    if (change > _ALLOWED).any() or (residual > tolerance).any():
-        worst = int(np.argmax(np.maximum(residual, change)))
+    if (change > _ALLOWED).any() or not small.all():
+        worst = int(np.argmax(np.where(small, 0.0, residual) + change))
         raise SolverError(
-            f"spinning balls: case {worst} at {omega[worst]:g} rad/s, residual "
-            f"{residual[worst]:.3g}, change of inertia {change[worst]:.3g} after {total} steps"
+            f"spinning balls: case {worst} at {omega[worst]:g} rad/s: "
+            f"{unresolved(residual[worst], rounding[worst], total)}; "
+            f"change of inertia {change[worst]:.3g}"
         )
     full = (*shape, *reach.shape[1:3])
     spin = (np.hypot(*np.moveaxis(pull, -1, 0)), outer, *angles, centrifugal, gyroscopic)

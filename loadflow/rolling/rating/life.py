@@ -20,13 +20,6 @@ Array = NDArray[np.float64]
 POINT_EXPONENT = 3.0
 LINE_EXPONENT = 10.0 / 3.0
 
-# factor a_4 on the life for rings that deform, of DG03 (Tab. 2.1); L_nm = a_1 a_2 … L10, (2.22)
-DEFORMATION_FACTORS = {
-    "pitch, hub": 0.85,
-    "yaw, tubular tower": 0.85,
-    "yaw, four-leg tower": 0.25,
-}
-
 
 def equivalent_axial_load(force_cubes: ArrayLike, balls: int, contact_angle: float) -> Array:
     """Equivalent axial load P_ea, N, from the sum of the cubed ball forces, (2.21) and (4.4).

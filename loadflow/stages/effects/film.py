@@ -11,7 +11,8 @@ from pydantic import ValidationError
 from loadflow.data import gains
 from loadflow.errors import InputError
 from loadflow.journal import Heat
-from loadflow.scene.scene import Journal, Scene
+from loadflow.scene.journal import Journal
+from loadflow.scene.scene import Scene
 from loadflow.shaft.beam import ShaftSection
 from loadflow.stages.effects.effect import Effect, Sizes
 from loadflow.stages.effects.situation import Film, Floats, Situation

@@ -1,0 +1,1 @@
+"""Speed and error of every rung: what `loadflow plan` decides with."""

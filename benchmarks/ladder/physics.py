@@ -1,0 +1,308 @@
+"""Which physics matters when: docs/physics.md and its figures.
+
+``sizes`` lets the pilot measure every effect on single wind speeds of three turbines, ``scenes``
+asks the plan of ten scenes what it keeps, ``runs`` makes small whole runs from the coarsest models
+to all that there is and holds their answers against the last. What is measured is kept beside the
+page in ``docs/figures/physics.json``, so that each part may be measured alone; without a part the
+page is written anew from there.
+"""
+
+from __future__ import annotations
+
+import json
+import tempfile
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import matplotlib.pyplot as plt
+
+from benchmarks.common import ROOT, arguments, head, put, row
+from loadflow.planning.pilot import pilot
+from loadflow.planning.plan import make_plan
+from loadflow.running.runner import run
+from loadflow.scene.bearings import standing_ring
+from loadflow.scene.candidates import machine
+from loadflow.scene.scene import Scene
+
+KEPT = ROOT / "docs" / "figures" / "physics.json"
+PAGE = ROOT / "docs" / "physics.md"
+FIGURE = ROOT / "docs" / "figures" / "physics.svg"
+
+SPEEDS = (4.0, 8.0, 12.0, 18.0, 24.0)
+TURBINES = ("windpact-1.5mw", "nrel-5mw", "iea-15mw")
+READ = {
+    "loads": ("bearing force DEL", "bearing load max"),
+    "film": ("minimum film", "friction power"),
+    "rolling": ("maximum force", "life"),
+}
+"""Quantities of the page, by what they belong to."""
+
+RESULTS = ["loads.statistics", "journal.film", "rolling.loads", "rolling.life"]
+SHORT = {"duration": 60.0, "seeds": 1}
+
+
+def scene_of(
+    turbine: str,
+    film: dict[str, Any] | None = None,
+    **keys: Any,
+) -> Scene:
+    """Two journal bearings and a ball bearing for the moment, sized; the shaft as a beam.
+
+    `film` are keys of the journal bearings. Rings are square, with sides of 2.4 balls.
+    """
+    known = machine(turbine)
+    shaft = {place: dict(keys) for place, keys in known["shaft"].items()}
+    two = next(place for place in shaft if place != "moment")
+    shaft[two]["beam"] = {}
+    journal = known["candidates"]["journal-cylindrical"]
+    rolling = known["candidates"]["four-point"]
+    ball = rolling["M"]["geometry"]
+    side, mean = 2.4 * ball["ball_diameter"], ball["pitch_diameter"] / 2
+    around = {
+        f"{name}_ring": standing_ring(side, side, mean + sign * side / 2, wall=(0.06, 1.0))
+        for name, sign in (("inner", -1), ("outer", 1))
+    }
+    bearings = {place: journal[place] | (film or {}) for place in ("N", "N2")}
+    bearings["M"] = rolling["M"] | around
+    made = {"name": "physics", "turbine": {"name": turbine}, "results": RESULTS, "shaft": shaft}
+    return Scene.model_validate(made | {"bearings": bearings} | keys)
+
+
+# --- sizes over wind speed and turbine ------------------------------------------------------------
+
+
+def sizes() -> Iterator[dict[str, Any]]:
+    """Measured size of every effect, by turbine and wind speed."""
+    for turbine in TURBINES:
+        for speed in SPEEDS:
+            loads = {"wind_speeds": [speed]} | SHORT
+            scene = scene_of(turbine, loads=loads, accuracy=0.02)
+            begun = time.process_time()
+            verdict = pilot(scene)
+            print(turbine, speed, f"{time.process_time() - begun:.0f} s", flush=True)
+            if verdict is not None:
+                yield {
+                    "turbine": turbine,
+                    "speed": speed,
+                    "sizes": verdict.sizes,
+                    "refused": verdict.refused,
+                }
+
+
+# --- ten scenes, and what the plan keeps ----------------------------------------------------------
+
+
+def ten_scenes() -> dict[str, Scene]:
+    """Power production, start, stop, parked; small and large turbine; stiff and soft housing."""
+    production = {"wind_speeds": [8.0, 12.0, 18.0]} | SHORT
+    still = ["loads.statistics", "rolling.loads"]
+    small, usual, large = TURBINES
+    made = {
+        "power production, 1.5 MW": scene_of(small, loads=production),
+        "power production, 5 MW": scene_of(usual, loads=production),
+        "power production, 15 MW": scene_of(large, loads=production),
+        "power production, 5 MW, 20 % asked for": scene_of(usual, loads=production, accuracy=0.2),
+        "power production, 5 MW, 2 % asked for": scene_of(usual, loads=production, accuracy=0.02),
+        "extreme turbulence, 5 MW": scene_of(usual, loads=production | {"dlc": "1.3"}),
+        "start, 5 MW": scene_of(usual, loads={"dlc": "3.1"}),
+        "stop, 5 MW": scene_of(usual, loads={"dlc": "4.1"}),
+        "parked, 5 MW": scene_of(usual, loads={"dlc": "6.1", "rung": "tables"}, results=still),
+        "parked, 15 MW": scene_of(large, loads={"dlc": "6.1", "rung": "tables"}, results=still),
+    }
+    return made
+
+
+def scenes() -> Iterator[dict[str, Any]]:
+    """What the plan keeps of each scene after its pilot, and why."""
+    for name, scene in ten_scenes().items():
+        begun = time.process_time()
+        plan = make_plan(scene, [], pilot(scene))
+        print(name, f"{time.process_time() - begun:.0f} s", flush=True)
+        yield {
+            "scene": name,
+            "asked": scene.accuracy,
+            "effects": [
+                {"name": one.name, "kept": one.kept, "why": one.why, "size": one.size}
+                for one in plan.effects
+            ],
+            "rungs": {step.name: step.rung for step in plan.steps},
+            "errors": plan.errors,
+            "accurate": plan.accurate,
+        }
+
+
+# --- whole runs -----------------------------------------------------------------------------------
+
+
+def whole_runs() -> dict[str, Scene]:
+    """The same loads by ever better models, the last one all that there is."""
+    loads = {"wind_speeds": [8.0, 16.0, 24.0], "duration": 120.0, "seeds": 1}
+    coarse = loads | {"rung": "tables", "wind_grid": [6, 24]}
+    cold = {"motion": "quasi-static", "heat": None}
+    charts = cold | {"rung": "chart", "edge_pressure": 0.0}
+    charts["cavitation"] = {"kind": "reynolds", "cavitation_pressure": 0.0}
+
+    def made(**keys: Any) -> Scene:
+        return scene_of("nrel-5mw", **({"loads": loads} | keys))
+
+    return {
+        "charts, rigid blades": made(accuracy="given", loads=coarse, film=charts),
+        "film at rest, cold": made(accuracy="given", film=cold | {"grid": [40, 12]}),
+        "accuracy = 0.2": made(accuracy=0.2),
+        "accuracy = 0.1": made(accuracy=0.1),
+        "accuracy = 0.05 (default)": made(),
+        "accuracy = 0.02": made(accuracy=0.02),
+        "most accurate": made(accuracy=0.001),
+    }
+
+
+def answers(tree: Any) -> dict[str, float]:
+    """What users read of a run: the hardest film, the friction, the largest force, the life."""
+    film, rolling = tree["journal"], tree["rolling"]
+    return {
+        "minimum film": float(film["minimum_film"].min()),
+        "eccentricity ratio": float(film["eccentricity_ratio"].max()),
+        "friction power": float(film["friction_power"].mean()),
+        "maximum force": float(rolling["maximum_force"].max()),
+        "life": float(rolling["life"].min()),
+    }
+
+
+def runs() -> Iterator[dict[str, Any]]:
+    """Processor time and answers of every whole run, kernels compiled."""
+    for name, scene in whole_runs().items():
+        with tempfile.TemporaryDirectory() as folder:
+            run(scene.model_copy(update={"name": "warm"}), out=Path(folder), report=False)
+            begun = time.process_time()
+            done = run(scene, out=Path(folder), report=False)
+            seconds = time.process_time() - begun
+            print(name, f"{seconds:.1f} s", flush=True)
+            yield {"run": name, "seconds": seconds, "answers": answers(done.tree)}
+
+
+# --- the page -------------------------------------------------------------------------------------
+
+
+def percent(value: float) -> str:
+    """Two digits."""
+    return f"{100 * value:.2g} %"
+
+
+def largest(found: dict[str, float]) -> str:
+    """The quantity that moves most, and by how much."""
+    if not found:
+        return "-"
+    name = max(found, key=lambda one: found[one])
+    return f"{percent(found[name])} of {name}"
+
+
+def effects_of(measured: list[dict[str, Any]]) -> list[str]:
+    """Names of all effects that were measured anywhere."""
+    return list(dict.fromkeys(name for one in measured for name in one["sizes"]))
+
+
+def size_table(measured: list[dict[str, Any]]) -> str:
+    """A row for each effect and turbine, a column for each wind speed."""
+    lines = [head("effect", "turbine", *(f"{speed:g} m/s" for speed in SPEEDS))]
+    for effect in effects_of(measured):
+        for turbine in TURBINES:
+            at = {one["speed"]: one for one in measured if one["turbine"] == turbine}
+            cells = [
+                "refused"
+                if effect in at[speed]["refused"]
+                else largest(at[speed]["sizes"].get(effect, {}))
+                if speed in at
+                else "-"
+                for speed in SPEEDS
+            ]
+            lines.append(row(effect, turbine, *cells))
+    return "\n".join(lines)
+
+
+def draw_sizes(measured: list[dict[str, Any]]) -> None:
+    """Size over wind speed: a panel for each effect, a line for each turbine and answer."""
+    effects = effects_of(measured)
+    rows = -(-len(effects) // 3)
+    figure, axes = plt.subplots(
+        rows, 3, figsize=(12, 3 * rows), squeeze=False, layout="constrained"
+    )
+    for axis in axes.flat[len(effects) :]:
+        axis.remove()
+    read = [name for names in READ.values() for name in names]
+    for axis, effect in zip(axes.flat, effects):
+        for colour, turbine in enumerate(TURBINES):
+            ours = [
+                (one["speed"], one["sizes"][effect])
+                for one in measured
+                if one["turbine"] == turbine and effect in one["sizes"]
+            ]
+            for name, style in zip(read, ("-", "--") * 3):
+                points = [(speed, 100 * found[name]) for speed, found in ours if name in found]
+                if points:
+                    axis.plot(*zip(*points), style, color=f"C{colour}", label=f"{turbine}, {name}")
+        axis.axhline(5.0, color="0.6", lw=0.8)
+        axis.set(title=effect, xlabel="wind speed, m/s", ylabel="change, %", yscale="symlog")
+        axis.legend(fontsize=5)
+    with plt.rc_context({"svg.hashsalt": "loadflow"}):
+        figure.savefig(FIGURE, metadata={"Date": None})
+    plt.close(figure)
+
+
+def scene_table(found: list[dict[str, Any]]) -> str:
+    """A row for each scene: what was kept, what was left out, and what is expected then."""
+    lines = [head("scene", "kept", "left out", "largest expected error")]
+    for one in found:
+        split: dict[bool, list[str]] = {True: [], False: []}
+        for effect in one["effects"]:
+            size = f" ({largest(effect['size'])})" if effect["size"] else ""
+            split[effect["kept"]].append(effect["name"] + size)
+        errors = {
+            f"{result}: {name}": error
+            for result, quantities in one["errors"].items()
+            for name, error in quantities.items()
+            if error is not None
+        }
+        cells = ["; ".join(split[kept]) or "-" for kept in (True, False)]
+        lines.append(row(one["scene"], *cells, largest(errors)))
+    return "\n".join(lines)
+
+
+def run_table(found: list[dict[str, Any]]) -> str:
+    """Time over that of the most accurate run, and errors against it."""
+    best = found[-1]
+    names = list(best["answers"])
+    lines = [head("run", "relative time", *names, numbers=True)]
+    for one in found:
+        errors = [abs(one["answers"][name] / best["answers"][name] - 1) for name in names]
+        time_ = f"{one['seconds'] / best['seconds']:.2g}"
+        lines.append(row(one["run"], time_, *map(percent, errors)))
+    return "\n".join(lines)
+
+
+PARTS = {
+    "sizes": (sizes, size_table),
+    "scenes": (scenes, scene_table),
+    "runs": (runs, run_table),
+}
+
+
+def main() -> None:
+    """Measure the parts asked for, and write the page."""
+    parser = arguments(__doc__)
+    parser.add_argument("parts", nargs="*", choices=[[], *PARTS], help="what to measure anew")
+    asked = parser.parse_args().parts
+    kept = json.loads(KEPT.read_text(encoding="utf-8")) if KEPT.exists() else {}
+    for part in asked:
+        kept[part] = [*PARTS[part][0]()]
+        KEPT.write_text(json.dumps(kept, indent=1), encoding="utf-8")
+    for part, (_, table) in PARTS.items():
+        if part in kept:
+            put(PAGE, f"<!-- {part} -->", f"<!-- end of {part} -->", table(kept[part]))
+    if "sizes" in kept:
+        draw_sizes(kept["sizes"])
+
+
+if __name__ == "__main__":
+    main()

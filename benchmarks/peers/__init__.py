@@ -1,0 +1,1 @@
+"""The package beside other packages and plain implementations of the same."""

@@ -1,0 +1,71 @@
+"""Speed and error of the rung "map" and of the historical rungs, beside the sparse reference.
+
+    python -m benchmarks.peers.journal_map [sparse steps]
+
+Same transient gas-mixture step on 60 × 20 cells as in ``journal.py``. What the table costs is
+reported apart; it is kept for every series of the same film. The reference is timed on the first
+steps of the series, the map on 24,000 of them, in processor time of one thread.
+"""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import numpy as np
+
+from benchmarks.common import arguments, timed
+from benchmarks.peers.journal import OMEGA, STEP, SparseFilm
+from loadflow.journal import Film
+from loadflow.journal.models import mobility
+from loadflow.validation.journal import PERIODIC_LOADS, reference_bearing, sines
+
+
+def held_out(film: dict[str, Any]) -> np.ndarray:
+    """Error of the velocity of the map at 200 random points."""
+    options = Film(grading="graded", **film)
+    plain, _ = mobility.scaled(options)
+    table = mobility.tabulate(0.75, plain, 1.0)
+    rng = np.random.default_rng(3)
+    points = rng.uniform((0.0, 0.0, 0.05), (0.95, np.pi / 2, 0.9), (200, 3))
+    return mobility.held_out(table, 0.75, plain, points)
+
+
+def main(steps: int) -> None:
+    bearing, film = reference_bearing()
+    long = np.arange(24_001) * STEP
+    force = np.stack([sines(x, long) for x in PERIODIC_LOADS[0][:2]], axis=-1)
+    few = slice(0, 401)
+    grid, grid_time = timed(lambda: bearing.orbit(long[few], force[few], OMEGA, **film))
+    start = grid.eccentricity.values[0] / bearing.clearance
+    _, plain = SparseFilm().orbit(force[: steps + 1], start)
+    _, table = timed(lambda: bearing.orbit(long[few], force[few], OMEGA, rung="map", **film))
+    _, quick = timed(lambda: bearing.orbit(long, force, OMEGA, rung="map", **film))
+    _, static = timed(lambda: bearing.equilibrium(force[:2000], OMEGA, rung="map", **film))
+    largest = float(grid.eccentricity_ratio.max())
+    errors = {}
+    for rung in ("map", "holland", "butenschoen", "hahn"):
+        orbit = bearing.orbit(long[few], force[few], OMEGA, rung=rung, **film)
+        errors[rung] = float(orbit.eccentricity_ratio.max()) / largest - 1
+    misses = held_out(film)
+    result = {
+        "sparse_ms_per_step": 1e3 * plain / steps,
+        "grid_ms_per_step": 1e3 * grid_time / 400,
+        "map_us_per_step": 1e6 * quick / 24_000,
+        "map_speed_over_sparse": plain / steps / (quick / 24_000),
+        "map_table_and_first_call_s": table,
+        "map_static_us_per_load": 1e6 * static / 2000,
+        "error_of_E_max_against_grid": errors,
+        "map_held_out_error": {
+            "median": float(np.nanmedian(misses)),
+            "90 % below": float(np.nanquantile(misses, 0.9)),
+            "no solution": int(np.isnan(misses).sum()),
+        },
+    }
+    print(json.dumps(result, indent=2))
+
+
+if __name__ == "__main__":
+    parser = arguments(__doc__)
+    parser.add_argument("steps", type=int, nargs="?", default=40, help="of the sparse reference")
+    main(parser.parse_args().steps)

@@ -1,0 +1,315 @@
+"""Draw journal bearings of every family over the documented ranges, and count what comes of them.
+
+python -m benchmarks.robustness.families [--draws N] [--first I] [--show] [FAMILY …]
+
+Each draw follows from its family and number alone, so that `--first I --draws 1 --show` repeats
+one. What is counted: answered (converged and finite), reason (an error that says why there can be
+no answer: contact, starvation, standstill, unfit input), unfound (an error that only says that no
+answer was found, with its residual), raw (any other exception), slow (more than 2 s of processor
+time, whatever came of it).
+
+Ranges, even over the decades where they span some: diameter 0.1 … 5 m, B/D 0.1 … 4, ψ 2e-4 … 3e-3,
+viscosity 1e-3 … 1 Pa s, speed ± 0.1 … 300 rad/s, So 1e-3 … 300, all five laws (mixing constant
+1e2 … 1e5 Pa), edge pressure 0.1 or 0.3 MPa, grids of 48 × 8 to 96 × 16.
+
+- cylinder: rigid, aligned.
+- shaped: partial arcs of 90 … 300° that the load meets, 1 … 6 lobes, 3 … 6 tilting pads, preload
+  0 … 0.7; a third of them crowned, recessed or out of round by up to 0.3 c.
+- supply: 1 … 3 grooves or pockets under pressure or behind restrictors, or fed by a pump.
+- line: tilt of up to 0.8 c at the bearing's ends, moment of up to F B/5, bend of up to 0.5 c.
+- shell: elastic shells whose growth under the mean pressure is 1e-3 … 3 clearances.
+- orbit: 24 steps under a load that turns and pulsates, the fifth part closed; 1 in 3 "reduced".
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+import time
+import warnings
+from collections import Counter
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from benchmarks.common import arguments
+from loadflow.errors import InputError, LoadflowError
+from loadflow.journal import (
+    Arc,
+    Capillary,
+    ConstantFlow,
+    Contour,
+    Crown,
+    GasMixture,
+    Groove,
+    Guembel,
+    JournalBearing,
+    Lobes,
+    LocalShell,
+    Lubricant,
+    MassConserving,
+    Orifice,
+    Pump,
+    Recess,
+    Reynolds,
+    Sommerfeld,
+    Supply,
+    ThickShell,
+    TiltingPads,
+)
+
+SLOW = 2.0  # s
+GRIDS = ((48, 8), (60, 12), (60, 20), (96, 16))
+REASONS = ("touches", "carries no load", "starved", "carries no more", "half-speed whirl")
+SEEDS = {"cylinder": 1, "shaped": 2, "supply": 3, "line": 4, "shell": 5, "orbit": 6}
+
+
+@dataclass
+class Point:
+    """A bearing at one operating point; `film` are keywords of the verbs."""
+
+    rng: np.random.Generator
+    diameter: float
+    width: float
+    clearance: float
+    viscosity: float
+    speed: float
+    load: float
+    angle: float
+    number: float
+    film: dict[str, Any] = field(default_factory=dict)
+    shape: dict[str, Any] = field(default_factory=dict)
+
+    @property
+    def gap(self) -> float:
+        """Radial clearance, m."""
+        return self.clearance * 0.5 * self.diameter
+
+    @property
+    def pressure(self) -> float:
+        """Load over the projected area, Pa."""
+        return self.load / (self.diameter * self.width)
+
+    @property
+    def force(self) -> np.ndarray:
+        """Load, N."""
+        return self.load * np.array([np.cos(self.angle), np.sin(self.angle)])
+
+    @property
+    def bearing(self) -> JournalBearing:
+        """The bearing."""
+        return JournalBearing(self.diameter, self.width, self.clearance, **self.shape)
+
+    def solve(self) -> Any:
+        """The equilibrium."""
+        oil = Lubricant(self.viscosity)
+        return self.bearing.equilibrium(self.force, self.speed, oil, **self.film)
+
+
+def powers(rng: np.random.Generator, low: float, high: float) -> float:
+    """A number, even over the decades from `low` to `high`."""
+    return float(np.exp(rng.uniform(np.log(low), np.log(high))))
+
+
+def draw_point(rng: np.random.Generator) -> Point:
+    """What all families share."""
+    diameter, slenderness = powers(rng, 0.1, 5.0), powers(rng, 0.1, 4.0)
+    clearance, viscosity = powers(rng, 2e-4, 3e-3), powers(rng, 1e-3, 1.0)
+    speed = powers(rng, 0.1, 300.0) * rng.choice([1.0, 1.0, 1.0, -1.0])
+    number = powers(rng, 1e-3, 300.0)
+    bearing = JournalBearing(diameter, diameter * slenderness, clearance)
+    load = number / bearing.sommerfeld_number(1.0, speed, viscosity)
+    mixture = GasMixture(powers(rng, 1e2, 1e5))
+    laws = [Sommerfeld(), Guembel(), Reynolds(), MassConserving(), mixture]
+    film = {
+        "cavitation": laws[rng.integers(len(laws))],
+        "edge_pressure": float(rng.choice([1e5, 3e5])),
+        "grid": GRIDS[rng.integers(len(GRIDS))],
+    }
+    size = (diameter, diameter * slenderness, clearance, viscosity, speed)
+    return Point(rng, *size, load, rng.uniform(-np.pi, np.pi), number, film)
+
+
+def cylinder(point: Point) -> Callable[[], Any]:
+    """Rigid and aligned."""
+    return point.solve
+
+
+def shaped(point: Point) -> Callable[[], Any]:
+    """Arcs, lobes and pads, with and without relief."""
+    rng, kind = point.rng, point.rng.integers(3)
+    if kind == 0:
+        span = np.radians(rng.uniform(90, 300))
+        shape: Any = Arc(point.angle + span * rng.uniform(-0.3, 0.3), span)
+    elif kind == 1:
+        count = int(rng.integers(1, 7))
+        preload, offset = rng.uniform(0, 0.7), rng.uniform(0.5, 1.0)
+        groove = min(0.35, 0.3 * 2 * np.pi / count)
+        shape = Lobes(count, preload, groove, rng.uniform(-np.pi, np.pi), offset)
+    else:
+        count = int(rng.integers(3, 7))
+        arc = rng.uniform(0.5, 0.9) * 2 * np.pi / count
+        angle = point.angle if rng.random() < 0.3 else rng.uniform(-np.pi, np.pi)
+        shape = TiltingPads(count, arc, rng.uniform(0, 0.7), angle, rng.uniform(0.4, 0.7))
+    point.shape = {"shape": shape}
+    if rng.random() < 1 / 3:
+        high = point.gap * rng.uniform(0.01, 0.3)
+        around = np.linspace(0, 2 * np.pi, 73)[:-1]
+        waves = high * (1 + np.cos(rng.integers(2, 5) * around + rng.uniform(0, 6)))
+        spot = rng.uniform(-np.pi, np.pi), rng.uniform(0.1, 1.0)
+        reliefs = [
+            Crown(high, exponent=rng.uniform(1, 3)),
+            Recess(*spot, depth=powers(rng, 0.1, 10) * point.gap, length=0.4 * point.width),
+            Contour(around.tolist(), waves.tolist()),
+        ]
+        point.shape["relief"] = (reliefs[rng.integers(3)],)
+    return point.solve
+
+
+def supply(point: Point) -> Callable[[], Any]:
+    """Grooves and pockets, restrictors, a pump."""
+    rng, count = point.rng, int(point.rng.integers(1, 4))
+    pumped = rng.random() < 0.25
+    pressure = float(point.film["edge_pressure"] + powers(rng, 0.02, 3.0) * point.pressure)
+    oil = 0.5 * abs(point.speed) * point.diameter * point.width * point.gap  # what it drags along
+    first, grooves = rng.uniform(-np.pi, np.pi), []
+    for k in range(count):
+        angle = first + 2 * np.pi * k / count
+        arc = rng.uniform(0.0, 0.6) * 2 * np.pi / count
+        length = point.width * rng.uniform(0.3, 0.9)
+        bore = powers(rng, 1e-3, 5e-2) * min(point.diameter, point.width)
+        flow = powers(rng, 0.1, 3.0) * oil / count
+        kinds = [None, Capillary(bore, 20 * bore), Orifice(bore), ConstantFlow(flow)]
+        restrictor = None if pumped else kinds[rng.integers(len(kinds))]
+        given = 0.0 if pumped or isinstance(restrictor, ConstantFlow) else pressure
+        grooves.append(Groove(angle, arc, length, given, restrictor=restrictor))
+    pump = Pump((0.0, powers(rng, 0.3, 5.0) * oil), (pressure, 0.5 * pressure)) if pumped else None
+    point.film["supply"] = Supply(tuple(grooves), pump)
+    return point.solve
+
+
+def line(point: Point) -> Callable[[], Any]:
+    """Tilt, moment and bend."""
+    rng, kind = point.rng, point.rng.integers(3)
+    way = rng.uniform(-np.pi, np.pi)
+    direction = np.array([np.cos(way), np.sin(way)])
+    half = 0.5 * point.width
+    if kind != 1:
+        point.film["tilt"] = direction * rng.uniform(0, 0.8) * point.gap / half
+    if kind == 1:
+        point.film["moment"] = direction * rng.uniform(0, 0.2) * point.load * point.width
+    if kind == 2:
+        point.film["tilt"] = 0.5 * point.film["tilt"]
+        point.film["bend"] = direction[::-1] * rng.uniform(0, 0.5) * 2 * point.gap / half**2
+    return point.solve
+
+
+def shell(point: Point) -> Callable[[], Any]:
+    """Shells that give way where they are pressed, or all over."""
+    rng = point.rng
+    growth = powers(rng, 1e-3, 3.0) * point.gap / point.pressure  # m/Pa
+    if rng.random() < 0.5:
+        point.film["shell"] = LocalShell(growth)
+    else:
+        wall = rng.uniform(0.05, 0.5)
+        modulus = 0.5 * point.diameter * wall / growth
+        point.film["shell"] = ThickShell(point.diameter * (1 + wall), modulus, 0.3)
+        point.film["grid"] = (48, 8)
+    return point.solve
+
+
+def orbit(point: Point) -> Callable[[], Any]:
+    """24 steps of a load that turns and pulsates."""
+    rng = point.rng
+    period = 2 * np.pi / abs(point.speed) * powers(rng, 0.5, 20.0)
+    times = np.linspace(0.0, period, 25)
+    turns = int(rng.integers(-1, 2)) if rng.random() < 0.5 else 0
+    phase = 2 * np.pi * times / period
+    size = point.load * (1 + rng.uniform(0, 0.9) * np.sin(phase))
+    angle = point.angle + turns * phase
+    force = size[:, None] * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    options = dict(point.film)
+    if rng.random() < 1 / 3:
+        options |= {"rung": "reduced", "grid": (60, 12), "inlet": None}
+    elif rng.random() < 0.3:
+        options["periodic"] = True
+    oil = Lubricant(point.viscosity)
+    return lambda: point.bearing.orbit(times, force, point.speed, oil, **options)
+
+
+FAMILIES: dict[str, Callable[[Point], Callable[[], Any]]] = {
+    "cylinder": cylinder,
+    "shaped": shaped,
+    "supply": supply,
+    "line": line,
+    "shell": shell,
+    "orbit": orbit,
+}
+
+
+def outcome(work: Callable[[], Any]) -> tuple[str, str]:
+    """What comes of a draw: its count, and the message of an error."""
+    try:
+        answer = work()
+    except LoadflowError as error:
+        text = str(error)
+        told = isinstance(error, InputError) or any(word in text for word in REASONS)
+        return ("reason" if told else "unfound"), text
+    except Exception as error:  # what must not happen
+        return "raw", f"{type(error).__name__}: {error}"
+    finite = bool(np.isfinite(np.asarray(answer.minimum_film)).all())
+    return ("answered", "") if finite else ("raw", "an answer that is not finite")
+
+
+def run(family: str, numbers: range, show: bool) -> dict[str, Any]:
+    """Counts of one family."""
+    counts: Counter[str] = Counter()
+    longest = total = 0.0
+    for number in numbers:
+        rng = np.random.default_rng([SEEDS[family], number])
+        point = draw_point(rng)
+        work = FAMILIES[family](point)
+        begin = time.process_time()
+        kind, text = outcome(work)
+        spent = time.process_time() - begin
+        if number > numbers.start:  # the first one may compile
+            longest, total = max(longest, spent), total + spent
+            counts["slow"] += spent > SLOW
+        counts[kind] += 1
+        if show and (kind != "answered" or spent > SLOW):
+            law = type(point.film["cavitation"]).__name__
+            more = type(point.shape.get("shape", point.film.get("shell", ""))).__name__
+            head = f"{family} {number}: {kind}, So {point.number:.3g}, B/D "
+            head += f"{point.width / point.diameter:.2f}, {law}, {point.film['grid']}, {more}"
+            print(f"{head}, {spent:.1f} s: {text}", flush=True)
+    names = ("answered", "reason", "unfound", "raw", "slow")
+    row: dict[str, Any] = {"draws": len(numbers)} | {name: counts[name] for name in names}
+    return row | {"mean": round(total / len(numbers), 3), "longest": round(longest, 2)}
+
+
+def main() -> None:
+    """Draw and print the counts."""
+    parser = arguments(__doc__)
+    parser.add_argument("families", nargs="*", default=list(FAMILIES), metavar="FAMILY")
+    parser.add_argument("--draws", type=int, default=200)
+    parser.add_argument("--first", type=int, default=0)
+    parser.add_argument("--show", action="store_true", help="every draw without an answer")
+    parser.add_argument("--json", metavar="FILE", help="write the counts there")
+    asked = parser.parse_args()
+    unknown = set(asked.families) - set(FAMILIES)
+    if unknown:
+        sys.exit(f"unknown families: {', '.join(sorted(unknown))}; known: {', '.join(FAMILIES)}")
+    warnings.simplefilter("ignore")
+    rows = {}
+    for family in asked.families:
+        rows[family] = run(family, range(asked.first, asked.first + asked.draws), asked.show)
+        print(f"{family}: {rows[family]}", flush=True)
+    if asked.json:
+        with open(asked.json, "w", encoding="utf-8") as file:
+            json.dump(rows, file, indent=1)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,107 @@
+"""Why a load has no film, in words and numbers."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from loadflow.journal.geometry import JournalGeometry
+from loadflow.journal.solvers.load_stepping import APART, TOUCHING
+from loadflow.journal.solvers.newton import Solution, solve_film
+from loadflow.numerics.convergence import unresolved
+
+if TYPE_CHECKING:
+    from loadflow.journal.film.film import DiscreteFilm
+    from loadflow.journal.film.gap import BoreGap
+
+Array = NDArray[np.float64]
+
+STARVED = (
+    "the supply is starved, a groove would fall below the cavitation pressure: MassConserving and "
+    "GasMixture follow a groove that is not full"
+)
+AT_REST = "without rotation and squeeze the film carries no load"
+_NEAREST = 0.01  # gap, in clearances, at which the lift of a supply is stated
+
+
+def no_equilibrium(force: Array, speed: float, why: str) -> str:
+    """Say that no film carries `force` (2,), and `why`; at rest there can be none."""
+    why = AT_REST if speed == 0.0 else why
+    return f"F = ({force[0]:.6g}, {force[1]:.6g}) N at ω = {speed:.6g} rad/s: {why}"
+
+
+def not_found(residual: float, rounding: float, iterations: float, ratio: float) -> str:
+    """Say that Newton's method ended at the eccentricity `ratio` without an answer."""
+    reached = unresolved(residual, rounding, iterations)
+    return f"no equilibrium found; {reached}, at ε = {ratio:.6g}"
+
+
+def narrowest_place(bearing: JournalGeometry, gap: BoreGap, position: Array) -> str:
+    """Name the narrowest gap at `position` and where it is."""
+    least, angle, z = gap.closest(position)
+    return (
+        f"narrowest gap {least * bearing.clearance:.6g} m at {math.degrees(angle):.4g}°, "
+        f"z = {z * bearing.radius:.6g} m (radial clearance {bearing.clearance:.6g} m)"
+    )
+
+
+def why_unsolved(
+    bearing: JournalGeometry,
+    film: DiscreteFilm,
+    gap: BoreGap,
+    solution: Solution,
+    load: Array | None = None,
+) -> str:
+    """Why `film` has no answer, with the numbers of its last state.
+
+    Under `load` (2,), N, or, without one, at the position of the `solution`.
+    """
+    at = f"ω = {film.speed:.6g} rad/s"
+    if load is None:
+        return f"ε = {math.hypot(*solution.position[:2]):.6g} at {at}: " + _unsolved(
+            bearing, film, gap, solution, "no film found"
+        )
+    head = f"F = ({load[0]:.6g}, {load[1]:.6g}) N at {at}: "
+    if film.speed == 0.0 and film.contact is None:
+        if not film.lifts:
+            return head + AT_REST
+        if load.any() and not gap.pads.size and not film.dry(solution.u):
+            return head + _most(film, gap, load)
+    rigid = film.contact is None and not film.elastic and not gap.axisymmetric
+    if rigid and gap.narrowest(solution.position) < TOUCHING:
+        left = 100 * min(solution.residual, 1.0)
+        return (
+            f"{head}the shaft touches the bore, {narrowest_place(bearing, gap, solution.position)},"
+            f" before the film carries the last {left:.3g} % of the load"
+        )
+    return head + _unsolved(bearing, film, gap, solution, "no equilibrium found")
+
+
+def _unsolved(
+    bearing: JournalGeometry, film: DiscreteFilm, gap: BoreGap, solution: Solution, what: str
+) -> str:
+    """What keeps the last state of a film from being an answer."""
+    position = solution.position
+    if film.dry(solution.u):
+        return STARVED
+    place = narrowest_place(bearing, gap, position)
+    if film.clearance_left(position) <= APART:
+        return f"the shaft touches the elastic shell, {place}"
+    reached = unresolved(solution.residual, solution.rounding, solution.iterations)
+    found = f"{what}; {reached}, at ε = {math.hypot(*position[:2]):.6g}"
+    if film.contact is not None:
+        overlap = -gap.closest(position)[0] / gap.roughness
+        return f"{found}, mean planes {overlap:.3g} σ beyond touching"
+    return f"{found}, {place}"
+
+
+def _most(film: DiscreteFilm, gap: BoreGap, load: Array) -> str:
+    """Say what the supply carries against `load` with the shaft nearly on the shell."""
+    way, place = load / math.hypot(*load), np.zeros(gap.size)
+    place[:2] = gap.reach(way, _NEAREST) * way
+    state = solve_film(film, film.start(), place, np.zeros(gap.size), 1e-6, 100)
+    lift = float(state.linear.load[:2] @ way)
+    return f"the supply carries no more than {lift:.6g} N, at ε = {math.hypot(*place):.6g}"

@@ -1,0 +1,52 @@
+"""Stiffness and damping of the films, and the shaft line on them, on a report page."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+
+from loadflow.report import Section, Table
+
+
+def dynamics_section(data: xr.Dataset) -> Section:
+    """Tabulate stiffness and damping of the films, and the modes of each shaft line."""
+    cases = [str(name) for name in data["case"].values]
+    names = [(a, b) for a in data["dof"].values[:2] for b in data["along"].values[:2]]
+    rows = [
+        [f"{case} {bearing}"]
+        + [
+            f"{float(data[part].sel(bearing=bearing, dof=a, along=b).isel(case=k)) / 1e9:.4g}"
+            for part in ("stiffness", "damping")
+            for a, b in names
+        ]
+        for k, case in enumerate(cases)
+        for bearing in data["bearing"].values
+    ]
+    entry = [f"{a[-1]}{b[-1]}" for a, b in names]
+    heads = [f"K {e}, GN/m" for e in entry] + [f"C {e}, GN s/m" for e in entry]
+    tables = [Table("Films at mean load and speed", ["load case", *heads], rows)]
+    text = (
+        "Axes of the film: x down, y to the left looking downwind. Over speed: the tables in the "
+        "folder coefficients, as ROSS reads them."
+    )
+    if "natural_frequency" in data:
+        tables.append(_modes(data, cases))
+        text += " Marked: a shaft line whose whirl grows."
+    return Section("Rotor dynamics", text, tables=tables)
+
+
+def _modes(data: xr.Dataset, cases: list[str]) -> Table:
+    rows: list[list[str]] = []
+    bad: set[int] = set()
+    for k, case in enumerate(cases):
+        for suspension in data["suspension"].values:
+            one = data.sel(suspension=suspension).isel(case=k)
+            bad |= {len(rows)} if float(one["largest_growth"]) > 0 else set()
+            both = zip(one["natural_frequency"].values, one["damping_ratio"].values)
+            cells = [
+                f"{omega / (2 * np.pi):.3g} ({ratio:.2g})" if np.isfinite(omega) else "-"
+                for omega, ratio in both
+            ]
+            rows.append([f"{case} {suspension}", *cells])
+    heads = ["load case", *(f"mode {m}, Hz (damping ratio)" for m in data["mode"].values)]
+    return Table("Shaft line on its bearings", heads, rows, frozenset(bad))

@@ -1,0 +1,66 @@
+"""The section of a scene that says what surrounds the machine."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Self
+
+from pydantic import BaseModel, Field, model_validator
+
+from loadflow.scene.section import Section
+
+
+class Environment(Section, BaseModel):
+    """Air around the turbine ([Jonuschies 2015], Table 1-2: −20 … 50 °C, 1.225 kg/m³).
+
+    ``temperature`` (K) is that of the surroundings: journal bearings with a ``heat`` balance and
+    the rolling bearings of ``[friction]`` give their heat off to it, where they state no ambient
+    temperature of their own. With ``cold_start`` the oil has it, too: the film draws it in, and the
+    rolling bearings are as cold, where they state no temperature. ``air_density`` (kg/m³) is that
+    of simulated loads. Humidity and radiation of the sun move no bearing here, and are left out;
+    nor does a uniform temperature move the clearance of steel in steel.
+    """
+
+    temperature: Annotated[float, Field(ge=223.15, le=333.15)] | None = None
+    cold_start: bool = False
+    air_density: Annotated[float, Field(ge=0.5, le=2.0)] = 1.225
+
+    @model_validator(mode="after")
+    def _cold_is_known(self) -> Self:
+        if self.cold_start and self.temperature is None:
+            raise ValueError("cold_start: needs environment.temperature")
+        return self
+
+
+def surrounded(data: dict[str, Any]) -> dict[str, Any]:
+    """Data of a scene in sections, with the temperature around it where bearings state none."""
+    told = data.get("environment")
+    if not isinstance(told, dict) or not isinstance(told.get("temperature"), int | float):
+        return data
+    ambient, cold = float(told["temperature"]), told.get("cold_start") is True
+    found = dict(data)
+    friction = found.get("friction", {})
+    if isinstance(friction, dict):
+        gives = "conductance" in friction
+        known = {"ambient_temperature": ambient} if gives else {}
+        known |= {"temperature": ambient} if cold else {}
+        found["friction"] = known | friction
+    if isinstance(journal := found.get("journal"), dict):
+        own = journal.get("own", {})
+        warmed = _warmed(journal, ambient, cold)
+        if isinstance(own, dict) and own:
+            warmed["own"] = {
+                place: _warmed(part, ambient, cold) if isinstance(part, dict) else part
+                for place, part in own.items()
+            }
+        found["journal"] = warmed
+    return found
+
+
+def _warmed(journal: dict[str, Any], ambient: float, cold: bool) -> dict[str, Any]:
+    """A journal bearing whose heat balance gives off to the surroundings, if it has one."""
+    heat = journal.get("heat")
+    if not isinstance(heat, dict):
+        return dict(journal)
+    known = {} if heat.get("kind", "balance") != "balance" else {"ambient_temperature": ambient}
+    known |= {"inlet_temperature": ambient} if cold else {}
+    return journal | {"heat": known | heat}

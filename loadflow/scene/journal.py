@@ -1,0 +1,194 @@
+"""The journal bearings of a scene: what each is, and how its film is modelled."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, Any, Literal, Self
+
+import numpy as np
+from pydantic import BaseModel, Field, ValidationError, model_validator
+
+from loadflow.errors import InputError
+from loadflow.journal import (
+    Contact,
+    Film,
+    GasMixture,
+    JournalBearing,
+    LinedShell,
+    LocalShell,
+    Lubricant,
+    MatrixShell,
+    Supply,
+    ThickShell,
+)
+from loadflow.journal.line import Line
+from loadflow.journal.models.model import Verb, why_not
+from loadflow.scene.films import HeatTable, Law, RungName
+from loadflow.scene.limits import JournalLimits
+from loadflow.scene.messages import message
+from loadflow.scene.section import Section
+
+Positive = Annotated[float, Field(gt=0)]
+
+
+class Journal(Section, BaseModel):
+    """Journal bearings: which ones of the shaft, and one set of data for all of them.
+
+    Bearings with data of their own are in ``own``, by place; `at` gives the data of each. Motion,
+    tilt, rung and grid are those of all.
+
+    ``motion = "quasi-static"`` solves the equilibrium of every sample of the reduced series;
+    ``"transient"`` follows the shaft through the whole series, step by step.
+    ``rung = "map"`` tabulates the film once, for long series (docs/journal-map.md).
+
+    With a table ``heat`` the friction of the film warms its oil, which takes the place of
+    ``lubricant``: each equilibrium for itself, a film in motion to one temperature for the whole
+    series, as its loads change faster than a bearing warms. With ``kind = "film"`` an energy
+    equation gives every cell of the film at rest its own temperature.
+
+    With ``tilt`` the shaft leans in them as the beam of its suspension does, tilted and bent; if it
+    has none, it tilts freely under the moment that the shaft stage gives. The film is then solved
+    over its full width.
+
+    ``cavitation`` is the law of the ruptured film; its key ``kind`` says which:
+    gas-mixture, sommerfeld, guembel, reynolds or mass-conserving. ``inlet`` replaces the oil on a
+    line at the widest gap, or does not; "auto" leaves it to the law.
+
+    A ``shell`` makes the bore elastic; its key ``kind`` says how: local, lined, thick, or matrix
+    with a ``matrix`` of influence numbers, or the name of a file that holds it.
+
+    ``shaft_roughness`` and ``shell_roughness`` are R_z, m, about 6.3 R_a of the 0.2 and 0.4 µm that
+    Autodesk Inventor's plain bearing calculator recommends. Where the film would be thinner than
+    both together the surfaces touch: such samples are counted as ``in_contact``. With ``contact``,
+    the asperities of `loadflow.journal.Contact`, they are solved as the others, standstill
+    included. Without, they have no film, and the shaft rubs there with ``boundary_friction``:
+    bronze [Jonuschies 2015, Table 3-1]. ``limits`` are what the verdicts hold the bearing against.
+    """
+
+    bearings: Annotated[list[str], Field(min_length=1)] = ["N", "N2"]
+    own: dict[str, Journal] = {}
+    geometry: JournalBearing = JournalBearing(diameter=3.0, width=2.25, relative_clearance=0.5e-3)
+    lubricant: Lubricant = Lubricant(viscosity=0.050)
+    cavitation: Law = GasMixture(0.05e6)
+    edge_pressure: Annotated[float, Field(ge=0)] = 0.5e6
+    supply: Supply | None = None
+    inlet: Literal["auto", "widest gap", "none"] = "auto"
+    grid: tuple[Annotated[int, Field(ge=12, le=720)], Annotated[int, Field(ge=4, le=240)]] = (
+        60,
+        20,
+    )
+    grading: Literal["auto", "uniform", "graded"] = "auto"
+    rung: RungName = "grid"
+    heat: HeatTable | None = None
+    motion: Literal["quasi-static", "transient"] = "quasi-static"
+    tilt: bool = False
+    shell: LocalShell | LinedShell | ThickShell | MatrixShell | None = None
+    contact: Contact | None = None
+    shaft_roughness: Positive = 1.3e-6
+    shell_roughness: Positive = 2.5e-6
+    boundary_friction: Annotated[float, Field(gt=0, le=1)] = 0.15
+    limits: JournalLimits = JournalLimits()
+
+    @model_validator(mode="after")
+    def _one_model_for_all(self) -> Self:
+        for place, other in self.own.items():
+            for name in _OF_ALL:
+                if getattr(other, name) != getattr(self, name):
+                    raise ValueError(
+                        f"{name}: all journal bearings of a scene have one, but {place} has "
+                        f"{getattr(other, name)!r} beside {getattr(self, name)!r}"
+                    )
+        return self
+
+    def at(self, place: str) -> Journal:
+        """The data of one of the bearings."""
+        if place not in self.own:
+            return self
+        return self.own[place].model_copy(update={name: getattr(self, name) for name in _OF_ALL})
+
+    @model_validator(mode="after")
+    def _smoother_than_the_gap(self) -> Self:
+        if self.contact_film >= self.geometry.clearance:
+            raise ValueError(
+                f"shaft_roughness and shell_roughness: together {self.contact_film:g} m, must be "
+                f"< the radial clearance {self.geometry.clearance:g} m"
+            )
+        return self
+
+    @property
+    def contact_film(self) -> float:
+        """Film, m, below which the surfaces touch: the sum of their R_z."""
+        return self.shaft_roughness + self.shell_roughness
+
+    @property
+    def critical_eccentricity_ratio(self) -> float:
+        """ε above which friction is mixed; infinite for bores whose gap closes at no certain ε."""
+        return math.inf if self.geometry.shape.segments else self.limits.eccentricity_ratio
+
+    @property
+    def least_film(self) -> float:
+        """Smallest film allowed, m: as stated, or R_z + W_t of both surfaces and a margin (3.1)."""
+        stated = self.limits.minimum_film
+        return stated or self.contact_film + self.limits.waviness + self.limits.margin
+
+    @property
+    def in_motion(self) -> bool:
+        """Whether the film follows the whole series; it does not read the reduced one then."""
+        return self.motion == "transient"
+
+    @property
+    def film_model(self) -> Film:
+        """The film that these keys describe."""
+        heat = self.heat
+        return Film(heat=heat, **self.film | ({} if heat is None else {"lubricant": None}))
+
+    @property
+    def film(self) -> dict[str, Any]:
+        """The film at the temperature of its lubricant, as keywords of the verbs."""
+        mesh = ("grid", "grading", "rung")
+        names = ("lubricant", "cavitation", "edge_pressure", "supply", *mesh, "shell", "contact")
+        inlet = None if self.inlet == "none" else self.inlet
+        return {name: getattr(self, name) for name in names} | {"inlet": inlet}
+
+    def at_temperature(self, temperature: float) -> Journal:
+        """The bearing with its oil held at `temperature`, K."""
+        if self.heat is None:
+            return self
+        return self.model_copy(update={"lubricant": self.heat.lubricant(temperature), "heat": None})
+
+    @model_validator(mode="after")
+    def _one_oil(self) -> Self:
+        if self.heat is not None and "lubricant" in self.changed:
+            raise ValueError("lubricant: follows from heat.oil and its temperature; leave it out")
+        return self
+
+    @model_validator(mode="after")
+    def _a_model_that_knows_the_film(self) -> Self:
+        film, heat = self.film_model, self.heat
+        if self.in_motion and heat is not None and not heat.over_area:
+            film = film.isothermal()  # at the one temperature of its series
+        verb: Verb = "in_motion" if self.in_motion else "at_rest"
+        line = Line(moment=np.zeros((1, 2))) if self.tilt else Line()
+        why = why_not(verb, film, self.geometry, line)
+        if why is not None:
+            raise ValueError(why)
+        return self
+
+
+_OF_ALL = ("motion", "tilt", "rung", "grid", "grading")
+"""What all journal bearings of a scene share: how the film is modelled."""
+
+
+def make_journal(data: dict[str, Any], source: str = "journal") -> Journal:
+    """Build the section of the journal bearings alone; `source` names it in messages.
+
+    Raises
+    ------
+    InputError
+        As `read_scene`.
+    """
+    try:
+        return Journal.model_validate(data)
+    except ValidationError as error:
+        defaults = Journal().model_dump()
+        raise InputError(message(error, source, {(): ("journal",)}, defaults)) from error

@@ -1,0 +1,104 @@
+"""Friction torque of a driven crank against the parameter study of von Hollen 2013, ch. 8.3.
+
+The source shows its torques over speed in figures only, and prints no mass of its crank, no pocket
+angle, no height of a cage, no dimension of the journal bearing on the pin. So no torque can be
+held; what can are shares: what a parameter changes at 6000/min, in points of per cent, stage 1.
+Their tolerance is stated with each; where the share rests on the forces of inertia, and so on the
+masses, and misses, the print is refused.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from loadflow.journal import JournalBearing
+from loadflow.rolling.motion.torque import FrictionTorque, measured_torque
+from loadflow.studies.crank_rig import MAIN, PIN, CrankRig, uneven
+
+from .check import Check
+
+_MASSES = "the share of the load's losses follows the masses of the crank, which are not printed"
+_FAST, _SLOW = 6000.0, 500.0
+
+# what is changed, of which bearing, printed change in %, tolerance in points, why refused
+_STUDY = (
+    ("μ 0.12 → 0.15", {"adhesion": 0.15}, "main", 1.4, 2.0, ""),
+    ("μ 0.12 → 0.15", {"adhesion": 0.15}, "pin", 1.4, 2.0, ""),
+    ("μ′ 0.04 → 0.06", {"sliding": 0.06}, "main", 4.0, 2.0, ""),
+    ("μ′ 0.04 → 0.06", {"sliding": 0.06}, "pin", 20.0, 5.0, _MASSES),
+    ("μ_R 0.0005 → 0.001", {"rolling": 1e-3}, "main", 16.0, 5.0, _MASSES),
+    ("μ_R 0.0005 → 0.001", {"rolling": 1e-3}, "pin", 14.0, 5.0, ""),
+    ("s₃ uneven by half", {"main": uneven(MAIN)}, "main", 8.5, 3.0, ""),
+    ("s₃ uneven by half", {"pin": uneven(PIN)}, "pin", 3.5, 3.0, ""),
+    ("clearance 25 → 13 μm", {"pin": replace(PIN, clearance=13e-6)}, "pin", 0.0, 2.0, ""),
+    ("clearance 25 → 0 μm", {"pin": replace(PIN, clearance=0.0)}, "pin", 0.0, 2.0, ""),
+    ("90 → 60 °C", {"temperature": 333.15}, "main", 96.0, 20.0, ""),
+    ("90 → 60 °C", {"temperature": 333.15}, "pin", 45.0, 15.0, ""),
+)
+
+
+def of(part: str, found: FrictionTorque) -> float:
+    """Torque of a bearing, N m."""
+    return sum(value for name, value in found.torques.items() if name.startswith(part))
+
+
+def checks() -> Iterator[Check]:
+    """Yield the rig's evaluation, the parameter study and the three configurations."""
+    angle = np.linspace(0.0, 40 * np.pi, 7200, endpoint=False)
+    moving = 4.0 * np.sin(angle)
+    got = measured_torque(-900.0 * np.cos(angle) + 3.0 * moving, moving, 100.0)
+    yield Check("torque from 7200 samples of a rig", "(7.1), (7.2)", 0.24, got, 1e-12, unit="N m")
+    rig = CrankRig(seal_force=0.0)
+    usual = rig.friction_torque(_FAST)
+    twice = replace(rig, rolling=1e-3).friction_torque(_FAST)
+    for part in ("main", "pin"):
+        ratio = twice.losses[f"{part} rolling"] / usual.losses[f"{part} rolling"]
+        yield Check(f"rolling loss, μ_R twice, {part}", "ch. 8.3.1", 2.0, ratio, 1e-9)
+    for name, change, part, printed, tolerance, why in _STUDY:
+        found = replace(rig, **change).friction_torque(_FAST)  # type: ignore[arg-type]
+        got = 100 * (of(part, found) / of(part, usual) - 1)
+        label, source = f"{name}, {part}, {_FAST:g}/min", "ch. 8.3.1, masses assumed"
+        yield Check(label, source, printed, got, tolerance, "absolute", "%", why)
+    cold = replace(rig, temperature=333.15).friction_torque(_SLOW)
+    got = 100 * (of("main", cold) / of("main", rig.friction_torque(_SLOW)) - 1)
+    name = f"90 → 60 °C, main, {_SLOW:g}/min"
+    yield Check(name, "ch. 8.3.1, masses assumed", 25.0, got, 10.0, "absolute", "%")
+    yield from _configurations()
+
+
+def _configurations() -> Iterator[Check]:
+    """Rollers on the pin, a journal bearing there, and a straight shaft."""
+    rollers = CrankRig()
+    journal = replace(
+        rollers, pin_film=JournalBearing(diameter=48e-3, width=18e-3, relative_clearance=1e-3)
+    )
+    straight = replace(rollers, drive=None)
+    speeds = (500.0, 1500.0, 3000.0)
+    one, two, three = (
+        [rig.friction_torque(n).torque for n in speeds] for rig in (rollers, journal, straight)
+    )
+    source = "ch. 7.3, 8.3.2, bearing of the pin assumed"
+    ratio = (three[2] - three[0]) / (one[2] - one[0])
+    yield Check("rise over speed, straight shaft over cranked", source, 1.0, ratio, -0.2, "below")
+    yield Check(
+        "rollers over journal on the pin, 500/min", source, 1.0, one[0] / two[0], 0.0, "below"
+    )
+    yield Check(
+        "journal over rollers on the pin, 3000/min", source, 1.0, two[2] / one[2], 0.0, "below"
+    )
+    gap = np.array(two) - np.array(one)
+    crossing = float(np.interp(0.0, -gap[1:], speeds[1:]))
+    yield Check(
+        "speed at which both are alike", source, 1500.0, crossing, 250.0, "absolute", "1/min",
+        "width and clearance of the journal bearing, and the masses, are not printed",
+    )  # fmt: skip
+    slow = 0.0603750  # seal at rest: all that is left of both as the speed falls
+    for name, printed, rig in (("rollers", 0.17, rollers), ("journal bearing", 0.35, journal)):
+        got = rig.friction_torque(10.0).torque if rig is rollers else slow
+        yield Check(
+            f"torque at rest, {name} on the pin", "ch. 7.3", printed, got, 0.05, "absolute", "N m",
+            "not stated which seals and bearings of the rig the measured curve contains",
+        )  # fmt: skip

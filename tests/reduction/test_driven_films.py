@@ -1,0 +1,145 @@
+"""Films under stationary and periodic design loads, from scene and command line."""
+
+import json
+
+import numpy as np
+import pytest
+from synthetic import case, cube_file
+from typer.testing import CliRunner
+
+from loadflow.cli import app
+from loadflow.errors import InputError
+from loadflow.reduction import periodic, stationary
+from loadflow.scene.scene import make_scene
+from loadflow.scene.unused import unused_keys
+from loadflow.stages import journal, reduction, rolling, shaft
+from loadflow.stages.frames import to_film
+
+HUB = case(8.0, 1, steps=400)
+
+
+class One:
+    dlc, wind_speed, seed, weight, name = "1.1", 8.0, 1, 1.0, "dlc1.1_v8_s1"
+
+
+def scene_of(**keys):
+    film = {"grid": [24, 8], "bearings": ["N"]} | keys.pop("journal", {})
+    return make_scene({"name": "designed", "journal": film} | keys)
+
+
+def inputs_of(scene):
+    found = {"loads": HUB, "shaft": shaft.bearing_loads(scene, None, {"loads": HUB})}
+    return found | {"reduction": reduction.reduced_loads(scene, One(), found)}
+
+
+def radial(inputs, bearing="N"):
+    force = inputs["shaft"]["force"].sel(bearing=bearing).transpose("time", "axis").values
+    return to_film(force.astype(float))
+
+
+def test_stationary_loads_are_those_of_the_source_and_the_mean_has_all_the_time():
+    scene = scene_of(reduction={"method": "stationary"})
+    inputs = inputs_of(scene)
+    samples = inputs["reduction"]["N"].to_dataset()
+    loads = stationary(HUB["speed"].values, radial(inputs))
+    np.testing.assert_allclose(to_film(samples["force"].values)[0], loads.mean.force, rtol=1e-5)
+    np.testing.assert_allclose(to_film(samples["force"].values)[1], loads.maximum.force, rtol=1e-5)
+    assert samples["speed"][1] == pytest.approx(loads.maximum.speed)
+    assert samples["weight"].values.tolist() == [400.0] + [0.0] * 10
+    film = journal.film(scene, One(), inputs)["N"].to_dataset()
+    at = scene.journal.geometry.equilibrium(
+        loads.mean.force, loads.mean.speed, scene.journal.film_model
+    )
+    assert film["eccentricity_ratio"][0] == pytest.approx(float(at.eccentricity_ratio), rel=1e-5)
+    table = journal.summary({One(): journal.film(scene, One(), inputs)})
+    assert float(table["mean_eccentricity_ratio"].sel(bearing="N")[0]) == pytest.approx(
+        float(at.eccentricity_ratio), rel=1e-5
+    )
+
+
+def test_a_periodic_load_drives_the_film_round_the_orbit_that_closes():
+    scene = scene_of(reduction={"method": "periodic", "bounds": [0.05, 0.3], "orders": [1.0]})
+    inputs = inputs_of(scene)
+    samples = inputs["reduction"]["N"].to_dataset()
+    force, time = to_film(samples["force"].values), samples["time"].values
+    np.testing.assert_allclose(force[0], force[-1], rtol=1e-9)
+    load = periodic(
+        HUB["speed"].values, radial(inputs), HUB["time"].values, bounds=(0.05, 0.3), orders=[1.0]
+    ).closed(0.01)
+    np.testing.assert_allclose(force, load(time), rtol=1e-5)
+    assert float(samples["weight"].sum()) == pytest.approx(400.0)
+    film = journal.film(scene, One(), inputs)["N"].to_dataset()
+    path = scene.journal.geometry.orbit(
+        time, force, float(samples["speed"][0]), scene.journal.film_model, periodic=True
+    )
+    np.testing.assert_allclose(film["eccentricity_ratio"], path["eccentricity_ratio"], rtol=1e-6)
+    assert film.attrs["closure"] < 1e-6
+    assert film["converged"].values.all()
+    # a film that squeezes is not where it rests under the same load
+    still = scene.journal.geometry.equilibrium(
+        force, samples["speed"].values, scene.journal.film_model
+    )
+    gap = np.abs(still.eccentricity_ratio - film["eccentricity_ratio"].values)
+    assert gap.max() > 0.005
+
+
+def test_the_film_of_each_place_says_its_own_bounds():
+    stiff = {"diameter": 1.4, "width": 1.3, "relative_clearance": 1e-3}
+    scene = make_scene(
+        {
+            "name": "two",
+            "reduction": {"method": "periodic"},
+            "bearings": {
+                "N": {"kind": "journal", "grid": [24, 8]},
+                "N2": {"kind": "journal", "grid": [24, 8], "geometry": stiff,
+                       "lubricant": {"viscosity": 0.3}},
+            },
+        }
+    )  # fmt: skip
+    inputs = inputs_of(scene)
+    for place in ("N", "N2"):
+        about = inputs["reduction"][place].attrs
+        assert 0 < about["slow_bound"] <= about["fast_bound"]
+    films = journal.film(scene, One(), inputs)
+    first, second = (films[place].to_dataset() for place in ("N", "N2"))
+    assert first.attrs["radial_clearance"] != second.attrs["radial_clearance"]
+    assert second.attrs["radial_clearance"] == pytest.approx(0.7e-3)
+
+
+def test_rolling_bearings_take_both_kinds():
+    for method in ("stationary", "periodic"):
+        scene = scene_of(reduction={"method": method, "bounds": [0.05, 0.3]}
+                         if method == "periodic" else {"method": method})  # fmt: skip
+        found = rolling.load_distribution(scene, One(), inputs_of(scene))
+        assert np.isfinite(found["bearing_life"].values).all()
+
+
+def test_design_loads_that_are_chosen_by_hand_ask_for_no_accuracy():
+    assert scene_of(reduction={"method": "periodic"}).accuracy == "given"
+    with pytest.raises(InputError, match="accuracy"):
+        scene_of(reduction={"method": "stationary"}, accuracy=0.05)
+
+
+def test_what_no_orbit_closes_is_refused_and_keys_without_effect_are_told():
+    line = {"two_point": {"beam": {}}}
+    with pytest.raises(InputError, match="periodic"):
+        scene_of(reduction={"method": "periodic"}, shaft=line, journal={"tilt": True})
+    with pytest.raises(InputError, match="bounds"):
+        scene_of(reduction={"method": "periodic", "bounds": [1.0, 0.5]})
+    told = unused_keys(scene_of(reduction={"method": "stationary", "size": 0.2, "orders": [1.0]}))
+    assert {"reduction.size", "reduction.orders"} <= told.keys()
+
+
+@pytest.mark.parametrize("method", ["stationary", "periodic"])
+def test_the_command_line_solves_the_film_under_design_loads(method, tmp_path):
+    cube = cube_file(tmp_path / "loads.h5", wind_speeds=(8.0,), seeds=(1,), steps=400)
+    scene = tmp_path / "scene.toml"
+    scene.write_text('[journal]\nbearings = ["N"]\ngrid = [24, 8]\n', encoding="utf-8")
+    line = ["reduce", str(cube), "-o", str(tmp_path / "out"), "--method", method, "--film"]
+    line += ["--scene", str(scene), "--bearing", "N", "--json"]
+    line += ["--bounds", "0.05", "0.3"] if method == "periodic" else []
+    answer = CliRunner().invoke(app, line)
+    assert answer.exit_code == 0, answer.output
+    films = json.loads(answer.stdout)["films"]
+    assert len(films) == (1 if method == "periodic" else 11)
+    assert all(0 < film["eccentricity_ratio"] < 1 for film in films)

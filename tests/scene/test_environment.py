@@ -1,0 +1,58 @@
+"""What surrounds the machine acts on oil, cold start and air."""
+
+import pytest
+
+from loadflow.errors import InputError
+from loadflow.scene.scene import make_scene
+from loadflow.scene.unused import unused_keys
+from loadflow.studies.compare_words import drawn
+
+COLD = {"temperature": 253.15}
+WARM = {"bearings": ["N"], "heat": {"transfer": 100.0}}
+
+
+def test_bearings_give_their_heat_to_the_surroundings_unless_they_say_otherwise():
+    scene = make_scene(
+        {"name": "x", "environment": COLD, "journal": WARM, "friction": {"conductance": 50.0}}
+    )
+    assert scene.journal.heat.ambient_temperature == 253.15
+    assert scene.journal.heat.inlet_temperature == 313.15
+    assert scene.friction.ambient_temperature == 253.15
+    own = {"heat": {"transfer": 100.0, "ambient_temperature": 300.0}}
+    assert make_scene(
+        {"name": "x", "environment": COLD, "journal": own}
+    ).journal.heat.ambient_temperature == 300.0  # fmt: skip
+
+
+def test_each_place_has_its_own_surroundings():
+    known = {"transfer": 9.0, "ambient_temperature": 290.0}
+    places = {
+        "N": {"kind": "journal", "heat": {"transfer": 100.0}},
+        "N2": {"kind": "journal", "heat": known},
+    }
+    scene = make_scene({"name": "x", "environment": COLD, "bearings": places})
+    assert scene.journal.at("N").heat.ambient_temperature == 253.15
+    assert scene.journal.at("N2").heat.ambient_temperature == 290.0
+
+
+def test_a_cold_start_begins_with_cold_oil():
+    cold = COLD | {"cold_start": True}
+    scene = make_scene({"name": "x", "environment": cold, "journal": WARM})
+    oil = scene.journal.heat
+    assert oil.inlet_temperature == 253.15
+    assert oil.lubricant(oil.coldest).viscosity > 10 * oil.lubricant(313.15).viscosity
+    assert scene.friction.temperature == 253.15
+
+
+def test_a_cold_start_without_a_temperature_is_refused_and_what_is_idle_is_told():
+    with pytest.raises(InputError, match="temperature"):
+        make_scene({"name": "x", "environment": {"cold_start": True}})
+    assert "environment.temperature" in unused_keys(make_scene({"name": "x", "environment": COLD}))
+
+
+def test_suspensions_are_named_by_their_integration():
+    scene = make_scene({"name": "x", "shaft": {"three_point": {}, "moment": {}}})
+    told = {one["name"]: one["integration"] for one in drawn(scene)}
+    assert told == {"three_point": "partly integrated", "moment": "fully integrated"}
+    assert scene.model_copy().shaft.three_point.integration == "partly integrated"
+    assert make_scene({"name": "y"}).shaft.two_point.integration == "resolved"

@@ -1,0 +1,70 @@
+"""Benchmarks can be started, share one way of measuring, and are named where they are."""
+
+import re
+from importlib import import_module
+from pathlib import Path
+
+import pytest
+
+from benchmarks import common
+
+ROOT = common.ROOT
+FOLDERS = ("ladder", "peers", "references", "robustness")
+MODULES = sorted(
+    ".".join(path.relative_to(ROOT).with_suffix("").parts)
+    for folder in FOLDERS
+    for path in (ROOT / "benchmarks" / folder).glob("*.py")
+    if path.stem != "__init__"
+)
+NAMED = re.compile(r"benchmarks(?:\.(?:ladder|peers|references|robustness)(?:\.\w+)?|/[\w/.]+)")
+
+
+def text_of(module):
+    path = ROOT / Path(*module.split("."))
+    return path.with_suffix(".py").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("module", MODULES)
+def test_a_benchmark_can_be_imported_and_measures_as_all_do(module):
+    import_module(module)
+    text = text_of(module)
+    assert "argparse.ArgumentParser" not in text, "benchmarks.common.arguments"
+    if "__main__" in text:
+        assert "arguments(__doc__)" in text, "answers --help"
+        started = module.removesuffix(".__main__")
+        assert re.search(rf"{re.escape(started)}\b", text), "says how it is started"
+
+
+def test_every_benchmark_that_a_page_names_is_there():
+    files = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *(ROOT / "docs").glob("*.md")]
+    files += (ROOT / "loadflow").rglob("*.py")
+    named = {name for file in files for name in NAMED.findall(file.read_text(encoding="utf-8"))}
+    assert len(named) > 20
+    missing = [name for name in named if not is_there(name.rstrip("."))]
+    assert missing == []
+
+
+def is_there(name):
+    path = ROOT / (name if "/" in name else name.replace(".", "/"))
+    return path.exists() or path.with_suffix(".py").exists()
+
+
+def test_a_time_is_the_least_and_the_answer_that_of_the_work():
+    answers = iter(range(10))
+    result, seconds = common.timed(lambda: next(answers), repeat=3, warm=True)
+    assert result == 3
+    assert 0 <= seconds < 0.1
+    assert common.timed(lambda: "once") == ("once", pytest.approx(0.0, abs=0.1))
+
+
+def test_a_table_is_markdown():
+    assert common.head("what", "s", numbers=True) == "| what | s |\n|---|---:|"
+    assert common.row("film", 1.5) == "| film | 1.5 |"
+
+
+def test_what_is_between_two_marks_of_a_page_is_replaced(tmp_path):
+    page = tmp_path / "page.md"
+    page.write_text("before <!-- a -->old<!-- b --> after", encoding="utf-8")
+    for text in ("new", "newer"):
+        common.put(page, "<!-- a -->", "<!-- b -->", text)
+        assert page.read_text(encoding="utf-8") == f"before <!-- a -->\n{text}\n<!-- b --> after"
