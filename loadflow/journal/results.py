@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from loadflow.journal.film._kernels import HINV, HM
+from loadflow.journal.film._kernels import COS, HM, SIN
 from loadflow.journal.film.groove_pressure import UNSUPPLIED
 from loadflow.journal.film.integrals import summary
 from loadflow.journal.geometry import JournalGeometry
@@ -460,10 +460,11 @@ def without_supply(count: int) -> dict[str, Any]:
 def field_row(film: DiscreteFilm, solution: Solution) -> dict[str, Any]:
     """One row of `FilmField`, but for z; the half film is mirrored."""
     *cells, angle, load = film.field(solution.u, solution.position)
-    # of each cell ∫h dA and ∫dA/h are known; the root of their ratio is its gap
-    whole, inverse = film.gap.coef[HM, : angle.size], film.gap.coef[HINV, : angle.size]
-    heights = np.sqrt(whole / inverse) * film.relative_clearance * film.radius
-    cells += [film.deformation, np.broadcast_to(heights, cells[0].shape)]
+    # of each cell ∫h dθ is known, and its arc by ∫cos θ dθ and ∫sin θ dθ
+    coef, (columns, rows) = film.gap.coef[:, : angle.size], cells[0].shape
+    arc = np.hypot(coef[COS, :, :1], coef[SIN, :, :1])
+    heights = coef[HM, :, :rows] / arc * film.relative_clearance * film.radius
+    cells += [film.deformation, np.broadcast_to(heights, (columns, rows))]
     if film.mesh.half:
         cells = [np.concatenate([values[:, ::-1], values], axis=1) for values in cells]
     pressure, fill, deformation, gap = cells
