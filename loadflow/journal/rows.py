@@ -85,7 +85,9 @@ def field_row(film: DiscreteFilm, solution: Solution) -> dict[str, Any]:
     """One row of `FilmField`, but for z; the half film is mirrored."""
     *cells, angle, load = film.field(solution.u, solution.position)
     # of each cell ∫h dA and ∫dA/h are known; the root of their ratio is its gap
-    whole, inverse = film.gap.coef[HM, : angle.size], film.gap.coef[HINV, : angle.size]
+    # (a gap that changes along the axis has coefficients of the ends beside its cells)
+    here = slice(angle.size), slice(cells[0].shape[1])
+    whole, inverse = film.gap.coef[HM][here], film.gap.coef[HINV][here]
     heights = np.sqrt(whole / inverse) * film.relative_clearance * film.radius
     cells += [film.deformation, np.broadcast_to(heights, cells[0].shape)]
     if film.mesh.half:
