@@ -116,7 +116,7 @@ def rotor_coefficients(
             film,
             control=control,
             whirl=whirl * abs(float(speeds[k])),
-            **{name: values[k] for name, values in lying.items()},  # type: ignore[arg-type]
+            **{name: values[k] for name, values in lying.items()},
         )
         for k in range(speeds.size)
     ]

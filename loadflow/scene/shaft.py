@@ -63,7 +63,7 @@ class Shaft(Section, BaseModel):
     def scaled(self, factor: float) -> Shaft:
         """The suspensions with all lengths times a factor, by similarity."""
         parts = {n: scaled_suspension(concept, factor) for n, concept in self.suspensions.items()}
-        return Shaft(**parts)
+        return Shaft.model_validate(parts)
 
     @property
     def coupled(self) -> dict[str, BearingSupport]:

@@ -60,7 +60,7 @@ def _film(scene: Scene, name: str, mean: xr.Dataset, speed: float) -> xr.Dataset
     shares = np.union1d(np.linspace(*asked.speed_range, asked.points), 1.0)
     here = mean.sel(bearing=name)
     force = here["force"].values.astype(float)
-    line = {key: to_film(value) for key, value in _line(options, here).items()}
+    line: dict[str, Any] = {key: to_film(value) for key, value in _line(options, here).items()}
     try:
         table = rotor_coefficients(
             options.geometry, to_film(force), speed * shares, options.film_model, **line

@@ -244,11 +244,13 @@ class CrankRig:
                 bearing.gaps, self.viscosity, ratio, self.adhesion, self.sliding,
                 driving=driving, variant="thesis",
             )  # fmt: skip
-            grip = {"adhesion": self.adhesion, "sliding": self.sliding}
-            motion = coulomb_motion(history, with_cage, driving=driving, **grip)
-            return coulomb_torque(
-                motion, held, omega, rolling=self.rolling, driving=driving, **grip
+            motion = coulomb_motion(
+                history, with_cage, adhesion=self.adhesion, sliding=self.sliding, driving=driving
             )
+            return coulomb_torque(
+                motion, held, omega, adhesion=self.adhesion, sliding=self.sliding,
+                rolling=self.rolling, driving=driving,
+            )  # fmt: skip
         regimes = self.film == "moes"
         options = FrictionOptions(
             oil=lubricant(self.oil), temperature=self.temperature, film=self.film,

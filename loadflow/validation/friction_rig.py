@@ -59,7 +59,7 @@ def checks() -> Iterator[Check]:
         ratio = twice.losses[f"{part} rolling"] / usual.losses[f"{part} rolling"]
         yield Check(f"rolling loss, μ_R twice, {part}", "ch. 8.3.1", 2.0, ratio, 1e-9)
     for name, change, part, printed, tolerance, why in _STUDY:
-        found = replace(rig, **change).friction_torque(_FAST)  # type: ignore[arg-type]
+        found = replace(rig, **change).friction_torque(_FAST)
         got = 100 * (of(part, found) / of(part, usual) - 1)
         label, source = f"{name}, {part}, {_FAST:g}/min", "ch. 8.3.1, masses assumed"
         yield Check(label, source, printed, got, tolerance, "absolute", "%", why)

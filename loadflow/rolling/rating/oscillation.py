@@ -111,7 +111,7 @@ class Oscillation:
         weight : array_like, shape (n,)
             Their shares of time.
         """
-        exponent = float(bearing.life_exponent)  # type: ignore[attr-defined]
+        exponent = float(bearing.life_exponent)
         mean = spectrum_load(load, weight, exponent)
         return self.mounting_factor * float(rating_life(self.capacity(bearing), mean, exponent))
 
