@@ -1,10 +1,10 @@
 """Which physics matters when: docs/physics.md and its figures.
 
-``sizes`` lets the pilot measure every effect on single wind speeds of two turbines, ``scenes`` asks
-the plan of ten scenes what it keeps, ``runs`` makes small whole runs from the coarsest models to all
-that there is and holds their answers against the last. What is measured is kept beside the page in
-``docs/figures/physics.json``, so that each part may be measured alone; without a part the page is
-written anew from there.
+``sizes`` lets the pilot measure every effect on single wind speeds of three turbines, ``scenes``
+asks the plan of ten scenes what it keeps, ``runs`` makes small whole runs from the coarsest models
+to all that there is and holds their answers against the last. What is measured is kept beside the
+page in ``docs/figures/physics.json``, so that each part may be measured alone; without a part the
+page is written anew from there: ``python -m benchmarks.ladder.physics [sizes] [scenes] [runs]``.
 """
 
 from __future__ import annotations
@@ -204,8 +204,11 @@ def effects_of(measured: list[dict[str, Any]]) -> list[str]:
 
 
 def size_table(measured: list[dict[str, Any]]) -> str:
-    """A row for each effect and turbine, a column for each wind speed."""
-    lines = [head("effect", "turbine", *(f"{speed:g} m/s" for speed in SPEEDS))]
+    """The figure, and a row for each effect and turbine, a column for each wind speed."""
+    picture = "Size of each effect over wind speed; the grey line is 5 %"
+    lines = [f"![{picture}](figures/{FIGURE.name})\n"]
+    lines += ["The answer that moves most, and by how much:\n"]
+    lines += [head("effect", "turbine", *(f"{speed:g} m/s" for speed in SPEEDS))]
     for effect in effects_of(measured):
         for turbine in TURBINES:
             at = {one["speed"]: one for one in measured if one["turbine"] == turbine}

@@ -11,17 +11,29 @@ from typer.models import CommandInfo
 from loadflow.cli import (  # noqa: F401  they register their commands
     comparing,
     cubes,
+    designing,
     lifetimes,
     points,
     processing,
     scenes,
+    viewing,
 )
 from loadflow.cli.base import app, err
 from loadflow.cli.signals import Stopped, leave, stoppable, tell_stopped
 from loadflow.errors import InputError, LoadflowError
 
 GROUPS = {
-    "Scenes and runs": ("run", "plan", "compare", "init", "scene", "list", "report"),
+    "Scenes and runs": (
+        "run",
+        "plan",
+        "compare",
+        "design",
+        "init",
+        "scene",
+        "list",
+        "report",
+        "view",
+    ),
     "Load cubes": ("convert", "loads", "statistics", "seeds", "reduce", "lifetime"),
     "One bearing, one wind": ("journal", "rolling", "wind"),
     "How far to trust it": ("validate", "bench"),
@@ -42,10 +54,12 @@ EXAMPLE = {
     "run": "loadflow run scene.toml --loads 'path/to/*.outb'",
     "plan": "loadflow plan scene.toml --pilot",
     "compare": "loadflow compare scene.toml --candidate two-spherical",
+    "design": "loadflow design scene.toml --candidate journal-cylindrical",
     "init": "loadflow init dlc_1_1 -o my_turbine.toml",
     "scene": "loadflow scene --show scene.toml",
     "list": "loadflow list oils",
     "report": "loadflow report runs/quick_look",
+    "view": "loadflow view runs/quick_look",
     "convert": "loadflow convert 'path/to/*.outb' -o loads.h5",
     "loads": "loadflow loads --dlc 1.1 --wind-speed 8 --wind-speed 12 -o loads.h5",
     "statistics": "loadflow statistics loads.h5 -o statistics",
@@ -73,7 +87,8 @@ def _in_groups() -> None:
 
     for command in app.registered_commands:
         command.rich_help_panel = group_of.get(name_of(command), "More")
-        command.epilog = f"Example: {EXAMPLE[name_of(command)]}"
+        if name_of(command) in EXAMPLE:
+            command.epilog = f"Example: {EXAMPLE[name_of(command)]}"
     app.registered_commands.sort(
         key=lambda c: order.index(name_of(c)) if name_of(c) in order else len(order)
     )
