@@ -11,6 +11,7 @@ author = "The loadflow developers"
 version = release = loadflow.__version__
 extensions = ["myst_parser", "sphinx.ext.autodoc", "numpydoc", "sphinxcontrib.mermaid"]
 exclude_patterns = ["_build"]
+suppress_warnings = ["misc.highlighting_failure"]  # examples leave out keys by "…"
 nitpicky = False  # types of signatures need not be pages
 myst_enable_extensions = ["dollarmath", "fieldlist"]
 myst_heading_anchors = 3

@@ -9,10 +9,8 @@ import pytest
 import typer.main
 from synthetic import cube_file
 
-from loadflow import validation
 from loadflow.cli import EXAMPLE, main
 from loadflow.cli.base import app
-from loadflow.validation.check import Check
 
 COMMAND = typer.main.get_command(app)
 
@@ -53,17 +51,6 @@ def test_completion_is_written_for_the_shell(shell, tmp_path):
     assert done.returncode == 0, done.stderr
     written = [path for path in tmp_path.rglob("*") if path.is_file()]
     assert any("_COMPLETE" in path.read_text(encoding="utf-8") for path in written)
-
-
-def test_validate_shows_only_what_failed_when_asked(capsys, monkeypatch):
-    assert "ours" not in call(capsys, "validate", "seeds", "--failed").out
-    good = list(validation.all_checks("seeds"))
-    wrong = Check("twice", good[0].source, 2.0, 1.0, 0.1)
-    monkeypatch.setattr(validation, "all_checks", lambda name: [*good, wrong])
-    told = call(capsys, "validate", "seeds", "--failed", code=1)
-    assert "twice" in told.out
-    assert good[0].name not in told.out
-    assert f"{len(good)} of {len(good) + 1} within" in told.out
 
 
 # what another system lacks: affinity of processes, UTF-8 files by default, Greek in its code page

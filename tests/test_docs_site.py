@@ -1,4 +1,4 @@
-"""The pages of the site: commands are read as the command line reads them, scenes and code run."""
+"""The pages of the site: the command line takes their commands, scenes and Python run."""
 
 import re
 import shlex

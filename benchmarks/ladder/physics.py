@@ -204,8 +204,11 @@ def effects_of(measured: list[dict[str, Any]]) -> list[str]:
 
 
 def size_table(measured: list[dict[str, Any]]) -> str:
-    """A row for each effect and turbine, a column for each wind speed."""
-    lines = [head("effect", "turbine", *(f"{speed:g} m/s" for speed in SPEEDS))]
+    """The figure, and a row for each effect and turbine, a column for each wind speed."""
+    picture = "Size of each effect over wind speed; the grey line is 5 %"
+    lines = [f"![{picture}](figures/{FIGURE.name})\n"]
+    lines += ["The answer that moves most, and by how much:\n"]
+    lines += [head("effect", "turbine", *(f"{speed:g} m/s" for speed in SPEEDS))]
     for effect in effects_of(measured):
         for turbine in TURBINES:
             at = {one["speed"]: one for one in measured if one["turbine"] == turbine}

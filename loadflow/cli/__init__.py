@@ -54,7 +54,7 @@ EXAMPLE = {
     "run": "loadflow run scene.toml --loads 'path/to/*.outb'",
     "plan": "loadflow plan scene.toml --pilot",
     "compare": "loadflow compare scene.toml --candidate two-spherical",
-    "design": "loadflow design scene.toml --workers 2",
+    "design": "loadflow design scene.toml --candidate journal-cylindrical",
     "init": "loadflow init dlc_1_1 -o my_turbine.toml",
     "scene": "loadflow scene --show scene.toml",
     "list": "loadflow list oils",
@@ -87,7 +87,8 @@ def _in_groups() -> None:
 
     for command in app.registered_commands:
         command.rich_help_panel = group_of.get(name_of(command), "More")
-        command.epilog = f"Example: {EXAMPLE[name_of(command)]}"
+        if name_of(command) in EXAMPLE:
+            command.epilog = f"Example: {EXAMPLE[name_of(command)]}"
     app.registered_commands.sort(
         key=lambda c: order.index(name_of(c)) if name_of(c) in order else len(order)
     )
