@@ -6,7 +6,7 @@ from synthetic import case, cube_file
 
 import loadflow as lf
 from loadflow.cube import make_cube, save_cube
-from loadflow.planning.accuracy import finer
+from loadflow.planning.choice import finer
 from loadflow.planning.plan import make_plan
 from loadflow.scene.scene import make_scene
 

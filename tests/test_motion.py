@@ -8,7 +8,8 @@ from synthetic import case, cube_file
 import loadflow as lf
 from loadflow.cube import make_cube, save_cube
 from loadflow.errors import InputError
-from loadflow.planning.accuracy import expected_errors, finer
+from loadflow.planning.accuracy import expected_errors
+from loadflow.planning.choice import finer
 from loadflow.planning.ladder import expected_seconds, ladder, measured
 from loadflow.planning.plan import make_plan
 from loadflow.scene.scene import make_scene

@@ -1,10 +1,10 @@
 """Which physics matters when: docs/physics.md and its figures.
 
-``sizes`` lets the pilot measure every effect on single wind speeds of two turbines, ``scenes`` asks
-the plan of ten scenes what it keeps, ``runs`` makes small whole runs from the coarsest models to all
-that there is and holds their answers against the last. What is measured is kept beside the page in
-``docs/figures/physics.json``, so that each part may be measured alone; without a part the page is
-written anew from there.
+``sizes`` lets the pilot measure every effect on single wind speeds of three turbines, ``scenes``
+asks the plan of ten scenes what it keeps, ``runs`` makes small whole runs from the coarsest models
+to all that there is and holds their answers against the last. What is measured is kept beside the
+page in ``docs/figures/physics.json``, so that each part may be measured alone; without a part the
+page is written anew from there: ``python -m benchmarks.ladder.physics [sizes] [scenes] [runs]``.
 """
 
 from __future__ import annotations

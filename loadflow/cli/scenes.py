@@ -181,7 +181,7 @@ def plan(
     if as_json:
         names = [case.name for case in made.cases]
         found = {"steps": steps, "cases": names, "left_out": made.left_out}
-        found |= {"unused": unused_keys(wanted)}
+        found |= {"unused": unused_keys(wanted), "taken": wanted.taken}
         told = {"errors": made.errors, "accurate": made.accurate, "shortfalls": made.shortfalls}
         print_json(found | told | {"effects": [vars(effect) for effect in made.effects]})
         return
@@ -202,7 +202,7 @@ def plan(
     _print_effects(made, measured=verdict is not None)
     for stage, why in made.left_out.items():
         out.print(f"left out: {stage} ({why})", soft_wrap=True)
-    for warning in unused_warnings(wanted):
+    for warning in [*wanted.taken, *unused_warnings(wanted)]:
         out.print(f"warning: {warning}", soft_wrap=True, markup=False)
 
 

@@ -4,43 +4,43 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Unpack
+from typing import Any, ClassVar, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError, SolverError
-from loadflow.journal.film_model import Control, Film, Keywords, film_and_control
+from loadflow.journal.film_model import Control, Film, Keywords
 from loadflow.journal.lubricant import Lubricant
-from loadflow.journal.pad_results import ConicalResult, common
-from loadflow.journal.pads import Pads, Pivot, check_film, even_pads, finite
-from loadflow.journal.solvers.assembly import (
-    BODY,
-    Assembly,
-    AssemblyState,
-    Member,
-    raise_not_converged,
+from loadflow.journal.pad_bearing import (
+    AT_REST,
+    HELD,
+    SHIFTS,
+    ConicalFilms,
+    PadBearing,
+    Rows,
+    answered,
+    asked,
+    check_gap,
+    limits_of,
+    loading,
 )
-from loadflow.journal.solvers.assembly_orbit import series
+from loadflow.journal.pad_results import ConicalResult, common
+from loadflow.journal.pads import Pads, Pivot, even_pads, finite
+from loadflow.journal.solvers.assembly import BODY, Assembly, AssemblyState, Member
 from loadflow.journal.surfaces import FLAT, Cone, Profile
 from loadflow.numerics.convergence import Limits
 from loadflow.numerics.fields import require
 
-if TYPE_CHECKING:
-    import xarray as xr
-
 Array = NDArray[np.float64]
 
-_SHIFTS = np.arange(3)
-_ALL = np.arange(BODY)
-HELD = np.array([], dtype=np.int64)
 RATIOS = (0.5, 0.8, 0.2)  # eccentricities over the gap from which Newton starts
 ATTITUDE = math.radians(50.0)  # from the load to the eccentricity there
 _ROUGH = Limits(1e-3, 20)  # of the films that only estimate a load
 
 
 @dataclass(frozen=True)
-class ConicalBearing:
+class ConicalBearing(PadBearing, ConicalFilms[ConicalResult]):
     """Conical journal bearing: a whole ring or segments.
 
     Frame: the third axis runs along the shaft, from the apex toward the wide end; φ from the first
@@ -112,66 +112,14 @@ class ConicalBearing:
         centres = even_pads(self.pads, self.pad_angle, self.first_pad)
         return Pads(surface, self.pad_angle, centres, profile=self.profile, pivot=self.pivot)
 
+    _axes: ClassVar[int] = 3
+
+    @property
+    def _shifts(self) -> Rows:
+        """All three."""
+        return SHIFTS
+
     # --- verbs -----------------------------------------------------------------------------------
-    def pressure(
-        self,
-        eccentricity: ArrayLike,
-        speed: float,
-        film: Film | Lubricant | None = None,
-        *more: Any,
-        velocity: ArrayLike = (0.0, 0.0, 0.0),
-        tilt: ArrayLike = (0.0, 0.0),
-        control: Control | None = None,
-        **keywords: Unpack[Keywords],
-    ) -> ConicalResult:
-        """Film at a given position of the shaft.
-
-        Parameters
-        ----------
-        eccentricity : array_like (3,)
-            Shaft relative to the bearing, m.
-        speed : float
-            rad/s.
-        film : Film or Lubricant
-            The film, or its liquid and its other fields as keywords; `grid` counts cells around and
-            across, default (80, 20) for a whole ring, (40, 20) for each segment. There is no line
-            of fresh oil: `inlet` is "auto" or None.
-        velocity : array_like (3,)
-            Of the shaft, m/s; segments on supports stay at rest.
-        tilt : array_like (2,)
-            Rotation of the shaft about the first and the second axis, rad.
-        control : Control, optional
-            How hard to solve; by default to 1e-10 in 60 Newton steps.
-        **keywords
-            Fields of `Film` and of `Control`.
-
-        Returns
-        -------
-        ConicalResult
-
-        Raises
-        ------
-        loadflow.errors.InputError
-            Values that are not finite or misshapen; a shaft that touches the bearing.
-        loadflow.errors.SolverError
-            No convergence.
-        """
-        film, control = film_and_control(film, more, control, keywords)
-        check_film(film)
-        place, speed = finite("eccentricity", eccentricity, 3), finite("speed", speed)
-        moving, turned = finite("velocity", velocity, 3), finite("tilt", tilt, 2)
-        rate = 2.0 * float(np.linalg.norm(moving)) / self.clearance
-        assembly = self._assembly(film, speed, rate)
-        state = self._started(assembly, np.append(place, turned), speed)
-        state = AssemblyState(state.position, np.append(moving, np.zeros(2)), state.members)
-        check_gap(assembly, state)
-        limits = control.limits(1e-10, 60)
-        state = assembly.solve(state, np.zeros(BODY), HELD, limits)
-        if not state.converged and limits.strict:
-            head = f"e = {place.tolist()} m, ω = {speed:.6g} rad/s"
-            raise_not_converged(head, state, assembly.narrowest(state))
-        return self._result(assembly, state, speed)
-
     def equilibrium(
         self,
         force: ArrayLike,
@@ -209,92 +157,33 @@ class ConicalBearing:
         loadflow.errors.SolverError
             No film carries the force, with the reason.
         """
-        film, control = film_and_control(film, more, control, keywords)
-        check_film(film)
+        film, control = asked(film, more, control, keywords)
         load, speed = finite("force", force, 3), finite("speed", speed)
         wanted, turned, free = loading(load, moment, tilt)
-        limits = control.limits(1e-10, 60)
+        limits = limits_of(control)
         head = f"F = ({load[0]:.6g}, {load[1]:.6g}, {load[2]:.6g}) N at ω = {speed:.6g} rad/s"
-        self._refuse_hopeless(head, load, speed, film)
+        self._check_load(head, load, speed, film)
         assembly = self._assembly(film, speed, 0.0)
         starts = [
             self._started(assembly, np.append(place, turned), speed)
             for place in self._first_places(assembly, wanted, speed, turned)
         ]
         state = assembly.equilibrium(starts, wanted, free, limits)
-        if not state.converged and limits.strict:
-            head += self._hint(load)
-            raise_not_converged(head, state, assembly.narrowest(state))
+        state = answered(head + self._hint(load), assembly, state, limits)
         return self._result(assembly, state, speed)
 
-    def orbit(
-        self,
-        time: ArrayLike,
-        force: ArrayLike,
-        speed: ArrayLike,
-        film: Film | Lubricant | None = None,
-        *more: Any,
-        moment: ArrayLike | None = None,
-        tilt: ArrayLike | None = None,
-        start: ArrayLike | None = None,
-        control: Control | None = None,
-        **keywords: Unpack[Keywords],
-    ) -> xr.Dataset:
-        """Path of the shaft under a load that changes with time.
-
-        Implicit steps of second order from one time to the next, the oil in every cell conserved;
-        a step at which Newton fails is cut, load and speed being straight lines between the times.
-        Pads on their supports follow without inertia.
-
-        Parameters
-        ----------
-        time : array_like (n,)
-            s, increasing.
-        force : array_like (n, 3) or (3,)
-            What the shaft applies to the bearing, N.
-        speed : array_like (n,) or float
-            rad/s.
-        moment : array_like (n, 2) or (2,), optional
-            N m; the shaft then tilts freely.
-        tilt : array_like (2,), optional
-            Rotation of the shaft, rad, held (where it starts, with a moment); aligned by default.
-        start : array_like (3,), optional
-            First eccentricity, m; default the equilibrium of the first load.
-        film, control, **keywords
-            As in `pressure`; each step is solved to 1e-8 in 30 Newton steps by default.
-
-        Returns
-        -------
-        xarray.Dataset
-            Over ``time``: eccentricity, tilt, minimum_film, maximum_pressure, friction_power,
-            load_share, residual, iterations.
-
-        Raises
-        ------
-        loadflow.errors.InputError
-            Misshapen, not finite or not increasing input.
-        loadflow.errors.SolverError
-            No equilibrium to start from, or a step that fails even when cut.
-        """
-        film, control = film_and_control(film, more, control, keywords)
-        check_film(film)
-        times, forces, speeds, moments = series(time, force, speed, moment, 3)
-        turned = finite("tilt", (0.0, 0.0) if tilt is None else tilt, 2)
-        first = float(speeds[0])
-        assembly = self._assembly(film, float(np.abs(speeds).max()), 0.0)
-        if start is None:
-            words: dict[str, Any] = {"tilt": turned} if moment is None else {"moment": moments[0]}
-            found = self.equilibrium(forces[0], first, film, **words)
-            place, turned = found.eccentricity, found.tilt
-        else:
-            place = finite("start", start, 3)
-        state = self._started(assembly, np.append(place, turned), first)
-        check_gap(assembly, state)
-        loads = np.column_stack([forces, moments])
-        free = _SHIFTS if moment is None else _ALL
-        return self.row.orbit(assembly, state, times, loads, speeds, free, control)
-
     # --- inside ----------------------------------------------------------------------------------
+    def _place_of(self, found: ConicalResult) -> Array:
+        return found.eccentricity
+
+    def _films_at(
+        self, film: Film, place: Array, tilt: Array, speeds: Array, free: Rows, control: Control
+    ) -> tuple[Assembly, AssemblyState]:
+        assembly = self._assembly(film, float(np.abs(speeds).max()), 0.0)
+        state = self._started(assembly, np.append(place, tilt), float(speeds[0]))
+        check_gap(assembly, state)
+        return assembly, state
+
     def members(
         self, film: Film, speed: float, rate: float, clearance: float | None = None
     ) -> list[Member]:
@@ -302,17 +191,18 @@ class ConicalBearing:
         c = self.clearance if clearance is None else clearance
         return self.row.members(film, c, c, speed, abs(speed) + rate, alike=False)
 
-    def _assembly(self, film: Film, speed: float, rate: float) -> Assembly:
-        return Assembly(self.members(film, speed, rate), self.row.surface.radius)
+    def _assembly(self, film: Film, speed: float, moving: float) -> Assembly:
+        members = self.members(film, speed, 2.0 * moving / self.clearance)
+        return Assembly(members, self.row.surface.radius)
 
     def _started(self, assembly: Assembly, position: Array, speed: float) -> AssemblyState:
         pads = self.row.lifted_at(assembly.members, position, speed)
         return assembly.start(position, pads)
 
-    def _refuse_hopeless(self, head: str, load: Array, speed: float, film: Film) -> None:
+    def _check_load(self, head: str, load: Array, speed: float, film: Film) -> None:
         """Name the reason why no film can carry `load`."""
         if speed == 0.0:
-            raise SolverError(f"{head}: without rotation and squeeze the film carries no load")
+            raise SolverError(f"{head}: {AT_REST}")
         least = math.hypot(load[0], load[1]) * math.tan(self.half_angle)
         pushes = film.law.floor >= film.edge_pressure  # no film is below the pressure at its edges
         if pushes and load[2] >= -least and load.any():
@@ -390,24 +280,3 @@ class ConicalBearing:
             "residual": state.residual,
             "iterations": state.iterations,
         }
-
-
-def loading(
-    load: Array, moment: ArrayLike | None, tilt: ArrayLike | None
-) -> tuple[Array, Array, NDArray[np.int64]]:
-    """Load (5,), held tilt (2,) and what moves."""
-    if moment is not None and tilt is not None:
-        raise InputError("moment and tilt are both given: one follows from the other")
-    turned = finite("tilt", (0.0, 0.0) if tilt is None else tilt, 2)
-    wanted = np.append(load, np.zeros(2))
-    if moment is None:
-        return wanted, turned, _SHIFTS
-    wanted[3:] = finite("moment", moment, 2)
-    return wanted, turned, _ALL
-
-
-def check_gap(assembly: Assembly, state: AssemblyState) -> None:
-    """Refuse a position at which the shaft touches the bearing."""
-    narrowest = assembly.narrowest(state)
-    if narrowest <= 0.0:
-        raise InputError(f"the shaft touches the bearing: narrowest gap {narrowest:.6g} m")

@@ -10,24 +10,20 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError, SolverError
-from loadflow.journal.cone import (
-    ATTITUDE,
-    HELD,
-    RATIOS,
-    ConicalBearing,
-    check_gap,
+from loadflow.journal.cone import ATTITUDE, RATIOS, ConicalBearing
+from loadflow.journal.film_model import Control, Film, Keywords
+from loadflow.journal.lubricant import Lubricant
+from loadflow.journal.pad_bearing import (
+    AT_REST,
+    ConicalFilms,
+    answered,
+    asked,
+    limits_of,
     loading,
 )
-from loadflow.journal.film_model import Control, Film, Keywords, film_and_control
-from loadflow.journal.lubricant import Lubricant
 from loadflow.journal.pad_results import ConicalResult, PairResult
-from loadflow.journal.pads import check_film, finite
-from loadflow.journal.solvers.assembly import (
-    BODY,
-    Assembly,
-    AssemblyState,
-    raise_not_converged,
-)
+from loadflow.journal.pads import finite
+from loadflow.journal.solvers.assembly import BODY, Assembly, AssemblyState
 from loadflow.numerics.fields import require
 
 Array = NDArray[np.float64]
@@ -36,7 +32,7 @@ _REACH = 0.9  # share of the clearance that a first eccentricity may take
 
 
 @dataclass(frozen=True)
-class ConicalPair:
+class ConicalPair(ConicalFilms[PairResult]):
     """Two cones against each other: one locating bearing for forces and moments.
 
     Frame: the third axis along the shaft from `left` to `right`, origin half-way between the
@@ -96,33 +92,6 @@ class ConicalPair:
             found.append(turn @ shift)
         return found[0], found[1]
 
-    def pressure(
-        self,
-        eccentricity: ArrayLike,
-        speed: float,
-        film: Film | Lubricant | None = None,
-        *more: Any,
-        velocity: ArrayLike = (0.0, 0.0, 0.0),
-        tilt: ArrayLike = (0.0, 0.0),
-        control: Control | None = None,
-        **keywords: Unpack[Keywords],
-    ) -> PairResult:
-        """Films at a given position of the shaft; arguments and errors as of `ConicalBearing`."""
-        film, control = film_and_control(film, more, control, keywords)
-        check_film(film)
-        place, speed = finite("eccentricity", eccentricity, 3), finite("speed", speed)
-        moving, turned = finite("velocity", velocity, 3), finite("tilt", tilt, 2)
-        assembly = self._assembly(film, speed, float(np.linalg.norm(moving)))
-        state = self._started(assembly, np.append(place, turned), speed)
-        state = AssemblyState(state.position, np.append(moving, np.zeros(2)), state.members)
-        check_gap(assembly, state)
-        limits = control.limits(1e-10, 60)
-        state = assembly.solve(state, np.zeros(BODY), HELD, limits)
-        if not state.converged and limits.strict:
-            head = f"e = {place.tolist()} m, ω = {speed:.6g} rad/s"
-            raise_not_converged(head, state, assembly.narrowest(state))
-        return self._result(assembly, state, speed)
-
     def equilibrium(
         self,
         force: ArrayLike,
@@ -158,19 +127,18 @@ class ConicalPair:
         loadflow.errors.SolverError
             No films carry the load, with the reason.
         """
-        film, control = film_and_control(film, more, control, keywords)
-        check_film(film)
+        film, control = asked(film, more, control, keywords)
         if speed is None:
             raise InputError("speed: not given; the speed of the shaft, rad/s")
         load, speed = finite("force", force, 3), finite("speed", speed)
         wanted, turned, free = loading(load, moment, tilt)
-        limits = control.limits(1e-10, 60)
+        limits = limits_of(control)
         head = (
             f"F = ({load[0]:.6g}, {load[1]:.6g}, {load[2]:.6g}) N, M = ({wanted[3]:.6g}, "
             f"{wanted[4]:.6g}) N m at ω = {speed:.6g} rad/s"
         )
         if speed == 0.0:
-            raise SolverError(f"{head}: without rotation and squeeze the films carry no load")
+            raise SolverError(f"{head}: {AT_REST}")
         assembly = self._assembly(film, speed, 0.0)
         starts = []
         for place in self._first_places(wanted, turned, speed):
@@ -180,9 +148,7 @@ class ConicalPair:
         if not starts:
             raise SolverError(f"{head}: the shaft touches a cone at this tilt")
         state = assembly.equilibrium(starts, wanted, free, limits)
-        if not state.converged and limits.strict:
-            raise_not_converged(head, state, assembly.narrowest(state))
-        return self._result(assembly, state, speed)
+        return self._result(assembly, answered(head, assembly, state, limits), speed)
 
     # --- inside ----------------------------------------------------------------------------------
     def _assembly(self, film: Film, speed: float, moving: float) -> Assembly:

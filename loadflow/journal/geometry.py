@@ -39,7 +39,7 @@ class JournalGeometry:
     >>> geometry = JournalGeometry(diameter=3.0, width=2.25, relative_clearance=0.5e-3)
     >>> geometry.clearance, geometry.width_ratio
     (0.00075, 0.75)
-    >>> round(geometry.sommerfeld_number(2e6, 1.2451, 0.05), 2)
+    >>> round(float(geometry.sommerfeld_number(2e6, 1.2451, 0.05)), 2)
     1.19
     """
 

@@ -68,7 +68,7 @@ def warm_film(
     loadflow.errors.SolverError
         A load without a film, or whose balance lies above 150 °C.
     """
-    _check_scalable(film)
+    check_scalable(film)
     balance = _Balance(at_rest, force, speed, cast("Heat", film.heat), weights)
     warmth = balance.solve(tolerance, max_iterations)
     state = balance.film(warmth.temperature, np.arange(speed.size))
@@ -224,8 +224,14 @@ def shares(weights: ArrayLike | None, shape: tuple[int, ...]) -> Array | None:
     return share
 
 
-def _check_scalable(film: Film) -> None:
-    """Refuse what does not depend on viscosity times speed alone."""
+def check_scalable(film: Film) -> None:
+    """Refuse what does not depend on viscosity times speed alone.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        A groove with an orifice, a pump or a given flow.
+    """
     supply = film.supply
     if supply is not None:
         restrictors = [g.restrictor for g in supply.grooves if g.restrictor is not None]

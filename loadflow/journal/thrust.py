@@ -4,23 +4,27 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Unpack
+from typing import TYPE_CHECKING, Any, ClassVar, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError, SolverError
-from loadflow.journal.film_model import Control, Film, Keywords, film_and_control
+from loadflow.journal.film_model import Control, Film, Keywords
 from loadflow.journal.lubricant import Lubricant
-from loadflow.journal.pad_results import ThrustResult, common
-from loadflow.journal.pads import LIFTS, Pads, Pivot, check_film, even_pads, finite
-from loadflow.journal.solvers.assembly import (
-    BODY,
-    Assembly,
-    AssemblyState,
-    raise_not_converged,
+from loadflow.journal.pad_bearing import (
+    AT_REST,
+    HELD,
+    PadBearing,
+    Rows,
+    answered,
+    asked,
+    limits_of,
+    loading,
 )
-from loadflow.journal.solvers.assembly_orbit import series
+from loadflow.journal.pad_results import ThrustResult, common
+from loadflow.journal.pads import LIFTS, Pads, Pivot, even_pads, finite
+from loadflow.journal.solvers.assembly import BODY, Assembly, AssemblyState
 from loadflow.journal.surfaces import Cone, Profile, Strip, Surface, Taper
 from loadflow.numerics.convergence import Limits
 from loadflow.numerics.fields import require
@@ -31,21 +35,21 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 _AXIAL = np.array([2])
-_WITH_TILT = np.array([2, 3, 4])
-_HELD = np.array([], dtype=np.int64)
 _ROUNDS = 12  # gaps tried for a first one
 _NEAR = 1.5  # ratio of load and force up to which a gap is near enough for Newton
 _LOAD_NUMBER = 0.05  # W h²/(η U L² B) of an ordinary pad, for the first gap of all
 
 
-@dataclass(frozen=True)
-class _PadThrust:
+class _PadThrust(PadBearing):
     """What thrust bearings on a ring and those of straight pads share."""
 
+    _axes: ClassVar[int] = 1
+    _signs: ClassVar[float] = -1.0
+
     @property
-    def row(self) -> Pads:
-        """The pads."""
-        raise AttributeError
+    def _shifts(self) -> Rows:
+        """The one along the axis."""
+        return _AXIAL
 
     # --- verbs -----------------------------------------------------------------------------------
     def pressure(
@@ -92,8 +96,7 @@ class _PadThrust:
         loadflow.errors.SolverError
             Pads that find no tilt without moment.
         """
-        film, control = film_and_control(film, more, control, keywords)
-        check_film(film)
+        film, control = asked(film, more, control, keywords)
         gap, speed, velocity = (
             finite("gap", gap),
             finite("speed", speed),
@@ -102,14 +105,11 @@ class _PadThrust:
         turned = finite("tilt", tilt, 2)
         require(gap > 0, "gap", gap, "m, > 0")
         assembly = self._assembly(film, gap, speed, velocity, alike=not turned.any())
-        limits = control.limits(1e-10, 60)
+        limits = limits_of(control)
         state = self._held(
             assembly, np.array([0.0, 0.0, 0.0, *turned]), velocity, gap, speed, limits
         )
-        if not state.converged and limits.strict:
-            raise_not_converged(
-                f"gap {gap:.6g} m, ω = {speed:.6g} rad/s", state, assembly.narrowest(state)
-            )
+        state = answered(f"gap {gap:.6g} m, ω = {speed:.6g} rad/s", assembly, state, limits)
         return self._result(assembly, state, gap, speed)
 
     def equilibrium(
@@ -149,108 +149,46 @@ class _PadThrust:
         loadflow.errors.SolverError
             No film carries the force, with the reason.
         """
-        film, control = film_and_control(film, more, control, keywords)
-        check_film(film)
+        film, control = asked(film, more, control, keywords)
         force, speed = finite("force", force), finite("speed", speed)
         require(force > 0, "force", force, "N, > 0: it presses the runner on the pads")
-        if moment is not None and tilt is not None:
-            raise InputError("moment and tilt are both given: one follows from the other")
-        turned = finite("tilt", (0.0, 0.0) if tilt is None else tilt, 2)
+        load = np.array([0.0, 0.0, -force])
+        wanted, turned, free = loading(load, moment, tilt, self._shifts)
         head = f"F = {force:.6g} N at ω = {speed:.6g} rad/s"
-        limits = control.limits(1e-10, 60)
-        self._refuse_hopeless(head, speed)
+        limits = limits_of(control)
+        self._check_load(head, speed)
         first = self._first_gap(head, force, speed, film, turned, limits)
         alike = moment is None and not turned.any()
         assembly = self._assembly(film, first, speed, 0.0, alike)
-        wanted = np.zeros(BODY)
-        wanted[2] = -force
-        if moment is not None:
-            wanted[3:] = finite("moment", moment, 2)
-        free = _AXIAL if moment is None else _WITH_TILT
         place = np.array([0.0, 0.0, 0.0, *turned])
         start = self._held(assembly, place, 0.0, first, speed, limits)
         state = assembly.equilibrium([start], wanted, free, limits)
-        if not state.converged and limits.strict:
-            raise_not_converged(head, state, assembly.narrowest(state))
-        return self._result(assembly, state, first, speed)
-
-    def orbit(
-        self,
-        time: ArrayLike,
-        force: ArrayLike,
-        speed: ArrayLike,
-        film: Film | Lubricant | None = None,
-        *more: Any,
-        moment: ArrayLike | None = None,
-        start: float | None = None,
-        control: Control | None = None,
-        **keywords: Unpack[Keywords],
-    ) -> xr.Dataset:
-        """Path of the runner under a load that changes with time.
-
-        Implicit steps of second order from one time to the next, the oil in every cell conserved;
-        a step at which Newton fails is cut, load and speed being straight lines between the times.
-        Pads that tilt follow without inertia.
-
-        Parameters
-        ----------
-        time : array_like (n,)
-            s, increasing.
-        force : array_like (n,) or float
-            Axial, N, > 0 presses the runner on the pads.
-        speed : array_like (n,) or float
-            rad/s.
-        moment : array_like (n, 2) or (2,), optional
-            N m; the runner then tilts freely.
-        start : float, optional
-            First gap, m, of an aligned runner; default the equilibrium of the first load.
-        film, control, **keywords
-            As in `pressure`; each step is solved to 1e-8 in 30 Newton steps by default.
-
-        Returns
-        -------
-        xarray.Dataset
-            Over ``time``: gap, tilt, minimum_film, maximum_pressure, friction_power, load_share,
-            residual, iterations.
-
-        Raises
-        ------
-        loadflow.errors.InputError
-            Misshapen, not finite or not increasing input.
-        loadflow.errors.SolverError
-            No equilibrium to start from, or a step that fails even when cut.
-        """
-        film, control = film_and_control(film, more, control, keywords)
-        check_film(film)
-        times, forces, speeds, moments = series(time, force, speed, moment, 1)
-        tilt = np.zeros(2)
-        if start is None:
-            words: dict[str, Any] = {} if moment is None else {"moment": moments[0]}
-            found = self.equilibrium(float(forces[0, 0]), float(speeds[0]), film, **words)
-            gap, tilt = found.gap, found.tilt
-        else:
-            gap = finite("start", start)
-            require(gap > 0, "start", gap, "m, > 0")
-        fastest = float(np.abs(speeds).max())
-        assembly = self._assembly(film, gap, fastest, 0.0, alike=moment is None)
-        limits = control.limits(1e-10, 60)
-        place = np.array([0.0, 0.0, 0.0, *tilt])
-        for member in assembly.members:
-            member.film.set_speed(float(speeds[0]))
-        state = self._held(assembly, place, 0.0, gap, float(speeds[0]), limits)
-        loads = np.zeros((times.size, BODY))
-        loads[:, 2], loads[:, 3:] = -forces[:, 0], moments
-        free = _AXIAL if moment is None else _WITH_TILT
-        path = self.row.orbit(assembly, state, times, loads, speeds, free, control)
-        about = {"units": "m", "long_name": "film over the lands on the axis"}
-        shift = path.eccentricity.isel(space=2)
-        return path.drop_vars("eccentricity").assign(gap=(shift + gap).assign_attrs(about))
+        return self._result(assembly, answered(head, assembly, state, limits), first, speed)
 
     # --- inside ----------------------------------------------------------------------------------
-    def _refuse_hopeless(self, head: str, speed: float) -> None:
+    def _place_of(self, found: ThrustResult) -> float:
+        return found.gap
+
+    def _films_at(
+        self, film: Film, place: float, tilt: Array, speeds: Array, free: Rows, control: Control
+    ) -> tuple[Assembly, AssemblyState]:
+        require(place > 0, "start", place, "m, > 0")
+        alike, first = free.size == self._shifts.size and not tilt.any(), float(speeds[0])
+        assembly = self._assembly(film, place, float(np.abs(speeds).max()), 0.0, alike)
+        for member in assembly.members:
+            member.film.set_speed(first)
+        position = np.array([0.0, 0.0, 0.0, *tilt])
+        return assembly, self._held(assembly, position, 0.0, place, first, limits_of(control))
+
+    def _named(self, path: xr.Dataset, place: float) -> xr.Dataset:
+        about = {"units": "m", "long_name": "film over the lands on the axis"}
+        shift = path.eccentricity.isel(space=2)
+        return path.drop_vars("eccentricity").assign(gap=(shift + place).assign_attrs(about))
+
+    def _check_load(self, head: str, speed: float) -> None:
         """Name the reason why no film can carry anything."""
         if speed == 0.0:
-            raise SolverError(f"{head}: without rotation and squeeze the film carries no load")
+            raise SolverError(f"{head}: {AT_REST}")
         row = self.row
         share = np.linspace(0.0, 1.0, 9)
         if not row.tilting and not row.profile.depth(share).any():
@@ -325,7 +263,7 @@ class _PadThrust:
                     continue
                 raise InputError(f"the runner touches the pads: narrowest gap {narrowest:.6g} m")
             start = AssemblyState(position, moving, start.members)
-            state = assembly.solve(start, np.zeros(BODY), _HELD, limits)
+            state = assembly.solve(start, np.zeros(BODY), HELD, limits)
             if state.converged and _axial(assembly, state) > 0.0:
                 break
         return state

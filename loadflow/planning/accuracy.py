@@ -1,4 +1,4 @@
-"""How accurate a wanted result is, end to end, and the cheapest models that are accurate enough.
+"""How accurate a wanted result is, end to end, with given models.
 
 The error of a result is the sum of what each model on the way to it adds: that of its rung, at its
 largest in the ladder, and of every effect that is left out, as the pilot measured it or, without a
@@ -8,51 +8,19 @@ gain d ln(answer)/d ln(load) of that answer, which is measured too.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
-from itertools import product
-from typing import Any
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 
-import numpy as np
-
-from loadflow.planning.effects import Estimates, concerned, switched
-from loadflow.planning.ladder import choices, expected_seconds, gains, measured
-from loadflow.scene.cases import Case
+from loadflow.planning.effects import Estimates
+from loadflow.planning.ladder import gains, measured
 from loadflow.scene.scene import Scene
 from loadflow.stages.effects.effect import Effect
 from loadflow.stages.effects.registry import EFFECTS
-from loadflow.stages.registry import STAGES, giving, models
+from loadflow.stages.registry import giving, models
 from loadflow.stages.stage import Link, Rungs
 
-Floats = np.ndarray
 Errors = dict[str, dict[str, float | None]]
 """By result and quantity; None where not measured."""
-
-
-@dataclass(frozen=True)
-class Choice:
-    """Models for a scene: the scene with all of them named, and what to expect of it.
-
-    Attributes
-    ----------
-    scene : Scene
-        With the rung of every model set, and every effect in or out.
-    reasons : dict
-        Why each model was taken, by section of the scene.
-    errors : dict
-        Expected error of what users read, by result and quantity, what is left out counted; None
-        where not measured.
-    estimates : Estimates
-        Sizes of the effects that this rests on.
-    met : bool
-        Whether every expected error is known and within the accuracy that is asked for.
-    """
-
-    scene: Scene
-    reasons: dict[str, str]
-    errors: Errors
-    estimates: Estimates = field(default_factory=Estimates)
-    met: bool = True
 
 
 @dataclass(frozen=True)
@@ -94,12 +62,13 @@ def contributions(
 ) -> Iterator[Part]:
     """What each rung, and each effect that is left out, adds to the error of an answer."""
     for link in links:
-        yield from _of_link(scene, result, quantity, link, known)
+        yield from of_link(scene, result, quantity, link, known)
 
 
-def _of_link(
+def of_link(
     scene: Scene, result: str, quantity: str, link: Link, known: Estimates
 ) -> Iterator[Part]:
+    """What the model at one link, and its effects that are left out, add to that error."""
     gain = gains()[result.split(".")[0]].get(quantity) if link.of_load else 1.0
     share = _rung_error(scene, models()[link.model], link.quantity)
     if share != 0.0:
@@ -125,342 +94,3 @@ def _left_out(scene: Scene, model: str) -> Iterator[Effect]:
     for effect in EFFECTS:
         if effect.model == model and effect.concerns(scene) and not effect.is_on(scene):
             yield effect
-
-
-# --- the cheapest that is accurate enough ------------------------------------------------------
-
-
-def choose(
-    scene: Scene, stages: Iterable[str], cases: tuple[Case, ...], known: Estimates | None = None
-) -> Choice:
-    """Choose the cheapest models that hold the accuracy that the scene asks for.
-
-    Parameters
-    ----------
-    scene : Scene
-        What is wanted. With ``accuracy = "given"`` its models stay as they are.
-    stages : iterable of str
-        Stages that will run.
-    cases : tuple of Case
-        Load cases, for the expected time.
-    known : Estimates, optional
-        Sizes of effects.
-
-    Returns
-    -------
-    Choice
-        Where an accuracy is out of reach, what is in reach is held: the rest of the error is kept
-        within it. Where some errors were not measured, as few of these as can be. `met` is False in
-        both.
-    """
-    known = known or Estimates()
-    stages = tuple(stages)
-    needed = [rungs for name in stages if name in STAGES for rungs in STAGES[name].models]
-    alternatives = sections(scene, needed, stages, known)
-    reasons = dict.fromkeys(alternatives, AS_GIVEN)
-    if not scene.asks:
-        return Choice(scene, reasons, expected_errors(scene, known), known)
-    choosing = _Choosing(scene, stages, cases, known)
-    few = {name: choosing.worthwhile(name, found) for name, found in alternatives.items()}
-    best, why = choosing.best(few)
-    reasons |= {name: why for name, found in alternatives.items() if len(found) > 1}
-    errors = expected_errors(best, known)
-    return Choice(best, reasons, errors, known, _holds(scene, errors))
-
-
-AS_GIVEN = "as the scene says"
-
-
-def sections(
-    scene: Scene, needed: Iterable[Rungs], stages: Iterable[str], known: Estimates
-) -> dict[str, list[Any]]:
-    """Alternatives of each section: every open rung of its models, every open effect in or out."""
-    found: dict[str, list[Scene]] = {}
-    effects = [
-        effect
-        for effect in concerned(scene, stages)
-        if effect.is_open(scene) and not known.refused(effect)
-    ]
-    for section in dict.fromkeys(rungs.section for rungs in needed):
-        variants = [scene]
-        for effect in (one for one in effects if one.section == section):
-            variants = [
-                changed
-                for one in variants
-                for on in (True, False)
-                if (changed := switched(one, effect, on)) is not None
-            ]
-        for rungs in (one for one in needed if one.section == section):
-            variants = [other for one in variants for other in choices(one, rungs)]
-        found[section] = variants
-    return {
-        name: [getattr(one, name) for one in variants if _effects_known(one, name)]
-        or [getattr(scene, name)]
-        for name, variants in found.items()
-    }
-
-
-def _effects_known(scene: Scene, section: str) -> bool:
-    """Whether the rung of a section knows all effects of it that are on."""
-    return all(
-        effect.known_by(scene)
-        for effect in EFFECTS
-        if effect.section == section and effect.rungs and effect.is_on(scene)
-    )
-
-
-@dataclass(frozen=True)
-class _Choosing:
-    """A choice in progress: what a candidate costs, and by how much it is off."""
-
-    scene: Scene
-    stages: tuple[str, ...]
-    cases: tuple[Case, ...]
-    known: Estimates
-    times: dict[Any, float | None] = field(default_factory=dict)
-
-    def with_sections(self, changed: Mapping[str, Any]) -> Scene:
-        return self.scene.model_copy(update=dict(changed))
-
-    def links(self, scene: Scene) -> dict[tuple[str, str], tuple[Link, ...]]:
-        """What reaches each answer, by result and quantity."""
-        return {
-            (result, quantity): of
-            for result in scene.results
-            for quantity, of in giving(result).results[result](scene).items()
-        }
-
-    def seconds(self, scene: Scene) -> tuple[int, float]:
-        """How many times are not known, and the sum of those that are."""
-        costs = [self._seconds_of(scene, name) for name in self.stages]
-        return costs.count(None), sum(cost for cost in costs if cost is not None)
-
-    def _seconds_of(self, scene: Scene, name: str) -> float | None:
-        """Time of a stage; candidates share their sections, and so most of their times."""
-        stage = STAGES[name]
-        near = (stage, *(STAGES[need] for need in stage.needs(scene)))
-        sections = dict.fromkeys(section for one in near for section in one.sections(scene))
-        place = name, *((section, id(getattr(scene, section))) for section in sections)
-        if place not in self.times:
-            self.times[place] = expected_seconds(scene, name, self.cases)
-        return self.times[place]
-
-    def worthwhile(self, name: str, alternatives: list[Any]) -> list[Any]:
-        """Alternatives of a section that no other one beats in time and in every error."""
-        rated = []
-        for section in alternatives:
-            scene = self.with_sections({name: section})
-            links = self.links(scene)
-            errors = (
-                _or_infinite(total(contributions(scene, *place, of, self.known)))
-                for place, of in links.items()
-            )
-            rated.append((section, links, (*map(float, self.seconds(scene)), *errors)))
-        return [
-            one
-            for k, (one, links, rating) in enumerate(rated)
-            if not any(
-                other == links
-                and all(a <= b for a, b in zip(theirs, rating))
-                and (theirs != rating or j < k)
-                for j, (_, other, theirs) in enumerate(rated)
-                if j != k
-            )
-        ]
-
-    def best(self, alternatives: dict[str, list[Any]]) -> tuple[Scene, str]:
-        """The cheapest combination that is accurate enough, and why."""
-        picked, errors = self._candidates(alternatives)
-        allowed = np.array([self.scene.allowed(result) for result, _ in self.links(self.scene)])
-        missing = np.isnan(errors).sum(axis=1)
-        fewest = np.flatnonzero(missing == missing.min())
-        left = np.nan_to_num(errors[fewest])
-        least = left.min(axis=0, initial=np.inf)
-        beyond = least > allowed
-        excess = ((left - np.where(beyond, least, 0.0)) / allowed).max(axis=1, initial=0.0)
-        good = np.flatnonzero(excess <= 1.0 + 1e-9)
-        why = "cheapest that is accurate enough" if good.size else "most accurate that was measured"
-        if beyond.any():
-            why = "cheapest beside what cannot be helped"
-        if missing.min():
-            why += ", by the errors that are known"
-
-        def scene_of(k: int) -> Scene:
-            return self.with_sections(dict(zip(alternatives, picked[fewest[k]])))
-
-        def rank(k: int) -> tuple[tuple[float, float], float]:
-            cost = self.seconds(scene_of(k)) if good.size else (0.0, float(excess[k]))
-            return cost, float(left[k].sum())
-
-        best = min(good.tolist() or range(fewest.size), key=rank)
-        return scene_of(best), why
-
-    def _candidates(self, alternatives: dict[str, list[Any]]) -> tuple[list[Any], Floats]:
-        """All combinations, and their errors (n, answers); NaN where one is not measured.
-
-        A link's share depends on one section. Where the links themselves depend on a section, as on
-        that of a film that moves, its alternatives are gone through one by one.
-        """
-        plain = self.links(self.scene)
-        forking = {
-            name: found
-            for name, found in alternatives.items()
-            if any(self.links(self.with_sections({name: one})) != plain for one in found)
-        }
-        others = {name: found for name, found in alternatives.items() if name not in forking}
-        combined, errors = [], []
-        for fork in product(*forking.values()):
-            fixed = dict(zip(forking, fork))
-            scene = self.with_sections(fixed)
-            links = self.links(scene)
-            table = np.zeros((1, len(links)))
-            for name, found in others.items():
-                own = [
-                    self._shares(self.with_sections(fixed | {name: one}), links, name)
-                    for one in found
-                ]
-                table = (table[:, None] + np.array(own)).reshape(-1, len(links))
-            held = {*forking, *({rungs.section for rungs in models().values()} - {*others})}
-            for name in held:
-                table = table + self._shares(scene, links, name)
-            errors.append(table)
-            for rest in product(*others.values()):
-                whole = fixed | dict(zip(others, rest))
-                combined.append(tuple(whole[name] for name in alternatives))
-        return combined, np.concatenate(errors)
-
-    def _shares(
-        self, scene: Scene, links: dict[tuple[str, str], tuple[Link, ...]], section: str
-    ) -> Floats:
-        """What the links to models of one section bring to each answer."""
-        found = [
-            total(
-                part
-                for link in of
-                if models()[link.model].section == section
-                for part in _of_link(scene, *place, link, self.known)
-            )
-            for place, of in links.items()
-        ]
-        return np.array([np.nan if share is None else share for share in found])
-
-
-def _or_infinite(error: float | None) -> float:
-    return float("inf") if error is None else error
-
-
-def _holds(scene: Scene, errors: Errors) -> bool:
-    return all(
-        error is not None and error <= scene.allowed(result)
-        for result, found in errors.items()
-        for error in found.values()
-    )
-
-
-# --- what is short of the accuracy, and what would help ------------------------------------------
-
-
-def shortfalls(wanted: Scene, choice: Choice) -> list[str]:
-    """Say of each answer that is not expected to hold the accuracy how far off it is, and why.
-
-    Parameters
-    ----------
-    wanted : Scene
-        As the user wrote it.
-    choice : Choice
-        What was chosen.
-
-    Returns
-    -------
-    list of str
-        A sentence for each result: its worst quantity, what adds most, what would help.
-    """
-    said = []
-    for result, errors in choice.errors.items():
-        allowed = wanted.allowed(result)
-        links = giving(result).results[result](choice.scene)
-        missing = [quantity for quantity, error in errors.items() if error is None]
-        over = {q: e for q, e in errors.items() if e is not None and e > allowed}
-        if missing:
-            parts = [
-                *contributions(
-                    choice.scene, result, missing[0], links[missing[0]], choice.estimates
-                )
-            ]
-            unknown = [part.model for part in parts if part.share is None]
-            said.append(
-                f"{result}: {', '.join(missing)} not known to hold: "
-                f"{_rung_in_words(choice.scene, unknown[0])} was not measured"
-            )
-        if over:
-            worst = max(over, key=over.__getitem__)
-            parts = [*contributions(choice.scene, result, worst, links[worst], choice.estimates)]
-            most = max(parts, key=lambda part: part.share or 0.0)
-            sizes = ", ".join(f"{q} by up to {100 * e:.2g} %" for q, e in over.items())
-            said.append(
-                f"{result}: off in {sizes}, {_asked(wanted, allowed)}; most of it "
-                f"({100 * (most.share or 0.0):.2g} %): {_in_words(wanted, choice, most)}"
-            )
-    return said
-
-
-def _asked(wanted: Scene, allowed: float) -> str:
-    return f"asked for {100 * allowed:.2g} %" if allowed < float("inf") else "nothing asked"
-
-
-def _in_words(wanted: Scene, choice: Choice, part: Part) -> str:
-    effect = part.effect
-    if effect is None:
-        rungs = models()[part.model]
-        held = len(choices(wanted, rungs)) == 1
-        help_ = f"leave {rungs.section} to the plan" if held else "no finer one was measured"
-        return f"{_rung_in_words(choice.scene, part.model)}; what would help: {help_}"
-    if refused := choice.estimates.refused(effect):
-        return f"{effect.name} left out, as it failed on cases of this scene: {refused}"
-    return f"{effect.name} left out; what would help: {effect.needs}"
-
-
-def _rung_in_words(scene: Scene, model: str) -> str:
-    return f"{model} as {models()[model].text_of(scene)}"
-
-
-# --- refining where a run's own cases ask for it --------------------------------------------------
-
-
-def finer(scene: Scene, name: str) -> Scene | None:
-    """Return the scene with the next more accurate model, or with an effect on; None at the top."""
-    effect = _effect(name)
-    if effect is not None:
-        return None if effect.is_on(scene) else switched(scene, effect, True)
-    rungs = models().get(name)
-    return rungs.finer(scene) if rungs else None
-
-
-def refine(choice: Choice, names: Iterable[str]) -> Choice:
-    """Return the choice with a model one better, or an effect on, for each mention of it."""
-    scene, reasons = choice.scene, dict(choice.reasons)
-    for name in names:
-        scene = finer(scene, name) or scene
-        reasons[_section(name)] = "refined: the coarser model differs too much on cases of this run"
-    errors = expected_errors(scene, choice.estimates)
-    return replace(choice, scene=scene, reasons=reasons, errors=errors)
-
-
-def can_refine(wanted: Scene, chosen: Scene, name: str) -> bool:
-    """Whether a model or an effect is the plan's to choose, and there is a better one."""
-    if not wanted.asks:
-        return False
-    effect = _effect(name)
-    if effect is None and name not in models():
-        return False
-    is_open = effect.is_open(wanted) if effect else len(choices(wanted, models()[name])) > 1
-    return is_open and finer(chosen, name) is not None
-
-
-def _effect(name: str) -> Effect | None:
-    return next((effect for effect in EFFECTS if effect.name == name), None)
-
-
-def _section(name: str) -> str:
-    effect = _effect(name)
-    return effect.section if effect else models()[name].section

@@ -8,9 +8,11 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from loadflow import __version__
-from loadflow.planning.accuracy import AS_GIVEN, Choice, Errors, choose, refine, shortfalls
+from loadflow.planning.accuracy import Errors
+from loadflow.planning.choice import AS_GIVEN, Choice, choose, refine
 from loadflow.planning.effects import EffectVerdict, concerned, estimates
 from loadflow.planning.ladder import expected_seconds, measured
+from loadflow.planning.shortfalls import shortfalls
 from loadflow.planning.verification import CHECK
 from loadflow.scene.cases import Case, list_cases
 from loadflow.scene.scene import Scene

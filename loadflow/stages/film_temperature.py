@@ -7,14 +7,14 @@ import numpy as np
 from loadflow.errors import SolverError
 from loadflow.scene.journal import Journal
 
-TEMPERED = 64
+TEMPERATURE_SAMPLES = 64
 """Samples of a series whose mean friction and flow give the temperature of a film in motion."""
 
 
 def mean_temperature(options: Journal, force: np.ndarray, speed: np.ndarray) -> float | None:
     """Temperature (K) of a film in motion under `force` (n, 2) in its frame; None without heat.
 
-    It is that of the mean friction and flow of `TEMPERED` equilibria spread over the series.
+    It is that of the mean friction and flow of `TEMPERATURE_SAMPLES` equilibria of the series.
 
     Raises
     ------
@@ -23,7 +23,7 @@ def mean_temperature(options: Journal, force: np.ndarray, speed: np.ndarray) -> 
     """
     if options.heat is None:
         return None
-    some = np.unique(np.linspace(0, speed.size - 1, TEMPERED).round().astype(int))
+    some = np.unique(np.linspace(0, speed.size - 1, TEMPERATURE_SAMPLES).round().astype(int))
     warm = options.geometry.equilibrium(
         force[some],
         speed[some],

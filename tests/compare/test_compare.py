@@ -18,7 +18,7 @@ from synthetic import cube_file
 
 from loadflow.cli import main
 from loadflow.errors import InputError
-from loadflow.planning.effects import Verdict
+from loadflow.planning.effects import EffectVerdict
 from loadflow.planning.plan import make_plan
 from loadflow.report.sketch import sketch
 from loadflow.running.comparison import (
@@ -318,7 +318,7 @@ def test_a_pilot_of_one_candidate_leaves_the_loads_of_all_as_they_are(tmp_path):
     loads = shared_loads(scene, tmp_path, Means())
     own = candidate_scene(loads.scene, "one", scene.candidates["journal-cylindrical"], loads.steps)
     huge = {"bearing load max": 0.9, "bearing force DEL": 0.9, "minimum film": 0.9}
-    verdict = Verdict(sizes=dict.fromkeys(("dynamic inflow", "dynamic stall"), huge))
+    verdict = EffectVerdict(sizes=dict.fromkeys(("dynamic inflow", "dynamic stall"), huge))
     digests = {step.name: step.digest for step in loads.plan.steps}
     for step in make_plan(own, verdict=verdict).steps:
         if step.name in SHARED:

@@ -14,6 +14,7 @@ from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
 from loadflow.journal.rungs import FEATURES, RUNGS, Rung
+from loadflow.journal.shells import LinedShell, LocalShell
 from loadflow.numerics.convergence import Limits
 from loadflow.numerics.fields import require
 
@@ -35,6 +36,8 @@ class Steps:
     ----------
     start : array (2,), optional
         First position, clearances.
+    temperature : float
+        Of the film at the first time, K, where it stores heat.
     """
 
     start: Array | None = None
@@ -43,6 +46,7 @@ class Steps:
     periodic: bool | Literal["direct", "marching"] = False
     closure: float = 1e-6
     max_periods: int = 100
+    temperature: float = 0.0
 
     def __post_init__(self) -> None:
         require(self.step in ("given", "adaptive"), "step", self.step, '"given" or "adaptive"')
@@ -112,7 +116,7 @@ def why_not(
     if known is None:
         why = rung.words if verb == "in_motion" else f"{_having(verb)} for a field of pressure"
         return f'rung = "{rung.name}" is not allowed: {why}'
-    for name, value in _asked(film, bearing, line, steps or Steps()).items():
+    for name, value in _asked(verb, film, bearing, line, steps or Steps()).items():
         if name not in known:
             return (
                 f"rung = {rung.name!r} is not allowed: {_having(verb, name)} for "
@@ -141,19 +145,20 @@ def model_of(
     return cast("Model", getattr(found, name) if name else found)
 
 
-def _asked(film: Film, bearing: JournalGeometry, line: Line, steps: Steps) -> dict[str, Any]:
+def _asked(
+    verb: Verb, film: Film, bearing: JournalGeometry, line: Line, steps: Steps
+) -> dict[str, Any]:
     """What a model must know, of `FEATURES`, and its value."""
     own = RUNGS[film.rung].law is not None  # such a model has its own inlet, and no mesh
-    heat = "film_heat" if film.heat is not None and film.heat.over_area else "heat"
     wanted: dict[str, Any] = {
-        heat: film.heat,
+        _kind_of_heat(film, verb): film.heat,
         "shape": bearing.shape if bearing.shape.segments else None,
         "relief": bearing.relief or None,
         "moment": line.moment,
         "tilt": line.tilt,
         "bend": line.bend,
         "supply": film.supply,
-        "shell": film.shell,
+        "local_shell" if isinstance(film.shell, LocalShell | LinedShell) else "shell": film.shell,
         "contact": film.contact,
         "step": None if steps.step == "given" else steps.step,
         "periodic": steps.periodic or None,
@@ -164,6 +169,14 @@ def _asked(film: Film, bearing: JournalGeometry, line: Line, steps: Steps) -> di
     if film.grading == "graded" and not own:
         asked["grading"] = film.grading
     return asked
+
+
+def _kind_of_heat(film: Film, verb: Verb) -> str:
+    """Which of `FEATURES` the heat of a film is; what is stored counts in motion alone."""
+    if film.heat is None or not film.heat.over_area:
+        stored = verb == "in_motion" and getattr(film.heat, "capacity", None) is not None
+        return "slow_heat" if stored else "heat"
+    return "film_heat"
 
 
 def _having(verb: Verb, feature: str | None = None) -> str:

@@ -1,0 +1,73 @@
+"""What is short of the accuracy that is asked for, in words: by how much, why, what would help."""
+
+from __future__ import annotations
+
+from loadflow.planning.accuracy import Part, contributions
+from loadflow.planning.choice import Choice
+from loadflow.planning.ladder import choices
+from loadflow.scene.scene import Scene
+from loadflow.stages.registry import giving, models
+
+
+def shortfalls(wanted: Scene, choice: Choice) -> list[str]:
+    """Say of each answer that is not expected to hold the accuracy how far off it is, and why.
+
+    Parameters
+    ----------
+    wanted : Scene
+        As the user wrote it.
+    choice : Choice
+        What was chosen.
+
+    Returns
+    -------
+    list of str
+        A sentence for each result: its worst quantity, what adds most, what would help.
+    """
+    said = []
+    for result, errors in choice.errors.items():
+        allowed = wanted.allowed(result)
+        links = giving(result).results[result](choice.scene)
+        missing = [quantity for quantity, error in errors.items() if error is None]
+        over = {q: e for q, e in errors.items() if e is not None and e > allowed}
+        if missing:
+            parts = [
+                *contributions(
+                    choice.scene, result, missing[0], links[missing[0]], choice.estimates
+                )
+            ]
+            unknown = [part.model for part in parts if part.share is None]
+            said.append(
+                f"{result}: {', '.join(missing)} not known to hold: "
+                f"{_rung_in_words(choice.scene, unknown[0])} was not measured"
+            )
+        if over:
+            worst = max(over, key=over.__getitem__)
+            parts = [*contributions(choice.scene, result, worst, links[worst], choice.estimates)]
+            most = max(parts, key=lambda part: part.share or 0.0)
+            sizes = ", ".join(f"{q} by up to {100 * e:.2g} %" for q, e in over.items())
+            said.append(
+                f"{result}: off in {sizes}, {_asked(wanted, allowed)}; most of it "
+                f"({100 * (most.share or 0.0):.2g} %): {_in_words(wanted, choice, most)}"
+            )
+    return said
+
+
+def _asked(wanted: Scene, allowed: float) -> str:
+    return f"asked for {100 * allowed:.2g} %" if allowed < float("inf") else "nothing asked"
+
+
+def _in_words(wanted: Scene, choice: Choice, part: Part) -> str:
+    effect = part.effect
+    if effect is None:
+        rungs = models()[part.model]
+        held = len(choices(wanted, rungs)) == 1
+        help_ = f"leave {rungs.section} to the plan" if held else "no finer one was measured"
+        return f"{_rung_in_words(choice.scene, part.model)}; what would help: {help_}"
+    if refused := choice.estimates.refused(effect):
+        return f"{effect.name} left out, as it failed on cases of this scene: {refused}"
+    return f"{effect.name} left out; what would help: {effect.needs}"
+
+
+def _rung_in_words(scene: Scene, model: str) -> str:
+    return f"{model} as {models()[model].text_of(scene)}"

@@ -1,0 +1,133 @@
+"""The film of a series in few numbers: extremes, means, and how long its surfaces touched."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from loadflow.scene.cases import Case
+from loadflow.stages.labelling import labelled
+from loadflow.stages.summary import over_cases
+
+
+def summary(parts: Mapping[Case, xr.DataTree]) -> xr.Dataset:
+    """Reduce each case to extremes and weighted means; dimensions ``bearing`` and ``case``."""
+    return over_cases({case: _summary_of(tree) for case, tree in parts.items()})
+
+
+def _summary_of(tree: xr.DataTree) -> xr.Dataset:
+    nodes = [node.to_dataset().load() for node in tree.children.values()]
+    parts = [extremes(samples).merge(mixed_friction(samples)) for samples in nodes]
+    return xr.concat(parts, "bearing", combine_attrs="override").assign_coords(
+        bearing=list(tree.children)
+    )
+
+
+EXTREMES = {
+    "largest_eccentricity_ratio": ("eccentricity_ratio", np.nanargmax, "1", "largest ε"),
+    "smallest_film": ("minimum_film", np.nanargmin, "m", "smallest film"),
+    "largest_pressure": ("maximum_pressure", np.nanargmax, "Pa", "largest pressure"),
+    "largest_sommerfeld_number": ("sommerfeld_number", np.nanargmax, "1", "largest So"),
+    "largest_load": ("load", np.nanargmax, "N", "largest radial load"),
+    "largest_axial_load": ("axial_load", np.nanargmax, "N", "largest force along the shaft"),
+    "largest_temperature": ("temperature", np.nanargmax, "K", "largest effective temperature"),
+}
+"""Extremes of a series: of what, which, units and meaning; each also has its ``_time``."""
+
+MEANS = {
+    "mean_eccentricity_ratio": ("eccentricity_ratio", "1", "mean ε"),
+    "mean_sommerfeld_number": ("sommerfeld_number", "1", "mean So"),
+    "mean_friction_power": ("friction_power", "W", "mean friction power"),
+    "mean_side_flow": ("side_flow", "m^3/s", "mean side flow"),
+    "mean_supply_flow": ("supply_flow", "m^3/s", "mean flow of the grooves"),
+    "mean_supply_power": ("supply_power", "W", "mean supply power"),
+}
+"""Means over the samples that have a film, each with its weight: of what, units and meaning."""
+
+
+def extremes(samples: xr.Dataset) -> xr.Dataset:
+    """Reduce the film of a series of weighted loads to extremes and means.
+
+    Samples in contact or without an answer have no values; they are counted.
+    """
+    weight, found = samples["weight"], {}
+    for name, (of, which, units, meaning) in EXTREMES.items():
+        if of not in samples:
+            continue
+        values, time = samples[of].values, samples.get("time")
+        there = bool(np.isfinite(values).any())
+        at = int(which(np.where(np.isfinite(values), values, np.nan))) if there else 0
+        found[name] = xr.DataArray(values[at] if there else np.nan), units, meaning
+        if time is not None:
+            when = float(time.values[at]) if there else np.nan
+            found[f"{name}_time"] = xr.DataArray(when), "s", f"time of the {meaning}"
+    for name, (of, units, meaning) in MEANS.items():
+        found[name] = samples[of].weighted(weight).mean(), units, meaning
+    answered = samples["converged"].astype(bool)
+    touching = samples["in_contact"].astype(bool) if "in_contact" in samples else ~answered & False
+    residual = samples["residual"].where(~touching, 0.0)
+    found |= {
+        "largest_residual": (residual.max(), "1", "largest residual"),
+        "not_converged": ((~answered & ~touching).sum(), "1", "samples without an answer"),
+        "in_contact": (touching.sum(), "1", "samples in which shaft and shell touch"),
+    }
+    return labelled(found)
+
+
+STANDING = 0.01 * np.pi / 30
+"""Speed, rad/s, below which a shaft counts as standing: 0.01 1/min, the last digit of Table 5-22 in
+[Jonuschies 2015]."""
+
+
+def mixed_friction(samples: xr.Dataset) -> xr.Dataset:
+    """How long and how far the shaft turns in contact and above E_krit, as [Jonuschies 2015] asks.
+
+    Tables 5-21 and 5-22 with (5.2): the transition is where ε last crosses E_krit in a series that
+    begins on one side of it and ends on the other, a start or a stop; NaN in the others. While the
+    surfaces touch, the boundary friction of the whole load is lost, an upper bound, unless the film
+    knows its asperities; above E_krit without contact, the friction of the film.
+    """
+    time, speed, about = samples["time"].values, np.abs(samples["speed"].values), samples.attrs
+    touching, turning = samples["in_contact"].values.astype(bool), speed >= STANDING
+    known = np.isfinite(samples["friction_power"].values)  # in contact, too, with its asperities
+    # each sample stands for `weight` steps of the full series
+    weight = samples["weight"].values
+    seconds = weight * (np.ptp(time) / max(weight.sum() - 1, 1))
+    critical = about["critical_eccentricity_ratio"]
+    ratio = np.where(touching, 1.0, samples["eccentricity_ratio"].values)
+    mixed = turning & (ratio > critical)
+    rubbing = about["boundary_friction"] * about["radius"] * samples["load"].values * speed
+    lost = np.where(touching & ~known, rubbing, samples["friction_power"].values)
+    when, at = _transition(time, speed, ratio, critical)
+    values: dict[str, tuple[Any, str, str]] = {
+        "duration": (seconds.sum(), "s", "length of the series"),
+        "contact_time": (seconds[touching & turning].sum(), "s", "time in contact while turning"),
+        "mixed_friction_time": (seconds[mixed].sum(), "s", "time above E_krit while turning"),
+        "mixed_friction_revolutions": (
+            (seconds * speed)[mixed].sum() / (2 * np.pi), "1", "revolutions above E_krit",
+        ),
+        "mixed_friction_energy": (np.nansum((seconds * lost)[mixed]), "J", "friction above E_krit"),
+        "transition_time": (when, "s", "time of the transition at E_krit"),
+        "transition_speed": (at, "rad/s", "speed of the transition at E_krit"),
+    }  # fmt: skip
+    return labelled(
+        {name: (xr.DataArray(v), units, meaning) for name, (v, units, meaning) in values.items()}
+    )
+
+
+def _transition(
+    time: np.ndarray, speed: np.ndarray, ratio: np.ndarray, critical: float
+) -> tuple[float, float]:
+    """Time and speed at which ε last crosses E_krit; NaN where it begins and ends on one side."""
+    known = np.flatnonzero(np.isfinite(ratio))
+    above = ratio[known] > critical
+    if known.size < 2 or above[0] == above[-1]:
+        return np.nan, np.nan
+    last = int(np.flatnonzero(above[1:] != above[:-1])[-1])
+    i, j = known[last], known[last + 1]
+    share = (critical - ratio[i]) / (ratio[j] - ratio[i])
+    when, at = (float(x[i] + share * (x[j] - x[i])) for x in (time, speed))
+    return when, at
