@@ -46,7 +46,7 @@ class Journal(Section, BaseModel):
     series, as its loads change faster than a bearing warms. With ``kind = "film"`` an energy
     equation gives every cell of the film at rest its own temperature.
 
-    With ``tilt`` the shaft leans in them as the beam of its suspension does, tilted and bent; if it
+    With ``tilt`` the shaft is tilted and bent in them as the beam of its suspension is; if it
     has none, it tilts freely under the moment that the shaft stage gives. The film is then solved
     over its full width.
 

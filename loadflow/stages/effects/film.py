@@ -223,7 +223,7 @@ TILT = Effect(
     is_on=lambda scene: scene.journal.tilt,
     switched=lambda scene, on: (
         with_settings(scene, "journal", {"tilt": on})
-        if not on or any(map(scene.shaft.leans, scene.journal.bearings))
+        if not on or any(map(scene.shaft.bends_at, scene.journal.bearings))
         else None
     ),
     indicator=_tilt,
