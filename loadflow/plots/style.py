@@ -39,10 +39,16 @@ def readable(data: xr.DataArray, units: str | None = None) -> tuple[np.ndarray, 
     Examples
     --------
     >>> import xarray as xr
+<<<<<<< HEAD
     >>> from loadflow.plots import readable
     >>> values, unit = readable(xr.DataArray([1e5, 2e5], attrs={"units": "N"}))
     >>> values.tolist(), unit
     ([100.0, 200.0], 'kN')
+=======
+    >>> values, unit = readable(xr.DataArray([2e3], attrs={"units": "N"}))
+    >>> values.tolist(), unit
+    ([2.0], 'kN')
+>>>>>>> design
     """
     factor, unit = READABLE.get(data.attrs.get("units", ""), (1.0, data.attrs.get("units", "–")))
     if units == "µm":
@@ -55,8 +61,12 @@ def figure(rows: int = 1, columns: int = 1, height: float = 2.1, **keys: Any) ->
 
     Examples
     --------
+<<<<<<< HEAD
     >>> from loadflow.plots import figure
     >>> drawing, axes = figure(rows=2)
+=======
+    >>> drawing, axes = figure(2)
+>>>>>>> design
     >>> axes.shape
     (2,)
     """
@@ -84,7 +94,10 @@ def to_png(drawing: Figure) -> str:
 
     Examples
     --------
+<<<<<<< HEAD
     >>> from loadflow.plots import figure, to_png
+=======
+>>>>>>> design
     >>> to_png(figure()[0])[:22]
     'data:image/png;base64,'
     """
@@ -99,7 +112,10 @@ def to_svg(drawing: Figure) -> str:
 
     Examples
     --------
+<<<<<<< HEAD
     >>> from loadflow.plots import figure, to_svg
+=======
+>>>>>>> design
     >>> to_svg(figure()[0])[:4]
     '<svg'
     """
