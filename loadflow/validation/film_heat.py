@@ -1,4 +1,4 @@
-"""Heat of the film over its area: an exact solution, and a large bearing in another code."""
+"""Heat of the film: an exact solution, pads that were measured, a large bearing in another code."""
 
 from __future__ import annotations
 
@@ -19,6 +19,7 @@ from loadflow.journal import (
     Lobes,
     MassConserving,
     Sommerfeld,
+    TiltingPads,
 )
 from loadflow.tribology import ExponentialOil
 from loadflow.validation.check import Check, evidence
@@ -130,8 +131,50 @@ def couette_check(cells: int = 100) -> Check:
     return Check(name, source, 3.267283, rise, 1e-3, unit="K", evidence="closed form")
 
 
+# tilting pads [Fillon, Bligoud and Frêne 1992]: 1/min; largest temperature of a pad, measured (read
+# off a figure to 1 K) and by the authors' model with elastic pads, °C
+FILLON = ((1000, 49.5, 43.7), (2000, 59.5, 53.4), (3000, 67.5, 63.2))
+_CONDUCTION = "slow films lose much of their heat through the pads, which the adiabatic film keeps"
+
+
+def pad_checks() -> Iterator[Check]:
+    """Four pads of 75° under 10 kN between them, adiabatic; 4/5 of the hot oil carried over.
+
+    Clearance is the assembled one. All published models lie 4 to 7 K below the measurement, so that
+    it is held to from 8 K below to 2 K above, which is 3 K below within 5 K; the authors' model
+    within 4 K.
+    """
+    oil = ExponentialOil(
+        reference_viscosity=0.0277,
+        reference_temperature=313.15,
+        constant_steepness=0.0341,
+        reference_density=860.0,
+        constant_specific_heat=1951.8,
+        constant_conductivity=0.149,
+    )
+    pads = TiltingPads(4, np.radians(75.0), preload=0.47, angle=np.pi / 4)
+    bearing = JournalBearing(0.1, 0.07, 78.44e-6 / 0.05, shape=pads)
+    heat = FilmHeat(oil, inlet_temperature=313.15, carry_over=0.8)
+    film = Film(None, MassConserving(), edge_pressure=1e4, grid=(80, 12), heat=heat)
+    for rpm, measured, computed in FILLON:
+        state = bearing.equilibrium((1e4, 0.0), rpm * np.pi / 30, film)
+        assert isinstance(state, FilmHeatEquilibrium)
+        got = float(state.maximum_temperature) - _CELSIUS
+        missed = _CONDUCTION if rpm < 3000 else ""
+        name, source = f"T_max of four pads, {rpm}/min", "Fillon, Bligoud & Frêne 1992"
+        yield Check(
+            f"{name}, 3 K below the measured", source, measured - 3.0, got, 5.0, "absolute", "°C",
+            missed=missed, evidence="measured elsewhere",
+        )  # fmt: skip
+        yield Check(
+            f"{name}, their model", source, computed, got, 4.0, "absolute", "°C",
+            missed=missed, evidence="another code",
+        )  # fmt: skip
+
+
 @evidence("another code")
 def checks() -> Iterator[Check]:
     """All rows."""
     yield couette_check()
+    yield from pad_checks()
     yield from (row.check(ladder_state(row.rung)) for row in LADDER)

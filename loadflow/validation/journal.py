@@ -80,6 +80,22 @@ def base_load_checks() -> Iterator[Check]:
         yield Check(f"So_max, {name}", "Table 5-13", row.so_max, so_max, 0.02)
 
 
+# Table 1-3: mean pressure (Pa), speed (rad/s), So; ψ = 1e-3, η = 0.09 Pa s
+MEAN_PRESSURES = ((6.6e5, 1.6, 4.7), (8.1e6, 14.7, 6.2))
+
+
+@evidence("print of the source")
+def number_checks() -> Iterator[Check]:
+    """So on the mean pressure, (1.13), of Table 1-3, whose inputs have two digits."""
+    from loadflow.journal import JournalBearing
+
+    bearing = JournalBearing(diameter=1.0, width=0.5, relative_clearance=1e-3)
+    for pressure, omega, printed in MEAN_PRESSURES:
+        got = float(bearing.sommerfeld_number(pressure * 0.5, omega, 0.09))
+        name = f"So of {pressure / 1e6:g} MPa at {omega} rad/s"
+        yield Check(name, "(1.13), Table 1-3", printed, got, 0.03)
+
+
 # Tables 5-14 … 5-16, V = 24 m/s: mean, then amplitude (kN) and frequency (°/s) of three sines, for
 # x and for y; So_max, E_max. The frequencies are printed 1.2 times too high and used as printed.
 PERIODIC_LOADS = (
@@ -228,6 +244,7 @@ def squeeze_checks() -> Iterator[Check]:
 
 def checks() -> Iterator[Check]:
     """All printed numbers of the journal bearing."""
+    yield from number_checks()
     yield from base_load_checks()
     yield from periodic_load_checks()
     yield from friction_checks()

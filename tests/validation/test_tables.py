@@ -1,11 +1,38 @@
 """Every printed number that `loadflow validate` shows is within its stated tolerance."""
 
+from collections import Counter
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
 from loadflow import validation
 from loadflow.validation import _slewing_refused, rings
+
+
+PAGE = Path(__file__).parents[2] / "docs" / "validation.md"
+BEGIN, END = "<!-- counts: begin -->\n", "<!-- counts: end -->"
+
+
+def line_of(name, rows):
+    """How many rows of a table are of which kind, and how many are refused or missed."""
+    kinds = Counter(row.evidence for row in rows)
+    outcomes = Counter("refused" if r.refused else "missed" if r.missed else "" for r in rows)
+    found = [kinds[kind] for kind in validation.EVIDENCE]
+    cells = [len(rows), *found, outcomes["refused"], outcomes["missed"]]
+    return f"| {name} | " + " | ".join(str(cell or "–") for cell in cells) + " |"
+
+
+def write_counts():
+    """Bring the counts of the page up to the rows."""
+    tables = {f"`{name}`": [*validation.all_checks(name)] for name in validation.names()}
+    tables["all"] = [row for rows in tables.values() for row in rows]
+    heads = ["table", "numbers", *validation.EVIDENCE, "of these refused", "missed"]
+    lines = ["| " + " | ".join(heads) + " |", "|---" * len(heads) + "|"]
+    lines += [line_of(name, rows) for name, rows in tables.items()]
+    before, rest = PAGE.read_text(encoding="utf-8").split(BEGIN)
+    text = before + BEGIN + "\n".join(lines) + "\n" + END + rest.split(END)[1]
+    PAGE.write_text(text, encoding="utf-8")
 
 
 @pytest.mark.parametrize("name", validation.names())
@@ -14,6 +41,8 @@ def test_every_printed_number_is_within_its_tolerance(name):
     bad = [row for row in rows if row.outcome == "out"]
     assert rows, f"the table {name} is empty"
     assert {row.evidence for row in rows} <= set(validation.EVIDENCE)
+    counted = line_of(f"`{name}`", rows)
+    assert counted in PAGE.read_text(encoding="utf-8"), "python tests/validation/test_tables.py"
     assert not bad, "\n".join(f"{row} deviates by {row.deviation:+.3g}" for row in bad)
 
 
@@ -67,3 +96,7 @@ def test_what_the_slewing_bearing_s_source_contradicts_is_refused():
     sources = " ".join(row.source for row in _slewing_refused.checks() if row.refused)
     for place in ("Bild 2.9", "App. B", "Tab. 3.5", "Tab. 3.8", "3.14", "Tab. 2.5", "Tab. 4.12"):
         assert place in sources
+
+
+if __name__ == "__main__":
+    write_counts()
