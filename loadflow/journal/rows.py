@@ -85,7 +85,8 @@ def field_row(film: DiscreteFilm, solution: Solution) -> dict[str, Any]:
     """One row of `FilmField`, but for z; the half film is mirrored."""
     *cells, angle, load = film.field(solution.u, solution.position)
     # of each cell ∫h dA and ∫dA/h are known; the root of their ratio is its gap
-    whole, inverse = film.gap.coef[HM, : angle.size], film.gap.coef[HINV, : angle.size]
+    of_cells = film.gap.coef[:, : angle.size, : film.gap.across.shape[1]]
+    whole, inverse = of_cells[HM], of_cells[HINV]
     heights = np.sqrt(whole / inverse) * film.relative_clearance * film.radius
     cells += [film.deformation, np.broadcast_to(heights, cells[0].shape)]
     if film.mesh.half:
@@ -164,7 +165,7 @@ def following(stiffness: NDArray[Any], shaft: int) -> NDArray[Any]:
 
 def _nothing(value: Any) -> Any:
     """NaN in the shape of `value`; flags are False."""
-    return False if isinstance(value, bool) else np.full_like(value, np.nan)
+    return np.zeros_like(value) if np.asarray(value).dtype == bool else np.full_like(value, np.nan)
 
 
 def attitude_angle(force: Array, position: Array, speed: ArrayLike) -> Array:
