@@ -116,10 +116,6 @@ def warm_fields(
             why = found.why or statics.message(found.solution)
             raise SolverError(f"film {index}: {why}")
         row = field_row(statics.film, _flagged(found))
-        ratio = equation.gap.ratio  # of viscosities, which stand in the coefficients of the gap
-        if statics.film.mesh.half:
-            ratio = np.concatenate([ratio[:, ::-1], ratio], axis=1)
-        row["gap"] = row["gap"] * np.sqrt(ratio)
         rows.append(row | _heat_columns(equation, found))
     return rows, statics.film.mesh.z * bearing.radius
 
