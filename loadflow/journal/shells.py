@@ -26,8 +26,18 @@ def _require_solid(modulus: float, poisson_ratio: float) -> None:
     require(0 <= poisson_ratio < 0.5, "poisson_ratio", poisson_ratio, "0 ≤ poisson_ratio < 0.5")
 
 
+class _Shell:
+    """What the film asks of every shell."""
+
+    local = False
+    """Whether it gives way where it is pressed alone, by a `compliance`, m/Pa."""
+
+    def check_local(self, length: float) -> None:
+        """Refuse a shell that is not as local as it claims under a pressure over `length`, m."""
+
+
 @dataclass(frozen=True)
-class LocalShell:
+class LocalShell(_Shell):
     """Shell that gives way where it is pressed alone (Winkler), (3.36, 3.37) of [Jonuschies 2015].
 
     Attributes
@@ -48,13 +58,15 @@ class LocalShell:
     compliance: Annotated[float, Ge(0)]
     kind: Literal["local"] = "local"
 
+    local = True
+
     def __post_init__(self) -> None:
         good = self.compliance >= 0 and math.isfinite(self.compliance)
         require(good, "compliance", self.compliance, "m/Pa, ≥ 0, finite")
 
 
 @dataclass(frozen=True)
-class LinedShell:
+class LinedShell(_Shell):
     """Thin lining bonded to a rigid housing: each part is squeezed and cannot give way sideways.
 
     The compliance is ``t (1 + ν)(1 − 2ν)/(E (1 − ν))``, as long as the lining is thin against the
@@ -82,6 +94,8 @@ class LinedShell:
     modulus: Annotated[float, Gt(0)]
     poisson_ratio: Annotated[float, Ge(0), Lt(0.5)] = 0.3
     kind: Literal["lined"] = "lined"
+
+    local = True
 
     def __post_init__(self) -> None:
         require(self.thickness > 0, "thickness", self.thickness, "m, > 0")
@@ -125,7 +139,7 @@ class LinedShell:
 
 
 @dataclass(frozen=True)
-class ThickShell:
+class ThickShell(_Shell):
     """Thick-walled cylinder as wide as the bearing, held all over its outside.
 
     Its influence numbers come from three-dimensional elasticity, harmonic by harmonic around.
@@ -157,7 +171,7 @@ class ThickShell:
 
 
 @dataclass(frozen=True, eq=False)
-class MatrixShell:
+class MatrixShell(_Shell):
     """Shell whose influence numbers are given, (3.52–3.56) of [Jonuschies 2015].
 
     Attributes

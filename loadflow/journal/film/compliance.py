@@ -94,13 +94,9 @@ def compliance_of(shell: Shell, mesh: Mesh, radius: float) -> Compliance:
     raise InputError(f"shell = {shell!r} is not allowed: a shell of loadflow.journal, or None")
 
 
-@compliance_of.register
-def _local(shell: LocalShell, mesh: Mesh, radius: float) -> Local:
-    return Local(np.full(mesh.shape, shell.compliance))
-
-
-@compliance_of.register
-def _lined(shell: LinedShell, mesh: Mesh, radius: float) -> Local:
+@compliance_of.register(LocalShell)
+@compliance_of.register(LinedShell)
+def _local(shell: LocalShell | LinedShell, mesh: Mesh, radius: float) -> Local:
     shell.check_local(2 * radius * float(mesh.z_edges[-1]))
     return Local(np.full(mesh.shape, shell.compliance))
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -376,10 +376,8 @@ def _give(bearing: JournalGeometry, options: Film) -> float:
     shell = options.shell
     if shell is None:
         return 0.0
-    assert isinstance(shell, LocalShell | LinedShell)
-    if isinstance(shell, LinedShell):
-        shell.check_local(bearing.width)
-    return shell.compliance / bearing.clearance
+    shell.check_local(bearing.width)
+    return cast("LocalShell | LinedShell", shell).compliance / bearing.clearance
 
 
 def _rough_gap(contact: Contact, units: DiscreteFilm, clearance: float) -> RoughGap:

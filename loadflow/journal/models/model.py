@@ -15,7 +15,6 @@ from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
 from loadflow.journal.rungs import FEATURES, RUNGS, Rung
-from loadflow.journal.shells import LinedShell, LocalShell
 from loadflow.numerics.convergence import Limits
 from loadflow.numerics.fields import require
 
@@ -162,7 +161,7 @@ def _asked(
         "tilt": line.tilt,
         "bend": line.bend,
         "supply": film.supply,
-        "local_shell" if isinstance(film.shell, LocalShell | LinedShell) else "shell": film.shell,
+        "local_shell" if film.shell is not None and film.shell.local else "shell": film.shell,
         "contact": film.contact,
         "step": None if steps.step == "given" else steps.step,
         "periodic": steps.periodic or None,
