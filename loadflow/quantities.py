@@ -5,6 +5,7 @@ Results, orbits, stages and command line read what they say of a name from here.
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 
@@ -31,6 +32,19 @@ class Quantity(NamedTuple):
         return {"units": self.units, "long_name": self.meaning}
 
 
+READABLE = {
+    "N": (1e-3, "kN"),
+    "N m": (1e-6, "MN m"),
+    "Pa": (1e-6, "MPa"),
+    "W": (1e-3, "kW"),
+    "rad/s": (30 / math.pi, "1/min"),
+    "rad": (180 / math.pi, "°"),
+    "m^3/s": (6e4, "l/min"),
+    "1": (1.0, "–"),
+    "": (1.0, "–"),
+}
+"""Factor and unit in which an engineer reads each SI unit that the data hold."""
+
 FILM: dict[str, Quantity] = {
     "force": Quantity("F", "N", "what the shaft applies to the bearing"),
     "film_force": Quantity("−F", "N", "force of the film on the shaft"),
@@ -47,10 +61,10 @@ FILM: dict[str, Quantity] = {
     "contact_share": Quantity("F_a/F", "1", "share of the load that asperities carry"),
     "sommerfeld_number": Quantity("So", "1", "Sommerfeld number"),
     "friction_power": Quantity("P_f", "W", "friction power"),
-    "side_flow": Quantity("Q_s", "m3/s", "side flow"),
-    "supply_flow": Quantity("Q", "m3/s", "flow of the grooves into the film"),
+    "side_flow": Quantity("Q_s", "m^3/s", "side flow"),
+    "supply_flow": Quantity("Q", "m^3/s", "flow of the grooves into the film"),
     "supply_power": Quantity("P_Q", "W", "power that lifts the oil to supply pressure"),
-    "groove_flow": Quantity("Q_g", "m3/s", "flow of each groove into the film"),
+    "groove_flow": Quantity("Q_g", "m^3/s", "flow of each groove into the film"),
     "groove_pressure": Quantity("p_g", "Pa", "pressure of each groove, absolute"),
     "starved": Quantity("", "1", "whether a fed groove gives less than the film would draw"),
     "total_fill": Quantity("F", "1", "share of liquid in the gap"),
@@ -82,6 +96,7 @@ FILM: dict[str, Quantity] = {
     "pressure": Quantity("p", "Pa", "film pressure, absolute"),
     "fill": Quantity("F", "1", "share of liquid in each cell"),
     "deformation": Quantity("", "m", "growth of the gap by the elastic shell"),
+    "gap": Quantity("h", "m", "mean gap of each cell"),
     "angle": Quantity("θ", "rad", "angle of the cell centres from the first axis"),
     "z": Quantity("z", "m", "axial place of the cell centres from mid-plane"),
     "converged": Quantity("", "1", "whether the equilibrium was found"),
@@ -103,8 +118,8 @@ ROLLING: dict[str, Quantity] = {
     "pressure_safety": Quantity("", "1", "allowable over largest pressure"),
     "static_safety": Quantity("s_0", "1", "allowable over largest force"),
     "equivalent_load": Quantity("P", "N", "dynamic equivalent load"),
-    "rating_life": Quantity("L_10", "1e6 rev", "basic rating life"),
-    "reference_life": Quantity("L_10r", "1e6 rev", "reference life of ISO/TS 16281"),
+    "rating_life": Quantity("L_10", "1e6 revolution", "basic rating life"),
+    "reference_life": Quantity("L_10r", "1e6 revolution", "reference life of ISO/TS 16281"),
     "converged": Quantity("", "1", "whether every component is balanced"),
     "residual": Quantity("", "1", "largest unbalanced component over the load"),
     "iterations": Quantity("", "1", "Newton steps"),

@@ -28,7 +28,7 @@ FLOORS = (
     ("journal", "rolling"),
     ("wind", "rotor", "shaft", "seeds", "reduction", "readers"),
     ("cube", "turbines", "tribology"),
-    ("numerics",),
+    ("numerics", "plots"),
     ("storage", "schemas", "verdict", "quantities"),
     ("errors", "data"),
 )

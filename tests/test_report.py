@@ -9,7 +9,7 @@ import pytest
 from synthetic import cube_file
 
 import loadflow as lf
-from loadflow.report.style import envelope, figure
+from loadflow.plots.style import envelope, figure
 from loadflow.scene.scene import make_scene
 
 BROWSER = next(

@@ -10,17 +10,29 @@ from typer.models import CommandInfo
 from loadflow.cli import (  # noqa: F401  they register their commands
     comparing,
     cubes,
+    designing,
     lifetimes,
     points,
     processing,
     scenes,
+    viewing,
 )
 from loadflow.cli.base import app, err
 from loadflow.cli.signals import Stopped, leave, stoppable, tell_stopped
 from loadflow.errors import InputError, LoadflowError
 
 GROUPS = {
-    "Scenes and runs": ("run", "plan", "compare", "init", "scene", "list", "report"),
+    "Scenes and runs": (
+        "run",
+        "plan",
+        "compare",
+        "design",
+        "init",
+        "scene",
+        "list",
+        "report",
+        "view",
+    ),
     "Load cubes": ("convert", "loads", "statistics", "seeds", "reduce", "lifetime"),
     "One bearing, one wind": ("journal", "rolling", "wind"),
     "How far to trust it": ("validate", "bench"),

@@ -157,7 +157,7 @@ def print_quantities(data: xr.Dataset, as_json: bool) -> None:
 
 
 def _row(name: str, data: xr.DataArray) -> tuple[str, str, str, str]:
-    from loadflow.report.style import readable
+    from loadflow.plots.style import readable
 
     meaning = data.attrs["long_name"]
     if data.dtype.kind == "b":

@@ -17,12 +17,8 @@ from loadflow.journal.heat_results import FilmHeatEquilibrium, FilmHeatField
 from loadflow.journal.line import Line
 from loadflow.journal.lubricant import Lubricant
 from loadflow.journal.models.model import Steps, model_of
-from loadflow.journal.results import (
-    Equilibrium,
-    FilmField,
-    WarmEquilibrium,
-    shaped,
-)
+from loadflow.journal.results import Equilibrium, FilmField, WarmEquilibrium
+from loadflow.journal.rows import shaped
 from loadflow.journal.thermal import shares, warm_film
 from loadflow.journal.validity import warn_if_turbulent
 from loadflow.journal.warm_orbit import warm_orbit

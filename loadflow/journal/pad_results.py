@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
+
+from loadflow.numerics.shown import Shown
+from loadflow.quantities import FILM, Quantity
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -23,11 +27,19 @@ _PADS: Table = {
     "maximum_pressure": ((), "Pa", "largest film pressure, absolute"),
     "friction_torque": ((), "N m", "friction torque of the film on the shaft"),
     "friction_power": ((), "W", "friction power of the film"),
-    "flow": ((), "m3/s", "oil that enters at the leading edges of the pads"),
-    "side_flow": (("end",), "m3/s", "oil that leaves at the inner and the outer end"),
+    "flow": ((), "m^3/s", "oil that enters at the leading edges of the pads"),
+    "side_flow": (("end",), "m^3/s", "oil that leaves at the inner and the outer end"),
     "mass_balance": ((), "1", "oil that leaves the cells less what enters, over what is dragged"),
-    "stiffness_matrix": (("load", "motion"), "SI", "derivative of the load by the position"),
-    "damping_matrix": (("load", "motion"), "SI", "derivative of the load by the velocity"),
+    "stiffness_matrix": (
+        ("load", "motion"),
+        "N/m, N, N m",
+        "load per motion",
+    ),
+    "damping_matrix": (
+        ("load", "motion"),
+        "N s/m, N s, N m s",
+        "load per velocity",
+    ),
     "pressure": (("pad", "along", "across"), "Pa", "film pressure on the nodes, absolute"),
     "angle": (("pad", "along"), "rad", "angle of the nodes from the first axis"),
     "place": (("across",), "m", "distance of the nodes from the apex or the axis"),
@@ -38,8 +50,22 @@ _PADS: Table = {
 }
 
 
+class _Shown(Shown):
+    """Shown by the table of the class."""
+
+    _table: ClassVar[Table]
+
+    def shown_quantities(self) -> Mapping[str, Quantity]:
+        """Quantities of pads."""
+        known = {name: FILM[name].symbol for name in self._table if name in FILM}
+        return {
+            name: Quantity(known.get(name, ""), units, text)
+            for name, (_, units, text) in self._table.items()
+        }
+
+
 @dataclass(frozen=True, repr=False)
-class PadResult:
+class PadResult(_Shown):
     """What all bearings of pads answer.
 
     Attributes
@@ -79,6 +105,15 @@ class PadResult:
         Largest imbalance of cells, pads and shaft, over their scales.
     iterations : int
         Newton steps.
+
+    Examples
+    --------
+    >>> from loadflow.journal import Film, Guembel, Lubricant, ThrustBearing
+    >>> bearing = ThrustBearing(6, 0.5, 1.0, pad_angle=0.785, taper=1e-4, wedge=0.75)
+    >>> found = bearing.pressure(gap=1e-4, speed=10.0, film=Film(Lubricant(0.05), Guembel(),
+    ...     grid=(20, 10)))
+    >>> found.load_share.round(3).tolist(), found.pressure.shape
+    ([0.167, 0.167, 0.167, 0.167, 0.167, 0.167], (6, 21, 11))
     """
 
     normal_force: Array
@@ -151,6 +186,15 @@ class ThrustResult(PadResult):
         Centre of pressure of a pad: radius, m, and share of the pad's angle from the inlet.
     stiffness, damping : float
         Axial, N/m and N s/m; the matrices hold (z, rotations about both axes).
+
+    Examples
+    --------
+    >>> from loadflow.journal import Film, Guembel, Lubricant, ThrustBearing
+    >>> bearing = ThrustBearing(6, 0.5, 1.0, pad_angle=0.785, taper=1e-4, wedge=0.75)
+    >>> found = bearing.pressure(gap=1e-4, speed=10.0, film=Film(Lubricant(0.05), Guembel(),
+    ...     grid=(20, 10)))
+    >>> round(found.force / found.pad_force, 6), found.stiffness > 0
+    (6.0, True)
     """
 
     force: float
@@ -188,6 +232,15 @@ class ConicalResult(PadResult):
         Centre of the pressure of each pad: distance from the apex, m, and angle, rad.
     stiffness, damping : array (5, 5)
         Derivatives of force and moment by position and velocity (x, y, z, about x, about y).
+
+    Examples
+    --------
+    >>> from loadflow.journal import ConicalBearing, Film, Guembel, Lubricant
+    >>> bearing = ConicalBearing(half_angle=0.52, slant=(1.0, 1.5), clearance=1e-4)
+    >>> film = Film(Lubricant(0.05), Guembel(), inlet=None, grid=(40, 10))
+    >>> found = bearing.pressure(eccentricity=(5e-5, 0.0, 0.0), speed=10.0, film=film)
+    >>> found.force.shape, found.stiffness.shape, bool(found.converged)
+    ((3,), (5, 5), True)
     """
 
     force: Array
@@ -218,7 +271,7 @@ class ConicalResult(PadResult):
 
 
 @dataclass(frozen=True, repr=False)
-class PairResult:
+class PairResult(_Shown):
     """Films of two cones against each other.
 
     Attributes
@@ -237,6 +290,16 @@ class PairResult:
         Derivatives of force and moment by position and velocity (x, y, z, about x, about y).
     speed, converged, residual, iterations
         As in `PadResult`.
+
+    Examples
+    --------
+    >>> from loadflow.journal import ConicalBearing, ConicalPair, Film, Guembel, Lubricant
+    >>> cone = ConicalBearing(half_angle=0.5, slant=(1.0, 1.3), clearance=2e-4)
+    >>> pair = ConicalPair(cone, cone, distance=1.0, clearance=2e-4)
+    >>> film = Film(Lubricant(0.1), Guembel(), inlet=None, grid=(40, 10))
+    >>> state = pair.equilibrium((1e5, 0.0, 5e4), moment=(0.0, 0.0), speed=1.0, film=film)
+    >>> round(float(state.load_share.sum()), 6), state.stiffness.shape
+    (1.0, (5, 5))
     """
 
     left: ConicalResult
@@ -263,8 +326,8 @@ class PairResult:
         "eccentricity": (("space",), "m", "shaft relative to the bearing"),
         "tilt": (("axis",), "rad", "rotation of the shaft about both axes"),
         "load_share": (("cone",), "1", "share of each cone in the sum of the normal forces"),
-        "stiffness": (("load", "motion"), "SI", "derivative of the load by the position"),
-        "damping": (("load", "motion"), "SI", "derivative of the load by the velocity"),
+        "stiffness": (("load", "motion"), "N/m, N, N m", "load per motion"),
+        "damping": (("load", "motion"), "N s/m, N s, N m s", "load per velocity"),
     } | {
         name: _PADS[name]
         for name in (

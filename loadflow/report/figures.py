@@ -7,7 +7,8 @@ import xarray as xr
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter
 
-from loadflow.report.style import envelope, figure, readable
+from loadflow.plots.rolling import element_forces
+from loadflow.plots.style import envelope, figure, readable
 
 
 def load_series(loads: xr.Dataset, bearings: xr.Dataset) -> Figure:
@@ -130,54 +131,13 @@ def histograms(reduced: xr.Dataset) -> Figure:
     return drawing
 
 
-def film(samples: xr.Dataset) -> Figure:
-    """Draw eccentricity ratio, smallest film and largest pressure over time."""
-    drawing, axes = figure(3, sharex=True, height=1.8)
-    panels = (("eccentricity_ratio", None), ("minimum_film", "µm"), ("maximum_pressure", None))
-    for axis, (name, unit) in zip(axes, panels):
-        values, shown = readable(samples[name], unit)
-        axis.plot(samples["time"], values, lw=0.7)
-        axis.set_ylabel(f"{samples[name].attrs['long_name']},\n{shown}")
-    whole = samples.attrs.get("motion") == "transient"
-    axes[2].set_xlabel("time, s" if whole else "time, s (reduced series)")
-    return drawing
-
-
-def orbit(samples: xr.Dataset) -> Figure:
-    """Draw where the shaft centre is in the clearance circle."""
-    drawing, axis = figure(height=4.2)
-    relative = samples["eccentricity"] / samples.attrs["radial_clearance"]
-    circle = np.linspace(0, 2 * np.pi, 181)
-    axis.plot(np.cos(circle), np.sin(circle), color="black", lw=1.0, label="contact")
-    points = axis.scatter(
-        relative.isel(component=1),
-        -relative.isel(component=0),
-        s=3,
-        c=readable(samples["minimum_film"], "µm")[0],
-        cmap="plasma_r",
-    )
-    drawing.colorbar(points, ax=axis, label="smallest film, µm")
-    axis.set(aspect="equal", xlabel="lateral / clearance", ylabel="vertical / clearance")
-    axis.set_title("shaft centre, seen downwind (left is right of the page)")
-    axis.invert_xaxis()
-    return drawing
-
-
 def ball_ring(worst: xr.Dataset) -> Figure:
     """Draw the contact force of every ball around the ring, at the most loaded sample."""
-    drawing, axes = figure(
-        1, worst.sizes["row"], height=4.0, squeeze=False, subplot_kw={"projection": "polar"}
-    )
-    forces, unit = readable(worst["ball_forces"])
-    angle = worst["ball_angle"].values
-    closed = np.append(angle, angle[:1] + 2 * np.pi)
-    for row, axis in enumerate(axes[0]):
-        for diagonal in range(worst.sizes["diagonal"]):
-            ring = forces[row, diagonal]
-            axis.plot(closed, np.append(ring, ring[:1]), lw=1.2, label=f"diagonal {diagonal + 1}")
-        axis.set_title(f"row {row + 1}, contact force, {unit}")
-        axis.legend(loc="lower left")
-    return drawing
+    rows, diagonals = worst.sizes["row"], worst.sizes["diagonal"]
+    forces = worst["ball_forces"].transpose("row", "diagonal", "ball").values
+    names = [f"diagonal {k % diagonals + 1}" for k in range(rows * diagonals)]
+    groups = forces.reshape(rows * diagonals, -1)
+    return element_forces(worst["ball_angle"].values, groups, names, rows)
 
 
 def over_wind_speed(journal: xr.Dataset | None, rolling: xr.Dataset | None) -> Figure | None:

@@ -10,7 +10,7 @@ import xarray as xr
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogFormatter
 
-from loadflow.report.style import figure, readable
+from loadflow.plots.style import figure, readable
 
 POINTS = 300  # of a sample that a probability paper shows
 

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Generic, TypeVar
+from typing import TYPE_CHECKING, Generic, Literal, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.quantities import ROLLING
+from loadflow.numerics.shown import Shown
+from loadflow.quantities import ROLLING, Quantity
 from loadflow.rolling.contact_forces import ContactForces
 from loadflow.rolling.contacts import HEIGHT, RADIUS, Array, Contacts
 from loadflow.rolling.equilibrium import RingEquilibrium
@@ -17,6 +19,7 @@ from loadflow.rolling.geometry import RollingGeometry
 
 if TYPE_CHECKING:
     import xarray as xr
+    from matplotlib.figure import Figure
 
 Bearing = TypeVar("Bearing", bound=RollingGeometry, covariant=True)
 
@@ -42,7 +45,7 @@ _COMPONENTS = {
 
 
 @dataclass(frozen=True)
-class ContactResult(RingEquilibrium, Generic[Bearing]):
+class ContactResult(Shown, RingEquilibrium, Generic[Bearing]):
     """Equilibrium with what follows from each contact, for bearings of every kind.
 
     All quantities over the shape (...) of the load cases, formed when asked for; `maximum_force`,
@@ -61,6 +64,10 @@ class ContactResult(RingEquilibrium, Generic[Bearing]):
     bearing: Bearing
     contacts: Contacts
     elements: ContactForces
+
+    def shown_quantities(self) -> Mapping[str, Quantity]:
+        """Quantities of a rolling bearing."""
+        return ROLLING
 
     @property
     def cases(self) -> tuple[int, ...]:
@@ -255,6 +262,65 @@ class ContactResult(RingEquilibrium, Generic[Bearing]):
             {"axis": list("xyz"), "tilt_axis": list("xy"), "dof": dof, "along": dof},
             {"bearing": type(self.bearing).__name__},
         )
+
+    @property
+    def element_azimuth(self) -> Array:
+        """Azimuth of the elements of each group, rad, (group, element), from x toward y."""
+        shape = self.element_forces.shape[len(self.cases) :]
+        groups = int(np.prod(shape[:-1]))
+        first = np.unique(self.contacts.elements, axis=0, return_index=True)[1]
+        own = self.contacts.kind_azimuth[np.sort(first)]  # of kinds with elements of their own
+        if len(own) != groups:
+            own = np.repeat(own[:1], groups, axis=0)
+        return np.asarray(own[:, : shape[-1]])
+
+    @property
+    def element_pressure(self) -> Array:
+        """Largest Hertzian pressure at each azimuth of elements, Pa, (..., element).
+
+        Of all rows, of bearings whose rows are alike: Hertz's p ∝ Q^(1/3) of points and Q^(1/2) of
+        slices of lines.
+        """
+        forces = np.max(self.contact_forces, axis=-2)
+        largest = np.max(forces, axis=-1, keepdims=True)
+        share = np.divide(forces, largest, out=np.zeros_like(forces), where=largest > 0)
+        peak = np.asarray(self.maximum_pressure)[..., None]
+        return np.asarray(peak * share ** (1 / self.bearing.static_exponent))
+
+    def plot(self, case: int = 0, what: Literal["force", "pressure"] = "force") -> Figure:
+        """Draw the forces on the rolling elements, or the contact pressure, around the ring.
+
+        Parameters
+        ----------
+        case : int
+            Number of the load case, in C order.
+        what : {"force", "pressure"}
+            Which; `element_pressure` is of bearings whose rows are alike.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+
+        Examples
+        --------
+        >>> from loadflow.rolling import RollerBearing
+        >>> bearing = RollerBearing(rollers=14, roller_diameter=11e-3, roller_length=11e-3,
+        ...     pitch_diameter=60.5e-3)
+        >>> state = bearing.equilibrium(force=(2000, 0, 0))
+        >>> len(state.plot().axes), len(state.plot(what="pressure").axes)
+        (1, 1)
+        """
+        from loadflow import plots
+
+        if what == "pressure":
+            pressure = self.element_pressure
+            row = pressure.reshape(-1, pressure.shape[-1])[case]
+            return plots.contact_pressure(self.element_azimuth[0], row)
+        forces = self.element_forces
+        inner = forces.shape[len(self.cases) :]
+        groups = forces.reshape(-1, *inner)[case].reshape(-1, inner[-1])
+        names = [f"{' '.join(self.bearing.group_dims)} {k + 1}" for k in range(len(groups))]
+        return plots.element_forces(self.element_azimuth, groups, names)
 
     def __repr__(self) -> str:
         what = f"{type(self.bearing).__name__}, {int(np.prod(self.cases))} load case(s)"

@@ -17,6 +17,7 @@ from loadflow.running.folder import finished_parts, read_manifest
 from loadflow.running.parts import digest_of
 from loadflow.running.runner import Report, run
 from loadflow.scene.candidates import candidates_of
+from loadflow.scene.design import Design
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Candidate, Scene, make_scene, read_scene
 from loadflow.storage import write_text
@@ -310,7 +311,7 @@ def _chosen(known: dict[str, Candidate], names: list[str] | None) -> dict[str, C
 def _base(scene: Scene) -> Scene:
     """The scene with the models of its loads named, so that all candidates share them."""
     loads = make_plan(scene).scene.loads if scene.accuracy is not None else scene.loads
-    update = {"loads": loads, "results": ["loads.statistics"], "candidates": {}}
+    update = {"loads": loads, "results": ["loads.statistics"], "candidates": {}, "design": Design()}
     return scene.model_copy(update=update)
 
 

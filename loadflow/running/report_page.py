@@ -12,8 +12,9 @@ import xarray as xr
 from loadflow.cube import open_cube
 from loadflow.errors import InputError
 from loadflow.planning.verification import WARN
+from loadflow.plots.journal import film_series, orbit
+from loadflow.plots.style import readable
 from loadflow.report import Picture, Section, Table, figures, write_page
-from loadflow.report.style import readable
 from loadflow.running.dynamics_page import dynamics_section
 from loadflow.running.folder import read_manifest
 from loadflow.scene.scene import Scene, read_scene
@@ -62,12 +63,22 @@ def _facts(scene: Scene, manifest: dict[str, Any]) -> dict[str, str]:
     short = manifest.get("shortfalls", [])
     return {
         **({"Not accurate enough": "; ".join(short)} if short else {}),
+        "Turbine": _turbine_fact(scene),
         "Loads": source,
+        **({"Taken from elsewhere": "; ".join(scene.taken)} if scene.taken else {}),
         "Load cases": str(len(manifest["cases"])),
         "Results": ", ".join(scene.results),
         "Took": f"{manifest.get('wall_seconds', 0):.0f} s with {manifest.get('workers')} processes",
         "Software": ", ".join(f"{k} {v}" for k, v in manifest["versions"].items()),
     }
+
+
+def _turbine_fact(scene: Scene) -> str:
+    from loadflow.turbines import load_turbine
+
+    turbine = load_turbine(scene.turbine.name)
+    power = f"{turbine.rated_power / 1e6:.3g} MW, rotor of {2 * turbine.rotor.radius:.4g} m"
+    return f"{turbine.name} ({power}; {turbine.source})"
 
 
 def _sections(
@@ -98,8 +109,8 @@ def _sections(
         )
     if "journal" in tables:
         pictures = [
-            *_per_bearing(folder, "journal", shown, figures.film),
-            *_per_bearing(folder, "journal", shown[:1], figures.orbit),
+            *_per_bearing(folder, "journal", shown, film_series),
+            *_per_bearing(folder, "journal", shown[:1], orbit),
         ]
         yield Section("Journal bearing", tables=[_case_table(tables["journal"])], pictures=pictures)
     if "dynamics" in tables:

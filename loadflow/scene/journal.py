@@ -63,6 +63,13 @@ class Journal(Section, BaseModel):
     the asperities of `loadflow.journal.Contact`, they are solved as the others, standstill
     included. Without, they have no film, and the shaft rubs there with ``boundary_friction``:
     bronze [Jonuschies 2015, Table 3-1]. ``limits`` are what the verdicts hold the bearing against.
+
+    Examples
+    --------
+    >>> from loadflow.scene import Journal
+    >>> journal = Journal(bearings=["N"], shaft_roughness=2e-6)
+    >>> round(journal.contact_film * 1e6, 1), journal.film_model.grid
+    (4.5, (60, 20))
     """
 
     bearings: Annotated[list[str], Field(min_length=1)] = ["N", "N2"]

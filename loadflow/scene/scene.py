@@ -14,26 +14,29 @@ from pathlib import Path
 from typing import Annotated, Any, Literal, Self, get_args
 
 import numpy as np
-from pydantic import BaseModel, Field, ValidationError, field_validator, model_validator
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator, model_validator
 
 from loadflow.errors import InputError
 from loadflow.journal.line import Line
 from loadflow.journal.models.model import Steps, why_not
+from loadflow.numerics.fields import LARGEST_INTEGER, shown
 from loadflow.scene.bearings import Rolling
 from loadflow.scene.candidates import ABOUT, machine
+from loadflow.scene.design import Design
 from loadflow.scene.dynamics import Dynamics
 from loadflow.scene.environment import Environment, surrounded
 from loadflow.scene.friction import Friction
 from loadflow.scene.journal import Journal
 from loadflow.scene.loads import Loads, check_simulation
-from loadflow.scene.messages import message, shown
+from loadflow.scene.messages import message
+from loadflow.scene.own_shaft import taken
 from loadflow.scene.places import places_of
-from loadflow.scene.section import LARGEST_INTEGER, Section, too_large
+from loadflow.scene.section import Section, too_large
 from loadflow.scene.shaft import Shaft
-from loadflow.scene.written import SCENE, anchored, in_sections, origins
+from loadflow.scene.written import SCENE, anchored, in_sections, named_by_file, origins
 from loadflow.shaft.options import MomentBearing, TwoPoint
 from loadflow.storage import check_name
-from loadflow.turbines import load_turbine
+from loadflow.turbines import load_turbine, turbine_digest
 from loadflow.turbines.files import scaled_name
 from loadflow.turbines.similarity import factor_of_power
 
@@ -57,15 +60,29 @@ USUAL: tuple[Result, ...] = tuple(name for name in get_args(Result) if name not 
 Positive = Annotated[float, Field(gt=0)]
 
 
+def _with_file(schema: dict[str, Any]) -> None:
+    """Tell editors of the key that stands in place of the name."""
+    schema["properties"]["file"] = {"title": "File", "type": "string"}
+
+
 class Turbine(Section, BaseModel):
-    """The turbine: a name that `loadflow.turbines` knows, or a path to a file of the same form.
+    """The turbine: a name that `loadflow.turbines` knows, or a path to a file.
+
+    ``file`` may stand in place of ``name``: a TOML file of a turbine, or a windIO file (.yaml).
 
     A name with ``@`` and a power in W, such as ``nrel-5mw@8e6``, is scaled to it by similarity; so
     is the suspension of the known turbine, where the scene states none. Bearings are not: they are
     to be sized anew.
     """
 
+    model_config = ConfigDict(json_schema_extra=_with_file)
+
     name: str = "nrel-5mw"
+
+    @model_validator(mode="before")
+    @classmethod
+    def _from_file(cls, data: Any) -> Any:
+        return named_by_file(data)
 
     @field_validator("name")
     @classmethod
@@ -152,6 +169,13 @@ class Scene(Section, BaseModel):
         Largest relative error allowed, of every result or by result; 5 % if nothing is said. The
         plan takes the cheapest models and effects that hold it, wherever the scene names none.
         ``"given"`` leaves all models as the scene has them, the defaults where it names none.
+
+    Examples
+    --------
+    >>> from loadflow.scene import make_scene
+    >>> scene = make_scene({"name": "look", "accuracy": 0.02, "loads": {"seeds": 2}})
+    >>> scene.loads.seeds, scene.allowed("journal.film"), scene.wants("rolling")
+    (2, 0.02, True)
     """
 
     name: Annotated[str, Field(pattern=r"^[A-Za-z0-9_.-]+$")]
@@ -168,6 +192,7 @@ class Scene(Section, BaseModel):
     rolling: Rolling = Rolling()
     friction: Friction = Friction()
     candidates: dict[str, Candidate] = {}
+    design: Design = Design()
 
     @field_validator("name")
     @classmethod
@@ -240,6 +265,15 @@ class Scene(Section, BaseModel):
         return self
 
     @model_validator(mode="after")
+    def _yaw_bearings_swing(self) -> Self:
+        part = self.rolling.bearings.get("Y")
+        if part is not None and part.oscillation is None:
+            raise ValueError("rolling bearing Y: the yaw bearing swings; give its oscillation")
+        if self.wants("journal") and "Y" in self.journal.bearings:
+            raise ValueError("journal.bearings = 'Y': the yaw bearing is a rolling bearing")
+        return self
+
+    @model_validator(mode="after")
     def _candidates_have_places(self) -> Self:
         for name, candidate in self.candidates.items():
             for place in candidate.places:
@@ -282,6 +316,11 @@ class Scene(Section, BaseModel):
             )
         return self
 
+    @property
+    def taken(self) -> list[str]:
+        """What neither scene nor turbine state, and what is taken instead."""
+        return taken(self.turbine.name, self.shaft.model_dump(mode="json", exclude_none=True))
+
     def wants(self, room: str) -> bool:
         """Whether a result of `room` is wanted."""
         return any(result.split(".")[0] == room for result in self.results)
@@ -311,9 +350,12 @@ class Scene(Section, BaseModel):
         return tomli_w.dumps({SCENE.key: SCENE.version} | data)
 
     def digest(self, *sections: str) -> str:
-        """SHA-256 of the resolved scene, or of some of its sections."""
+        """SHA-256 of the resolved scene, or of some of its sections, and the turbine's file."""
         include = set(sections) if sections else None
-        return hashlib.sha256(self.model_dump_json(include=include).encode()).hexdigest()
+        told = self.model_dump_json(include=include)
+        if include is None or "turbine" in include:
+            told += turbine_digest(self.turbine.name)
+        return hashlib.sha256(told.encode()).hexdigest()
 
 
 def read_scene(path: str | Path) -> Scene:
@@ -407,6 +449,13 @@ def with_loads(scene: Scene, files: list[str], **reading: Any) -> Scene:
     ------
     InputError
         A bad value among them.
+
+    Examples
+    --------
+    >>> from loadflow.scene import make_scene, with_loads
+    >>> scene = with_loads(make_scene({"name": "look"}), ["/data/runs/*.outb"], frame="rotating")
+    >>> scene.loads.source, scene.loads.frame
+    ('files', 'rotating')
     """
     given = {key: value for key, value in reading.items() if value is not None}
     absolute = [str(Path(file).absolute()) for file in files]

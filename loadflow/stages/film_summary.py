@@ -41,8 +41,8 @@ MEANS = {
     "mean_eccentricity_ratio": ("eccentricity_ratio", "1", "mean ε"),
     "mean_sommerfeld_number": ("sommerfeld_number", "1", "mean So"),
     "mean_friction_power": ("friction_power", "W", "mean friction power"),
-    "mean_side_flow": ("side_flow", "m3/s", "mean side flow"),
-    "mean_supply_flow": ("supply_flow", "m3/s", "mean flow of the grooves"),
+    "mean_side_flow": ("side_flow", "m^3/s", "mean side flow"),
+    "mean_supply_flow": ("supply_flow", "m^3/s", "mean flow of the grooves"),
     "mean_supply_power": ("supply_power", "W", "mean supply power"),
 }
 """Means over the samples that have a film, each with its weight: of what, units and meaning."""

@@ -129,13 +129,13 @@ def _film_margins(scene: Scene, folder: Path, place: str, table: xr.Dataset) -> 
 
 def _film_factors(value: Callable[[float, float], float], allowed: float) -> tuple[float, float]:
     """Largest factor on the load, and smallest on the viscosity, with which a film is allowed."""
-    load = _largest_factor(lambda f: value(f, 1.0) >= allowed)
-    return load, 1 / _largest_factor(lambda f: value(1.0, 1 / f) >= allowed)
+    load = largest_factor(lambda f: value(f, 1.0) >= allowed)
+    return load, 1 / largest_factor(lambda f: value(1.0, 1 / f) >= allowed)
 
 
 def _pressure_factor(value: Callable[[float, float], float], allowed: float) -> float:
     """Largest factor on the load with which a pressure is allowed."""
-    return _largest_factor(lambda f: value(f, 1.0) <= allowed)
+    return largest_factor(lambda f: value(f, 1.0) <= allowed)
 
 
 def _film_value(
@@ -150,7 +150,7 @@ def _film_value(
     return float(getattr(answer, field)[0]) if answer.converged[0] else math.nan
 
 
-def _largest_factor(holds: Callable[[float], bool]) -> float:
+def largest_factor(holds: Callable[[float], bool]) -> float:
     """Largest factor with which something holds that holds for all smaller ones."""
     low, high = 1 / _WIDEST, _WIDEST
     for _ in range(_HALVINGS):
@@ -196,7 +196,7 @@ def _rolling_margins(
         return modified_spectrum_life(bearing, factor * load, speed, oil, weight).life
 
     allowed = limits.life / modified.value * life(1.0)
-    factor = _largest_factor(lambda f: life(f) >= allowed)
+    factor = largest_factor(lambda f: life(f) >= allowed)
     warmth = np.linspace(0.0, _WARMER, 13)
     lives = [life(1.0, replace(grease, temperature=grease.temperature + w)) for w in warmth]
     short = np.flatnonzero(np.array(lives) < allowed)

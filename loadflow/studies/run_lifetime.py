@@ -8,11 +8,10 @@ import numpy as np
 import xarray as xr
 
 from loadflow.errors import InputError
-from loadflow.rolling import system_life
 from loadflow.scene.cases import wind_class
 from loadflow.scene.scene import Scene
 from loadflow.stages.labelling import label
-from loadflow.stages.rolling import hours_together
+from loadflow.stages.rolling import hours_together, system_hours
 from loadflow.studies.lifetime_shares import IDLING, PRODUCTION, lifetime_shares
 from loadflow.wind import iec
 
@@ -45,14 +44,14 @@ def run_lifetime(scene: Scene, tables: Tables) -> xr.Dataset | None:
     found: dict[str, xr.DataArray] = {}
     for name, work in (("rolling", _lives), ("journal", _film_energy), ("friction", _energy)):
         if name in tables:
-            share = _shares(scene, tables[name])
+            share = case_shares(scene, tables[name])
             if share is None:
                 return None
             found |= work(scene, tables[name], share)
     return xr.Dataset(found) if found else None
 
 
-def _shares(scene: Scene, table: xr.Dataset) -> np.ndarray | None:
+def case_shares(scene: Scene, table: xr.Dataset) -> np.ndarray | None:
     """Share of the lifetime of each case, of 1 in all; None where none has one."""
     if scene.loads.weights == "given" and scene.loads.source == "files":
         given = table["weight"].values.astype(float)
@@ -83,7 +82,7 @@ def _lives(scene: Scene, table: xr.Dataset, share: np.ndarray) -> dict[str, xr.D
         hours = hours_together(table, f"bearing_{kind}life", share)
         about = label("h", f"{meaning} over all load cases")
         found[f"{kind}life_hours"] = xr.DataArray(hours, {"rolling": names}, "rolling", attrs=about)
-        system = float(system_life(hours, table.attrs["weibull_slope"]))
+        system = float(system_hours(hours, table.attrs["weibull_slope"]))
         about = label("h", f"{meaning} of all rolling bearings as a system")
         found[f"system_{kind}life_hours"] = xr.DataArray(system, attrs=about)
     return found

@@ -9,8 +9,8 @@ import numpy as np
 import xarray as xr
 
 from loadflow.cube import Cube
+from loadflow.plots.style import readable
 from loadflow.report import Picture, Section, Table, figures, load_figures, write_page
-from loadflow.report.style import readable
 from loadflow.seeds import averaged_spectrum, probability_paper
 from loadflow.seeds.probability import Distribution
 from loadflow.seeds.spectra import BAND

@@ -10,8 +10,8 @@ import numpy as np
 import xarray as xr
 
 from loadflow.cube import Cube, iter_cases
+from loadflow.plots.style import readable
 from loadflow.report import Section, Table, write_page
-from loadflow.report.style import readable
 from loadflow.stages.statistics import SLOPE, STATISTICS, describe
 from loadflow.studies.channels import channel, choose_channels
 

@@ -32,7 +32,7 @@ from loadflow.journal.models.composed_film import Composed, ComposedWork, Rough,
 from loadflow.journal.models.model import Steps
 from loadflow.journal.models.slow_heat import THIN, cooled, slow_states
 from loadflow.journal.models.width_modes import half_width_nodes, whole_width
-from loadflow.journal.results import operating_columns, without_supply
+from loadflow.journal.rows import operating_columns, without_supply
 from loadflow.journal.shells import LinedShell, LocalShell
 from loadflow.journal.solvers.estimate import NEAR, closed_form_position
 from loadflow.journal.solvers.messages import no_equilibrium, not_found

@@ -13,7 +13,7 @@ from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
 from loadflow.journal.models.model import Steps
-from loadflow.journal.results import columns_of
+from loadflow.journal.rows import columns_of
 from loadflow.journal.solvers.periodic import (
     Method,
     check_half_speed_whirl,

@@ -31,7 +31,7 @@ from loadflow.journal.models.model import Steps
 from loadflow.journal.models.reduced_film import Ring, Work, make_work
 from loadflow.journal.models.slow_heat import THIN, cooled, slow_states
 from loadflow.journal.models.width_modes import lobatto
-from loadflow.journal.results import operating_columns, without_supply
+from loadflow.journal.rows import operating_columns, without_supply
 from loadflow.journal.solvers.estimate import NEAR, closed_form_position
 from loadflow.journal.solvers.messages import no_equilibrium, not_found
 from loadflow.journal.solvers.transient import orbit_dataset

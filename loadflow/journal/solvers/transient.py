@@ -13,7 +13,7 @@ from loadflow.errors import SolverError
 from loadflow.journal.film.film import EVERY, DiscreteFilm
 from loadflow.journal.film.gap_shaped import ShapedGap
 from loadflow.journal.film.integrals import summary
-from loadflow.journal.results import attitude_angle
+from loadflow.journal.rows import attitude_angle
 from loadflow.journal.solvers.newton import Motion, Solution, solve_equilibrium
 from loadflow.numerics.convergence import unresolved
 from loadflow.quantities import FILM

@@ -16,7 +16,7 @@ import numpy as np
 from loadflow.journal.shapes import CYLINDER
 from loadflow.scene.cases import Case, wind_of
 from loadflow.scene.scene import Scene
-from loadflow.shaft import bearing_loads
+from loadflow.shaft import bearing_loads, yaw_loads
 from loadflow.stages.frames import to_film
 from loadflow.turbines import Turbine, load_turbine
 
@@ -56,6 +56,10 @@ class BearingLoad:
     def radial(self) -> Floats:
         """Mean radial force (n,), N."""
         return np.asarray(np.hypot(self.force[:, 1], self.force[:, 2]))
+
+
+CHART_WIDTHS = 1 / 8, 1.0
+"""Width over diameter that the charts know."""
 
 
 @dataclass(frozen=True)
@@ -102,13 +106,21 @@ class Situation:
         return {name: self.film(name) for name in self.scene.journal.bearings}
 
     def film(self, name: str, share: float = 1.0) -> Film:
-        """Film of a bearing under its mean load and a share of the largest deviation from it."""
+        """Film of a bearing under its mean load and a share of the largest deviation from it.
+
+        A width that the charts do not know is taken at the end of their range, under the same
+        specific load.
+        """
         journal, load = self.scene.journal, self.bearings[name]
         held = journal.at_temperature(journal.heat.inlet_temperature) if journal.heat else journal
-        bearing = replace(journal.geometry, shape=CYLINDER, relief=())
-        force = np.stack([load.radial + share * load.swing, np.zeros_like(load.swing)], axis=-1)
+        size = journal.geometry
+        width = float(np.clip(size.width_ratio, *CHART_WIDTHS)) * size.diameter
+        bearing = replace(size, shape=CYLINDER, relief=(), width=width)
+        radial = (load.radial + share * load.swing) * width / size.width
+        force = np.stack([radial, np.zeros_like(radial)], axis=-1)
         found = bearing.equilibrium(force, self.speed, held.lubricant, rung="chart", strict=False)
-        return Film(*(np.asarray(getattr(found, name)) for name in Film.__dataclass_fields__))
+        film = Film(*(np.asarray(getattr(found, name)) for name in Film.__dataclass_fields__))
+        return replace(film, friction_power=film.friction_power * size.width / width)
 
 
 def situation(scene: Scene, cases: Iterable[Case]) -> Situation:
@@ -167,8 +179,13 @@ def _on_bearings(
 ) -> dict[str, tuple[Floats, ...]]:
     """Mean force, mean moment and their largest deviations, by bearing of a rigid shaft."""
     found = {}
-    for concept in scene.shaft.concepts:
-        loads = bearing_loads(replace(concept, beam=None), force, moment, tilt=tilt)
+    every = [
+        bearing_loads(replace(concept, beam=None), force, moment, tilt=tilt)
+        for concept in scene.shaft.concepts
+    ]
+    if scene.shaft.yaw is not None:
+        every.append(yaw_loads(scene.shaft.yaw, force, moment, tilt=tilt))
+    for loads in every:
         for name in loads["bearing"].values:
             one = loads.sel(bearing=name)
             push, turn = (one[n].transpose(..., "axis").values for n in ("force", "moment"))

@@ -13,6 +13,8 @@ from cycler import cycler
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from loadflow.quantities import READABLE
+
 STYLE: Any = {
     "figure.constrained_layout.use": True,
     "axes.grid": True,
@@ -30,23 +32,10 @@ STYLE: Any = {
     ),
 }
 
-# what an engineer reads, for each SI unit that the data hold
-READABLE = {
-    "N": (1e-3, "kN"),
-    "N m": (1e-6, "MN m"),
-    "Pa": (1e-6, "MPa"),
-    "W": (1e-3, "kW"),
-    "rad/s": (30 / np.pi, "1/min"),
-    "rad": (180 / np.pi, "°"),
-    "m3/s": (6e4, "l/min"),
-    "1": (1.0, "-"),
-    "": (1.0, "-"),
-}
-
 
 def readable(data: xr.DataArray, units: str | None = None) -> tuple[np.ndarray, str]:
     """Return values in the unit that is usual in drawings, and that unit."""
-    factor, unit = READABLE.get(data.attrs.get("units", ""), (1.0, data.attrs.get("units", "-")))
+    factor, unit = READABLE.get(data.attrs.get("units", ""), (1.0, data.attrs.get("units", "–")))
     if units == "µm":
         factor, unit = 1e6, "µm"
     return np.asarray(data.values, dtype=float) * factor, unit
@@ -79,3 +68,12 @@ def to_png(drawing: Figure) -> str:
     with mpl.rc_context(STYLE):
         drawing.savefig(buffer, format="png", dpi=110)
     return "data:image/png;base64," + base64.b64encode(buffer.getvalue()).decode()
+
+
+def to_svg(drawing: Figure) -> str:
+    """Return a figure as an ``<svg>`` element that scales with the page, its text as text."""
+    buffer = io.StringIO()
+    with mpl.rc_context({**STYLE, "svg.fonttype": "none", "svg.hashsalt": "loadflow"}):
+        drawing.savefig(buffer, format="svg", metadata={"Date": None, "Creator": None})
+    text = buffer.getvalue()
+    return text[text.index("<svg") :]

@@ -1,0 +1,116 @@
+"""The command that searches for the best bearing: design."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from loadflow.cli.base import AsJson, app, out, print_json, print_rows
+from loadflow.cli.progress import progress
+from loadflow.cli.scenes import LoadFiles, SceneFile, read
+from loadflow.errors import InputError
+
+if TYPE_CHECKING:
+    from loadflow.scene.scene import Scene
+
+
+@app.command()
+def design(
+    scene: SceneFile,
+    loads: LoadFiles = None,
+    candidate: Annotated[
+        str | None, typer.Option("--candidate", help="Which candidate; default: the scene's.")
+    ] = None,
+    key: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--key",
+            help="What varies: geometry.diameter=1.0:1.6, or lubricant.viscosity=0.1,0.2,0.3; "
+            "may be repeated, and takes the place of [design.keys].",
+        ),
+    ] = None,
+    margin: Annotated[
+        float | None, typer.Option(help="Factor by which the loads must be able to grow.")
+    ] = None,
+    out_folder: Annotated[Path, typer.Option("--out", help="Folder for runs.")] = Path("runs"),
+    name: Annotated[str | None, typer.Option(help="Name of the run; default: the scene's.")] = None,
+    workers: Annotated[int, typer.Option(min=0, help="Processes; 0: one for each core.")] = 0,
+    scheduler: Annotated[str | None, typer.Option(help="Dask scheduler, tcp://host:port.")] = None,
+    overwrite: Annotated[bool, typer.Option(help="Replace parts of other settings.")] = False,
+    as_json: AsJson = False,
+) -> None:
+    """Search the best bearing: least friction with enough margin under the loads of the scene.
+
+    Example: loadflow design scene.toml --candidate two-spherical
+    """
+    from loadflow.running.designing import design as carry_out
+    from loadflow.running.executor import usable_cores
+
+    asked = _with_options(read(scene, loads, name), candidate, key, margin)
+    with progress(quiet=as_json) as show:
+        found = carry_out(
+            asked,
+            out=out_folder,
+            workers=workers or usable_cores(),
+            scheduler=scheduler,
+            overwrite=overwrite,
+            progress=show,
+        )
+    designs = found.designs
+    if as_json:
+        told = designs.as_dict()
+        print_json({"page": str(found.page), "table": str(found.table)} | told)
+        return
+    out.print(designs.conclusion, soft_wrap=True, markup=False)
+    if designs.settings:
+        print_rows(("key", "best"), list(designs.settings.items()))
+    out.print(f"page   {found.page}\ntable  {found.table}", soft_wrap=True)
+    if designs.best is not None:
+        out.print(f"scene  {found.scene}", soft_wrap=True)
+
+
+def _with_options(
+    scene: Scene, candidate: str | None, keys: list[str] | None, margin: float | None
+) -> Scene:
+    """The scene with what the command line says of the search."""
+    from pydantic import ValidationError
+
+    from loadflow.scene.design import Design
+
+    told: dict[str, Any] = scene.design.model_dump(exclude_unset=True)
+    told |= {} if candidate is None else {"candidate": candidate}
+    told |= {} if margin is None else {"margin": margin}
+    if keys:
+        told["keys"] = dict(map(_variation, keys))
+        told.pop("maps", None)
+    try:
+        return scene.model_copy(update={"design": Design.model_validate(told)})
+    except ValidationError as error:
+        first = error.errors()[0]
+        where = ".".join(map(str, ("design", *first["loc"])))
+        raise InputError(f"{where}: {first['msg'].removeprefix('Value error, ')}") from error
+
+
+def _variation(text: str) -> tuple[str, Any]:
+    """Key and values of ``KEY=LOW:HIGH`` or ``KEY=A,B,C``."""
+    key, found, stated = text.partition("=")
+    try:
+        if found and ":" in stated:
+            low, high = (float(part) for part in stated.split(":"))
+            return key, {"low": low, "high": high}
+        if found and "," in stated:
+            return key, {"values": [_value(part) for part in stated.split(",")]}
+    except ValueError as error:
+        raise InputError(f"--key {text}: {error}") from error
+    raise InputError(f"--key {text}: must be KEY=LOW:HIGH or KEY=A,B,C")
+
+
+def _value(text: str) -> float | int | str:
+    for kind in (int, float):
+        try:
+            return kind(text)
+        except ValueError:
+            continue
+    return text

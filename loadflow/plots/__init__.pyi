@@ -1,0 +1,14 @@
+from .journal import clearance_circle as clearance_circle
+from .journal import coefficients as coefficients
+from .journal import film_series as film_series
+from .journal import gap_around as gap_around
+from .journal import orbit as orbit
+from .journal import pressure as pressure
+from .journal import pressure_around as pressure_around
+from .journal import stribeck as stribeck
+from .rolling import contact_pressure as contact_pressure
+from .rolling import element_forces as element_forces
+from .style import figure as figure
+from .style import readable as readable
+from .style import to_png as to_png
+from .style import to_svg as to_svg

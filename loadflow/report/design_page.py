@@ -1,0 +1,100 @@
+"""The page of a search for the best design: sentence, table, front, maps."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from jinja2 import Environment, PackageLoader, select_autoescape
+
+from loadflow.plots.style import to_svg
+from loadflow.report.compare_page import short
+from loadflow.report.design_figures import front_figure, map_figure
+from loadflow.storage import write_text
+
+FRONT_ROWS = 12
+"""Designs of the front that the page lists."""
+
+CHECKED = (
+    ("load_factor", "capacity margin", "×"),
+    ("energy", "energy lost a year", "MWh"),
+    ("friction", "mean friction loss", "kW"),
+    ("minimum_film", "smallest film", "µm"),
+    ("film_pressure", "largest film pressure", "MPa"),
+    ("eccentricity_ratio", "largest eccentricity ratio", "–"),
+    ("tilt", "tilt of the shaft to its limit, told only", "%"),
+    ("oil_flow", "oil that leaves the film", "l/min"),
+    ("static_safety", "static rating over the design load", "–"),
+    ("contact_pressure", "largest contact pressure", "MPa"),
+    ("modified_life", "modified life of all bearings", "years"),
+    ("rating_life", "rating life of all bearings", "years"),
+)
+"""Rows of the first table: numbers of the fast models and of the runs, in one unit."""
+
+
+def write_design(path: Path, data: Mapping[str, Any]) -> Path:
+    """Write the page of a search, whole or not at all.
+
+    Parameters
+    ----------
+    path : Path
+        HTML file to write.
+    data : mapping
+        `loadflow.studies.design_result.Designs.as_dict`.
+    """
+    environment = Environment(
+        loader=PackageLoader("loadflow.report"), autoescape=select_autoescape(["html"])
+    )
+    checks = data["checks"]
+    best = next((name for name in reversed(checks) if name != "start"), None)
+    page = environment.get_template("design.html").render(
+        data=data,
+        best=checks[best] if best else None,
+        start=checks.get("start"),
+        rows=[*_rows(data, best)],
+        front=[*_front(data)],
+        figure=to_svg(front_figure(data)),
+        maps=[(one["keys"], to_svg(map_figure(data, k))) for k, one in enumerate(data["maps"])],
+    )
+    return write_text(path, page)
+
+
+def _rows(data: Mapping[str, Any], best: str | None) -> Any:
+    """Quantity, unit, and the value of given and best design by fast models and when run."""
+    numbers = data["designs"][data["best"]]["numbers"] if data["best"] is not None else {}
+    runs = [data["checks"].get(name) for name in ("start", best) if name]
+    runs += [None] * (2 - len(runs))
+    for key, name, unit in CHECKED:
+        factor = data["numbers"].get(key, {"shown": [1.0]})["shown"][0]
+        fast = [
+            "" if one.get(key) is None else short(factor * one[key])
+            for one in (data["given"], numbers)
+        ]
+        run = [_run_value(one, key) for one in runs]
+        cells = [fast[0], run[0], fast[1], run[1]]
+        if any(cells):
+            yield name, unit, cells
+
+
+def _run_value(run: Mapping[str, Any] | None, key: str) -> str:
+    number = run["numbers"].get(key) if run else None
+    if not number or number["value"] is None:
+        return ""
+    bounds = ""
+    if number["low"] is not None:
+        bounds = f" ({short(number['low'])} … {short(number['high'])})"
+    return f"{short(number['value'])}{bounds}"
+
+
+def _front(data: Mapping[str, Any]) -> Any:
+    """Rows of some designs of the front, spread over it."""
+    index = data["front"]["index"]
+    if not index:
+        return
+    count = min(FRONT_ROWS, len(index))
+    chosen = dict.fromkeys(round(k * (len(index) - 1) / max(count - 1, 1)) for k in range(count))
+    for k in chosen:
+        one = data["designs"][index[k]]
+        values = [short(one["numbers"][name]) for name in ("load_factor", "energy")]
+        yield index[k] == data["best"], [*one["settings"], *values, one["governs"]]

@@ -1,0 +1,247 @@
+"""A dashboard on the folder of a run: verdicts, loads, films, rolling elements.
+
+It is local: served on this machine only, with all scripts from this machine, so that it needs no
+network. It reads the parts of the run as they are and writes nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import xarray as xr
+
+from loadflow.cube import open_cube
+from loadflow.errors import InputError
+from loadflow.plots.journal import film_series, orbit
+from loadflow.plots.style import envelope, figure, readable
+from loadflow.running.folder import read_manifest
+from loadflow.studies.channels import channel, channel_names
+from loadflow.verdict import from_dataset
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+LOCAL = "127.0.0.1"
+"""Where it is served: for this machine alone."""
+
+TITLE = "loadflow"
+
+
+class RunView:
+    """What a run has to show.
+
+    Parameters
+    ----------
+    folder : path
+        Of a run.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        It is no run, or no load case of it is finished.
+    """
+
+    def __init__(self, folder: str | Path) -> None:
+        self.folder = Path(folder)
+        self.manifest = read_manifest(self.folder)
+        self.cases = [path.stem for path in sorted((self.folder / "loads").glob("*.h5"))]
+        if not self.cases:
+            raise InputError(f"{self.folder}: no load case of this run is finished")
+
+    def part(self, stage: str, case: str) -> Any:
+        """What a stage found of a case; None where it has not run."""
+        path = self.folder / stage / f"{case}.h5"
+        return open_cube(path) if path.exists() else None
+
+    def series(self, case: str) -> xr.Dataset:
+        """Loads and forces on the bearings of a case."""
+        loads, shaft = (self.part(stage, case) for stage in ("loads", "shaft"))
+        found: xr.Dataset = loads.load()
+        return found if shaft is None else found.merge(shaft.load(), compat="override")
+
+    def channels(self) -> list[str]:
+        """Names of the series of a case."""
+        return [
+            name for names in channel_names(self.series(self.cases[0])).values() for name in names
+        ]
+
+    def bearings(self) -> list[str]:
+        """Journal bearings with a film."""
+        first = next((c for c in self.cases if self.part("journal", c) is not None), None)
+        return [] if first is None else list(self.part("journal", first).children)
+
+    def verdicts(self) -> list[dict[str, str]]:
+        """Verdicts of the run, a row each."""
+        path = self.folder / "result.h5"
+        if not path.exists():
+            return []
+        tree: Any = open_cube(path)
+        if "verdicts" not in tree.children:
+            return []
+        return [
+            {"bearing": v.subject, "what": v.quantity, "verdict": v.answer, "in words": v.sentence}
+            for v in from_dataset(tree["verdicts"].to_dataset())
+        ]
+
+    def models(self) -> list[dict[str, str]]:
+        """Model of each stage with its error."""
+        return [
+            {"stage": stage, "model": str(told["rung"]), "error": str(told["error"])}
+            for stage, told in self.manifest.get("rungs", {}).items()
+        ]
+
+    def load_figure(self, case: str, name: str) -> Figure:
+        """Draw one channel of a case over time."""
+        series = self.series(case)
+        data = channel(series, name)
+        values, unit = readable(data)
+        drawing, axis = figure(height=3.0)
+        envelope(axis, series["time"].values, np.asarray(values), name)
+        axis.set(xlabel="time, s", ylabel=f"{name}, {unit}")
+        return drawing
+
+    def film_figure(self, case: str, bearing: str) -> Figure | None:
+        """Draw the film of a bearing over time."""
+        return self._of_film(case, bearing, film_series)
+
+    def orbit_figure(self, case: str, bearing: str) -> Figure | None:
+        """Draw the shaft centre in the clearance circle."""
+        return self._of_film(case, bearing, orbit)
+
+    def _of_film(
+        self, case: str, bearing: str, draw: Callable[[xr.Dataset], Figure]
+    ) -> Figure | None:
+        found = self.part("journal", case)
+        if found is None or bearing not in found.children:
+            return None
+        samples = found[bearing].to_dataset().load()
+        return draw(samples) if bool((samples["converged"] > 0).any()) else None
+
+    def rolling_figure(self, case: str) -> Figure | None:
+        """Draw force and pressure of the rolling elements over time."""
+        found = self.part("rolling", case)
+        if found is None:
+            return None
+        drawing, axes = figure(2, sharex=True, height=1.9)
+        for axis, name in zip(axes, ("maximum_force", "maximum_pressure")):
+            values, unit = readable(found[name])
+            axis.plot(found["time"], values, ".", ms=2)
+            axis.set_ylabel(f"{found[name].attrs['long_name']},\n{unit}")
+        axes[-1].set_xlabel("time, s (reduced series)")
+        return drawing
+
+
+def application(folder: str | Path) -> Callable[[], Any]:
+    """The dashboard of a run, as what a Panel server calls for every page that is opened.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        Panel is not installed, or the folder is no run.
+    """
+    pn = _panel()
+    view = RunView(folder)
+    pn.extension()
+
+    def page() -> Any:
+        case = pn.widgets.Select(name="load case", options=view.cases)
+        channels = pn.widgets.Select(name="channel", options=view.channels())
+        head = pn.pane.Markdown(f"# {view.folder.resolve().name}\n{len(view.cases)} load cases")
+        rooms = [
+            (
+                "Verdicts",
+                pn.Column(_table(pn, view.verdicts()), "### Models", _table(pn, view.models())),
+            )
+        ]
+        loads = pn.bind(lambda c, n: _drawn(pn, view.load_figure(c, n)), case, channels)
+        rooms.append(("Loads", pn.Column(channels, loads)))
+        if view.bearings():
+            bearing = pn.widgets.Select(name="bearing", options=view.bearings())
+            films = pn.bind(lambda c, b: _drawn(pn, view.film_figure(c, b)), case, bearing)
+            circle = pn.bind(lambda c, b: _drawn(pn, view.orbit_figure(c, b)), case, bearing)
+            rooms.append(("Film", pn.Column(bearing, films, circle)))
+        if (view.folder / "rolling").is_dir():
+            rolling = pn.bind(lambda c: _drawn(pn, view.rolling_figure(c)), case)
+            rooms.append(("Rolling elements", pn.Column(rolling)))
+        tabs = pn.Tabs(*rooms, dynamic=True)
+        if pn.state.location is not None:  # ?case=…&tab=1 opens what a link means
+            pn.state.location.sync(case, {"value": "case"})
+            pn.state.location.sync(tabs, {"active": "tab"})
+        return pn.Column(head, case, tabs, width=1000)
+
+    return page
+
+
+def serve(
+    folder: str | Path,
+    port: int = 0,
+    show: bool = True,
+    told: Callable[[str], None] = lambda address: None,
+    opened: Callable[[], None] = lambda: None,
+) -> None:
+    """Serve the dashboard of a run on this machine until it is stopped.
+
+    Parameters
+    ----------
+    folder : path
+        Of the run.
+    port : int
+        0: any free one.
+    show : bool
+        Whether to open the browser.
+    told : callable
+        Told of the address when it is served.
+    opened : callable
+        Called when a browser has drawn the page.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        As `application`; or the port is taken.
+    """
+    pn = _panel()
+    page = application(folder)
+
+    def watched() -> Any:
+        pn.state.onload(opened)
+        return page()
+
+    try:
+        server = pn.serve(
+            {"/": watched}, port=port, address=LOCAL, show=show, start=False, title=TITLE,
+            threaded=False, verbose=False, websocket_origin=[f"{LOCAL}:{port}"] if port else "*",
+        )  # fmt: skip
+    except OSError as error:
+        raise InputError(f"port = {port}: {error.strerror or error}") from error
+    address = f"http://{LOCAL}:{server.port}/"
+    server.start()
+    told(address)
+    try:
+        server.io_loop.start()
+    finally:
+        server.stop()
+
+
+def _panel() -> Any:
+    try:
+        import panel
+    except ImportError as error:
+        raise InputError("view needs the extra: pip install loadflow[view]") from error
+    return panel
+
+
+def _drawn(pn: Any, drawing: Figure | None) -> Any:
+    if drawing is None:
+        return pn.pane.Markdown("Nothing found of this load case.")
+    return pn.pane.Matplotlib(drawing, format="svg", sizing_mode="stretch_width", tight=False)
+
+
+def _table(pn: Any, rows: list[dict[str, str]]) -> Any:
+    import pandas as pd
+
+    if not rows:
+        return pn.pane.Markdown("None in this run.")
+    return pn.pane.DataFrame(pd.DataFrame(rows), index=False, sizing_mode="stretch_width")

@@ -1,0 +1,413 @@
+"""One design under a load spectrum, by fast models: what it loses, and how far its limits are."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, fields
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from loadflow.errors import InputError, SolverError
+from loadflow.journal.line import Line
+from loadflow.journal.models.model import why_not
+from loadflow.rolling import RollingBearing, modified_spectrum_life, system_life
+from loadflow.rolling.rating.life import rating_life_spectrum
+from loadflow.scene.bearings import FurtherBearing
+from loadflow.scene.friction import Friction
+from loadflow.scene.journal import Journal
+from loadflow.scene.scene import Candidate
+from loadflow.stages.friction import friction_options
+from loadflow.stages.journal import equilibria, shaft_line, surely_touching
+from loadflow.stages.rolling import rest
+from loadflow.studies.compare_margins import largest_factor, lubrication
+
+COARSE = (48, 12)
+"""Cells at most of a film that is solved on the grid."""
+
+FACTORS = np.geomspace(1 / 8, 8, 25)
+"""Factors on the loads among which that is sought with which a film reaches its limit."""
+
+NUMBERS = {
+    "energy": ("MWh", "energy lost a year"),
+    "friction": ("kW", "mean friction loss while it turns"),
+    "load_factor": ("1", "capacity margin: loads may grow by, to the first limit"),
+    "condition": ("1", "smallest ratio of what else is allowed to what is found, 1 at the limit"),
+    "minimum_film": ("m", "smallest film"),
+    "film_pressure": ("Pa", "largest film pressure"),
+    "eccentricity_ratio": ("1", "largest eccentricity ratio"),
+    "oil_flow": ("m^3/s", "mean oil that leaves the film"),
+    "static_safety": ("1", "static rating over the design load"),
+    "contact_pressure": ("Pa", "largest contact pressure"),
+    "rating_life": ("h", "rating life L10h of all bearings"),
+    "modified_life": ("h", "modified life L10mh of all bearings"),
+}
+"""Numbers of a design: units and meaning; NaN of those that its bearings do not have."""
+
+
+@dataclass(frozen=True)
+class DesignPoint:
+    """What is known of a design.
+
+    Attributes
+    ----------
+    numbers : dict
+        Of `NUMBERS`, by name.
+    governs : str
+        The limit that is reached first.
+    lacks : str
+        Which other condition is the nearest, or broken.
+    why : str
+        Why there is no such design; empty if there is.
+    """
+
+    numbers: dict[str, float] = field(default_factory=dict)
+    governs: str = ""
+    lacks: str = ""
+    why: str = ""
+
+    @property
+    def energy(self) -> float:
+        """Energy lost a year, MWh; infinite without an answer."""
+        return self.numbers.get("energy", math.inf)
+
+    @property
+    def load_factor(self) -> float:
+        """Capacity margin; 0 without an answer."""
+        return self.numbers.get("load_factor", 0.0)
+
+    @property
+    def condition(self) -> float:
+        """Ratio of the nearest other condition; 0 without an answer."""
+        return self.numbers.get("condition", 0.0)
+
+
+@dataclass
+class _Sums:
+    """What the bearings of a design add up to."""
+
+    power: float = 0.0
+    flow: float = 0.0
+    turning: float = 0.0
+    margins: dict[str, float] = field(default_factory=dict)
+    conditions: dict[str, float] = field(default_factory=dict)
+    least: dict[str, float] = field(default_factory=dict)
+    most: dict[str, float] = field(default_factory=dict)
+
+    def extreme(self, name: str, value: float) -> None:
+        """Keep the smallest and the largest of a number over the bearings."""
+        self.least[name] = min(self.least.get(name, math.inf), value)
+        self.most[name] = max(self.most.get(name, -math.inf), value)
+
+
+def judge_design(candidate: Candidate, friction: Friction, spectrum: xr.DataTree) -> DesignPoint:
+    """Friction, margin and conditions of a candidate under a load spectrum.
+
+    Parameters
+    ----------
+    candidate : Candidate
+        Its bearings.
+    friction : Friction
+        Oil of rolling bearings.
+    spectrum : xarray.DataTree
+        Of `loadflow.studies.load_spectrum.load_spectrum`, with its places.
+
+    Returns
+    -------
+    DesignPoint
+        One with `why` where a solver has no answer at all.
+    """
+    sums = _Sums()
+    try:
+        if candidate.journal is not None:
+            for place in candidate.journal.bearings:
+                _add_film(sums, candidate.journal.at(place), place, spectrum[place].to_dataset())
+        if candidate.rolling is not None:
+            _add_rolling(sums, candidate.rolling.bearings, friction, spectrum)
+    except (SolverError, InputError) as error:
+        return DesignPoint(why=str(error))
+    seconds = spectrum.attrs["seconds"]
+    numbers = dict.fromkeys(NUMBERS, math.nan) | {
+        "energy": sums.power * seconds / 3.6e9,
+        "friction": sums.power / 1e3 / max(sums.turning, 1e-300),
+        "load_factor": min(sums.margins.values(), default=math.nan),
+        "condition": min(sums.conditions.values(), default=math.inf),
+    }
+    numbers |= {n: v for n, v in sums.least.items() if n in ("minimum_film", "static_safety")}
+    peaks = ("film_pressure", "eccentricity_ratio", "contact_pressure")
+    numbers |= {n: v for n, v in sums.most.items() if n in peaks}
+    numbers |= {n: v for n, v in sums.least.items() if n in ("rating_life", "modified_life")}
+    if candidate.journal is not None:
+        numbers["oil_flow"] = sums.flow
+    return DesignPoint(
+        numbers,
+        min(sums.margins, key=lambda name: sums.margins[name], default=""),
+        min(sums.conditions, key=lambda name: sums.conditions[name], default=""),
+    )
+
+
+# --- films ----------------------------------------------------------------------------------------
+
+
+def fast_journal(options: Journal) -> Journal:
+    """A journal bearing at rest by the cheapest model of cells that knows all of it."""
+    still = options.model_copy(update={"motion": "quasi-static"})
+    line = Line(moment=np.zeros((1, 2))) if options.tilt else Line()
+    reduced = still.model_copy(update={"rung": "reduced", "grading": "auto"})
+    if why_not("at_rest", reduced.film_model, options.geometry, line) is None:
+        return reduced
+    around, across = (min(cells) for cells in zip(options.grid, COARSE))
+    return still.model_copy(update={"rung": "grid", "grid": (around, across)})
+
+
+def _add_film(sums: _Sums, options: Journal, place: str, samples: xr.Dataset) -> None:
+    """Add what a journal bearing loses, and how far its limits are."""
+    fast = fast_journal(options)
+    force = samples["force"].transpose("sample", "axis").values
+    speed, weight = samples["speed"].values, samples["weight"].values
+    running = samples["running"].values.astype(bool)
+    touching = surely_touching(fast, force, speed)
+    if touching.all():
+        sums.margins[f"smallest film in {place}"] = float(FACTORS[0])
+        sums.extreme("minimum_film", 0.0)
+        return
+    film = _Films(fast, samples)
+    asked = np.flatnonzero(~touching)
+    answer = film.at(asked)
+    film_of = np.zeros(speed.size)
+    film_of[asked] = np.where(answer.converged, answer.minimum_film, 0.0)
+    own = weight[asked] * answer.converged
+    total = weight.sum() / max(own.sum(), 1e-300)  # those without a film lose as the others do
+    sums.power += total * _mean(answer.friction_power + answer.supply_power, own)
+    sums.flow += total * _mean(answer.side_flow, own)
+    sums.turning = max(sums.turning, float(weight.sum()))
+
+    limits = options.limits
+    judged = np.flatnonzero(running)
+    if judged.size:
+        thin = int(judged[np.argmin(film_of[judged])])
+        sums.margins[f"smallest film in {place}"] = _crossing(
+            film.grown(thin).minimum_film, options.least_film, falls=True
+        )
+        sums.extreme("minimum_film", float(film_of[thin]))
+    pressure = np.where(answer.converged, answer.maximum_pressure, 0.0)
+    hardest = int(asked[np.argmax(pressure)])
+    allowed = _allowed_pressure(options, answer, int(np.argmax(pressure)))
+    sums.margins[f"largest film pressure in {place}"] = _crossing(
+        film.grown(hardest).maximum_pressure, allowed, falls=False
+    )
+    sums.extreme("film_pressure", float(pressure.max()))
+    _film_conditions(sums, options, place, samples, answer, asked)
+    if options.heat is not None:
+        warm = float(np.nanmax(answer.temperature))
+        sums.conditions[f"temperature of the film in {place}"] = limits.oil_temperature / warm
+
+
+class _Films:
+    """Films of a bearing under the samples of a spectrum."""
+
+    def __init__(self, options: Journal, samples: xr.Dataset) -> None:
+        self.options, self.samples = options, samples
+        self._grown: dict[int, Any] = {}
+
+    def at(self, index: np.ndarray, factor: np.ndarray | float = 1.0) -> Any:
+        """Equilibria of some samples with factors on their loads."""
+        some = self.samples.isel(sample=index)
+        force = some["force"].transpose("sample", "axis").values
+        force = force * np.reshape(factor, (-1, 1)) if np.ndim(factor) else force * factor
+        return equilibria(
+            self.options, force, some["speed"].values, **shaft_line(self.options, some)
+        )
+
+    def grown(self, sample: int) -> Any:
+        """Equilibria of one sample with all `FACTORS` on its load."""
+        if sample not in self._grown:
+            self._grown[sample] = self.at(np.full(FACTORS.size, sample), FACTORS)
+        return self._grown[sample]
+
+
+def _mean(values: np.ndarray, weight: np.ndarray) -> float:
+    return float((np.where(weight > 0, values, 0.0) * weight).sum())
+
+
+def _crossing(values: np.ndarray, limit: float, falls: bool) -> float:
+    """Factor of `FACTORS` at which a value reaches its limit, between them in straight lines."""
+    distance = np.log(np.maximum(values, 1e-300) / limit)
+    distance = np.where(np.isfinite(distance), distance if falls else -distance, -np.inf)
+    bad = np.flatnonzero(distance < 0)
+    if bad.size == 0:
+        return float(FACTORS[-1])
+    k = int(bad[0])
+    if k == 0:
+        return float(FACTORS[0])
+    if not np.isfinite(distance[k]):
+        return float(FACTORS[k - 1])
+    share = distance[k - 1] / (distance[k - 1] - distance[k])
+    return float(FACTORS[k - 1] * (FACTORS[k] / FACTORS[k - 1]) ** share)
+
+
+def _allowed_pressure(options: Journal, answer: Any, worst: int) -> float:
+    coldest = options.limits.material[0][0]
+    kelvin = float(answer.temperature[worst]) if options.heat is not None else coldest
+    return options.limits.pressure_at(kelvin)
+
+
+def _film_conditions(
+    sums: _Sums, options: Journal, place: str, samples: xr.Dataset, answer: Any, asked: np.ndarray
+) -> None:
+    """ε and So in power production, as the verdicts of a run hold them against their limits."""
+    limits = options.limits
+    running = samples["running"].values.astype(bool)[asked] & answer.converged
+    if not running.any():
+        return
+    ratio = float(answer.eccentricity_ratio[running].max())
+    sums.extreme("eccentricity_ratio", ratio)
+    if math.isfinite(options.critical_eccentricity_ratio):
+        critical = options.critical_eccentricity_ratio
+        sums.conditions[f"eccentricity ratio in {place}"] = critical / ratio
+    number = answer.sommerfeld_number[running]
+    some = samples.isel(sample=asked[running])
+    radial = np.hypot(*some["force"].sel(axis=["y", "z"]).transpose("axis", "sample").values)
+    per_load = float(np.median(number * np.abs(some["speed"].values) / np.maximum(radial, 1e-300)))
+    means = samples["load_per_speed"].values
+    means = per_load * means[np.isfinite(means)]
+    low, high = limits.sommerfeld_range
+    peak = max(float(number.max()), 1e-300)
+    sums.conditions[f"largest Sommerfeld number in {place}"] = limits.sommerfeld_peak / peak
+    if means.size:
+        sums.conditions[f"most mean Sommerfeld number in {place}"] = high / means.max()
+        if low > 0:
+            sums.conditions[f"least mean Sommerfeld number in {place}"] = means.min() / low
+
+
+# --- rolling bearings -----------------------------------------------------------------------------
+
+
+def _add_rolling(
+    sums: _Sums, parts: Mapping[str, FurtherBearing], friction: Friction, spectrum: xr.DataTree
+) -> None:
+    """Add what the rolling bearings lose, and how far their limits are."""
+    lives: list[_Turned] = []
+    for place, part in parts.items():
+        samples = spectrum[place].to_dataset()
+        turned = _Turned.of(part, samples, friction)
+        lives.append(turned)
+        sums.power += turned.power
+        sums.turning = max(sums.turning, float(turned.weight.sum()))
+        sums.extreme("contact_pressure", turned.pressure)
+        safety = _static(part, samples)
+        sums.extreme("static_safety", safety)
+        sums.margins[f"static rating of {place}"] = safety / part.limits.static_safety
+        sums.margins[f"rating life of {place}"] = (turned.hours() / part.limits.life) ** (
+            1 / part.geometry.life_exponent
+        )
+        sums.margins[f"modified life of {place}"] = largest_factor(
+            lambda f, turned=turned, part=part: turned.modified(f) >= part.limits.life
+        )
+    slope = min(part.geometry.weibull_slope for part in parts.values())
+
+    def together(hours: Iterator[float]) -> float:
+        return float(system_life(np.array([*hours]), slope))
+
+    rating = together(one.hours() for one in lives)
+    modified = together(one.modified(1.0) for one in lives)
+    sums.extreme("rating_life", rating)
+    sums.extreme("modified_life", modified)
+    if len(lives) > 1:
+        limit = max(part.limits.life for part in parts.values())
+        sums.margins["rating life of all bearings"] = largest_factor(
+            lambda f: together(one.hours(f) for one in lives) >= limit
+        )
+        sums.margins["modified life of all bearings"] = largest_factor(
+            lambda f: together(one.modified(f) for one in lives) >= limit
+        )
+
+
+@dataclass(frozen=True)
+class _Turned:
+    """A rolling bearing under the loads of a lifetime."""
+
+    bearing: RollingBearing
+    load: np.ndarray
+    speed: np.ndarray
+    weight: np.ndarray
+    oil: Any
+    power: float
+    pressure: float
+
+    @classmethod
+    def of(cls, part: FurtherBearing, samples: xr.Dataset, options: Friction) -> _Turned:
+        used = samples.isel(sample=np.flatnonzero(samples["weight"].values > 0))
+        force, moment, speed, weight = (
+            used[name].transpose("sample", ...).values
+            for name in ("force", "moment", "speed", "weight")
+        )
+        answer = rest(part, force, moment, strict=False)
+        if not np.all(answer.converged):
+            raise SolverError("no equilibrium of a rolling bearing under a load of the spectrum")
+        lost = answer.friction(speed, friction_options(options, part.geometry))
+        return cls(
+            part.geometry, answer.equivalent_load, speed, weight, lubrication(options),
+            float((lost.power * weight).sum()), float(answer.maximum_pressure.max()),
+        )  # fmt: skip
+
+    @property
+    def _per_hour(self) -> float:
+        """Revolutions in an hour of the lifetime."""
+        return float((np.abs(self.speed) * self.weight).sum() / (2 * np.pi) * 3600)
+
+    def hours(self, factor: float = 1.0) -> float:
+        """Rating life, h, with a factor on all loads."""
+        turns = np.abs(self.speed) * self.weight
+        life = rating_life_spectrum(
+            self.bearing.rated_capacity, factor * self.load, turns, self.bearing.life_exponent
+        )
+        return float(life) * 1e6 / self._per_hour
+
+    def modified(self, factor: float) -> float:
+        """Modified life, h, with a factor on all loads."""
+        found = modified_spectrum_life(
+            self.bearing, factor * self.load, self.speed, self.oil, self.weight
+        )
+        return float(found.life) * 1e6 / self._per_hour
+
+
+def _static(part: FurtherBearing, samples: xr.Dataset) -> float:
+    """Static rating over the hardest design loads."""
+    ultimate = samples["ultimate"].values.astype(bool)
+    some = samples.isel(sample=np.flatnonzero(ultimate)) if ultimate.any() else samples
+    factor = some["load_factor"].values[:, None]
+    force, moment = (
+        factor * some[name].transpose("sample", "axis").values for name in ("force", "moment")
+    )
+    answer = rest(part, force, moment, strict=False)
+    return float(np.where(answer.converged, answer.static_safety, 0.0).min())
+
+
+def to_columns(points: list[DesignPoint]) -> dict[str, np.ndarray]:
+    """Numbers and words of designs by name."""
+    numbers = {
+        name: np.array([one.numbers.get(name, math.nan) for one in points], float)
+        for name in NUMBERS
+    }
+    words = {
+        one.name: np.array([getattr(point, one.name) for point in points], str)
+        for one in fields(DesignPoint)
+        if one.name != "numbers"
+    }
+    return numbers | words
+
+
+def from_columns(columns: Mapping[str, Any]) -> list[DesignPoint]:
+    """The inverse of `to_columns`."""
+    words = [one.name for one in fields(DesignPoint) if one.name != "numbers"]
+    count = len(columns["why"])
+    return [
+        DesignPoint(
+            {} if columns["why"][k] else {name: float(columns[name][k]) for name in NUMBERS},
+            **{word: str(columns[word][k]) for word in words},
+        )
+        for k in range(count)
+    ]

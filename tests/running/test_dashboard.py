@@ -1,0 +1,102 @@
+"""The dashboard on a run: what it draws, and that a browser shows it without a network."""
+
+import asyncio
+import re
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from synthetic import cube_file
+
+from loadflow.errors import InputError
+from loadflow.running.dashboard import RunView, application
+from loadflow.running.runner import run
+from loadflow.scene.scene import make_scene
+
+pytest.importorskip("panel", reason="panel is not installed (extra view)")
+browser = pytest.importorskip("browser", reason="needs tornado, which comes with panel")
+
+
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("run")
+    cube = cube_file(folder / "loads.h5", wind_speeds=(8.0, 12.0), seeds=(1,), steps=60)
+    scene = make_scene(
+        {
+            "name": "seen",
+            "accuracy": "given",
+            "results": ["journal.film", "rolling.loads"],
+            "loads": {"files": [str(cube)]},
+            "shaft": {"two_point": {}, "moment": {}},
+            "journal": {"grid": [24, 8], "bearings": ["N"]},
+            "rolling": {"arrangement": "tapered-pair"},
+        }
+    )
+    return run(scene, out=folder, report=False)
+
+
+def test_it_finds_what_the_run_has(finished):
+    view = RunView(finished.path)
+    assert len(view.cases) == 2
+    assert view.bearings() == ["N"]
+    assert {"speed", "hub_moment.y", "force.N.z"} <= set(view.channels())
+    assert {row["verdict"] for row in view.verdicts()} <= {
+        "holds", "broken", "no limit", "not answered",
+    }  # fmt: skip
+    assert {"loads", "journal"} <= {row["stage"] for row in view.models()}
+
+
+def test_it_draws_the_numbers_of_the_run(finished):
+    view = RunView(finished.path)
+    case = view.cases[0]
+    drawn = view.load_figure(case, "speed").axes[0].lines[0].get_ydata()
+    assert np.allclose(drawn, view.series(case)["speed"] * 30 / np.pi)
+    film = view.part("journal", case)["N"]
+    ratio = view.film_figure(case, "N").axes[0].lines[0].get_ydata()
+    assert np.allclose(ratio, film["eccentricity_ratio"], equal_nan=True)
+    assert view.orbit_figure(case, "N") is not None
+    assert view.film_figure(case, "N2") is None
+    forces = view.rolling_figure(case).axes[0].lines[0].get_ydata()
+    assert np.allclose(forces, view.part("rolling", case)["maximum_force"] / 1e3)
+
+
+def test_a_folder_that_is_no_run_is_refused(tmp_path):
+    with pytest.raises(InputError, match=r"manifest\.json"):
+        application(tmp_path)
+
+
+@pytest.mark.browser
+@pytest.mark.skipif(browser.BROWSER is None, reason="no Chromium on this machine")
+def test_a_browser_shows_verdicts_and_figures_and_follows_a_choice(finished, tmp_path):
+    server = subprocess.Popen(
+        [sys.executable, "-u", "-m", "loadflow.cli", "view", str(finished.path), "--no-browser"],
+        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+    )  # fmt: skip
+    try:
+        address = _line(server, r"http://127\.0\.0\.1:\d+/")
+        asyncio.run(_look(address, tmp_path / "profile"))
+        assert _line(server, "a browser shows it")
+    finally:
+        server.kill()
+        server.wait(20)
+
+
+def _line(server, pattern):
+    """What the server says that matches; others of its lines are passed over."""
+    said = []
+    for line in server.stdout:
+        said.append(line)
+        if found := re.search(pattern, line):
+            return found[0]
+    raise AssertionError("".join(said))
+
+
+async def _look(address, profile):
+    async with browser.Browser(profile) as page:
+        await page.open(address)
+        await page.shows("load case", "dlc1.1_v8_s1", "dlc1.1_v12_s1", "smallest film")
+        await page.open(f"{address}?tab=2&case=dlc1.1_v12_s1")
+        text = await page.shows("bearing", "picture")
+        assert text.count("picture") >= 2  # the film over time, and the orbit
+        assert page.console == []

@@ -1,0 +1,238 @@
+"""Results that show themselves: figures, tables for notebooks, rooms, the accessor of cubes."""
+
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+import xarray as xr
+from scipy.integrate import trapezoid
+from synthetic import case
+
+import loadflow as lf
+from loadflow import plots
+from loadflow.cube import make_cube
+from loadflow.errors import InputError
+from loadflow.journal import JournalBearing, Lubricant, ThrustBearing
+from loadflow.journal.film_model import Film
+from loadflow.quantities import FILM, ROLLING
+from loadflow.reduction import damage_equivalent_load
+from loadflow.report import figures
+from loadflow.rolling import BallBearing, RollerBearing, SlewingBearing
+from loadflow.studies.statistics import statistic_records
+
+BEARING = JournalBearing(diameter=0.2, width=0.1, relative_clearance=1e-3)
+OIL = Lubricant(0.05)
+ROLLERS = RollerBearing(
+    rollers=14, roller_diameter=11e-3, roller_length=11e-3, pitch_diameter=60.5e-3
+)
+BALLS = BallBearing(balls=9, ball_diameter=11e-3, pitch_diameter=46e-3, groove_radius=0.52 * 11e-3)
+RING = SlewingBearing(
+    balls=40, rows=2, ball_diameter=0.04, pitch_diameter=1.0, groove_radius=0.0208,
+    contact_angle=0.785,
+)  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def field():
+    return BEARING.pressure((7e-5, 3e-5), 50.0, OIL, grid=(36, 8))
+
+
+@pytest.fixture(scope="module")
+def speeds():
+    return BEARING.equilibrium((5e3, 0.0), [40.0, 60.0, 90.0], OIL, grid=(36, 8))
+
+
+# --- figures --------------------------------------------------------------------------------------
+
+
+def test_the_gap_of_a_cylinder_is_the_closed_form(field):
+    closed = BEARING.clearance - 7e-5 * np.cos(field.angle) - 3e-5 * np.sin(field.angle)
+    # within a cell of 10° the gap is curved
+    assert np.allclose(field.gap, closed[:, None], rtol=5e-3)
+    assert field.to_dataset()["gap"].attrs == FILM["gap"].attributes
+
+
+def test_a_field_draws_pressure_and_gap_as_they_are(field):
+    drawing = field.plot()
+    unwrapped, around, gap = (axis for axis in drawing.axes if axis.get_label() != "<colorbar>")
+    mesh = unwrapped.collections[0]
+    assert mesh.get_array().max() == pytest.approx(field.pressure.max() / 1e6)
+    middle = np.argmin(np.abs(field.z))
+    drawn = around.lines[0].get_ydata()
+    assert drawn.max() == pytest.approx(field.pressure[:, middle].max() / 1e6)
+    assert gap.lines[0].get_ydata().min() == pytest.approx(field.gap[:, middle].min() * 1e6)
+
+
+def test_equilibria_draw_their_coefficients_over_speed(speeds):
+    left, right = speeds.plot().axes
+    names = [line.get_label() for line in left.lines]
+    assert names == ["Kxx", "Kxy", "Kyx", "Kyy"]
+    assert np.allclose(left.lines[0].get_ydata(), speeds.stiffness[:, 0, 0] / 1e9)
+    assert np.allclose(right.lines[3].get_ydata(), speeds.damping[:, 1, 1] / 1e9)
+
+
+def test_loads_draw_their_places_in_the_clearance_circle():
+    state = BEARING.equilibrium([[5e3, 0.0], [8e3, 0.0]], 50.0, OIL, grid=(36, 8))
+    axis = state.plot().axes[0]
+    places = axis.collections[0].get_offsets()
+    assert np.allclose(np.hypot(*places.T), state.eccentricity_ratio)
+
+
+def test_an_orbit_lies_in_the_circle_of_its_clearance():
+    time = np.linspace(0, 0.05, 20)
+    path = BEARING.orbit(time, [[5e3, 0.0]] * 20, 100.0, Film(OIL, rung="reduced", inlet=None))
+    places = plots.orbit(path).axes[0].collections[0].get_offsets()
+    assert np.allclose(np.hypot(*places.T), path["eccentricity_ratio"])
+
+
+def test_a_stribeck_curve_is_drawn_with_its_minimum():
+    about = {"units": "1", "long_name": "x"}
+    curve = xr.Dataset(
+        {"friction_coefficient": ("speed", [0.1, 0.01, 0.02], about),
+         "contact_share": ("speed", [0.9, 0.1, 0.0], about), "minimum_speed": 1.0},
+        {"speed": [0.1, 1.0, 10.0]},
+    )  # fmt: skip
+    axis, share = plots.stribeck(curve).axes
+    assert axis.lines[1].get_xdata()[0] == 1.0
+    assert share.lines[0].get_ydata()[0] == 0.9
+
+
+def test_two_speeds_at_least():
+    with pytest.raises(InputError, match="two speeds"):
+        plots.coefficients([1.0], np.ones((1, 2, 2)), np.ones((1, 2, 2)))
+
+
+@pytest.mark.parametrize("bearing", [ROLLERS, BALLS, RING])
+def test_forces_on_elements_are_drawn_at_their_azimuth(bearing):
+    force = (2e3, 1e3, 0.0) if bearing is not RING else (2e4, 1e4, 5e4)
+    state = bearing.equilibrium(force=[force, force])
+    axis = state.plot(1).axes[0]
+    theta, drawn = axis.lines[0].get_data()
+    groups = state.element_forces[1].reshape(-1, theta.size - 1)
+    assert np.allclose(drawn[:-1], groups[0] / 1e3)
+    hardest = theta[np.argmax(drawn)]
+    if bearing is not RING:
+        apart = np.angle(np.exp(1j * (hardest - np.arctan2(1e3, 2e3))))
+        assert abs(apart) <= np.pi / (theta.size - 1) + 1e-9
+
+
+@pytest.mark.parametrize("bearing", [ROLLERS, BALLS])
+def test_pressures_of_elements_are_those_of_hertz(bearing):
+    state = bearing.equilibrium(force=(2e3, 0.0, 0.0))
+    assert state.element_pressure.max() == pytest.approx(float(state.maximum_pressure))
+    exponent = {3: 1 / 3, 2: 1 / 2}[bearing.static_exponent]
+    force = state.contact_forces.max(axis=0)
+    k, other = np.argsort(force)[-1], np.argsort(force)[-3]
+    ratio = state.element_pressure[other] / state.element_pressure[k]
+    assert ratio == pytest.approx((force[other] / force[k]) ** exponent)
+    drawn = state.plot(what="pressure").axes[0].lines[0].get_ydata()
+    assert np.allclose(drawn[:-1], state.element_pressure / 1e6)
+
+
+def test_the_report_draws_with_the_public_figures():
+    forces = np.arange(16.0).reshape(2, 2, 4) * 1e3
+    worst = xr.Dataset(
+        {"ball_forces": (("row", "diagonal", "ball"), forces, {"units": "N"})},
+        {"ball_angle": ("ball", np.arange(4) * np.pi / 2)},
+    )
+    left, right = figures.ball_ring(worst).axes
+    assert [line.get_label() for line in left.lines] == ["diagonal 1", "diagonal 2"]
+    assert np.allclose(right.lines[1].get_ydata()[:-1], forces[1, 1] / 1e3)
+
+
+# --- tables for notebooks -------------------------------------------------------------------------
+
+
+def test_a_result_shows_its_quantities_with_units(speeds, field):
+    text = speeds._repr_html_()
+    for name in ("minimum_film", "friction_power", "stiffness"):
+        assert FILM[name].meaning in text
+    assert ">µm<" in text
+    assert ">l/min<" in text
+    assert f"{float(speeds.friction_power[1]) / 1e3:.4g}" in text
+    assert FILM["temperature"].meaning not in text  # a film without heat has none
+    assert "<table" in field._repr_html_()
+
+
+def test_rolling_bearings_and_pads_show_themselves_as_well():
+    text = ROLLERS.equilibrium(force=(2e3, 0.0, 0.0))._repr_html_()
+    assert ROLLING["maximum_pressure"].meaning in text
+    assert ">MPa<" in text
+    pads = ThrustBearing(
+        pads=6, inner_radius=0.5, outer_radius=1.0, pad_angle=0.785, taper=1e-4, wedge=0.75
+    )
+    shown = pads.pressure(gap=1e-4, speed=10.0, film=Film(lubricant=OIL))._repr_html_()
+    assert "minimum film thickness" in shown
+
+
+# --- rooms ----------------------------------------------------------------------------------------
+
+
+def test_rooms_are_there_after_one_import():
+    code = (
+        "import sys, loadflow as lf;"
+        "rooms = {'journal', 'rolling', 'wind', 'seeds', 'plots', 'cube'};"
+        "print(rooms <= set(dir(lf)), 'numba' in sys.modules, lf.journal.JournalBearing.__name__)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.split() == ["True", "False", "JournalBearing"]
+
+
+@pytest.mark.parametrize("order", ["import loadflow, xarray", "import xarray, loadflow"])
+def test_datasets_have_the_accessor_whoever_comes_first(order):
+    code = f"{order}; print(xarray.Dataset.lf.__name__, 'numba' in __import__('sys').modules)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.split()[0] == "LoadflowAccessor"
+
+
+# --- accessor -------------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def cube():
+    return make_cube([case(8.0, 1), case(12.0, 1)])
+
+
+def test_statistics_of_the_accessor_are_those_of_the_command(cube):
+    found = cube.lf.statistics()
+    for record in statistic_records(cube):
+        own = found.sel(case=record["case"], channel=record["component"])
+        for name in ("mean", "std", "max"):
+            assert own.sel(statistic=name).item() == record[name]
+        assert own["units"].item() == record["units"]
+
+
+def test_equivalent_loads_are_those_of_the_series(cube):
+    found = cube.lf.del_("hub_moment.y", m=[4.0, 10.0])
+    assert found.dims == ("case", "channel", "m")
+    series = cube["hub_moment"].sel(axis="y").isel(case=1).values
+    length = series.size * 0.25
+    expected = damage_equivalent_load(series, [4.0, 10.0], length)
+    assert np.allclose(found.isel(case=1, channel=0), expected)
+    assert np.allclose(cube.lf.del_("hub_moment.y").squeeze("m"), found.sel(m=4.0))
+
+
+def test_a_spectrum_holds_the_variance_of_the_series(cube):
+    found = cube.lf.spectrum("hub_moment")
+    assert found["frequency"].attrs["units"] == "Hz"
+    for axis in ("y", "z"):
+        series = cube["hub_moment"].sel(axis=axis).isel(case=0)
+        density = found.sel(channel=f"hub_moment.{axis}").isel(case=0)
+        power = trapezoid(density, density["frequency"])
+        assert power == pytest.approx(float(series.var()), rel=0.25)  # windows of a short series
+
+
+def test_a_cube_draws_its_channels(cube):
+    drawing = cube.lf.plot("speed", "hub_moment.y")
+    assert [axis.get_ylabel() for axis in drawing.axes] == ["speed,\n1/min", "hub_moment.y,\nMN m"]
+
+
+def test_a_channel_that_is_not_there_is_named(cube):
+    with pytest.raises(InputError, match="hub_torque"):
+        cube.lf.statistics("hub_torque")
+
+
+def test_the_accessor_is_that_of_the_package(cube):
+    assert type(cube.lf).__module__ == "loadflow.studies.accessor"
+    assert lf.cube.open_cube is lf.open_cube
