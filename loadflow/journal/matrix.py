@@ -44,8 +44,8 @@ class Part:
     line: dict[str, Any] = field(default_factory=dict)
 
 
-BEARING = {"diameter": 0.2, "width": 0.1, "relative_clearance": 1e-3}
-FILM = {
+BEARING: dict[str, Any] = {"diameter": 0.2, "width": 0.1, "relative_clearance": 1e-3}
+FILM: dict[str, Any] = {
     "lubricant": Lubricant(0.03), "edge_pressure": 1.5e5, "grid": (36, 8), "inlet": None,
     "grading": "uniform",
 }  # fmt: skip
@@ -84,7 +84,8 @@ PARTS: dict[str, Part] = _LAWS | {
 
 def asked(names: Iterable[str], rung: str) -> tuple[Film, JournalGeometry, dict[str, Any]]:
     """Film, bearing and arguments of the verbs with the parts of these names."""
-    film, bearing, line = FILM | {"cavitation": _MIXTURE}, dict(BEARING), {}
+    film, bearing = FILM | {"cavitation": _MIXTURE}, dict(BEARING)
+    line: dict[str, Any] = {}
     for name in names:
         part = PARTS[name]
         film, bearing, line = film | part.film, bearing | part.bearing, line | part.line
@@ -95,7 +96,7 @@ def refused(names: Iterable[str], rung: str, occasion: str) -> str | None:
     """Why parts do not go together on a rung at rest, in motion or on a closed path; or None."""
     film, bearing, line = asked(names, rung)
     verb, steps = OCCASIONS[occasion]
-    rows = {name: np.array([values]) for name, values in line.items()}
+    rows: dict[str, Any] = {name: np.array([values]) for name, values in line.items()}
     return why_not(verb, film, bearing, Line(**rows), steps)
 
 

@@ -303,7 +303,9 @@ def follow(
     """
     force = to_film(bearing["force"].transpose("time", "axis").values.astype(float))
     time, speed = (loads[name].values.astype(float) for name in ("time", "speed"))
-    lying = {name: to_film(vectors) for name, vectors in shaft_line(options, bearing).items()}
+    lying: dict[str, Any] = {
+        name: to_film(vectors) for name, vectors in shaft_line(options, bearing).items()
+    }
     return options.geometry.orbit(time, force, speed, options.film_model, start=start, **lying)
 
 

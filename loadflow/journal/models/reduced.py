@@ -118,7 +118,7 @@ def orbit(
     time, force, speed = (np.array(values) for values in (time, force, speed))
     if composed.composes(options, line):
 
-        def begin() -> Array:
+        def first_position() -> Array:
             """First position (4,) by the grid."""
             first = grid.equilibrium(
                 bearing, options.isothermal(), force[:1], speed[:1], line.at(np.array([0])),
@@ -129,7 +129,9 @@ def orbit(
             place[2:] = first["tilt"][0] * unit if not line.straight else 0.0
             return place
 
-        values = composed.orbit(bearing, options, time, force, speed, line, control, steps, begin)
+        values = composed.orbit(
+            bearing, options, time, force, speed, line, control, steps, first_position
+        )
         return orbit_dataset(values, time, force, speed, bearing.clearance)
     film = _film(bearing, options, speed)
     film.raise_scale(float(np.hypot(*force.T).max()) / (bearing.width * bearing.diameter))
