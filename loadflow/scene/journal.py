@@ -171,9 +171,7 @@ class Journal(Section, BaseModel):
 
     @model_validator(mode="after")
     def _a_model_that_knows_the_film(self) -> Self:
-        film, heat = self.film_model, self.heat
-        if self.in_motion and heat is not None and not heat.over_area:
-            film = film.isothermal()  # at the one temperature of its series
+        film = self.film_model
         verb: Verb = "in_motion" if self.in_motion else "at_rest"
         line = Line(moment=np.zeros((1, 2))) if self.tilt else Line()
         why = why_not(verb, film, self.geometry, line)

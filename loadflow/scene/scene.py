@@ -196,6 +196,15 @@ class Scene(Section, BaseModel):
         return self
 
     @model_validator(mode="after")
+    def _yaw_bearings_swing(self) -> Self:
+        part = self.rolling.bearings.get("Y")
+        if part is not None and part.oscillation is None:
+            raise ValueError("rolling bearing Y: the yaw bearing swings; give its oscillation")
+        if self.wants("journal") and "Y" in self.journal.bearings:
+            raise ValueError("journal.bearings = 'Y': the yaw bearing is a rolling bearing")
+        return self
+
+    @model_validator(mode="after")
     def _candidates_have_places(self) -> Self:
         for name, candidate in self.candidates.items():
             for place in candidate.places:

@@ -12,7 +12,7 @@ import xarray as xr
 from loadflow.scene.cases import Case
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
-from loadflow.shaft import Concept, CoupledBearing, coupled_loads
+from loadflow.shaft import Concept, CoupledBearing, coupled_loads, yaw_loads
 from loadflow.shaft import bearing_loads as reactions
 from loadflow.stages.labelling import labelled
 from loadflow.stages.stage import STEPS_PER_CASE, Measured, Rungs, Stage, always, steps_of
@@ -46,6 +46,8 @@ def bearing_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Datase
     parts = [
         _suspended(scene, concept, force, moment, speed, tilt) for concept in scene.shaft.concepts
     ]
+    if scene.shaft.yaw is not None:
+        parts.append(yaw_loads(scene.shaft.yaw, force, moment, tilt=tilt))
     joined = xr.concat(parts, "bearing", combine_attrs="drop_conflicts").assign_attrs(_worst(parts))
     return joined.assign_coords(time=series["time"]).astype("float32")
 
@@ -156,9 +158,16 @@ _TOLD = {
 
 
 def _described(scene: Scene) -> str:
+<<<<<<< HEAD
+    concepts = scene.shaft.suspensions.items()
+    words = [f"{name}, beam" if concept.beam else name for name, concept in concepts]
+    names = "+".join([*words, *(["yaw"] if scene.shaft.yaw else [])])
+    supports = [f"{name} {support.stiffness}" for name, support in scene.shaft.seated.items()]
+=======
     concepts = ((name, concept) for name, concept in scene.shaft if concept)
     names = "+".join(f"{name}, beam" if concept.beam else name for name, concept in concepts)
     supports = [f"{name} {support.stiffness}" for name, support in scene.shaft.coupled.items()]
+>>>>>>> contract
     return f"{names}, iterated with {', '.join(supports)}" if supports else names
 
 

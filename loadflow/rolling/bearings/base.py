@@ -72,7 +72,7 @@ class RollingEquilibrium(ContactResult[Kind]):
         return self.elements
 
     def ring_displacement(self, ring: Literal["inner", "outer"]) -> Array:
-        """Displacement (r, θ, z) of a flexible ring's raceway patches, m, (..., *groups, ball, 3).
+        """Displacement (r, θ, z) of a flexible ring's raceway patches, m, (…, groups, ball, 3).
 
         Raises
         ------

@@ -80,7 +80,7 @@ def _centrifugal(at: Situation) -> Sizes:
     for name, part in at.scene.rolling.bearings.items():
         bearing: Any = part.geometry
         load = at.bearings[name]
-        if bearing.element != "ball":
+        if bearing.element != "ball" or part.oscillation is not None:
             continue
         mass = STEEL_DENSITY * np.pi / 6 * bearing.ball_diameter**3
         force = mass * bearing.pitch_diameter / 2 * (at.speed / 2) ** 2

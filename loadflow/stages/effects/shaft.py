@@ -25,7 +25,7 @@ def _rigid(scene: Scene, on: bool) -> Scene | None:
         return scene if all(c.beam is not None for c in scene.shaft.concepts) else None
     stiff = {
         name: replace(concept, beam=None)
-        for name, concept in scene.shaft
+        for name, concept in scene.shaft.suspensions.items()
         if concept is not None
         and not any(support in scene.shaft.coupled for support in concept.bearings)
     }
@@ -50,7 +50,7 @@ def _given(scene: Scene, on: bool) -> Scene | None:
         return scene if scene.shaft.coupled else None
     held = {
         name: replace(concept, beam=concept.beam.on_rigid_bearings())
-        for name, concept in scene.shaft
+        for name, concept in scene.shaft.suspensions.items()
         if concept is not None and concept.beam is not None
     }
     return scene.model_copy(update={"shaft": scene.shaft.model_copy(update=held)})
