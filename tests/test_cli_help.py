@@ -46,7 +46,8 @@ def test_help_keeps_what_stands_in_brackets(capsys, monkeypatch):
 def test_completion_is_written_for_the_shell(shell, tmp_path):
     away = {"HOME": str(tmp_path), "_TYPER_COMPLETE_TEST_DISABLE_SHELL_DETECTION": "1"}
     done = subprocess.run(
-        [sys.executable, "-c", "from loadflow.cli import main; main()", "--install-completion", shell],
+        [sys.executable, "-c", "from loadflow.cli import main; main()",
+         "--install-completion", shell],
         capture_output=True, text=True, check=False, env=os.environ | away,
     )  # fmt: skip
     assert done.returncode == 0, done.stderr

@@ -1,10 +1,6 @@
 """What a campaign of many load cases takes: time by phase and stage, memory of the parent, files.
 
-<<<<<<< HEAD
-python -m benchmarks.robustness.scale [--cases 300 1000 3000] [--workers 2] [--results RESULT …]
-=======
 python -m benchmarks.robustness.scale [--cases 300 1000] [--workers 2] [--results NAME …]
->>>>>>> contract
 
 Series of made-up loads of 600 s at 20 Hz would measure the stages; what grows with the number of
 cases is measured with short ones (`--steps`), so that what surrounds a case is not hidden by it.

@@ -158,16 +158,10 @@ _TOLD = {
 
 
 def _described(scene: Scene) -> str:
-<<<<<<< HEAD
     concepts = scene.shaft.suspensions.items()
     words = [f"{name}, beam" if concept.beam else name for name, concept in concepts]
     names = "+".join([*words, *(["yaw"] if scene.shaft.yaw else [])])
-    supports = [f"{name} {support.stiffness}" for name, support in scene.shaft.seated.items()]
-=======
-    concepts = ((name, concept) for name, concept in scene.shaft if concept)
-    names = "+".join(f"{name}, beam" if concept.beam else name for name, concept in concepts)
     supports = [f"{name} {support.stiffness}" for name, support in scene.shaft.coupled.items()]
->>>>>>> contract
     return f"{names}, iterated with {', '.join(supports)}" if supports else names
 
 
