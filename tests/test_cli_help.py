@@ -45,9 +45,9 @@ def test_help_keeps_what_stands_in_brackets(capsys, monkeypatch):
 @pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
 def test_completion_is_written_for_the_shell(shell, tmp_path):
     away = {"HOME": str(tmp_path), "_TYPER_COMPLETE_TEST_DISABLE_SHELL_DETECTION": "1"}
+    code = "from loadflow.cli import main; main()"
     done = subprocess.run(
-        [sys.executable, "-c", "from loadflow.cli import main; main()",
-         "--install-completion", shell],
+        [sys.executable, "-c", code, "--install-completion", shell],
         capture_output=True, text=True, check=False, env=os.environ | away,
     )  # fmt: skip
     assert done.returncode == 0, done.stderr

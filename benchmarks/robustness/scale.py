@@ -1,6 +1,6 @@
 """What a campaign of many load cases takes: time by phase and stage, memory of the parent, files.
 
-python -m benchmarks.robustness.scale [--cases 300 1000] [--workers 2] [--results NAME …]
+python -m benchmarks.robustness.scale [--cases 300 1000 3000] [--workers 2] [--results RESULT …]
 
 Series of made-up loads of 600 s at 20 Hz would measure the stages; what grows with the number of
 cases is measured with short ones (`--steps`), so that what surrounds a case is not hidden by it.
@@ -9,7 +9,6 @@ Each size runs in a process of its own; what is printed is a row of docs/scale.m
 
 from __future__ import annotations
 
-import argparse
 import json
 import os
 import resource
@@ -134,7 +133,7 @@ def main() -> None:
     parser.add_argument("--workers", type=int, default=1)
     parser.add_argument("--results", nargs="+", default=["reduction.histogram"])
     parser.add_argument("--page", action="store_true")
-    parser.add_argument("--here", action="store_true", help=argparse.SUPPRESS)
+    parser.add_argument("--here", action="store_true", help="in this process")
     chosen = parser.parse_args()
     if chosen.here:
         [cases] = chosen.cases
