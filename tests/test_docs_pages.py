@@ -72,7 +72,11 @@ def test_the_names_of_a_page_exist(page):
     assert names - words() == set()
 
 
-@pytest.mark.parametrize("page", [*PAGES, "docs/glossary.md", "docs/errata.md", "README.md"])
+DOCS = [path.relative_to(ROOT).as_posix() for path in (ROOT / "docs").rglob("*.md")]
+LINKED = ["README.md", "CONTRIBUTING.md", *DOCS]
+
+
+@pytest.mark.parametrize("page", sorted(LINKED))
 def test_the_links_of_a_page_lead_somewhere(page):
     links = re.findall(r"\]\(([^)#]+)\)", text_of(page))
     here = (ROOT / page).parent

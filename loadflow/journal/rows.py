@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from loadflow.journal.film._kernels import HINV, HM
+from loadflow.journal.film._kernels import COS, HM, SIN
 from loadflow.journal.film.groove_pressure import UNSUPPLIED
 from loadflow.journal.film.integrals import summary
 from loadflow.journal.geometry import JournalGeometry
@@ -101,12 +101,11 @@ def field_row(film: DiscreteFilm, solution: Solution) -> dict[str, Any]:
 
 def _mean_gap(film: DiscreteFilm, shape: tuple[int, ...]) -> Array:
     """Mean gap of the cells, m, where the film was last placed."""
-    whole, inverse = (film.gap.coef[row, : shape[0], : shape[1]] for row in (HM, HINV))
-    if film.mesh.polar:  # widths around follow the shaft: ∫h dφ and ∫dφ/h give one without them
-        heights = np.sqrt(whole / inverse)
-    else:
-        heights = whole / np.diff(film.mesh.edges)[:, None]
-    return np.broadcast_to(heights * film.relative_clearance * film.radius, shape)
+    # of each cell ∫h dθ is known, and its arc by ∫cos θ dθ and ∫sin θ dθ
+    coef, (columns, rows) = film.gap.coef, shape
+    arc = np.hypot(coef[COS, :columns, :1], coef[SIN, :columns, :1])
+    heights = coef[HM, :columns, :rows] / arc * film.relative_clearance * film.radius
+    return np.broadcast_to(heights, shape)
 
 
 def _common_row(film: DiscreteFilm, solution: Solution, whirl: float = 0.0) -> dict[str, Any]:
