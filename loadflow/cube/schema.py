@@ -86,7 +86,7 @@ TIME = Variable("s", "time from the start of the series", ("time",))
 def _labelled(data: xr.Dataset) -> tuple[xr.Dataset, list[str]]:
     """Version 1 could leave out what a variable means; the table knows it."""
     told = []
-    for name, known in (VARIABLES | CASE_COORDS | {"time": TIME}).items():
+    for name, known in {**VARIABLES, **CASE_COORDS, "time": TIME}.items():
         if name not in data.variables or not {*data[name].dims} <= {*known.dims}:
             continue
         attributes = data[name].attrs
