@@ -40,6 +40,7 @@ READABLE = {
     "rad/s": (30 / math.pi, "1/min"),
     "rad": (180 / math.pi, "°"),
     "m^3/s": (6e4, "l/min"),
+    "m3/s": (6e4, "l/min"),  # of files of former versions
     "1": (1.0, "–"),
     "": (1.0, "–"),
 }

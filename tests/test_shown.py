@@ -13,13 +13,22 @@ import loadflow as lf
 from loadflow import plots
 from loadflow.cube import make_cube
 from loadflow.errors import InputError
-from loadflow.journal import JournalBearing, Lubricant, ThrustBearing
+from loadflow.journal import (
+    Contact,
+    FilmHeat,
+    JournalBearing,
+    LocalShell,
+    Lubricant,
+    MassConserving,
+    ThrustBearing,
+)
 from loadflow.journal.film_model import Film
 from loadflow.quantities import FILM, ROLLING
 from loadflow.reduction import damage_equivalent_load
 from loadflow.report import figures
 from loadflow.rolling import BallBearing, RollerBearing, SlewingBearing
 from loadflow.studies.statistics import statistic_records
+from loadflow.tribology import AsperityContact
 
 BEARING = JournalBearing(diameter=0.2, width=0.1, relative_clearance=1e-3)
 OIL = Lubricant(0.05)
@@ -48,8 +57,8 @@ def speeds():
 
 def test_the_gap_of_a_cylinder_is_the_closed_form(field):
     closed = BEARING.clearance - 7e-5 * np.cos(field.angle) - 3e-5 * np.sin(field.angle)
-    # within a cell of 10° the gap is curved
-    assert np.allclose(field.gap, closed[:, None], rtol=5e-3)
+    # within a cell of up to 20°, where the gap is wide, it is curved
+    assert np.allclose(field.gap, closed[:, None], rtol=1e-2)
     assert field.to_dataset()["gap"].attrs == FILM["gap"].attributes
 
 
@@ -236,3 +245,26 @@ def test_a_channel_that_is_not_there_is_named(cube):
 def test_the_accessor_is_that_of_the_package(cube):
     assert type(cube.lf).__module__ == "loadflow.studies.accessor"
     assert lf.cube.open_cube is lf.open_cube
+
+
+@pytest.mark.parametrize(
+    "keys",
+    [
+        {"grading": "uniform"},
+        {"grid": (24, 6), "rung": "grid", "inlet": None},
+        {"contact": Contact(AsperityContact(roughness=5e-7, contact_modulus=1e11, factor=1e-3))},
+        {
+            "heat": FilmHeat("iso-vg-68", inlet_temperature=313.15),
+            "cavitation": MassConserving(),
+            "edge_pressure": 1e4,
+        },
+        {"shell": LocalShell(1e-12)},
+    ],
+    ids=["uniform", "coarse", "rough", "warm", "elastic"],
+)
+def test_every_film_knows_its_gap(keys):
+    film = Film(**({"grid": (36, 8)} | ({} if "heat" in keys else {"lubricant": OIL}) | keys))
+    found = BEARING.pressure((7e-5, 3e-5), 50.0, film)
+    closed = BEARING.clearance - 7e-5 * np.cos(found.angle) - 3e-5 * np.sin(found.angle)
+    grown = closed[:, None] + found.deformation
+    assert np.allclose(found.gap, grown, rtol=0.02)

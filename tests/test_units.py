@@ -9,7 +9,7 @@ from loadflow.cube.schema import VARIABLES
 from loadflow.journal import JournalBearing, Lubricant
 from loadflow.journal.pad_results import ThrustResult
 from loadflow.quantities import FILM, ROLLING
-from loadflow.stages import friction, journal, rolling
+from loadflow.stages import film_summary, friction, rolling
 from loadflow.studies.design_point import NUMBERS
 
 pint = pytest.importorskip("pint", reason="pint is not installed (extra test)")
@@ -19,7 +19,7 @@ TABLES = {
     "film": {name: quantity.units for name, quantity in FILM.items()},
     "rolling": {name: quantity.units for name, quantity in ROLLING.items()},
     "cube": {name: variable.units for name, variable in VARIABLES.items()},
-    "journal stage": {name: units for name, (_, units, _) in journal.MEANS.items()},
+    "journal stage": {name: units for name, (_, units, _) in film_summary.MEANS.items()},
     "rolling stage": {name: units for name, (units, _) in (rolling.KEPT | rolling.EACH).items()},
     "friction stage": {name: units for name, (units, _) in friction.KEPT.items()},
     "design": {name: units for name, (units, _) in NUMBERS.items()},

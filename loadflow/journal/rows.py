@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from loadflow.journal.film._kernels import HINV, HM
+from loadflow.journal.film._kernels import COS, HM, SIN
 from loadflow.journal.film.groove_pressure import UNSUPPLIED
 from loadflow.journal.film.integrals import summary
 from loadflow.journal.geometry import JournalGeometry
@@ -58,7 +58,6 @@ def operating_columns(
     position: Array,
 ) -> dict[str, Any]:
     """What `Equilibrium` says of loads (…, 2), speeds (…) and positions (…, 2), in clearances."""
-    number = np.vectorize(bearing.sommerfeld_number, otypes=[float])
     critical = np.full(np.shape(speed), critical_reynolds_number(bearing.relative_clearance))
     reynolds = reynolds_number(bearing, speed, lubricant)
     return {
@@ -66,7 +65,7 @@ def operating_columns(
         "speed": speed,
         "eccentricity": position * bearing.clearance,
         "attitude_angle": attitude_angle(force, position, speed),
-        "sommerfeld_number": number(
+        "sommerfeld_number": bearing.sommerfeld_number(
             np.hypot(force[..., 0], force[..., 1]), speed, lubricant.viscosity
         ),
         "reynolds_number": reynolds,
@@ -84,10 +83,7 @@ def without_supply(count: int) -> dict[str, Any]:
 def field_row(film: DiscreteFilm, solution: Solution) -> dict[str, Any]:
     """One row of `FilmField`, but for z; the half film is mirrored."""
     *cells, angle, load = film.field(solution.u, solution.position)
-    # of each cell ∫h dA and ∫dA/h are known; the root of their ratio is its gap
-    whole, inverse = film.gap.coef[HM, : angle.size], film.gap.coef[HINV, : angle.size]
-    heights = np.sqrt(whole / inverse) * film.relative_clearance * film.radius
-    cells += [film.deformation, np.broadcast_to(heights, cells[0].shape)]
+    cells += [film.deformation, _mean_gap(film, cells[0].shape)]
     if film.mesh.half:
         cells = [np.concatenate([values[:, ::-1], values], axis=1) for values in cells]
     pressure, fill, deformation, gap = cells
@@ -101,6 +97,15 @@ def field_row(film: DiscreteFilm, solution: Solution) -> dict[str, Any]:
         "angle": angle,
         **_common_row(film, solution),
     }
+
+
+def _mean_gap(film: DiscreteFilm, shape: tuple[int, ...]) -> Array:
+    """Mean gap of the cells, m, where the film was last placed."""
+    # of each cell ∫h dθ is known, and its arc by ∫cos θ dθ and ∫sin θ dθ
+    coef, (columns, rows) = film.gap.coef, shape
+    arc = np.hypot(coef[COS, :columns, :1], coef[SIN, :columns, :1])
+    heights = coef[HM, :columns, :rows] / arc * film.relative_clearance * film.radius
+    return np.broadcast_to(heights, shape)
 
 
 def _common_row(film: DiscreteFilm, solution: Solution, whirl: float = 0.0) -> dict[str, Any]:

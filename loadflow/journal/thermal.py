@@ -69,7 +69,8 @@ def warm_film(
         A load without a film, or whose balance lies above 150 °C.
     """
     check_scalable(film)
-    balance = _Balance(at_rest, force, speed, cast("Heat", film.heat), weights)
+    heat = cast("Heat", film.heat)
+    balance = _Balance(at_rest, force, speed, heat, weights)
     warmth = balance.solve(tolerance, max_iterations)
     state = balance.film(warmth.temperature, np.arange(speed.size))
     found = state["converged"] & (warmth.residual <= tolerance)
@@ -80,7 +81,7 @@ def warm_film(
             f"balance below {HOTTEST} K; at {warmth.temperature[worst]:.4g} K it is off by "
             f"{warmth.residual[worst]:.2g} K"
         )
-    return warmth.said_of(_where(found, state), film.heat)
+    return warmth.said_of(_where(found, state), heat)
 
 
 @dataclass(frozen=True)

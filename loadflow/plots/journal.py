@@ -89,8 +89,10 @@ def clearance_circle(place: ArrayLike, film: ArrayLike | None = None) -> Figure:
     circle = np.linspace(0, 2 * np.pi, 181)
     axis.plot(np.cos(circle), np.sin(circle), color="black", lw=1.0, label="contact")
     size = 3 if down.size > 50 else 18
-    points = axis.scatter(left, -down, s=size, c=film, cmap="plasma_r")
-    if film is not None:
+    if film is None:
+        axis.scatter(left, -down, s=size)
+    else:
+        points = axis.scatter(left, -down, s=size, c=film, cmap="plasma_r")
         drawing.colorbar(points, ax=axis, label="smallest film, µm")
     axis.set(aspect="equal", xlabel="lateral / clearance", ylabel="vertical / clearance")
     axis.set_title("shaft centre, seen downwind (left is right of the page)")

@@ -34,7 +34,16 @@ STYLE: Any = {
 
 
 def readable(data: xr.DataArray, units: str | None = None) -> tuple[np.ndarray, str]:
-    """Return values in the unit that is usual in drawings, and that unit."""
+    """Return values in the unit that is usual in drawings, and that unit.
+
+    Examples
+    --------
+    >>> import xarray as xr
+    >>> from loadflow.plots import readable
+    >>> values, unit = readable(xr.DataArray([1e5, 2e5], attrs={"units": "N"}))
+    >>> values.tolist(), unit
+    ([100.0, 200.0], 'kN')
+    """
     factor, unit = READABLE.get(data.attrs.get("units", ""), (1.0, data.attrs.get("units", "–")))
     if units == "µm":
         factor, unit = 1e6, "µm"
@@ -42,7 +51,15 @@ def readable(data: xr.DataArray, units: str | None = None) -> tuple[np.ndarray, 
 
 
 def figure(rows: int = 1, columns: int = 1, height: float = 2.1, **keys: Any) -> tuple[Figure, Any]:
-    """Return a figure of page width in the common style, and its axes."""
+    """Return a figure of page width in the common style, and its axes.
+
+    Examples
+    --------
+    >>> from loadflow.plots import figure
+    >>> drawing, axes = figure(rows=2)
+    >>> axes.shape
+    (2,)
+    """
     with mpl.rc_context(STYLE):
         drawing = Figure(figsize=(9.0, height * rows + 0.4))
         axes = drawing.subplots(rows, columns, **keys)
@@ -63,7 +80,14 @@ def envelope(axis: Axes, x: np.ndarray, y: np.ndarray, label: str, bins: int = 1
 
 
 def to_png(drawing: Figure) -> str:
-    """Return a figure as a ``data:`` address, so that the page needs no other file."""
+    """Return a figure as a ``data:`` address, so that the page needs no other file.
+
+    Examples
+    --------
+    >>> from loadflow.plots import figure, to_png
+    >>> to_png(figure()[0])[:22]
+    'data:image/png;base64,'
+    """
     buffer = io.BytesIO()
     with mpl.rc_context(STYLE):
         drawing.savefig(buffer, format="png", dpi=110)
@@ -71,7 +95,14 @@ def to_png(drawing: Figure) -> str:
 
 
 def to_svg(drawing: Figure) -> str:
-    """Return a figure as an ``<svg>`` element that scales with the page, its text as text."""
+    """Return a figure as an ``<svg>`` element that scales with the page, its text as text.
+
+    Examples
+    --------
+    >>> from loadflow.plots import figure, to_svg
+    >>> to_svg(figure()[0])[:4]
+    '<svg'
+    """
     buffer = io.StringIO()
     with mpl.rc_context({**STYLE, "svg.fonttype": "none", "svg.hashsalt": "loadflow"}):
         drawing.savefig(buffer, format="svg", metadata={"Date": None, "Creator": None})

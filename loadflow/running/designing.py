@@ -36,7 +36,8 @@ from loadflow.running.executor import Executor, Lost, executor
 from loadflow.running.lock import locked
 from loadflow.running.parts import digest_of, is_sound, save_part
 from loadflow.scene.design import Design
-from loadflow.scene.scene import Candidate, Friction, Scene
+from loadflow.scene.friction import Friction
+from loadflow.scene.scene import Candidate, Scene
 from loadflow.storage import write_text
 from loadflow.studies.compare import compared
 from loadflow.studies.compare_result import Judged

@@ -46,7 +46,7 @@ class Journal(Section, BaseModel):
     series, as its loads change faster than a bearing warms. With ``kind = "film"`` an energy
     equation gives every cell of the film at rest its own temperature.
 
-    With ``tilt`` the shaft leans in them as the beam of its suspension does, tilted and bent; if it
+    With ``tilt`` the shaft is tilted and bent in them as the beam of its suspension is; if it
     has none, it tilts freely under the moment that the shaft stage gives. The film is then solved
     over its full width.
 
@@ -171,9 +171,7 @@ class Journal(Section, BaseModel):
 
     @model_validator(mode="after")
     def _a_model_that_knows_the_film(self) -> Self:
-        film, heat = self.film_model, self.heat
-        if self.in_motion and heat is not None and not heat.over_area:
-            film = film.isothermal()  # at the one temperature of its series
+        film = self.film_model
         verb: Verb = "in_motion" if self.in_motion else "at_rest"
         line = Line(moment=np.zeros((1, 2))) if self.tilt else Line()
         why = why_not(verb, film, self.geometry, line)

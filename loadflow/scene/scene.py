@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Annotated, Any, Literal, Self, get_args
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator, model_validator
+from pydantic import BaseModel, Field, ValidationError, field_validator, model_validator
 
 from loadflow.errors import InputError
 from loadflow.journal.line import Line
@@ -32,8 +32,10 @@ from loadflow.scene.messages import message
 from loadflow.scene.own_shaft import taken
 from loadflow.scene.places import places_of
 from loadflow.scene.section import Section, too_large
+from loadflow.scene.series import Reduction, Seeds
 from loadflow.scene.shaft import Shaft
-from loadflow.scene.written import SCENE, anchored, in_sections, named_by_file, origins
+from loadflow.scene.turbine import Turbine
+from loadflow.scene.written import SCENE, anchored, in_sections, origins
 from loadflow.shaft.options import MomentBearing, TwoPoint
 from loadflow.storage import check_name
 from loadflow.turbines import load_turbine, turbine_digest
@@ -58,77 +60,6 @@ USUAL: tuple[Result, ...] = tuple(name for name in get_args(Result) if name not 
 """Results of a scene that names none."""
 
 Positive = Annotated[float, Field(gt=0)]
-
-
-def _with_file(schema: dict[str, Any]) -> None:
-    """Tell editors of the key that stands in place of the name."""
-    schema["properties"]["file"] = {"title": "File", "type": "string"}
-
-
-class Turbine(Section, BaseModel):
-    """The turbine: a name that `loadflow.turbines` knows, or a path to a file.
-
-    ``file`` may stand in place of ``name``: a TOML file of a turbine, or a windIO file (.yaml).
-
-    A name with ``@`` and a power in W, such as ``nrel-5mw@8e6``, is scaled to it by similarity; so
-    is the suspension of the known turbine, where the scene states none. Bearings are not: they are
-    to be sized anew.
-    """
-
-    model_config = ConfigDict(json_schema_extra=_with_file)
-
-    name: str = "nrel-5mw"
-
-    @model_validator(mode="before")
-    @classmethod
-    def _from_file(cls, data: Any) -> Any:
-        return named_by_file(data)
-
-    @field_validator("name")
-    @classmethod
-    def _readable(cls, name: str) -> str:
-        load_turbine(name)
-        return name
-
-
-class Seeds(Section, BaseModel):
-    """Tests of seed equality: level of significance, method, half width of the spectral band."""
-
-    alpha: Annotated[float, Field(gt=0, lt=1)] = 0.05
-    methods: list[Literal["as-printed", "calibrated"]] = ["as-printed", "calibrated"]
-    band: Annotated[float, Field(gt=0, lt=1)] = 0.025
-
-
-class Reduction(Section, BaseModel):
-    """Reduction of each series to design loads.
-
-    ``method = "histogram"`` (quasi-static) keeps a share ``size`` of the samples. One of each class
-    of speed and load is kept at least; ``classes`` is their number along each, that of
-    [Jonuschies 2015] (4.30) if left out.
-
-    ``"stationary"`` takes the mean load at the mean speed, the largest at the lowest, and the
-    instants at which something is extreme. ``"periodic"`` takes the mean, the largest harmonic
-    below the lower of two ``bounds`` (Hz) and ``additional`` ones between them, or those nearest to
-    ``orders`` of the rotor's speed; films are driven round the orbit that closes. Without bounds
-    the film of a journal bearing says them, else they are half the speed and half the sampling
-    rate. Both are chosen by hand: no accuracy can be asked of what they find, so that ``accuracy``
-    is "given".
-    """
-
-    method: Literal["histogram", "stationary", "periodic"] = "histogram"
-    bounds: tuple[Positive, Positive] | None = None
-    additional: Annotated[int, Field(ge=0, le=20)] = 2
-    orders: Annotated[list[Positive], Field(min_length=1)] | None = None
-    size: Annotated[float, Field(gt=0, le=1)] = 0.1
-    classes: Annotated[int, Field(ge=2, le=200)] | None = None
-    pick: Literal["random", "extremes", "envelope"] = "extremes"
-    seed: Annotated[int, Field(ge=0)] = 0
-
-    @model_validator(mode="after")
-    def _bounds_rise(self) -> Self:
-        if self.bounds is not None and self.bounds[0] > self.bounds[1]:
-            raise ValueError(f"bounds = {list(self.bounds)}: the second must be the larger one")
-        return self
 
 
 class Candidate(Section, BaseModel):
@@ -257,7 +188,7 @@ class Scene(Section, BaseModel):
                 why = why_not("in_motion", film, one.geometry, line, steps)
                 if why is not None:
                     raise ValueError(f'reduction.method = "periodic", journal: {why}')
-                if journal.tilt and self.shaft.leans(place):
+                if journal.tilt and self.shaft.bends_at(place):
                     raise ValueError(
                         'reduction.method = "periodic": a closed orbit does not know the tilt of a '
                         "shaft with a beam; leave out journal.tilt or the beam"
@@ -285,9 +216,9 @@ class Scene(Section, BaseModel):
         return self
 
     @model_validator(mode="after")
-    def _seats_have_bearings(self) -> Self:
+    def _supports_have_bearings(self) -> Self:
         there = {"journal": self.journal.bearings, "rolling": [*self.rolling.geometries]}
-        for name, seat in self.shaft.seated.items():
+        for name, seat in self.shaft.coupled.items():
             what = f'shaft: seat of bearing {name} with stiffness = "{seat.stiffness}"'
             have = there[seat.stiffness]
             if name not in have:
@@ -306,10 +237,10 @@ class Scene(Section, BaseModel):
         return self
 
     @model_validator(mode="after")
-    def _leaning_at_rest(self) -> Self:
+    def _tilted_at_rest(self) -> Self:
         journal = self.journal
-        leaning = journal.tilt and any(map(self.shaft.leans, journal.bearings))
-        if leaning and journal.in_motion:
+        tilted = journal.tilt and any(map(self.shaft.bends_at, journal.bearings))
+        if tilted and journal.in_motion:
             raise ValueError(
                 'journal.motion = "transient" does not know the tilt of a shaft with a beam; set '
                 '"quasi-static", or leave out journal.tilt or the beam'

@@ -66,8 +66,8 @@ class Shaft(Section, BaseModel):
         return Shaft(**parts)
 
     @property
-    def seated(self) -> dict[str, BearingSupport]:
-        """Seats, by bearing, whose stiffness comes from a journal or rolling bearing."""
+    def coupled(self) -> dict[str, BearingSupport]:
+        """Supports, by bearing, whose stiffness comes from a journal or rolling bearing."""
         return {
             name: seat
             for concept in self.concepts
@@ -75,6 +75,6 @@ class Shaft(Section, BaseModel):
             if seat.stiffness != "given"
         }
 
-    def leans(self, bearing: str) -> bool:
+    def bends_at(self, bearing: str) -> bool:
         """Whether the shaft is a beam there, so that its tilt in the bearing is known."""
         return any(c.beam is not None and bearing in c.bearings for c in self.concepts)

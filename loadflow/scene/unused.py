@@ -88,7 +88,7 @@ def _all(scene: Scene) -> Iterator[tuple[str, str]]:
 
 
 def _is_read(scene: Scene, section: str) -> bool:
-    supports = {support.stiffness for support in scene.shaft.seated.values()}
+    supports = {support.stiffness for support in scene.shaft.coupled.values()}
     begins = _RESULTS[section]
     return section in supports or any(r.startswith(begins) for r in scene.results)
 
@@ -252,7 +252,7 @@ def _of_journal(scene: Scene) -> Iterator[tuple[str, str]]:
 
 def _tilts(scene: Scene, bearing: str) -> bool:
     moment = scene.shaft.moment
-    return scene.shaft.leans(bearing) or (moment is not None and bearing in moment.bearings)
+    return scene.shaft.bends_at(bearing) or (moment is not None and bearing in moment.bearings)
 
 
 def _starts(dlc: str) -> bool:

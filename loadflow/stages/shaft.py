@@ -55,7 +55,7 @@ def bearing_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Datase
 def _suspended(
     scene: Scene, concept: Concept, force: Floats, moment: Floats, speed: Floats, tilt: float
 ) -> xr.Dataset:
-    supports = {name: s for name, s in scene.shaft.seated.items() if name in concept.bearings}
+    supports = {name: s for name, s in scene.shaft.coupled.items() if name in concept.bearings}
     if not supports:
         return _against_housings(concept, reactions(concept, force, moment, tilt=tilt))
     rigid = reactions(replace(concept, beam=None), force, moment, tilt=tilt)
@@ -161,13 +161,13 @@ def _described(scene: Scene) -> str:
     concepts = scene.shaft.suspensions.items()
     words = [f"{name}, beam" if concept.beam else name for name, concept in concepts]
     names = "+".join([*words, *(["yaw"] if scene.shaft.yaw else [])])
-    supports = [f"{name} {support.stiffness}" for name, support in scene.shaft.seated.items()]
+    supports = [f"{name} {support.stiffness}" for name, support in scene.shaft.coupled.items()]
     return f"{names}, iterated with {', '.join(supports)}" if supports else names
 
 
 def shaft_key(scene: Scene) -> str:
     """Name of the shaft in the ladder: its suspensions, or the bearings it is iterated with."""
-    if not scene.shaft.seated:
+    if not scene.shaft.coupled:
         return _described(scene)
     kinds = {
         f"{support.stiffness}, tilting"
@@ -175,7 +175,7 @@ def shaft_key(scene: Scene) -> str:
         else f"{support.stiffness}, flexible"
         if support.stiffness == "rolling" and scene.rolling.bearings[name].rings == "flexible"
         else support.stiffness
-        for name, support in scene.shaft.seated.items()
+        for name, support in scene.shaft.coupled.items()
     }
     return f"on {'+'.join(sorted(kinds))}"
 
@@ -203,7 +203,7 @@ STAGE = Stage(
     run=bearing_loads,
     needs=always("loads"),
     sections=lambda scene: (
-        ("shaft", "turbine", "journal", "rolling") if scene.shaft.seated else ("shaft", "turbine")
+        ("shaft", "turbine", "journal", "rolling") if scene.shaft.coupled else ("shaft", "turbine")
     ),
     models=(
         Rungs("shaft", section="shaft", key=shaft_key, text=_described, exact=lambda scene: True),

@@ -12,8 +12,9 @@ from pydantic import ValidationError
 
 from loadflow.errors import InputError
 from loadflow.scene.design import Design, Variation
+from loadflow.scene.friction import Friction
 from loadflow.scene.places import JOURNAL, places_of, sections_of
-from loadflow.scene.scene import Candidate, Friction, Scene
+from loadflow.scene.scene import Candidate, Scene
 
 DIGITS = 4
 """Significant digits of a value: drawings have no more."""

@@ -118,11 +118,11 @@ def _parsed(path: Path, time: int, size: int) -> Any:
         """Reads data only; a later anchor of one name replaces the earlier one."""
 
         def compose_node(self, parent: Any, index: Any) -> Any:
-            event = self.peek_event()  # type: ignore[no-untyped-call]
+            event = self.peek_event()
             anchor = getattr(event, "anchor", None)
             if anchor in self.anchors and not isinstance(event, yaml.AliasEvent):
                 del self.anchors[anchor]
-            return super().compose_node(parent, index)  # type: ignore[no-untyped-call]
+            return super().compose_node(parent, index)
 
     try:
         text = path.read_text(encoding="utf-8")
@@ -244,8 +244,8 @@ def _control(
     gear = float(merged.get("drivetrain", {}).get("gear_ratio", 1.0))
     radius, ratio = merged["rotor"].get("radius"), source.number("tip speed ratio")
     rotor_speed = source.number("rated rotor speed")
-    if rotor_speed is None and (tip := source.number("largest tip speed")) and radius:
-        rotor_speed = tip / radius
+    if (tip := source.number("largest tip speed")) and radius:
+        rotor_speed = min(rotor_speed or np.inf, tip / radius)
     lowest = source.number("lowest rotor speed") or None
     power = merged.get("rated_power")
     if rotor_speed is not None:

@@ -16,7 +16,8 @@ _UPPER = [(i, j) for i in range(6) for j in range(i, 6)]
 
 def foil_table(source: Source) -> tuple[dict[str, Any], dict[str, float]]:
     """Polars by name, and the relative thickness of each; angles in radians."""
-    foils, thickness = {}, {}
+    foils: dict[str, Any] = {}
+    thickness: dict[str, float] = {}
     for entry in source.path("airfoils") or []:
         name = str(entry["name"])
         given = entry.get("rthick", entry.get("relative_thickness"))
@@ -134,11 +135,15 @@ def _twisting(matrix: Array) -> tuple[Array, Array]:
 
     The centre is the distance behind the reference axis at which a force across the chord does not
     twist the section. The third diagonal entry of the moments alone is stiffer: it holds the
-    section where the axis is, which need not be the shear centre.
+    section where the axis is, which need not be the shear centre. Files of beams without shear have
+    nothing else.
     """
-    compliance = np.linalg.inv(matrix)
-    stiffness = 1 / compliance[:, 5, 5]
-    return stiffness, compliance[:, 5, 0] * stiffness
+    stiffness, centre = matrix[:, 5, 5].copy(), np.zeros(len(matrix))
+    shears = np.linalg.matrix_rank(matrix) == 6
+    compliance = np.linalg.inv(matrix[shears])
+    stiffness[shears] = 1 / compliance[:, 5, 5]
+    centre[shears] = compliance[:, 5, 0] * stiffness[shears]
+    return stiffness, centre
 
 
 def _quarter_chord_ahead(shape: dict[str, Any], share: Array) -> Array:

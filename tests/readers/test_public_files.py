@@ -23,3 +23,22 @@ def test_public_files_are_read_mapped_or_refused_as_the_table_says():
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     assert done.stdout.count("| read |") + done.stdout.count("| mapped |") == 15
+
+
+@pytest.mark.slow
+def test_public_turbines_hold_their_published_steady_states():
+    clones = os.environ.get("LOADFLOW_CLONES", "")
+    if not clones:
+        pytest.skip("set LOADFLOW_CLONES to a folder for clones of public repositories")
+    from benchmarks.robustness import public_turbines as public
+    from benchmarks.robustness.public_files import clone
+
+    folder = Path(clones).absolute()
+    for one in public.TURBINES:
+        clone(one.repository, folder)
+        assert len(public.missing(one, folder)) >= 3
+        speed, pitch, power, thrust = public.differences(one, public.completed(one, folder), folder)
+        assert abs(speed).max() < 0.05, one.file
+        assert abs(power).max() < 0.06, one.file
+        assert abs(thrust).max() < 0.10, one.file
+        assert abs(pitch).max() < 1.1, one.file

@@ -37,7 +37,6 @@ from loadflow.journal.shells import LinedShell, LocalShell
 from loadflow.journal.solvers.estimate import NEAR, closed_form_position
 from loadflow.journal.solvers.messages import no_equilibrium, not_found
 from loadflow.numerics.convergence import Limits, unresolved
-from loadflow.numerics.fields import require
 
 Array = NDArray[np.float64]
 
@@ -354,8 +353,6 @@ def _share(carried: Array, force: Array) -> Array:
 
 def build(bearing: JournalGeometry, options: Film, speed: Array, line: Line) -> ComposedFilm:
     """Put a film on cells around and points across."""
-    both = options.contact is not None and options.shell is not None
-    require(not both, "contact", options.contact, "None with an elastic shell")
     bare = replace(options, grading="uniform", inlet=None, contact=None, shell=None)
     units = build_film(bearing.diameter, bearing.width, bearing.relative_clearance, bare)
     units.set_scale(float(np.abs(speed).max()))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, Literal, Protocol, cast
@@ -122,6 +123,9 @@ def why_not(
                 f"rung = {rung.name!r} is not allowed: {_having(verb, name)} for "
                 f"{FEATURES[name]}; {name} = {value!r}"
             )
+    for name, value, apart, allowed in _pairs(verb, film, bearing, steps or Steps()):
+        if value is not None and apart:
+            return f"{name} = {value!r} is not allowed: {allowed}"
     if film.heat is not None and film.heat.over_area and not film.law.keeps_mass:
         return f"cavitation = {film.law!r} is not allowed: {_KEEPS_MASS}"
     return None if rung.law is None else _not_its_own(rung, film)
@@ -169,6 +173,28 @@ def _asked(
     if film.grading == "graded" and not own:
         asked["grading"] = film.grading
     return asked
+
+
+def _pairs(
+    verb: Verb, film: Film, bearing: JournalGeometry, steps: Steps
+) -> Iterator[tuple[str, Any, bool, str]]:
+    """What does not go with another part on any rung: name, value, whether that is there, words."""
+    pads = any(part.tilting for part in bearing.shape.segments)
+    over_area = film.heat is not None and film.heat.over_area
+    if verb == "in_motion":
+        yield "shape", bearing.shape.kind, pads, "a fixed bore for an orbit"
+        stored = _kind_of_heat(film, verb) == "slow_heat"
+        yield (
+            "heat",
+            film.heat,
+            stored and bool(steps.periodic),
+            "without capacity on a closed path",
+        )
+    yield "shell", film.shell, pads, "None for pads, whose backs are not held"
+    yield "shell", film.shell, over_area, "None with heat over the area"
+    yield "contact", film.contact, film.shell is not None, "None with an elastic shell"
+    yield "contact", film.contact, pads, "None for pads that tilt"
+    yield "contact", film.contact, over_area, "None with heat over the area"
 
 
 def _kind_of_heat(film: Film, verb: Verb) -> str:

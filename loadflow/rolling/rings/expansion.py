@@ -80,8 +80,7 @@ class ExpansionResult:
     --------
     >>> from loadflow.rolling import RingSections, SlewingBearing, axial_expansion
     >>> bearing = SlewingBearing(balls=24, ball_diameter=0.04, pitch_diameter=0.5,
-    ...     groove_radius=0.0208,
-    ...     contact_angle=0.785)
+    ...     groove_radius=0.0208, contact_angle=0.785)
     >>> rings = RingSections(outer_outside=0.62, outer_inside=0.52, inner_outside=0.48,
     ...     inner_inside=0.38, height=0.08)
     >>> found = axial_expansion(bearing, [5e4, 1e5], rings)
@@ -136,8 +135,7 @@ def axial_expansion(
     --------
     >>> from loadflow.rolling import RingSections, SlewingBearing, axial_expansion
     >>> bearing = SlewingBearing(balls=24, ball_diameter=0.04, pitch_diameter=0.5,
-    ...     groove_radius=0.0208,
-    ...     contact_angle=0.785)
+    ...     groove_radius=0.0208, contact_angle=0.785)
     >>> rings = RingSections(outer_outside=0.62, outer_inside=0.52, inner_outside=0.48,
     ...     inner_inside=0.38, height=0.08)
     >>> soft, rigid = (axial_expansion(bearing, 1e5, rings, flexible=kind) for kind in ("both",

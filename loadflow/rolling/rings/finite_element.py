@@ -44,11 +44,9 @@ class FiniteElementRing(SolidSection):
     --------
     >>> from loadflow.rolling import FiniteElementRing, RingProfile, SlewingBearing
     >>> bearing = SlewingBearing(balls=24, ball_diameter=0.04, pitch_diameter=0.5,
-    ...     groove_radius=0.0208,
-    ...     contact_angle=0.785)
+    ...     groove_radius=0.0208, contact_angle=0.785)
     >>> profile = RingProfile(bearing=bearing, ring="outer", inside=0.51, outside=0.62,
-    ...     bottom=-0.04,
-    ...     top=0.04)
+    ...     bottom=-0.04, top=0.04)
     >>> ring = FiniteElementRing(profile=profile, held="bottom")
     >>> beam = ring.as_beam()
     >>> round(beam.radius, 3)

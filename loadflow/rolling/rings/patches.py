@@ -59,8 +59,7 @@ def patch_points(
     >>> import numpy as np
     >>> from loadflow.rolling import SlewingBearing, patch_points
     >>> bearing = SlewingBearing(balls=24, ball_diameter=0.04, pitch_diameter=0.5,
-    ...     groove_radius=0.0208,
-    ...     contact_angle=0.785)
+    ...     groove_radius=0.0208, contact_angle=0.785)
     >>> azimuth = 2 * np.pi * np.arange(24) / 24
     >>> points = patch_points(bearing, "outer", azimuth)
     >>> type(points).__name__
@@ -101,8 +100,7 @@ def raceway_points(
     --------
     >>> from loadflow.rolling import SlewingBearing, raceway_points
     >>> bearing = SlewingBearing(balls=24, ball_diameter=0.04, pitch_diameter=0.5,
-    ...     groove_radius=0.0208,
-    ...     contact_angle=0.785)
+    ...     groove_radius=0.0208, contact_angle=0.785)
     >>> raceway_points(bearing, "outer").shape
     (1, 2, 24, 3)
     """

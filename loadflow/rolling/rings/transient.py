@@ -141,12 +141,11 @@ def settle(
 
     Examples
     --------
-    >>> from loadflow.rolling import FlexibleRings, Inertia, RingBeam, RingSection,
-    ...     SlewingBearing, Support
+    >>> from loadflow.rolling import FlexibleRings, Inertia, RingBeam, RingSection
+    >>> from loadflow.rolling import SlewingBearing, Support
     >>> from loadflow.rolling import settle
     >>> bearing = SlewingBearing(balls=12, ball_diameter=0.04, pitch_diameter=0.5,
-    ...     groove_radius=0.0208,
-    ...     contact_angle=0.785)
+    ...     groove_radius=0.0208, contact_angle=0.785)
     >>> wall = Support.wall(radius=0.3, height=0.06, thickness=0.03, length=0.3)
     >>> outer = RingBeam(section=RingSection.rectangle(0.05, 0.1), radius=0.3, supports=(wall,))
     >>> rings = FlexibleRings(outer=outer)
