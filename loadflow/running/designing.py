@@ -234,10 +234,10 @@ class _Search:
         batches = [todo[k : k + BATCH] for k in range(0, len(todo), BATCH)]
         work = partial(_judge, problem=self.problem, folder=self.folder)
         answers: dict[int, list[DesignPoint]] = {}
-        for number, answer in self.where.outcomes(work, [*enumerate(batches)]):
-            if isinstance(answer, Lost):
-                raise LoadflowError(f"designs were lost: {answer.reason}")
-            answers[number[0]] = answer
+        for (number, _), judged in self.where.outcomes(work, [*enumerate(batches)]):
+            if isinstance(judged, Lost):
+                raise LoadflowError(f"designs were lost: {judged.reason}")
+            answers[number] = judged
             if stage:
                 done = sum(map(len, answers.values()))
                 self.how.say(stage, done, len(todo))
@@ -419,7 +419,7 @@ def _check(
         if point is None:
             break
         passed.append(point.tobytes())
-        one, friction = told.space.at(point)
+        one, friction = told.space.at(point.tolist())
         key = f"best-{hashlib.sha256(point.tobytes()).hexdigest()[:8]}"
         chosen = {key: one.model_copy(update={"title": "best design"})}
         judged[key], failed = _run(loads, chosen, friction, folder, how)

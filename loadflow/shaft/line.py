@@ -187,7 +187,8 @@ def assembled(
     nodes = _nodes(sorted(marks), line.length / line.elements)
     extra = sum(s.stiffness is not None and any(s.housing) for s in supports)
     size = 4 * len(nodes) + 2 * extra
-    system = System(nodes, *(np.zeros((size, size)) for _ in range(4)))
+    stiffness, mass, damping, gyroscopic = (np.zeros((size, size)) for _ in range(4))
+    system = System(nodes, mass, gyroscopic, stiffness, damping)
     for number, (left, right) in enumerate(pairwise(nodes)):
         middle = (left + right) / 2
         section = next(s for start, stop, s in stretches if start <= middle <= stop)
@@ -219,7 +220,7 @@ def assembled(
             system.stiffness[np.ix_(own, own)] += k
             system.damping[np.ix_(own, own)] += c
             continue
-        moving = np.array([place, place + 1])
+        moving = np.arange(place, place + 2)
         spread = np.zeros((len(k), size))  # motion of the shaft against the housing
         spread[np.arange(len(k)), own] = 1.0
         spread[[0, 1], moving] -= 1.0

@@ -196,7 +196,7 @@ def _moving(options: Journal, bearing: str, loads: xr.Dataset, reactions: xr.Dat
         except SolverError as error:
             raise SolverError(f"bearing {bearing}: {error}") from error
         _take_path(found, path, left)
-        viscosity = options.lubricant.viscosity
+        viscosity = np.asarray(options.lubricant.viscosity)
         if options.heat is not None:
             viscosity = np.asarray(options.heat.liquid.viscosity(path["temperature"].values))
         found["sommerfeld_number"][left] = options.geometry.sommerfeld_number(

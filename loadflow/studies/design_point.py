@@ -304,7 +304,7 @@ def _add_rolling(
             1 / part.geometry.life_exponent
         )
         sums.margins[f"modified life of {place}"] = largest_factor(
-            lambda f, turned=turned, part=part: turned.modified(f) >= part.limits.life
+            partial(_lives, turned, part.limits.life)
         )
     slope = min(part.geometry.weibull_slope for part in parts.values())
 

@@ -35,8 +35,8 @@ def checks() -> Iterator[Check]:
     for i, (expected, ours) in enumerate(zip((54, 37), two.rank_sums), start=1):
         name = f"Siegel-Tukey, R_{i}"
         yield Check(name, source, expected, float(ours), 0.0, "absolute", evidence="another code")
-    for name, expected, got in (("H", 0.51020, two.statistic), ("p", 0.47505, two.pvalue)):
+    for name, theirs, value in (("H", 0.51020, two.statistic), ("p", 0.47505, two.pvalue)):
         yield Check(
-            f"Siegel-Tukey, {name}", source, expected, got, 5e-6, "absolute",
+            f"Siegel-Tukey, {name}", source, theirs, value, 5e-6, "absolute",
             evidence="another code",
         )  # fmt: skip
