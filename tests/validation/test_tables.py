@@ -9,7 +9,6 @@ import pytest
 from loadflow import validation
 from loadflow.validation import _slewing_refused, rings
 
-
 PAGE = Path(__file__).parents[2] / "docs" / "validation.md"
 BEGIN, END = "<!-- counts: begin -->\n", "<!-- counts: end -->"
 
