@@ -114,6 +114,8 @@ def of_class(place, entry):
             lines.append(f"{place}.{name}: key")
         elif name in fields:
             lines.append(f"{place}.{name}: field {of_field(fields[name])}")
+        elif name in getattr(entry, "_fields", ()):
+            lines.append(f"{place}.{name}: field")
         elif isinstance(member, property) or hasattr(member, "attrname"):
             getter = getattr(member, "fget", None) or member.func
             given = inspect.signature(getter).return_annotation

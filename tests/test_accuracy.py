@@ -11,7 +11,7 @@ from loadflow.cli import main
 from loadflow.planning.accuracy import expected_errors
 from loadflow.planning.ladder import expected_seconds, gains, ladder, rung_of
 from loadflow.planning.plan import make_plan
-from loadflow.scene.scene import Scene, make_scene
+from loadflow.scene.scene import BY_NAME, Scene, make_scene
 from loadflow.stages.registry import STAGES, giving
 
 
@@ -36,7 +36,7 @@ def given(cube, **keys):
 def test_every_result_says_which_errors_reach_it():
     scene = Scene(name="all")
     given = [result for stage in STAGES.values() for result in stage.results]
-    assert sorted(given) == sorted(scene.results)
+    assert sorted(given) == sorted([*scene.results, *BY_NAME])
     for result in scene.results:
         links = giving(result).results[result](scene)
         assert all(links.values())

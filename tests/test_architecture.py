@@ -179,6 +179,29 @@ def circles(graph: Graph) -> set[str]:
     return {", ".join(group) for group in short if len(group) > 1}
 
 
+LONGEST = 450
+"""Lines of a file."""
+
+LONGER = {
+    "journal/models/_composed_kernels.py",
+    "running/designing.py",
+    "running/report_page.py",
+    "running/runner.py",
+    "turbines/schema.py",
+}
+"""Known longer files."""
+
+
+def test_files_are_short():
+    """A file is one concept; what is longer is two. Add none to the known ones."""
+    found = {
+        path.relative_to(ROOT).as_posix()
+        for path in modules().values()
+        if len(path.read_text(encoding="utf-8").splitlines()) > LONGEST
+    }
+    assert found - LONGER == set()
+
+
 CALLED_BY_OTHERS = {"emit", "handleError", "on_end", "on_start"}
 """Methods that logging and numba call, by names that they chose."""
 

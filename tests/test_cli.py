@@ -95,6 +95,20 @@ def test_an_unknown_command_is_bad_usage():
     assert loadflow("walk").returncode == 2
 
 
+def test_validate_counts_its_numbers_by_what_they_are_held_against():
+    done = loadflow("validate", "seeds", "--summary", "--json")
+    found = json.loads(done.stdout)
+    assert list(found) == ["another code", "print of the source"]
+    assert all(count["ok"] > 0 and count["out"] == 0 for count in found.values())
+
+
+def test_validate_shows_only_what_failed():
+    done = loadflow("validate", "shaft", "--failed")
+    assert done.returncode == 0
+    assert "hardens" not in done.stdout
+    assert "closed form" in done.stdout  # of the counts
+
+
 def test_an_unknown_table_lists_the_known_ones():
     done = loadflow("validate", "magic")
     assert done.returncode == 2

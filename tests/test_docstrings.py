@@ -1,4 +1,4 @@
-"""The examples in all docstrings are true, and public names without one only become fewer."""
+"""Every public name has an example in its docstring, and all of them are true."""
 
 import ast
 import doctest
@@ -56,129 +56,14 @@ def without_example():
     return {name for name, entry in public() if ">>>" not in (inspect.getdoc(entry) or "")}
 
 
-def test_a_new_public_name_has_an_example():
-    assert without_example() - WITHOUT == set()
+def test_every_public_name_has_an_example():
+    assert without_example() == set()
 
 
-def test_the_list_of_names_without_an_example_only_becomes_shorter():
-    assert WITHOUT - without_example() == set(), "take these out of the list"
-
-
-WITHOUT: set[str] = {
-    "cube.checks.check_case",
-    "cube.export.export_cube",
-    "cube.files.open_cube",
-    "cube.schema.Variable",
-    "journal.aliases.WarmFilm",
-    "journal.aliases.warm_equilibrium",
-    "journal.grid_error.GridError",
-    "journal.pad_results.ConicalResult",
-    "journal.pad_results.PadResult",
-    "journal.pad_results.PairResult",
-    "journal.pad_results.ThrustResult",
-    "journal.results.WarmEquilibrium",
-    "readers.bladed.read_bladed",
-    "readers.csv_text.read_csv",
-    "readers.doubts.find_doubts",
-    "readers.gtsdf.read_gtsdf",
-    "readers.hawc2.read_hawc2",
-    "readers.loads.read_loads",
-    "readers.openfast.read_openfast",
-    "readers.registry.Reader",
-    "report.page.Picture",
-    "report.page.Section",
-    "report.page.Table",
-    "report.page.write_page",
-    "rolling.bearings.arrangements.BearingLife",
-    "rolling.bearings.arrangements.SpectrumLife",
-    "rolling.bearings.arrangements.arrangement_lives",
-    "rolling.bearings.arrangements.modified_spectrum_life",
-    "rolling.bearings.base.RollingBearing",
-    "rolling.edge_contact.EdgeContact",
-    "rolling.former_names.bearing_modification",
-    "rolling.former_names.static_capacity",
-    "rolling.friction.bearing.BearingFriction",
-    "rolling.friction.catalogue.SkfConstants",
-    "rolling.friction.catalogue.skf_torque",
-    "rolling.friction.contact_films.ContactFilm",
-    "rolling.friction.contact_films.groove_film",
-    "rolling.friction.contact_films.line_film",
-    "rolling.friction.contact_films.sphere_film",
-    "rolling.friction.energy.EnergyAudit",
-    "rolling.friction.energy.RollerState",
-    "rolling.friction.energy.roller_torques",
-    "rolling.friction.heat.HeatBalance",
-    "rolling.friction.heat.balanced_temperature",
-    "rolling.friction.roller_drag.DragConstants",
-    "rolling.friction.roller_drag.RibShear",
-    "rolling.friction.roller_drag.RollerGaps",
-    "rolling.friction.roller_drag.coulomb_drag_constants",
-    "rolling.friction.roller_drag.drag_constants",
-    "rolling.friction.roller_drag.rib_shear",
-    "rolling.friction.rolling_resistance.elastic_force",
-    "rolling.friction.rolling_resistance.hydrodynamic_force",
-    "rolling.rating.modified_life.LifeModification",
-    "rolling.rating.static.verdicts",
-    "rolling.rings.beam.RingBeam",
-    "rolling.rings.condensed.FlexibleRings",
-    "rolling.rings.dynamics.craig_bampton",
-    "rolling.rings.dynamics.natural_frequencies",
-    "rolling.rings.expansion.ExpansionResult",
-    "rolling.rings.expansion.RingSections",
-    "rolling.rings.expansion.axial_expansion",
-    "rolling.rings.finite_element.FiniteElementRing",
-    "rolling.rings.given.CompliantRing",
-    "rolling.rings.given.guyan",
-    "rolling.rings.patches.patch_points",
-    "rolling.rings.patches.raceway_points",
-    "rolling.rings.profile.RingProfile",
-    "rolling.rings.reference.reference_equilibrium",
-    "rolling.rings.section.RingSection",
-    "rolling.rings.section.Support",
-    "rolling.rings.section.legs",
-    "rolling.rings.solid.SolidRing",
-    "rolling.rings.transient.Inertia",
-    "rolling.rings.transient.Transient",
-    "rolling.rings.transient.settle",
-    "rotor.options.RotorOptions",
-    "rotor.simulation.simulate_condition",
-    "running.runner.run",
-    "scene.cases.Case",
-    "scene.journal.Journal",
-    "scene.scene.Scene",
-    "scene.scene.with_loads",
-    "seeds.grouping.Grouping",
-    "seeds.joint.JointEquality",
-    "seeds.spectra.SpectralDifference",
-    "seeds.sufficiency.Equivalence",
-    "seeds.verdict.Stage",
-    "shaft.coupled.CoupledBearing",
-    "shaft.coupled.coupled_loads",
-    "tribology.hertz.LineContact",
-    "tribology.hertz.PointContact",
-    "tribology.wear.WearLaw",
-    "turbines.schema.Airfoil",
-    "turbines.schema.Blade",
-    "turbines.schema.Control",
-    "turbines.schema.Drivetrain",
-    "turbines.schema.Mode",
-    "turbines.schema.RotorGeometry",
-    "turbines.schema.Supervision",
-    "turbines.schema.Turbine",
-    "turbines.tower.Tower",
-    "turbines.tower.TowerBending",
-    "wind.bladed_box.read_bladed_box",
-    "wind.box.Box",
-    "wind.bts.read_bts",
-    "wind.bts.write_bts",
-    "wind.coherence.PointGrid",
-    "wind.coherence.PolarGrid",
-    "wind.expansion.Condition",
-    "wind.field.Field",
-    "wind.hawc2_box.read_hawc2_box",
-    "wind.inflow.coherence_factors",
-    "wind.inflow.inflow",
-    "wind.inflow.transient",
-    "wind.mann.mann_box",
-}
-"""Known ones. Take out what gets an example; add none."""
+def test_a_name_without_an_example_is_seen(monkeypatch):
+    """The list must be able to grow: a class that says nothing."""
+    entries = list(public())
+    monkeypatch.setattr(
+        f"{__name__}.public", lambda: [*entries, ("mine.Silent", type("S", (), {}))]
+    )
+    assert without_example() == {"mine.Silent"}

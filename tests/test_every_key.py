@@ -82,6 +82,11 @@ BASES = {
     },
     "three points": {"shaft": {"three_point": {}}, "journal": FILM},
     "integrated": {"shaft": {"integrated": {}}, "journal": FILM},
+    "yaw": {
+        "shaft": {"two_point": {}, "yaw": {}}, "results": ["rolling.life"],
+        "rolling": {"bearing": "Y", "geometry": BALLS, "oscillation": {
+            "amplitude": 0.5, "frequency": 0.01, "idle_torque": 10.0}},
+    },
     "direct drive": {"shaft": {"direct_drive": {}}, "journal": FILM},
 }  # fmt: skip
 
@@ -108,6 +113,7 @@ READERS = {
     "tapered rollers": ("rolling", "friction"),
     "three points": ("shaft",),
     "integrated": ("shaft",),
+    "yaw": ("shaft", "rolling"),
     "direct drive": ("shaft",),
 }
 """Sections that are walked over in each scene; the first five have the loads in every guise."""
@@ -152,6 +158,9 @@ OTHERS = {
     "shaft.integrated": [{}],
     "shaft.direct_drive": [{}],
     "shaft.moment": [{}],
+    "shaft.yaw": [{}],
+    "rolling.oscillation": [{"amplitude": 0.1, "frequency": 0.1}],
+    "rolling.oscillation.mounting": ["pitch", "yaw, four-leg tower"],
     "shaft.two_point.beam": [{}],
     "shaft.two_point.beam.seats": [[{"radial": 1e9}, {}]],
     "shaft.three_point.beam": [{}],

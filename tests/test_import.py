@@ -14,3 +14,11 @@ def test_importing_the_package_loads_no_heavy_library():
         [sys.executable, "-c", code], capture_output=True, text=True, check=True
     )
     assert result.stdout.strip() == "[]"
+
+
+def test_importing_the_package_takes_less_than_0_3_s_of_processor_time():
+    code = "from time import process_time as t; a = t(); import loadflow; print(t() - a)"
+    result = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True
+    )
+    assert float(result.stdout) < 0.3

@@ -126,7 +126,12 @@ def test_an_unknown_turbine_is_named(name):
 
 def test_wind_speeds_may_reach_the_bounds_of_the_turbine():
     machine = load_turbine("nrel-5mw")
-    make_scene({"loads": {"wind_speeds": [machine.cut_in, machine.cut_out]}})
+    ends = [machine.cut_in, machine.cut_out]
+    cases = list_cases(make_scene({"loads": {"wind_speeds": ends}}))
+    assert {case.wind_speed for case in cases} == set(ends)
+    for beyond in (machine.cut_in - 0.5, machine.cut_out + 0.5):
+        with pytest.raises(InputError, match=rf"wind_speeds.*{beyond:g}"):
+            list_cases(make_scene({"loads": {"wind_speeds": [beyond]}}))
 
 
 def test_without_results_a_shaft_is_asked_only_for_what_it_has():

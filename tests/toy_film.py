@@ -18,7 +18,7 @@ from loadflow.journal.cavitation import (
     CavitationLaw,
     P,
 )
-from loadflow.journal.results import operating_columns, without_supply
+from loadflow.journal.rows import operating_columns, without_supply
 from loadflow.journal.rungs import Rung
 
 

@@ -26,7 +26,7 @@ from benchmarks.ladder.measuring import (
     sentence,
     with_ratios,
 )
-from benchmarks.ladder.supports import measure_seats
+from benchmarks.ladder.supports import measure_supports
 from loadflow.cube import make_cube, save_cube
 from loadflow.reduction import damage_equivalent_load
 from loadflow.scene.cases import list_cases
@@ -198,7 +198,7 @@ def measure_shaft(bench: Bench) -> Rungs:
         f"; if both bearings resist tilting with {TILTING:.0e} N m/rad, bearing load max ≤ "
         f"{percent(off)} against the beam"
     )
-    return with_ratios(found | measure_seats(bench), "two_point+moment")
+    return with_ratios(found | measure_supports(bench), "two_point+moment")
 
 
 def _across(force: xr.DataArray) -> np.ndarray:

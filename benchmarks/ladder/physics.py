@@ -4,7 +4,7 @@
 asks the plan of ten scenes what it keeps, ``runs`` makes small whole runs from the coarsest models
 to all that there is and holds their answers against the last. What is measured is kept beside the
 page in ``docs/figures/physics.json``, so that each part may be measured alone; without a part the
-page is written anew from there.
+page is written anew from there: ``python -m benchmarks.ladder.physics [sizes] [scenes] [runs]``.
 """
 
 from __future__ import annotations

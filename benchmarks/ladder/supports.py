@@ -4,7 +4,7 @@ python -m benchmarks.ladder.supports [--speed 12]
 
 One case of DLC 1.1, 600 s. The table for docs/shaft.md: largest loads of a suspension whose bearing
 takes a moment, by a rigid shaft, on rigid bearings, on the best fixed numbers (the bearing's own
-stiffness at its mean load) and iterated. `measure_seats` is the part of the ladder.
+stiffness at its mean load) and iterated. `measure_supports` is the part of the ladder.
 """
 
 from __future__ import annotations
@@ -69,7 +69,7 @@ def scene_of(
 
 def models(scene: Scene, name: str, speed: np.ndarray, thrust: np.ndarray) -> Any:
     """The bearing's own model."""
-    seat = scene.shaft.seated[name]
+    seat = scene.shaft.coupled[name]
     if seat.stiffness == "journal":
         return film_seat.film_model(scene.journal, speed, tilting=seat.takes_moment)
     part = scene.rolling.bearings[name]
@@ -86,7 +86,7 @@ def solved(scene: Scene, loads: xr.Dataset, found: xr.Dataset, some: np.ndarray)
             speed,
             found["force"].sel(bearing=name, axis="x").values[some].astype(float),
         )
-        for name in scene.shaft.seated
+        for name in scene.shaft.coupled
     }
     hub = (loads[n].values.astype(float)[:, some] for n in ("hub_force", "hub_moment"))
     return suspended(scene.shaft.concepts[0], *hub, tilt=tilt_of(scene), models=own, tolerance=1e-8)
@@ -98,7 +98,7 @@ def tilt_of(scene: Scene) -> float:
     return load_turbine(scene.turbine.name).rotor.tilt
 
 
-def measure_seats(bench: Bench) -> Rungs:
+def measure_supports(bench: Bench) -> Rungs:
     """Entries of the ladder, by the kinds of bearing that the shaft is iterated with."""
     case = bench.middle
     parts = {"loads": bench.series[case]["loads"]}
@@ -128,7 +128,7 @@ def _entry(scene: Scene, case: Case, parts: dict[str, xr.Dataset], seconds: floa
         where = f"{label(case)}, t = {found['time'].values[some[worst]]:.0f} s"
         errors.add(quantity, where, ours[..., worst], theirs[..., worst], abs(theirs).max())
     summary = errors.summary()
-    with_film = any(seat.stiffness == "journal" for seat in scene.shaft.seated.values())
+    with_film = any(seat.stiffness == "journal" for seat in scene.shaft.coupled.values())
     film = {"film": rung_key(scene, "journal")} if with_film else {}
     return {
         **film,
@@ -175,7 +175,7 @@ def _beam(concept: str, seats: list[dict[str, Any]]) -> dict[str, Any]:
 
 def numbers(scene: Scene, loads: xr.Dataset, found: xr.Dataset, name: str) -> dict[str, float]:
     """Stiffness of a bearing at its mean load, the same in both directions."""
-    if name not in scene.shaft.seated:
+    if name not in scene.shaft.coupled:
         return {}
     one = found.sel(bearing=name).mean("time")
     force, moment = (one[n].values[None].astype(float) for n in ("force", "moment"))
@@ -204,7 +204,7 @@ def main() -> None:
     case, parts = next(iter(bench.series.items()))
     for text in compare(bench, case, parts["loads"]):
         print(text, flush=True)
-    for name, entry in measure_seats(bench).items():
+    for name, entry in measure_supports(bench).items():
         print(f"{name}: {entry['seconds_per_case']} s; {entry['error']}; {entry['cases']}")
 
 

@@ -3,8 +3,8 @@
 In pairs, so that the noise of the winds drops out: each seed has one fine field of our own, on
 33 × 33 points over 145 × 145 m. It is passed through the grid of their wind (17 × 17 points, every
 0.05 s, linear interpolation), made with v and w of each point by itself, and met by the rotor with
-one switch of its model changed at a time. Printed: ratio of the measures to those of the fine field and
-the default rotor, mean over the seeds with its standard error; with a folder of OpenFAST series
+one switch of its model changed at a time. Printed: ratio of the measures to those of the fine field
+and the default rotor, mean over the seeds with its standard error; with a folder of OpenFAST series
 also the ratio of each to those.
 Run: python -m benchmarks.references.suspects [--wind 24] [--seeds 6] [--folder FOLDER]
 """

@@ -135,14 +135,17 @@ GROUPS: dict[str, Callable[[], dict[str, np.ndarray]]] = {
 }
 
 
-def computed(environment: dict[str, str]) -> dict[str, dict[str, np.ndarray]]:
-    """All groups, in a process of its own with its own cache of kernels."""
+def computed(
+    environment: dict[str, str], groups: list[str], python: str = sys.executable
+) -> dict[str, dict[str, np.ndarray]]:
+    """Groups of results, in a process of its own with its own cache of kernels."""
     with tempfile.TemporaryDirectory() as folder:
         given = {"OPENBLAS_NUM_THREADS": "1"} | environment
         if environment:
             given["NUMBA_CACHE_DIR"] = folder
         results = os.path.join(folder, "results")
-        command = [sys.executable, "-m", "benchmarks.robustness.reproducibility", results]
+        command = [python, "-m", "benchmarks.robustness.reproducibility", results]
+        command += ["--groups", *groups]
         subprocess.run(command, check=True, cwd=ROOT, env=os.environ | given)
         with open(results, "rb") as file:
             return dict(pickle.load(file))
@@ -153,22 +156,36 @@ def main() -> None:
     warnings.simplefilter("ignore")
     parser = arguments(__doc__)
     parser.add_argument("results", nargs="?", help="compute here, and keep the results there")
-    if keep := parser.parse_args().results:
-        with open(keep, "wb") as file:
-            pickle.dump({name: group() for name, group in GROUPS.items()}, file)
+    parser.add_argument("--groups", nargs="+", choices=GROUPS, default=[*GROUPS])
+    parser.add_argument("--python", help="another interpreter, in place of another processor")
+    chosen = parser.parse_args()
+    if chosen.results:
+        with open(chosen.results, "wb") as file:
+            pickle.dump({name: GROUPS[name]() for name in chosen.groups}, file)
         return
-    here, again, plain = computed({}), computed({}), computed(PLAIN)
+    here = computed({}, chosen.groups)
+    if chosen.python:
+        other = computed({}, chosen.groups, chosen.python)
+        for name, values in here.items():
+            print(f"{name}: {chosen.python}: {_said(values, other[name])}")
+        return
+    again, plain = computed({}, chosen.groups), computed(PLAIN, chosen.groups)
     for name, values in here.items():
-        same = all(np.array_equal(v, again[name][k], equal_nan=True) for k, v in values.items())
-        moved = {}
-        for key, value in values.items():
-            other = plain[name][key]
-            lost = int((np.isnan(value) != np.isnan(other)).sum())
-            scale = np.nanmax(np.abs(value)) or 1.0
-            moved[key] = np.inf if lost else float(np.nanmax(np.abs(value - other)) / scale)
-        worst = max(moved, key=moved.__getitem__)
-        bits = "same bits" if same else "OTHER BITS"
-        print(f"{name}: {bits} again here; plain processor: {moved[worst]:.1e} ({worst})")
+        print(f"{name}: again here: {_said(values, again[name])}")
+        print(f"{name}: plain processor: {_said(values, plain[name])}")
+
+
+def _said(values: dict[str, np.ndarray], others: dict[str, np.ndarray]) -> str:
+    """Whether the bits are the same, or the largest difference."""
+    if all(np.array_equal(v, others[k], equal_nan=True) for k, v in values.items()):
+        return "same bits"
+    moved = {}
+    for key, value in values.items():
+        lost = int((np.isnan(value) != np.isnan(others[key])).sum())
+        scale = np.nanmax(np.abs(value)) or 1.0
+        moved[key] = np.inf if lost else float(np.nanmax(np.abs(value - others[key])) / scale)
+    worst = max(moved, key=moved.__getitem__)
+    return f"OTHER BITS, at most {moved[worst]:.1e} of the largest value ({worst})"
 
 
 if __name__ == "__main__":

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
+from io import TextIOWrapper
 
 from typer.models import CommandInfo
 
@@ -49,8 +50,35 @@ loadflow journal --help
 """
 
 
+EXAMPLE = {
+    "run": "loadflow run scene.toml --loads 'path/to/*.outb'",
+    "plan": "loadflow plan scene.toml --pilot",
+    "compare": "loadflow compare scene.toml --candidate two-spherical",
+    "design": "loadflow design scene.toml --candidate journal-cylindrical --margin 1.1",
+    "init": "loadflow init dlc_1_1 -o my_turbine.toml",
+    "scene": "loadflow scene --show scene.toml",
+    "list": "loadflow list oils",
+    "report": "loadflow report runs/quick_look",
+    "view": "loadflow view runs/quick_look",
+    "convert": "loadflow convert 'path/to/*.outb' -o loads.h5",
+    "loads": "loadflow loads --dlc 1.1 --wind-speed 8 --wind-speed 12 -o loads.h5",
+    "statistics": "loadflow statistics loads.h5 -o statistics",
+    "seeds": "loadflow seeds loads.h5 -o seeds.html",
+    "reduce": "loadflow reduce loads.h5 -o reduced --method periodic",
+    "lifetime": "loadflow lifetime loads.h5 -o lifetime",
+    "journal": "loadflow journal --diameter 1.2 --width 1 --relative-clearance 1e-3 "
+    "--viscosity 0.2 --force-x 1e6 --speed-rpm 12",
+    "rolling": "loadflow rolling --balls 60 --ball-diameter 0.06 --pitch-diameter 2.4 "
+    "--groove-radius 0.0315 --force-z 1e6 --moment-y 1e6",
+    "wind": "loadflow wind 12",
+    "validate": "loadflow validate journal --failed",
+    "bench": "loadflow bench journal",
+}
+"""What the help of each command ends with."""
+
+
 def _in_groups() -> None:
-    """Order the commands of the help, `run` first, and head each group."""
+    """Order the commands of the help, `run` first, head each group, and give each its example."""
     order = [name for names in GROUPS.values() for name in names]
     group_of = {name: group for group, names in GROUPS.items() for name in names}
 
@@ -59,6 +87,7 @@ def _in_groups() -> None:
 
     for command in app.registered_commands:
         command.rich_help_panel = group_of.get(name_of(command), "More")
+        command.epilog = f"Example: {EXAMPLE[name_of(command)]}"
     app.registered_commands.sort(
         key=lambda c: order.index(name_of(c)) if name_of(c) in order else len(order)
     )
@@ -79,6 +108,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     arguments : sequence of str, optional
         What follows the name of the program; default: the arguments of the process.
     """
+    _print_on_any_code_page()
     try:
         with stoppable():
             app(arguments)
@@ -91,6 +121,13 @@ def main(arguments: Sequence[str] | None = None) -> None:
     except Stopped as stop:
         tell_stopped(stop.number)
         leave(stop.code)
+
+
+def _print_on_any_code_page() -> None:
+    """What a code page lacks (ε, ≤) is escaped as TOML and JSON do, instead of an error."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, TextIOWrapper):
+            stream.reconfigure(errors="backslashreplace")
 
 
 def _plain(error: Exception) -> str:

@@ -25,7 +25,6 @@ app = typer.Typer(
     help="From wind and load series to the main bearing of a wind turbine.",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
-    add_completion=False,
 )
 
 

@@ -38,8 +38,7 @@ def compare(
 ) -> None:
     """Journal or rolling? Compare bearings for the same places under the same loads.
 
-    The candidates are those of the scene, or those that are sized for its turbine. Example:
-    loadflow compare scene.toml
+    The candidates are those of the scene, or those that are sized for its turbine.
     """
     from loadflow.running.comparison import compare as carry_out
     from loadflow.running.executor import usable_cores
@@ -89,7 +88,7 @@ def init(
     ),
     overwrite: Overwrite = False,
 ) -> None:
-    """Write a scene to begin with. Example: loadflow init dlc_1_1 -o my_turbine.toml."""
+    """Write a scene to begin with."""
     from loadflow.scene.templates import template_text
 
     check_free(output, overwrite)
@@ -109,7 +108,7 @@ def list_known(
     ),
     as_json: AsJson = False,
 ) -> None:
-    """List what scenes may name: turbines, oils, bearings, rungs … Example: loadflow list oils."""
+    """List what scenes may name: turbines, oils, bearings, rungs, effects and others."""
     from loadflow.cli.lists import LISTS
 
     if what is None:

@@ -57,6 +57,17 @@ def rungs() -> Rows:
     return ("stage", "model", "relative time", "error"), rows
 
 
+def effects() -> Rows:
+    """Effects that a plan includes or leaves out, with what a scene must say for them."""
+    from loadflow.stages.effects.registry import EFFECTS
+
+    rows: list[Row] = [
+        (one.name, one.model, ", ".join(one.keys), ", ".join(one.rungs) or "all", one.needs)
+        for one in EFFECTS
+    ]
+    return ("effect", "model", "keys", "known by rungs", "needs"), rows
+
+
 def load_cases() -> Rows:
     """Design load cases of IEC 61400-1, for loads.dlc."""
     from loadflow.wind.cases import LOAD_CASES
@@ -89,6 +100,7 @@ LISTS: dict[str, Callable[[], Rows]] = {
     "oils": oils,
     "bearings": bearings,
     "rungs": rungs,
+    "effects": effects,
     "load-cases": load_cases,
     "results": results,
     "scenes": scenes,

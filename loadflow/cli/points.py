@@ -102,7 +102,7 @@ def journal(
         typer.Option(
             "--set",
             metavar="KEY=VALUE",
-            help="Any key of a scene's [journal], as in TOML: --set "
+            help="Any key of a scene's \\[journal], as in TOML: --set "
             '\'geometry.shape={kind="lobes", count=3}\', --set \'shell={kind="local", '
             "compliance=1e-12}'; once for each.",
         ),

@@ -181,7 +181,7 @@ def plan(
     if as_json:
         names = [case.name for case in made.cases]
         found = {"steps": steps, "cases": names, "left_out": made.left_out}
-        found |= {"unused": unused_keys(wanted)}
+        found |= {"unused": unused_keys(wanted), "taken": wanted.taken}
         told = {"errors": made.errors, "accurate": made.accurate, "shortfalls": made.shortfalls}
         print_json(found | told | {"effects": [vars(effect) for effect in made.effects]})
         return
@@ -202,7 +202,7 @@ def plan(
     _print_effects(made, measured=verdict is not None)
     for stage, why in made.left_out.items():
         out.print(f"left out: {stage} ({why})", soft_wrap=True)
-    for warning in unused_warnings(wanted):
+    for warning in [*wanted.taken, *unused_warnings(wanted)]:
         out.print(f"warning: {warning}", soft_wrap=True, markup=False)
 
 
@@ -309,6 +309,12 @@ def bench(
 @app.command()
 def validate(
     names: Annotated[list[str] | None, typer.Argument(help="Tables; default: all.")] = None,
+    failed: Annotated[
+        bool, typer.Option("--failed", help="Show only the numbers that are out of tolerance.")
+    ] = False,
+    summary: Annotated[
+        bool, typer.Option("--summary", help="Show only the counts, by kind of evidence.")
+    ] = False,
     as_json: AsJson = False,
 ) -> None:
     """Print the sources' numbers beside ours; fails if one is out of its tolerance."""
@@ -318,27 +324,47 @@ def validate(
     if unknown := set(names or []) - set(known):
         raise InputError(f"no table {', '.join(sorted(unknown))}; there are {', '.join(known)}")
     rows = [(name, check) for name in names or known for check in validation.all_checks(name)]
-    bad = sum(not check.ok for _, check in rows)
-    if as_json:
-        print_json([{"table": name, **vars(c), "ok": c.ok} for name, c in rows])
+    bad = sum(check.outcome == "out" for _, check in rows)
+    shown = [row for row in rows if not failed or row[1].outcome == "out"]
+    if as_json and summary:
+        print_json(validation.counts(check for _, check in rows))
+    elif as_json:
+        print_json([{"table": n, **vars(c), "ok": c.ok, "outcome": c.outcome} for n, c in shown])
     else:
-        table = Table("table", "number", "source", "printed", "ours", "deviation", "allowed", "")
-        for name, check in rows:
-            scale, sign = (1, "") if check.kind == "absolute" else (100, " %")
-            table.add_row(
-                name,
-                check.name,
-                check.source,
-                f"{check.expected:.6g} {check.unit}",
-                f"{check.got:.6g} {check.unit}",
-                f"{check.deviation * scale:+.3g}{sign}",
-                f"{check.tolerance * scale:.3g}{sign}",
-                check.verdict if check.ok else f"[red]{check.verdict}[/]",
-            )
-        out.print(table)
-        compared = [check for _, check in rows if not check.refused]
-        held = f"{sum(c.ok for c in compared)} of {len(compared)} within their tolerance"
-        refused = len(rows) - len(compared)
-        out.print(f"{held}, {refused} printed ones refused" if refused else held)
+        if shown and not summary:
+            out.print(_table_of(shown))
+        out.print(_counts_of([check for _, check in rows]))
     if bad:
         raise LoadflowError(f"{bad} numbers are out of their tolerance")
+
+
+def _table_of(rows: list[tuple[str, Any]]) -> Table:
+    """Rows of validation tables, each with the name of its table."""
+    heads = ("table", "number", "source", "evidence", "expected", "ours", "deviation", "allowed")
+    table = Table(*heads, "")
+    for name, check in rows:
+        scale, sign = (1, "") if check.kind == "absolute" else (100, " %")
+        table.add_row(
+            name,
+            check.name,
+            check.source,
+            check.evidence,
+            f"{check.expected:.6g} {check.unit}",
+            f"{check.got:.6g} {check.unit}",
+            f"{check.deviation * scale:+.3g}{sign}",
+            f"{check.tolerance * scale:.3g}{sign}",
+            f"[red]{check.verdict}[/]" if check.outcome == "out" else check.verdict,
+        )
+    return table
+
+
+def _counts_of(rows: list[Any]) -> Table:
+    """How many numbers came out how, by what they are held against."""
+    from loadflow.validation import OUTCOMES, counts
+
+    table = Table("evidence", "numbers", "within tolerance", *OUTCOMES[1:], box=None)
+    for kind, found in counts(rows).items():
+        table.add_row(kind, str(sum(found.values())), *(str(n) for n in found.values()))
+    total = (sum(row.outcome == outcome for row in rows) for outcome in OUTCOMES)
+    table.add_row("all", str(len(rows)), *(str(n) for n in total))
+    return table

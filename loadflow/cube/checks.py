@@ -59,6 +59,11 @@ def check_case(case: xr.Dataset, source: str = "", name: str = "") -> None:
         Variables over ``time``, scalar coordinates `dlc`, `wind_speed`, `seed`, `weight`.
     source, name : str
         Names of file and case, for the messages.
+
+    Examples
+    --------
+    >>> from loadflow.cube import check_case, make_case
+    >>> check_case(make_case([0.0, 0.1], {"speed": [1.2, 1.3]}, dlc="1.1", wind_speed=8.0, seed=1))
     """
     where = _where(source, name)
     missing = [c for c in ("dlc", "wind_speed", "seed") if c not in case.coords]

@@ -47,6 +47,17 @@ def export_cube(cube: Cube, path: str | os.PathLike[str]) -> Path:
     ------
     loadflow.errors.InputError
         Another ending, no case, or pyarrow is missing.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from loadflow.cube import export_cube, make_case, make_cube
+    >>> data = {"speed": [1.2, 1.3], "hub_force": [[0.0, 0.0]] * 3, "hub_moment": [[0.0, 0.0]] * 3}
+    >>> cube = make_cube([make_case([0.0, 0.1], data, dlc="1.1", wind_speed=8.0, seed=1)])
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     lines = export_cube(cube, f"{folder}/loads.csv").read_text().splitlines()
+    >>> lines[-1].split(",")[:5]
+    ['dlc1.1_v8_s1', '1.1', '8.0', '1', '1.0']
     """
     path = Path(path)
     writers = {".csv": _write_csv, ".parquet": _write_parquet, ".mat": _write_matlab}

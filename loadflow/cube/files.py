@@ -135,6 +135,17 @@ def open_cube(path: str | os.PathLike[str], chunks: Any = None) -> Cube:
     loadflow.errors.InputError
         No such file or folder, nothing in it, a file that is truncated or no HDF5, or one of a
         newer loadflow.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from loadflow.cube import make_case, make_cube, open_cube, save_cube
+    >>> case = make_case([0.0, 0.1], {"speed": [1.2, 1.3]}, dlc="1.1", wind_speed=8.0, seed=1)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     cube = open_cube(save_cube(make_cube([case]), f"{folder}/loads.h5"))
+    ...     mean = float(cube["speed"].mean())  # the series is read here
+    >>> mean, cube["case"].values.tolist()
+    (1.25, ['dlc1.1_v8_s1'])
     """
     path = Path(path)
     if chunks is not None:

@@ -27,6 +27,12 @@ class Variable:
         Meaning, as in the attribute ``long_name``.
     dims : tuple of str
         Dimensions in the order of storage.
+
+    Examples
+    --------
+    >>> from loadflow.cube import VARIABLES
+    >>> VARIABLES["hub_force"].units, VARIABLES["hub_force"].dims
+    ('N', ('axis', 'case', 'time'))
     """
 
     units: str

@@ -25,6 +25,14 @@ class WarmFilm:
     ----------
     film : WarmEquilibrium
         With its effective `temperature`, K; `converged` counts both film and heat.
+
+    Examples
+    --------
+    >>> from loadflow.journal import Heat, JournalBearing, WarmFilm
+    >>> bearing = JournalBearing(diameter=0.2, width=0.1, relative_clearance=1e-3)
+    >>> state = bearing.equilibrium((1e4, 0.0), 100.0, heat=Heat(), grid=(40, 8))
+    >>> WarmFilm(state).film is state
+    True
     """
 
     film: WarmEquilibrium
@@ -73,6 +81,17 @@ def warm_equilibrium(
     ------
     loadflow.errors.InputError, loadflow.errors.SolverError
         As `JournalBearing.equilibrium`.
+
+    Examples
+    --------
+    >>> import warnings
+    >>> from loadflow.journal import Heat, JournalBearing, warm_equilibrium
+    >>> bearing = JournalBearing(diameter=0.2, width=0.1, relative_clearance=1e-3)
+    >>> with warnings.catch_warnings():
+    ...     warnings.simplefilter("ignore", DeprecationWarning)
+    ...     warm = warm_equilibrium(bearing, (1e4, 0.0), 100.0, Heat(), grid=(40, 8))
+    >>> bool(warm.film.converged)
+    True
     """
     warnings.warn(
         "warm_equilibrium(bearing, force, speed, heat, …) is bearing.equilibrium(force, speed, "

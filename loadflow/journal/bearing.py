@@ -17,14 +17,11 @@ from loadflow.journal.heat_results import FilmHeatEquilibrium, FilmHeatField
 from loadflow.journal.line import Line
 from loadflow.journal.lubricant import Lubricant
 from loadflow.journal.models.model import Steps, model_of
-from loadflow.journal.results import (
-    Equilibrium,
-    FilmField,
-    WarmEquilibrium,
-    shaped,
-)
+from loadflow.journal.results import Equilibrium, FilmField, WarmEquilibrium
+from loadflow.journal.rows import shaped
 from loadflow.journal.thermal import shares, warm_film
 from loadflow.journal.validity import warn_if_turbulent
+from loadflow.journal.warm_orbit import warm_orbit
 from loadflow.numerics.convergence import Control
 from loadflow.numerics.fields import require
 
@@ -220,6 +217,8 @@ class JournalBearing(JournalGeometry):
         closure: float = 1e-6,
         max_periods: int = 100,
         moment: ArrayLike | None = None,
+        tilt: ArrayLike | None = None,
+        bend: ArrayLike | None = None,
         **keywords: Unpack[Keywords],
     ) -> xr.Dataset:
         """Path of the shaft under a load that changes with time, or repeats.
@@ -236,10 +235,12 @@ class JournalBearing(JournalGeometry):
         speed : array_like (n,) or float
             rad/s.
         film : Film or Lubricant
-            As in `equilibrium`, but without heat; laws with fill keep it in cells fixed to the
-            shell, so that their mesh is uniform and without an inlet line. "map" and the historical
-            methods add ``in_range``, whether they cover the path; "butenschoen" and "holland" know
-            no pressure, flow or fill. An elastic shell has no inertia; the result then has its
+            As in `equilibrium`; laws with fill keep it in cells fixed to the shell, so that their
+            mesh is uniform and without an inlet line. With `Heat` the result has the `temperature`
+            of the film: one that follows its heat balance where heat is stored, else that of the
+            mean friction and flow of the series. "map" and the historical methods add
+            ``in_range``, whether they cover the path; "butenschoen" and "holland" know no pressure,
+            flow or fill. An elastic shell has no inertia; the result then has its
             `shell_deformation`.
         control : Control, optional
             How hard to solve; by default to 1e-8 in 30 Newton steps per time step.
@@ -260,8 +261,11 @@ class JournalBearing(JournalGeometry):
         max_periods : int
             Periods to go through at most.
         moment : array_like (n, 2), optional
-            What the shaft applies to the bearing about its middle, N m; the shaft then tilts, and
-            the result has its `tilt`. Without it the shaft stays aligned.
+            What the shaft applies to the bearing about its middle, N m; the shaft then tilts
+            freely. Without it and `tilt` the shaft stays aligned.
+        tilt, bend : array_like (n, 2), optional
+            How the shaft lies at each time, as in `equilibrium`, straight lines between. With any
+            of the three the result has the `tilt` and `moment` of the film and its asperities.
         **keywords
             Fields of `Film` and of `Control`.
 
@@ -295,8 +299,10 @@ class JournalBearing(JournalGeometry):
             raise InputError(f"time[{bad[0] + 1}] = {times[bad[0] + 1]} does not increase")
         place = None if start is None else np.asarray(start, dtype=float) / self.clearance
         steps = Steps(place, step, step_tolerance, periodic, closure, max_periods)
-        line = Line.of(shape, moment=moment)
+        line = Line.of(shape, moment=moment, tilt=tilt, bend=bend)
         model = model_of("in_motion", film, self, line, steps)
+        if film.heat is not None:
+            return warm_orbit(model, self, film, times, loads, speeds, line, limits, steps)
         return model.orbit(self, film, times, loads, speeds, line, limits, steps)
 
 

@@ -112,10 +112,10 @@ class ConicalBearing(PadBearing, ConicalFilms[ConicalResult]):
         centres = even_pads(self.pads, self.pad_angle, self.first_pad)
         return Pads(surface, self.pad_angle, centres, profile=self.profile, pivot=self.pivot)
 
-    axes: ClassVar[int] = 3
+    _axes: ClassVar[int] = 3
 
     @property
-    def shifts(self) -> Rows:
+    def _shifts(self) -> Rows:
         """All three."""
         return SHIFTS
 

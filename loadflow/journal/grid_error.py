@@ -17,7 +17,16 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class GridError:
-    """Estimated errors of the fields of `Equilibrium` of the same names, in their units."""
+    """Estimated errors of the fields of `Equilibrium` of the same names, in their units.
+
+    Examples
+    --------
+    >>> from loadflow.journal import JournalBearing, Lubricant, grid_error
+    >>> bearing = JournalBearing(diameter=0.2, width=0.1, relative_clearance=1e-3)
+    >>> error = grid_error(bearing, (1e4, 0.0), 100.0, Lubricant(0.02))
+    >>> bool(0.0 < error.maximum_pressure < 1e5)  # Pa
+    True
+    """
 
     eccentricity_ratio: Array
     attitude_angle: Array

@@ -67,6 +67,12 @@ class Heat(_Entering):
         0: all leaves with the oil.
     ambient_temperature : float
         K.
+    capacity : float, optional
+        Heat that oil, shell and shaft store for each kelvin, J/K: a film in motion then warms and
+        cools with time. Left out, it is too slow to follow, and has one temperature all the time.
+    start_temperature : float, optional
+        Of a film in motion at its first time, K; left out, that of the mean friction and flow of
+        its series.
 
     Examples
     --------
@@ -79,18 +85,22 @@ class Heat(_Entering):
     heat_capacity: Annotated[float, Gt(0)] = 2000.0
     transfer: Annotated[float, Ge(0)] = 0.0
     ambient_temperature: Annotated[float, Gt(200)] = 293.15
+    capacity: Annotated[float, Gt(0)] | None = None
+    start_temperature: Annotated[float, Gt(200)] | None = None
     kind: Literal["balance"] = "balance"
 
     over_area: ClassVar[bool] = False
 
     def _temperatures(self) -> tuple[str, ...]:
         """Names of the fields that are temperatures."""
-        return ("inlet_temperature", "ambient_temperature")
+        return ("inlet_temperature", "ambient_temperature", "start_temperature")
 
     @property
     def coldest(self) -> float:
         """Lowest temperature that the film may have, K."""
         taken = [self.ambient_temperature] if self.transfer else []
+        if self.start_temperature is not None:
+            taken.append(self.start_temperature)
         return min([self.inlet_temperature, *taken])
 
     def temperature(self, friction_power: ArrayLike, side_flow: ArrayLike, at: ArrayLike) -> Array:

@@ -20,7 +20,7 @@ def _no_cells() -> Array:
     return np.zeros((0, 0))
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class _OverArea:
     """Temperatures of a film over its area, and where its heat goes."""
 
@@ -40,7 +40,7 @@ class _OverArea:
     film_viscosity: Array = field(default_factory=_no_cells)
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class FilmHeatEquilibrium(_OverArea, WarmEquilibrium):
     """Static equilibrium of shaft, film and the temperature over its area.
 
@@ -93,7 +93,7 @@ class FilmHeatEquilibrium(_OverArea, WarmEquilibrium):
     z: Array = field(default_factory=lambda: np.zeros(0))
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class FilmHeatField(_OverArea, FilmField):
     """Film and temperature over its area at a given position of the shaft.
 

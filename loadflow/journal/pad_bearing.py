@@ -93,7 +93,7 @@ class PadBearing(ABC):
     A kind says how a position of its own is stated, and what films it has there.
     """
 
-    axes: ClassVar[int]
+    _axes: ClassVar[int]
     """Components of its force: 1 along the axis, or 3."""
 
     @property
@@ -103,7 +103,7 @@ class PadBearing(ABC):
 
     @property
     @abstractmethod
-    def shifts(self) -> Rows:
+    def _shifts(self) -> Rows:
         """Those of the shaft's shifts that move freely."""
 
     equilibrium: Any
@@ -169,23 +169,23 @@ class PadBearing(ABC):
             No equilibrium to start from, or a step that fails even when cut.
         """
         film, control = asked(film, more, control, keywords)
-        times, forces, speeds, moments = series(time, force, speed, moment, self.axes)
+        times, forces, speeds, moments = series(time, force, speed, moment, self._axes)
         turned = finite("tilt", (0.0, 0.0) if tilt is None else tilt, 2)
         if start is None:
             words: dict[str, Any] = {"tilt": turned} if moment is None else {"moment": moments[0]}
-            first = forces[0] if self.axes > 1 else float(forces[0, 0])
+            first = forces[0] if self._axes > 1 else float(forces[0, 0])
             found = self.equilibrium(first, float(speeds[0]), film, **words)
             place, turned = self._place_of(found), found.tilt
         else:
-            place = finite("start", start, self.axes if self.axes > 1 else None)
-        free = self.shifts if moment is None else np.append(self.shifts, _ROTATIONS)
+            place = finite("start", start, self._axes if self._axes > 1 else None)
+        free = self._shifts if moment is None else np.append(self._shifts, _ROTATIONS)
         assembly, state = self._films_at(film, place, turned, speeds, free, control)
         loads = np.zeros((times.size, BODY))
-        loads[:, self.shifts], loads[:, 3:] = self.signs * forces, moments
+        loads[:, self._shifts], loads[:, 3:] = self._signs * forces, moments
         path = self.row.orbit(assembly, state, times, loads, speeds, free, control)
         return self._named(path, place)
 
-    signs: ClassVar[float] = 1.0
+    _signs: ClassVar[float] = 1.0
     """Of its force as a load along the axes of the shaft."""
 
     def _named(self, path: xr.Dataset, place: Any) -> xr.Dataset:

@@ -105,6 +105,15 @@ class PadResult(_Shown):
         Largest imbalance of cells, pads and shaft, over their scales.
     iterations : int
         Newton steps.
+
+    Examples
+    --------
+    >>> from loadflow.journal import Film, Guembel, Lubricant, ThrustBearing
+    >>> bearing = ThrustBearing(6, 0.5, 1.0, pad_angle=0.785, taper=1e-4, wedge=0.75)
+    >>> found = bearing.pressure(gap=1e-4, speed=10.0, film=Film(Lubricant(0.05), Guembel(),
+    ...     grid=(20, 10)))
+    >>> found.load_share.round(3).tolist(), found.pressure.shape
+    ([0.167, 0.167, 0.167, 0.167, 0.167, 0.167], (6, 21, 11))
     """
 
     normal_force: Array
@@ -177,6 +186,15 @@ class ThrustResult(PadResult):
         Centre of pressure of a pad: radius, m, and share of the pad's angle from the inlet.
     stiffness, damping : float
         Axial, N/m and N s/m; the matrices hold (z, rotations about both axes).
+
+    Examples
+    --------
+    >>> from loadflow.journal import Film, Guembel, Lubricant, ThrustBearing
+    >>> bearing = ThrustBearing(6, 0.5, 1.0, pad_angle=0.785, taper=1e-4, wedge=0.75)
+    >>> found = bearing.pressure(gap=1e-4, speed=10.0, film=Film(Lubricant(0.05), Guembel(),
+    ...     grid=(20, 10)))
+    >>> round(found.force / found.pad_force, 6), found.stiffness > 0
+    (6.0, True)
     """
 
     force: float
@@ -214,6 +232,15 @@ class ConicalResult(PadResult):
         Centre of the pressure of each pad: distance from the apex, m, and angle, rad.
     stiffness, damping : array (5, 5)
         Derivatives of force and moment by position and velocity (x, y, z, about x, about y).
+
+    Examples
+    --------
+    >>> from loadflow.journal import ConicalBearing, Film, Guembel, Lubricant
+    >>> bearing = ConicalBearing(half_angle=0.52, slant=(1.0, 1.5), clearance=1e-4)
+    >>> film = Film(Lubricant(0.05), Guembel(), inlet=None, grid=(40, 10))
+    >>> found = bearing.pressure(eccentricity=(5e-5, 0.0, 0.0), speed=10.0, film=film)
+    >>> found.force.shape, found.stiffness.shape, bool(found.converged)
+    ((3,), (5, 5), True)
     """
 
     force: Array
@@ -263,6 +290,16 @@ class PairResult(_Shown):
         Derivatives of force and moment by position and velocity (x, y, z, about x, about y).
     speed, converged, residual, iterations
         As in `PadResult`.
+
+    Examples
+    --------
+    >>> from loadflow.journal import ConicalBearing, ConicalPair, Film, Guembel, Lubricant
+    >>> cone = ConicalBearing(half_angle=0.5, slant=(1.0, 1.3), clearance=2e-4)
+    >>> pair = ConicalPair(cone, cone, distance=1.0, clearance=2e-4)
+    >>> film = Film(Lubricant(0.1), Guembel(), inlet=None, grid=(40, 10))
+    >>> state = pair.equilibrium((1e5, 0.0, 5e4), moment=(0.0, 0.0), speed=1.0, film=film)
+    >>> round(float(state.load_share.sum()), 6), state.stiffness.shape
+    (1.0, (5, 5))
     """
 
     left: ConicalResult

@@ -5,26 +5,17 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
-from loadflow.journal.film._kernels import COS, HM, SIN
-from loadflow.journal.film.groove_pressure import UNSUPPLIED
-from loadflow.journal.film.integrals import summary
-from loadflow.journal.geometry import JournalGeometry
-from loadflow.journal.validity import critical_reynolds_number, reynolds_number
 from loadflow.numerics.shown import Shown
 from loadflow.quantities import FILM, Quantity
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.figure import Figure
-
-    from loadflow.journal.film.film import DiscreteFilm, Linear
-    from loadflow.journal.lubricant import Lubricant
-    from loadflow.journal.solvers.newton import Solution
 
 Array = NDArray[np.float64]
 
@@ -44,14 +35,35 @@ _INNER = {
 """Dimensions of a result beside those of the loads."""
 
 
-class _Result(Shown):
-    """What results of a film have in common."""
+@dataclass(frozen=True, kw_only=True, repr=False)
+class FilmState(Shown):
+    """What an equilibrium and a film at a given position have in common; see `Equilibrium`."""
 
     eccentricity_ratio: Array
     minimum_film: Array
     maximum_pressure: Array
+    friction_power: Array
+    side_flow: Array
+    supply_flow: Array
+    supply_power: Array
+    groove_flow: Array
+    groove_pressure: Array
+    starved: NDArray[np.bool_]
+    total_fill: Array
+    stiffness: Array
+    damping: Array
     converged: NDArray[np.bool_]
     iterations: NDArray[np.int64]
+    residual: Array
+    moment: Array = field(default_factory=lambda: np.zeros(2))
+    tilt: Array = field(default_factory=lambda: np.zeros(2))
+    pad_tilt: Array = field(default_factory=lambda: np.zeros(0))
+    shell_deformation: Array = field(default_factory=lambda: np.zeros(()))
+    contact_force: Array | None = None
+    contact_pressure: Array | None = None
+    contact_area: Array | None = None
+    contact_power: Array | None = None
+    contact_share: Array | None = None
 
     def shown_quantities(self) -> Mapping[str, Quantity]:
         """Quantities of a film."""
@@ -85,7 +97,7 @@ class _Result(Shown):
 
         lead, cases = len(self._shape), math.prod(self._shape)
         found: dict[str, Any] = {}
-        for part in fields(cast("Any", self)):
+        for part in fields(self):
             if getattr(self, part.name) is None:
                 continue
             values, dims = np.asarray(getattr(self, part.name)), _INNER.get(part.name, ())
@@ -119,8 +131,8 @@ class _Result(Shown):
         return f"<{name}: {found.size} loads, {found.sum()} converged; extremes {said}>"
 
 
-@dataclass(frozen=True, repr=False)
-class Equilibrium(_Result):
+@dataclass(frozen=True, kw_only=True, repr=False)
+class Equilibrium(FilmState):
     """Static equilibrium of shaft and film.
 
     Shapes are those of the input, `force` without its last axis broadcast with `speed`;
@@ -208,37 +220,12 @@ class Equilibrium(_Result):
     force: Array
     speed: Array
     eccentricity: Array
-    eccentricity_ratio: Array
     attitude_angle: Array
-    minimum_film: Array
-    maximum_pressure: Array
     sommerfeld_number: Array
-    friction_power: Array
-    side_flow: Array
-    supply_flow: Array
-    supply_power: Array
-    groove_flow: Array
-    groove_pressure: Array
-    starved: NDArray[np.bool_]
-    total_fill: Array
     reynolds_number: Array
     critical_reynolds_number: Array
     laminar: NDArray[np.bool_]
-    stiffness: Array
-    damping: Array
-    converged: NDArray[np.bool_]
-    iterations: NDArray[np.int64]
-    residual: Array
-    moment: Array = field(default_factory=lambda: np.zeros(2))
-    tilt: Array = field(default_factory=lambda: np.zeros(2))
-    pad_tilt: Array = field(default_factory=lambda: np.zeros(0))
-    shell_deformation: Array = field(default_factory=lambda: np.zeros(()))
     temperature: Array | None = None
-    contact_force: Array | None = None
-    contact_pressure: Array | None = None
-    contact_area: Array | None = None
-    contact_power: Array | None = None
-    contact_share: Array | None = None
 
     def plot(self) -> Figure:
         """Draw K and C over the speeds, or the shaft centre in the clearance circle.
@@ -269,7 +256,7 @@ class Equilibrium(_Result):
         return plots.clearance_circle(place / clearance, np.ravel(self.minimum_film) * 1e6)
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class WarmEquilibrium(Equilibrium):
     """Static equilibrium of shaft, film and heat; `converged` counts them all.
 
@@ -283,6 +270,14 @@ class WarmEquilibrium(Equilibrium):
         What is left of the heat balance, K.
     heat_iterations : array of int (…)
         Temperatures tried.
+
+    Examples
+    --------
+    >>> from loadflow.journal import Heat, JournalBearing
+    >>> bearing = JournalBearing(diameter=0.2, width=0.1, relative_clearance=1e-3)
+    >>> state = bearing.equilibrium((1e4, 0.0), 100.0, heat=Heat(), grid=(40, 8))
+    >>> bool(state.converged), bool(state.outlet_temperature > state.temperature > 313.15)
+    (True, True)
     """
 
     outlet_temperature: Array = field(default_factory=lambda: np.zeros(()))
@@ -291,8 +286,8 @@ class WarmEquilibrium(Equilibrium):
     heat_iterations: NDArray[np.int64] = field(default_factory=lambda: np.zeros((), dtype=int))
 
 
-@dataclass(frozen=True, repr=False)
-class FilmField(_Result):
+@dataclass(frozen=True, kw_only=True, repr=False)
+class FilmField(FilmState):
     """Film at a given position and velocity of the shaft.
 
     Attributes
@@ -335,34 +330,9 @@ contact_area, contact_power, contact_share
     pressure: Array
     fill: Array
     deformation: Array
+    gap: Array
     angle: Array
     z: Array
-    eccentricity_ratio: Array
-    minimum_film: Array
-    maximum_pressure: Array
-    friction_power: Array
-    side_flow: Array
-    supply_flow: Array
-    supply_power: Array
-    groove_flow: Array
-    groove_pressure: Array
-    starved: NDArray[np.bool_]
-    total_fill: Array
-    stiffness: Array
-    damping: Array
-    converged: NDArray[np.bool_]
-    iterations: NDArray[np.int64]
-    residual: Array
-    moment: Array = field(default_factory=lambda: np.zeros(2))
-    tilt: Array = field(default_factory=lambda: np.zeros(2))
-    pad_tilt: Array = field(default_factory=lambda: np.zeros(0))
-    shell_deformation: Array = field(default_factory=lambda: np.zeros(()))
-    contact_force: Array | None = None
-    contact_pressure: Array | None = None
-    contact_area: Array | None = None
-    contact_power: Array | None = None
-    contact_share: Array | None = None
-    gap: Array = field(default_factory=lambda: np.zeros((0, 0)))
 
     def plot(self, case: int = 0) -> Figure:
         """Draw the pressure unwrapped and around the shaft, and the gap.
@@ -390,163 +360,3 @@ contact_area, contact_power, contact_share
             for values in (self.angle, self.pressure, self.gap)
         )
         return plots.pressure(angle, self.z, pressure, gap)
-
-
-def stack(rows: list[dict[str, Any]], shape: tuple[int, ...]) -> dict[str, Any]:
-    """Turn a list of rows into arrays of leading `shape`; one row of shape () into scalars."""
-    return shaped(columns_of(rows), shape)
-
-
-def columns_of(rows: list[dict[str, Any]]) -> dict[str, Any]:
-    """Turn a list of rows into arrays that lead with the rows."""
-    return {name: np.array([row[name] for row in rows]) for name in rows[0]}
-
-
-def shaped(columns: dict[str, Any], shape: tuple[int, ...]) -> dict[str, Any]:
-    """Give the leading axis of `columns` the `shape` of the input; () makes scalars, None stays."""
-    return {
-        name: None if values is None else values.reshape(shape + values.shape[1:])[()]
-        for name, values in columns.items()
-    }
-
-
-def static_row(
-    bearing: JournalGeometry,
-    film: DiscreteFilm,
-    load: Array,
-    lubricant: Lubricant,
-    solution: Solution,
-    whirl: float = 0.0,
-) -> dict[str, Any]:
-    """One row of `Equilibrium`; pads are condensed at the frequency `whirl`, rad/s."""
-    position = solution.position[:2] if solution.converged else np.full(2, np.nan)
-    return {
-        **operating_columns(bearing, load, film.speed, lubricant, position),
-        **_common_row(film, solution, whirl),
-    }
-
-
-def operating_columns(
-    bearing: JournalGeometry,
-    force: Array,
-    speed: Any,
-    lubricant: Lubricant,
-    position: Array,
-) -> dict[str, Any]:
-    """What `Equilibrium` says of loads (…, 2), speeds (…) and positions (…, 2), in clearances."""
-    number = np.vectorize(bearing.sommerfeld_number, otypes=[float])
-    critical = np.full(np.shape(speed), critical_reynolds_number(bearing.relative_clearance))
-    reynolds = reynolds_number(bearing, speed, lubricant)
-    return {
-        "force": force,
-        "speed": speed,
-        "eccentricity": position * bearing.clearance,
-        "attitude_angle": attitude_angle(force, position, speed),
-        "sommerfeld_number": number(
-            np.hypot(force[..., 0], force[..., 1]), speed, lubricant.viscosity
-        ),
-        "reynolds_number": reynolds,
-        "critical_reynolds_number": critical,
-        "laminar": reynolds < critical,
-        "shell_deformation": np.zeros(np.shape(speed)),
-    }
-
-
-def without_supply(count: int) -> dict[str, Any]:
-    """What `Equilibrium` says of the supply of `count` films that have none."""
-    return {name: np.array([value] * count) for name, value in UNSUPPLIED.items()}
-
-
-def field_row(film: DiscreteFilm, solution: Solution) -> dict[str, Any]:
-    """One row of `FilmField`, but for z; the half film is mirrored."""
-    *cells, angle, load = film.field(solution.u, solution.position)
-    # of each cell ∫h dθ is known, and its arc by ∫cos θ dθ and ∫sin θ dθ
-    coef, (columns, rows) = film.gap.coef[:, : angle.size], cells[0].shape
-    arc = np.hypot(coef[COS, :, :1], coef[SIN, :, :1])
-    heights = coef[HM, :, :rows] / arc * film.relative_clearance * film.radius
-    cells += [film.deformation, np.broadcast_to(heights, (columns, rows))]
-    if film.mesh.half:
-        cells = [np.concatenate([values[:, ::-1], values], axis=1) for values in cells]
-    pressure, fill, deformation, gap = cells
-    return {
-        "film_force": -load[:2],
-        "force": load[:2],
-        "pressure": pressure,
-        "fill": fill,
-        "deformation": deformation,
-        "gap": gap,
-        "angle": angle,
-        **_common_row(film, solution),
-    }
-
-
-def _common_row(film: DiscreteFilm, solution: Solution, whirl: float = 0.0) -> dict[str, Any]:
-    clearance = film.relative_clearance * film.radius
-    row: dict[str, Any] = summary(film, solution.u, solution.position)
-    shaft, lengths = film.gap.shaft, np.ones(film.gap.shaft)
-    lengths[2:] = film.radius  # of the degrees of freedom: those of tilts are arms
-    rows = np.arange(film.gap.size)[solution.free]
-    pads = rows[rows >= shaft]
-    stiffness, damping = without_pads(solution.linear, shaft, pads, whirl)
-    both = np.outer(lengths, lengths) / clearance
-    row["eccentricity_ratio"] = float(np.hypot(*solution.position[:2]))
-    row["stiffness"] = stiffness * both
-    row["damping"] = damping * both
-    tilted = shaft > 2
-    row["moment"] = film.radius * solution.linear.load[2:4] if tilted else np.zeros(2)
-    per_radius = clearance / film.radius
-    row["tilt"] = per_radius * solution.position[2:4] if tilted else np.zeros(2)
-    row["pad_tilt"] = per_radius * solution.position[shaft:]
-    row["shell_deformation"] = float(film.deformation.max())
-    if not solution.converged:
-        row = {name: _nothing(value) for name, value in row.items()}
-    row["converged"] = solution.converged
-    row["iterations"] = solution.iterations
-    row["residual"] = solution.residual
-    return row
-
-
-def without_pads(
-    linear: Linear, shaft: int, pads: NDArray[np.int64], whirl: float
-) -> tuple[Array, Array]:
-    """Stiffness and damping of the shaft alone while `pads` follow it without moment.
-
-    The shaft vibrates at the frequency `whirl`, rad/s, and K + i ν C is condensed; at 0 what is
-    left of it to first order in ν. Both are exact: the pads have no inertia.
-    """
-    k, c = linear.stiffness, linear.damping
-    if not pads.size:
-        return k[:shaft, :shaft], c[:shaft, :shaft]
-    every = np.append(np.arange(shaft), pads)
-    k, c = k[np.ix_(every, every)], c[np.ix_(every, every)]
-    if whirl == 0.0:
-        follow = np.vstack([np.eye(shaft), -following(k, shaft)])
-        lead = np.vstack([np.eye(shaft), -following(k.T, shaft)])
-        return lead.T @ k @ follow, lead.T @ c @ follow
-    z = k + 1j * whirl * c
-    left = z[:shaft, :shaft] - z[:shaft, shaft:] @ following(z, shaft)
-    return left.real, left.imag / whirl
-
-
-def following(stiffness: NDArray[Any], shaft: int) -> NDArray[Any]:
-    """How far pads tilt with the shaft, (pads, shaft)."""
-    pads, by_shaft = stiffness[shaft:, shaft:], stiffness[shaft:, :shaft]
-    if not (np.isfinite(pads).all() and np.isfinite(by_shaft).all()):
-        return np.full_like(by_shaft, np.nan)
-    size = np.sqrt(np.maximum(np.abs(np.diag(pads)), np.finfo(float).tiny))
-    scaled = pads / np.outer(size, size)
-    # least squares: a pad that its film does not hold stays
-    return np.asarray(np.linalg.lstsq(scaled, by_shaft / size[:, None])[0] / size[:, None])
-
-
-def _nothing(value: Any) -> Any:
-    """NaN in the shape of `value`; flags are False."""
-    return False if isinstance(value, bool) else np.full_like(value, np.nan)
-
-
-def attitude_angle(force: Array, position: Array, speed: ArrayLike) -> Array:
-    """Angle from load to eccentricity, > 0 with rotation; the limit π/2 where either vanishes."""
-    cross = force[..., 0] * position[..., 1] - force[..., 1] * position[..., 0]
-    along = (force * position).sum(axis=-1)
-    angle = np.arctan2(np.where(np.asarray(speed) < 0, -1.0, 1.0) * cross, along)
-    return np.where(force.any(axis=-1) & position.any(axis=-1), angle, 0.5 * np.pi)

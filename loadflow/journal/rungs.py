@@ -20,10 +20,12 @@ FEATURES = {
     "tilt": _FULL_WIDTH,
     "bend": _FULL_WIDTH,
     "shell": _FULL_WIDTH,
+    "local_shell": "a shell that gives way where it is pressed",
     "supply": "a supply",
     "inlet": "a line of fresh oil",
     "grading": "a graded mesh",
     "heat": "heat",
+    "slow_heat": "heat that is stored",
     "film_heat": "an energy equation over the area of the film",
     "contact": "contact of asperities",
     "step": "adaptive steps",
@@ -31,7 +33,10 @@ FEATURES = {
 }
 """What a model may know of a film, its surroundings and its history: argument and words."""
 
-_BORES = {"shape", "relief", "moment", "tilt", "bend", "supply", "inlet", "grading", "shell"}
+_LINE = {"moment", "tilt", "bend"}
+_SHELLS = {"shell", "local_shell"}
+_BORES = _LINE | _SHELLS | {"shape", "relief", "supply", "inlet", "grading"}
+_REDUCED = frozenset(_LINE | {"local_shell", "contact", "heat"})
 
 
 @dataclass(frozen=True)
@@ -70,7 +75,8 @@ class Rung:
 
 
 _MODELS = "loadflow.journal.models"
-_HEAT, _NOTHING = frozenset({"heat"}), frozenset[str]()
+_HEAT = frozenset({"heat"})
+_WARMING = _HEAT | {"slow_heat"}
 _CHART = 'a chart has no history; "butenschoen" and "holland" superpose its squeeze'
 
 RUNGS: dict[str, Rung] = {
@@ -96,7 +102,7 @@ RUNGS: dict[str, Rung] = {
             "butenschoen",
             f"{_MODELS}.superposition:BUTENSCHOEN",
             _HEAT,
-            _NOTHING,
+            _HEAT,
             law="reynolds",
             inlet="widest gap",
         ),
@@ -104,23 +110,23 @@ RUNGS: dict[str, Rung] = {
             "holland",
             f"{_MODELS}.superposition:HOLLAND",
             _HEAT,
-            _NOTHING,
+            _HEAT,
             law="reynolds",
             inlet="widest gap",
         ),
-        Rung("hahn", f"{_MODELS}.superposition:HAHN", _HEAT, _NOTHING, law="guembel"),
+        Rung("hahn", f"{_MODELS}.superposition:HAHN", _HEAT, _HEAT, law="guembel"),
         Rung(
             "map",
             f"{_MODELS}.mobility_map",
             frozenset({"heat", "inlet", "grading"}),
-            frozenset({"inlet", "grading"}),
+            _WARMING | {"inlet", "grading"},
         ),
-        Rung("reduced", f"{_MODELS}.reduced", _HEAT, _NOTHING),
+        Rung("reduced", f"{_MODELS}.reduced", _REDUCED, _REDUCED | _WARMING),
         Rung(
             "grid",
             f"{_MODELS}.grid",
             frozenset(_BORES | {"contact", "heat", "film_heat"}),
-            frozenset(_BORES | {"contact", "step", "periodic"}),
+            _WARMING | _BORES | {"contact", "step", "periodic"},
             frozenset(_BORES | {"contact", "film_heat"}),
         ),
     )

@@ -68,8 +68,9 @@ def warm_film(
     loadflow.errors.SolverError
         A load without a film, or whose balance lies above 150 °C.
     """
-    _check_scalable(film)
-    balance = _Balance(at_rest, force, speed, cast("Heat", film.heat), weights)
+    check_scalable(film)
+    heat = cast("Heat", film.heat)
+    balance = _Balance(at_rest, force, speed, heat, weights)
     warmth = balance.solve(tolerance, max_iterations)
     state = balance.film(warmth.temperature, np.arange(speed.size))
     found = state["converged"] & (warmth.residual <= tolerance)
@@ -80,7 +81,7 @@ def warm_film(
             f"balance below {HOTTEST} K; at {warmth.temperature[worst]:.4g} K it is off by "
             f"{warmth.residual[worst]:.2g} K"
         )
-    return warmth.said_of(_where(found, state), film.heat)
+    return warmth.said_of(_where(found, state), heat)
 
 
 @dataclass(frozen=True)
@@ -224,8 +225,14 @@ def shares(weights: ArrayLike | None, shape: tuple[int, ...]) -> Array | None:
     return share
 
 
-def _check_scalable(film: Film) -> None:
-    """Refuse what does not depend on viscosity times speed alone."""
+def check_scalable(film: Film) -> None:
+    """Refuse what does not depend on viscosity times speed alone.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        A groove with an orifice, a pump or a given flow.
+    """
     supply = film.supply
     if supply is not None:
         restrictors = [g.restrictor for g in supply.grooves if g.restrictor is not None]

@@ -43,11 +43,11 @@ _LOAD_NUMBER = 0.05  # W h²/(η U L² B) of an ordinary pad, for the first gap 
 class _PadThrust(PadBearing):
     """What thrust bearings on a ring and those of straight pads share."""
 
-    axes: ClassVar[int] = 1
-    signs: ClassVar[float] = -1.0
+    _axes: ClassVar[int] = 1
+    _signs: ClassVar[float] = -1.0
 
     @property
-    def shifts(self) -> Rows:
+    def _shifts(self) -> Rows:
         """The one along the axis."""
         return _AXIAL
 
@@ -153,7 +153,7 @@ class _PadThrust(PadBearing):
         force, speed = finite("force", force), finite("speed", speed)
         require(force > 0, "force", force, "N, > 0: it presses the runner on the pads")
         load = np.array([0.0, 0.0, -force])
-        wanted, turned, free = loading(load, moment, tilt, self.shifts)
+        wanted, turned, free = loading(load, moment, tilt, self._shifts)
         head = f"F = {force:.6g} N at ω = {speed:.6g} rad/s"
         limits = limits_of(control)
         self._check_load(head, speed)
@@ -173,7 +173,7 @@ class _PadThrust(PadBearing):
         self, film: Film, place: float, tilt: Array, speeds: Array, free: Rows, control: Control
     ) -> tuple[Assembly, AssemblyState]:
         require(place > 0, "start", place, "m, > 0")
-        alike, first = free.size == self.shifts.size and not tilt.any(), float(speeds[0])
+        alike, first = free.size == self._shifts.size and not tilt.any(), float(speeds[0])
         assembly = self._assembly(film, place, float(np.abs(speeds).max()), 0.0, alike)
         for member in assembly.members:
             member.film.set_speed(first)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import difflib
 import sys
+from collections.abc import Iterable
 from typing import Any, get_args, get_type_hints
 
 import annotated_types as at
@@ -76,3 +78,23 @@ def check_choice(instance: Any, name: str, allowed: tuple[str, ...]) -> None:
     value = getattr(instance, name)
     if value not in allowed:
         raise InputError(f"{name}: must be one of {', '.join(allowed)}, got {value!r}")
+
+
+LARGEST_INTEGER = 2**63 - 1
+"""Largest that a file of results can hold."""
+
+
+def shown(value: Any) -> str:
+    """Return a value as it stands in a message: not all of a number of 400 digits."""
+    if isinstance(value, int) and abs(value) > LARGEST_INTEGER:
+        return f"an integer of {value.bit_length()} bits"
+    text = repr(value)
+    return text if len(text) <= 200 else f"{text[:200]}…"
+
+
+def unknown_key(name: str, known: Iterable[str]) -> str:
+    """Say that a key is unknown, which one may be meant, and which are known there."""
+    names = sorted(known)
+    near = difflib.get_close_matches(name, names, n=1, cutoff=0.6)
+    meant = f"; did you mean {near[0]}?" if near else ""
+    return f"unknown key{meant}" + (f"; known here: {', '.join(names)}" if names else "")

@@ -39,9 +39,10 @@ def readable(data: xr.DataArray, units: str | None = None) -> tuple[np.ndarray, 
     Examples
     --------
     >>> import xarray as xr
-    >>> values, unit = readable(xr.DataArray([2e3], attrs={"units": "N"}))
+    >>> from loadflow.plots import readable
+    >>> values, unit = readable(xr.DataArray([1e5, 2e5], attrs={"units": "N"}))
     >>> values.tolist(), unit
-    ([2.0], 'kN')
+    ([100.0, 200.0], 'kN')
     """
     factor, unit = READABLE.get(data.attrs.get("units", ""), (1.0, data.attrs.get("units", "–")))
     if units == "µm":
@@ -54,7 +55,8 @@ def figure(rows: int = 1, columns: int = 1, height: float = 2.1, **keys: Any) ->
 
     Examples
     --------
-    >>> drawing, axes = figure(2)
+    >>> from loadflow.plots import figure
+    >>> drawing, axes = figure(rows=2)
     >>> axes.shape
     (2,)
     """
@@ -82,6 +84,7 @@ def to_png(drawing: Figure) -> str:
 
     Examples
     --------
+    >>> from loadflow.plots import figure, to_png
     >>> to_png(figure()[0])[:22]
     'data:image/png;base64,'
     """
@@ -96,6 +99,7 @@ def to_svg(drawing: Figure) -> str:
 
     Examples
     --------
+    >>> from loadflow.plots import figure, to_svg
     >>> to_svg(figure()[0])[:4]
     '<svg'
     """

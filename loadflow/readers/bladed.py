@@ -65,7 +65,7 @@ def read_bladed(
     gauge_distance: float | None = None,
     frame: Frame = "auto",
 ) -> xr.Dataset:
-    """Read one Bladed run.
+    r"""Read one Bladed run.
 
     Of the groups of the run only those are read that hold a wanted channel over time.
 
@@ -93,6 +93,26 @@ def read_bladed(
     loadflow.errors.InputError
         No header, a group that is truncated or malformed, groups of different time, or a missing
         channel.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> import numpy as np
+    >>> from loadflow.readers import read_bladed
+    >>> kinds = [f"Stationary hub {kind}{axis}" for kind in ("F", "M") for axis in "xyz"]
+    >>> names, units = ["Rotor speed", *kinds], "A/T F F F FL FL FL"
+    >>> head = {"FILE": "run.$23", "ACCESS": "S", "FORMAT": "R*4", "NDIMENS": 2, "DIMENS": "7 3"}
+    >>> head |= {"VARIAB": " ".join(f"'{name}'" for name in names), "VARUNIT": units}
+    >>> head |= {"AXISLAB": "'Time'", "AXIUNIT": "T", "AXIMETH": 2, "MIN": 0.0, "STEP": 0.1}
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     file = Path(folder) / "run.%23"
+    ...     _ = file.write_text("\n".join(f"{key}\t{value}" for key,
+    ...     value in head.items()) + "\n")
+    ...     np.savetxt(Path(folder) / "run.$23", np.tile([0.9, 6e5, 0, -7e5, 4e6, 0, 0], (3, 1)))
+    ...     series = read_bladed(file)
+    >>> series["hub_force"].isel(time=0).values.tolist(), series["hub_force"].units
+    ([600000.0, 0.0, -700000.0], 'N')
     """
     run = Path(path).with_suffix("")
     known = aliases("bladed")

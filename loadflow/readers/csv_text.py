@@ -28,7 +28,7 @@ def read_csv(
     gauge_distance: float | None = None,
     frame: Frame = "auto",
 ) -> xr.Dataset:
-    """Read one CSV file.
+    r"""Read one CSV file.
 
     The first row names the columns with their units: ``time [s], speed [rpm], hub_force_x [kN],
     …``. Columns may be separated by comma, semicolon or tab; lines beginning with ``#`` are
@@ -57,6 +57,20 @@ def read_csv(
     ------
     loadflow.errors.InputError
         No such file, empty, column or unit missing, a field that is no number, irregular time.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from loadflow.readers import read_csv
+    >>> head = "time [s]; speed [rpm]; hub_force_x [kN]; hub_force_y [kN]; hub_force_z [kN]; "
+    >>> head += "hub_moment_x [kN m]; hub_moment_y [kN m]; hub_moment_z [kN m]"
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     file = Path(folder) / "run.csv"
+    ...     _ = file.write_text(f"{head}\n0;12;600;0;-700;4000;0;0\n0.1;12;600;0;-690;4000;0;0\n")
+    ...     series = read_csv(file)
+    >>> series["hub_force"].sel(axis="z").values.tolist(), series["hub_force"].units
+    ([-700000.0, -690000.0], 'N')
     """
     table = read_table(Path(path))
     return to_series(table, aliases("csv"), channels, gauge_distance, frame)

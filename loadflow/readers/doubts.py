@@ -98,6 +98,18 @@ def find_doubts(case: xr.Dataset, turbine: Any) -> list[str]:
     -------
     list of str
         Doubts about weight, frame, torque and power, speed, step and wind.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.cube import make_series
+    >>> from loadflow.readers import find_doubts
+    >>> from loadflow.turbines import load_turbine
+    >>> none = np.zeros((3, 2000))
+    >>> data = {"speed": np.full(2000, 1.2), "hub_force": none, "hub_moment": none}
+    >>> told = find_doubts(make_series(0.05 * np.arange(2000), data), load_turbine("nrel-5mw"))
+    >>> told[0]
+    'the mean of hub_force z is 0 kN; the rotor of NREL 5 MW weighs 1069 kN across the shaft'
     """
     if not {"speed", "hub_force", "hub_moment"} <= set(case.data_vars):
         return []

@@ -52,6 +52,28 @@ def read_gtsdf(
     loadflow.errors.InputError
         No such file, not HDF5, not gtsdf, truncated, or a channel that is missing or has another
         unit.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> import h5py
+    >>> import numpy as np
+    >>> from loadflow.readers import read_gtsdf
+    >>> names = ["Omega", "Fx", "Fy", "Fz", "Mx", "My", "Mz"]
+    >>> kinds = [f"{what}_{axis}" for what in ("hub_force", "hub_moment") for axis in "xyz"]
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = Path(folder) / "run.hdf5"
+    ...     with h5py.File(path, "w") as file:
+    ...         file.attrs["type"], file.attrs["no_blocks"] = "General time series data format", 1
+    ...         file["attribute_names"] = np.array([name.encode() for name in names])
+    ...         file["attribute_units"] = np.array([b"rad/s", *[b"kN"] * 3, *[b"kNm"] * 3])
+    ...         block = file.create_group("block0000")
+    ...         block.attrs["time_start"], block.attrs["time_step"] = 0.0, 0.1
+    ...         block["data"] = np.tile([0.9, 600.0, 0.0, -700.0, 4000.0, 0.0, 0.0], (3, 1))
+    ...     series = read_gtsdf(path, {"speed": "Omega"} | dict(zip(kinds, names[1:])))
+    >>> series["hub_force"].isel(time=0).values.tolist(), series["hub_force"].units
+    ([600000.0, 0.0, -700000.0], 'N')
     """
     path = Path(path)
     if not path.is_file():

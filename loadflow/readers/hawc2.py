@@ -53,7 +53,7 @@ def read_hawc2(
     gauge_distance: float | None = None,
     frame: Frame = "auto",
 ) -> xr.Dataset:
-    """Read one HAWC2 run.
+    r"""Read one HAWC2 run.
 
     Parameters
     ----------
@@ -78,6 +78,26 @@ def read_hawc2(
     ------
     loadflow.errors.InputError
         A file is absent, empty, truncated or malformed; a channel is missing or has another unit.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from loadflow.readers import read_hawc2
+    >>> units = ["s", "rad/s", "kN", "kN", "kN", "kNm", "kNm", "kNm"]
+    >>> names = ["Time", "Omega", "Fx", "Fy", "Fz", "Mx", "My", "Mz"]
+    >>> rows = [f"{k:6d}      {names[k - 1]:30s} {units[k - 1]:10s} shaft" for k in range(1, 9)]
+    >>> head = ["   Scans    Channels    Time [sec]      Format",
+    ...     "     3     8     0.300     ASCII"]
+    >>> kinds = [f"{what}_{axis}" for what in ("hub_force", "hub_moment") for axis in "xyz"]
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     file = Path(folder) / "run.sel"
+    ...     _ = file.write_text("\n".join([*head, *rows]))
+    ...     values = [f"0.{k} 0.9 600 0 -700 4000 0 0" for k in (1, 2, 3)]
+    ...     _ = file.with_suffix(".dat").write_text("\n".join(values))
+    ...     series = read_hawc2(file, {"speed": "Omega"} | dict(zip(kinds, names[2:])))
+    >>> series["hub_force"].isel(time=0).values.tolist(), series["hub_force"].units
+    ([600000.0, 0.0, -700000.0], 'N')
     """
     stem = Path(path).with_suffix("")
     listing, data = stem.with_suffix(".sel"), stem.with_suffix(".dat")

@@ -32,7 +32,7 @@ def read_loads(
     frame: Frame = "auto",
     quiet: bool = False,
 ) -> xr.Dataset | xr.DataTree:
-    """Read load series of OpenFAST, HAWC2, Bladed or CSV files into a load cube.
+    r"""Read load series of OpenFAST, HAWC2, Bladed or CSV files into a load cube.
 
     Parameters
     ----------
@@ -78,6 +78,22 @@ def read_loads(
     -----
     loadflow.errors.ValidityWarning
         For each file with doubts.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from loadflow.readers import read_loads
+    >>> head = "time [s], speed [rpm], hub_force_x [kN], hub_force_y [kN], hub_force_z [kN], "
+    >>> head += "hub_moment_x [kN m], hub_moment_y [kN m], hub_moment_z [kN m]"
+    >>> row = ", 9, 350, 0, -1070, 2000, 500, 300"
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     for seed in (1, 2):
+    ...         text = "\n".join([head, *(f"{0.1 * k:g}{row}" for k in range(20))])
+    ...         _ = (Path(folder) / f"dlc1.1_v8_s{seed}.csv").write_text(text)
+    ...     cube = read_loads(f"{folder}/*.csv", quiet=True).load()
+    >>> cube["case"].values.tolist()
+    ['dlc1.1_v8_s1', 'dlc1.1_v8_s2']
     """
     paths = find_files(files)
     listed = read_case_list(cases) if cases is not None else {}

@@ -34,7 +34,7 @@ def read_openfast(
     gauge_distance: float | None = None,
     frame: Frame = "auto",
 ) -> xr.Dataset:
-    """Read one OpenFAST output file.
+    r"""Read one OpenFAST output file.
 
     Parameters
     ----------
@@ -60,6 +60,22 @@ def read_openfast(
     loadflow.errors.InputError
         No such file, empty, truncated, malformed, missing channels, unknown unit, value that is
         not finite, irregular time.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from loadflow.readers import read_openfast
+    >>> names = "Time RotSpeed RotThrust LSShftFys LSShftFzs RotTorq LSSTipMys LSSTipMzs".split()
+    >>> units = "(s) (rpm) (kN) (kN) (kN) (kN-m) (kN-m) (kN-m)".split()
+    >>> rows = [f"{0.1 * k:g} 12.0 600.0 1.0 -1000.0 4000.0 200.0 100.0".split() for k in range(5)]
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     file = Path(folder) / "run.out"
+    ...     _ = file.write_text("\n".join(["OpenFAST", *("\t".join(row) for row in (names,
+    ...     units, *rows))]))
+    ...     series = read_openfast(file)
+    >>> series["hub_force"].isel(time=0).values.tolist(), series["hub_force"].units
+    ([600000.0, 1000.0, -1000000.0], 'N')
     """
     table = read_table(Path(path))
     return to_series(table, aliases("openfast"), channels, gauge_distance, frame)

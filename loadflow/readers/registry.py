@@ -31,6 +31,13 @@ class Reader:
     recognise : str
         ``"module:function"`` of a test whether a file that was not named, but lies in a folder, is
         a load series; without it every file that fits a pattern is one.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from loadflow.readers import READERS
+    >>> [reader.function for reader in READERS if reader.matches(Path("RUN_01.OUTB"))]
+    ['loadflow.readers.openfast:read_openfast']
     """
 
     patterns: tuple[str, ...]

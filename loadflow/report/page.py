@@ -14,7 +14,15 @@ from loadflow.storage import write_text
 
 @dataclass(frozen=True)
 class Table:
-    """A table: a title, column heads and rows of text; `bad` holds the numbers of rows to mark."""
+    """A table: a title, column heads and rows of text; `bad` holds the numbers of rows to mark.
+
+    Examples
+    --------
+    >>> from loadflow.report import Table
+    >>> Table("Films", ["bearing", "h_min, µm"], [["N", "38"], ["N2", "4"]],
+    ...     bad=frozenset({1})).rows[1]
+    ['N2', '4']
+    """
 
     title: str
     heads: list[str]
@@ -24,7 +32,15 @@ class Table:
 
 @dataclass(frozen=True)
 class Picture:
-    """A figure with its caption; `fold` hides it until it is clicked."""
+    """A figure with its caption; `fold` hides it until it is clicked.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> from loadflow.report import Picture
+    >>> Picture(Figure(), "largest eccentricity of each case", fold=True).caption
+    'largest eccentricity of each case'
+    """
 
     figure: Figure
     caption: str
@@ -38,7 +54,14 @@ class Picture:
 
 @dataclass(frozen=True)
 class Section:
-    """A part of the page, shown in order: text, tables, pictures."""
+    """A part of the page, shown in order: text, tables, pictures.
+
+    Examples
+    --------
+    >>> from loadflow.report import Section, Table
+    >>> Section("Films", "At rest.", [Table("Films", ["bearing"], [["N"]])]).tables[0].title
+    'Films'
+    """
 
     title: str
     text: str = ""
@@ -69,6 +92,18 @@ def write_page(path: Path, title: str, facts: dict[str, str], sections: list[Sec
     -------
     Path
         The file.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from loadflow.report import Section, Table, write_page
+    >>> films = Section("Films", tables=[Table("Films", ["bearing", "h_min, µm"], [["N", "38"]])])
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     page = write_page(Path(folder) / "page.html", "Look", {"Turbine": "NREL 5 MW"}, [films])
+    ...     text = page.read_text(encoding="utf-8")
+    >>> "NREL 5 MW" in text and "h_min" in text
+    True
     """
     environment = Environment(
         loader=PackageLoader("loadflow.report"), autoescape=select_autoescape(["html"])

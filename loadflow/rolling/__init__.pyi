@@ -43,6 +43,7 @@ from .rating.modified_life import life_factor as life_factor
 from .rating.modified_life import life_modification as life_modification
 from .rating.modified_life import modified_life as modified_life
 from .rating.modified_life import system_life as system_life
+from .rating.oscillation import Oscillation as Oscillation
 from .rating.static import Verdict as Verdict
 from .rating.static import verdicts as verdicts
 from .rings.beam import RingBeam as RingBeam

@@ -44,6 +44,15 @@ class EdgeContact:
         Largest difference of gap and approach under pressure, over the approach.
     iterations : int
         Steps.
+
+    Examples
+    --------
+    >>> from loadflow.rolling import RollerBearing, edge_contact
+    >>> bearing = RollerBearing(rollers=48, roller_diameter=0.04, roller_length=0.06,
+    ...     pitch_diameter=0.8)
+    >>> found = edge_contact(bearing, force=1e4, cells=(24, 16), tolerance=1e-4)
+    >>> found.converged, round(float(found.slice_forces.sum()))
+    (True, 10000)
     """
 
     along: Array

@@ -23,6 +23,18 @@ def static_capacity(bearing: RollingBearing) -> float:
     ------
     InputError
         If it is no bearing.
+
+    Examples
+    --------
+    >>> import warnings
+    >>> from loadflow.rolling import BallBearing, static_capacity
+    >>> bearing = BallBearing(balls=16, ball_diameter=0.04, pitch_diameter=0.5,
+    ...     groove_radius=0.0208)
+    >>> with warnings.catch_warnings():
+    ...     warnings.simplefilter("ignore", DeprecationWarning)
+    ...     found = static_capacity(bearing)
+    >>> found == bearing.static_capacity
+    True
     """
     warnings.warn("static_capacity(b) is now b.static_capacity", DeprecationWarning, stacklevel=2)
     if not isinstance(bearing, RollingBearing):
@@ -37,7 +49,22 @@ def bearing_modification(
     lubrication: Lubrication,
     limit: float = modified_life.LARGEST_FACTOR,
 ) -> LifeModification:
-    """`bearing.life_modification(load, speed, lubrication, limit)`; deprecated."""
+    """`bearing.life_modification(load, speed, lubrication, limit)`; deprecated.
+
+    Examples
+    --------
+    >>> import warnings
+    >>> from loadflow.rolling import BallBearing, Lubrication, bearing_modification
+    >>> from loadflow.tribology import lubricant
+    >>> bearing = BallBearing(balls=16, ball_diameter=0.04, pitch_diameter=0.5,
+    ...     groove_radius=0.0208)
+    >>> oil = Lubrication(oil=lubricant("mineral-vg-320"), temperature=323.15)
+    >>> with warnings.catch_warnings():
+    ...     warnings.simplefilter("ignore", DeprecationWarning)
+    ...     found = bearing_modification(bearing, 1e4, 10.0, oil)
+    >>> bool(found.factor == bearing.life_modification(1e4, 10.0, oil).factor)
+    True
+    """
     warnings.warn(
         "bearing_modification(b, …) is now b.life_modification(…)", DeprecationWarning, stacklevel=2
     )

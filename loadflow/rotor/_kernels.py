@@ -43,6 +43,7 @@ from .structure._kernels import (
     nacelle_motion,
     place,
     step_on,
+    torsion,
     turned_shapes,
 )
 
@@ -166,7 +167,7 @@ def blade_aerodynamics(
     m, inflow, step, time, azimuth, pitch, speed, tilt, drift, motion, state, guess, wake, induced,
     dt, force,
 ):  # fmt: skip
-    """Aerodynamic force (x, r, t) on each section of one blade, N.
+    """Aerodynamic force (x, r, t) on each section of one blade, N, and nose-up couple, N m.
 
     `tilt` and `drift` (6,): see `nacelle_motion`; `motion` (n, 7): see `deflection`; `guess` (n,):
     inflow angles of the step before, replaced; `wake` (n, SECTION_STATES): see `coefficients`;
@@ -197,12 +198,13 @@ def blade_aerodynamics(
         lean_s, lean_c = np.sin(lean), np.cos(lean)
         normal = shaft_x * lean_c + radial * lean_s - motion[i, 2]
         tangential = speed * out + motion[i, 3] + cosine * wind_y + sine * shaft_z
+        turned = pitch + motion[i, 6]
         if momentum == 0.0:
             a = swirl = 0.0
         elif m.table.shape[0] > 0:
-            a, swirl = tabulated_induction(m, i, pitch, normal, tangential)
+            a, swirl = tabulated_induction(m, i, turned, normal, tangential)
         else:
-            angle, a, swirl = solve(m, i, pitch, normal, tangential, guess[i])
+            angle, a, swirl = solve(m, i, turned, normal, tangential, guess[i])
             guess[i] = angle
         if momentum < 1.0:
             a, swirl = a * momentum, swirl * momentum
@@ -210,12 +212,13 @@ def blade_aerodynamics(
             a, swirl = inflow_lag(m, i, normal, tangential, a, swirl, state, dt, induced[i])
         a = skewed(m, a, y, z, state)
         # rotation of the rotor turns a section that leans about its span
-        f_normal, f_tangential = section_force(
-            m, i, pitch + motion[i, 6], -speed * lean_s, normal, tangential, a, swirl, dt, wake[i]
+        f_normal, f_tangential, couple = section_force(
+            m, i, turned, -speed * lean_s, normal, tangential, a, swirl, dt, wake[i]
         )
         force[i, 0] = f_normal * lean_c * m.width[i]
         force[i, 1] = f_normal * lean_s * m.width[i]
         force[i, 2] = f_tangential * m.width[i]
+        force[i, 3] = couple * m.width[i]
         mean_x += shaft_x / count
         mean_y += wind_y / count
         mean_z += shaft_z / count
@@ -225,17 +228,19 @@ def blade_aerodynamics(
 @kernel
 def march(
     m, c, schedule, inflow, dt, steps, start, controlled, state, blade_pitch, q, v, acc,
-    h, h_rate, h_acc, guess, wake, induced, out,
+    h, h_rate, h_acc, guess, wake, induced, torsions, out,
 ):  # fmt: skip
     """March the rotor; `state` (SLOTS,), `blade_pitch` (blades,), `q`, `v`, `acc` (blades, k), `h`,
-    `h_rate`, `h_acc` (h,; place 0, the generator, is in `state`), `guess`, `wake`, `induced` go on.
+    `h_rate`, `h_acc` (h,; place 0, the generator, is in `state`), `guess`, `wake`, `induced`,
+    `torsions` (blades, n; without sections if no blade twists) go on.
 
     Not `controlled`: speed and pitch stay. `out` (steps, COLUMNS + blades) is filled.
     """
     sections, modes, count, twist = m.radius.size, q.shape[1], h.size, m.frame.twist
     shape = np.zeros((m.blades, sections, modes, 4))
     motion = np.zeros((sections, 7))
-    force = np.zeros((m.blades, sections, 3))
+    force = np.zeros((m.blades, sections, 4))
+    twists = torsions.shape[1] > 0
     answer = np.zeros((m.blades, modes, 1 + count))
     inertia, load = np.zeros((count, count)), np.zeros(count)
     drift, gravity, jerk, total = np.zeros(6), np.zeros(3), np.zeros(6), np.zeros(6)
@@ -255,12 +260,18 @@ def march(
             turned_shapes(m, pitch, shape[b])
             q_ahead = q[b] + dt * v[b] + 0.5 * dt * dt * acc[b]
             deflection(m, pitch, shape[b], q_ahead, v[b] + dt * acc[b], motion)
+            if twists:
+                motion[:, 6] += torsions[b]
             wind = blade_aerodynamics(
                 m, inflow, step, time, azimuth, pitch, speed, tilt, drift, motion, state, guess[b],
                 wake[b], induced[b], since, force[b],
             )  # fmt: skip
             for axis in range(3):
                 mean[axis] += wind[axis] / m.blades
+            if twists:
+                torsion(
+                    m, b, since, speed, azimuth, drift, gravity, force[b], motion, torsions[b]
+                )  # fmt: skip
             blade_equations(
                 m, b, dt, speed, azimuth, shape[b], drift, gravity, force[b], motion, q[b], v[b],
                 acc[b], answer[b], inertia, load,

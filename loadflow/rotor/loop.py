@@ -36,6 +36,7 @@ class State:
     inflow_angle: Array  # (blades, n), start of the section solver
     wake: Array  # (blades, n, SECTION_STATES)
     induced: Array  # (blades, n, 2, 3), see `inflow_lag`; without sections if it is off
+    torsion: Array  # (blades, n), nose-down turn, rad; without sections if no blade twists
 
     @property
     def speed(self) -> float:
@@ -103,6 +104,7 @@ def _state(m: Machine, wind_speed: float, pitch: float) -> State:
         np.zeros(sections),
         np.zeros((*sections, SECTION_STATES)),
         np.zeros((m.blades, m.radius.size if m.dynamic_inflow else 0, 2, 3)),
+        np.zeros((m.blades, m.torsion_compliance.size)),
     )
 
 
@@ -136,7 +138,8 @@ def run(
         kernels.march(
             m, c, schedule, inflow, dt, steps, start, controlled, state.scalars, state.pitch,
             state.modes, state.mode_speed, state.mode_acceleration, state.frame, state.frame_speed,
-            state.frame_acceleration, state.inflow_angle, state.wake, state.induced, out,
+            state.frame_acceleration, state.inflow_angle, state.wake, state.induced, state.torsion,
+            out,
         )  # fmt: skip
     bad = ~np.isfinite(out).all(axis=1) | (np.abs(out[:, k.SPEED]) > 10)
     if bad.any():

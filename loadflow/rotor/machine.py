@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.turbines import Blade, Mode, Turbine
+from loadflow.turbines import Airfoil, Blade, Mode, Turbine
 
 from .airfoils import potential_flow, separation
 from .frame import Frame, frame
@@ -62,6 +62,9 @@ class Machine(NamedTuple):
     prebend_centrifugal: Array  # (k,), load on the modes per Ω²
     prebend_gravity: Array  # (k,), load on the modes per outward component of gravity
     bend_twist: float
+    torsion_compliance: Array  # (n,), 1/(N m²); without sections: no torsion
+    centre_ahead: Array  # (n,), quarter chord ahead of the axis of torsion
+    moment: Array  # (n, p), coefficient about the quarter chord, nose up
     mass_factor: Array  # (blades,)
     pitch_offset: Array  # (blades,)
     tower_distance: float  # rotor apex to tower axis, along the shaft
@@ -108,6 +111,7 @@ def machine(turbine: Turbine, options: RotorOptions) -> Machine:
     imbalance = np.zeros(rotor.blades)
     imbalance[0] = 1.0
     tower = turbine.tower
+    twists = blade.twists and bool(modes) and options.blade_torsion
     dam = 0.5 if options.tower_dam else 0.0
     return Machine(
         blades=rotor.blades,
@@ -145,6 +149,11 @@ def machine(turbine: Turbine, options: RotorOptions) -> Machine:
         prebend_centrifugal=np.trapezoid(outer_pull * bow * structure.slope[:, 0], span),
         prebend_gravity=np.trapezoid(outer_weight * bow * structure.slope[:, 0], span),
         bend_twist=options.bend_twist,
+        torsion_compliance=_compliance(blade, stations) if twists else np.zeros(0),
+        centre_ahead=np.interp(stations, blade.torsion_span, blade.centre_ahead)
+        if twists
+        else np.zeros(0),
+        moment=np.array([_moment(f, angle) for f in foils]),
         mass_factor=1 + options.mass_imbalance * imbalance,
         pitch_offset=options.pitch_imbalance * imbalance,
         tower_distance=rotor.overhang,
@@ -161,6 +170,19 @@ def machine(turbine: Turbine, options: RotorOptions) -> Machine:
         table_angle=(0.0, 1.0),
         table_pitch=(0.0, 1.0),
     )
+
+
+def _compliance(blade: Blade, stations: Array) -> Array:
+    """Mean of one over the torsional stiffness, between the middles of the sections."""
+    span = np.linspace(0, blade.torsion_span[-1], _FINE)
+    stiffness = np.interp(span, blade.torsion_span, blade.torsion_stiffness)
+    turned = _from_root(1 / stiffness, span)
+    edges = np.concatenate([[0.0], 0.5 * (stations[1:] + stations[:-1]), [stations[-1]]])
+    return np.diff(np.interp(edges, span, turned)) / np.diff(edges)
+
+
+def _moment(foil: Airfoil, angle: Array) -> Array:
+    return np.interp(angle, foil.angle, foil.moment) if foil.moment.size else np.zeros(angle.size)
 
 
 class _Structure:

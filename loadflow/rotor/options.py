@@ -36,6 +36,9 @@ class RotorOptions:
         Nose-down turn of a section, per product of its slopes out of and in the rotor plane, of a
         blade that bends both ways without twisting: 1/2 in the axes of OpenFAST's AeroDyn, which
         take the sweep out first; −1/2 for the section as it stands in the flow; 0 off.
+    blade_torsion : bool
+        Whether bending blades twist under their loads, quasi-statically, where the turbine tells
+        their torsional stiffness.
     air_density : float
         kg/m³.
     skew_factor : float
@@ -58,6 +61,12 @@ class RotorOptions:
         Excess mass of blade 1, share of its mass.
     pitch_imbalance : float
         Pitch offset of blade 1, rad.
+
+    Examples
+    --------
+    >>> from loadflow.rotor import RotorOptions
+    >>> RotorOptions(dynamic_stall=True, skew_factor=0.0).air_density
+    1.225
     """
 
     modes: tuple[str, ...] = ("flap1", "flap2", "edge1")
@@ -65,6 +74,7 @@ class RotorOptions:
     tower_motion: bool = True
     drivetrain_torsion: bool = True
     bend_twist: Annotated[float, Ge(-1), Le(1)] = 0.5
+    blade_torsion: bool = True
     air_density: Annotated[float, Gt(0)] = 1.225
     skew_factor: Annotated[float, Ge(0), Le(2)] = 1.4726215563702154
     drag_in_induction: bool = False

@@ -18,6 +18,7 @@ from .machine import Machine, machine
 from .options import RUNGS, RotorOptions, Rung
 from .schedule import schedule_over_power
 from .tables import with_table
+from .tuning import tuned
 
 _MODES = ("flap1", "flap2", "edge1")
 
@@ -62,12 +63,17 @@ class Same:
 
 @lru_cache(maxsize=8)
 def _prepare(key: Same, options: RotorOptions) -> tuple[Machine, Controller]:
-    built = machine(key.thing, options)
-    c = controller(key.thing, options.individual_pitch)
-    if key.thing.control.scheduled_wind:
-        power, pitch = _schedule(key)
+    built, turbine = machine(key.thing, options), _tuned(key)
+    c = controller(turbine, options.individual_pitch)
+    if turbine.control.scheduled_wind:
+        power, pitch = _schedule(Same(turbine))
         c = c._replace(scheduled_power=power, scheduled_pitch=pitch)
     return (with_table(built) if options.tabulated else built), c
+
+
+@lru_cache(maxsize=8)
+def _tuned(key: Same) -> Turbine:
+    return tuned(key.thing)
 
 
 @lru_cache(maxsize=8)

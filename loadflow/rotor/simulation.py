@@ -182,6 +182,17 @@ def simulate_condition(
     """Loads over time in one wind of a load case, as `loadflow.wind.conditions` lists them.
 
     Parameters and result are those of `simulate`; `winds` are the options that made the condition.
+
+    Examples
+    --------
+    >>> from loadflow.rotor import simulate_condition
+    >>> from loadflow.wind import Machine, WindOptions, conditions
+    >>> winds = WindOptions(radii=3, angles=8)
+    >>> machine = Machine(3.0, 11.4, 25.0, 126.0, 90.0)
+    >>> case = conditions("1.1", machine, winds, wind_speeds=[8.0], duration=5.0)[0]
+    >>> loads = simulate_condition("nrel-5mw", case, winds, run_in=1.0, rung="tables")
+    >>> loads["hub_force"].units, round(float(loads["speed"].mean()), 1)
+    ('N', 1.0)
     """
     from . import slots as k
     from .inflow import case_inflow, wind_machine

@@ -12,7 +12,7 @@ import numpy as np
 from .machine import Machine
 
 _ANGLES = np.radians(np.arange(-20.0, 80.25, 0.5))
-_PITCHES = np.radians(np.arange(-4.0, 30.5, 1.0))
+_PITCHES = np.radians(np.arange(-6.0, 34.5, 1.0))
 
 
 def with_table(m: Machine) -> Machine:

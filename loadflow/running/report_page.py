@@ -63,12 +63,22 @@ def _facts(scene: Scene, manifest: dict[str, Any]) -> dict[str, str]:
     short = manifest.get("shortfalls", [])
     return {
         **({"Not accurate enough": "; ".join(short)} if short else {}),
+        "Turbine": _turbine_fact(scene),
         "Loads": source,
+        **({"Taken from elsewhere": "; ".join(scene.taken)} if scene.taken else {}),
         "Load cases": str(len(manifest["cases"])),
         "Results": ", ".join(scene.results),
         "Took": f"{manifest.get('wall_seconds', 0):.0f} s with {manifest.get('workers')} processes",
         "Software": ", ".join(f"{k} {v}" for k, v in manifest["versions"].items()),
     }
+
+
+def _turbine_fact(scene: Scene) -> str:
+    from loadflow.turbines import load_turbine
+
+    turbine = load_turbine(scene.turbine.name)
+    power = f"{turbine.rated_power / 1e6:.3g} MW, rotor of {2 * turbine.rotor.radius:.4g} m"
+    return f"{turbine.name} ({power}; {turbine.source})"
 
 
 def _sections(

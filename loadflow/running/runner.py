@@ -80,7 +80,8 @@ class Run:
     shortfalls : tuple of str
         Results that are not expected to be as accurate as asked for: how far off, why, what helps.
     notes : tuple of str
-        What is doubtful about the scene itself, such as a turbine that is scaled.
+        What is doubtful about the scene itself, such as a turbine that is scaled, or what neither
+        scene nor turbine state, and what was taken instead.
     """
 
     path: Path
@@ -172,6 +173,22 @@ def run(
     loadflow.errors.LoadflowError
         Another process is at work on the run; the disk is full or refuses; the scheduler or all
         workers are lost. What is finished stays, and the run goes on from there.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from loadflow.cube import make_case, make_cube, save_cube
+    >>> from loadflow.running.runner import run
+    >>> from loadflow.scene import make_scene
+    >>> data = {"speed": [1.2] * 50, "hub_force": [[3e5] * 50] * 3, "hub_moment": [[1e6] * 50] * 3}
+    >>> case = make_case([0.1 * k for k in range(50)], data, dlc="1.1", wind_speed=8.0, seed=1)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     loads = {"files": [str(save_cube(make_cube([case]), f"{folder}/loads.h5"))]}
+    ...     scene = make_scene({"name": "look", "results": ["loads.statistics"], "loads": loads})
+    ...     done = run(scene, out=folder, report=False)
+    ...     there = (done.path / "manifest.json").exists()
+    >>> there, list(done.tree.children)
+    (True, ['loads', 'statistics'])
     """
     # absolute, as the workers of a cluster stand elsewhere
     folder = Path(out).absolute() / check_name(scene.name, "name of the run")
@@ -262,7 +279,8 @@ def _run(
     if profile:
         profile.write(folder / "profile.json", where.workers)
     log.info("finished, %d parts have no answer", len(failures))
-    return Run(folder, tree, failures, unused_keys(scene), plan.shortfalls, scaling_note(scene))
+    notes = (*scaling_note(scene), *scene.taken)
+    return Run(folder, tree, failures, unused_keys(scene), plan.shortfalls, notes)
 
 
 @threadpool_limits.wrap(limits=1)  # cases are what runs in parallel, here as in other processes

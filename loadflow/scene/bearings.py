@@ -21,6 +21,7 @@ from loadflow.rolling import (
     ARRANGEMENTS,
     KINDS,
     FlexibleRings,
+    Oscillation,
     RingBeam,
     RingSection,
     RollingBearing,
@@ -153,7 +154,8 @@ Ring = Annotated[RingBeam, BeforeValidator(_by_measures)]
 class FurtherBearing(BaseModel):
     """Another rolling bearing of the shaft: its name, its geometry and its rings.
 
-    ``rings = "flexible"`` takes `inner_ring` and `outer_ring`; one that is left out is rigid.
+    ``rings = "flexible"`` takes `inner_ring` and `outer_ring`; one that is left out is rigid. With
+    an ``oscillation`` it swings, as pitch and yaw bearings do, in place of turning with the rotor.
     """
 
     model_config = SECTION
@@ -163,6 +165,7 @@ class FurtherBearing(BaseModel):
     rings: Literal["rigid", "flexible"] = "rigid"
     inner_ring: Ring | None = None
     outer_ring: Ring | None = None
+    oscillation: Oscillation | None = None
     limits: RollingLimits = RollingLimits()
 
     @model_validator(mode="after")

@@ -57,6 +57,13 @@ class Case:
         End of the name where load case, wind speed and seed do not tell it apart.
     numbered : bool
         Whether the seed is only a count, as neither name nor list tells it or the wind speed.
+
+    Examples
+    --------
+    >>> from loadflow.scene import list_cases, make_scene
+    >>> loads = {"wind_speeds": [8.0, 12.0], "seeds": 1}
+    >>> [case.name for case in list_cases(make_scene({"name": "look", "loads": loads}))]
+    ['dlc1.1_v8_s1', 'dlc1.1_v12_s1']
     """
 
     dlc: str

@@ -46,7 +46,7 @@ class Journal(Section, BaseModel):
     series, as its loads change faster than a bearing warms. With ``kind = "film"`` an energy
     equation gives every cell of the film at rest its own temperature.
 
-    With ``tilt`` the shaft leans in them as the beam of its suspension does, tilted and bent; if it
+    With ``tilt`` the shaft is tilted and bent in them as the beam of its suspension is; if it
     has none, it tilts freely under the moment that the shaft stage gives. The film is then solved
     over its full width.
 
@@ -63,6 +63,13 @@ class Journal(Section, BaseModel):
     the asperities of `loadflow.journal.Contact`, they are solved as the others, standstill
     included. Without, they have no film, and the shaft rubs there with ``boundary_friction``:
     bronze [Jonuschies 2015, Table 3-1]. ``limits`` are what the verdicts hold the bearing against.
+
+    Examples
+    --------
+    >>> from loadflow.scene import Journal
+    >>> journal = Journal(bearings=["N"], shaft_roughness=2e-6)
+    >>> round(journal.contact_film * 1e6, 1), journal.film_model.grid
+    (4.5, (60, 20))
     """
 
     bearings: Annotated[list[str], Field(min_length=1)] = ["N", "N2"]
@@ -164,9 +171,7 @@ class Journal(Section, BaseModel):
 
     @model_validator(mode="after")
     def _a_model_that_knows_the_film(self) -> Self:
-        film, heat = self.film_model, self.heat
-        if self.in_motion and heat is not None and not heat.over_area:
-            film = film.isothermal()  # at the one temperature of its series
+        film = self.film_model
         verb: Verb = "in_motion" if self.in_motion else "at_rest"
         line = Line(moment=np.zeros((1, 2))) if self.tilt else Line()
         why = why_not(verb, film, self.geometry, line)

@@ -50,9 +50,10 @@ class Loads(Section, BaseModel):
     of that name; ``wind_grid`` are the radii, with the hub, and the angles of the polar grid of the
     wind, and another grid is another realisation.
 
-    ``dynamic_inflow``, ``dynamic_stall``, ``bend_twist`` and ``individual_pitch`` are those of
-    `loadflow.rotor.RotorOptions`. A ``rung`` that is not named is "tower" ("flap" where the turbine
-    does not say how its tower bends), and "tables" for a parked turbine.
+    ``dynamic_inflow``, ``dynamic_stall``, ``bend_twist``, ``blade_torsion`` (of turbines that tell
+    theirs) and ``individual_pitch`` are those of `loadflow.rotor.RotorOptions`. A ``rung`` that is
+    not named is "tower" ("flap" where the turbine does not say how its tower bends), and "tables"
+    for a parked turbine.
     """
 
     source: Literal["simulate", "files"] = "simulate"
@@ -90,6 +91,7 @@ class Loads(Section, BaseModel):
     dynamic_inflow: bool = False
     dynamic_stall: bool = False
     bend_twist: Annotated[float, Field(ge=-1, le=1)] = 0.5
+    blade_torsion: bool = True
     individual_pitch: bool = False
     mass_imbalance: Annotated[float, Field(ge=-0.2, le=0.2)] = 0.0
     pitch_imbalance: Annotated[float, Field(ge=-0.2, le=0.2)] = 0.0
@@ -140,6 +142,7 @@ class Loads(Section, BaseModel):
         """What the scene says about the rotor, but for its rung."""
         return RotorOptions(
             bend_twist=self.bend_twist,
+            blade_torsion=self.blade_torsion,
             dynamic_inflow=self.dynamic_inflow,
             dynamic_stall=self.dynamic_stall,
             individual_pitch=self.individual_pitch,

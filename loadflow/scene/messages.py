@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import fields
 from typing import Any, cast
 
 from pydantic import ValidationError
 
+from loadflow.numerics.fields import shown, unknown_key
 from loadflow.rolling import KINDS
 from loadflow.scene.films import HEATS
 from loadflow.scene.places import Location
-from loadflow.scene.section import LARGEST_INTEGER
 
 
 def message(
@@ -41,7 +40,7 @@ def message(
         reason = item["msg"].removeprefix("Value error, ").replace("Input should be", "must be")
         if item["type"] in ("extra_forbidden", "unexpected_keyword_argument"):
             known = _known(item["loc"], place, defaults)
-            lines.append(f"{source}: {key}: unknown key{_hint(str(item['loc'][-1]), known)}")
+            lines.append(f"{source}: {key}: {unknown_key(str(item['loc'][-1]), known)}")
         elif item["type"] == "missing":
             lines.append(f"{source}: {key}: this key is missing")
         elif item["type"] == "value_error":
@@ -58,22 +57,6 @@ def written(place: Iterable[int | str], origins: Mapping[Location, Location]) ->
         if location[:size] in origins:
             return (*origins[location[:size]], *location[size:])
     return location
-
-
-def shown(value: Any) -> str:
-    """A value as it stands in a message: not all of a number of 400 digits."""
-    if isinstance(value, int) and abs(value) > LARGEST_INTEGER:
-        return f"an integer of {value.bit_length()} bits"
-    text = repr(value)
-    return text if len(text) <= 200 else f"{text[:200]}…"
-
-
-def _hint(name: str, known: Iterable[str]) -> str:
-    """The key that may be meant, and all that are known where an unknown one stands."""
-    names = sorted(known)
-    near = difflib.get_close_matches(name, names, n=1, cutoff=0.6)
-    meant = f"; did you mean {near[0]}?" if near else ""
-    return f"{meant}; known here: {', '.join(names)}" if names else ""
 
 
 def _known(location: Location, place: list[int | str], defaults: Mapping[str, Any]) -> list[str]:

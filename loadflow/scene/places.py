@@ -127,7 +127,7 @@ def _stated(
             data = dict(data)
             other = data.pop("like", None)
             if other is not None:
-                model = places.get(other)
+                model = places.get(other) if isinstance(other, str) else None
                 if other == place or not isinstance(model, Mapping) or "like" in model:
                     raise ValueError(
                         f"{told}.like = {other!r}: must be another place with one bearing of its "

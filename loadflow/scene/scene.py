@@ -19,6 +19,7 @@ from pydantic import BaseModel, Field, ValidationError, field_validator, model_v
 from loadflow.errors import InputError
 from loadflow.journal.line import Line
 from loadflow.journal.models.model import Steps, why_not
+from loadflow.numerics.fields import LARGEST_INTEGER, shown
 from loadflow.scene.bearings import Rolling
 from loadflow.scene.candidates import ABOUT, machine
 from loadflow.scene.design import Design
@@ -27,14 +28,17 @@ from loadflow.scene.environment import Environment, surrounded
 from loadflow.scene.friction import Friction
 from loadflow.scene.journal import Journal
 from loadflow.scene.loads import Loads, check_simulation
-from loadflow.scene.messages import message, shown
+from loadflow.scene.messages import message
+from loadflow.scene.own_shaft import taken
 from loadflow.scene.places import places_of
-from loadflow.scene.section import LARGEST_INTEGER, Section, too_large
+from loadflow.scene.section import Section, too_large
+from loadflow.scene.series import Reduction, Seeds
 from loadflow.scene.shaft import Shaft
+from loadflow.scene.turbine import Turbine
 from loadflow.scene.written import SCENE, anchored, in_sections, origins
 from loadflow.shaft.options import MomentBearing, TwoPoint
 from loadflow.storage import check_name
-from loadflow.turbines import load_turbine
+from loadflow.turbines import load_turbine, turbine_digest
 from loadflow.turbines.files import scaled_name
 from loadflow.turbines.similarity import factor_of_power
 
@@ -56,63 +60,6 @@ USUAL: tuple[Result, ...] = tuple(name for name in get_args(Result) if name not 
 """Results of a scene that names none."""
 
 Positive = Annotated[float, Field(gt=0)]
-
-
-class Turbine(Section, BaseModel):
-    """The turbine: a name that `loadflow.turbines` knows, or a path to a file of the same form.
-
-    A name with ``@`` and a power in W, such as ``nrel-5mw@8e6``, is scaled to it by similarity; so
-    is the suspension of the known turbine, where the scene states none. Bearings are not: they are
-    to be sized anew.
-    """
-
-    name: str = "nrel-5mw"
-
-    @field_validator("name")
-    @classmethod
-    def _readable(cls, name: str) -> str:
-        load_turbine(name)
-        return name
-
-
-class Seeds(Section, BaseModel):
-    """Tests of seed equality: level of significance, method, half width of the spectral band."""
-
-    alpha: Annotated[float, Field(gt=0, lt=1)] = 0.05
-    methods: list[Literal["as-printed", "calibrated"]] = ["as-printed", "calibrated"]
-    band: Annotated[float, Field(gt=0, lt=1)] = 0.025
-
-
-class Reduction(Section, BaseModel):
-    """Reduction of each series to design loads.
-
-    ``method = "histogram"`` (quasi-static) keeps a share ``size`` of the samples. One of each class
-    of speed and load is kept at least; ``classes`` is their number along each, that of
-    [Jonuschies 2015] (4.30) if left out.
-
-    ``"stationary"`` takes the mean load at the mean speed, the largest at the lowest, and the
-    instants at which something is extreme. ``"periodic"`` takes the mean, the largest harmonic
-    below the lower of two ``bounds`` (Hz) and ``additional`` ones between them, or those nearest to
-    ``orders`` of the rotor's speed; films are driven round the orbit that closes. Without bounds
-    the film of a journal bearing says them, else they are half the speed and half the sampling
-    rate. Both are chosen by hand: no accuracy can be asked of what they find, so that ``accuracy``
-    is "given".
-    """
-
-    method: Literal["histogram", "stationary", "periodic"] = "histogram"
-    bounds: tuple[Positive, Positive] | None = None
-    additional: Annotated[int, Field(ge=0, le=20)] = 2
-    orders: Annotated[list[Positive], Field(min_length=1)] | None = None
-    size: Annotated[float, Field(gt=0, le=1)] = 0.1
-    classes: Annotated[int, Field(ge=2, le=200)] | None = None
-    pick: Literal["random", "extremes", "envelope"] = "extremes"
-    seed: Annotated[int, Field(ge=0)] = 0
-
-    @model_validator(mode="after")
-    def _bounds_rise(self) -> Self:
-        if self.bounds is not None and self.bounds[0] > self.bounds[1]:
-            raise ValueError(f"bounds = {list(self.bounds)}: the second must be the larger one")
-        return self
 
 
 class Candidate(Section, BaseModel):
@@ -153,6 +100,13 @@ class Scene(Section, BaseModel):
         Largest relative error allowed, of every result or by result; 5 % if nothing is said. The
         plan takes the cheapest models and effects that hold it, wherever the scene names none.
         ``"given"`` leaves all models as the scene has them, the defaults where it names none.
+
+    Examples
+    --------
+    >>> from loadflow.scene import make_scene
+    >>> scene = make_scene({"name": "look", "accuracy": 0.02, "loads": {"seeds": 2}})
+    >>> scene.loads.seeds, scene.allowed("journal.film"), scene.wants("rolling")
+    (2, 0.02, True)
     """
 
     name: Annotated[str, Field(pattern=r"^[A-Za-z0-9_.-]+$")]
@@ -234,11 +188,20 @@ class Scene(Section, BaseModel):
                 why = why_not("in_motion", film, one.geometry, line, steps)
                 if why is not None:
                     raise ValueError(f'reduction.method = "periodic", journal: {why}')
-                if journal.tilt and self.shaft.leans(place):
+                if journal.tilt and self.shaft.bends_at(place):
                     raise ValueError(
                         'reduction.method = "periodic": a closed orbit does not know the tilt of a '
                         "shaft with a beam; leave out journal.tilt or the beam"
                     )
+        return self
+
+    @model_validator(mode="after")
+    def _yaw_bearings_swing(self) -> Self:
+        part = self.rolling.bearings.get("Y")
+        if part is not None and part.oscillation is None:
+            raise ValueError("rolling bearing Y: the yaw bearing swings; give its oscillation")
+        if self.wants("journal") and "Y" in self.journal.bearings:
+            raise ValueError("journal.bearings = 'Y': the yaw bearing is a rolling bearing")
         return self
 
     @model_validator(mode="after")
@@ -253,9 +216,9 @@ class Scene(Section, BaseModel):
         return self
 
     @model_validator(mode="after")
-    def _seats_have_bearings(self) -> Self:
+    def _supports_have_bearings(self) -> Self:
         there = {"journal": self.journal.bearings, "rolling": [*self.rolling.geometries]}
-        for name, seat in self.shaft.seated.items():
+        for name, seat in self.shaft.coupled.items():
             what = f'shaft: seat of bearing {name} with stiffness = "{seat.stiffness}"'
             have = there[seat.stiffness]
             if name not in have:
@@ -274,15 +237,20 @@ class Scene(Section, BaseModel):
         return self
 
     @model_validator(mode="after")
-    def _leaning_at_rest(self) -> Self:
+    def _tilted_at_rest(self) -> Self:
         journal = self.journal
-        leaning = journal.tilt and any(map(self.shaft.leans, journal.bearings))
-        if leaning and journal.in_motion:
+        tilted = journal.tilt and any(map(self.shaft.bends_at, journal.bearings))
+        if tilted and journal.in_motion:
             raise ValueError(
                 'journal.motion = "transient" does not know the tilt of a shaft with a beam; set '
                 '"quasi-static", or leave out journal.tilt or the beam'
             )
         return self
+
+    @property
+    def taken(self) -> list[str]:
+        """What neither scene nor turbine state, and what is taken instead."""
+        return taken(self.turbine.name, self.shaft.model_dump(mode="json", exclude_none=True))
 
     def wants(self, room: str) -> bool:
         """Whether a result of `room` is wanted."""
@@ -313,9 +281,12 @@ class Scene(Section, BaseModel):
         return tomli_w.dumps({SCENE.key: SCENE.version} | data)
 
     def digest(self, *sections: str) -> str:
-        """SHA-256 of the resolved scene, or of some of its sections."""
+        """SHA-256 of the resolved scene, or of some of its sections, and the turbine's file."""
         include = set(sections) if sections else None
-        return hashlib.sha256(self.model_dump_json(include=include).encode()).hexdigest()
+        told = self.model_dump_json(include=include)
+        if include is None or "turbine" in include:
+            told += turbine_digest(self.turbine.name)
+        return hashlib.sha256(told.encode()).hexdigest()
 
 
 def read_scene(path: str | Path) -> Scene:
@@ -409,6 +380,13 @@ def with_loads(scene: Scene, files: list[str], **reading: Any) -> Scene:
     ------
     InputError
         A bad value among them.
+
+    Examples
+    --------
+    >>> from loadflow.scene import make_scene, with_loads
+    >>> scene = with_loads(make_scene({"name": "look"}), ["/data/runs/*.outb"], frame="rotating")
+    >>> scene.loads.source, scene.loads.frame
+    ('files', 'rotating')
     """
     given = {key: value for key, value in reading.items() if value is not None}
     absolute = [str(Path(file).absolute()) for file in files]

@@ -7,6 +7,8 @@ from typing import Any
 
 from pydantic import BaseModel, ConfigDict
 
+from loadflow.numerics.fields import LARGEST_INTEGER
+
 SECTION = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
 """Of every part of a scene: frozen, and an unknown key is an error."""
 
@@ -21,10 +23,6 @@ class Section(BaseModel):
         """Keys whose value is not the default, also of a scene written with all its defaults."""
         known = type(self).model_fields
         return {name for name in known if getattr(self, name) != known[name].default}
-
-
-LARGEST_INTEGER = 2**63 - 1
-"""Largest that a file of results can hold."""
 
 
 def too_large(data: Any, key: str = "") -> Iterator[tuple[str, int]]:

@@ -7,7 +7,7 @@ from typing import Self
 from pydantic import BaseModel, model_validator
 
 from loadflow.scene.section import Section
-from loadflow.shaft import scaled_suspension
+from loadflow.shaft import YawBearing, scaled_suspension
 from loadflow.shaft.beam import BearingSupport
 from loadflow.shaft.options import (
     Concept,
@@ -24,8 +24,9 @@ class Shaft(Section, BaseModel):
 
     ``two_point``, ``integrated`` and ``direct_drive`` have the bearings N (floating) and N2
     (locating), ``three_point`` the bearing N and the gearbox's torque arms G; one of these at most.
-    ``moment`` has the bearing M. With a ``beam`` in its table the shaft bends, and tilts in its
-    bearings; an empty one takes the defaults. A seat of the beam with ``stiffness = "journal"`` or
+    ``moment`` has the bearing M, ``yaw`` the yaw bearing Y under the nacelle, a rolling bearing
+    that swings. With a ``beam`` in its table the shaft bends, and tilts in its bearings; an empty
+    one takes the defaults. A seat of the beam with ``stiffness = "journal"`` or
     ``"rolling"`` gives under each load as the bearing of that kind that the scene has there.
     """
 
@@ -34,32 +35,39 @@ class Shaft(Section, BaseModel):
     integrated: Integrated | None = None
     direct_drive: DirectDrive | None = None
     moment: MomentBearing | None = None
+    yaw: YawBearing | None = None
+
+    @property
+    def suspensions(self) -> dict[str, Concept]:
+        """The suspensions of the shaft that the scene has, by name."""
+        return {name: concept for name, concept in self if concept and name != "yaw"}
 
     @property
     def concepts(self) -> tuple[Concept, ...]:
-        """The suspensions that the scene has."""
-        return tuple(concept for _, concept in self if concept)
+        """The suspensions of the shaft that the scene has."""
+        return tuple(self.suspensions.values())
 
     @property
     def bearings(self) -> tuple[str, ...]:
-        """Names of the bearings that these suspensions have."""
-        return tuple(name for concept in self.concepts for name in concept.bearings)
+        """Names of the bearings that the scene has loads of."""
+        every = (*self.concepts, *([self.yaw] if self.yaw else ()))
+        return tuple(name for concept in every for name in concept.bearings)
 
     @model_validator(mode="after")
     def _each_bearing_once(self) -> Self:
-        with_first = [name for name, concept in self if concept and "N" in concept.bearings]
+        with_first = [n for n, concept in self.suspensions.items() if "N" in concept.bearings]
         if len(with_first) > 1:
             raise ValueError(f"{' and '.join(with_first)} all have a bearing N; keep one of them")
         return self
 
     def scaled(self, factor: float) -> Shaft:
         """The suspensions with all lengths times a factor, by similarity."""
-        parts = {name: concept and scaled_suspension(concept, factor) for name, concept in self}
+        parts = {n: scaled_suspension(concept, factor) for n, concept in self.suspensions.items()}
         return Shaft(**parts)
 
     @property
-    def seated(self) -> dict[str, BearingSupport]:
-        """Seats, by bearing, whose stiffness comes from a journal or rolling bearing."""
+    def coupled(self) -> dict[str, BearingSupport]:
+        """Supports, by bearing, whose stiffness comes from a journal or rolling bearing."""
         return {
             name: seat
             for concept in self.concepts
@@ -67,6 +75,6 @@ class Shaft(Section, BaseModel):
             if seat.stiffness != "given"
         }
 
-    def leans(self, bearing: str) -> bool:
+    def bends_at(self, bearing: str) -> bool:
         """Whether the shaft is a beam there, so that its tilt in the bearing is known."""
         return any(c.beam is not None and bearing in c.bearings for c in self.concepts)

@@ -18,8 +18,8 @@ _CUBES = (".h5", ".nc")
 _SIMULATED = (
     "dlc", "wind_speeds", "seeds", "first_seed", "yaw_errors", "azimuths", "steady", "duration",
     "step", "category", "reference_intensity", "shear_exponent", "spectrum", "scaling", "lateral",
-    "wind_grid", "rung", "dynamic_inflow", "dynamic_stall", "bend_twist", "individual_pitch",
-    "mass_imbalance", "pitch_imbalance",
+    "wind_grid", "rung", "dynamic_inflow", "dynamic_stall", "bend_twist", "blade_torsion",
+    "individual_pitch", "mass_imbalance", "pitch_imbalance",
 )  # fmt: skip
 _TURBULENCE = ("seeds", "first_seed", "spectrum", "scaling", "lateral", "wind_grid")
 _WITH_SIGMA = ("NTM", "ETM", "EOG", "EDC", "EWS")
@@ -88,7 +88,7 @@ def _all(scene: Scene) -> Iterator[tuple[str, str]]:
 
 
 def _is_read(scene: Scene, section: str) -> bool:
-    supports = {support.stiffness for support in scene.shaft.seated.values()}
+    supports = {support.stiffness for support in scene.shaft.coupled.values()}
     begins = _RESULTS[section]
     return section in supports or any(r.startswith(begins) for r in scene.results)
 
@@ -178,7 +178,8 @@ def _of_wind(loads: Loads, rows: list[LoadCase]) -> Iterator[tuple[str, str]]:
 def _of_rotor(loads: Loads, rows: list[LoadCase]) -> Iterator[tuple[str, str]]:
     standing = [row.events[0] in STANDING for row in rows]
     if loads.rung in ("tables", "bem") or (loads.rung is None and all(standing)):
-        yield "bend_twist", "the blades of this rung do not bend"
+        for key in ("bend_twist", "blade_torsion"):
+            yield key, "the blades of this rung do not bend"
     if all(standing):
         for key in ("individual_pitch", "dynamic_inflow"):
             yield key, "the rotor stands or idles in every load case"
@@ -251,7 +252,7 @@ def _of_journal(scene: Scene) -> Iterator[tuple[str, str]]:
 
 def _tilts(scene: Scene, bearing: str) -> bool:
     moment = scene.shaft.moment
-    return scene.shaft.leans(bearing) or (moment is not None and bearing in moment.bearings)
+    return scene.shaft.bends_at(bearing) or (moment is not None and bearing in moment.bearings)
 
 
 def _starts(dlc: str) -> bool:

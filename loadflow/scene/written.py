@@ -6,7 +6,8 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
-from loadflow.scene.candidates import ABOUT, candidates_of, machine
+from loadflow.scene.candidates import ABOUT, candidates_of
+from loadflow.scene.own_shaft import own_shaft
 from loadflow.scene.places import Location, sections_of
 from loadflow.schemas import Schema
 from loadflow.turbines import turbine_names
@@ -29,8 +30,7 @@ SCENE = Schema("scene", "schema", (_with_places,))
 def in_sections(data: dict[str, Any], results: Sequence[str]) -> dict[str, Any]:
     """Data of a scene with its places as the sections that the rooms read.
 
-    A shaft that it does not state is that of its turbine, where the package has one
-    (`loadflow.scene.candidates.machine`).
+    A shaft that it does not state is that of its turbine (`loadflow.scene.own_shaft.own_shaft`).
 
     Parameters
     ----------
@@ -49,9 +49,8 @@ def in_sections(data: dict[str, Any], results: Sequence[str]) -> dict[str, Any]:
     read = dict(data)
     read = SCENE.upgrade(read, read.pop(SCENE.key, SCENE.version))
     turbine = _turbine_of(read)
-    ours = machine(turbine)
-    if "shaft" not in read and "shaft" in ours:
-        read["shaft"] = ours["shaft"]
+    if (shaft := own_shaft(turbine, read.get("shaft"))) is not None:
+        read["shaft"] = shaft
     if "bearings" in read:
         sections = sections_of(read.pop("bearings")).data
         if twice := sorted(set(sections) & set(read)):
@@ -94,8 +93,27 @@ def _bare(candidate: dict[str, Any]) -> dict[str, Any]:
     return {key: value for key, value in candidate.items() if key not in ABOUT}
 
 
+def named_by_file(turbine: Any) -> Any:
+    """The table of a turbine with its `file` as its name.
+
+    Raises
+    ------
+    ValueError
+        A name beside the file, or a file that is no path.
+    """
+    if not isinstance(turbine, dict) or "file" not in turbine:
+        return turbine
+    if "name" in turbine:
+        raise ValueError("name and file: give one of both")
+    if not isinstance(turbine["file"], str):
+        raise ValueError(f"file = {turbine['file']!r:.200}: must be a path")
+    return {key: value for key, value in turbine.items() if key != "file"} | {
+        "name": turbine["file"]
+    }
+
+
 def _turbine_of(data: dict[str, Any]) -> str:
-    turbine = data.get("turbine", {})
+    turbine = named_by_file(data.get("turbine", {}))
     name = turbine.get("name", "nrel-5mw") if isinstance(turbine, dict) else turbine.name
     return str(name)
 
@@ -138,6 +156,8 @@ def anchored(data: dict[str, Any], folder: Path) -> dict[str, Any]:
     if isinstance(turbine, dict) and isinstance(name := turbine.get("name"), str):
         file = name if name in turbine_names() or not Path(name).suffix else path(name)
         found["turbine"] = turbine | {"name": file}
+    elif isinstance(turbine, dict) and "file" in turbine:
+        found["turbine"] = turbine | {"file": path(turbine["file"])}
     return found
 
 

@@ -59,6 +59,16 @@ class Grouping:
     equivalence : tuple of Equivalence
         For each group whether its members are shown to differ by less than a margin; empty if none
         was given.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.seeds import group_seeds
+    >>> x = np.random.default_rng(1).standard_normal((4, 3000))
+    >>> x[2] += 1.0
+    >>> found = group_seeds(x, dt=0.05)
+    >>> found.labels.tolist(), len(found.representatives)
+    ([0, 0, 1, 0], 2)
     """
 
     labels: Any

@@ -21,6 +21,15 @@ class JointEquality:
         Level of significance; calibrated: of all components together.
     method : str
         ``"as-printed"`` or ``"calibrated"``.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.seeds import group_seeds_jointly
+    >>> speed, force = np.random.default_rng(1).standard_normal((2, 3, 3000))
+    >>> found = group_seeds_jointly({"speed": speed, "force": force}, dt=0.05).verdict
+    >>> sorted(found.parts), found.equal
+    (['force', 'speed'], True)
     """
 
     parts: Mapping[str, SeedEquality]

@@ -27,6 +27,15 @@ class SpectralDifference:
         |S_xx − S_yy| / S_xx.
     band : float
         The allowed relative difference.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.seeds import spectral_difference
+    >>> x = np.sin(2 * np.pi * np.arange(400) * 0.05)
+    >>> found = spectral_difference(x, 1.01 * x, dt=0.05, band=0.025)
+    >>> float(found.frequency[19]), bool(found.relative[19] < found.band)
+    (1.0, True)
     """
 
     frequency: Floats

@@ -27,6 +27,15 @@ class Equivalence:
         mean of these.
     margin : float
         What was allowed.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.seeds import equivalence
+    >>> x = 10.0 + np.random.default_rng(0).standard_normal((6, 6000))
+    >>> found = equivalence(x, margin=0.05)
+    >>> found.location < found.margin, found.spread < found.margin
+    (True, True)
     """
 
     location: float

@@ -46,6 +46,15 @@ class Stage:
         Verdict of the stage; calibrated with Holm's correction for there being three.
     text : str
         The verdict in words.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.seeds import equality
+    >>> x = np.random.default_rng(0).standard_normal((3, 3000))
+    >>> stage = equality(x, dt=0.05).spread
+    >>> stage.equal, 0.0 < stage.pvalue <= 1.0
+    (True, True)
     """
 
     statistic: float

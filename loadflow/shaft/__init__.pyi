@@ -20,3 +20,5 @@ from .reactions import bearing_loads as bearing_loads
 from .similarity import scaled_suspension as scaled_suspension
 from .vibration import modes as modes
 from .vibration import unbalance_response as unbalance_response
+from .yaw import YawBearing as YawBearing
+from .yaw import yaw_loads as yaw_loads

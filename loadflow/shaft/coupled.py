@@ -52,6 +52,19 @@ class CoupledBearing:
         Samples in which it is not asked, as it can have no answer.
     quick : bool
         Whether the model takes microseconds, so that all loads can be solved.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.shaft import CoupledBearing
+    >>> def linear(force, moment):  # motion across the shaft and tilt (n, 4), stiffness (n, 4, 4)
+    ...     stiffness = np.array([1e10, 1e10, 1e8, 1e8])
+    ...     load = np.concatenate([force[:, 1:], moment[:, 1:]], axis=1)
+    ...     return load / stiffness, np.broadcast_to(np.diag(stiffness), (len(load), 4, 4))
+    >>> bearing = CoupledBearing(lambda rows: linear, state=np.zeros(2), idle=np.zeros(2,
+    ...     dtype=bool))
+    >>> bearing.model(np.arange(2))(np.full((2, 3), 1e6), np.zeros((2, 3)))[0][0].tolist()
+    [0.0001, 0.0001, 0.0, 0.0]
     """
 
     model: Callable[[Rows], BearingModel]
@@ -99,6 +112,24 @@ def coupled_loads(
     ------
     loadflow.errors.InputError
         As `bearing_loads`; a shaft without a beam.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.shaft import Beam, BearingSupport, CoupledBearing, ShaftSection, TwoPoint
+    >>> from loadflow.shaft import coupled_loads
+    >>> stiffness = np.diag([1e10, 1e10, 1e8, 1e8])  # N/m and N m/rad, of both directions
+    >>> def linear(force, moment):
+    ...     load = np.concatenate([force[:, 1:], moment[:, 1:]], axis=1)
+    ...     return load / np.diag(stiffness), np.broadcast_to(stiffness, (len(load), 4, 4))
+    >>> bearing = CoupledBearing(lambda rows: linear, state=np.zeros(2), idle=np.zeros(2,
+    ...     dtype=bool))
+    >>> supports = BearingSupport(stiffness="rolling", takes_moment=True), BearingSupport()
+    >>> shaft = TwoPoint(beam=Beam((ShaftSection(1.0, 0.4),), supports))
+    >>> force = np.array([[5e5, 5e5], [0.0, 0.0], [-1.0e6, -1.1e6]])
+    >>> found = coupled_loads(shaft, force, np.zeros((3, 2)), {"N": bearing})
+    >>> bool(found["settled"].all()), found["force"].sizes["bearing"]
+    (True, 2)
     """
     if concept.beam is None:
         raise InputError("bearings: a rigid shaft does not feel them; give it a beam")

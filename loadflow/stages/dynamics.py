@@ -48,8 +48,8 @@ def dynamics(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
         raise SolverError("the shaft stands: no film has stiffness or damping")
     films = {name: _film(scene, name, mean, speed) for name in scene.journal.bearings}
     found = dict(films)
-    for name, concept in scene.shaft:
-        if concept is None or concept.beam is None or not set(concept.bearings) & set(films):
+    for name, concept in scene.shaft.suspensions.items():
+        if concept.beam is None or not set(concept.bearings) & set(films):
             continue
         found[name] = _vibration(scene, concept, films, mean, speed)
     return xr.DataTree.from_dict(found)

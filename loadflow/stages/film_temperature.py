@@ -14,7 +14,7 @@ TEMPERATURE_SAMPLES = 64
 def mean_temperature(options: Journal, force: np.ndarray, speed: np.ndarray) -> float | None:
     """Temperature (K) of a film in motion under `force` (n, 2) in its frame; None without heat.
 
-    It is that of the mean friction and flow of `TEMPERATURE_SAMPLES` equilibria spread over the series.
+    It is that of the mean friction and flow of `TEMPERATURE_SAMPLES` equilibria of the series.
 
     Raises
     ------

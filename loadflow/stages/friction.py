@@ -38,7 +38,8 @@ def losses(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
     """Losses, film and slip of each rolling bearing of the scene over (bearing, sample).
 
     Every roller is followed through the whole series; balls slide where their contacts are curved
-    and where they spin. Rings are rigid. With a conductance each bearing finds its own temperature.
+    and where they spin; bearings that swing have their mean speed. Rings are rigid. With a
+    conductance each bearing finds its own temperature.
 
     Raises
     ------
@@ -51,7 +52,9 @@ def losses(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
     time = time[::stride]
     speed = inputs["loads"]["speed"].values.astype(float)[::stride]
     found, temperatures = [], []
-    for name, bearing in scene.rolling.geometries.items():
+    for name, part in scene.rolling.bearings.items():
+        bearing, swings = part.geometry, part.oscillation
+        turning = speed if swings is None else np.full_like(speed, swings.mean_speed)
         load, moment = (
             to_rolling(
                 inputs["shaft"][what]
@@ -64,9 +67,9 @@ def losses(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
         )
         options = friction_options(scene.friction, bearing)
         try:
-            options = _at_its_temperature(scene.friction, bearing, load, moment, speed, options)
+            options = _at_its_temperature(scene.friction, bearing, load, moment, turning, options)
             follow = _FOLLOW[bearing.friction_model]
-            found.append(follow(bearing, load, moment[:, :2], time, speed, options))
+            found.append(follow(bearing, load, moment[:, :2], time, turning, options))
             temperatures.append(options.temperature)
         except SolverError as error:
             raise SolverError(f"bearing {name}: {error}") from error

@@ -121,9 +121,7 @@ def _resting(options: Journal, bearing: str, reduced: xr.Dataset) -> xr.Dataset:
             f"{np.abs(speed).min():.4g} … {np.abs(speed).max():.4g} rad/s"
         )
     samples = of_samples(found, kept) | _loaded(force, touching)
-    if options.tilt:
-        meaning = label("rad", "rotation of the shaft: about down, about left")
-        samples["tilt"] = ("sample", "component"), found["tilt"], meaning
+    samples |= _lying(options, found)
     given = reduced[["time", "speed", "weight"]]
     return _placed(options, given.assign(samples), found["eccentricity"])
 
@@ -168,6 +166,14 @@ def _closing(options: Journal, bearing: str, reduced: xr.Dataset) -> xr.Dataset:
     return _placed(held, given, found["eccentricity"]).assign_attrs(about)
 
 
+def _lying(options: Journal, found: dict[str, np.ndarray]) -> dict[str, Any]:
+    """How the shaft lies in samples, where it tilts."""
+    if not options.tilt:
+        return {}
+    meaning = label("rad", "rotation of the shaft: about down, about left")
+    return {"tilt": (("sample", "component"), found["tilt"], meaning)}
+
+
 def _take_path(found: dict[str, np.ndarray], path: xr.Dataset, places: slice) -> None:
     """Put an orbit where it belongs in what is kept."""
     for name in found:
@@ -182,18 +188,19 @@ def _moving(options: Journal, bearing: str, loads: xr.Dataset, reactions: xr.Dat
     time, speed = (loads[name].values.astype(float) for name in ("time", "speed"))
     begin, start = _lift_off(options, vectors, speed)
     touching = np.arange(time.size) < begin  # later on, squeeze carries more than a film at rest
-    found, held, kept = _nothing(options, time.size), options, _kept(options)
+    found, kept = _nothing(options, time.size), _kept(options)
     force, left = to_film(vectors), slice(begin, None)
     if begin < time.size:
         try:
             path = follow(options, loads.isel(time=left), reactions.isel(time=left), start)
         except SolverError as error:
             raise SolverError(f"bearing {bearing}: {error}") from error
-        if options.heat is not None:
-            held = options.at_temperature(float(path["temperature"][0]))
         _take_path(found, path, left)
+        viscosity = options.lubricant.viscosity
+        if options.heat is not None:
+            viscosity = np.asarray(options.heat.liquid.viscosity(path["temperature"].values))
         found["sommerfeld_number"][left] = options.geometry.sommerfeld_number(
-            np.hypot(*force[left].T), speed[left], held.lubricant.viscosity
+            np.hypot(*force[left].T), speed[left], viscosity
         )
     _drop_contact(options, found, touching)
     samples = xr.Dataset(
@@ -203,8 +210,8 @@ def _moving(options: Journal, bearing: str, loads: xr.Dataset, reactions: xr.Dat
             "weight": ("sample", np.ones(time.size), label("1", "samples")),
         }
     )
-    labels = of_samples(found, kept) | _loaded(vectors, touching)
-    return _placed(held, samples.assign(labels), found["eccentricity"])
+    labels = of_samples(found, kept) | _loaded(vectors, touching) | _lying(options, found)
+    return _placed(options, samples.assign(labels), found["eccentricity"])
 
 
 def _lift_off(
@@ -291,22 +298,13 @@ def follow(
 ) -> xr.Dataset:
     """Follow the shaft through a series, from equilibrium or from the place `start` (2,), m.
 
-    A heat balance gives the whole series one `temperature`, which the result has then.
+    With heat the result has the `temperature` of the film: that of the whole series, or one that
+    follows where heat is stored. A shaft with `tilt` lies as its beam says, or tilts freely.
     """
-    force, moment = (
-        to_film(bearing[name].transpose("time", "axis").values.astype(float))
-        for name in ("force", "moment")
-    )
+    force = to_film(bearing["force"].transpose("time", "axis").values.astype(float))
     time, speed = (loads[name].values.astype(float) for name in ("time", "speed"))
-    freeing = moment if options.tilt else None
-    temperature = mean_temperature(options, force, speed)
-    if temperature is not None and not np.isfinite(temperature):
-        raise SolverError("no heat balance: no sample of the series has a film that turns")
-    film = (options if temperature is None else options.at_temperature(temperature)).film_model
-    path = options.geometry.orbit(time, force, speed, film, moment=freeing, start=start)
-    if temperature is None:
-        return path
-    return path.assign(temperature=("time", np.full(time.size, temperature)))
+    lying = {name: to_film(vectors) for name, vectors in shaft_line(options, bearing).items()}
+    return options.geometry.orbit(time, force, speed, options.film_model, start=start, **lying)
 
 
 def shaft_line(options: Journal, bearing: xr.Dataset) -> dict[str, np.ndarray]:
@@ -381,8 +379,9 @@ def warm_films(options: Journal) -> float:
 
 def fast_film(journal: Journal) -> Journal | None:
     """The bearing with the film that is fast over a long series; None where it does not fit."""
-    film = replace(journal.film_model.isothermal(), rung="reduced")
-    if why_not("in_motion", film, journal.geometry, Line()) is None:
+    film = replace(journal.film_model, rung="reduced")
+    line = Line(moment=np.zeros((1, 2))) if journal.tilt else Line()
+    if why_not("in_motion", film, journal.geometry, line) is None:
         return journal.model_copy(update={"rung": "reduced"})
     return None
 

@@ -78,7 +78,7 @@ def moment_governs(scene: Scene, bearing: str, moment: np.ndarray) -> bool:
     It does where a bearing takes one, as its rolling elements feel that most. A film gives way to
     it, and is governed by the force.
     """
-    support = scene.shaft.seated.get(bearing)
+    support = scene.shaft.coupled.get(bearing)
     return bool(np.any(moment[:, 1:])) and (support is None or support.stiffness != "journal")
 
 

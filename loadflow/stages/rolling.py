@@ -47,6 +47,7 @@ EACH = {
     "bearing_load_factor": ("1", "partial safety factor for loads"),
     "bearing_truncated": ("1", "share of time with a contact cut off at a shoulder"),
     "bearing_axial_force": ("N", "largest force along the shaft"),
+    "bearing_torque": ("N m", "largest friction torque of a slewing bearing, by its loads"),
     "bearing_pressure": ("Pa", "largest pressure"),
     "bearing_force": ("N", "largest force on a rolling element"),
 }
@@ -78,7 +79,7 @@ def load_distribution(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Da
         name: ("bearing", np.array([found[name] for found in each]), label(*EACH[name]))
         for name in EACH
     } | {
-        "life": ((), life_of(answer, reduced), label("1e6 revolution", "rating life L10")),
+        "life": ((), each[0]["bearing_life"], label("1e6 revolution", "rating life L10")),
         "mean_speed": ((), _mean_speed(reduced), label("rad/s", "mean speed")),
     }
     worst = int(np.argmax(answer.maximum_force))
@@ -125,11 +126,18 @@ def _of_bearing(
     modified = modified_spectrum_life(
         answer.bearing, answer.equivalent_load, reduced["speed"].values, lubrication, weight
     )
+    swings = scene.rolling.bearings[name].oscillation
+    life = life_of(answer, reduced)
+    if swings is not None:
+        # in revolutions of the rotor, as all lives here: so many as it makes meanwhile
+        hours = swings.hours(swings.life(answer.bearing, answer.equivalent_load, weight))
+        turns = 3600 * _mean_speed(reduced) / (2 * np.pi)
+        life = hours * turns / 1e6 if turns else np.inf
     factor = factor_of_maximum(case.dlc)
     safety, time = _design_safety(scene.rolling.bearings[name], answer, reduced, factor)
     return {
-        "bearing_life": life_of(answer, reduced),
-        "bearing_modified_life": modified.life,
+        "bearing_life": life,
+        "bearing_modified_life": modified.life if swings is None else np.nan,
         "bearing_viscosity_ratio": modified.least_viscosity_ratio,
         "bearing_thin_share": modified.thin_share,
         "bearing_static_safety": float(np.min(answer.static_safety)),
@@ -138,9 +146,17 @@ def _of_bearing(
         "bearing_load_factor": factor,
         "bearing_truncated": _truncated_share(answer, weight),
         "bearing_axial_force": float(np.abs(reduced["force"].values[:, 0]).max()),
+        "bearing_torque": _torque(answer, 0.0 if swings is None else swings.idle_torque),
         "bearing_pressure": float(np.max(answer.maximum_pressure)),
         "bearing_force": float(np.max(answer.maximum_force)),
     }
+
+
+def _torque(answer: Any, idle: float) -> float:
+    """Largest friction torque by the rule of the bearing's kind, N m; NaN if it has none."""
+    if not answer.bearing.torque_models:
+        return np.nan
+    return float(np.max(answer.friction_torque(idle=idle)))
 
 
 def _truncated_share(answer: Any, weight: np.ndarray) -> float:
@@ -225,7 +241,7 @@ def summary(parts: Mapping[Case, xr.Dataset]) -> xr.Dataset:
                 ("load_case", "bearing"), each, label("h", f"{of_all} {under}"),
             ),
             f"system_{kind}life_hours": (
-                "load_case", system_life(each, slope), label("h", f"{system} {under}"),
+                "load_case", system_hours(each, slope), label("h", f"{system} {under}"),
             ),
         }  # fmt: skip
     return joined.assign(found).assign_coords(load_case=dlcs).assign_attrs(weibull_slope=slope)
@@ -239,7 +255,15 @@ def hours_together(cases: xr.Dataset, life: str, share: np.ndarray | None = None
     """
     weight = cases["weight"] if share is None else xr.DataArray(share, dims="case")
     per_hour = cases["mean_speed"] / (2 * np.pi) * 3600 / (cases[life] * 1e6)
-    return safety.ratio(1.0, ((per_hour * weight).sum("case") / weight.sum()).values)
+    damage = ((per_hour * weight).sum("case", skipna=False) / weight.sum()).values
+    return np.where(np.isnan(damage), np.nan, safety.ratio(1.0, damage))
+
+
+def system_hours(lives: np.ndarray, slope: float) -> np.ndarray:
+    """Life (..., bearing) of all bearings as a system; NaN where one of them has none."""
+    known = np.isfinite(lives) | (lives == np.inf)
+    together = system_life(np.where(known, lives, np.inf), slope)
+    return np.where(known.all(axis=-1), together, np.nan)
 
 
 def _extremes(samples: xr.Dataset) -> xr.Dataset:

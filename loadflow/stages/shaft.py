@@ -12,7 +12,7 @@ import xarray as xr
 from loadflow.scene.cases import Case
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
-from loadflow.shaft import Concept, CoupledBearing, coupled_loads
+from loadflow.shaft import Concept, CoupledBearing, coupled_loads, yaw_loads
 from loadflow.shaft import bearing_loads as reactions
 from loadflow.stages.labelling import labelled
 from loadflow.stages.stage import STEPS_PER_CASE, Measured, Rungs, Stage, always, steps_of
@@ -46,6 +46,8 @@ def bearing_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Datase
     parts = [
         _suspended(scene, concept, force, moment, speed, tilt) for concept in scene.shaft.concepts
     ]
+    if scene.shaft.yaw is not None:
+        parts.append(yaw_loads(scene.shaft.yaw, force, moment, tilt=tilt))
     joined = xr.concat(parts, "bearing", combine_attrs="drop_conflicts").assign_attrs(_worst(parts))
     return joined.assign_coords(time=series["time"]).astype("float32")
 
@@ -53,7 +55,7 @@ def bearing_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Datase
 def _suspended(
     scene: Scene, concept: Concept, force: Floats, moment: Floats, speed: Floats, tilt: float
 ) -> xr.Dataset:
-    supports = {name: s for name, s in scene.shaft.seated.items() if name in concept.bearings}
+    supports = {name: s for name, s in scene.shaft.coupled.items() if name in concept.bearings}
     if not supports:
         return _against_housings(concept, reactions(concept, force, moment, tilt=tilt))
     rigid = reactions(replace(concept, beam=None), force, moment, tilt=tilt)
@@ -156,15 +158,16 @@ _TOLD = {
 
 
 def _described(scene: Scene) -> str:
-    concepts = ((name, concept) for name, concept in scene.shaft if concept)
-    names = "+".join(f"{name}, beam" if concept.beam else name for name, concept in concepts)
-    supports = [f"{name} {support.stiffness}" for name, support in scene.shaft.seated.items()]
+    concepts = scene.shaft.suspensions.items()
+    words = [f"{name}, beam" if concept.beam else name for name, concept in concepts]
+    names = "+".join([*words, *(["yaw"] if scene.shaft.yaw else [])])
+    supports = [f"{name} {support.stiffness}" for name, support in scene.shaft.coupled.items()]
     return f"{names}, iterated with {', '.join(supports)}" if supports else names
 
 
 def shaft_key(scene: Scene) -> str:
     """Name of the shaft in the ladder: its suspensions, or the bearings it is iterated with."""
-    if not scene.shaft.seated:
+    if not scene.shaft.coupled:
         return _described(scene)
     kinds = {
         f"{support.stiffness}, tilting"
@@ -172,7 +175,7 @@ def shaft_key(scene: Scene) -> str:
         else f"{support.stiffness}, flexible"
         if support.stiffness == "rolling" and scene.rolling.bearings[name].rings == "flexible"
         else support.stiffness
-        for name, support in scene.shaft.seated.items()
+        for name, support in scene.shaft.coupled.items()
     }
     return f"on {'+'.join(sorted(kinds))}"
 
@@ -200,7 +203,7 @@ STAGE = Stage(
     run=bearing_loads,
     needs=always("loads"),
     sections=lambda scene: (
-        ("shaft", "turbine", "journal", "rolling") if scene.shaft.seated else ("shaft", "turbine")
+        ("shaft", "turbine", "journal", "rolling") if scene.shaft.coupled else ("shaft", "turbine")
     ),
     models=(
         Rungs("shaft", section="shaft", key=shaft_key, text=_described, exact=lambda scene: True),

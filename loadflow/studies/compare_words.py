@@ -67,8 +67,7 @@ def facts(scene: Scene, runs: Sequence[Mapping[str, xr.Dataset]]) -> dict[str, s
     )
     concepts = ", ".join(
         f"{name.replace('_', ' ')} ({concept.integration})"
-        for name, concept in scene.shaft
-        if concept
+        for name, concept in scene.shaft.suspensions.items()
     )
     few = min(seeds)
     told = f"{few} … {max(seeds)}" if few != max(seeds) else f"{few}"
@@ -97,8 +96,7 @@ def drawn(scene: Scene) -> list[dict[str, Any]]:
             "locating": concept.bearings[concept.locating],
             "masses": [[float(at), float(mass)] for at, mass in concept.masses if mass > 0],
         }
-        for name, concept in scene.shaft
-        if concept
+        for name, concept in scene.shaft.suspensions.items()
     ]
 
 

@@ -110,6 +110,9 @@ class CrankRig:
         Of the pin's cage, kg, (4.72).
     cage_width, cage_gap : float
         Of its contact with the rod, and between its sides and the rod, m.
+    thrust_share : float
+        Axial force on the washers of the rod over the load of the pin, (8.6); 0: no washers. The
+        source takes 0.04, and prints no outer radius: 37 mm is assumed, bronze with 0.07.
     seal_force : float
         Radial force of the shaft's seal, N; 0: none.
 
@@ -140,6 +143,7 @@ class CrankRig:
     cage_mass: float = 30e-3
     cage_width: float = 4e-3
     cage_gap: float = 0.27e-3
+    thrust_share: float = 0.0
     seal_force: float = 11.5
 
     def __post_init__(self) -> None:
@@ -147,7 +151,15 @@ class CrankRig:
             raise InputError(f"main_bearings = {self.main_bearings}: must be 1 or more")
         if self.drive is None and self.pin_film is not None:
             raise InputError("pin_film: a straight shaft has no pin")
-        for name in ("load", "seal_force", "cage_mass", "adhesion", "sliding", "rolling"):
+        for name in (
+            "load",
+            "seal_force",
+            "thrust_share",
+            "cage_mass",
+            "adhesion",
+            "sliding",
+            "rolling",
+        ):
             value = getattr(self, name)
             if not (math.isfinite(value) and value >= 0):
                 raise InputError(f"{name} = {value}: must be finite and >= 0")
@@ -266,6 +278,10 @@ class CrankRig:
             "cage film": float(np.mean(orbit.friction_power[:-1])),
             "cage sides": float(np.mean((sides * apart)[:-1])),
         }
+        if self.thrust_share:
+            load = np.hypot(*drive.pin_loads(omega * time, omega).crank.T)
+            washer = parts.thrust_washer_torque(self.thrust_share * load, 0.07, 37e-3, outer / 2)
+            found["thrust washers"] = float(np.mean((washer * ring)[:-1]))
         return FrictionTorque(found, omega)
 
     def _journal(self, drive: CrankDrive, bearing: JournalBearing, rpm: float) -> FrictionTorque:

@@ -9,7 +9,8 @@ import xarray as xr
 
 from loadflow.scene.journal import Journal
 from loadflow.stages.design_samples import Governed, closed_samples, stationary_samples
-from loadflow.stages.journal import driven, extremes
+from loadflow.stages.film_summary import extremes
+from loadflow.stages.journal import driven
 from loadflow.studies.bearing_series import BearingSeries
 from loadflow.studies.design_loads import PeriodicPart
 

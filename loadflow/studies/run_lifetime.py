@@ -8,11 +8,10 @@ import numpy as np
 import xarray as xr
 
 from loadflow.errors import InputError
-from loadflow.rolling import system_life
 from loadflow.scene.cases import wind_class
 from loadflow.scene.scene import Scene
 from loadflow.stages.labelling import label
-from loadflow.stages.rolling import hours_together
+from loadflow.stages.rolling import hours_together, system_hours
 from loadflow.studies.lifetime_shares import IDLING, PRODUCTION, lifetime_shares
 from loadflow.wind import iec
 
@@ -83,7 +82,7 @@ def _lives(scene: Scene, table: xr.Dataset, share: np.ndarray) -> dict[str, xr.D
         hours = hours_together(table, f"bearing_{kind}life", share)
         about = label("h", f"{meaning} over all load cases")
         found[f"{kind}life_hours"] = xr.DataArray(hours, {"rolling": names}, "rolling", attrs=about)
-        system = float(system_life(hours, table.attrs["weibull_slope"]))
+        system = float(system_hours(hours, table.attrs["weibull_slope"]))
         about = label("h", f"{meaning} of all rolling bearings as a system")
         found[f"system_{kind}life_hours"] = xr.DataArray(system, attrs=about)
     return found

@@ -310,8 +310,12 @@ def _lives(
     """Basic and modified life over all load cases, of one bearing or (`name` None) of all."""
     part = scene.rolling if name is None else scene.rolling.bearings[name]
     limit = part.limits.life
+    asked = [part] if name else [*scene.rolling.bearings.values()]
+    swings = any(one.oscillation is not None for one in asked)
     source = LIFE_SOURCE if limit == HOURS_20_YEARS else _STATED
     for kind, what in (("", "rating life L10h"), ("modified_", "modified rating life L10mh")):
+        if kind and swings:  # ISO 281 has no modified life of a bearing that swings
+            continue
         note, value = "no load case has a share of the lifetime", np.nan
         if lifetime is not None:
             note = f"over {table.sizes['case']} load cases by their share of the lifetime"

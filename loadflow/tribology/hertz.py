@@ -45,6 +45,13 @@ class PointContact:
         Major over minor semi-axis, at least 1.
     coefficient : ndarray
         Hertz's coefficient ψ/ξ of the approach (δ* of Harris).
+
+    Examples
+    --------
+    >>> from loadflow.tribology import hertz_point
+    >>> contact = hertz_point(50.0, 50.0, 25.0, 25.0, force=100.0)
+    >>> round(float(contact.pressure) / 1e6), round(float(contact.ellipticity), 3)
+    (1132, 1.0)
     """
 
     stiffness: Array
@@ -69,6 +76,13 @@ class LineContact:
         Largest pressure, Pa.
     semi_width : ndarray
         Half the width of the contact strip, m.
+
+    Examples
+    --------
+    >>> from loadflow.tribology import hertz_line
+    >>> contact = hertz_line(100.0, 0.0, length=0.03, force=2e4)
+    >>> round(float(contact.pressure) / 1e6), round(float(contact.semi_width) * 1e6)  # MPa, µm
+    (1565, 271)
     """
 
     stiffness: Array

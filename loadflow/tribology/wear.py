@@ -30,7 +30,15 @@ Array = NDArray[np.float64]
 
 
 class WearLaw(Protocol):
-    """What a law of wear answers."""
+    """What a law of wear answers.
+
+    Examples
+    --------
+    >>> from loadflow.tribology import Archard
+    >>> law = Archard(1e-16)
+    >>> float(law.depth(1e6, 1e4))  # m, of 1 MPa over 10 km
+    1e-06
+    """
 
     def rate(self, pressure: ArrayLike, friction: ArrayLike | None = None) -> Array:
         """Depth over sliding distance dd/ds at a pressure (Pa) and friction coefficient."""

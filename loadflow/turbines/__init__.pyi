@@ -1,4 +1,5 @@
 from .files import load_turbine as load_turbine
+from .files import turbine_digest as turbine_digest
 from .files import turbine_names as turbine_names
 from .schema import Airfoil as Airfoil
 from .schema import Blade as Blade

@@ -8,6 +8,7 @@ import numpy as np
 
 from loadflow.errors import InputError
 
+from .checks import Array
 from .schema import Airfoil
 
 
@@ -41,10 +42,20 @@ def blended(airfoils: Mapping[str, Airfoil], thickness: float) -> Airfoil:
     angle = np.union1d(thin.angle, thick.angle)
 
     def between(name: str) -> np.ndarray:
-        low, high = (np.interp(angle, f.angle, getattr(f, name)) for f in (thin, thick))
+        low, high = (_over(angle, foil, name) for foil in (thin, thick))
         return (1 - share) * low + share * high
 
-    return Airfoil(f"thickness {thickness:g}", angle, between("lift"), between("drag"))
+    known_moment = any(foil.moment.size for foil in (thin, thick))
+    moment = between("moment") if known_moment else np.zeros(0)
+    return Airfoil(
+        f"thickness {thickness:g}", angle, between("lift"), between("drag"), moment=moment
+    )
+
+
+def _over(angle: Array, airfoil: Airfoil, name: str) -> Array:
+    """A coefficient at other angles; 0 of one that is not known, as the moment of a cylinder is."""
+    values = getattr(airfoil, name)
+    return np.interp(angle, airfoil.angle, values) if values.size else np.zeros(angle.size)
 
 
 def _thickness(airfoil: Airfoil) -> float:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, get_origin, get_type_hints
+from typing import Annotated, Any, get_args, get_origin, get_type_hints
 
 import numpy as np
 from annotated_types import Ge, Gt, Le
@@ -36,6 +36,8 @@ def require_ranges(part: Any) -> None:
     """
     for name, bounds in _ranges(type(part)).items():
         value = getattr(part, name)
+        if value is None and name in _optional(type(part)):
+            continue
         # an integer may have hundreds of digits, which isfinite does not take
         number = isinstance(value, int | float | np.number)
         finite = number and bool(abs(value) <= np.finfo(float).max)
@@ -47,9 +49,18 @@ def require_ranges(part: Any) -> None:
 def _ranges(part: type) -> dict[str, tuple[Bound, ...]]:
     """Bounds of the numbers of a part, by name; none is left out that has any."""
     hints = get_type_hints(part, include_extras=True)
+    inner = {name: [hint, *get_args(hint)] for name, hint in hints.items()}
     return {
-        name: hint.__metadata__ for name, hint in hints.items() if get_origin(hint) is Annotated
+        name: next(h for h in kinds if get_origin(h) is Annotated).__metadata__
+        for name, kinds in inner.items()
+        if any(get_origin(h) is Annotated for h in kinds)
     }
+
+
+def _optional(part: type) -> set[str]:
+    """Names of the numbers that may be left out."""
+    hints = get_type_hints(part, include_extras=True)
+    return {name for name, hint in hints.items() if type(None) in get_args(hint)}
 
 
 def _holds(bound: Bound, value: float) -> bool:

@@ -10,6 +10,8 @@ from typing import Annotated
 import numpy as np
 from annotated_types import Ge, Gt, Le
 
+from loadflow.errors import InputError
+
 from .checks import Array, NotNegative, Positive, require, require_ranges
 from .tower import Tower
 
@@ -32,6 +34,16 @@ class Airfoil:
     zero_lift, lift_slope : float, optional
         Potential flow that unsteady airfoils build on: angle of attack without lift, rad, and slope
         of the lift coefficient, 1/rad; left out, they follow from the polar.
+    moment : ndarray, shape (n,) or (0,)
+        Coefficient of the moment about the quarter chord, nose-up positive, referred to the square
+        of the chord; empty: not known, taken as 0.
+
+    Examples
+    --------
+    >>> from loadflow.turbines import load_turbine
+    >>> foil = next(iter(load_turbine("nrel-5mw").airfoils.values()))
+    >>> foil.angle.shape == foil.lift.shape == foil.drag.shape
+    True
     """
 
     name: str
@@ -41,6 +53,7 @@ class Airfoil:
     thickness: float | None = None
     zero_lift: float | None = None
     lift_slope: float | None = None
+    moment: Array = field(default_factory=lambda: np.zeros(0))
 
     def __post_init__(self) -> None:
         owner = f"airfoil {self.name!r}"
@@ -60,6 +73,8 @@ class Airfoil:
             values = getattr(self, name)
             fits = values.shape == self.angle.shape and bool(np.all(np.isfinite(values)))
             require(fits, owner, name, values.tolist(), "finite, one value for each angle")
+        fits = self.moment.size in (0, self.angle.size) and bool(np.isfinite(self.moment).all())
+        require(fits, owner, "moment", self.moment.tolist(), "finite, one value for each angle")
 
 
 @dataclass(frozen=True)
@@ -73,6 +88,12 @@ class Mode:
     coefficients : tuple of float
         Coefficients of x², x³, … with x = distance from the root over blade length; they add up
         to 1, so that the modal coordinate is the deflection of the tip.
+
+    Examples
+    --------
+    >>> from loadflow.turbines import Mode
+    >>> Mode("flap1", (0.0, 0.0, 1.0)).name
+    'flap1'
     """
 
     name: str
@@ -102,6 +123,16 @@ class Blade:
     modes : tuple of Mode
     prebend : ndarray, shape (n,) or (0,)
         Distance of each section upwind of the pitch axis, m; empty: a straight blade.
+    torsion_span, torsion_stiffness, centre_ahead : ndarray, shape (t,) or (0,)
+        Distance from the root, m; torsional stiffness, N m²; distance of the quarter chord ahead of
+        the axis about which the blade twists, m. Empty: not known, the blade does not twist.
+
+    Examples
+    --------
+    >>> from loadflow.turbines import load_turbine
+    >>> blade = load_turbine("nrel-5mw").blade
+    >>> len(blade.airfoil) == blade.radius.size, [mode.name for mode in blade.modes]
+    (True, ['flap1', 'flap2', 'edge1'])
     """
 
     radius: Array
@@ -117,6 +148,9 @@ class Blade:
     edge_stiffness: Array
     modes: tuple[Mode, ...] = ()
     prebend: Array = field(default_factory=lambda: np.zeros(0))
+    torsion_span: Array = field(default_factory=lambda: np.zeros(0))
+    torsion_stiffness: Array = field(default_factory=lambda: np.zeros(0))
+    centre_ahead: Array = field(default_factory=lambda: np.zeros(0))
 
     def __post_init__(self) -> None:
         require_ranges(self)
@@ -135,6 +169,20 @@ class Blade:
         for name in ("chord", "mass_density", "flap_stiffness", "edge_stiffness"):
             values = getattr(self, name)
             require(bool(np.all(values > 0)), "Blade", name, values.tolist(), "positive")
+        known = self.torsion_span.size != 1 and bool(np.all(np.diff(self.torsion_span) > 0))
+        known = known and self.torsion_stiffness.shape == self.torsion_span.shape
+        require(
+            known and bool(np.all(self.torsion_stiffness > 0)),
+            "Blade",
+            "torsion",
+            self.torsion_span.tolist(),
+            "two rows or more, stations increasing, stiffness positive",
+        )
+
+    @property
+    def twists(self) -> bool:
+        """Whether the torsion of the blade is described."""
+        return bool(self.torsion_span.size)
 
 
 @dataclass(frozen=True)
@@ -150,6 +198,13 @@ class RotorGeometry:
         rad; tilt lifts the upwind end of the shaft, cone leans the blades upwind.
     hub_mass, hub_inertia : float
         kg; kg m² about the shaft.
+
+    Examples
+    --------
+    >>> from loadflow.turbines import load_turbine
+    >>> rotor = load_turbine("nrel-5mw").rotor
+    >>> rotor.radius, rotor.blades
+    (63.0, 3)
     """
 
     radius: Positive
@@ -188,6 +243,17 @@ class Drivetrain:
         the time it takes to close, s.
     torsional_stiffness, torsional_damping : float
         Between rotor and generator, at the speed of the rotor, N m/rad (0: rigid) and N m s/rad.
+    efficiency : float, optional
+        Electrical power over that of the rotor, from which that of a windIO file follows.
+    hub_to_bearing, bearing_span : float, optional
+        From the hub centre to the first main bearing along the shaft, and from there to the
+        second, m: the places of the main bearings where a scene states none.
+
+    Examples
+    --------
+    >>> from loadflow.turbines import Drivetrain
+    >>> Drivetrain(gear_ratio=97.0, generator_inertia=534.0).torsional_stiffness  # rigid
+    0.0
     """
 
     gear_ratio: Positive
@@ -196,6 +262,9 @@ class Drivetrain:
     brake_time: Positive = 0.6
     torsional_stiffness: NotNegative = 0.0
     torsional_damping: NotNegative = 0.0
+    efficiency: Annotated[float, Gt(0), Le(1)] | None = None
+    hub_to_bearing: Positive | None = None
+    bearing_span: Positive | None = None
 
     def __post_init__(self) -> None:
         require_ranges(self)
@@ -234,12 +303,25 @@ class Control:
         points, constant outside. Empty: `minimum_pitch` throughout.
     schedule_filter : float
         Corner of the low-pass on the power, by which the wind is recognised, Hz.
+    optimal_tip_speed_ratio : float, optional
+        In place of `region_2_gain`, which then follows from the power of the rotor.
+    pitch_frequency, pitch_damping : float, optional
+        In place of the three gains: frequency (rad/s) and damping ratio of the speed under the
+        pitch control; the gains then follow from the power over the pitch.
+    thrust_limit : float, optional
+        Peak shaving: largest steady thrust, share of that without a limit; the lowest pitch around
+        rated wind follows from it.
     individual_gain, individual_limit : float
         Of the individual pitch control: integral gain on the tilt and yaw moment, rad/(N m s), and
         largest deviation from the collective pitch, rad.
+
+    Examples
+    --------
+    >>> from loadflow.turbines import load_turbine
+    >>> round(load_turbine("nrel-5mw").control.pitch_rate, 4)  # rad/s
+    0.1396
     """
 
-    region_2_gain: Positive
     region_15_start: Positive
     region_2_start: Positive
     rated_speed: Positive
@@ -248,13 +330,18 @@ class Control:
     maximum_torque: Positive
     maximum_torque_rate: Positive
     speed_filter: Positive
-    proportional_gain: NotNegative
-    integral_gain: Positive
-    gain_halving_pitch: Positive
     reference_speed: Positive
     pitch_rate: Positive
     minimum_pitch: float
     maximum_pitch: float
+    region_2_gain: Positive | None = None
+    proportional_gain: NotNegative | None = None
+    integral_gain: Positive | None = None
+    gain_halving_pitch: Positive | None = None
+    optimal_tip_speed_ratio: Positive | None = None
+    pitch_frequency: Positive | None = None
+    pitch_damping: Positive | None = None
+    thrust_limit: Annotated[float, Gt(0), Le(1)] | None = None
     scheduled_wind: tuple[float, ...] = ()
     scheduled_pitch: tuple[float, ...] = ()
     schedule_filter: Positive = 0.033
@@ -273,6 +360,7 @@ class Control:
             "increasing: region_15_start < region_2_start < rated_speed <= reference_speed",
         )
         require_ranges(self)
+        self._check_gains()
         require(
             self.minimum_pitch < self.maximum_pitch,
             "Control",
@@ -297,6 +385,24 @@ class Control:
             "one value for each scheduled_wind, from minimum_pitch to maximum_pitch",
         )
 
+    def _check_gains(self) -> None:
+        """Each gain is stated, or what it follows from."""
+        if (self.region_2_gain is None) == (self.optimal_tip_speed_ratio is None):
+            raise InputError("Control: region_2_gain or optimal_tip_speed_ratio: give one of both")
+        stated = (self.proportional_gain, self.integral_gain, self.gain_halving_pitch)
+        wanted = (self.pitch_frequency, self.pitch_damping)
+        complete = [None not in group for group in (stated, wanted)]
+        if complete.count(True) != 1 or any(x is not None for x in (stated, wanted)[complete[0]]):
+            raise InputError(
+                "Control: give proportional_gain, integral_gain and gain_halving_pitch, or else "
+                "pitch_frequency and pitch_damping"
+            )
+
+    @property
+    def is_tuned(self) -> bool:
+        """Whether all gains are stated, so that none follows from the rotor."""
+        return None not in (self.region_2_gain, self.integral_gain) and self.thrust_limit is None
+
 
 @dataclass(frozen=True)
 class Supervision:
@@ -317,6 +423,12 @@ class Supervision:
         From a fault to the reaction of the control, s.
     brake_speed : float
         Rotor speed below which the brake closes in a stop, rad/s.
+
+    Examples
+    --------
+    >>> from loadflow.turbines import Supervision
+    >>> Supervision(overspeed=1.15).brake_speed
+    0.1
     """
 
     idling_pitch: Positive = 70.0 * _DEGREE
@@ -347,6 +459,15 @@ class Turbine:
     frequencies : dict of float by name
         Natural frequencies that a load spectrum may show, Hz.
     supervision : Supervision
+    assumed : tuple of str
+        What the file did not say, and what was taken instead.
+
+    Examples
+    --------
+    >>> from loadflow.turbines import load_turbine
+    >>> turbine = load_turbine("nrel-5mw")
+    >>> turbine.rated_power / 1e6, turbine.rotor.hub_height, turbine.tower.height
+    (5.0, 90.0, 87.6)
     """
 
     name: str
@@ -363,6 +484,7 @@ class Turbine:
     airfoils: dict[str, Airfoil] = field(default_factory=dict)
     frequencies: dict[str, float] = field(default_factory=dict)
     supervision: Supervision = Supervision()
+    assumed: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         require_ranges(self)

@@ -28,7 +28,8 @@ EXPONENTS: dict[str, dict[str, int]] = {
     },
     "Drivetrain": {
         "gear_ratio": 0, "generator_inertia": 5, "brake_torque": 3, "brake_time": 1,
-        "torsional_stiffness": 3, "torsional_damping": 4,
+        "torsional_stiffness": 3, "torsional_damping": 4, "efficiency": 0, "hub_to_bearing": 1,
+        "bearing_span": 1,
     },
     "Control": {
         "region_2_gain": 5, "region_15_start": -1, "region_2_start": -1, "rated_speed": -1,
@@ -36,7 +37,8 @@ EXPONENTS: dict[str, dict[str, int]] = {
         "speed_filter": -1, "proportional_gain": 1, "integral_gain": 0, "gain_halving_pitch": 0,
         "reference_speed": -1, "pitch_rate": -1, "minimum_pitch": 0, "maximum_pitch": 0,
         "scheduled_wind": 0, "scheduled_pitch": 0, "schedule_filter": -1, "constant_power": 0,
-        "individual_gain": -4, "individual_limit": 0,
+        "individual_gain": -4, "individual_limit": 0, "optimal_tip_speed_ratio": 0,
+        "pitch_frequency": -1, "pitch_damping": 0, "thrust_limit": 0,
     },
     "Supervision": {
         "idling_pitch": 0, "stopped_pitch": 0, "start_rate": -1, "stop_rate": -1, "overspeed": 0,
@@ -45,7 +47,7 @@ EXPONENTS: dict[str, dict[str, int]] = {
     "Blade": {
         "radius": 1, "twist": 0, "chord": 1, "mass": 3, "damping": 0, "span": 1,
         "structural_twist": 0, "mass_density": 2, "flap_stiffness": 4, "edge_stiffness": 4,
-        "prebend": 1,
+        "prebend": 1, "torsion_span": 1, "torsion_stiffness": 4, "centre_ahead": 1,
     },
     "Tower": {"base_diameter": 1, "top_diameter": 1, "height": 1},
     "TowerBending": {
@@ -145,4 +147,4 @@ def _times(value: Any, grown: float) -> Any:
         return tuple(grown * x for x in value)
     if isinstance(value, np.ndarray):
         return grown * value
-    return value if grown == 1.0 else grown * value
+    return value if value is None or grown == 1.0 else grown * value

@@ -26,6 +26,13 @@ class TowerBending:
     fore_aft, side_side : tuple of float
         Coefficients of x², x³, … of the mode shapes, with x = 0 at the foot and 1 at the top; they
         add up to 1, so that the modal coordinate is the motion of the tower top.
+
+    Examples
+    --------
+    >>> from loadflow.turbines import load_turbine
+    >>> bending = load_turbine("nrel-5mw").tower.bending
+    >>> bending.height.size == bending.mass_density.size
+    True
     """
 
     nacelle_mass: NotNegative
@@ -64,6 +71,12 @@ class Tower:
     base_diameter, top_diameter, height : float
         m.
     bending : TowerBending, optional
+
+    Examples
+    --------
+    >>> from loadflow.turbines import Tower
+    >>> Tower(base_diameter=6.0, top_diameter=3.87, height=87.6).bending is None
+    True
     """
 
     base_diameter: Positive

@@ -1,8 +1,14 @@
-"""Reading a turbine from windIO (version 2), the exchange format of IEA Wind Tasks 37 and 55."""
+"""Reading a turbine from windIO, the exchange format of IEA Wind Tasks 37 and 55.
+
+Both forms are read: version 2, and the ontology of WISDEM before it (`windio_paths` says where each
+figure stands). What comes out is the description of a turbine as its TOML file would have it, so
+that both are checked in one way, and what a file lacks can be given beside it.
+"""
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Iterable, Mapping
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -10,11 +16,12 @@ import numpy as np
 
 from loadflow.errors import InputError
 
-from .airfoils import blended
 from .checks import Array, require
-from .modes import bending_modes, tower_mode
-from .schema import Airfoil, Blade, Control, Drivetrain, RotorGeometry, Turbine
-from .tower import Tower, TowerBending
+from .description import turbine_from
+from .schema import Turbine
+from .windio_blade import blade_table, foil_table
+from .windio_paths import SCALARS, Source
+from .windio_tower import bending_table
 
 _DEGREE = np.pi / 180
 _RPM = np.pi / 30
@@ -22,6 +29,11 @@ _SPEED_MARGIN = 0.01  # rated speed below the reference of the pitch control, as
 _SLIP = 0.02
 _LOWEST_RANGE = 1.1  # region 1½ up to this share of the lowest speed
 _CENTRE = 1e-3  # m, of a shaft without a hub radius
+_OVERSPEED = 1.5  # of the reference speed: no turbulence of a design load case reaches it
+_BRAKE = 1.15  # of the rated torque
+_TORQUE_RESERVE = 1.1  # of the largest torque over the rated one, as controllers of Task 37 have it
+_FILTER = 0.25  # Hz, corner of the filter of the speed, that of the NREL 5 MW
+_LOWEST_SPEED = 0.4  # of the reference speed, where a file states none
 
 
 def from_windio(
@@ -31,17 +43,22 @@ def from_windio(
     damping: float = 0.005,
     tower_damping: float = 0.01,
     seabed: float | None = None,
+    beside: Mapping[str, Any] | None = None,
+    folder: Path | None = None,
 ) -> Turbine:
     """Read a turbine from a windIO file.
 
-    The format describes a rotor well and its control roughly. The pitch gains become
-    ``gain / (1 + pitch / halving pitch)``; the torque follows ``region2_k``; the rated power is
-    taken for the mechanical one. The torsion of the blade is left out.
+    The format describes a rotor well and its control roughly. The torque follows the optimal tip
+    speed ratio. Pitch gains become ``gain / (1 + pitch / halving pitch)``; files without gains give
+    a frequency and a damping ratio from which they follow. The rated power of the format is
+    electrical: that of the rotor follows from the efficiencies of the file, or else from its
+    largest torque. What the format does not have, such as brake and overspeed, is taken from common
+    practice and told in ``Turbine.assumed``.
 
     Parameters
     ----------
     path : str or Path
-        YAML file of windIO version 2.
+        YAML file of windIO, version 2 or the ontology of WISDEM.
     sections : int
         Aerodynamic sections of equal length per blade.
     damping, tower_damping : float
@@ -50,6 +67,10 @@ def from_windio(
     seabed : float, optional
         Height of the seabed, m (negative), down to which the monopile of the file belongs to the
         tower; otherwise the tower is clamped at its own foot. Soil and water are left out.
+    beside : mapping, optional
+        Tables as in the TOML file of a turbine; what stands in them replaces what is read.
+    folder : Path, optional
+        Where polars of these tables are looked for.
 
     Returns
     -------
@@ -58,263 +79,287 @@ def from_windio(
     Raises
     ------
     InputError
-        Not a windIO 2 file, a missing key, a value outside its range, or PyYAML is not installed.
+        No windIO file; all values that are missing in it, each with its place there and the key
+        that gives it beside the file; a value outside its range; or PyYAML is not installed.
 
     Examples
     --------
     >>> from loadflow.turbines import from_windio
     >>> turbine = from_windio("IEA-15-240-RWT.yaml")  # doctest: +SKIP
     """
-    document = _document(Path(path))
+    path = Path(path)
+    source = Source(_document(path))
     try:
-        turbine = _turbine(document, sections, damping)
-        parts = document["components"]
-        bending = _bending(parts, turbine.rotor_mass, tower_damping, seabed)
-        return replace(turbine, tower=replace(turbine.tower, bending=bending))
-    except KeyError as error:
-        raise InputError(f"{path}: missing key {error}") from error
-    except (TypeError, IndexError) as error:
-        raise InputError(f"{path}: not of the form of windIO 2: {error}") from error
+        described = _described(source, sections, damping, tower_damping, seabed, beside or {})
     except InputError as error:
         raise InputError(f"{path}: {error}") from error
+    except (TypeError, IndexError, ValueError, KeyError, AttributeError) as error:
+        raise InputError(f"{path}: not of the form of windIO: {error}") from error
+    try:
+        return turbine_from(described, folder or path.parent, source.hints)
+    except InputError as error:
+        lines = str(error).split("\n")
+        if any("missing key" in line for line in lines):
+            lines.append(
+                f'give what is missing in a file of TOML that begins with windio = "{path.name}"'
+            )
+        raise InputError("\n".join(f"{path}: {line}" for line in lines)) from error
 
 
-def _document(path: Path) -> dict[str, Any]:
+@lru_cache(maxsize=2)
+def _parsed(path: Path, time: int, size: int) -> Any:
+    """A YAML file, which may use the name of an anchor twice, as some of the format do."""
     try:
         import yaml
     except ImportError as error:
         raise InputError("windIO files need PyYAML: pip install loadflow[windio]") from error
+
+    class Loader(yaml.SafeLoader):
+        """Reads data only; a later anchor of one name replaces the earlier one."""
+
+        def compose_node(self, parent: Any, index: Any) -> Any:
+            event = self.peek_event()  # type: ignore[no-untyped-call]
+            anchor = getattr(event, "anchor", None)
+            if anchor in self.anchors and not isinstance(event, yaml.AliasEvent):
+                del self.anchors[anchor]
+            return super().compose_node(parent, index)  # type: ignore[no-untyped-call]
+
+    try:
+        text = path.read_text(encoding="utf-8")
+        try:
+            return yaml.load(text, getattr(yaml, "CSafeLoader", Loader))
+        except yaml.composer.ComposerError:  # the fast loader takes each anchor once
+            return yaml.load(text, Loader)
+    except (yaml.YAMLError, UnicodeDecodeError, RecursionError) as error:
+        raise InputError(f"{path}: not a YAML file: {error}") from error
+
+
+def _document(path: Path) -> dict[str, Any]:
     if not path.is_file():
         raise InputError(f"windIO file {path} does not exist")
-    try:
-        document = yaml.load(path.read_text(encoding="utf-8"), yaml.CSafeLoader)
-    except (yaml.YAMLError, UnicodeDecodeError) as error:
-        raise InputError(f"{path}: not a YAML file: {error}") from error
-    version = document.get("windIO_version") if isinstance(document, dict) else None
-    if str(version).split(".")[0] != "2":
-        raise InputError(f"{path}: windIO_version = {version!r} is not allowed; it must be 2.x")
+    stamp = path.stat()
+    document = _parsed(path, stamp.st_mtime_ns, stamp.st_size)
+    if not isinstance(document, dict):
+        raise InputError(f"{path}: not of the form of windIO: no table of keys")
+    version = document.get("windIO_version")
+    known = version is None and "components" in document
+    if not known and str(version).split(".")[0] != "2":
+        raise InputError(
+            f"{path}: windIO_version = {version!r} is not allowed; it must be 2.x, or absent in a "
+            "file of WISDEM, which has components"
+        )
     return document
 
 
-def _turbine(document: dict[str, Any], sections: int, damping: float) -> Turbine:
-    assembly, parts = document["assembly"], document["components"]
-    nacelle, hub, blade = parts["drivetrain"], parts["hub"], parts["blade"]
-    hub_radius = 0.5 * hub["diameter"] or _CENTRE
-    axis = blade["reference_axis"]
-    length = float(axis["z"]["values"][-1])
-    tilt = nacelle["outer_shape"]["uptilt"] * _DEGREE
-    gear_ratio = float(nacelle.get("gearbox", {}).get("gear_ratio", 1.0))
-    rotor = RotorGeometry(
-        radius=hub_radius + length,
-        hub_radius=hub_radius,
-        blades=int(assembly["number_of_blades"]),
-        hub_height=float(assembly["hub_height"]),
-        # the file gives the horizontal distance
-        overhang=float(nacelle["outer_shape"]["overhang"] / np.cos(tilt)),
-        tilt=tilt,
-        cone=hub["cone_angle"] * _DEGREE,
-        hub_mass=float(hub["elastic_properties"]["mass"]),
-        hub_inertia=float(hub["elastic_properties"]["inertia"][0]),
-    )
-    tower = parts["tower"]
-    diameter = tower["outer_shape"]["outer_diameter"]["values"]
-    airfoils = {foil["name"]: _airfoil(foil) for foil in document["airfoils"]}
-    control = document["control"]
-    rated_wind = control["rated_rotor_speed"] * _RPM * rotor.radius / control["optimal_tsr"]
-    body = nacelle.get("elastic_properties", {})
-    return Turbine(
-        name=str(document["name"]),
-        source="windIO",
-        rated_power=float(assembly["rated_power"]),
-        rated_wind_speed=rated_wind,
-        cut_in=float(assembly["cut_in_wind_speed"]),
-        cut_out=float(assembly["cut_out_wind_speed"]),
-        rotor=rotor,
-        tower=Tower(
-            float(diameter[0]),
-            float(diameter[-1]),
-            float(tower["reference_axis"]["z"]["values"][-1]),
-        ),
-        drivetrain=Drivetrain(
-            gear_ratio=gear_ratio,
-            generator_inertia=float(nacelle["generator"]["elastic_properties"]["inertia"][0]),
-            torsional_stiffness=float(body.get("spring_constant", 0.0)),
-            torsional_damping=float(body.get("damping_coefficient", 0.0)),
-        ),
-        control=_control(control, gear_ratio, rated_wind),
-        blade=_blade(blade, rotor, airfoils, sections, damping),
-        airfoils=airfoils,
-    )
-
-
-def _bending(
-    parts: dict[str, Any], rotor_mass: float, damping: float, seabed: float | None
-) -> TowerBending | None:
-    """The tower and what stands on it; none if the file gives no mass or stiffness of either."""
-    nacelle = parts["drivetrain"].get("elastic_properties", {})
-    if "mass" not in nacelle or "elastic_properties" not in parts["tower"]["structure"]:
-        return None
-    mass = float(nacelle["mass"])
-    yaw = float(parts.get("yaw", {}).get("elastic_properties", {}).get("mass", 0.0))
-    downwind, _, above = (float(x) * mass / (mass + yaw) for x in nacelle["location"])
-    beam = _tower_beam(parts["tower"])
-    if seabed is not None:
-        beam = np.hstack([_pile_beam(parts["monopile"], parts["tower"], beam[:, 0], seabed), beam])
-    height, density, fore_aft, side_side = beam
-    top_mass = mass + yaw + rotor_mass
-    return TowerBending(
-        nacelle_mass=mass + yaw,
-        nacelle_downwind=downwind,
-        nacelle_above=above,
-        damping=damping,
-        height=height,
-        mass_density=density,
-        fore_aft_stiffness=fore_aft,
-        side_side_stiffness=side_side,
-        fore_aft=tower_mode(height, density, fore_aft, top_mass),
-        side_side=tower_mode(height, density, side_side, top_mass),
-    )
-
-
-def _tower_beam(entry: dict[str, Any]) -> Array:
-    """Height, mass density, fore-aft and side-to-side stiffness, (4, n)."""
-    height, *stiffness = _stiffness(entry)
-    axis = entry["reference_axis"]["z"]
-    inertia = entry["structure"]["elastic_properties"]["inertia_matrix"]
-    along = np.interp(inertia["grid"], axis["grid"], axis["values"])
-    return np.array([height, np.interp(height, along, inertia["mass"]), *stiffness])
-
-
-def _pile_beam(entry: dict[str, Any], tower: dict[str, Any], foot: Array, seabed: float) -> Array:
-    """The same of the monopile from the seabed to the foot of the tower, whose column is `foot`.
-
-    The mass in the files counts soil in; that of a thin tube of the same steel is proportional to
-    its stiffness over the square of its diameter.
-    """
-    height, *stiffness = _stiffness(entry)
-    within = bool(height[0] <= seabed < foot[0])
-    allowed = f"from {height[0]} m to below {foot[0]} m"
-    require(within, "from_windio", "seabed", seabed, allowed)
-    station = np.append(seabed, height[(height > seabed) & (height < foot[0])])
-    fore_aft, side_side = (np.interp(station, height, values) for values in stiffness)
-    width = _diameter(entry, station) / _diameter(tower, foot[:1])
-    return np.array([station, foot[1] * fore_aft / foot[2] / width**2, fore_aft, side_side])
-
-
-def _stiffness(entry: dict[str, Any]) -> tuple[Array, Array, Array]:
-    """Height, fore-aft and side-to-side stiffness of a tower or a monopile."""
-    axis = entry["reference_axis"]["z"]
-    matrix = entry["structure"]["elastic_properties"]["stiffness_matrix"]
-    height = np.interp(matrix["grid"], axis["grid"], axis["values"])
-    return height, np.asarray(matrix["K55"], float), np.asarray(matrix["K44"], float)
-
-
-def _diameter(entry: dict[str, Any], height: Array) -> Array:
-    """Outer diameter of a tower or a monopile at the given heights."""
-    axis, diameter = entry["reference_axis"]["z"], entry["outer_shape"]["outer_diameter"]
-    share = np.interp(height, axis["values"], axis["grid"])
-    return np.interp(share, diameter["grid"], diameter["values"])
-
-
-def _blade(
-    entry: dict[str, Any],
-    rotor: RotorGeometry,
-    airfoils: dict[str, Airfoil],
+def _described(
+    source: Source,
     sections: int,
     damping: float,
-) -> Blade:
-    """The blade; airfoils of its sections are added to `airfoils`."""
-    axis, shape = entry["reference_axis"], entry["outer_shape"]
-    length = rotor.radius - rotor.hub_radius
-    middle = (np.arange(sections) + 0.5) / sections
-    station = middle * length
+    tower_damping: float,
+    seabed: float | None,
+    beside: Mapping[str, Any],
+) -> dict[str, Any]:
+    """The turbine as its TOML file would have it, without what the source lacks."""
+    found: dict[str, Any] = {}
+    for key in SCALARS:
+        _put(found, key, source.number(key))
+    _put(found, "name", str(source.at("name") or "windIO turbine"))
+    _put(found, "source", "windIO")
+    rotor = found.setdefault("rotor", {})
+    assumed: list[str] = []
+    _geometry(source, found)
+    found["airfoils"], thicknesses = foil_table(source)
+    blade = blade_table(source, rotor, thicknesses, sections, damping)
+    _put(found, "blade", blade or None)
+    found["airfoils"] = {name: foil for name, foil in found["airfoils"].items() if foil}
+    merged = _merged(found, beside)  # what is beside counts in what follows from it
+    hub, mass = merged.get("rotor", {}).get("hub_mass"), (blade or {}).get("mass")
+    on_top = None if hub is None or mass is None else hub + rotor.get("blades", 3) * mass
+    bending = bending_table(source, on_top, tower_damping, seabed)
+    _put(found.setdefault("tower", {}), "bending", bending)
+    _control(source, found, merged, assumed)
+    described = _merged(found, beside)
+    told = [text for key, text in assumed_of(assumed) if not _has(beside, key)]
+    return described | {"assumed": (*described.get("assumed", ()), *told)}
 
-    def at(table: dict[str, Any]) -> Array:
-        """Values over the shares of the reference axis, at the sections."""
-        along = np.interp(table["grid"], axis["z"]["grid"], axis["z"]["values"])
-        return np.interp(station, along, table["values"])
 
-    foils = []
-    for thickness in at(shape["rthick"]):
-        foil = blended(airfoils, round(float(thickness), 4))
-        airfoils.setdefault(foil.name, foil)
-        foils.append(foil.name)
-    structure = entry["structure"]["elastic_properties"]
-    stiffness, inertia = structure["stiffness_matrix"], structure["inertia_matrix"]
-    span = np.interp(stiffness["grid"], axis["z"]["grid"], axis["z"]["values"])
-    density = np.interp(stiffness["grid"], inertia["grid"], inertia["mass"])
-    flap, edge = np.asarray(stiffness["K55"], float), np.asarray(stiffness["K44"], float)
-    twist = shape["twist"]
-    return Blade(
-        radius=rotor.hub_radius + station,
-        twist=at(twist) * _DEGREE,
-        chord=at(shape["chord"]),
-        airfoil=tuple(foils),
-        mass=float(np.trapezoid(density, span)),
-        damping=damping,
-        span=span,
-        structural_twist=np.interp(stiffness["grid"], twist["grid"], twist["values"]) * _DEGREE,
-        mass_density=density,
-        flap_stiffness=flap,
-        edge_stiffness=edge,
-        modes=bending_modes(span, density, flap, edge),
-        prebend=-at(axis["x"]),
+def assumed_of(assumed: Iterable[str]) -> Iterable[tuple[str, str]]:
+    """Key and whole text of what was assumed."""
+    return ((text.split(" ")[0], text) for text in assumed)
+
+
+def _put(found: dict[str, Any], key: str, value: Any) -> None:
+    """Set a value under a dotted key; nothing where there is none."""
+    if value is None:
+        return
+    *tables, last = key.split(".")
+    for table in tables:
+        found = found.setdefault(table, {})
+    found[last] = value
+
+
+def _has(table: Mapping[str, Any], key: str) -> bool:
+    *tables, last = key.split(".")
+    inner: Any = table
+    for name in tables:
+        inner = inner.get(name, {}) if isinstance(inner, Mapping) else {}
+    return isinstance(inner, Mapping) and (last in inner or f"{last}_deg" in inner)
+
+
+def _merged(found: Mapping[str, Any], beside: Mapping[str, Any]) -> dict[str, Any]:
+    """What is read, and in its place what stands beside."""
+    out = dict(found)
+    for key, value in beside.items():
+        out.pop(key.removesuffix("_deg"), None)
+        before = found.get(key)
+        inner = isinstance(value, Mapping) and isinstance(before, Mapping)
+        out[key] = _merged(before, value) if inner else value  # type: ignore[arg-type]
+    return out
+
+
+def _geometry(source: Source, found: dict[str, Any]) -> None:
+    """Rotor and tower from lengths that the format has in other terms."""
+    rotor, tower = found.setdefault("rotor", {}), found.setdefault("tower", {})
+    diameter, length = source.number("hub diameter"), source.last("blade length")
+    if diameter is not None:
+        rotor["hub_radius"] = 0.5 * diameter or _CENTRE
+    if length is not None and "hub_radius" in rotor:
+        rotor["radius"] = rotor["hub_radius"] + length
+    if "overhang" in rotor and "tilt" in rotor:
+        rotor["overhang"] /= np.cos(rotor["tilt"])  # the file gives the horizontal distance
+    if "blades" in rotor:
+        rotor["blades"] = int(rotor["blades"])
+    diameters = source.list("tower diameter")
+    if diameters:
+        tower["base_diameter"], tower["top_diameter"] = float(diameters[0]), float(diameters[-1])
+    _put(tower, "height", source.last("tower height"))
+    found.setdefault("drivetrain", {}).setdefault("gear_ratio", 1.0)
+
+
+def _control(
+    source: Source, found: dict[str, Any], merged: Mapping[str, Any], assumed: list[str]
+) -> None:
+    """Control, drivetrain and supervision, generator side."""
+    control, drivetrain = found.setdefault("control", {}), found["drivetrain"]
+    gear = float(merged.get("drivetrain", {}).get("gear_ratio", 1.0))
+    radius, ratio = merged["rotor"].get("radius"), source.number("tip speed ratio")
+    rotor_speed = source.number("rated rotor speed")
+    if rotor_speed is None and (tip := source.number("largest tip speed")) and radius:
+        rotor_speed = tip / radius
+    lowest = source.number("lowest rotor speed") or None
+    power = merged.get("rated_power")
+    if rotor_speed is not None:
+        reference = rotor_speed * gear
+        rated = (1 - _SPEED_MARGIN) * reference
+        if lowest is None:
+            lowest = _LOWEST_SPEED * rotor_speed
+            assumed.append(f"control.region_15_start = {lowest * gear:.4g} rad/s: not in the file")
+        control |= {
+            "reference_speed": reference,
+            "rated_speed": rated,
+            "region_15_start": lowest * gear,
+            "region_2_start": _LOWEST_RANGE * lowest * gear,
+        }
+        if radius and ratio:
+            found["rated_wind_speed"] = rotor_speed * radius / ratio
+        mechanical = _mechanical(source, merged, reference, gear, assumed)
+        _put(control, "rated_mechanical_power", mechanical)
+        mechanical = merged.get("control", {}).get("rated_mechanical_power", mechanical)
+        torque = source.number("largest torque")
+        if torque is not None:
+            control["maximum_torque"] = torque / gear
+        elif mechanical is not None:
+            control["maximum_torque"] = _TORQUE_RESERVE * mechanical / rated
+        if mechanical is not None:
+            drivetrain["brake_torque"] = _BRAKE * mechanical / rated
+            assumed.append(f"drivetrain.brake_torque = {_BRAKE} × the rated torque")
+    source.hints["control.maximum_torque"] = "follows from control.rated_mechanical_power"
+    source.hints["rated_wind_speed"] = "from tip speed ratio, rated speed and radius"
+    if "maximum_torque_rate" in control:
+        control["maximum_torque_rate"] /= gear
+    if "maximum_torque_rate" not in control and power:
+        control["maximum_torque_rate"] = 0.2 * power / (rotor_speed or 1.0) / gear
+        assumed.append("control.maximum_torque_rate = a fifth of the rated torque each second")
+    if "speed_filter" not in control:
+        control["speed_filter"] = _FILTER
+        assumed.append(f"control.speed_filter = {_FILTER} Hz: not in the file")
+    control.setdefault("constant_power", 1.0)
+    control["slip"] = _SLIP
+    control["maximum_pitch"] = 0.5 * np.pi
+    found["supervision"] = {"overspeed": _OVERSPEED}
+    assumed.append(f"supervision.overspeed = {_OVERSPEED} of the reference speed")
+    if ratio is not None:
+        control["optimal_tip_speed_ratio"] = ratio
+    _gains(source, control, gear)
+    wind, pitch = _schedule(source, found.get("rated_wind_speed"))
+    control |= {"scheduled_wind": wind, "scheduled_pitch": pitch}
+    if "minimum_pitch" in control:
+        control["minimum_pitch"] = min((control["minimum_pitch"], *pitch))
+    if _has(merged, "control.region_2_gain"):
+        control.pop("optimal_tip_speed_ratio", None)
+
+
+def _mechanical(
+    source: Source,
+    merged: Mapping[str, Any],
+    reference: float,
+    gear: float,
+    assumed: list[str],
+) -> float | None:
+    """Power of the rotor at rated, W: that of the format is electrical."""
+    power = merged.get("rated_power")
+    if power is None:
+        return None
+    efficiency = merged.get("drivetrain", {}).get("efficiency")
+    if efficiency is None and (generator := source.last("generator efficiency")) is not None:
+        efficiency = generator * (source.number("gearbox efficiency") or 1.0)
+    if efficiency is not None:
+        return float(power / efficiency)
+    torque = source.number("largest torque")
+    if torque is None:
+        source.hints["control.rated_mechanical_power"] = (
+            "the file has no efficiency of the generator; drivetrain.efficiency gives it, too"
+        )
+        return None
+    mechanical = torque * reference / gear / _TORQUE_RESERVE
+    if not power <= mechanical <= 1.15 * power:
+        source.hints["control.rated_mechanical_power"] = (
+            "neither efficiency nor largest torque of the file tell it; drivetrain.efficiency does"
+        )
+        return None
+    assumed.append(
+        f"control.rated_mechanical_power = {mechanical:.4g} W: the largest torque of the file is "
+        f"taken for {_TORQUE_RESERVE} × the rated one"
     )
+    return float(mechanical)
 
 
-def _airfoil(entry: dict[str, Any]) -> Airfoil:
-    """First set of polars of an airfoil, lift and drag on one grid of angles."""
-    polars = entry["polars"][0]["re_sets"][0]
-    lift, drag = polars["cl"], polars["cd"]
-    grid = np.union1d(lift["grid"], drag["grid"])
-    angle = np.clip(grid * _DEGREE, -np.pi, np.pi)
-    return Airfoil(
-        str(entry["name"]),
-        angle,
-        np.interp(grid, lift["grid"], lift["values"]),
-        np.interp(grid, drag["grid"], drag["values"]),
-        float(entry["rthick"]),
-    )
+def _gains(source: Source, control: dict[str, Any], gear: float) -> None:
+    """Of the pitch control: a table, or a frequency and a damping ratio."""
+    proportional, integral = source.at("pitch_kp"), source.at("pitch_ki")
+    if proportional and integral:
+        first, second, halving = _gain_schedule(proportional, integral)
+        per_speed = _DEGREE / _RPM / gear
+        control["proportional_gain"] = first * per_speed
+        control["integral_gain"] = second * per_speed
+        control["gain_halving_pitch"] = halving
+        return
+    _put(control, "pitch_frequency", source.number("pitch frequency"))
+    _put(control, "pitch_damping", source.number("pitch damping"))
+    limit = source.number("thrust limit")
+    if limit is not None and limit < 1:
+        control["thrust_limit"] = limit
 
 
-def _control(entry: dict[str, Any], gear_ratio: float, rated_wind: float) -> Control:
-    reference = entry["rated_rotor_speed"] * _RPM * gear_ratio
-    lowest = entry["min_rotor_speed"] * _RPM * gear_ratio
-    rated = reference * (1 - _SPEED_MARGIN)
-    proportional, integral, halving = _gain_schedule(entry["pitch_kp"], entry["pitch_ki"])
-    per_speed = _DEGREE / _RPM / gear_ratio
-    wind, pitch = _schedule(entry, rated_wind)
-    return Control(
-        region_2_gain=entry["region2_k"] / _RPM**2 / gear_ratio**3,
-        region_15_start=lowest,
-        region_2_start=_LOWEST_RANGE * lowest,
-        rated_speed=rated,
-        slip=_SLIP,
-        rated_mechanical_power=float(entry["rated_power"]),
-        maximum_torque=entry["max_gen_torque"] / gear_ratio,
-        maximum_torque_rate=entry["max_torque_rate"] / gear_ratio,
-        speed_filter=entry["lpf_frequency"] / (2 * np.pi),
-        proportional_gain=proportional * per_speed,
-        integral_gain=integral * per_speed,
-        gain_halving_pitch=halving,
-        reference_speed=reference,
-        pitch_rate=entry["max_pitch_rate"] * _DEGREE,
-        minimum_pitch=min((entry["fine_pitch"] * _DEGREE, *pitch)),
-        maximum_pitch=0.5 * np.pi,
-        constant_power=float(entry.get("constant_power", 1.0)),
-        scheduled_wind=wind,
-        scheduled_pitch=pitch,
-    )
-
-
-def _schedule(entry: dict[str, Any], rated_wind: float) -> tuple[tuple[float, ...], ...]:
+def _schedule(source: Source, rated_wind: float | None) -> tuple[tuple[float, ...], ...]:
     """Lowest pitch below rated wind (m/s; rad), without points inside and at the end of a plateau.
 
     Above rated wind the tables go on with the pitch of the speed control.
     """
-    table = entry.get("min_pitch_table", {"wind_speed": [], "min_pitch": []})
+    table = source.at("min_pitch_table") or {"wind_speed": [], "min_pitch": []}
     points = zip(table["wind_speed"], table["min_pitch"], strict=True)
-    below = np.array([point for point in points if point[0] < rated_wind]).reshape(-1, 2)
+    last = np.inf if rated_wind is None else rated_wind
+    below = np.array([point for point in points if point[0] < last]).reshape(-1, 2)
     step = np.diff(below[:, 1], prepend=below[:1, 1], append=below[-1:, 1]) != 0
     wind, pitch = below[step[:-1] | step[1:]].T
     return tuple(wind.tolist()), tuple((pitch * _DEGREE).tolist())
@@ -323,17 +368,30 @@ def _schedule(entry: dict[str, Any], rated_wind: float) -> tuple[tuple[float, ..
 def _gain_schedule(proportional: dict[str, Any], integral: dict[str, Any]) -> tuple[float, ...]:
     """Both gains at zero pitch, deg per 1/min, and the pitch that halves them, rad.
 
-    The line through the inverse of the integral gain at the first and at the middle entry; the
-    proportional gain agrees at its first entry.
+    The line through the inverse of the integral gain at the first and at the middle entry; where
+    it does not rise, as with gains that rise again with the pitch, that which fits all entries
+    best, level at the most. The proportional gain agrees at its first entry.
     """
     pitch = np.asarray(integral["pitch_angle"], float) * _DEGREE
-    inverse = -1 / np.asarray(integral["ki"], float)
+    gains = -np.asarray(integral["ki"], float)
+    if not np.all(gains > 0):
+        raise InputError(f"control.pitch_ki.ki = {(-gains).tolist()!r:.200}: must be negative")
+    inverse = 1 / gains
     middle = pitch.size // 2
-    slope = (inverse[middle] - inverse[0]) / (pitch[middle] - pitch[0])
+    slope = (inverse[middle] - inverse[0]) / max(pitch[middle] - pitch[0], 1e-9)
     offset = inverse[0] - slope * pitch[0]
     if not (slope > 0 and offset > 0):
-        raise InputError("control.pitch_ki: the gain must be negative and fall with the pitch")
+        slope, offset = _rising(pitch, inverse)
     halving = offset / slope
     first = proportional["pitch_angle"][0] * _DEGREE
     at_zero = -proportional["kp"][0] * (1 + first / halving)
     return float(at_zero), float(1 / offset), float(halving)
+
+
+def _rising(pitch: Array, inverse: Array) -> tuple[float, float]:
+    """Slope and offset, both positive, of the line that fits best."""
+    from scipy.optimize import nnls
+
+    (slope, offset), _ = nnls(np.array([pitch, np.ones(pitch.size)]).T, inverse)
+    require(bool(offset > 0), "control", "pitch_ki", inverse.tolist(), "gains at zero pitch")
+    return max(float(slope), 1e-3 * float(offset)), float(offset)

@@ -2,8 +2,8 @@
 
 The oil's temperature in the tests is not given (45 … 60 °C): one viscosity, 37.1 mPa s, is fitted
 to the first row of Table 8.5 and holds for all rows of both models; the reversing loads, run on
-another day, take 29 mPa s. Of Table 8.6 only the rows under reversing loads can be computed, for
-the others no loads are given. Nothing is fitted to the measurements.
+another day, take 29 mPa s, fitted to their first row. Of Table 8.6 only the rows under reversing
+loads can be computed, for the others no loads are given. Nothing is fitted to the measurements.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from loadflow.rolling.motion.history import RollerHistory, RollerRow, radial_his
 from loadflow.rolling.motion.radial_load import behw_law
 from loadflow.rolling.motion.rollers import RollerMotion, coulomb_motion, film_motion
 from loadflow.tribology import Oil
-from loadflow.validation.check import Check
+from loadflow.validation.check import Check, Evidence, evidence
 
 RPM = math.pi / 30
 ROW = RollerRow(
@@ -34,6 +34,7 @@ ROW = RollerRow(
     roller_mass=11e-3,
 )
 FITTED = 37.06e-3  # Pa s, to the first row of Table 8.5
+_FREQUENCY = "the frequency of the reversing load is not printed; once a turn is assumed"
 AT_60 = 26.3e-3  # Pa s, the source's oil at 60 °C, the upper end of the tests
 
 # speed (1/min), load (N), slip (%) measured (mid of ranges), stage 1, stage 2
@@ -112,17 +113,24 @@ def checks(gaps: RollerGaps) -> Iterator[Check]:
     yield from _cage()
 
 
+def _fitted(row: bool) -> Evidence:
+    """What a row of stage 1 is: that to which the oil's viscosity is fitted proves nothing."""
+    return "consistency" if row else "print of the source"
+
+
 def _percent(model: Model, history: RollerHistory) -> float:
     return 100 * model(history).maximum_slip
 
 
+@evidence("print of the source")
 def _stage_one(gaps: RollerGaps) -> Iterator[Check]:
     """Stage 1: Table 8.5 (B1), uneven gaps (B3), reversing loads of Table 8.6 (B5)."""
     model = coulomb_model(gaps, FITTED)
     for rpm, force, _, printed, _ in STATIC:
         got = _percent(model, static_load(rpm, force))
         name = f"slip, stage 1, {rpm}/min, {force / 1e3:g} kN"
-        yield Check(name, "Tab. 8.5", printed, got, 1.5, "absolute", "%")
+        of = _fitted(rpm == 1000 and force == 2e3)
+        yield Check(name, "Tab. 8.5", printed, got, 1.5, "absolute", "%", evidence=of)
 
     def uneven(pair: tuple[float, float]) -> tuple[float, float]:
         return pair[0] / 2, 1.5 * pair[1]
@@ -136,9 +144,13 @@ def _stage_one(gaps: RollerGaps) -> Iterator[Check]:
     for rpm, _, printed, _ in REVERSING:
         got = _percent(model, reversing_load(rpm))
         name = f"slip, stage 1, ±2 kN, {rpm}/min"
-        yield Check(name, "Tab. 8.6", printed, got, 7.0, "absolute", "%")
+        yield Check(
+            name, "Tab. 8.6", printed, got, 1.5, "absolute", "%",
+            missed=_FREQUENCY if rpm >= 2000 else "", evidence=_fitted(rpm == 500),
+        )  # fmt: skip
 
 
+@evidence("print of the source")
 def _stage_two(gaps: RollerGaps) -> Iterator[Check]:
     """Stage 2 of Table 8.5 (B4): elastic films and the same viscosity."""
     drag = parts.coulomb_drag_constants(gaps, FITTED, 9 / 22, 0.12, 0.04, variant="thesis")
@@ -146,7 +158,7 @@ def _stage_two(gaps: RollerGaps) -> Iterator[Check]:
     for rpm, force, _, _, printed in STATIC:
         got = _percent(model, static_load(rpm, force))
         name = f"slip, stage 2, {rpm}/min, {force / 1e3:g} kN"
-        yield Check(name, "Tab. 8.5", printed, got, 4.0, "absolute", "%")
+        yield Check(name, "Tab. 8.5", printed, got, 2.0, "absolute", "%")
 
 
 def errors(model: Model) -> tuple[float, float]:
@@ -156,26 +168,38 @@ def errors(model: Model) -> tuple[float, float]:
     return float(np.abs(static).mean()), float(np.abs(moving).mean())
 
 
+def printed_errors(stage: int) -> tuple[float, float]:
+    """Mean |slip - measured| of the source's stage 1 or 2 over the same rows, %."""
+    static, moving = (
+        np.mean([abs(row[-3 + stage] - row[-3]) for row in rows]) for rows in (STATIC, REVERSING)
+    )
+    return float(static), float(moving)
+
+
+@evidence("measured elsewhere")
 def _beyond(gaps: RollerGaps) -> Iterator[Check]:
-    """Mean error against the measured slip, below that of the source's models.
+    """Mean error against the measured slip, below that of the source's models in the same rows.
 
     One change to each: pockets as drawn in stage 1, films of all regimes in stage 2 (with such
-    pockets; and drained, since the tests were lubricated by drops). Oil at 60 °C in all rows.
+    pockets; and drained, since the tests were lubricated by drops). Oil at 60 °C in all rows. The
+    limits are one-sided, since a model that is nearer to the measurements is no worse.
     """
-    source = "mean error, Tab. 8.5, 8.6; ±2 kN rows ours"
-    stage_two = (69.3, 82.5)
+    source = "error of the print in the same rows, Tab. 8.5, 8.6"
+    stage_one, stage_two = printed_errors(1), printed_errors(2)
     flooded = parts.drag_constants(gaps, AT_60, 9 / 22)
     models: Sequence[tuple[str, Model, tuple[float, float]]] = (
-        ("stage 1, pockets as drawn", coulomb_model(gaps, AT_60, "geometric"), (34.0, 22.3)),
+        ("stage 1, pockets as drawn", coulomb_model(gaps, AT_60, "geometric"), stage_one),
         ("films of all regimes, flooded pockets", film_model(AT_60, flooded, "moes"), stage_two),
         ("the same, drained pockets", film_model(AT_60, DragConstants(0.0, 0.0), "moes"),
-         (34.0, 22.3)),
+         stage_one),
     )  # fmt: skip
     for name, model, limits in models:
         for load, limit, got in zip(("constant", "reversing"), limits, errors(model)):
-            yield Check(f"{name}, {load} load", source, limit, got, 0.0, "below", "%")
+            label = f"mean error of the slip, {name}, {load} load"
+            yield Check(label, source, limit, got, 0.0, "below", "%")
 
 
+@evidence("print of the source")
 def _cage() -> Iterator[Check]:
     """Gap of the crank-pin bearing's cage in the rod (B2); its mass, 30 g, is fitted."""
     drive = CrankDrive(radius=42.5e-3, rod_length=143.5e-3)

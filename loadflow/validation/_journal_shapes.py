@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from loadflow.validation.check import Check
+from loadflow.validation import _pressure_dam
+from loadflow.validation.check import Check, evidence
 
 if TYPE_CHECKING:
     from loadflow.journal import Equilibrium, FilmField, JournalBearing
@@ -84,6 +85,7 @@ def loaded(
     return state, load
 
 
+@evidence("another code")
 def coefficient_checks() -> Iterator[Check]:
     """Stiffness and damping of Lund & Thomsen 1978 (their last digit is worth up to 0.5 %).
 
@@ -139,6 +141,7 @@ TILTING_PADS = (
 )
 
 
+@evidence("another code")
 def pad_checks() -> Iterator[Check]:
     """Someya 1989 (his coefficients are off the consistent linearisation by several per cent)."""
     from loadflow.journal import JournalBearing, TiltingPads
@@ -161,6 +164,7 @@ COMSOL = ((320.0, 18.0), (300.0, 67.0), (287.6, 79.0), (280.0, 78.0), (260.0, 60
           (240.0, 40.0), (220.0, 24.0), (200.0, 10.0), (188.0, 2.0))  # fmt: skip
 
 
+@evidence("another code")
 def comsol_checks() -> Iterator[Check]:
     """EHL example of COMSOL 6.4 at 10,000 1/min, fed at 2 bar by two 10 mm grooves."""
     from loadflow.journal import Groove, JournalBearing, Lubricant, Supply
@@ -170,7 +174,7 @@ def comsol_checks() -> Iterator[Check]:
     film = (10000 * np.pi / 30, Lubricant(0.075))
     state = bearing.equilibrium((0.0, -40e3), *film, supply=supply)
     got = float(state.eccentricity_ratio)
-    yield Check("ε, 10,000 1/min", "rigid film", 0.498, got, 0.002, "absolute")
+    yield Check("ε, 10,000 1/min", "another rigid film", 0.498, got, 0.002, "absolute")
     field = bearing.pressure(state.eccentricity, *film, supply=supply)
     angle = np.degrees(field.angle) % 360
     order = np.argsort(angle)
@@ -247,6 +251,7 @@ def parabolic_slider(cells: int) -> dict[str, float]:
     }
 
 
+@evidence("closed form")
 def slider_checks() -> Iterator[Check]:
     """Exact mass-conserving films over a step and over a parabola."""
     pressure, flux = pocket_errors(200)
@@ -264,8 +269,9 @@ def slider_checks() -> Iterator[Check]:
 
 
 def checks() -> Iterator[Check]:
-    """Everything printed about shapes of the gap."""
+    """All rows of shapes of the gap."""
     yield from coefficient_checks()
     yield from pad_checks()
     yield from comsol_checks()
     yield from slider_checks()
+    yield from _pressure_dam.checks()

@@ -11,7 +11,7 @@ from loadflow.rolling.rating import modified_life as lubricated_life
 from loadflow.tribology.contact_ellipse import exact_ellipse
 from loadflow.tribology.hertz import curvature_sum
 from loadflow.validation._slewing_cases import RINGS
-from loadflow.validation.check import Check
+from loadflow.validation.check import Check, evidence
 
 Numbers = tuple[float, ...]
 
@@ -25,6 +25,7 @@ def checks() -> Iterator[Check]:
     yield from _modified_life()
 
 
+@evidence("closed form")
 def _ellipses() -> Iterator[Check]:
     """Ellipticity and elliptic integrals at ratios of curvature computed to all digits."""
     for ratio, *values in (
@@ -39,6 +40,7 @@ def _ellipses() -> Iterator[Check]:
             )
 
 
+@evidence("another code")
 def _iso_16281() -> Iterator[Check]:
     """Seven worked cases of a 6305 with a commercial program's results (lever arm D_pw/2)."""
     ball = 11.5e-3
@@ -87,6 +89,7 @@ def _iso_16281() -> Iterator[Check]:
     yield Check("L_10r, M = 1 N m, s = 0", source, 785_144.75, years, 7e-3, unit="10⁶")
 
 
+@evidence("print of the source")
 def _harris() -> Iterator[Check]:
     """Harris's worked example of the 209 deep groove bearing."""
     ball = 12.7e-3
@@ -110,6 +113,7 @@ def _harris() -> Iterator[Check]:
     yield Check("Q_max, 209", "Harris", 4536, float(result.maximum_force), 5e-3, unit="N")
 
 
+@evidence("print of the source")
 def _catalogue() -> Iterator[Check]:
     """Dynamic capacities of deep groove bearings from their geometry, beside a catalogue."""
     for name, balls, ball, pitch, printed in (
@@ -126,6 +130,7 @@ def _catalogue() -> Iterator[Check]:
         yield Check(f"C, {name}", source, printed, bearing.rated_capacity, 0.03, unit="N")
 
 
+@evidence("closed form")
 def _modified_life() -> Iterator[Check]:
     """a_ISO by hand, from the printed formulas: one bearing of each kind, one branch of κ each.
 

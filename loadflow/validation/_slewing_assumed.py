@@ -9,9 +9,10 @@ from dataclasses import replace
 import numpy as np
 
 from loadflow.validation._slewing_cases import BLADE, FOUR_BALL, FRICTION_TESTS, SPECTRUM, coacting
-from loadflow.validation.check import Check
+from loadflow.validation.check import Check, evidence
 
 
+@evidence("print of the source")
 def checks() -> Iterator[Check]:
     """Yield all rows."""
     rigid = "rigid rings, G = 0"
@@ -83,7 +84,7 @@ def checks() -> Iterator[Check]:
             0.015,
             unit="MPa",
         )
-    approach = 2 * (9500 / 2.213e6) ** (2 / 3)
+    approach = (9500 / FOUR_BALL.series_stiffness) ** (2 / 3) * 1e3
     free, alpha = FOUR_BALL.groove_distance * 1e3, math.radians(52.14)
     shift = (free + approach) * math.sin(alpha) - free * math.sin(math.pi / 4)
     yield Check(

@@ -16,7 +16,7 @@ import numpy as np
 
 from loadflow.rolling import RingSections, axial_expansion, friction
 from loadflow.validation._slewing_cases import BLADE, FOUR_BALL, FRICTION_TESTS, RINGS
-from loadflow.validation.check import Check
+from loadflow.validation.check import Check, evidence
 
 # Appendix B; its height is that of one row, both together carry the load of Bild 2.9
 APPENDIX_B = RingSections(
@@ -25,6 +25,7 @@ APPENDIX_B = RingSections(
 ONE_ROW = 500e3 / 129  # Appendix B: axial load for each ball, N
 
 
+@evidence("print of the source")
 def checks() -> Iterator[Check]:
     """Yield all rows."""
     yield from _expansion()
@@ -65,6 +66,7 @@ def _expansion() -> Iterator[Check]:
             0.02,
             "beyond α = 90°, where balls leave their grooves: the rig gives way too",
             unit="mm",
+            evidence="measured elsewhere",
         )
     rigid = float(FOUR_BALL.equilibrium((0, 0, 5e3)).displacement[2]) * 1e3
     yield _refused(
@@ -216,4 +218,5 @@ def _friction() -> Iterator[Check]:
                 0.2,
                 "no formula of the source comes near its tests",
                 unit="N m",
+                evidence="measured elsewhere",
             )

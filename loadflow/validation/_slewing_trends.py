@@ -14,9 +14,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from loadflow.validation._slewing_cases import BLADE, DRIVE, FOUR_BALL, coacting
-from loadflow.validation.check import Check
+from loadflow.validation.check import Check, evidence
 
 
+@evidence("print of the source")
 def checks() -> Iterator[Check]:
     """Yield all rows."""
     yield from _stiffer_than_printed()

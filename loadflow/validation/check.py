@@ -2,12 +2,30 @@
 
 from __future__ import annotations
 
+import functools
 import importlib
 import pkgutil
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Literal
+from typing import Literal, ParamSpec, get_args
+
+Evidence = Literal[
+    "measured elsewhere", "another code", "closed form", "print of the source", "consistency"
+]
+EVIDENCE: tuple[Evidence, ...] = get_args(Evidence)
+"""What a row is held against, the strongest first.
+
+Measured elsewhere: an experiment of others. Another code: a program that is not this one, or a
+published numerical solution. Closed form: an exact solution or a formula, evaluated apart from what
+is tested. Print of the source: what the work prints whose method is followed here. Consistency: two
+answers of our own, one of them as an input or by another way; that they agree says nothing about
+the world.
+"""
+OUTCOMES = ("ok", "out", "refused", "missed", "not computed")
+"""What may become of a row."""
+
+_Arguments = ParamSpec("_Arguments")
 
 
 @dataclass(frozen=True)
@@ -32,6 +50,13 @@ class Check:
     refused : str
         Why the printed number is not held, if it is not: `got` is then what the source's own data
         give instead, and the row is in order as long as it contradicts the print, out of tolerance.
+    missed : str
+        Why ours misses a number that is not in doubt, if it does; the row is in order as long as
+        it misses, so that it does not stay behind when the model becomes better.
+    absent : str
+        What is not installed without which the number cannot be computed; `got` is then NaN.
+    evidence : str, optional
+        What `expected` is, one of `EVIDENCE`; `evidence` states it for all rows of a function.
     """
 
     name: str
@@ -42,6 +67,9 @@ class Check:
     kind: Literal["relative", "absolute", "below"] = "relative"
     unit: str = "-"
     refused: str = ""
+    missed: str = ""
+    absent: str = ""
+    evidence: Evidence | None = None
 
     @property
     def deviation(self) -> float:
@@ -51,16 +79,78 @@ class Check:
 
     @property
     def ok(self) -> bool:
-        """Whether the deviation is within the tolerance, beyond it if refused; never of a NaN."""
+        """Whether the deviation is within the tolerance, beyond it if refused or missed.
+
+        Never of a NaN.
+        """
         deviation = self.deviation if self.kind == "below" else abs(self.deviation)
-        return bool(deviation > self.tolerance if self.refused else deviation <= self.tolerance)
+        beyond = self.refused or self.missed
+        return bool(deviation > self.tolerance if beyond else deviation <= self.tolerance)
+
+    @property
+    def outcome(self) -> str:
+        """One of `OUTCOMES`."""
+        if self.absent:
+            return "not computed"
+        if not self.ok:
+            return "out"
+        return "refused" if self.refused else "missed" if self.missed else "ok"
 
     @property
     def verdict(self) -> str:
-        """``"ok"``, ``"out"``, or ``"refused: "`` and why."""
-        return (
-            f"refused: {self.refused}" if self.ok and self.refused else "ok" if self.ok else "out"
-        )
+        """The outcome, and why where there is more to say."""
+        reasons = {"refused": self.refused, "missed": self.missed, "not computed": self.absent}
+        reason = reasons.get(self.outcome)
+        return f"{self.outcome}: {reason}" if reason else self.outcome
+
+
+def evidence(
+    kind: Evidence,
+) -> Callable[[Callable[_Arguments, Iterator[Check]]], Callable[_Arguments, Iterator[Check]]]:
+    """State what the rows of a function are held against, unless they say so themselves.
+
+    Parameters
+    ----------
+    kind : str
+        One of `EVIDENCE`.
+
+    Examples
+    --------
+    >>> @evidence("closed form")
+    ... def rows():
+    ...     yield Check("sum of angles", "triangle", 180.0, 180.0, 1e-9, unit="°")
+    >>> [row.evidence for row in rows()]
+    ['closed form']
+    """
+
+    def stating(
+        rows: Callable[_Arguments, Iterator[Check]],
+    ) -> Callable[_Arguments, Iterator[Check]]:
+        @functools.wraps(rows)
+        def stated(*args: _Arguments.args, **kwargs: _Arguments.kwargs) -> Iterator[Check]:
+            for row in rows(*args, **kwargs):
+                yield row if row.evidence else replace(row, evidence=kind)
+
+        return stated
+
+    return stating
+
+
+def counts(rows: Iterable[Check]) -> dict[Evidence, dict[str, int]]:
+    """Return how many rows of each kind of evidence came out how; kinds without rows are left out.
+
+    Examples
+    --------
+    >>> row = Check("x", "print", 1.0, 1.2, 0.1, evidence="closed form")
+    >>> counts([row, replace(row, got=1.0)])["closed form"]
+    {'ok': 1, 'out': 1, 'refused': 0, 'missed': 0, 'not computed': 0}
+    """
+    found = [(row.evidence, row.outcome) for row in rows]
+    return {
+        kind: {outcome: found.count((kind, outcome)) for outcome in OUTCOMES}
+        for kind in EVIDENCE
+        if any(kind == of for of, _ in found)
+    }
 
 
 def names() -> list[str]:

@@ -18,7 +18,7 @@ from loadflow.journal import JournalBearing
 from loadflow.rolling.motion.torque import FrictionTorque, measured_torque
 from loadflow.studies.crank_rig import MAIN, PIN, CrankRig, uneven
 
-from .check import Check
+from .check import Check, evidence
 
 _MASSES = "the share of the load's losses follows the masses of the crank, which are not printed"
 _FAST, _SLOW = 6000.0, 500.0
@@ -45,6 +45,7 @@ def of(part: str, found: FrictionTorque) -> float:
     return sum(value for name, value in found.torques.items() if name.startswith(part))
 
 
+@evidence("print of the source")
 def checks() -> Iterator[Check]:
     """Yield the rig's evaluation, the parameter study and the three configurations."""
     angle = np.linspace(0.0, 40 * np.pi, 7200, endpoint=False)

@@ -20,7 +20,7 @@ from loadflow.tribology import (
     greenwood_tripp,
     patir_cheng,
 )
-from loadflow.validation.check import Check
+from loadflow.validation.check import Check, evidence
 
 PATIR_CHENG_1978 = "Patir and Cheng 1978"
 PATIR_CHENG_1979 = "Patir and Cheng 1979"
@@ -37,11 +37,13 @@ ROWS = (
 )
 
 
+@evidence("closed form")
 def checks() -> Iterator[Check]:
     """Yield all rows."""
     yield from _flow_factors()
     yield from _friction_factors()
     yield from _asperities()
+    yield from _pairs()
     yield from _wear()
     yield from _sheared_films()
 
@@ -84,16 +86,21 @@ def _friction_factors() -> Iterator[Check]:
     yield Check("φ_fp(2), γ = 1", PATIR_CHENG_1979, expected, got, 1e-12)
 
 
+@evidence("consistency")
 def _asperities() -> Iterator[Check]:
     contact = AsperityContact(roughness=1.0e-6, contact_modulus=1.0, factor=1.0, crowding=1.0)
     for u in (-1.0, 0.0, 1.0, 2.0, 3.0, 4.0):
         exact = float(greenwood_tripp(2.5, u))
         got = float(contact.pressure(u * 1e-6))
-        source = "Greenwood and Tripp 1970, parabolic cylinder function"
+        source = "parabolic cylinder function, table friction"
         yield Check(f"compiled F_5/2({u:g})", source, exact, got, 1e-8)
         area = float(greenwood_tripp(2.0, u)) * math.pi**2
         got = float(contact.area(u * 1e-6))
         yield Check(f"π² F_2({u:g}), compiled", source, area, got, 1e-8)
+
+
+@evidence("print of the source")
+def _pairs() -> Iterator[Check]:
     for name, sliding, static in (
         ("bronze", 0.15, 0.30), ("metal-polymer", 0.0007, 0.15), ("polymer", 0.0035, 0.24),
     ):  # fmt: skip

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from loadflow.validation.check import Check
+from loadflow.validation.check import Check, evidence
 
 # Table 4-3 of [Jonuschies 2015]
 TABLE_4_3 = (
@@ -17,6 +17,7 @@ TABLE_4_3 = (
 SIEGEL_TUKEY = ((33, 62, 84, 85, 88, 93, 97), (4, 16, 48, 51, 66, 98))
 
 
+@evidence("print of the source")
 def checks() -> Iterator[Check]:
     """Rank sums, statistics and p values as printed."""
     from loadflow.seeds import kruskal_wallis, meyer_bahlburg
@@ -32,6 +33,10 @@ def checks() -> Iterator[Check]:
     two = meyer_bahlburg(SIEGEL_TUKEY)
     source = "Siegel-Tukey 1960, by R PMCMRplus"
     for i, (expected, ours) in enumerate(zip((54, 37), two.rank_sums), start=1):
-        yield Check(f"Siegel-Tukey, R_{i}", source, expected, float(ours), 0.0, "absolute")
-    yield Check("Siegel-Tukey, H", source, 0.51020, two.statistic, 5e-6, "absolute")
-    yield Check("Siegel-Tukey, p", source, 0.47505, two.pvalue, 5e-6, "absolute")
+        name = f"Siegel-Tukey, R_{i}"
+        yield Check(name, source, expected, float(ours), 0.0, "absolute", evidence="another code")
+    for name, expected, got in (("H", 0.51020, two.statistic), ("p", 0.47505, two.pvalue)):
+        yield Check(
+            f"Siegel-Tukey, {name}", source, expected, got, 5e-6, "absolute",
+            evidence="another code",
+        )  # fmt: skip

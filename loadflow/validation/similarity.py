@@ -12,23 +12,26 @@ from collections.abc import Iterator
 from loadflow.rotor import steady_state
 from loadflow.turbines import load_turbine
 
-from .check import Check
+from .check import Check, Evidence, evidence
 
 _BASE, _FACTOR = "nrel-5mw", 2.0
 
 
+@evidence("closed form")
 def checks() -> Iterator[Check]:
     """Yield ratios of a turbine of twice the size to the known one."""
     small = load_turbine(_BASE)
     name = f"{_BASE}@{small.rated_power * _FACTOR**2:g}"
     large, source = load_turbine(name), "(1.6)–(1.9), ch. 1"
     area = (large.rotor.radius / small.rotor.radius) ** 2
-    yield Check("swept area, four times the power", source, 4.0, area, 1e-12)
+    # by these two the turbine is scaled
+    ours: Evidence = "consistency"
+    yield Check("swept area, four times the power", source, 4.0, area, 1e-12, evidence=ours)
     weight = large.rotor_mass / small.rotor_mass
-    yield Check("rotor weight, P^(3/2)", source, 4.0**1.5, weight, 1e-12)
+    yield Check("rotor weight, P^(3/2)", source, 4.0**1.5, weight, 1e-12, evidence=ours)
     for wind in (8.0, 14.0):
-        ours, known = (steady_state(t, wind_speed=wind, rung="tables") for t in (name, _BASE))
+        scaled, known = (steady_state(t, wind_speed=wind, rung="tables") for t in (name, _BASE))
         for quantity, power in (("speed", -1), ("power", 2), ("torque", 3)):
-            ratio = float(ours[quantity][0] / known[quantity][0])
+            ratio = float(scaled[quantity][0] / known[quantity][0])
             label = f"{quantity} in {wind:g} m/s, twice the radius"
             yield Check(label, source, _FACTOR**power, ratio, 1e-3)

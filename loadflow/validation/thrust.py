@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from loadflow.validation.check import Check
+from loadflow.validation.check import Check, evidence
 
 if TYPE_CHECKING:
     from loadflow.journal import ConicalResult, ThrustResult
@@ -112,6 +112,7 @@ def segment(grid: tuple[int, int]) -> ConicalResult:
     return cone.pressure(place, 1.0, Film(Lubricant(1.0), Guembel(), grid=grid))
 
 
+@evidence("closed form")
 def checks() -> Iterator[Check]:
     """All rows: straight pads at 80 × 40, sectors at 160 × 80, cones at 160 × 40."""
     share = GAP**2

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from .check import Check
+from .check import Check, evidence
 
 _STEP, _SECONDS = 0.0125, 60.0
 _ROWS = (  # turbine, coordinate of the frame, direction, Hz, source, tolerance
@@ -24,6 +24,7 @@ _ROWS = (  # turbine, coordinate of the frame, direction, Hz, source, tolerance
 _MODES_MASS, _MODES_FREQUENCY = 72025.781, 0.4324
 
 
+@evidence("another code")
 def checks() -> Iterator[Check]:
     """Yield the first tower frequencies."""
     from loadflow.turbines import load_turbine

@@ -19,7 +19,7 @@ from loadflow.shaft import (
     unbalance_response,
 )
 
-from .check import Check
+from .check import Check, evidence
 
 _SPEED = 150.0
 _STIFFNESS = ((1.2e8, 3.3e8), (-2.1e8, 1.7e8))
@@ -37,6 +37,7 @@ _UNBALANCE = ((0.0, 2.44688628e-6), (0.4, 7.89748602e-7), (1.5, 7.38977018e-7))
 """Place, m, and half axis of the orbit, m, under 0.01 kg m at the first disc."""
 
 
+@evidence("another code")
 def checks() -> Iterator[Check]:
     """Yield frequencies, damping and unbalance of ROSS, and closed forms."""
     line = ShaftLine(
@@ -59,6 +60,7 @@ def checks() -> Iterator[Check]:
     yield from _closed()
 
 
+@evidence("closed form")
 def _closed() -> Iterator[Check]:
     """Slender beam on two pins; one disc between them, its whirl against the rotation and with."""
     modulus, density, length, diameter = 2.1e11, 7850.0, 10.0, 0.05

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from loadflow.validation.check import Check
+from loadflow.validation.check import Check, evidence
 
 # D = 126 m, hub height 90 m: speed, σ1 NTM, σ1 ETM, V_gust EOG, θ EDC, θ ECD, EWS, Rayleigh bin ± 1
 CLASS_I_A = (
@@ -20,6 +20,7 @@ CLASS_I_A = (
 QUANTILE_EXCESS = ((4, 0.025), (15, 0.006), (25, 0.003))
 
 
+@evidence("closed form")
 def checks() -> Iterator[Check]:
     """Yield the oracle values of class I A and the consistency of σ1's distribution."""
     from loadflow.wind import iec
@@ -51,6 +52,7 @@ def checks() -> Iterator[Check]:
     yield from turbulence_checks()
 
 
+@evidence("closed form")
 def turbulence_checks() -> Iterator[Check]:
     """Yield what a series of finite length holds, and the coherence between two points."""
     from loadflow.wind.spectra import coherence, kaimal_spectrum

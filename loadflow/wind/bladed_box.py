@@ -51,6 +51,20 @@ def read_bladed_box(
     ------
     InputError
         Not a file of this format, shorter than its header says, or it lacks what is not given.
+
+    Examples
+    --------
+    >>> import struct, tempfile
+    >>> from pathlib import Path
+    >>> from loadflow.wind import read_bladed_box
+    >>> kind = struct.pack("<2hi6f", -99, 4, 3, 0.0, 0.03, 80.0, 16.0, 12.0, 8.0)
+    >>> grid = struct.pack("<3fif3f4i", 10.0, 10.0, 2.5, 3, 10.0, 0, 0, 0, 0, 7, 3, 4)  # steps
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     file = Path(folder) / "wind.wnd"
+    ...     _ = file.write_bytes(kind + grid + bytes(24) + bytes(2 * 3 * 6 * 4 * 3))  # steady
+    ...     box = read_bladed_box(file, shear_exponent=0.2)
+    >>> box.u.shape, box.wind_speed, box.hub_height
+    ((6, 4, 3), 10.0, 80.0)
     """
     raw = content(path)
     if len(raw) < 4 + _LENGTHS.size + _GRID.size:

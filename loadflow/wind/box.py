@@ -25,6 +25,14 @@ class Box:
         Downwind, lateral and upward fluctuation, m/s; `v` and `w` may be None.
     wind_speed, hub_height, shear_exponent : float
         Mean speed at the hub (m/s), hub height (m), exponent of the mean profile.
+
+    Examples
+    --------
+    >>> from loadflow.wind import kaimal_box
+    >>> box = kaimal_box(12.0, 1.8, y=[-20.0, 0.0, 20.0], z=[70.0, 90.0], hub_height=80.0,
+    ...     duration=10.0, dt=0.5, seed=1)
+    >>> box.u.shape, box.wind_speed
+    ((21, 3, 2), 12.0)
     """
 
     time: NDArray[np.float64]

@@ -27,6 +27,18 @@ def write_bts(path: str | Path, box: Box, description: str = "loadflow") -> None
     ------
     InputError
         If the grid lines are not equidistant or the hub is not within the box.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from loadflow.wind import kaimal_box, read_bts, write_bts
+    >>> box = kaimal_box(12.0, 1.8, y=[-20.0, 0.0, 20.0], z=[70.0, 90.0, 110.0], hub_height=90.0,
+    ...     duration=10.0, dt=0.5, seed=1)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     write_bts(f"{folder}/wind.bts", box)
+    ...     again = read_bts(f"{folder}/wind.bts")
+    >>> again.u.shape == box.u.shape, bool(abs(again.v - box.v).max() < 1e-3)
+    (True, True)
     """
     dy, dz = spacing_of("y", box.y), spacing_of("z", box.z)
     if abs(box.y[0] + box.y[-1]) > 1e-3 * dy:
@@ -67,6 +79,18 @@ def read_bts(path: str | Path) -> Box:
     ------
     InputError
         If the file is not of this format, or is shorter than its header says.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from loadflow.wind import kaimal_box, read_bts, write_bts
+    >>> box = kaimal_box(12.0, 1.8, y=[-20.0, 0.0, 20.0], z=[70.0, 90.0, 110.0], hub_height=90.0,
+    ...     duration=10.0, dt=0.5, seed=1)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     write_bts(f"{folder}/wind.bts", box)
+    ...     box = read_bts(f"{folder}/wind.bts")
+    >>> box.y.tolist(), round(box.wind_speed, 3)
+    ([-20.0, 0.0, 20.0], 12.0)
     """
     raw = content(path)
     if len(raw) < _HEAD.size:

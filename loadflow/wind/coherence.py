@@ -65,6 +65,14 @@ class PolarGrid:
         Radii from 0 (the hub, one point that stands at every angle), m.
     angle : (na,) ndarray
         Equidistant angles, rad.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.wind import PolarGrid, polar_angles
+    >>> grid = PolarGrid(np.array([0.0, 30.0, 60.0]), polar_angles(8))
+    >>> grid.points.size
+    24
     """
 
     radius: Floats
@@ -134,6 +142,13 @@ class PointGrid:
     ----------
     y, z : (n,) ndarray
         Coordinates, m; no two points coincide.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.wind import PointGrid
+    >>> PointGrid(y=np.array([0.0, 30.0]), z=np.array([90.0, 90.0])).distance.round(1).tolist()
+    [[0.0, 30.0], [30.0, 0.0]]
     """
 
     y: Floats

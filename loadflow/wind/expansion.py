@@ -64,6 +64,13 @@ class Condition:
     weight : float
         Share of the lifetime, from the wind-speed distribution; 0 for cases that the standard
         counts as events.
+
+    Examples
+    --------
+    >>> from loadflow.wind import Machine, conditions
+    >>> gusts = conditions("3.2", Machine(3.0, 11.4, 25.0, 126.0, 90.0))
+    >>> gusts[0].dlc, gusts[0].wind, gusts[0].safety_factor
+    ('3.2', 'EOG', 1.35)
     """
 
     dlc: str

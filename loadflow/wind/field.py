@@ -33,6 +33,14 @@ class Field:
         Mean speed at the hub, m/s.
     shear_exponent : float
         Exponent of the mean profile.
+
+    Examples
+    --------
+    >>> from loadflow.wind import kaimal, polar_angles
+    >>> field = kaimal(12.0, 1.8, radius=[0.0, 30.0, 60.0], angles=polar_angles(8), duration=10.0,
+    ...     dt=0.5, seed=1, hub_height=90.0)
+    >>> field.u.shape, field.hub.shape
+    ((21, 3, 8), (21,))
     """
 
     time: NDArray[np.float64]

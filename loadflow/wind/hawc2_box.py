@@ -61,6 +61,23 @@ def read_hawc2_box(
     loadflow.errors.ValidityWarning
         The values jump where those of a box of this shape would not: its size fits, its shape
         does not.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> import numpy as np
+    >>> from loadflow.wind import read_hawc2_box
+    >>> noise = np.random.default_rng(0).standard_normal((3, 8, 4, 4)).astype("f4")
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     files = [Path(folder) / f"{name}.bin" for name in "uvw"]
+    ...     for file, values in zip(files, noise):
+    ...         values.tofile(file)
+    ...     box = read_hawc2_box(*files, shape=(8, 4, 4), spacing=(5.0, 10.0, 10.0),
+    ...     wind_speed=10.0,
+    ...         hub_height=90.0)
+    >>> box.u.shape, float(box.time[1])
+    ((8, 4, 4), 0.5)
     """
     if first_line not in ("right", "left"):
         raise InputError(f"first_line = {first_line!r}: must be 'right' or 'left'")

@@ -35,7 +35,16 @@ def rotor_grid(machine: Machine, options: WindOptions) -> PolarGrid:
 
 
 def coherence_factors(machine: Machine, options: WindOptions) -> CoherenceFactors:
-    """Factors for `inflow`, good for all conditions of a study."""
+    """Factors for `inflow`, good for all conditions of a study.
+
+    Examples
+    --------
+    >>> from loadflow.wind import Machine, WindOptions, coherence_factors
+    >>> factors = coherence_factors(Machine(3.0, 11.4, 25.0, 126.0, 90.0), WindOptions(radii=3,
+    ...     angles=8))
+    >>> factors.table.shape[0] > 1
+    True
+    """
     return CoherenceFactors(rotor_grid(machine, options), length_scale(machine.hub_height))
 
 
@@ -68,6 +77,15 @@ def inflow(
     -----
     The mean yaw error of the condition is not in the field: it turns the mean wind as well, and the
     rotor does that.
+
+    Examples
+    --------
+    >>> from loadflow.wind import Machine, WindOptions, conditions, inflow
+    >>> machine, options = Machine(3.0, 11.4, 25.0, 126.0, 90.0), WindOptions(radii=3, angles=8)
+    >>> case = conditions("1.1", machine, options, wind_speeds=[12.0], duration=20.0)[0]
+    >>> field = inflow(case, machine, options)
+    >>> field.wind_speed, field.u.shape[1:]  # radius, angle
+    (12.0, (3, 8))
     """
     options = options or WindOptions()
     grid = rotor_grid(machine, options)
@@ -132,6 +150,17 @@ def transient(
     -------
     dict
         What changes of ``rise`` (m/s), ``direction`` (rad), ``vertical`` and ``horizontal`` (1/s).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.wind import Machine, conditions, transient
+    >>> machine = Machine(3.0, 11.4, 25.0, 126.0, 90.0)
+    >>> gust = conditions("3.2", machine)[0]
+    >>> time = np.arange(0.0, 70.0, 0.1)
+    >>> {name: change.shape == time.shape for name, change in transient(gust, machine,
+    ...     time).items()}
+    {'rise': True}
     """
     since = time - condition.gust_time
     if condition.wind == "EOG":

@@ -72,6 +72,14 @@ def mann_box(
     ------
     InputError
         Grid lines that are not equidistant, nonsense, or the extra is not installed.
+
+    Examples
+    --------
+    >>> from loadflow.wind import mann_box
+    >>> box = mann_box(12.0, 1.8, y=[-20.0, 0.0, 20.0, 40.0], z=[60.0, 80.0, 100.0, 120.0],
+    ...     hub_height=90.0, duration=20.0, dt=0.5, seed=1)
+    >>> box.u.shape[0] == box.time.size
+    True
     """
     lines_y, lines_z = np.asarray(y, float), np.asarray(z, float)
     scale = iec_length_scale(hub_height) if length_scale is None else length_scale

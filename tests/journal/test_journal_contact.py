@@ -283,7 +283,7 @@ def test_flow_factors_of_patterns_along_and_across():
     [
         ({"shell": LocalShell(1e-12)}, {}, "contact = .* elastic shell"),
         ({}, {"shape": TiltingPads(4, np.radians(60.0))}, "contact = .* pads that tilt"),
-        ({"rung": "reduced"}, {}, "rung = 'reduced' .* contact of asperities"),
+        ({"rung": "map"}, {}, "rung = 'map' .* contact of asperities"),
     ],
 )
 def test_what_does_not_know_contact_refuses_it_by_name(words, size, named):

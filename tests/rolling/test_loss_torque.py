@@ -121,3 +121,13 @@ def test_drag_is_the_moment_times_the_spin():
 def test_what_is_no_rig_is_refused(wrong):
     with pytest.raises(InputError):
         wrong()
+
+
+def test_thrust_washers_add_their_own_loss():
+    usual, more = (
+        CrankRig(thrust_share=share).friction_torque(1000.0).torques for share in (0.0, 0.04)
+    )
+    assert "thrust washers" not in usual
+    twice = CrankRig(thrust_share=0.08).friction_torque(1000.0).torques["thrust washers"]
+    assert twice == pytest.approx(2 * more["thrust washers"])
+    assert more["thrust washers"] > 0

@@ -45,7 +45,8 @@ def test_low_induction_follows_momentum_theory():
     assert 0 < a < 1 / 3
     wake = np.zeros(SECTION_STATES)
     lossless = RIGID._replace(drag=np.zeros_like(RIGID.drag), shed_wake=False)
-    force, _ = section_force(lossless, i, 0.1, 0.0, normal, tangential, a, swirl, 0.0, wake)
+    force, _, couple = section_force(lossless, i, 0.1, 0.0, normal, tangential, a, swirl, 0.0, wake)
+    assert couple == 0.0  # a blade that does not twist
     radius = RIGID.radius[i]
     f = 1.5 * (63 - radius) / (radius * np.sin(angle))
     g = 1.5 * (radius - 1.5) / (1.5 * np.sin(angle))

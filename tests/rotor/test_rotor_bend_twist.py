@@ -11,7 +11,6 @@ from loadflow.rotor.structure._kernels import deflection, turned_shapes
 from loadflow.turbines import load_turbine
 
 TURBINE = load_turbine("nrel-5mw")
-BENT, SWEPT = 0.03, 0.02  # slopes, rad
 
 
 def _motion(twist, pitch=0.2):
@@ -39,17 +38,25 @@ def test_slopes_are_those_of_the_deflection():
         )
 
 
-def test_half_the_product_is_the_turn_in_axes_that_take_the_sweep_out_first():
+def _sections(slopes):
     # x downwind, z along the span, y to the trailing edge; turned about x: swept in the sense of
     # rotation, about y: bent downwind. A rotation about z lifts the nose.
-    section = Rotation.from_rotvec([SWEPT, BENT, 0.0])
-    assert -section.as_euler("XYZ")[2] == pytest.approx(0.5 * BENT * SWEPT, rel=1e-3)
+    return Rotation.from_rotvec(np.stack([slopes[:, 1], slopes[:, 0], 0 * slopes[:, 0]], axis=1))
+
+
+def test_half_the_product_is_the_turn_in_axes_that_take_the_sweep_out_first():
+    motion, slopes = _motion(0.5)
+    turn = -_sections(slopes).as_euler("XYZ")[:, 2]
+    assert np.abs(turn).max() > 1e-4
+    assert motion[:, 6] == pytest.approx(turn, rel=0.01, abs=1e-8)
 
 
 def test_minus_half_the_product_is_the_turn_that_the_flow_meets():
     # air comes along y, to the trailing edge: its share along the normal of the section lifts
-    normal = Rotation.from_rotvec([SWEPT, BENT, 0.0]).apply([1.0, 0.0, 0.0])
-    assert -normal[1] == pytest.approx(-0.5 * BENT * SWEPT, rel=1e-3)
+    motion, slopes = _motion(-0.5)
+    normal = _sections(slopes).apply([1.0, 0.0, 0.0])
+    assert np.abs(normal[:, 1]).max() > 1e-4
+    assert motion[:, 6] == pytest.approx(-normal[:, 1], rel=0.01, abs=1e-8)
 
 
 def test_a_factor_out_of_range_is_refused():

@@ -103,5 +103,5 @@ def test_a_tower_read_from_windio_is_the_shipped_one():
     assert from_windio(path).tower.bending.height[0] == 15.0
     with pytest.raises(InputError, match=r"seabed = 20\.0 is not allowed"):
         from_windio(path, seabed=20.0)
-    with pytest.raises(InputError, match="missing key 'monopile'"):
+    with pytest.raises(InputError, match="'monopile' is absent"):
         from_windio(folder / "IEA-22-280-RWT_Floater.yaml", seabed=-30.0)

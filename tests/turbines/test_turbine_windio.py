@@ -76,7 +76,9 @@ def test_another_turbine_of_windio_follows_its_table_below_rated_wind_and_holds_
     table = turbine.control.scheduled_wind, turbine.control.scheduled_pitch
     # its fine pitch is −4°; the wind is recognised by the power of rigid blades
     assert float(point["pitch"][0]) == pytest.approx(np.interp(8.0, *table), abs=np.radians(0.05))
-    assert float(point["power"][1]) == pytest.approx(22e6, rel=1e-3)
+    # the rated power of the format is electrical, that of its published rotor 23.12 MW
+    assert turbine.rated_power == 22e6
+    assert float(point["power"][1]) == pytest.approx(23.12e6, rel=5e-3)
     assert float(point["speed"][1]) == pytest.approx(turbine.control.reference_speed, rel=1e-3)
 
 
@@ -135,8 +137,14 @@ def test_a_blend_lies_between_its_neighbours_and_ends_on_them():
         (lambda text: "{", "not a YAML file"),
         (lambda text: "a: 1", "windIO_version = None"),
         (lambda text: text.replace("windIO_version: '2.0'", "windIO_version: '1.0'"), "'1.0'"),
-        (lambda text: "windIO_version: '2.0'\n", "missing key 'assembly'"),
-        (lambda text: "windIO_version: '2.0'\nassembly: 3\ncomponents: 4\n", "not of the form"),
+        (lambda text: "windIO_version: '2.0'\n", r"rated_power: missing key \(in windIO: assembly"),
+        (
+            lambda text: (
+                "windIO_version: '2.0'\ncomponents: {tower: {reference_axis: {z: {values: 3}}}}\n"
+            ),
+            "not of the form",
+        ),
+        (lambda text: "- 1\n- 2\n", "no table of keys"),
     ],
 )
 def test_bad_windio_files_are_named(tmp_path, example, change, message):
@@ -150,3 +158,148 @@ def test_bad_windio_files_are_named(tmp_path, example, change, message):
 def test_a_windio_file_that_does_not_exist_is_refused():
     with pytest.raises(InputError, match=r"nowhere\.yaml does not exist"):
         from_windio("nowhere.yaml")
+
+
+def test_all_that_a_file_lacks_is_told_at_once_with_its_places(tmp_path, example):
+    text = example.read_text().replace("\n    hub:", "\n    hob:")
+    text = text.replace("min_rotor_speed:", "some_speed:").replace(
+        "max_gen_torque:", "some_torque:"
+    )
+    path = tmp_path / "own.yaml"
+    path.write_text(text)
+    with pytest.raises(InputError) as caught:
+        load_turbine(path)
+    lines = str(caught.value).splitlines()
+    told = [line for line in lines if "missing key" in line]
+    assert len(told) >= 4
+    hub = next(line for line in told if "rotor.hub_mass" in line)
+    assert "components.hub.elastic_properties.mass" in hub
+    assert any("control.rated_mechanical_power" in line for line in told)
+    assert 'a file of TOML that begins with windio = "own.yaml"' in lines[-1]
+
+
+def test_what_a_windio_file_lacks_is_given_beside_it(tmp_path, example):
+    text = example.read_text().replace("max_gen_torque:", "some_torque:")
+    (tmp_path / "own.yaml").write_text(text)
+    beside = tmp_path / "own.toml"
+    beside.write_text(
+        'windio = "own.yaml"\nname = "mine"\n[drivetrain]\nefficiency = 0.96\n'
+        "[supervision]\noverspeed = 1.3\n[rotor]\ntilt_deg = 5.0\n"
+        "[windio_options]\nsections = 12\n"
+    )
+    turbine = load_turbine(beside)
+    assert turbine.name == "mine"
+    assert turbine.control.rated_mechanical_power == pytest.approx(15e6 / 0.96)
+    assert turbine.supervision.overspeed == 1.3
+    assert turbine.rotor.tilt == pytest.approx(np.radians(5.0))
+    assert turbine.blade.radius.size == 12
+    assert not any("overspeed" in said for said in turbine.assumed)
+    assert any("brake_torque" in said for said in turbine.assumed)
+    beside.write_text('windio = "own.yaml"\n[windio_options]\nsection = 12\n')
+    with pytest.raises(InputError, match="did you mean sections"):
+        load_turbine(beside)
+
+
+def test_anchors_of_one_name_and_the_form_of_wisdem_are_read(tmp_path, example, read):
+    path = tmp_path / "old.yaml"
+    path.write_text(wisdem(example))
+    turbine = load_turbine(path)
+    assert turbine.blade.mass == pytest.approx(read.blade.mass, rel=1e-6)
+    assert turbine.blade.chord == pytest.approx(read.blade.chord, rel=1e-6)
+    assert turbine.blade.twist == pytest.approx(read.blade.twist, rel=1e-6)
+    assert turbine.blade.torsion_stiffness == pytest.approx(read.blade.torsion_stiffness)
+    assert turbine.rotor.cone == pytest.approx(read.rotor.cone)
+    assert turbine.control.pitch_frequency == 0.2
+    assert turbine.control.thrust_limit == 0.85
+    assert turbine.control.rated_mechanical_power == pytest.approx(15e6 / 0.95)
+    foil = next(iter(turbine.airfoils.values()))
+    assert foil.angle[-1] == np.pi
+
+
+def wisdem(example):
+    """The turbine of version 2 in the form of WISDEM before it, with an anchor used twice."""
+    import yaml
+
+    new = yaml.load(example.read_text(), yaml.CSafeLoader)
+    parts, degree = new["components"], np.pi / 180
+    blade, hub = parts["blade"], parts["hub"]
+    shape, axis = dict(blade["outer_shape"]), blade["reference_axis"]
+    twist = shape["twist"]
+    shape["twist"] = twist | {"values": [degree * x for x in twist["values"]]}
+    elastic = blade["structure"]["elastic_properties"]
+    stiff = elastic["stiffness_matrix"]
+    order = [f"K{i}{j}" for i in range(1, 7) for j in range(i, 7)]
+    inertia = elastic["inertia_matrix"]
+    six = {
+        "reference_axis": axis,
+        "stiff_matrix": {
+            "grid": stiff["grid"],
+            "values": np.array([stiff[key] for key in order]).T.tolist(),
+        },
+        "inertia_matrix": {"grid": inertia["grid"], "values": [[x] for x in inertia["mass"]]},
+    }
+    foils = []
+    for foil in new["airfoils"]:
+        sets = foil["polars"][0]["re_sets"][0]
+        polar = {
+            old: {
+                "grid": [degree * x for x in sets[name]["grid"]],
+                "values": sets[name]["values"],
+            }
+            for old, name in (("c_l", "cl"), ("c_d", "cd"), ("c_m", "cm"))
+        }
+        foils.append(
+            {"name": foil["name"], "relative_thickness": foil["rthick"], "polars": [polar]}
+        )
+    control, train = new["control"], parts["drivetrain"]
+    per_minute = np.pi / 30
+    old = {
+        "name": new["name"],
+        "assembly": new["assembly"],
+        "airfoils": foils,
+        "components": {
+            "blade": {
+                "outer_shape_bem": shape | {"reference_axis": axis},
+                "elastic_properties_mb": {"six_x_six": six},
+            },
+            "hub": {
+                "diameter": hub["diameter"],
+                "cone_angle": degree * hub["cone_angle"],
+                "elastic_properties_mb": {
+                    "system_mass": hub["elastic_properties"]["mass"],
+                    "system_inertia": hub["elastic_properties"]["inertia"],
+                },
+            },
+            "nacelle": {
+                "drivetrain": {
+                    "uptilt": degree * train["outer_shape"]["uptilt"],
+                    "overhang": train["outer_shape"]["overhang"],
+                    "gear_ratio": 1.0,
+                    "gearbox_efficiency": 1.0,
+                    "generator_rpm_efficiency_user": {"grid": [0.0, 1.0], "values": [0.9, 0.95]},
+                },
+                "generator": {"elastic_properties_mb": {"system_inertia": [1.8e6]}},
+            },
+            "tower": {
+                "outer_shape_bem": {
+                    "reference_axis": parts["tower"]["reference_axis"],
+                    "outer_diameter": parts["tower"]["outer_shape"]["outer_diameter"],
+                }
+            },
+        },
+        "control": {
+            "supervisory": {"Vin": 3.0, "Vout": 25.0},
+            "pitch": {
+                "PC_zeta": 1.0,
+                "PC_omega": 0.2,
+                "ps_percent": 0.85,
+                "max_pitch_rate": 0.035,
+                "min_pitch": 0.0,
+            },
+            "torque": {"tsr": control["optimal_tsr"], "max_torque_rate": 4.5e6},
+        },
+    }
+    old["control"]["supervisory"]["maxOmega"] = per_minute * control["rated_rotor_speed"]
+    old["control"]["supervisory"]["minOmega"] = per_minute * control["min_rotor_speed"]
+    text = yaml.safe_dump(old)
+    return text + "costs: &twice 1\nbos: &twice 2\n"

@@ -16,7 +16,6 @@ along the axis, else one for each row of cells and a last one for the far end.
 
 from __future__ import annotations
 
-import numpy as np
 from llvmlite import ir
 from numba import njit, types
 from numba.extending import intrinsic
@@ -54,45 +53,6 @@ def apply_law(address, numbers, scale, u, state):
     `numbers` (m,) are those of the law. All arrays are contiguous.
     """
     _call(address, numbers.ctypes.data, scale, u.size, u.ctypes.data, state.ctypes.data)
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def gap_coefficients(cos_face, sin_face, w_face, cos_cell, sin_cell, w_cell, stretch, ex, ey, out):
-    """Coefficients of the gap H = 1 − ex cos θ − ey sin θ, `out` (8, nx + 1, 1).
-
-    Between two cell centres the flux is taken constant, so that conductance and effective gap are
-    G = 1/∫H⁻³, E = G ∫H⁻²; this stays right across steps of the gap. Nodes are given in the
-    coordinate a of the Sommerfeld map of strength `stretch` (0: θ = a), densest at θ = 0.
-    """
-    nf, nq = cos_face.shape
-    root = np.sqrt(1.0 - stretch * stretch)
-    for i in range(nf):
-        i3 = 0.0
-        i2 = 0.0
-        for q in range(nq):
-            d = 1.0 / (1.0 + stretch * cos_face[i, q])
-            c = (stretch + cos_face[i, q]) * d
-            s = root * sin_face[i, q] * d
-            w = w_face[i, q] * root * d
-            r = 1.0 / (1.0 - ex * c - ey * s)
-            i2 += w * r * r
-            i3 += w * r * r * r
-        out[G, i, 0] = 1.0 / i3
-        out[E, i, 0] = i2 / i3
-    for i in range(nf - 1):
-        for row in range(H3, HINV + 1):
-            out[row, i, 0] = 0.0
-        for q in range(nq):
-            d = 1.0 / (1.0 + stretch * cos_cell[i, q])
-            c = (stretch + cos_cell[i, q]) * d
-            s = root * sin_cell[i, q] * d
-            w = w_cell[i, q] * root * d
-            h = 1.0 - ex * c - ey * s
-            out[H3, i, 0] += w * h * h * h
-            out[HM, i, 0] += w * h
-            out[COS, i, 0] += w * c
-            out[SIN, i, 0] += w * s
-            out[HINV, i, 0] += w / h
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -318,80 +278,3 @@ def integrals(state, coef, dz, gz, closed, p_edge, p_line, groove):
             liquid += state[FILL, i, k] * coef[HM, i, row * k] * dz[k]
             volume += coef[HM, i, row * k] * dz[k]
     return peak, dissipation, shear, outflow, liquid, volume
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def shaped_coefficients(face, face_gap, cell, cell_gap, ex, ey, coef, by_x, by_y):
-    """Coefficients of the gap H = H_0 − ex cos θ − ey sin θ and their derivatives by ex and ey.
-
-    `face` (3, nx + 1, 2) and `cell` (3, nx) are cosine, sine and weight of the nodes between cell
-    centres and in cells, `face_gap` (nx + 1, 2, rows) and `cell_gap` (nx, rows) H_0 there; ex and
-    ey (nx, rows). Each side of a face has a node of its own, so that a step of the gap is exact.
-    """
-    nx, rows = ex.shape
-    for i in range(nx + 1):
-        j = min(i, nx - 1)
-        for k in range(rows):
-            i2, i3, x2, x3, y2, y3 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-            for q in range(2):
-                c, s = face[0, i, q], face[1, i, q]
-                r = 1.0 / (face_gap[i, q, k] - ex[j, k] * c - ey[j, k] * s)
-                w2 = face[2, i, q] * r * r
-                w3 = w2 * r
-                i2 += w2
-                i3 += w3
-                x2 += 2.0 * w3 * c
-                y2 += 2.0 * w3 * s
-                x3 += 3.0 * w3 * r * c
-                y3 += 3.0 * w3 * r * s
-            g = 1.0 / i3
-            e = i2 * g
-            coef[G, i, k], by_x[G, i, k], by_y[G, i, k] = g, -g * g * x3, -g * g * y3
-            coef[E, i, k], by_x[E, i, k], by_y[E, i, k] = e, g * (x2 - e * x3), g * (y2 - e * y3)
-    for i in range(nx):
-        c, s, w = cell[0, i], cell[1, i], cell[2, i]
-        coef[COS, i, 0], coef[SIN, i, 0] = w * c, w * s
-        for k in range(rows):
-            h = cell_gap[i, k] - ex[i, k] * c - ey[i, k] * s
-            coef[CELL3, i, k] = w * h * h * h
-            by_x[CELL3, i, k], by_y[CELL3, i, k] = -3.0 * w * h * h * c, -3.0 * w * h * h * s
-            coef[HM, i, k], by_x[HM, i, k], by_y[HM, i, k] = w * h, -w * c, -w * s
-            coef[HINV, i, k] = w / h
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def mode_slope(by_x, by_y, ax, ay, across, out):
-    """Derivative of the coefficients by a mode that moves the shaft by (ax, ay) (nx) · across."""
-    nx = ax.size
-    rows = across.size
-    for i in range(nx + 1):
-        j = min(i, nx - 1)
-        for k in range(rows):
-            x, y = ax[j] * across[k], ay[j] * across[k]
-            for row in (G, E, HM, CELL3):
-                out[row, i, k] = x * by_x[row, i, k] + y * by_y[row, i, k]
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def faces_across(coef, dz, slope, out):
-    """Fill row H3 of `out` from CELL3 of `coef`: conductances in series from centre to centre.
-
-    With `slope` the row is the derivative along that of CELL3 in `out`.
-    """
-    nx, rows = coef.shape[1] - 1, coef.shape[2]
-    for i in range(nx):
-        if rows == 1:
-            out[H3, i, 0] = out[CELL3, i, 0]
-            continue
-        nz = rows - 1
-        out[H3, i, 0] = out[CELL3, i, 0]
-        out[H3, i, nz] = out[CELL3, i, nz - 1]
-        for k in range(1, nz):
-            low, high = coef[CELL3, i, k - 1], coef[CELL3, i, k]
-            both = dz[k - 1] + dz[k]
-            h3 = both / (dz[k - 1] / low + dz[k] / high)
-            if slope:
-                change = dz[k - 1] / (low * low) * out[CELL3, i, k - 1]
-                change += dz[k] / (high * high) * out[CELL3, i, k]
-                h3 *= h3 / both * change
-            out[H3, i, k] = h3

@@ -1,15 +1,14 @@
-"""Compiled loops of films between rough surfaces: coefficients of the gap, sums of the asperities.
+"""Films between rough surfaces, compiled: what flows at a gap, and what asperities carry.
 
-They fill the same rows as their counterparts in `_kernels`, of the mean gap ⟨h_T⟩ that is left
-between cut heights [Wu and Zheng 1989], with the flow factors of [Patir and Cheng 1978] where rows
-of their coefficients are given. The gap is in clearances, and so is the roughness s.
+The gap that is left between cut heights is the mean ⟨h_T⟩ [Wu and Zheng 1989]; the flow factors are
+those of [Patir and Cheng 1978] where rows of their coefficients are given. The gap is in
+clearances, and so is the roughness s.
 """
 
 from __future__ import annotations
 
 from numba import njit
 
-from loadflow.journal.film._kernels import CELL3, COS, H3, HINV, HM, SIN, E, G
 from loadflow.tribology import kernels as laws
 
 LEAST = 1e-3  # mean gap over the roughness: valleys stay open under any load
@@ -60,96 +59,6 @@ def sheared(h, s, rows):
     if rows.shape[0] == 0:
         return 1.0 / mean_film(h, s)[0]
     return laws.inverse_gap(h / s)[0] / s
-
-
-@njit(cache=True, nogil=True)
-def gap_coefficients(
-    cos_face, sin_face, w_face, cos_cell, sin_cell, w_cell, stretch, ex, ey, s, along, across,
-    slip, out, open_share,
-):  # fmt: skip
-    """Coefficients as `_kernels.gap_coefficients` has them, and the `open_share` (nx, 1) of cells.
-
-    The open share is the derivative of the mean gap by that of the mean planes.
-    """
-    nf, nq = cos_face.shape
-    root = (1.0 - stretch * stretch) ** 0.5
-    for i in range(nf):
-        i3 = 0.0
-        i2 = 0.0
-        for q in range(nq):
-            d = 1.0 / (1.0 + stretch * cos_face[i, q])
-            c = (stretch + cos_face[i, q]) * d
-            sine = root * sin_face[i, q] * d
-            h = 1.0 - ex * c - ey * sine
-            r = w_face[i, q] * root * d / conductance(h, s, along)[0]
-            i2 += r * dragged(h, s, along, slip)[0]
-            i3 += r
-        out[G, i, 0] = 1.0 / i3
-        out[E, i, 0] = i2 / i3
-    for i in range(nf - 1):
-        for row in range(H3, HINV + 1):
-            out[row, i, 0] = 0.0
-        opened, width = 0.0, 0.0
-        for q in range(nq):
-            d = 1.0 / (1.0 + stretch * cos_cell[i, q])
-            c = (stretch + cos_cell[i, q]) * d
-            sine = root * sin_cell[i, q] * d
-            w = w_cell[i, q] * root * d
-            h = 1.0 - ex * c - ey * sine
-            mean, share = mean_film(h, s)
-            out[H3, i, 0] += w * conductance(h, s, across)[0]
-            out[HM, i, 0] += w * mean
-            out[COS, i, 0] += w * c
-            out[SIN, i, 0] += w * sine
-            out[HINV, i, 0] += w * sheared(h, s, along)
-            opened += w * share
-            width += w
-        open_share[i, 0] = opened / width
-
-
-@njit(cache=True, nogil=True)
-def shaped_coefficients(
-    face, face_gap, cell, cell_gap, ex, ey, s, along, across, slip, coef, by_x, by_y, open_share
-):
-    """Coefficients and derivatives as `_kernels.shaped_coefficients` has them, and `open_share`."""
-    nx, rows = ex.shape
-    for i in range(nx + 1):
-        j = min(i, nx - 1)
-        for k in range(rows):
-            i2, i3, x2, x3, y2, y3 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-            for q in range(2):
-                c, sine = face[0, i, q], face[1, i, q]
-                h = face_gap[i, q, k] - ex[j, k] * c - ey[j, k] * sine
-                flow, flow_rise = conductance(h, s, along)
-                drag, drag_rise = dragged(h, s, along, slip)
-                w3 = face[2, i, q] / flow
-                w2 = w3 * drag
-                # derivatives by h; h falls by c and sine
-                d3 = -w3 * flow_rise / flow
-                d2 = d3 * drag + w3 * drag_rise
-                i2 += w2
-                i3 += w3
-                x2 -= d2 * c
-                y2 -= d2 * sine
-                x3 -= d3 * c
-                y3 -= d3 * sine
-            g = 1.0 / i3
-            e = i2 * g
-            coef[G, i, k], by_x[G, i, k], by_y[G, i, k] = g, -g * g * x3, -g * g * y3
-            coef[E, i, k], by_x[E, i, k], by_y[E, i, k] = e, g * (x2 - e * x3), g * (y2 - e * y3)
-    for i in range(nx):
-        c, sine, w = cell[0, i], cell[1, i], cell[2, i]
-        coef[COS, i, 0], coef[SIN, i, 0] = w * c, w * sine
-        for k in range(rows):
-            h = cell_gap[i, k] - ex[i, k] * c - ey[i, k] * sine
-            flow, rise = conductance(h, s, across)
-            mean, share = mean_film(h, s)
-            coef[CELL3, i, k] = w * flow
-            by_x[CELL3, i, k], by_y[CELL3, i, k] = -w * rise * c, -w * rise * sine
-            coef[HM, i, k] = w * mean
-            by_x[HM, i, k], by_y[HM, i, k] = -w * share * c, -w * share * sine
-            coef[HINV, i, k] = w * sheared(h, s, along)
-            open_share[i, k] = share
 
 
 @njit(cache=True, nogil=True)

@@ -15,7 +15,6 @@ from loadflow.journal.film import _kernels as kernel
 from loadflow.journal.film.asperity_load import AsperityLoad
 from loadflow.journal.film.gap import Gap, turning_frame
 from loadflow.journal.film.groove_pressure import Pockets
-from loadflow.numerics.convergence import EPS, rounding_level
 
 Array = NDArray[np.float64]
 
@@ -165,7 +164,7 @@ class DiscreteFilm:
         self.state[LOAD][cells], self.state[DLOAD][cells] = u[cells], 1.0
 
     # --- balance ---------------------------------------------------------------------------------
-    def _storage(self, coef: Array, around: Array, velocity: Array, rate: float) -> Array:
+    def storage(self, coef: Array, around: Array, velocity: Array, rate: float) -> Array:
         """Growth of the gap volume of each cell, (nx, rows), Pa."""
         across = self.gap.across
         moving = (around.T * velocity) @ across
@@ -186,7 +185,7 @@ class DiscreteFilm:
         )  # fmt: skip
         return field
 
-    def _residual(self, outflow: Array) -> Array:
+    def residual(self, outflow: Array) -> Array:
         """Balance of every cell (nx, nz) of which `outflow` leaves, after `place`."""
         field = outflow + self.state[SLACK]
         field[self.fixed] = 0.0
@@ -218,7 +217,7 @@ class DiscreteFilm:
         local = frame.T @ velocity
         gap = self.gap
         around, across = gap.around, gap.across
-        mass = self._storage(gap.coef, around, local, rate)
+        mass = self.storage(gap.coef, around, local, rate)
         slopes = gap.slopes(position)
         self._assemble(mass, rate)
         lu, pivots, info = dgbtrf(self.ab.T, mesh.bandwidth, mesh.bandwidth, overwrite_ab=1)
@@ -226,8 +225,8 @@ class DiscreteFilm:
             raise SingularFilm(f"film matrix is singular in row {info} at eccentricity {position}")
 
         outflow = self.balance(gap.coef, mass) - old
-        fields = [self._residual(outflow)]
-        fields += [self.balance(c, self._storage(c, a, local, rate)) for c, a in slopes]
+        fields = [self.residual(outflow)]
+        fields += [self.balance(c, self.storage(c, a, local, rate)) for c, a in slopes]
         squeeze = -self.slope * self.state[FILL] * mesh.area
         if gap.open_share is not None:
             squeeze = squeeze * gap.open_share
@@ -379,68 +378,9 @@ class DiscreteFilm:
         """Share of a Newton step that leaves a film between shaft and shell; `way`: from, to."""
         return 1.0
 
-    def imbalance(
-        self,
-        u: Array,
-        position: Array,
-        velocity: Array,
-        force: Array | None = None,
-        rate: float = 0.0,
-        old: Array | float = 0.0,
-        free: slice | NDArray[np.int64] = EVERY,
-    ) -> float:
-        """Largest imbalance of a cell, and of the load if `force` is given, over their scales.
-
-        Only the degrees of freedom `free` need balance.
-        """
-        frame = self.place(u, position)
-        around = self.gap.around
-        mass = self._storage(self.gap.coef, around, frame.T @ velocity, rate)
-        flux = (abs(self.wedge) + self.scale) * self.mesh.area.max()
-        outflow = self.balance(self.gap.coef, mass) - old
-        worst = float(np.abs(self._residual(outflow)).max()) / flux
-        if self.pockets.free.size:
-            worst = max(worst, self.pockets.missing(self.state[P], outflow, self.scale))
-        if force is not None:
-            scale = self.load_scale(force)
-            missing = force - self.load_of(frame, position)
-            worst = max(worst, math.hypot(*missing[free]) / scale)
-        return worst
-
     def load_scale(self, force: Array) -> float:
         """Scale of what is missing of the load, N."""
         return max(math.hypot(*force), self.scale * self.radius**2 * 1e-3)
-
-    def rounding(
-        self,
-        position: Array,
-        velocity: Array,
-        slope: Array,
-        force: Array | None = None,
-        free: slice | NDArray[np.int64] = EVERY,
-    ) -> float:
-        """Level of rounding of `imbalance`, just called, over the same scales.
-
-        The gap is a difference of numbers near 1: where it is narrow its coefficients have fewer
-        digits. `slope` (m, m) is the derivative of the load by the position.
-        """
-        mesh, gap = self.mesh, self.gap
-        mass = self._storage(gap.coef, gap.around, velocity, 0.0)
-        terms = kernel.largest_terms(
-            self.state, gap.coef, mesh.dz, mesh.area, mesh.gz, mesh.closed, self.wedge,
-            self.p_edge, self.p_line, mass, self.fixed,
-        )  # fmt: skip
-        narrow = min(max(gap.narrowest(position), EPS), 1.0)
-        flux = (abs(self.wedge) + self.scale) * mesh.dz.max()
-        worst = terms * (1.0 + 3.0 / narrow) / flux
-        if force is not None:
-            scale = self.load_scale(force)
-            pressed = float(np.abs(self.state[kernel.LOAD]).max()) * 2 * np.pi * mesh.dz.sum()
-            reach = np.abs(gap.across).max(axis=1)
-            carried = self.mirrors * self.radius**2 * pressed * reach
-            digits = np.abs(slope).sum(axis=1) * max(1.0, float(np.abs(position).max()))
-            worst = max(worst, float((carried + digits)[free].max()) / scale)
-        return rounding_level(worst)
 
     def liquid(self) -> Array:
         """Liquid in each cell (nx, nz) times the squeeze pressure, Pa s, at the last state."""

@@ -13,7 +13,8 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.journal.film import _kernels as kernel
+from loadflow.journal.film import _gap_kernels as kernel
+from loadflow.journal.film._kernels import COS, SIN
 from loadflow.journal.film.mesh import Mesh
 from loadflow.numerics.convergence import EPS
 
@@ -128,6 +129,7 @@ class CylindricalGap:
     axisymmetric, tilts = True, False
     pads: NDArray[np.int64] = np.arange(0)
     first_gap = 0.0  # that of the closed form, which is its own
+    surfaces: tuple[float, Array, Array, float] | None = None  # roughness, as the kernels take it
     roughness: float = 0.0
     open_share: Array | None = None
 
@@ -154,7 +156,8 @@ class CylindricalGap:
 
     def _evaluate(self, out: Array, ex: float, ey: float) -> None:
         stretch = self.mesh.stretch(ex) if self.mesh.polar else 0.0
-        kernel.gap_coefficients(*self.mesh.trigonometry, stretch, ex, ey, out)
+        around = self.mesh.trigonometry
+        kernel.gap_coefficients(*around, stretch, ex, ey, self.surfaces, out, self.open_share)
 
     def slopes(self, position: Array) -> list[tuple[Array, Array]]:
         """Derivatives of (`coef`, `around`) by the mesh coordinates of the position.
@@ -237,4 +240,4 @@ class CylindricalGap:
 
 
 def _around(coef: Array) -> Array:
-    return np.ascontiguousarray(coef[kernel.COS : kernel.SIN + 1, :-1, 0])
+    return np.ascontiguousarray(coef[COS : SIN + 1, :-1, 0])

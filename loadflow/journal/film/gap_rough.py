@@ -67,14 +67,8 @@ class RoughGap(CylindricalGap):
     def __init__(self, mesh: Mesh, contact: Contact, clearance: float) -> None:
         super().__init__(mesh)
         self.rough = _Rough(contact, clearance)
-        self.roughness = self.rough.roughness
+        self.roughness, self.surfaces = self.rough.roughness, self.rough.numbers
         self.open_share = np.ones((mesh.angle.size, 1))
-
-    def _evaluate(self, out: Array, ex: float, ey: float) -> None:
-        stretch = self.mesh.stretch(ex) if self.mesh.polar else 0.0
-        kernel.gap_coefficients(
-            *self.mesh.trigonometry, stretch, ex, ey, *self.rough.numbers, out, self.open_share
-        )
 
     def slopes(self, position: Array) -> list[tuple[Array, Array]]:
         """Derivatives of (`coef`, `around`) by the mesh coordinates of the position."""
@@ -107,14 +101,8 @@ class RoughShapedGap(ShapedGap):
     def __init__(self, mesh: ShapedMesh, bore: Bore, contact: Contact) -> None:
         super().__init__(mesh, bore)
         self.rough = _Rough(contact, bore.clearance)
-        self.roughness = self.rough.roughness
+        self.roughness, self.surfaces = self.rough.roughness, self.rough.numbers
         self.open_share = np.ones_like(self._cell_gap)
-
-    def _evaluate(self) -> None:
-        kernel.shaped_coefficients(
-            self._face, self._face_gap, self._cell, self._cell_gap, *self.moved,
-            *self.rough.numbers, self.coef, self._by_x, self._by_y, self.open_share,
-        )  # fmt: skip
 
     def advance(self, position: Array, step: Array) -> Array:
         """Position after `step`, of which every place keeps a third of its gap or roughness."""

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.journal.film import _kernels as kernel
+from loadflow.journal.film import _gap_kernels as kernel
 from loadflow.journal.film.gap import KEPT
 from loadflow.journal.film.gap_mesh import ShapedMesh
 from loadflow.journal.geometry import JournalGeometry
@@ -105,6 +105,7 @@ class ShapedGap:
 
     roughness: float = 0.0
     open_share: Array | None = None
+    surfaces: tuple[float, Array, Array, float] | None = None  # roughness, as the kernels take it
     axisymmetric = False
     first_gap = 0.02
 
@@ -239,7 +240,7 @@ class ShapedGap:
         """Fill `coef` and its derivatives where the shaft was `moved` to."""
         kernel.shaped_coefficients(
             self._face, self._face_gap, self._cell, self._cell_gap, *self.moved,
-            self.coef, self._by_x, self._by_y,
+            self.surfaces, self.coef, self._by_x, self._by_y, self.open_share,
         )  # fmt: skip
 
     def centre(self, position: Array) -> tuple[Array, Array]:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.journal.film import _kernels as kernel
+from loadflow.journal.film import _kernels as row
+from loadflow.journal.film._gap_kernels import faces_across
 from loadflow.journal.film.gap_mesh import ShapedMesh
 from loadflow.journal.film.gap_shaped import Bore, ShapedGap
 
@@ -44,14 +45,14 @@ class WarmGap(ShapedGap):
         frame = super().place(position)
         rows = self.mesh.shape[1]
         for coef in (self.coef, self._by_x, self._by_y):
-            coef[kernel.G, :, :rows] *= self._faces
-            coef[kernel.CELL3, :-1, :rows] /= self.ratio
-        self.coef[kernel.HINV, :-1, :rows] *= self.ratio
-        kernel.faces_across(self.coef, self.mesh.dz, False, self.coef)
+            coef[row.G, :, :rows] *= self._faces
+            coef[row.CELL3, :-1, :rows] /= self.ratio
+        self.coef[row.HINV, :-1, :rows] *= self.ratio
+        faces_across(self.coef, self.mesh.dz, False, self.coef)
         return frame
 
     @property
     def shear(self) -> Array:
         """∫ 1/H of the cells (nx, nz) around, where the shaft was last placed."""
         rows = self.mesh.shape[1]
-        return np.asarray(self.coef[kernel.HINV, :-1, :rows] / self.ratio)
+        return np.asarray(self.coef[row.HINV, :-1, :rows] / self.ratio)

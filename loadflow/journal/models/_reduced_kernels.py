@@ -33,7 +33,7 @@ def balance(film, work, wedge, rate):
 
     Returns the largest residual and the load ∫ p (cos θ, sin θ) dA, N.
     """
-    nx, m = work.u.shape
+    nx, m = work.u.shape[0], len(film.lanes)
     step = 2.0 * np.pi / nx
     axial = film.axial
     p = work.state[P]
@@ -100,7 +100,7 @@ def magnitudes(film, work, wedge, rate):
 
     A narrow gap is a difference of numbers near 1, so that what follows from it has fewer digits.
     """
-    nx, m = work.u.shape
+    nx, m = work.u.shape[0], len(film.lanes)
     step = 2.0 * np.pi / nx
     axial = film.axial
     p = work.state[P]
@@ -130,7 +130,7 @@ def magnitudes(film, work, wedge, rate):
 @njit(cache=True, nogil=True)
 def matrix(film, work, wedge, rate):
     """Band matrix of the derivatives of the residual by the unknowns."""
-    nx, m = work.u.shape
+    nx, m = work.u.shape[0], len(film.lanes)
     step = 2.0 * np.pi / nx
     axial = film.axial
     band = work.band
@@ -168,54 +168,66 @@ def matrix(film, work, wedge, rate):
 
 
 @njit(cache=True, nogil=True)
-def factorise(band):
-    """LU of the band matrix in place, without pivoting; False if that breaks down.
+def factorise(lanes, band, n):
+    """LU of the first `n` rows of the band matrix in place, without pivoting.
 
     The columns of the balance are diagonally dominant but for the axial terms, which are positive
-    definite, so that the pivots need no search.
+    definite, so that the pivots need no search. `lanes` is a tuple as long as there are points
+    across, so that the compiler knows how long the loops are. Returns False if it breaks down.
     """
-    n, width = band.shape
-    mid = width // 2
+    mid = 2 * len(lanes)
     for j in range(n):
         pivot = band[j, mid]
         if not abs(pivot) > 0.0:  # NaN too
             return False
         inverse = 1.0 / pivot
-        reach = min(mid, n - 1 - j)
-        for i in range(1, reach + 1):
+        for i in range(1, mid + 1):  # there are rows behind the last one
             factor = band[j + i, mid - i] * inverse
             band[j + i, mid - i] = factor
-            for k in range(1, reach + 1):
+            for k in range(1, mid + 1):
                 band[j + i, mid - i + k] -= factor * band[j, mid + k]
         band[j, mid] = inverse
     return True
 
 
 @njit(cache=True, nogil=True)
-def substitute(band, columns):
-    """Solve for the three `columns` (n, 3) in place with the factors of `factorise`."""
-    n, width = band.shape
-    mid = width // 2
-    for i in range(n):
-        for k in range(max(0, mid - i), mid):
-            factor = band[i, k]
-            row = i - mid + k
+def substitute(lanes, band, columns):
+    """Solve for the first three `columns` (n, …) in place with the factors of `factorise`."""
+    mid, n = 2 * len(lanes), columns.shape[0]
+    for i in range(min(mid, n)):
+        for k in range(mid - i, mid):
             for c in range(3):
-                columns[i, c] -= factor * columns[row, c]
+                columns[i, c] -= band[i, k] * columns[i - mid + k, c]
+    for i in range(mid, n):
+        a, b, c = columns[i, 0], columns[i, 1], columns[i, 2]
+        for k in range(mid):
+            factor, row = band[i, k], i - mid + k
+            a -= factor * columns[row, 0]
+            b -= factor * columns[row, 1]
+            c -= factor * columns[row, 2]
+        columns[i, 0], columns[i, 1], columns[i, 2] = a, b, c
     for i in range(n - 1, -1, -1):
-        for k in range(mid + 1, min(width, n - i + mid)):
-            factor = band[i, k]
-            row = i - mid + k
-            for c in range(3):
-                columns[i, c] -= factor * columns[row, c]
-        for c in range(3):
-            columns[i, c] *= band[i, mid]
+        a, b, c = columns[i, 0], columns[i, 1], columns[i, 2]
+        if i + mid < n:
+            for k in range(1, mid + 1):
+                factor, row = band[i, mid + k], i + k
+                a -= factor * columns[row, 0]
+                b -= factor * columns[row, 1]
+                c -= factor * columns[row, 2]
+        else:
+            for k in range(1, n - i):
+                factor, row = band[i, mid + k], i + k
+                a -= factor * columns[row, 0]
+                b -= factor * columns[row, 1]
+                c -= factor * columns[row, 2]
+        pivot = band[i, mid]
+        columns[i, 0], columns[i, 1], columns[i, 2] = a * pivot, b * pivot, c * pivot
 
 
 @njit(cache=True, nogil=True)
 def carried(film, work):
     """Load that each of the columns carries, (fx, fy) of each: a 3 × 2 tuple of scalars."""
-    nx, m = work.u.shape
+    nx, m = work.u.shape[0], len(film.lanes)
     fx0, fx1, fx2, fy0, fy1, fy2 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for i in range(nx):
         a0, a1, a2 = 0.0, 0.0, 0.0
@@ -240,7 +252,7 @@ def carried(film, work):
 @njit(cache=True, nogil=True)
 def summarise(film, work, x, y, row):
     """Integrals over the half film into `row`, after `place` at (x, y); units of this module."""
-    nx, m = work.u.shape
+    nx, m = work.u.shape[0], len(film.lanes)
     step = 2.0 * np.pi / nx
     axial = film.axial
     p = work.state[LOAD]

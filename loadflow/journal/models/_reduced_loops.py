@@ -22,12 +22,14 @@ from loadflow.journal.models._reduced_kernels import (
 )
 from loadflow.journal.models.reduced_film import (
     CONVERGED,
+    DISSIPATION,
     ITERATIONS,
     RESIDUAL,
     ROUNDING,
     X,
     Y,
 )
+from loadflow.journal.models.slow_heat import slow_heat
 from loadflow.numerics import convergence
 
 _STEP_LIMIT = 0.5  # change of the film over its pressure, up to which the shaft goes all the way
@@ -111,9 +113,9 @@ def newton(film, work, x, y, fx, fy, speed, rate, tolerance, max_iterations):
             return x, y, residual, spent, answered, rounding
         spent += 1
         matrix(film, work, wedge, rate)
-        if not factorise(work.band):
+        if not factorise(film.lanes, work.band, work.columns.shape[0]):
             return x, y, residual, spent, False, rounding
-        substitute(work.band, work.columns)
+        substitute(film.lanes, work.band, work.columns)
         dx, dy = 0.0, 0.0
         if film.free:
             x_new, y_new = shaft_step(film, work, x, y, fx - lx, fy - ly)
@@ -141,8 +143,8 @@ def finish(film, work, x, y, speed, row, stiffness, damping):
     wedge = 0.5 * film.slope * speed
     balance(film, work, wedge, 0.0)
     matrix(film, work, wedge, 0.0)
-    factorise(work.band)
-    substitute(work.band, work.columns)
+    factorise(film.lanes, work.band, work.columns.shape[0])
+    substitute(film.lanes, work.band, work.columns)
     _, by_x, by_y = carried(film, work)
     squeeze = film.slope * 2.0 * np.pi / nx
     for i in range(nx):
@@ -152,7 +154,7 @@ def finish(film, work, x, y, speed, row, stiffness, damping):
             work.columns[base + k, 0] = 0.0
             work.columns[base + k, 1] = held * film.cos[i]
             work.columns[base + k, 2] = held * film.sin[i]
-    substitute(work.band, work.columns)
+    substitute(film.lanes, work.band, work.columns)
     _, by_vx, by_vy = carried(film, work)
     for axis in range(2):
         stiffness[axis, 0], stiffness[axis, 1] = -by_x[axis], -by_y[axis]
@@ -187,18 +189,21 @@ def predict(work, ratio, extrapolate, weight, weight_before):
 
 
 @njit(cache=True, nogil=True)
-def march(film, work, x, y, time, force, speed, tolerance, max_iterations, rows):
+def march(film, work, x, y, time, force, speed, tolerance, max_iterations, rows, warmth, states):
     """Implicit steps of second order (BDF2 of variable step) through all of `time`.
 
     `work.u` and (x, y) are the film at the first time. A step at which Newton fails is cut, load
-    and speed interpolated. Fills `rows` (n, RESULTS) and returns how many of them.
+    and speed interpolated. Fills `rows` (n, RESULTS), and `states` as `slow_heat` does, and returns
+    how many of them.
     """
     place(film, work, x, y)
     keep(work)
     x_before, y_before = x, y
-    step_before = 0.0
+    step_before, thin = 0.0, 1.0
     for n in range(1, time.size):
         whole = time[n] - time[n - 1]
+        if warmth.on:
+            thin = slow_heat(warmth, states, n, whole, speed, rows, DISSIPATION, -1)
         share, done, spent = 1.0, 0.0, 0
         while done < 1.0:
             at = min(1.0, done + share)
@@ -215,7 +220,7 @@ def march(film, work, x, y, time, force, speed, tolerance, max_iterations, rows)
                 ahead = np.hypot(x_ahead, y_ahead) < 0.5 + 0.5 * np.hypot(x, y)
                 if ahead:
                     x_new, y_new = x_ahead, y_ahead
-            predict(work, ratio, ahead, weight, weight_before)
+            predict(work, ratio, ahead, thin * weight, thin * weight_before)
             x_new, y_new, residual, iterations, converged, rounding = newton(
                 film,
                 work,
@@ -223,8 +228,8 @@ def march(film, work, x, y, time, force, speed, tolerance, max_iterations, rows)
                 y_new,
                 force[n - 1, 0] + at * (force[n, 0] - force[n - 1, 0]),
                 force[n - 1, 1] + at * (force[n, 1] - force[n - 1, 1]),
-                speed[n - 1] + at * (speed[n] - speed[n - 1]),
-                rate,
+                thin * (speed[n - 1] + at * (speed[n] - speed[n - 1])),
+                thin * rate,
                 tolerance,
                 max_iterations,
             )

@@ -19,7 +19,7 @@ from loadflow.errors import SolverError
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
-from loadflow.journal.results import operating_columns, without_supply
+from loadflow.journal.rows import operating_columns, without_supply
 from loadflow.journal.solvers.messages import no_equilibrium
 from loadflow.numerics.fields import require
 from loadflow.tribology import film, film_tables

@@ -13,7 +13,7 @@ from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
 from loadflow.journal.models.model import Steps
-from loadflow.journal.results import columns_of
+from loadflow.journal.rows import columns_of
 from loadflow.journal.solvers.periodic import (
     Method,
     check_half_speed_whirl,
@@ -30,6 +30,7 @@ from loadflow.journal.solvers.transient import (
 )
 from loadflow.journal.solvers.warm import warm_fields, warm_rows
 from loadflow.numerics.convergence import Limits
+from loadflow.numerics.fields import require
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -78,6 +79,10 @@ def orbit(
     """Path of the shaft by implicit steps, or its closed path."""
     if steps.periodic:
         check_period(time, force, speed)
+        still = all(
+            rows is None or bool(np.all(rows == rows[0])) for rows in (line.tilt, line.bend)
+        )
+        require(still, "tilt, bend", "of a closed orbit", "the same all the time")
     first_limits = replace(limits, max_iterations=2 * limits.max_iterations)
     statics, first, forces = orbit_start(
         bearing, film, force, speed, line, steps.start, first_limits
@@ -94,8 +99,9 @@ def orbit(
         )
     else:
         past = marcher.begin(float(time[0]), first)
-        rows, end = march(marcher, past, time, forces, speed)
-        rows, ends, about = [orbit_row(discrete, first, 0), *rows], (past[-1], end[-1]), {}
+        begun = orbit_row(discrete, first, 0)  # at the speed and bend of the first time
+        rows, end = march(marcher, past, time, forces, speed, _lines(bearing, line, time.size))
+        rows, ends, about = [begun, *rows], (past[-1], end[-1]), {}
     values = columns_of(rows)
     if steps.step == "given":
         del values["steps"]
@@ -103,8 +109,25 @@ def orbit(
     return orbit_dataset(values, time, force, speed, bearing.clearance).assign_attrs(about)
 
 
+def _lines(bearing: JournalGeometry, line: Line, count: int) -> Array | None:
+    """Tilt and bend of a shaft over time, (n, 4), in the coordinates of the gap."""
+    if line.tilt is None and line.bend is None:
+        return None
+    rows, unit = np.zeros((count, 4)), bearing.radius / bearing.clearance
+    if line.tilt is not None:
+        rows[:, :2] = line.tilt * unit
+    if line.bend is not None:
+        rows[:, 2:] = line.bend * (unit * bearing.radius)
+    return rows
+
+
 def solve_on_grid(
-    bearing: JournalGeometry, film: Film, index: int, answer: dict[str, Any], limits: Limits
+    bearing: JournalGeometry,
+    film: Film,
+    index: int,
+    line: Line,
+    answer: dict[str, Any],
+    limits: Limits,
 ) -> None:
     """Replace the row `index` of the `answer` of a coarser model by that of the grid.
 
@@ -116,7 +139,9 @@ def solve_on_grid(
     force, speed = answer["force"][index], answer["speed"][index]
     own = Limits(_TOLERANCE, _STEPS, limits.strict)
     try:
-        [state] = equilibrium_rows(bearing, film, force[None], np.array([speed]), Line(), own)
+        [state] = equilibrium_rows(
+            bearing, film, force[None], np.array([speed]), line.at(np.array([index])), own
+        )
     except SolverError as error:
         raise SolverError(str(error).replace("load 0:", f"load {index}:", 1)) from error
     for name, values in answer.items():

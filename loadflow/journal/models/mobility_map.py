@@ -19,7 +19,7 @@ from loadflow.journal.models import mobility_films as row
 from loadflow.journal.models.grid import solve_on_grid
 from loadflow.journal.models.mobility import MobilityMap, scaled, tabulate
 from loadflow.journal.models.model import Steps
-from loadflow.journal.results import operating_columns, without_supply
+from loadflow.journal.rows import operating_columns, without_supply
 from loadflow.journal.solvers.transient import orbit_dataset
 from loadflow.quantities import FILM
 
@@ -133,7 +133,7 @@ def equilibrium(
         "residual": residual,
     }
     for index in np.flatnonzero(~covered):
-        solve_on_grid(bearing, film.options, int(index), answer, control)
+        solve_on_grid(bearing, film.options, int(index), line, answer, control)
     return answer
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, Literal, Protocol, cast
@@ -14,6 +15,7 @@ from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
 from loadflow.journal.rungs import FEATURES, RUNGS, Rung
+from loadflow.journal.shells import LinedShell, LocalShell
 from loadflow.numerics.convergence import Limits
 from loadflow.numerics.fields import require
 
@@ -35,6 +37,8 @@ class Steps:
     ----------
     start : array (2,), optional
         First position, clearances.
+    temperature : float
+        Of the film at the first time, K, where it stores heat.
     """
 
     start: Array | None = None
@@ -43,6 +47,7 @@ class Steps:
     periodic: bool | Literal["direct", "marching"] = False
     closure: float = 1e-6
     max_periods: int = 100
+    temperature: float = 0.0
 
     def __post_init__(self) -> None:
         require(self.step in ("given", "adaptive"), "step", self.step, '"given" or "adaptive"')
@@ -112,12 +117,15 @@ def why_not(
     if known is None:
         why = rung.words if verb == "in_motion" else f"{_having(verb)} for a field of pressure"
         return f'rung = "{rung.name}" is not allowed: {why}'
-    for name, value in _asked(film, bearing, line, steps or Steps()).items():
+    for name, value in _asked(verb, film, bearing, line, steps or Steps()).items():
         if name not in known:
             return (
                 f"rung = {rung.name!r} is not allowed: {_having(verb, name)} for "
                 f"{FEATURES[name]}; {name} = {value!r}"
             )
+    for name, value, apart, allowed in _pairs(verb, film, bearing, steps or Steps()):
+        if value is not None and apart:
+            return f"{name} = {value!r} is not allowed: {allowed}"
     if film.heat is not None and film.heat.over_area and not film.law.keeps_mass:
         return f"cavitation = {film.law!r} is not allowed: {_KEEPS_MASS}"
     return None if rung.law is None else _not_its_own(rung, film)
@@ -141,19 +149,20 @@ def model_of(
     return cast("Model", getattr(found, name) if name else found)
 
 
-def _asked(film: Film, bearing: JournalGeometry, line: Line, steps: Steps) -> dict[str, Any]:
+def _asked(
+    verb: Verb, film: Film, bearing: JournalGeometry, line: Line, steps: Steps
+) -> dict[str, Any]:
     """What a model must know, of `FEATURES`, and its value."""
     own = RUNGS[film.rung].law is not None  # such a model has its own inlet, and no mesh
-    heat = "film_heat" if film.heat is not None and film.heat.over_area else "heat"
     wanted: dict[str, Any] = {
-        heat: film.heat,
+        _kind_of_heat(film, verb): film.heat,
         "shape": bearing.shape if bearing.shape.segments else None,
         "relief": bearing.relief or None,
         "moment": line.moment,
         "tilt": line.tilt,
         "bend": line.bend,
         "supply": film.supply,
-        "shell": film.shell,
+        "local_shell" if isinstance(film.shell, LocalShell | LinedShell) else "shell": film.shell,
         "contact": film.contact,
         "step": None if steps.step == "given" else steps.step,
         "periodic": steps.periodic or None,
@@ -164,6 +173,36 @@ def _asked(film: Film, bearing: JournalGeometry, line: Line, steps: Steps) -> di
     if film.grading == "graded" and not own:
         asked["grading"] = film.grading
     return asked
+
+
+def _pairs(
+    verb: Verb, film: Film, bearing: JournalGeometry, steps: Steps
+) -> Iterator[tuple[str, Any, bool, str]]:
+    """What does not go with another part on any rung: name, value, whether that is there, words."""
+    pads = any(part.tilting for part in bearing.shape.segments)
+    over_area = film.heat is not None and film.heat.over_area
+    if verb == "in_motion":
+        yield "shape", bearing.shape.kind, pads, "a fixed bore for an orbit"
+        stored = _kind_of_heat(film, verb) == "slow_heat"
+        yield (
+            "heat",
+            film.heat,
+            stored and bool(steps.periodic),
+            "without capacity on a closed path",
+        )
+    yield "shell", film.shell, pads, "None for pads, whose backs are not held"
+    yield "shell", film.shell, over_area, "None with heat over the area"
+    yield "contact", film.contact, film.shell is not None, "None with an elastic shell"
+    yield "contact", film.contact, pads, "None for pads that tilt"
+    yield "contact", film.contact, over_area, "None with heat over the area"
+
+
+def _kind_of_heat(film: Film, verb: Verb) -> str:
+    """Which of `FEATURES` the heat of a film is; what is stored counts in motion alone."""
+    if film.heat is None or not film.heat.over_area:
+        stored = verb == "in_motion" and getattr(film.heat, "capacity", None) is not None
+        return "slow_heat" if stored else "heat"
+    return "film_heat"
 
 
 def _having(verb: Verb, feature: str | None = None) -> str:

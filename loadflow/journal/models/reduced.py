@@ -2,7 +2,8 @@
 
 Across the width the pressure is an even polynomial through `POINTS` Gauss–Lobatto points; around,
 the cells are those of the rung "grid", and so are law, time steps and scales. Cells are fixed to
-the shell: there is no inlet line, and no groove.
+the shell: there is no inlet line, and no groove. A film with a shaft that tilts or
+bends, asperities or a shell that gives way is one of `loadflow.journal.models.composed`.
 """
 
 from __future__ import annotations
@@ -21,14 +22,16 @@ from loadflow.journal.film.integrals import Integrals, in_units
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
+from loadflow.journal.models import composed, grid
 from loadflow.journal.models import reduced_film as at
 from loadflow.journal.models._reduced_kernels import summarise
 from loadflow.journal.models._reduced_loops import finish, march, newton
 from loadflow.journal.models.grid import solve_on_grid
 from loadflow.journal.models.model import Steps
 from loadflow.journal.models.reduced_film import Ring, Work, make_work
+from loadflow.journal.models.slow_heat import THIN, cooled, slow_states
 from loadflow.journal.models.width_modes import lobatto
-from loadflow.journal.results import operating_columns, without_supply
+from loadflow.journal.rows import operating_columns, without_supply
 from loadflow.journal.solvers.estimate import NEAR, closed_form_position
 from loadflow.journal.solvers.messages import no_equilibrium, not_found
 from loadflow.journal.solvers.transient import orbit_dataset
@@ -40,6 +43,8 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
+stores_heat = True  # of `loadflow.journal.warm_orbit`: the temperature follows in the same loop
+
 POINTS = 3  # across the half width; the largest pressure moves by 0.4 % at most with more of them
 
 
@@ -48,6 +53,9 @@ def equilibrium(
 ) -> dict[str, Any]:
     """Static equilibria; a load that fails or is not resolved here is solved on the grid."""
     force, speed = np.array(force), np.array(speed)  # of the layout that the kernels know
+    if composed.composes(options, line):
+        answer, found = composed.equilibrium(bearing, options, force, speed, line, control)
+        return _with_the_grid(bearing, options, line, answer | {"converged": found}, control)
     film = _film(bearing, options, speed)
     reduced, work = _discrete(film)
     count = speed.size
@@ -78,8 +86,15 @@ def equilibrium(
         "damping": damping / bearing.clearance,
         "converged": rows[:, at.CONVERGED] > 0,
     }
+    return _with_the_grid(bearing, options, line, answer, control)
+
+
+def _with_the_grid(
+    bearing: JournalGeometry, options: Film, line: Line, answer: dict[str, Any], control: Limits
+) -> dict[str, Any]:
+    """The answer, its loads that have not converged solved on the grid."""
     for index in np.flatnonzero(~answer["converged"]):
-        solve_on_grid(bearing, options, int(index), answer, control)
+        solve_on_grid(bearing, options, int(index), line, answer, control)
     return answer
 
 
@@ -101,6 +116,21 @@ def orbit(
         No equilibrium to start from, or a step that fails even when cut to 1/256.
     """
     time, force, speed = (np.array(values) for values in (time, force, speed))
+    if composed.composes(options, line):
+
+        def begin() -> Array:
+            """First position (4,) by the grid."""
+            first = grid.equilibrium(
+                bearing, options.isothermal(), force[:1], speed[:1], line.at(np.array([0])),
+                replace(control, strict=True),
+            )  # fmt: skip
+            unit = bearing.radius / bearing.clearance
+            place = np.append(first["eccentricity"][0] / bearing.clearance, np.zeros(2))
+            place[2:] = first["tilt"][0] * unit if not line.straight else 0.0
+            return place
+
+        values = composed.orbit(bearing, options, time, force, speed, line, control, steps, begin)
+        return orbit_dataset(values, time, force, speed, bearing.clearance)
     film = _film(bearing, options, speed)
     film.raise_scale(float(np.hypot(*force.T).max()) / (bearing.width * bearing.diameter))
     reduced, work = _discrete(film)
@@ -108,9 +138,10 @@ def orbit(
     start = steps.start
     first = _estimate(bearing, film, force[:1], speed[:1])[0] if start is None else start
     rows = np.zeros((time.size, at.RESULTS))
+    warmth, states = slow_states(options, film, 1.0, 0.0, steps.temperature, time.size)
     begin = reduced._replace(free=start is None)
     x, y, residual, iterations, converged, rounding = newton(
-        begin, work, first[0], first[1], force[0, 0], force[0, 1], speed[0], 0.0,
+        begin, work, first[0], first[1], force[0, 0], force[0, 1], speed[0] * states[0, THIN], 0.0,
         control.tolerance, 2 * control.max_iterations,
     )  # fmt: skip
     if not converged:
@@ -119,8 +150,9 @@ def orbit(
     summarise(reduced, work, x, y, rows[0])
     rows[0, at.RESIDUAL :] = residual, iterations, converged, rounding
     solved = march(
-        reduced, work, x, y, time, force, speed, control.tolerance, control.max_iterations, rows
-    )
+        reduced, work, x, y, time, force, speed, control.tolerance, control.max_iterations, rows,
+        warmth, states,
+    )  # fmt: skip
     last = solved - 1
     if not rows[last, at.CONVERGED]:
         raise SolverError(
@@ -129,7 +161,8 @@ def orbit(
             f"ε = {np.hypot(rows[last, at.X], rows[last, at.Y]):.6g}; "
             + unresolved(*rows[last, [at.RESIDUAL, at.ROUNDING, at.ITERATIONS]])
         )
-    values = _results(film, rows, speed) | {"x": rows[:, at.X], "y": rows[:, at.Y]}
+    values = _results(film, rows, speed * states[:, THIN])
+    values = cooled(warmth, states, values) | {"x": rows[:, at.X], "y": rows[:, at.Y]}
     return orbit_dataset(values, time, force, speed, bearing.clearance)
 
 
@@ -173,9 +206,9 @@ def _discrete(film: DiscreteFilm) -> tuple[Ring, Work]:
     face = angle + np.pi / angle.size
     axial = lobatto(float(film.mesh.z_edges[-1]), POINTS)
     reduced = Ring(
-        np.cos(angle), np.sin(angle), np.cos(face), np.sin(face), film.mesh.order, axial,
-        film.law.address, np.array(film.law.numbers), film.law.fill_at(film.p_edge), film.scale,
-        film.p_edge, film.slope,
+        np.cos(angle), np.sin(angle), np.cos(face), np.sin(face), film.mesh.order,
+        (0,) * POINTS, axial, film.law.address, np.array(film.law.numbers),
+        film.law.fill_at(film.p_edge), film.scale, film.p_edge, film.slope,
         2.0 * film.radius**2, True,
     )  # fmt: skip
     return reduced, make_work(angle.size, POINTS)

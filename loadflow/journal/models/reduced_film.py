@@ -27,6 +27,8 @@ class Ring(NamedTuple):
         Of the cell centres, and of the faces behind them.
     order : array (nx,)
         Place of each column of cells in the folded band.
+    lanes : tuple of int
+        As long as there are points across: a length that the compiler knows.
     axial : Axial
         Points across the half width.
     law : int
@@ -50,6 +52,7 @@ class Ring(NamedTuple):
     cos_face: Array
     sin_face: Array
     order: NDArray[np.int64]
+    lanes: tuple[int, ...]
     axial: Axial
     law: int
     numbers: Array
@@ -74,8 +77,8 @@ class Work(NamedTuple):
         As in `_kernels.apply_law`.
     gap, gap_face : array (nx,)
         H at cell centres and faces.
-    band : array (n, 4 m + 1)
-        Band matrix, row by row.
+    band : array (n + 2 m, 4 m + 1)
+        Band matrix, row by row; the last 2 m rows are those behind it.
     columns : array (n, 3)
         Residual and its derivatives by the position; then what the matrix makes of them.
     """
@@ -103,6 +106,6 @@ def make_work(around: int, points: int) -> Work:
         state=np.zeros((8, *shape)),
         gap=np.zeros(around),
         gap_face=np.zeros(around),
-        band=np.zeros((n, 4 * points + 1)),
+        band=np.zeros((n + 2 * points, 4 * points + 1)),
         columns=np.zeros((n, 3)),
     )

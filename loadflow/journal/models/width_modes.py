@@ -70,3 +70,103 @@ def lobatto(half_width: float, nodes: int) -> Axial:
         middle=from_values[0].copy(),
         rim_weight=half_width * rim,
     )
+
+
+class Nodes(NamedTuple):
+    """Points across the width at which the gap is taken, and polynomials of the pressure on them.
+
+    The pressure above that of the ends is q at m inner points, which come first, and 0 at the
+    bearing ends, which follow: l points in all, those of a rule of Gauss and Lobatto. Lengths are
+    in shaft radii.
+
+    Attributes
+    ----------
+    z : array (l,)
+        From mid-plane.
+    weights : array (l,)
+        ∫ f dz = weights · f.
+    slopes : array (l, m)
+        ∂q at all points from its values.
+    ends : array (e,)
+        Sense of the outward direction at each end: −1 or 1.
+    fine : array (f, m)
+        Values at places close by each other, from those at the points.
+    """
+
+    z: Array
+    weights: Array
+    slopes: Array
+    ends: Array
+    fine: Array
+
+
+_FINE = 41  # places across the width at which the largest pressure is sought
+
+
+@lru_cache(maxsize=8)
+def whole_width(half_width: float, points: int) -> Nodes:
+    """Polynomials over the whole width, 0 at both ends, from their values at inner `points`."""
+    zeta, weights = _lobatto_rule(points + 1)
+    slopes = _derivative(zeta)
+    inner, ends = np.arange(1, points + 1), np.array([0, points + 1])
+    order = np.append(inner, ends)
+    fine = _interpolation(zeta, np.linspace(-1.0, 1.0, _FINE))
+    return Nodes(
+        z=half_width * zeta[order],
+        weights=half_width * weights[order],
+        slopes=np.ascontiguousarray(slopes[np.ix_(order, inner)]) / half_width,
+        ends=np.array([-1.0, 1.0]),
+        fine=np.ascontiguousarray(fine[:, inner]),
+    )
+
+
+@lru_cache(maxsize=8)
+def half_width_nodes(half_width: float, points: int) -> Nodes:
+    """Even polynomials over the half width, 0 at its end: those of `lobatto`."""
+    zeta, weights = _lobatto_rule(2 * points + 1)
+    slopes = _derivative(zeta)
+    inner = np.arange(points + 1, 2 * points + 1)
+    mirror = 2 * points + 1 - inner
+    order = np.append(inner, 2 * points + 1)
+    fine = _interpolation(zeta, np.linspace(0.0, 1.0, _FINE))
+    even = slopes[:, inner] + slopes[:, mirror]
+    return Nodes(
+        z=half_width * zeta[order],
+        weights=half_width * weights[order],
+        slopes=np.ascontiguousarray(even[order]) / half_width,
+        ends=np.array([1.0]),
+        fine=np.ascontiguousarray(fine[:, inner] + fine[:, mirror]),
+    )
+
+
+def _lobatto_rule(degree: int) -> tuple[Array, Array]:
+    """Points and weights of Gauss and Lobatto on −1 … 1, both ends among them."""
+    series = np.zeros(degree + 1)
+    series[degree] = 1.0
+    inner = np.sort(legendre.legroots(legendre.legder(series)).real)
+    zeta = np.concatenate([[-1.0], 0.5 * (inner - inner[::-1]), [1.0]])
+    return zeta, 2.0 / (degree * (degree + 1)) / legendre.legval(zeta, series) ** 2
+
+
+def _barycentric(zeta: Array) -> Array:
+    apart = zeta[:, None] - zeta + np.eye(zeta.size)
+    return np.asarray(1.0 / apart.prod(axis=1))
+
+
+def _derivative(zeta: Array) -> Array:
+    """Derivatives at the points of the polynomial through values there."""
+    weights = _barycentric(zeta)
+    apart = zeta[:, None] - zeta + np.eye(zeta.size)
+    matrix = weights / weights[:, None] / apart
+    np.fill_diagonal(matrix, 0.0)
+    np.fill_diagonal(matrix, -matrix.sum(axis=1))
+    return np.asarray(matrix)
+
+
+def _interpolation(zeta: Array, places: Array) -> Array:
+    """Values at `places` of the polynomial through values at the points."""
+    apart = places[:, None] - zeta
+    exact = np.abs(apart) < 1e-14
+    terms = _barycentric(zeta) / np.where(exact, 1.0, apart)
+    values = terms / terms.sum(axis=1, keepdims=True)
+    return np.where(exact.any(axis=1, keepdims=True), exact.astype(float), values)

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from loadflow.errors import SolverError
 from loadflow.journal.film import _kernels as kernel
 from loadflow.journal.film.film import Linear, SingularFilm
+from loadflow.journal.film.imbalance import imbalance
 from loadflow.journal.film.surface_film import SurfaceFilm
 from loadflow.numerics.convergence import Limits
 
@@ -333,7 +334,7 @@ class Assembly:
             film = member.film
             place = self.place(member, own, state.position)
             moving = member.sees @ state.velocity
-            worst = max(worst, film.imbalance(own.u, place, moving, None, state.rate, own.old))
+            worst = max(worst, imbalance(film, own.u, place, moving, None, state.rate, own.old))
             load = member.unit * film.field(own.u, place)[3]
             total += sum(turn.T @ member.attached.T @ load for turn in member.turns)
             least += 1e-3 * film.scale * film.radius**2

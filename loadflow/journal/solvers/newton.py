@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.journal.film.film import EVERY, DiscreteFilm, Linear, SingularFilm
+from loadflow.journal.film.imbalance import imbalance, rounding
 from loadflow.numerics.convergence import COARSEST, answered, rounding_level
 
 Array = NDArray[np.float64]
@@ -89,9 +90,9 @@ class _Check:
         motion = self.motion
         velocity, old = motion.velocity(position), (motion.volume_rate, motion.volume)
         where = (u, position, velocity, self.force)
-        self.residual = self.film.imbalance(*where, *old, self.free)
+        self.residual = imbalance(self.film, *where, *old, self.free)
         slope = linear.stiffness + motion.rate * linear.damping
-        self.rounding = self.film.rounding(position, velocity, slope, self.force, self.free)
+        self.rounding = rounding(self.film, position, velocity, slope, self.force, self.free)
 
     def after(
         self, iteration: int, change: float, u: Array, position: Array, linear: Linear

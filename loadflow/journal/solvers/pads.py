@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.gap_shaped import ShapedGap
-from loadflow.journal.results import following
+from loadflow.journal.rows import following
 from loadflow.journal.solvers.newton import (
     Motion,
     Solution,

@@ -25,7 +25,7 @@ from loadflow.journal.film.gap_shaped import ShapedGap
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
-from loadflow.journal.results import field_row, static_row
+from loadflow.journal.rows import field_row, static_row
 from loadflow.journal.solvers.estimate import NEAR, first_position
 from loadflow.journal.solvers.load_stepping import (
     APART,

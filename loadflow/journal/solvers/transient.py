@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import SolverError
 from loadflow.journal.film.film import EVERY, DiscreteFilm
+from loadflow.journal.film.gap_shaped import ShapedGap
 from loadflow.journal.film.integrals import summary
-from loadflow.journal.results import attitude_angle
+from loadflow.journal.rows import attitude_angle
 from loadflow.journal.solvers.newton import Motion, Solution, solve_equilibrium
 from loadflow.numerics.convergence import unresolved
 from loadflow.quantities import FILM
@@ -72,11 +73,13 @@ class Marcher:
         force: Array,
         speed: float,
         before: tuple[Array, float],
+        lines: tuple[Array, Array] | None = None,
     ) -> tuple[Solution, list[Past], int]:
         """Advance to `time` under `force` (N) and `speed` (rad/s), in the number of steps returned.
 
-        `before` are force and speed at the last time; where Newton fails, or the error is too
-        large, the step is cut and the load interpolated.
+        `before` are force and speed at the last time, `lines` tilt and bend (4,) of the shaft at
+        both times where they are given; where Newton fails, or the error is too large, the step is
+        cut and all that is given interpolated.
         """
         start = past[-1].time
         smallest = _SMALLEST if math.isinf(self.accuracy) else _FINEST
@@ -88,7 +91,8 @@ class Marcher:
             now = start + at * (time - start)
             load = before[0] + at * (force - before[0])
             self.film.set_speed(before[1] + at * (speed - before[1]))
-            solution = self._try(past, now, load)
+            line = None if lines is None else lines[0] + at * (lines[1] - lines[0])
+            solution = self._try(past, now, load, line)
             spent += solution.iterations
             growth = self._growth(past, now, solution.position) if solution.converged else 0.5
             if growth >= _SAFETY:
@@ -124,7 +128,7 @@ class Marcher:
         error = share * math.hypot(*left) / max(self.film.gap.narrowest(position), 1e-300)
         return min(2.0, max(0.2, _SAFETY * (self.accuracy / max(error, 1e-300)) ** (1 / 3)))
 
-    def _try(self, past: list[Past], time: float, force: Array) -> Solution:
+    def _try(self, past: list[Past], time: float, force: Array, line: Array | None) -> Solution:
         last = past[-1]
         step = time - last.time
         u, position = last.u, last.position
@@ -140,6 +144,8 @@ class Marcher:
             gap = self.film.gap
             if gap.narrowest(ahead) > 0.5 * gap.narrowest(last.position):
                 u, position = last.u + ratio * (last.u - before.u), ahead
+        if line is not None:
+            position = self._laid(position, line)
         if self.film.mesh.polar:
             offset = sum((w * p.position for w, p in kept), np.zeros(2))
             motion = Motion(rate=rate, offset=offset)
@@ -149,6 +155,14 @@ class Marcher:
         return solve_equilibrium(
             self.film, force, u, position, self.tolerance, self.max_iterations, motion, self.free
         )
+
+    def _laid(self, position: Array, line: Array) -> Array:
+        """The position with the given tilt, where that is not free; sets the given bend."""
+        bent, gap = cast("ShapedGap", self.film.gap), position.copy()
+        bent.bend(line[2:])
+        held = np.setdiff1d(np.arange(2, 4), np.arange(position.size)[self.free])
+        gap[held] = line[held - 2]
+        return gap
 
     def _next(self, last: Past, time: float, solution: Solution, ahead: float) -> Past:
         new = self.past(time, solution.u, solution.position)
@@ -163,9 +177,16 @@ class Marcher:
 
 
 def march(
-    marcher: Marcher, past: list[Past], time: Array, force: Array, speed: Array
+    marcher: Marcher,
+    past: list[Past],
+    time: Array,
+    force: Array,
+    speed: Array,
+    lines: Array | None = None,
 ) -> tuple[list[dict[str, Any]], list[Past]]:
     """Rows of the orbit at every time after the first, and the history at the last.
+
+    `lines` (n, 4) are tilt and bend of the shaft where they are given.
 
     Raises
     ------
@@ -176,7 +197,8 @@ def march(
     for i in range(1, time.size):
         before = (force[i - 1], float(speed[i - 1]))
         now = float(time[i])
-        solution, past, steps = marcher.step(past, now, force[i], float(speed[i]), before)
+        both = None if lines is None else (lines[i - 1], lines[i])
+        solution, past, steps = marcher.step(past, now, force[i], float(speed[i]), before, both)
         if not solution.converged:
             raise SolverError(
                 f"orbit stops at t = {now:.6g} s: F = ({force[i, 0]:.6g}, {force[i, 1]:.6g}) N, "
@@ -195,6 +217,8 @@ def orbit_row(film: DiscreteFilm, solution: Solution, steps: int) -> dict[str, A
     x, y, *tilt = solution.position.tolist()
     if tilt:
         row["tilt"] = np.array(tilt) * film.relative_clearance
+        frame = film.gap.place(solution.position)
+        row["moment"] = film.radius * film.load_of(frame, solution.position)[2:4]
     return row | {
         "x": x,
         "y": y,
@@ -228,9 +252,10 @@ _VARIABLES = (
     "residual",
     "iterations",
     "steps",
+    "temperature",
 )
 _GROOVES = ("groove_flow", "groove_pressure")
-_VECTORS = ("tilt", "contact_force")
+_VECTORS = ("tilt", "moment", "contact_force")
 
 
 def orbit_dataset(

@@ -22,7 +22,7 @@ from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.heat import HOTTEST, FilmHeat
 from loadflow.journal.line import Line
-from loadflow.journal.results import field_row, static_row
+from loadflow.journal.rows import field_row, static_row
 from loadflow.journal.solvers.newton import Solution
 from loadflow.journal.solvers.statics import Statics
 from loadflow.numerics.anderson import Anderson

@@ -120,6 +120,16 @@ class SpectrumLife:
     thin_share : float
         Share of the revolutions with κ below 0.1, where ISO 281 gives no factor; there a_ISO counts
         as its smallest value, 0.1.
+
+    Examples
+    --------
+    >>> from loadflow.rolling import Lubrication, main_bearings, modified_spectrum_life
+    >>> from loadflow.tribology import lubricant
+    >>> oil = Lubrication(oil=lubricant("mineral-vg-320"), temperature=323.15)
+    >>> bearing = main_bearings("tapered-pair")["M"]
+    >>> found = modified_spectrum_life(bearing, [1e6, 2e6], [1.2, 1.2], oil, weight=[0.9, 0.1])
+    >>> found.factor > 0.1, found.thin_share
+    (True, 0.0)
     """
 
     life: float
@@ -147,6 +157,19 @@ def modified_spectrum_life(
         Oil, temperature and cleanliness.
     weight : array_like, shape (n,)
         Time that each step stands for, in any unit.
+
+    Examples
+    --------
+    >>> from loadflow.rolling import Lubrication, main_bearings, modified_spectrum_life
+    >>> from loadflow.tribology import lubricant
+    >>> bearing = main_bearings("tapered-pair")["M"]
+    >>> oil = lubricant("mineral-vg-320")
+    >>> cold, warm = (
+    ...     modified_spectrum_life(bearing, [1e6], [1.2], Lubrication(oil=oil, temperature=kelvin))
+    ...     for kelvin in (313.15, 343.15)
+    ... )
+    >>> cold.life > warm.life  # the warmer, the thinner the film
+    True
     """
     turns = np.abs(np.asarray(speed, float)) * np.asarray(weight, float)
     rolls = turns > 0
@@ -189,6 +212,15 @@ class BearingLife:
         Smallest safety by force, largest pressure (Pa).
     modified_life_hours : float, optional
         With a_ISO of every step, at a reliability of 90 %, h; None without a lubrication.
+
+    Examples
+    --------
+    >>> from loadflow.rolling import arrangement_lives, main_bearings
+    >>> bearings = main_bearings("tapered-pair")
+    >>> force, moment = {"M": [[0.0, -1e6, 3e5]]}, {"M": [[1e6, 0.0]]}
+    >>> life = arrangement_lives({"M": bearings["M"]}, force, moment, speed=[1.2])["M"]
+    >>> life.life_hours > 1e4, life.modified_life_hours is None
+    (True, True)
     """
 
     life: float
@@ -233,6 +265,16 @@ def arrangement_lives(
         too thin for ISO 281 (κ below 0.1).
     SolverError
         If a load has no equilibrium.
+
+    Examples
+    --------
+    >>> from loadflow.rolling import arrangement_lives, main_bearings
+    >>> bearings = main_bearings("tapered-pair")
+    >>> force, moment = {"M": [[0.0, -1e6, 3e5], [0.0, -2e6, 3e5]]}, {"M": [[1e6, 0.0]] * 2}
+    >>> life = arrangement_lives({"M": bearings["M"]}, force, moment, [1.2, 1.2], weight=[0.9,
+    ...     0.1])["M"]
+    >>> life.static_safety > 1.0
+    True
     """
     turns = np.abs(np.asarray(speed, float)) * np.asarray(weight, float)
     mean = float(turns.sum() / np.broadcast_to(weight, turns.shape).sum())

@@ -72,7 +72,7 @@ class RollingEquilibrium(ContactResult[Kind]):
         return self.elements
 
     def ring_displacement(self, ring: Literal["inner", "outer"]) -> Array:
-        """Displacement (r, θ, z) of a flexible ring's raceway patches, m, (..., *groups, ball, 3).
+        """Displacement (r, θ, z) of a flexible ring's raceway patches, m, (…, groups, ball, 3).
 
         Raises
         ------
@@ -191,6 +191,14 @@ class RollingBearing(RollingGeometry):
         Whether the inertia of its elements can be counted (`equilibrium` with a speed).
     flexible_rings : bool
         Whether its rings may be flexible.
+
+    Examples
+    --------
+    >>> from loadflow.rolling import BallBearing, RollingBearing
+    >>> bearing = BallBearing(balls=16, ball_diameter=0.04, pitch_diameter=0.5,
+    ...     groove_radius=0.0208)
+    >>> isinstance(bearing, RollingBearing), bearing.kind, bearing.takes_moment
+    (True, 'ball', True)
     """
 
     kind: ClassVar[str]

@@ -16,7 +16,6 @@ from .contact_films import sphere_film as sphere_film
 from .coulomb import cage_force as cage_force
 from .coulomb import driving_moment as driving_moment
 from .coulomb import pocket_loss as pocket_loss
-from .coulomb import pocket_moment as pocket_moment
 from .coulomb import rolling_loss as rolling_loss
 from .coulomb import sliding_loss as sliding_loss
 from .energy import EnergyAudit as EnergyAudit

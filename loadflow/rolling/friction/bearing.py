@@ -44,6 +44,18 @@ class BearingFriction:
         and from spin; 0 without load.
     slip_power_density : ndarray, shape (..., row, element), optional
         Of balls: power of that sliding over the area of the contact, W/m², the larger of both.
+
+    Examples
+    --------
+    >>> from loadflow.rolling import FrictionOptions, RollerBearing
+    >>> from loadflow.rolling.friction import roller_friction
+    >>> from loadflow.tribology import lubricant
+    >>> bearing = RollerBearing(rollers=24, roller_diameter=0.04, roller_length=0.06,
+    ...     pitch_diameter=0.5)
+    >>> options = FrictionOptions(oil=lubricant("mineral-vg-320"), temperature=323.15)
+    >>> found = roller_friction(bearing.equilibrium((1e5, 0.0, 0.0)), 10.0, options)
+    >>> sorted(found.losses), found.film_parameter.shape
+    (['churning', 'drag', 'hysteresis', 'rib', 'rolling', 'seal'], (1, 24, 2))
     """
 
     speed: Array

@@ -146,6 +146,13 @@ class SkfConstants:
         Y of tapered bearings.
     starvation, geometry : float
         K_rs (3e-8 oil bath, 6e-8 grease) and K_Z (cylindrical 5.1, spherical 5.5, tapered 6).
+
+    Examples
+    --------
+    >>> from loadflow.rolling.friction import SkfConstants
+    >>> series = SkfConstants(kind="cylindrical", r1=1.54e-6, s1=0.0016, s2=0.0015, geometry=5.1)
+    >>> series.starvation
+    6e-08
     """
 
     kind: Literal["cylindrical", "tapered", "spherical"]
@@ -188,6 +195,14 @@ def skf_torque(
         m.
     boundary : float
         μ_bl of boundary lubrication.
+
+    Examples
+    --------
+    >>> from loadflow.rolling.friction import SkfConstants, skf_torque
+    >>> series = SkfConstants(kind="cylindrical", r1=1.54e-6, s1=0.0016, s2=0.0015, geometry=5.1)
+    >>> found = skf_torque(series, 1e5, 0.0, 10.0, 320e-6, bore=0.3, outside_diameter=0.5)
+    >>> [round(float(torque)) for torque in found]  # rolling, sliding
+    [40, 1]
     """
     fr, fa = np.asarray(radial, float), np.asarray(axial, float)
     n = np.abs(np.asarray(speed, float)) * _RPM

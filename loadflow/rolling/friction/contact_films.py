@@ -22,6 +22,17 @@ class ContactFilm(NamedTuple):
     `film` is central, m, 0 at standstill; `half_width` along rolling and `length` across, m, of a
     strip of the contact's area; `pressure` the mean one, Pa; `radius` R_eff along rolling, m;
     `share` what thermal and starved inlets leave of the flooded isothermal film.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.rolling import FrictionOptions
+    >>> from loadflow.rolling.friction import line_film
+    >>> from loadflow.tribology import lubricant
+    >>> options = FrictionOptions(oil=lubricant("mineral-vg-320"), temperature=323.15)
+    >>> found = line_film(np.array([1e4]), 0.06, 0.018, 2.3e11, np.array([2.0]), options)
+    >>> found._fields
+    ('film', 'half_width', 'length', 'pressure', 'radius', 'share')
     """
 
     film: Array
@@ -68,6 +79,18 @@ def line_film(
         Mean surface speed u ≥ 0, m/s; broadcasts with `force`.
     options : FrictionOptions
         Oil, temperature, film law, starvation.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.rolling import FrictionOptions
+    >>> from loadflow.rolling.friction import line_film
+    >>> from loadflow.tribology import lubricant
+    >>> options = FrictionOptions(oil=lubricant("mineral-vg-320"), temperature=323.15)
+    >>> still, turning = line_film(np.array([1e4]), 0.06, 0.018, 2.3e11, np.array([0.0, 2.0]),
+    ...     options).film
+    >>> float(still), bool(5e-7 < turning < 5e-6)
+    (0.0, True)
     """
     half_width = np.sqrt(8 * force * radius / (np.pi * length * modulus))
     pressure = force / np.maximum(2 * half_width * length, 1e-30)
@@ -99,6 +122,20 @@ def groove_film(
         Which groove.
     force, mean_speed, options
         As `line_film`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.rolling import BallBearing, FrictionOptions
+    >>> from loadflow.rolling.friction import groove_film
+    >>> from loadflow.tribology import lubricant
+    >>> bearing = BallBearing(balls=16, ball_diameter=0.04, pitch_diameter=0.5,
+    ...     groove_radius=0.0208)
+    >>> options = FrictionOptions(oil=lubricant("mineral-vg-320"), temperature=323.15)
+    >>> slow, fast = groove_film(bearing, "inner", np.array([5e3]), np.array([1.0, 2.0]),
+    ...     options).film
+    >>> bool(fast > slow > 0.0)
+    True
     """
     radius = raceway_radius(bearing.ball_diameter, bearing.gamma, ring)
     modulus = 2 * float(effective_modulus(bearing.elastic_modulus, bearing.poisson_ratio))
@@ -126,6 +163,17 @@ def sphere_film(
         As `line_film`.
     radius : float
         Reduced radius, m.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.rolling import FrictionOptions
+    >>> from loadflow.rolling.friction import sphere_film
+    >>> from loadflow.tribology import lubricant
+    >>> options = FrictionOptions(oil=lubricant("mineral-vg-320"), temperature=323.15)
+    >>> film = sphere_film(np.array([100.0]), 0.5, 2.3e11, np.array([0.0, 1.0]), options)
+    >>> bool(film[0] == 0.0 < film[1])
+    True
     """
     viscosity, alpha, share = _inlet(mean_speed, options)
     ratio = contact_film.nijenbanning_point(

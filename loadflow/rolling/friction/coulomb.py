@@ -75,7 +75,7 @@ def driving_moment(
     """Moment that drives the spin before viscous drag, N m, (4.74), (4.76).
 
     It contains the cage friction with the sign of the source, which for a driving outer ring helps
-    the spin; see `pocket_moment` for the dissipative form. The source prints (1 ∓ μ') for (1 ∓ μ)
+    the spin; `pocket_loss` has the dissipative form. The source prints (1 ∓ μ') for (1 ∓ μ)
     in the rib's term and, in (5.32), in that of U.
 
     Parameters
@@ -108,18 +108,6 @@ def driving_moment(
     moment = 2 * adhesion * load + adhesion * np.abs(radial) * (1 + sign * sliding) / bind
     moment = moment + sliding * tangential * (1 + sign * in_inertia) / bind
     return radius * (moment + side * sliding * (1 + sign * in_rib) / bind * rib_force)
-
-
-def pocket_moment(force: Value, spin: Value, radius: float, sliding: float) -> Value:
-    """Moment of the cage pocket against the spin, μ' ρ |K| sign(ω_w), N m: it always brakes.
-
-    Examples
-    --------
-    >>> from loadflow.rolling.friction import pocket_moment
-    >>> f"{pocket_moment(2.0, 250.0, 5.5e-3, 0.04):.2e}"  # N m
-    '4.40e-04'
-    """
-    return sliding * radius * np.abs(force) * np.sign(spin)
 
 
 def rolling_loss(

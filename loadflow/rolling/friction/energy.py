@@ -42,6 +42,13 @@ class RollerState:
         Ring with the ribs.
     tangential : float or ndarray
         Tangential inertia force U (mass times acceleration) of the roller, N.
+
+    Examples
+    --------
+    >>> from loadflow.rolling.friction import RollerState
+    >>> state = RollerState(inner_speed=10.0, outer_speed=0.0, cage_speed=4.5, spin=60.0)
+    >>> state.spin_rate, state.rib
+    (0.0, 'outer')
     """
 
     inner_speed: Value
@@ -70,6 +77,13 @@ class EnergyAudit:
         Growth of the kinetic energy of the rollers' spin and orbit.
     losses : dict of str to float
         Slip, rolling, drag and rib.
+
+    Examples
+    --------
+    >>> from loadflow.rolling.friction import EnergyAudit
+    >>> audit = EnergyAudit(shaft=120.0, stored=15.0, losses={"slip": 70.0, "drag": 35.0})
+    >>> audit.shaft - audit.stored - sum(audit.losses.values())  # W, what is not accounted for
+    0.0
     """
 
     shaft: float
@@ -96,6 +110,15 @@ def roller_torques(
 
     The cage is pushed by what the roller's tangential balance leaves: tractions, shear of the
     rolling film, and the resultants of its pressure, which lean by 2 F R_eff/ρ.
+
+    Examples
+    --------
+    >>> from loadflow.rolling.friction import RollerState, roller_torques
+    >>> state = RollerState(inner_speed=10.0, outer_speed=0.0, cage_speed=4.5, spin=60.0,
+    ...     traction=(100.0, -100.0))
+    >>> inner, outer, cage = roller_torques(state, 0.2, 0.24)
+    >>> inner, outer, cage
+    (10.0, 12.0, -22.0)
     """
     inner, outer = inner_diameter / 2, outer_diameter / 2
     pitch, roller = (inner + outer) / 2, (outer - inner) / 2

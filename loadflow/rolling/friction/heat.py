@@ -31,6 +31,19 @@ class HeatBalance:
         Films and losses at that temperature.
     convergence : Convergence
         Of the search; the residual is the power not balanced over the loss.
+
+    Examples
+    --------
+    >>> from loadflow.rolling import FrictionOptions, RollerBearing
+    >>> from loadflow.rolling.friction import balanced_temperature
+    >>> from loadflow.tribology import lubricant
+    >>> bearing = RollerBearing(rollers=24, roller_diameter=0.04, roller_length=0.06,
+    ...     pitch_diameter=0.5)
+    >>> options = FrictionOptions(oil=lubricant("mineral-vg-320"), temperature=323.15)
+    >>> state = bearing.equilibrium((1e5, 0.0, 0.0))
+    >>> found = balanced_temperature(state, 10.0, options, conductance=10.0, ambient=293.15)
+    >>> found.convergence.converged, found.temperature > 293.15
+    (True, True)
     """
 
     temperature: float
@@ -70,6 +83,20 @@ def balanced_temperature(
         If the conductance is not positive or the oil is not known so cold.
     SolverError
         If the bearing would run more than 200 K hot.
+
+    Examples
+    --------
+    >>> from loadflow.rolling import FrictionOptions, RollerBearing
+    >>> from loadflow.rolling.friction import balanced_temperature
+    >>> from loadflow.tribology import lubricant
+    >>> bearing = RollerBearing(rollers=24, roller_diameter=0.04, roller_length=0.06,
+    ...     pitch_diameter=0.5)
+    >>> options = FrictionOptions(oil=lubricant("mineral-vg-320"), temperature=323.15)
+    >>> state = bearing.equilibrium((1e5, 0.0, 0.0))
+    >>> found = balanced_temperature(state, 10.0, options, conductance=10.0, ambient=293.15)
+    >>> loss = float(found.friction.power)
+    >>> abs(loss / (10.0 * (found.temperature - 293.15)) - 1) < 1e-3
+    True
     """
     from scipy.optimize import brentq
 

@@ -58,6 +58,15 @@ class RollerGaps:
     ------
     InputError
         If a field is out of its range.
+
+    Examples
+    --------
+    >>> from loadflow.rolling.friction import RollerGaps
+    >>> gaps = RollerGaps(radius=0.02, length=0.06, end_gaps=(2e-4, 2e-4), rib_gaps=(1e-4, 1e-4),
+    ...     pocket_gaps=(1e-4, 1e-4), rib_height=0.008, cage_half_height=0.005, pocket_angle=0.5,
+    ...     roughness=1e-6, pitch_diameter=0.5)
+    >>> gaps.rib_height
+    0.008
     """
 
     radius: Annotated[float, Gt(0)]
@@ -95,6 +104,13 @@ class DragConstants:
         C₁ (C₁' with friction of the cage).
     orbit : float
         C₃₂ (C₃₂'), of the ribs that the rollers pass; negative where it drives the spin.
+
+    Examples
+    --------
+    >>> from loadflow.rolling.friction import DragConstants
+    >>> drag = DragConstants(spin=2e-6, orbit=1e-6)
+    >>> drag.spin * 500.0 + drag.orbit * 100.0  # N m
+    0.0011
     """
 
     spin: float
@@ -194,6 +210,16 @@ def drag_constants(
     ------
     InputError
         If `rib` or `variant` is unknown.
+
+    Examples
+    --------
+    >>> from loadflow.rolling.friction import RollerGaps, drag_constants
+    >>> gaps = RollerGaps(radius=0.02, length=0.06, end_gaps=(2e-4, 2e-4), rib_gaps=(1e-4, 1e-4),
+    ...     pocket_gaps=(1e-4, 1e-4), rib_height=0.008, cage_half_height=0.005, pocket_angle=0.5,
+    ...     roughness=1e-6, pitch_diameter=0.5)
+    >>> thin, thick = (drag_constants(gaps, viscosity, 0.45) for viscosity in (0.01, 0.02))
+    >>> round(thick.spin / thin.spin, 6)  # laminar: as the viscosity
+    2.0
     """
     if variant not in VARIANTS:
         raise InputError(f"variant: must be one of {', '.join(VARIANTS)}, got {variant!r}")
@@ -238,6 +264,16 @@ def coulomb_drag_constants(
         Friction coefficients μ of roller and raceway, μ' of roller and cage.
     driving : {"inner", "outer"}
         Ring that turns in the frame of the load; "outer" is the source's crank-pin bearing.
+
+    Examples
+    --------
+    >>> from loadflow.rolling.friction import RollerGaps, coulomb_drag_constants, drag_constants
+    >>> gaps = RollerGaps(radius=0.02, length=0.06, end_gaps=(2e-4, 2e-4), rib_gaps=(1e-4, 1e-4),
+    ...     pocket_gaps=(1e-4, 1e-4), rib_height=0.008, cage_half_height=0.005, pocket_angle=0.5,
+    ...     roughness=1e-6, pitch_diameter=0.5)
+    >>> rubbing = coulomb_drag_constants(gaps, 0.02, 0.45, adhesion=0.12, sliding=0.04)
+    >>> rubbing.spin != drag_constants(gaps, 0.02, 0.45).spin
+    True
     """
     plain = drag_constants(gaps, viscosity, rib_ratio, rib, variant)
     if driving not in ("inner", "outer"):
@@ -254,6 +290,16 @@ class RibShear(NamedTuple):
     """What the oil between a roller's ends and the ribs of one ring does to the roller.
 
     `moment` against the spin, N m; `force` along the ring's turning, N; `loss` of both bodies, W.
+
+    Examples
+    --------
+    >>> from loadflow.rolling.friction import RollerGaps, rib_shear
+    >>> gaps = RollerGaps(radius=0.02, length=0.06, end_gaps=(2e-4, 2e-4), rib_gaps=(1e-4, 1e-4),
+    ...     pocket_gaps=(1e-4, 1e-4), rib_height=0.008, cage_half_height=0.005, pocket_angle=0.5,
+    ...     roughness=1e-6, pitch_diameter=0.5)
+    >>> found = rib_shear(gaps, 0.02, spin=60.0, ring_speed=-4.5)
+    >>> found._fields, found.loss > 0
+    (('moment', 'force', 'loss'), True)
     """
 
     moment: float
@@ -282,6 +328,16 @@ def rib_shear(
         Speed of the ring with the ribs against the cage, rad/s.
     rib : {"outer", "inner"}
         Ring with the ribs.
+
+    Examples
+    --------
+    >>> from loadflow.rolling.friction import RollerGaps, rib_shear
+    >>> gaps = RollerGaps(radius=0.02, length=0.06, end_gaps=(2e-4, 2e-4), rib_gaps=(1e-4, 1e-4),
+    ...     pocket_gaps=(1e-4, 1e-4), rib_height=0.008, cage_half_height=0.005, pocket_angle=0.5,
+    ...     roughness=1e-6, pitch_diameter=0.5)
+    >>> slow, fast = (rib_shear(gaps, 0.02, speed, -speed / 13).loss for speed in (30.0, 60.0))
+    >>> round(fast / slow, 6)
+    4.0
     """
     r, h = gaps.radius, gaps.rib_height
     pitch = gaps.pitch_diameter / 2

@@ -88,6 +88,12 @@ def elastic_force(
         At ambient pressure, Pa s and 1/Pa.
     modulus : float
         Reduced modulus E₀ = 2 E*, Pa.
+
+    Examples
+    --------
+    >>> from loadflow.rolling.friction import elastic_force
+    >>> round(float(elastic_force(1e4, 0.06, 0.018, 2.0, 0.2, 2e-8, 2.3e11)), 2)
+    10.01
     """
     carry = (pressure_viscosity * viscosity * speed / radius) ** 0.648
     weight = (load / (modulus * length * radius)) ** 0.246
@@ -121,6 +127,15 @@ def hydrodynamic_force(
 
     The smaller of `elastic_force` and `rigid_force`, rounded where they meet: the regression of
     the elastic film is far too large for rollers that hardly touch. Arguments as `elastic_force`.
+
+    Examples
+    --------
+    >>> from loadflow.rolling.friction import elastic_force, hydrodynamic_force
+    >>> given = 0.06, 0.018, 2.0, 0.2, 2e-8, 2.3e11
+    >>> light, heavy = (hydrodynamic_force(load, *given) / elastic_force(load,
+    ...     *given) for load in (1.0, 1e5))
+    >>> bool(light < 0.5), bool(heavy > 0.9)
+    (True, True)
     """
     # both written out: a compiled caller needs one function without calls
     carry = (pressure_viscosity * viscosity * speed / radius) ** 0.648

@@ -1,7 +1,7 @@
 """Skidding of the rollers of a main bearing over a load series, and the friction it adds.
 
-A row that an axial load takes off its raceways is left to the weight of its rollers: they fall
-behind the cage's ideal rolling, and are torn up to speed where they enter the load zone.
+In a row that an axial load unloads, only the weight of the rollers presses them on a raceway:
+they turn slower than in ideal rolling, and are accelerated abruptly where they enter the load zone.
 """
 
 from __future__ import annotations
@@ -27,10 +27,10 @@ Array = NDArray[np.float64]
 
 
 class ZoneEntries(NamedTuple):
-    """Each time a roller is loaded anew: arrays over the entries.
+    """Entries of rollers into the load zone: arrays over the entries.
 
     `row` and `roller`; `time` (s); `slip_speed` just before (m/s); `energy` lost in slip until it
-    is loaded anew (J); `power_density` of slip, the largest in that time (W/m²).
+    is loaded (J); `power_density` of slip, the largest in that time (W/m²).
     """
 
     row: NDArray[np.intp]
@@ -115,7 +115,7 @@ def roller_slip(
     InputError
         If the times do not fit or the model is unknown.
     SolverError
-        If a step does not settle.
+        If a step does not converge.
 
     Examples
     --------
@@ -148,11 +148,11 @@ def roller_slip(
                 pocket="braking",
             )
         motions.append(motion)
-    plain = roller_friction(result, speed, options)
+    ideal = roller_friction(result, speed, options)
     steps = np.diff(np.asarray(time, float))
     lost = sum(m.slip_energy.sum(axis=1) for m in motions)
     power = np.concatenate([[0.0], np.asarray(lost)[1:] / steps])
-    friction = BearingFriction(**{**vars(plain), "losses": {**plain.losses, "slip": power}})
+    friction = BearingFriction(**{**vars(ideal), "losses": {**ideal.losses, "slip": power}})
     return BearingSlip(tuple(motions), friction)
 
 

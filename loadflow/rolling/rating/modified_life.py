@@ -238,6 +238,17 @@ class LifeModification:
         Whether κ is above 4, where it counts as 4.
     capped : ndarray of bool
         Whether a_ISO would be larger than its limit.
+
+    Examples
+    --------
+    >>> from loadflow.rolling import BallBearing, Lubrication
+    >>> from loadflow.tribology import lubricant
+    >>> bearing = BallBearing(balls=16, ball_diameter=0.04, pitch_diameter=0.5,
+    ...     groove_radius=0.0208)
+    >>> oil = Lubrication(oil=lubricant("mineral-vg-320"), temperature=323.15)
+    >>> found = bearing.life_modification([1e4, 1e5], 10.0, oil)
+    >>> bool(found.factor[0] > found.factor[1]), found.thick.tolist()
+    (True, [False, False])
     """
 
     viscosity_ratio: Array

@@ -63,6 +63,12 @@ def verdicts(
         Name of the bearing.
     life_limit, static_limit : float
         Smallest of both allowed.
+
+    Examples
+    --------
+    >>> from loadflow.rolling.rating.static import verdicts
+    >>> [verdict.answer for verdict in verdicts(life_hours=2e5, static_safety=0.9)]
+    ['holds', 'broken']
     """
     yield Verdict(
         subject,

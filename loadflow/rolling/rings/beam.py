@@ -55,6 +55,16 @@ class RingBeam:
     ------
     InputError
         If a field is out of its range.
+
+    Examples
+    --------
+    >>> from loadflow.rolling import RingBeam, RingSection, Support
+    >>> ring = RingBeam(
+    ...     section=RingSection.rectangle(0.1, 0.12), radius=0.3,
+    ...     supports=(Support.wall(radius=0.3, height=0.06, thickness=0.03, length=0.3),),
+    ... )
+    >>> ring.harmonics
+    32
     """
 
     section: RingSection

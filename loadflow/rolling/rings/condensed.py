@@ -74,6 +74,18 @@ class FlexibleRings:
     ------
     InputError
         If a field is out of its range or not a ring.
+
+    Examples
+    --------
+    >>> from loadflow.rolling import FlexibleRings, RingBeam, RingSection, SlewingBearing, Support
+    >>> bearing = SlewingBearing(balls=24, ball_diameter=0.04, pitch_diameter=0.5,
+    ...     groove_radius=0.0208, contact_angle=0.785)
+    >>> wall = Support.wall(radius=0.3, height=0.06, thickness=0.03, length=0.3)
+    >>> outer = RingBeam(section=RingSection.rectangle(0.05, 0.1), radius=0.3, supports=(wall,))
+    >>> soft = bearing.equilibrium((1e4, 0.0, 5e4), rings=FlexibleRings(outer=outer))
+    >>> rigid = bearing.equilibrium((1e4, 0.0, 5e4))
+    >>> bool(soft.displacement[2] > rigid.displacement[2])
+    True
     """
 
     inner: Ring | None = None

@@ -71,6 +71,19 @@ def natural_frequencies(ring: SolidSection, harmonic: int, count: int = 4) -> Ar
     ------
     InputError
         If `harmonic` or `count` is out of its range.
+
+    Examples
+    --------
+    >>> from loadflow.rolling import FiniteElementRing, RingProfile, SlewingBearing
+    >>> from loadflow.rolling import natural_frequencies
+    >>> bearing = SlewingBearing(balls=24, ball_diameter=0.04, pitch_diameter=0.5,
+    ...     groove_radius=0.0208, contact_angle=0.785)
+    >>> profile = RingProfile(bearing=bearing, ring="outer", inside=0.51, outside=0.62,
+    ...     bottom=-0.04, top=0.04)
+    >>> ring = FiniteElementRing(profile=profile, held="bottom", bed=1.0,
+    ...     across=2)  # practically free
+    >>> bool(natural_frequencies(ring, 3, 1)[0] > natural_frequencies(ring, 2, 1)[0] > 100.0)
+    True
     """
     if harmonic < 0 or count < 1:
         raise InputError(f"harmonic, count: must be >= 0 and >= 1, got {harmonic}, {count}")
@@ -95,6 +108,21 @@ def craig_bampton(ring: FiniteElementRing, points: PatchPoints, fixed_modes: int
     ------
     InputError
         If `fixed_modes` is negative.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.rolling import FiniteElementRing, RingProfile, SlewingBearing
+    >>> from loadflow.rolling import craig_bampton, patch_points
+    >>> bearing = SlewingBearing(balls=8, ball_diameter=0.04, pitch_diameter=0.5,
+    ...     groove_radius=0.0208, contact_angle=0.785)
+    >>> profile = RingProfile(bearing=bearing, ring="outer", inside=0.51, outside=0.62,
+    ...     bottom=-0.04, top=0.04)
+    >>> ring = FiniteElementRing(profile=profile, held="bottom", across=1)
+    >>> points = patch_points(bearing, "outer", 2 * np.pi * np.arange(8) / 8)
+    >>> motion = craig_bampton(ring, points, fixed_modes=4)
+    >>> type(motion).__name__
+    'RingMotion'
     """
     if fixed_modes < 0:
         raise InputError(f"fixed_modes: must be >= 0, got {fixed_modes}")

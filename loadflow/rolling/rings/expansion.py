@@ -36,6 +36,13 @@ class RingSections:
     ------
     InputError
         If a field is not positive or a ring has no thickness.
+
+    Examples
+    --------
+    >>> from loadflow.rolling import RingSections
+    >>> RingSections(outer_outside=0.62, outer_inside=0.52, inner_outside=0.48, inner_inside=0.38,
+    ...     height=0.08).height
+    0.08
     """
 
     outer_outside: Annotated[float, Gt(0)]
@@ -68,6 +75,17 @@ class ExpansionResult:
         Widening of the outer and shrinking of the inner ring on the radius, together, m.
     residual : ndarray
         Gap left in the closure of the groove centres over their distance R₀.
+
+    Examples
+    --------
+    >>> from loadflow.rolling import RingSections, SlewingBearing, axial_expansion
+    >>> bearing = SlewingBearing(balls=24, ball_diameter=0.04, pitch_diameter=0.5,
+    ...     groove_radius=0.0208, contact_angle=0.785)
+    >>> rings = RingSections(outer_outside=0.62, outer_inside=0.52, inner_outside=0.48,
+    ...     inner_inside=0.38, height=0.08)
+    >>> found = axial_expansion(bearing, [5e4, 1e5], rings)
+    >>> found.contact_angle.shape, bool(found.contact_angle[1] > found.contact_angle[0] > 0.785)
+    ((2,), True)
     """
 
     ball_force: Array
@@ -112,6 +130,18 @@ def axial_expansion(
     ------
     InputError
         If the bearing has clearance, the force is not finite or an option is unknown.
+
+    Examples
+    --------
+    >>> from loadflow.rolling import RingSections, SlewingBearing, axial_expansion
+    >>> bearing = SlewingBearing(balls=24, ball_diameter=0.04, pitch_diameter=0.5,
+    ...     groove_radius=0.0208, contact_angle=0.785)
+    >>> rings = RingSections(outer_outside=0.62, outer_inside=0.52, inner_outside=0.48,
+    ...     inner_inside=0.38, height=0.08)
+    >>> soft, rigid = (axial_expansion(bearing, 1e5, rings, flexible=kind) for kind in ("both",
+    ...     "none"))
+    >>> bool(soft.displacement > rigid.displacement)
+    True
     """
     if bearing.clearance != 0:
         raise InputError(f"clearance: must be 0 for ring expansion, got {bearing.clearance:g}")

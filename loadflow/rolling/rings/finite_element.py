@@ -39,6 +39,18 @@ class FiniteElementRing(SolidSection):
     ----------
     resolution : float
         Highest harmonic around the ring times half the angle of a patch.
+
+    Examples
+    --------
+    >>> from loadflow.rolling import FiniteElementRing, RingProfile, SlewingBearing
+    >>> bearing = SlewingBearing(balls=24, ball_diameter=0.04, pitch_diameter=0.5,
+    ...     groove_radius=0.0208, contact_angle=0.785)
+    >>> profile = RingProfile(bearing=bearing, ring="outer", inside=0.51, outside=0.62,
+    ...     bottom=-0.04, top=0.04)
+    >>> ring = FiniteElementRing(profile=profile, held="bottom")
+    >>> beam = ring.as_beam()
+    >>> round(beam.radius, 3)
+    0.285
     """
 
     resolution: Annotated[float, Ge(1), Le(100)] = 8.0

@@ -35,6 +35,13 @@ def guyan(stiffness: ArrayLike, masters: ArrayLike) -> Array:
         If the matrix is not square or `masters` are not different unknowns of it.
     SolverError
         If the other unknowns can move without resistance.
+
+    Examples
+    --------
+    >>> from loadflow.rolling import guyan
+    >>> guyan([[1.0, -1.0], [-1.0, 3.0]],
+    ...     masters=[0]).round(4).tolist()  # springs 1 and 2 in series
+    [[0.6667]]
     """
     from scipy.sparse import csc_matrix, issparse
     from scipy.sparse.linalg import splu
@@ -89,6 +96,14 @@ class CompliantRing:
 
     Balls sit where the matrix was formed, or whole ball pitches on: a structure that is not
     rotationally symmetric is turned by ball pitches without another condensation.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.rolling import CompliantRing
+    >>> ring = CompliantRing(1e-11 * np.eye(3 * 48))
+    >>> ring.axes
+    'cylindrical'
     """
 
     compliance: ArrayLike

@@ -53,6 +53,17 @@ def patch_points(
     turning : bool
         Whether a patch turns with its section (its groove centre is then the point that counts) or
         only shifts with its master point.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.rolling import SlewingBearing, patch_points
+    >>> bearing = SlewingBearing(balls=24, ball_diameter=0.04, pitch_diameter=0.5,
+    ...     groove_radius=0.0208, contact_angle=0.785)
+    >>> azimuth = 2 * np.pi * np.arange(24) / 24
+    >>> points = patch_points(bearing, "outer", azimuth)
+    >>> type(points).__name__
+    'PatchPoints'
     """
     side = -1.0 if ring == "inner" else 1.0  # the inner ring is touched below by diagonal 0
     if turning:
@@ -84,6 +95,14 @@ def raceway_points(
     -------
     ndarray, shape (rows, 2, balls, 3)
         x, y, z; side 0 lies above the row (+z), side 1 below; the first ball at azimuth 0.
+
+    Examples
+    --------
+    >>> from loadflow.rolling import SlewingBearing, raceway_points
+    >>> bearing = SlewingBearing(balls=24, ball_diameter=0.04, pitch_diameter=0.5,
+    ...     groove_radius=0.0208, contact_angle=0.785)
+    >>> raceway_points(bearing, "outer").shape
+    (1, 2, 24, 3)
     """
     reach = bearing.ball_diameter / 2 + shell
     sign = 1.0 if ring == "outer" else -1.0

@@ -38,6 +38,17 @@ class RingProfile:
     ------
     InputError
         If a groove does not fit into the section.
+
+    Examples
+    --------
+    >>> from loadflow.rolling import RingProfile, SlewingBearing
+    >>> bearing = SlewingBearing(balls=24, ball_diameter=0.04, pitch_diameter=0.5,
+    ...     groove_radius=0.0208, contact_angle=0.785)
+    >>> profile = RingProfile(bearing=bearing, ring="outer", inside=0.51, outside=0.62,
+    ...     bottom=-0.04, top=0.04)
+    >>> section, radius, height = profile.section()
+    >>> round(radius, 3), section.area < 0.055 * 0.08  # the groove is cut out
+    (0.285, True)
     """
 
     bearing: BallRaceways

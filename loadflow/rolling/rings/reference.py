@@ -49,6 +49,20 @@ def reference_equilibrium(
     ------
     SolverError
         If Newton's iteration does not converge.
+
+    Examples
+    --------
+    >>> from loadflow.rolling import FlexibleRings, RingBeam, RingSection, SlewingBearing, Support
+    >>> from loadflow.rolling import reference_equilibrium
+    >>> bearing = SlewingBearing(balls=12, ball_diameter=0.04, pitch_diameter=0.5,
+    ...     groove_radius=0.0208, contact_angle=0.785)
+    >>> wall = Support.wall(radius=0.3, height=0.06, thickness=0.03, length=0.3)
+    >>> outer = RingBeam(section=RingSection.rectangle(0.05, 0.1), radius=0.3, supports=(wall,))
+    >>> rings = FlexibleRings(outer=outer)
+    >>> whole = reference_equilibrium(bearing, rings, (0.0, 0.0, 5e4))
+    >>> ours = bearing.equilibrium((0.0, 0.0, 5e4), rings=rings)
+    >>> bool(abs(whole.displacement[2] / ours.displacement[2] - 1) < 0.01)
+    True
     """
     contacts = bearing.contacts()
     kinds, balls = len(contacts.table), bearing.balls

@@ -39,6 +39,13 @@ class RingSection:
     ------
     InputError
         If a constant is out of its range or no section can have these moments.
+
+    Examples
+    --------
+    >>> from loadflow.rolling import RingSection
+    >>> section = RingSection.rectangle(width=0.1, height=0.12)
+    >>> round(section.area, 4), section.inertia_product
+    (0.012, 0.0)
     """
 
     area: Annotated[float, Gt(0)]
@@ -103,6 +110,13 @@ class Support:
     ------
     InputError
         If a stiffness is negative, or a sector has no width or more than a full turn.
+
+    Examples
+    --------
+    >>> from loadflow.rolling import Support
+    >>> wall = Support.wall(radius=0.5, height=0.06, thickness=0.03, length=0.3)
+    >>> wall.sectors is None, wall.axial > wall.radial
+    (True, True)
     """
 
     radius: Annotated[float, Gt(0)]
@@ -211,6 +225,12 @@ def legs(count: int, width: float, first: float = 0.0) -> tuple[tuple[float, flo
     ------
     InputError
         If the legs overlap or there are none.
+
+    Examples
+    --------
+    >>> from loadflow.rolling import legs
+    >>> [(round(middle, 2), width) for middle, width in legs(4, 0.8)]
+    [(0.0, 0.8), (1.57, 0.8), (3.14, 0.8), (4.71, 0.8)]
     """
     if count < 1 or not 0 < count * width <= 2 * math.pi * (1 + 1e-12):
         raise InputError(f"width: {count} legs of {width:g} rad do not fit round a ring")

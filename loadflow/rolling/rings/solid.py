@@ -31,6 +31,16 @@ class SolidRing(SolidSection):
         Least number of elements around the ring; two narrow ones carry the patch of each ball.
     sectors : tuple of (float, float), optional
         (centre, width) of the sectors in which the face is held, rad; all round if None.
+
+    Examples
+    --------
+    >>> from loadflow.rolling import RingProfile, SlewingBearing, SolidRing
+    >>> bearing = SlewingBearing(balls=24, ball_diameter=0.04, pitch_diameter=0.5,
+    ...     groove_radius=0.0208, contact_angle=0.785)
+    >>> profile = RingProfile(bearing=bearing, ring="outer", inside=0.51, outside=0.62,
+    ...     bottom=-0.04, top=0.04)
+    >>> SolidRing(profile=profile, held="bottom", sectors=((0.0, 0.8),)).around
+    45
     """
 
     around: Annotated[int, Ge(8), Le(1000)] = 45

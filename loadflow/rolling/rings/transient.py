@@ -49,6 +49,12 @@ class Inertia:
     ------
     InputError
         If a field is not positive.
+
+    Examples
+    --------
+    >>> from loadflow.rolling import Inertia
+    >>> Inertia(mass=1e4, radius=0.8).contact_damping
+    0.001
     """
 
     mass: Annotated[float, Gt(0)]
@@ -75,6 +81,15 @@ class Transient:
         N, without its damping.
     residual : float
         Largest unbalanced component at the end over the largest load.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.rolling import Transient
+    >>> motion = Transient(np.array([0.0, 0.1]), np.zeros((2, 5)), np.array([0.0, 3e3]),
+    ...     residual=1e-3)
+    >>> float(motion.largest_force.max())
+    3000.0
     """
 
     time: Array
@@ -123,6 +138,22 @@ def settle(
         If rings that are no `FiniteElementRing` are to vibrate.
     SolverError
         If the integration fails.
+
+    Examples
+    --------
+    >>> from loadflow.rolling import FlexibleRings, Inertia, RingBeam, RingSection
+    >>> from loadflow.rolling import SlewingBearing, Support
+    >>> from loadflow.rolling import settle
+    >>> bearing = SlewingBearing(balls=12, ball_diameter=0.04, pitch_diameter=0.5,
+    ...     groove_radius=0.0208, contact_angle=0.785)
+    >>> wall = Support.wall(radius=0.3, height=0.06, thickness=0.03, length=0.3)
+    >>> outer = RingBeam(section=RingSection.rectangle(0.05, 0.1), radius=0.3, supports=(wall,))
+    >>> rings = FlexibleRings(outer=outer)
+    >>> motion = settle(bearing, rings, Inertia(mass=1e3, radius=0.3), (0.0, 0.0, 5e4),
+    ...     duration=0.1)
+    >>> rest = bearing.equilibrium((0.0, 0.0, 5e4), rings=rings).displacement[2]
+    >>> bool(abs(motion.displacement[-1, 2] / rest - 1) < 1e-2)
+    True
     """
     from scipy.integrate import solve_ivp
 

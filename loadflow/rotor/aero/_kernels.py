@@ -151,7 +151,8 @@ def inflow_lag(m, i, normal, tangential, a, swirl, state, dt, induced):
 
 @section
 def section_force(m, i, pitch, turn, normal, tangential, a, swirl, dt, states):
-    """Force per length (normal, tangential), N/m, for given induction factors.
+    """Force per length (normal, tangential), N/m, for given induction factors, and the couple per
+    length, nose-up, about the axis of a blade that twists, N (0 of one that does not).
 
     `turn`, `states`: see `coefficients`; the states are moved on by `dt`, dt = 0 sets them to
     steady.
@@ -160,7 +161,13 @@ def section_force(m, i, pitch, turn, normal, tangential, a, swirl, dt, states):
     w_tangential = tangential * (1 + swirl)
     angle = np.arctan2(w_normal, w_tangential)
     speed = np.sqrt(w_normal**2 + w_tangential**2)
-    lift, drag = coefficients(m, i, angle - m.twist[i] - pitch, speed, turn, dt, states)
+    chord_angle = m.twist[i] + pitch
+    lift, drag = coefficients(m, i, angle - chord_angle, speed, turn, dt, states)
     pressure = 0.5 * m.air_density * m.chord[i] * speed**2
     sine, cosine = np.sin(angle), np.cos(angle)
-    return pressure * (lift * cosine + drag * sine), pressure * (lift * sine - drag * cosine)
+    across = pressure * (lift * cosine + drag * sine)
+    along = pressure * (lift * sine - drag * cosine)
+    if m.torsion_compliance.size == 0:
+        return across, along, 0.0
+    lever = m.centre_ahead[i] * (across * np.cos(chord_angle) + along * np.sin(chord_angle))
+    return across, along, lever + pressure * m.chord[i] * polar(m.moment, i, angle - chord_angle)

@@ -75,13 +75,18 @@ def controller(turbine: Turbine, individual_pitch: bool = False) -> Controller:
     Raises
     ------
     InputError
-        Individual pitch control is wanted, but the turbine states no gain for it.
+        Individual pitch control is wanted, but the turbine states no gain for it; gains that
+        follow from the rotor are not found yet (`loadflow.rotor.tuning.tuned`).
     """
     if individual_pitch and turbine.control.individual_gain == 0:
         raise InputError(f"individual_pitch = True: {turbine.name} has no control.individual_gain")
+    gains = ("region_2_gain", "proportional_gain", "integral_gain", "gain_halving_pitch")
+    stated = {name: getattr(turbine.control, name) for name in gains}
+    if None in stated.values():
+        raise InputError(f"{turbine.name}: control gains that follow from the rotor are not found")
     c, s, drivetrain = turbine.control, turbine.supervision, turbine.drivetrain
     return Controller(
-        region_2_gain=c.region_2_gain,
+        **stated,
         region_15_start=c.region_15_start,
         region_2_start=c.region_2_start,
         rated_speed=c.rated_speed,
@@ -91,9 +96,6 @@ def controller(turbine: Turbine, individual_pitch: bool = False) -> Controller:
         maximum_torque=c.maximum_torque,
         torque_rate=c.maximum_torque_rate,
         filter_rate=2 * np.pi * c.speed_filter,
-        proportional_gain=c.proportional_gain,
-        integral_gain=c.integral_gain,
-        gain_halving_pitch=c.gain_halving_pitch,
         reference_speed=c.reference_speed,
         pitch_rate=c.pitch_rate,
         minimum_pitch=c.minimum_pitch,

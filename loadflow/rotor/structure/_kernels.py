@@ -10,6 +10,10 @@ import numpy as np
 from .._compile import kernel, section
 
 GRAVITY = 9.80665
+TORSION_LAG = 0.05
+"""Time in which the torsion of a blade follows its loads, s."""
+MOST_TORSION = 0.5
+"""Largest elastic turn of a section, rad: beyond, quasi-static torsion has no meaning."""
 
 
 @section
@@ -66,6 +70,55 @@ def deflection(m, pitch, shape, q, v, motion):
                 motion[i, 5] += m.shortening[i, k, j] * q[k] * q[j]
         motion[i, 4] += bent
         motion[i, 6] = m.bend_twist * bent * swept
+
+
+@kernel
+def torsion(m, b, dt, speed, azimuth, drift, gravity, force, motion, turned):
+    """Move the elastic nose-down turn of the sections, `turned` (n,), on towards that of the loads.
+
+    Quasi-static: the torque about the axis of the bent blade, of aerodynamic loads (`force`,
+    (n, 4)), weight and inertia outside of a section, over the torsional stiffness. It follows
+    within `TORSION_LAG`, as a blade does that twists at a few hertz; dt = 0 sets it at once.
+    """
+    cone_s, cone_c = np.sin(m.cone), np.cos(m.cone)
+    sine, cosine = np.sin(azimuth), np.cos(azimuth)
+    g_x, g_r, g_t = blade_axes(sine, cosine, gravity)
+    rate = blade_axes(sine, cosine, drift[3:])
+    n = m.radius.size
+    point = np.empty((n, 3))
+    for i in range(n):
+        point[i, 0], point[i, 1], point[i, 2] = place(m, i, motion, cone_s, cone_c)
+    f_x = f_r = f_t = m_x = m_r = m_t = couple = 0.0
+    torque = np.empty(n)
+    for i in range(n - 1, -1, -1):
+        x, r, t = point[i]
+        inner, outer = max(i - 1, 0), min(i + 1, n - 1)
+        e_x, e_r, e_t = point[outer] - point[inner]
+        length = np.sqrt(e_x * e_x + e_r * e_r + e_t * e_t)
+        about_x = m_x - (r * f_t - t * f_r)
+        about_r = m_r - (t * f_x - x * f_t)
+        about_t = m_t - (x * f_r - r * f_x)
+        own = force[i, 3]
+        nose_up = (about_x * e_x + about_r * e_r + about_t * e_t) / length + couple + 0.5 * own
+        torque[i] = -nose_up
+        couple += own
+        a_x, a_r, a_t = free_acceleration(speed, rate, motion, i, cone_s, cone_c, r, t)
+        mass = m.mass[i] * m.mass_factor[b]
+        s_x = force[i, 0] + mass * (g_x - a_x)
+        s_r = force[i, 1] + mass * (g_r - a_r)
+        s_t = force[i, 2] + mass * (g_t - a_t)
+        f_x, f_r, f_t = f_x + s_x, f_r + s_r, f_t + s_t
+        m_x += r * s_t - t * s_r
+        m_r += t * s_x - x * s_t
+        m_t += x * s_r - r * s_x
+    share = 1.0 if dt <= 0 else 1 - np.exp(-dt / TORSION_LAG)
+    total, before, at = 0.0, torque[0] * m.torsion_compliance[0], m.hub_radius
+    for i in range(n):
+        rise = torque[i] * m.torsion_compliance[i]
+        total += 0.5 * (before + rise) * (m.radius[i] - at)
+        before, at = rise, m.radius[i]
+        wanted = min(max(total, -MOST_TORSION), MOST_TORSION)
+        turned[i] += share * (wanted - turned[i])
 
 
 @kernel

@@ -223,14 +223,14 @@ TILT = Effect(
     is_on=lambda scene: scene.journal.tilt,
     switched=lambda scene, on: (
         with_settings(scene, "journal", {"tilt": on})
-        if not on or any(map(scene.shaft.leans, scene.journal.bearings))
+        if not on or any(map(scene.shaft.bends_at, scene.journal.bearings))
         else None
     ),
     indicator=_tilt,
     out="no journal.tilt: half the width of the film is solved",
-    needs="journal.tilt = true, with a beam as the shaft and the film at rest",
+    needs="journal.tilt = true, with a beam as the shaft",
     cost=lambda scene: 4.0,
-    rungs=("grid",),
+    rungs=("grid", "reduced"),
 )
 
 
@@ -268,7 +268,7 @@ SHELL = Effect(
     out="no journal.shell",
     needs="a table journal.shell",
     cost=lambda scene: 3.0,
-    rungs=("grid",),
+    rungs=("grid", "reduced"),
 )
 
 
@@ -290,11 +290,16 @@ CONTACT = Effect(
     "contact of asperities",
     model="journal",
     keys=("journal.contact",),
-    is_on=lambda scene: False,
-    switched=lambda scene, on: None if on else scene,
+    is_on=lambda scene: scene.journal.contact is not None,
+    switched=lambda scene, on: (
+        with_settings(scene, "journal", {"contact": None})
+        if not on
+        else (scene if scene.journal.contact is not None else None)
+    ),
     indicator=_contact,
     out="the film alone carries; asperities would take load below a film parameter of 4",
-    needs="a film that carries the load without contact: a larger bearing or thicker oil",
+    needs="a table journal.contact with the asperities of both surfaces",
+    rungs=("grid", "reduced"),
 )
 
 

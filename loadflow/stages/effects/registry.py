@@ -11,6 +11,7 @@ EFFECTS: list[Effect] = [
     rotor.INFLOW,
     rotor.STALL,
     rotor.BEND_TWIST,
+    rotor.TORSION,
     shaft.ELASTIC,
     shaft.STIFFNESS,
     film.MOTION,

@@ -15,21 +15,21 @@ from loadflow.stages.effects.situation import Situation
 from loadflow.stages.stage import with_settings
 
 STEEL_DENSITY = 7850.0  # kg/m³
-RING = 2.4
+SECTION_SIDE = 2.4
 """Sides of a ring's square section over the diameter of its elements, where none is stated."""
 
 
-def _softness(part: FurtherBearing) -> float:
+def _ring_compliance(part: FurtherBearing) -> float:
     """R⁴ k/(E I), with the contacts' stiffness k of each metre around: rings against contacts.
 
-    Both rings in a row, of the sections stated or of squares with sides of `RING` elements.
+    Both rings in a row, of the sections stated or of squares with sides of `SECTION_SIDE` elements.
     """
     bearing: Any = part.geometry
     balls = bearing.element == "ball"
     diameter = float(bearing.ball_diameter if balls else getattr(bearing, "roller_diameter", 0.1))
     count = float(bearing.balls if balls else getattr(bearing, "rollers", 60))
     pitch = float(getattr(bearing, "pitch_diameter", 2.0))
-    side = RING * diameter
+    side = SECTION_SIDE * diameter
     square = side**4 / 12
     inertias = [
         ring.section.inertia_axial if ring is not None else square
@@ -46,15 +46,15 @@ def _rings(at: Situation) -> Sizes:
     the approach that the rings take is s/(1 + s), with s over that of the ladder's bearing.
     """
     known = ladder()["rolling"]["rigid"]["errors"]
-    share = max(_softness(part) for part in at.scene.rolling.bearings.values())
-    share /= _softness(Rolling())
+    share = max(_ring_compliance(part) for part in at.scene.rolling.bearings.values())
+    share /= _ring_compliance(Rolling())
     factor = 2.0 * share / (1.0 + share)
     return {
         name: factor * known[name]["max"] for name in ("maximum force", "maximum pressure", "life")
     }
 
 
-def _bent(scene: Scene, on: bool) -> Scene | None:
+def _with_flexible_rings(scene: Scene, on: bool) -> Scene | None:
     changed = with_settings(scene, "rolling", {"rings": "flexible" if on else "rigid"})
     try:
         return changed if changed is None or changed.rolling.ring_model else None
@@ -67,7 +67,7 @@ RINGS = Effect(
     model="rolling",
     keys=("rolling.rings",),
     is_on=lambda scene: scene.rolling.rung == "flexible",
-    switched=_bent,
+    switched=_with_flexible_rings,
     indicator=_rings,
     out='rolling.rings = "rigid"',
     needs="rolling.inner_ring and rolling.outer_ring, of a four-point bearing",
@@ -80,7 +80,7 @@ def _centrifugal(at: Situation) -> Sizes:
     for name, part in at.scene.rolling.bearings.items():
         bearing: Any = part.geometry
         load = at.bearings[name]
-        if bearing.element != "ball":
+        if bearing.element != "ball" or part.oscillation is not None:
             continue
         mass = STEEL_DENSITY * np.pi / 6 * bearing.ball_diameter**3
         force = mass * bearing.pitch_diameter / 2 * (at.speed / 2) ** 2

@@ -9,8 +9,9 @@ import numpy as np
 
 from loadflow.scene.scene import Scene
 from loadflow.stages.effects.effect import Effect, Sizes
-from loadflow.stages.effects.situation import Situation
+from loadflow.stages.effects.situation import AIR_DENSITY, Situation
 from loadflow.stages.stage import with_settings
+from loadflow.turbines import load_turbine
 
 LAG = 0.4
 """Change of the moments' damage by the lag of the wake, over the induction; docs/rotor.md."""
@@ -20,6 +21,10 @@ SEPARATION = 0.05
 
 TURN = 0.015
 """Change of the moments' damage by the turn of sections bent both ways; docs/rotor.md."""
+
+TWISTED = 3.0
+"""Change of the thrust over the elastic turn of a section at three quarters of the span, rad;
+IEA 15 and 22 MW, docs/rotor.md."""
 
 
 def _simulated(scene: Scene) -> bool:
@@ -83,4 +88,37 @@ BEND_TWIST = Effect(
     out="loads.bend_twist = 0",
     needs="loads.bend_twist = 0.5",
     concerns=_simulated,
+)
+
+
+def _twists(scene: Scene) -> bool:
+    return _simulated(scene) and load_turbine(scene.turbine.name).blade.twists
+
+
+def _torsion(at: Situation) -> Sizes:
+    """Turn under the moment of the airfoils and a lift coefficient of 1, at rated speed."""
+    turbine, blade = at.turbine, at.turbine.blade
+    foils = [turbine.airfoils[name] for name in blade.airfoil]
+    still = np.array([np.interp(0.1, f.angle, f.moment) if f.moment.size else 0 for f in foils])
+    span = blade.radius - turbine.rotor.hub_radius
+    ahead = np.interp(span, blade.torsion_span, blade.centre_ahead)
+    speed = turbine.control.reference_speed / turbine.drivetrain.gear_ratio * blade.radius
+    couple = 0.5 * AIR_DENSITY * speed**2 * blade.chord * (still * blade.chord + ahead)
+    torque = np.cumsum((couple * np.gradient(span))[::-1])[::-1]
+    rigidity = np.interp(span, blade.torsion_span, blade.torsion_stiffness)
+    turned = np.cumsum(torque / rigidity * np.gradient(span))
+    return _of_loads(TWISTED * abs(float(np.interp(0.75 * span[-1], span, turned))))
+
+
+TORSION = Effect(
+    "torsion of the blades",
+    model="loads",
+    keys=("loads.blade_torsion",),
+    is_on=lambda scene: scene.loads.blade_torsion,
+    switched=lambda scene, on: with_settings(scene, "loads", {"blade_torsion": on}),
+    indicator=_torsion,
+    out="loads.blade_torsion = false",
+    needs="loads.blade_torsion = true",
+    concerns=_twists,
+    cost=lambda scene: 1.1,
 )

@@ -25,9 +25,9 @@ def _rigid(scene: Scene, on: bool) -> Scene | None:
         return scene if all(c.beam is not None for c in scene.shaft.concepts) else None
     stiff = {
         name: replace(concept, beam=None)
-        for name, concept in scene.shaft
+        for name, concept in scene.shaft.suspensions.items()
         if concept is not None
-        and not any(support in scene.shaft.seated for support in concept.bearings)
+        and not any(support in scene.shaft.coupled for support in concept.bearings)
     }
     return scene.model_copy(update={"shaft": scene.shaft.model_copy(update=stiff)})
 
@@ -47,10 +47,10 @@ ELASTIC = Effect(
 
 def _given(scene: Scene, on: bool) -> Scene | None:
     if on:
-        return scene if scene.shaft.seated else None
+        return scene if scene.shaft.coupled else None
     held = {
         name: replace(concept, beam=concept.beam.on_rigid_bearings())
-        for name, concept in scene.shaft
+        for name, concept in scene.shaft.suspensions.items()
         if concept is not None and concept.beam is not None
     }
     return scene.model_copy(update={"shaft": scene.shaft.model_copy(update=held)})
@@ -60,7 +60,7 @@ STIFFNESS = Effect(
     "stiffness of the bearings",
     model="shaft",
     keys=_KEYS,
-    is_on=lambda scene: bool(scene.shaft.seated),
+    is_on=lambda scene: bool(scene.shaft.coupled),
     switched=_given,
     indicator=_determinate,
     out="no support of the shaft takes its stiffness from a bearing",

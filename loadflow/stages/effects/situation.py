@@ -16,7 +16,7 @@ import numpy as np
 from loadflow.journal.shapes import CYLINDER
 from loadflow.scene.cases import Case, wind_of
 from loadflow.scene.scene import Scene
-from loadflow.shaft import bearing_loads
+from loadflow.shaft import bearing_loads, yaw_loads
 from loadflow.stages.frames import to_film
 from loadflow.turbines import Turbine, load_turbine
 
@@ -179,8 +179,13 @@ def _on_bearings(
 ) -> dict[str, tuple[Floats, ...]]:
     """Mean force, mean moment and their largest deviations, by bearing of a rigid shaft."""
     found = {}
-    for concept in scene.shaft.concepts:
-        loads = bearing_loads(replace(concept, beam=None), force, moment, tilt=tilt)
+    every = [
+        bearing_loads(replace(concept, beam=None), force, moment, tilt=tilt)
+        for concept in scene.shaft.concepts
+    ]
+    if scene.shaft.yaw is not None:
+        every.append(yaw_loads(scene.shaft.yaw, force, moment, tilt=tilt))
+    for loads in every:
         for name in loads["bearing"].values:
             one = loads.sel(bearing=name)
             push, turn = (one[n].transpose(..., "axis").values for n in ("force", "moment"))

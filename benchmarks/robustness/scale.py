@@ -1,6 +1,10 @@
 """What a campaign of many load cases takes: time by phase and stage, memory of the parent, files.
 
-python benchmarks/scale.py [--cases 300 1000 3000] [--workers 2] [--results reduction.histogram …]
+<<<<<<< HEAD
+python -m benchmarks.robustness.scale [--cases 300 1000 3000] [--workers 2] [--results RESULT …]
+=======
+python -m benchmarks.robustness.scale [--cases 300 1000] [--workers 2] [--results NAME …]
+>>>>>>> contract
 
 Series of made-up loads of 600 s at 20 Hz would measure the stages; what grows with the number of
 cases is measured with short ones (`--steps`), so that what surrounds a case is not hidden by it.
@@ -21,6 +25,8 @@ from pathlib import Path
 from threading import Event, Thread
 
 import numpy as np
+
+from benchmarks.common import ROOT, arguments
 
 SPEEDS = np.arange(4.0, 25.0)
 
@@ -126,24 +132,25 @@ def measure(cases: int, steps: int, workers: int, results: list[str], page: bool
 
 def main() -> None:
     """Measure each size in a process of its own."""
-    arguments = argparse.ArgumentParser(description=__doc__)
-    arguments.add_argument("--cases", type=int, nargs="+", default=[300, 1000, 3000])
-    arguments.add_argument("--steps", type=int, default=120)
-    arguments.add_argument("--workers", type=int, default=1)
-    arguments.add_argument("--results", nargs="+", default=["reduction.histogram"])
-    arguments.add_argument("--page", action="store_true")
-    arguments.add_argument("--here", action="store_true", help=argparse.SUPPRESS)
-    chosen = arguments.parse_args()
+    parser = arguments(__doc__)
+    parser.add_argument("--cases", type=int, nargs="+", default=[300, 1000, 3000])
+    parser.add_argument("--steps", type=int, default=120)
+    parser.add_argument("--workers", type=int, default=1)
+    parser.add_argument("--results", nargs="+", default=["reduction.histogram"])
+    parser.add_argument("--page", action="store_true")
+    parser.add_argument("--here", action="store_true", help=argparse.SUPPRESS)
+    chosen = parser.parse_args()
     if chosen.here:
         [cases] = chosen.cases
         options = (chosen.steps, chosen.workers, chosen.results, chosen.page)
         print(json.dumps(measure(cases, *options)))
         return
     for cases in chosen.cases:
-        command = [sys.executable, __file__, "--here", "--cases", str(cases)]
+        command = [sys.executable, "-m", "benchmarks.robustness.scale", "--here"]
+        command += ["--cases", str(cases)]
         command += ["--steps", str(chosen.steps), "--workers", str(chosen.workers)]
         command += ["--results", *chosen.results, *(["--page"] if chosen.page else [])]
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
         print(done.stdout.splitlines()[-1] if done.returncode == 0 else done.stderr[-2000:])
         sys.stdout.flush()
 

@@ -1,0 +1,76 @@
+"""How far a state of the film is from balance, and what of that rounding alone may leave."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from loadflow.journal.cavitation import P
+from loadflow.journal.film import _kernels as kernel
+from loadflow.journal.film.film import EVERY, DiscreteFilm
+from loadflow.numerics.convergence import EPS, rounding_level
+
+Array = NDArray[np.float64]
+
+
+def imbalance(
+    film: DiscreteFilm,
+    u: Array,
+    position: Array,
+    velocity: Array,
+    force: Array | None = None,
+    rate: float = 0.0,
+    old: Array | float = 0.0,
+    free: slice | NDArray[np.int64] = EVERY,
+) -> float:
+    """Largest imbalance of a cell, and of the load if `force` is given, over their scales.
+
+    Only the degrees of freedom `free` need balance.
+    """
+    frame = film.place(u, position)
+    around = film.gap.around
+    mass = film.storage(film.gap.coef, around, frame.T @ velocity, rate)
+    flux = (abs(film.wedge) + film.scale) * film.mesh.area.max()
+    outflow = film.balance(film.gap.coef, mass) - old
+    worst = float(np.abs(film.residual(outflow)).max()) / flux
+    if film.pockets.free.size:
+        worst = max(worst, film.pockets.missing(film.state[P], outflow, film.scale))
+    if force is not None:
+        scale = film.load_scale(force)
+        missing = force - film.load_of(frame, position)
+        worst = max(worst, math.hypot(*missing[free]) / scale)
+    return worst
+
+
+def rounding(
+    film: DiscreteFilm,
+    position: Array,
+    velocity: Array,
+    slope: Array,
+    force: Array | None = None,
+    free: slice | NDArray[np.int64] = EVERY,
+) -> float:
+    """Level of rounding of `imbalance`, just called, over the same scales.
+
+    The gap is a difference of numbers near 1: where it is narrow its coefficients have fewer
+    digits. `slope` (m, m) is the derivative of the load by the position.
+    """
+    mesh, gap = film.mesh, film.gap
+    mass = film.storage(gap.coef, gap.around, velocity, 0.0)
+    terms = kernel.largest_terms(
+        film.state, gap.coef, mesh.dz, mesh.area, mesh.gz, mesh.closed, film.wedge,
+        film.p_edge, film.p_line, mass, film.fixed,
+    )  # fmt: skip
+    narrow = min(max(gap.narrowest(position), EPS), 1.0)
+    flux = (abs(film.wedge) + film.scale) * mesh.dz.max()
+    worst = terms * (1.0 + 3.0 / narrow) / flux
+    if force is not None:
+        scale = film.load_scale(force)
+        pressed = float(np.abs(film.state[kernel.LOAD]).max()) * 2 * np.pi * mesh.dz.sum()
+        reach = np.abs(gap.across).max(axis=1)
+        carried = film.mirrors * film.radius**2 * pressed * reach
+        digits = np.abs(slope).sum(axis=1) * max(1.0, float(np.abs(position).max()))
+        worst = max(worst, float((carried + digits)[free].max()) / scale)
+    return rounding_level(worst)

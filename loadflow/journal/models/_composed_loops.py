@@ -1,0 +1,358 @@
+"""Compiled loops of the reduced film with effects: Newton, and a march through time.
+
+They are those of `_reduced_loops` for a gap that changes across the width, for asperities and for a
+shell that gives way; a shaft under a moment has four degrees of freedom.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from loadflow.journal.cavitation import DLOAD, FILL, LOAD
+from loadflow.journal.models import composed_film as at
+from loadflow.journal.models._composed_kernels import (
+    MEAN,
+    OPEN,
+    balance,
+    carry,
+    magnitudes,
+    matrix,
+    narrowest,
+    place,
+    substitute_all,
+    summarise,
+    touch,
+)
+from loadflow.journal.models._reduced_kernels import factorise, substitute
+from loadflow.journal.models._reduced_loops import is_small, predict, rounding_level
+from loadflow.journal.models.slow_heat import slow_heat
+from loadflow.numerics import convergence
+
+_STEP_LIMIT = 0.5  # change of the film over its pressure, up to which the shaft goes all the way
+_SMALLEST = 1.0 / 256  # of a given step, to which a step that fails may be cut
+_LATE = 8  # Newton steps after which a residual is asked whether it is that of rounding
+_KEPT = 0.3  # share of the narrowest gap that a step of the shaft leaves
+_ROOM = 1.0 / 2**20  # share of a step below which an elastic shell has no room for it
+_FALLS = 0.01  # ratio of residuals below which the next step takes the factors of the last one
+_COARSEST = convergence.COARSEST
+
+
+@njit(cache=True, nogil=True)
+def _solve(system, size):
+    """Solve the linear `system` (size, size + 1) in place with pivots; False if it is singular."""
+    for j in range(size):
+        best = j
+        for i in range(j + 1, size):
+            if abs(system[i, j]) > abs(system[best, j]):
+                best = i
+        if not abs(system[best, j]) > 0.0:
+            return False
+        for k in range(size + 1):
+            system[j, k], system[best, k] = system[best, k], system[j, k]
+        for i in range(size):
+            if i != j:
+                factor = system[i, j] / system[j, j]
+                for k in range(j, size + 1):
+                    system[i, k] -= factor * system[j, k]
+    for j in range(size):
+        system[j, size] /= system[j, j]
+    return True
+
+
+@njit(cache=True, nogil=True)
+def _limited(film, work, q, step):
+    """Turn a `step` (4,) from `q` into one of which every place keeps a third of its gap.
+
+    An aligned, eccentric shaft goes along the gap, not along the chord.
+    """
+    x, y = q[0], q[1]
+    ratio = np.hypot(x, y)
+    if ratio >= 0.5 and step[2] == 0.0 and step[3] == 0.0:
+        radial = (x * step[0] + y * step[1]) / ratio
+        turn = np.arctan2(y, x)
+        turn += max(-0.5, min(0.5, (x * step[1] - y * step[0]) / ratio**2))
+        length = max(0.3, min(_farthest(film, ratio), ratio + radial))
+        dx, dy = length * np.cos(turn) - x, length * np.sin(turn) - y
+        inside = True
+        for k in range(film.nodes.z.size):
+            ex, ey = work.centre[0, k], work.centre[1, k]
+            limit = _farthest(film, np.hypot(ex, ey))
+            inside = inside and np.hypot(ex + dx, ey + dy) <= limit * (1.0 + 1e-12)
+        if inside:
+            step[0], step[1] = dx, dy
+            return
+    share = 1.0
+    for k in range(film.nodes.z.size):
+        ex, ey, z = work.centre[0, k], work.centre[1, k], film.nodes.z[k]
+        dx, dy = step[0] + step[3] * z, step[1] - step[2] * z
+        limit = _farthest(film, np.hypot(ex, ey))
+        square = dx * dx + dy * dy
+        if np.hypot(ex + share * dx, ey + share * dy) > limit and square > 0.0:
+            along = ex * dx + ey * dy
+            room = max(limit * limit - ex * ex - ey * ey, 0.0)
+            share = min(share, (np.sqrt(along * along + square * room) - along) / square)
+    for k in range(4):
+        step[k] *= share
+
+
+@njit(cache=True, nogil=True)
+def _farthest(film, ratio):
+    """Eccentricity ratio up to which a step may lead from `ratio`."""
+    gap, rough = 1.0 - ratio, film.rough
+    return ratio + max(min((1.0 - _KEPT) * max(gap, rough.size), gap + rough.deepest), 0.0)
+
+
+@njit(cache=True, nogil=True)
+def _shaft_step(film, work, load, size, step):
+    """Newton step (4,) of a shaft that is to carry `load` (4,), shortened where it is too long."""
+    nx, m = work.u.shape[0], len(film.lanes)
+    carry(film, work, size)
+    step[:] = 0.0
+    for a in range(size):
+        work.system[a, size] = -(load[a] - work.load[a] - work.touch[0, a] + work.carried[0, a])
+        for b in range(size):
+            work.system[a, b] = work.carried[1 + b, a] - work.touch[1 + a, b]
+    if not _solve(work.system, size):
+        return
+    change, peak = 0.0, film.scale
+    for i in range(nx):
+        base = film.order[i] * m
+        for k in range(m):
+            change = max(change, abs(work.columns[base + k, 0]))
+            peak = max(peak, work.state[LOAD, i, k])
+    excess = max(1.0, change / (peak * _STEP_LIMIT))
+    for a in range(size):
+        step[a] = work.system[a, size] / excess
+
+
+@njit(cache=True, nogil=True)
+def _correct(film, work, step, size, share):
+    """Unknowns after a share of a Newton step from `work.trial`."""
+    nx, m = work.u.shape[0], len(film.lanes)
+    for i in range(nx):
+        base = film.order[i] * m
+        for k in range(m):
+            change = work.columns[base + k, 0]
+            for a in range(size):
+                change += step[a] * work.columns[base + k, 1 + a]
+            work.u[i, k] = work.trial[i, k] - share * change
+
+
+@njit(cache=True, nogil=True)
+def _advance(film, work, q, step, size):
+    """Move film and shaft by a Newton step, or by the share of it that leaves a film."""
+    work.trial[:] = work.u
+    if film.give == 0.0:
+        if size > 0:
+            _limited(film, work, q, step)
+        _correct(film, work, step, size, 1.0)
+        for a in range(4):
+            q[a] += step[a]
+        place(film, work, q)
+        return
+    least, share, done = _KEPT * narrowest(film, work), 1.0, 0.0
+    while True:
+        _correct(film, work, step, size, share)
+        for a in range(4):
+            q[a] += (share - done) * step[a]
+        done = share
+        place(film, work, q)
+        if narrowest(film, work) >= least or share < _ROOM:
+            return
+        share *= 0.5
+
+
+@njit(cache=True, nogil=True)
+def newton(film, work, q, load, size, speed, rate, tolerance, max_iterations):
+    """Film and shaft at which `load` (4,) is carried; one implicit step if rate > 0.
+
+    Starts from `work.u` and `q` (4,), of which the first `size` coordinates move, in place. Returns
+    residual, Newton steps, whether the residual is small by the rule of `convergence`, and its
+    rounding level, which is looked at where the tolerance is not met soon.
+    """
+    wedge = 0.5 * film.slope * speed
+    flux = (abs(wedge) + film.scale) * film.nodes.weights.max()
+    total = 0.0
+    for a in range(size):
+        total += load[a] * load[a]
+    force_scale = max(np.sqrt(total), 0.5e-3 * film.scale * film.area)
+    step = np.zeros(4)
+    spent, last = 0, 0.0
+    place(film, work, q)
+    while True:
+        residual = balance(film, work, wedge, rate, size) / flux
+        touch(film.rough, work, q)
+        missing = 0.0
+        for a in range(size):
+            missing += (load[a] - work.load[a] - work.touch[0, a]) ** 2
+        residual = max(residual, np.sqrt(missing) / force_scale)
+        if film.give > 0.0 and not narrowest(film, work) > 0.0:
+            residual = np.inf
+        done = residual < tolerance or spent == max_iterations or not residual < np.inf
+        rounding = 0.0
+        if not residual < tolerance and (done or spent >= _LATE):
+            cells, forces = magnitudes(film, work, wedge, rate)
+            rounding = rounding_level(max(cells / flux, forces / force_scale if size else 0.0))
+        answered = is_small(residual, tolerance, min(rounding, _COARSEST))
+        if done or answered:
+            return residual, spent, answered, rounding
+        spent += 1
+        if residual > _FALLS * last:
+            matrix(film, work, wedge, rate)
+            if not factorise(film.lanes, work.band, work.columns.shape[0]):
+                return residual, spent, False, rounding
+            last = residual
+        else:
+            last = 0.0  # once
+        if size > 2:
+            substitute_all(film.lanes, work.band, work.columns)
+        else:
+            substitute(film.lanes, work.band, work.columns)
+        if size > 0:
+            _shaft_step(film, work, load, size, step)
+        _advance(film, work, q, step, size)
+
+
+@njit(cache=True, nogil=True)
+def finish(film, work, q, speed, size, row, stiffness, damping):
+    """Results of a film at rest at `q`: integrals into `row`, and the slopes of the load.
+
+    `stiffness` and `damping` (size, size) are by position (per clearance) and by velocity
+    (clearances per second).
+    """
+    nx, m = work.u.shape[0], len(film.lanes)
+    place(film, work, q)
+    summarise(film, work, q, row)
+    wedge = 0.5 * film.slope * speed
+    balance(film, work, wedge, 0.0, size)
+    matrix(film, work, wedge, 0.0)
+    factorise(film.lanes, work.band, work.columns.shape[0])
+    substitute_all(film.lanes, work.band, work.columns)
+    carry(film, work, size)
+    for a in range(size):
+        for b in range(size):
+            stiffness[a, b] = work.touch[1 + a, b] - work.carried[1 + b, a]
+    squeeze = film.slope * 2.0 * np.pi / nx
+    for i in range(nx):
+        base = film.order[i] * m
+        for k in range(m):
+            held = -squeeze * film.nodes.weights[k] * work.state[FILL, i, k]
+            held *= work.gap[OPEN, i, k]
+            modes = (
+                film.cos[i],
+                film.sin[i],
+                -film.nodes.z[k] * film.sin[i],
+                film.nodes.z[k] * film.cos[i],
+            )
+            # an elastic shell follows: its gap changes by what the pressure of the place makes
+            row_of = base + k
+            grown = film.give * work.state[DLOAD, i, k]
+            work.columns[row_of, 0] = 0.0
+            for a in range(size):
+                work.columns[row_of, 1 + a] = held * (
+                    modes[a] + grown * work.columns[row_of, 1 + a]
+                )
+    substitute_all(film.lanes, work.band, work.columns)
+    carry(film, work, size)
+    for a in range(size):
+        for b in range(size):
+            damping[a, b] = -work.carried[1 + b, a]
+
+
+@njit(cache=True, nogil=True)
+def keep(work):
+    """Shift the history: what is current becomes the last time."""
+    nx, m = work.u.shape
+    for i in range(nx):
+        for k in range(m):
+            work.before[i, k] = work.last[i, k]
+            work.last[i, k] = work.u[i, k]
+            work.liquid[2, i, k] = work.liquid[1, i, k]
+            work.liquid[1, i, k] = work.state[FILL, i, k] * work.gap[MEAN, i, k]
+
+
+@njit(cache=True, nogil=True)
+def _leaves_room(film, work, q, ahead):
+    """Whether every place of a rigid gap keeps half of itself, or of the roughness, `ahead`."""
+    for k in range(film.nodes.z.size):
+        z = film.nodes.z[k]
+        bx, by = 0.5 * work.bend[0] * z * z, 0.5 * work.bend[1] * z * z
+        gap = 1.0 - np.hypot(q[0] + q[3] * z + bx, q[1] - q[2] * z + by)
+        next_gap = 1.0 - np.hypot(ahead[0] + ahead[3] * z + bx, ahead[1] - ahead[2] * z + by)
+        if next_gap < gap - 0.5 * max(gap, film.rough.size):
+            return False
+    return True
+
+
+@njit(cache=True, nogil=True)
+def march(
+    film, work, q, size, time, load, line, speed, tolerance, max_iterations, rows, warmth, states
+):
+    """Implicit steps of second order (BDF2 of variable step) through all of `time`.
+
+    `work.u` and `q` are the film at the first time; `load` (n, 4), `line` (n, 4) its tilt and bend,
+    of which the tilt is given where `size` is 2. A step at which Newton fails is cut, all that is
+    given interpolated. Fills `rows` (n, RESULTS), and `states` as `slow_heat` does, and returns how
+    many of them.
+    """
+    place(film, work, q)
+    keep(work)
+    before, new, given = q.copy(), q.copy(), np.zeros(4)
+    step_before, thin = 0.0, 1.0
+    for n in range(1, time.size):
+        whole = time[n] - time[n - 1]
+        if warmth.on:
+            thin = slow_heat(warmth, states, n, whole, speed, rows, at.DISSIPATION, at.NORMAL)
+        share, done, spent = 1.0, 0.0, 0
+        while done < 1.0:
+            to = min(1.0, done + share)
+            step = (to - done) * whole
+            rate, weight, weight_before, ratio = 1.0 / step, 1.0 / step, 0.0, 0.0
+            for a in range(2):
+                work.bend[a] = line[n - 1, 2 + a] + to * (line[n, 2 + a] - line[n - 1, 2 + a])
+            new[:] = q
+            if size < 4:
+                for a in range(2):
+                    new[2 + a] = line[n - 1, a] + to * (line[n, a] - line[n - 1, a])
+            ahead = False
+            if step_before > 0.0:
+                ratio = step / step_before
+                rate = (1.0 + 2.0 * ratio) / (1.0 + ratio) / step
+                weight = (1.0 + ratio) / step
+                weight_before = -ratio * ratio / (1.0 + ratio) / step
+                for a in range(size):
+                    new[a] = q[a] + ratio * (q[a] - before[a])
+                ahead = film.give > 0.0 or _leaves_room(film, work, q, new)
+                if not ahead:
+                    for a in range(size):
+                        new[a] = q[a]
+            predict(work, ratio, ahead, thin * weight, thin * weight_before)
+            for a in range(4):
+                given[a] = load[n - 1, a] + to * (load[n, a] - load[n - 1, a])
+            omega = thin * (speed[n - 1] + to * (speed[n] - speed[n - 1]))
+            residual, iterations, converged, rounding = newton(
+                film, work, new, given, size, omega, thin * rate, tolerance, max_iterations
+            )
+            spent += iterations
+            if converged:
+                keep(work)
+                before[:] = q
+                q[:] = new
+                step_before = step
+                done = to
+                share = min(2.0 * share, 1.0)
+            elif share > _SMALLEST:
+                share *= 0.5
+            else:
+                break
+        rows[n, at.RESIDUAL] = residual
+        rows[n, at.ITERATIONS] = spent
+        rows[n, at.CONVERGED] = converged
+        rows[n, at.ROUNDING] = rounding
+        if not converged:
+            for a in range(4):
+                rows[n, a] = new[a]
+            return n + 1
+        summarise(film, work, q, rows[n])
+    return time.size

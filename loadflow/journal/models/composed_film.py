@@ -1,0 +1,192 @@
+"""What the loops of a reduced film with effects work on: constants of the film, and work arrays.
+
+Effects are a shaft that tilts and bends, asperities, and a shell that gives way where it is
+pressed. The position of the shaft is q = (x, y, tilt about the first axis, about the second), in
+clearances and clearances per shaft radius; at z its centre is seen at
+
+    x + tilt₂ z + bend₁ z²/2,    y − tilt₁ z + bend₂ z²/2.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from loadflow.journal.models.width_modes import Nodes
+
+Array = NDArray[np.float64]
+
+# columns of a row of results
+(
+    X, Y, TILT_X, TILT_Y, PEAK, DISSIPATION, SHEAR, OUTFLOW, FILLED, LEAST, GROWTH, MOMENT_X,
+    MOMENT_Y, CONTACT_X, CONTACT_Y, NORMAL, RESIDUAL, ITERATIONS, CONVERGED, ROUNDING,
+) = range(20)  # fmt: skip
+RESULTS = 20
+
+
+class Rough(NamedTuple):
+    """Asperities: roughness and its flow factors, and the load of a line of contact.
+
+    Attributes
+    ----------
+    size : float
+        Combined roughness over the clearance; 0 where the surfaces are smooth.
+    along, across : array (2, 16) or (0, 16)
+        Rows of flow factors.
+    slip : float
+        Share of the roughness that the shaft drags along.
+    deepest : float
+        Overlap of the mean planes, clearances, at which the law of contact ends.
+    first, step : float
+        Eccentricity ratios of the table: first one, and distance.
+    table : array (4, n)
+        Radial load of a shaft radius of width, N, its derivative, then ∫ p_a, N, likewise.
+    z, weights : array (g,)
+        Places across, shaft radii, and their share of the whole width, shaft radii.
+    """
+
+    size: float
+    along: Array
+    across: Array
+    slip: float
+    deepest: float
+    first: float
+    step: float
+    table: Array
+    z: Array
+    weights: Array
+
+
+class Composed(NamedTuple):
+    """Constants of a film: cells around, fixed to the shell, points across, what fills them.
+
+    Attributes
+    ----------
+    cos, sin, cos_face, sin_face : array (nx,)
+        Of the cell centres, and of the faces behind them.
+    order : array (nx,)
+        Place of each column of cells in the folded band.
+    lanes, points : tuple of int
+        As long as there are inner points across, and all of them: lengths that the compiler knows.
+    nodes : Nodes
+        Points across.
+    law : int
+        Address of the law of cavitation.
+    numbers : array
+        Its parameters.
+    edge_fill : float
+        Fill of the oil that enters at the bearing ends.
+    scale, p_edge : float
+        Scale of pressure, and pressure at the ends, Pa.
+    slope : float
+        12 η/ψ², Pa s.
+    area : float
+        Load over ∫ p over the points: R², or 2 R² of half the width, m².
+    give : float
+        Growth of the gap over pressure, clearances per Pa; 0: a rigid shell.
+    rough : Rough
+        Asperities.
+    """
+
+    cos: Array
+    sin: Array
+    cos_face: Array
+    sin_face: Array
+    order: NDArray[np.int64]
+    lanes: tuple[int, ...]
+    points: tuple[int, ...]
+    nodes: Nodes
+    law: int
+    numbers: Array
+    edge_fill: float
+    scale: float
+    p_edge: float
+    slope: float
+    area: float
+    give: float
+    rough: Rough
+
+
+class ComposedWork(NamedTuple):
+    """Work arrays of one film of (nx, m) unknowns and l points across, n = nx m.
+
+    Attributes
+    ----------
+    u, before, last, trial : array (nx, m)
+        Unknowns: current, at the last two times, and before a step.
+    liquid : array (3, nx, m)
+        F H of the cells: storage of earlier times, then the last two times.
+    state : array (8, nx, m)
+        As in `_kernels.apply_law`.
+    gap : array (4, nx, l)
+        Of the points: mean planes, mean gap, its share that opens, and conductance.
+    gap_slope : array (nx, l)
+        Derivative of the conductance by the gap of the mean planes.
+    face : array (5, nx, m)
+        Of the faces: conductance, dragged gap, their derivatives, and gap of the mean planes.
+    slope : array (nx, l)
+        ∂p across.
+    band : array (n + 2 m, 4 m + 1)
+        Band matrix, row by row; the last 2 m rows are those behind it.
+    columns : array (n, 5)
+        Residual and its derivatives by the position; then what the matrix makes of them.
+    centre : array (2, l)
+        Where the shaft is seen at the points across.
+    bend : array (2,)
+        Curvature of the shaft, clearances per square of the shaft radius.
+    load : array (4,)
+        Load that the film carries, N, its moments over the shaft radius.
+    touch : array (5, 4)
+        The same of the asperities, then its derivatives by the position.
+    carried : array (5, 4)
+        Load that each of the columns carries.
+    system : array (4, 5)
+        Linear system of a step of the shaft.
+    """
+
+    u: Array
+    before: Array
+    last: Array
+    trial: Array
+    liquid: Array
+    state: Array
+    gap: Array
+    gap_slope: Array
+    face: Array
+    slope: Array
+    band: Array
+    columns: Array
+    centre: Array
+    bend: Array
+    load: Array
+    touch: Array
+    carried: Array
+    system: Array
+
+
+def make_work(around: int, nodes: Nodes) -> ComposedWork:
+    """Allocate the work arrays."""
+    points, inner = nodes.slopes.shape
+    shape, n = (around, inner), around * inner
+    return ComposedWork(
+        u=np.zeros(shape),
+        before=np.zeros(shape),
+        last=np.zeros(shape),
+        trial=np.zeros(shape),
+        liquid=np.zeros((3, *shape)),
+        state=np.zeros((8, *shape)),
+        gap=np.ones((4, around, points)),
+        gap_slope=np.zeros((around, points)),
+        face=np.ones((5, *shape)),
+        slope=np.zeros((around, points)),
+        band=np.zeros((n + 2 * inner, 4 * inner + 1)),
+        columns=np.zeros((n, 5)),
+        centre=np.zeros((2, points)),
+        bend=np.zeros(2),
+        load=np.zeros(4),
+        touch=np.zeros((5, 4)),
+        carried=np.zeros((5, 4)),
+        system=np.zeros((4, 5)),
+    )

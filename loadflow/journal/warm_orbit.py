@@ -1,0 +1,159 @@
+"""Temperature of a film in motion: one of the whole series, or one that follows its heat balance.
+
+A bearing warms over minutes and hours while its load changes in seconds. Without a heat capacity it
+is too slow to follow: the film has one temperature, that of its mean friction and flow. With one,
+C dT/dt = P − 2 ρ c_p Q (T − T_in) − K (T − T_ambient) goes along with the path. The film of
+viscosity η is that of η₀ at the speed ω η/η₀ in a time that runs η₀/η times as fast, so that any
+model follows a temperature over time; path and temperature are taken in turns until both agree.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from loadflow.errors import SolverError
+from loadflow.journal.film_model import Film
+from loadflow.journal.geometry import JournalGeometry
+from loadflow.journal.heat import HOTTEST, Heat
+from loadflow.journal.line import Line
+from loadflow.journal.models.model import Model, Steps
+from loadflow.journal.thermal import check_scalable, warm_film
+from loadflow.numerics.convergence import Limits
+from loadflow.quantities import FILM
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+Array = NDArray[np.float64]
+
+SAMPLES = 64
+"""Samples of a series whose mean friction and flow give the temperature of a film in motion."""
+
+TOLERANCE, ROUNDS = 1e-3, 30
+"""Change of the temperature from one path to the next, K, and paths that are tried."""
+
+_SCALED = (
+    "friction_power", "contact_power", "side_flow", "supply_flow", "supply_power", "groove_flow",
+)  # fmt: skip
+
+
+def warm_orbit(
+    model: Model,
+    bearing: JournalGeometry,
+    film: Film,
+    time: Array,
+    force: Array,
+    speed: Array,
+    line: Line,
+    limits: Limits,
+    steps: Steps,
+) -> xr.Dataset:
+    """Path of the shaft in a film with a heat balance, and its `temperature`.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        A groove with an orifice, a pump or a given flow.
+    loadflow.errors.SolverError
+        No heat balance of the series, a film that gets too hot, or what the model raises.
+    """
+    heat = film.heat
+    assert isinstance(heat, Heat)
+    check_scalable(film)
+    start = heat.start_temperature
+    if start is None or heat.capacity is None:
+        start = series_temperature(model, bearing, film, force, speed, line)
+    held = replace(film, lubricant=heat.lubricant(start), heat=None)
+
+    def path(times: Array, speeds: Array) -> xr.Dataset:
+        return model.orbit(bearing, held, times, force, speeds, line, limits, steps)
+
+    if heat.capacity is None:
+        return _told(path(time, speed), np.full(time.size, start))
+    if getattr(model, "stores_heat", False):
+        steps = replace(steps, temperature=start)
+        return model.orbit(bearing, film, time, force, speed, line, limits, steps)
+    return _in_turns(path, heat, time, speed, start)
+
+
+def series_temperature(
+    model: Model, bearing: JournalGeometry, film: Film, force: Array, speed: Array, line: Line
+) -> float:
+    """Temperature, K, of the mean friction and flow of equilibria spread over a series.
+
+    Raises
+    ------
+    loadflow.errors.SolverError
+        No heat balance below the largest temperature.
+    """
+    some = np.unique(np.linspace(0, speed.size - 1, SAMPLES).round().astype(int))
+    cold, limits, own = film.isothermal(), Limits(1e-10, 60, strict=False), line.at(some)
+
+    def at_rest(forces: Array, speeds: Array, places: NDArray[np.int64]) -> dict[str, Any]:
+        return model.equilibrium(bearing, cold, forces, speeds, own.at(places), limits)
+
+    shares = np.full(some.size, 1.0 / some.size)
+    found = warm_film(at_rest, force[some], speed[some], film, shares, strict=False)
+    if not np.any(found["converged"]):
+        raise SolverError("orbit cannot start: no heat balance of its mean friction and flow")
+    return float(np.nanmax(found["temperature"]))
+
+
+def _in_turns(
+    path: Callable[[Array, Array], xr.Dataset], heat: Heat, time: Array, speed: Array, start: float
+) -> xr.Dataset:
+    """Path and temperature, taken in turns."""
+    warm, reference = np.full(time.size, start), float(heat.liquid.viscosity(start))
+    for _ in range(ROUNDS):
+        thin = np.asarray(heat.liquid.viscosity(warm)) / reference
+        slower = 0.5 * (1.0 / thin[1:] + 1.0 / thin[:-1])
+        stretched = np.concatenate([[0.0], np.cumsum(np.diff(time) * slower)])
+        found = path(stretched, speed * thin)
+        power, flow = (found[name].values / thin for name in ("friction_power", "side_flow"))
+        after = _temperatures(heat, time, power, flow, warm)
+        change, warm = float(np.abs(after - warm).max()), after
+        if change <= TOLERANCE:
+            return _told(_scaled(found, thin, time), warm)
+    raise SolverError(
+        f"the temperature of the film still changes by {change:.3g} K after {ROUNDS} paths"
+    )
+
+
+def _scaled(path: xr.Dataset, thin: Array, time: Array) -> xr.Dataset:
+    """The path over its own time, friction and flow those of the viscosity that it has."""
+    import xarray as xr
+
+    share = xr.DataArray(thin, dims=["time"])
+    scaled = {
+        name: (path[name] / share).transpose(*path[name].dims).assign_attrs(path[name].attrs)
+        for name in _SCALED
+        if name in path
+    }
+    about = path["time"].attrs
+    return path.assign(scaled).assign_coords(time=("time", time, about))
+
+
+def _temperatures(heat: Heat, time: Array, power: Array, flow: Array, at: Array) -> Array:
+    """Temperatures over time, K; exact for the mean friction and flow of each step."""
+    assert heat.capacity is not None
+    carried = 2.0 * np.asarray(heat.liquid.density(at)) * heat.heat_capacity * flow
+    power, carried = (0.5 * (values[1:] + values[:-1]) for values in (power, carried))
+    lost = carried + heat.transfer
+    gained = power + carried * heat.inlet_temperature + heat.transfer * heat.ambient_temperature
+    warm = [float(at[0])]
+    for step, out, into in zip(np.diff(time).tolist(), lost.tolist(), gained.tolist()):
+        decay = out * step / heat.capacity
+        share = -np.expm1(-decay) / decay if decay > 1e-12 else 1.0
+        warm.append(warm[-1] + share * step / heat.capacity * (into - out * warm[-1]))
+        if not warm[-1] < HOTTEST:
+            raise SolverError(f"the film warms beyond {HOTTEST} K")
+    return np.array(warm)
+
+
+def _told(path: xr.Dataset, temperature: Array) -> xr.Dataset:
+    return path.assign(temperature=("time", temperature, FILM["temperature"].attributes))

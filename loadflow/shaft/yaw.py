@@ -1,0 +1,139 @@
+"""What rotor and nacelle do to the yaw bearing on top of the tower."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Annotated, ClassVar
+
+import numpy as np
+import xarray as xr
+from annotated_types import Ge, Gt
+from numpy.typing import ArrayLike, NDArray
+
+from loadflow.errors import InputError
+from loadflow.shaft.reactions import GRAVITY
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class YawBearing:
+    """One bearing Y, level on the tower top; its axis stands upright.
+
+    Attributes
+    ----------
+    overhang : float
+        Rotor apex to the tower's axis along the shaft, m.
+    shaft_above : float
+        Of the shaft's axis over the bearing, at the tower's axis, m.
+    nacelle_mass : float
+        All that stands on the bearing but the rotor, kg.
+    nacelle_downwind : float
+        Of its centre of mass behind the tower's axis, m.
+
+    Examples
+    --------
+    >>> from loadflow.shaft import YawBearing, yaw_loads
+    >>> bearing = YawBearing(overhang=5.0, shaft_above=2.0, nacelle_mass=240e3)
+    >>> loads = yaw_loads(bearing, [5e5, 0.0, -1e6], [4e6, 0.0, 0.0])
+    >>> loads["force"].values.ravel().round(-3).tolist()  # along its axis, N; then downwind, left
+    [-3354000.0, 500000.0, 0.0]
+    """
+
+    overhang: Annotated[float, Gt(0)] = 5.01910
+    shaft_above: Annotated[float, Ge(0)] = 1.96256
+    nacelle_mass: Annotated[float, Ge(0)] = 240e3
+    nacelle_downwind: float = 1.9
+
+    bearings: ClassVar[tuple[str, ...]] = ("Y",)
+
+    def __post_init__(self) -> None:
+        if not all(map(math.isfinite, vars(self).values())):
+            raise InputError("YawBearing: all measures must be finite")
+        if self.overhang <= 0 or self.shaft_above < 0 or self.nacelle_mass < 0:
+            raise InputError(
+                f"overhang = {self.overhang} m must be > 0, shaft_above = {self.shaft_above} m and "
+                f"nacelle_mass = {self.nacelle_mass} kg >= 0"
+            )
+
+
+def yaw_loads(
+    bearing: YawBearing, hub_force: ArrayLike, hub_moment: ArrayLike, *, tilt: float = 0.0
+) -> xr.Dataset:
+    """Loads of the nacelle on the yaw bearing, from equilibrium; its inertia is left out.
+
+    Parameters
+    ----------
+    bearing : YawBearing
+        Where it stands, and what stands on it.
+    hub_force, hub_moment : array_like, shape (3, n) or (3,)
+        As in `bearing_loads`, in the frame of the shaft, N and N m.
+    tilt : float
+        Of the shaft, rad.
+
+    Returns
+    -------
+    xarray.Dataset
+        `force` and `moment` over (bearing, axis, time). The axes are those of the bearing: x along
+        its axis, up; y downwind, z to the left looking downwind. The moment about its own axis is
+        that of the yaw drives, and left out.
+
+    Raises
+    ------
+    InputError
+        Loads that do not fit or are not finite.
+
+    Examples
+    --------
+    >>> from loadflow.shaft import YawBearing, yaw_loads
+    >>> loads = yaw_loads(YawBearing(nacelle_mass=0.0), [0.0, 0.0, -1e6], [0.0, 0.0, 0.0])
+    >>> round(float(loads["moment"].sel(axis="z").item()) / 1e6, 2)  # forward, MN m
+    -5.02
+    """
+    force, moment = (
+        np.asarray(load, float).reshape(3, -1) if np.ndim(load) == 1 else np.asarray(load, float)
+        for load in (hub_force, hub_moment)
+    )
+    if force.ndim != 2 or force.shape[0] != 3 or force.shape != moment.shape:
+        raise InputError(f"hub_force {force.shape}, hub_moment {moment.shape}: (3, n) is needed")
+    if not (np.isfinite(force).all() and np.isfinite(moment).all()):
+        raise InputError("hub_force, hub_moment: must be finite")
+    cos, sin = math.cos(tilt), math.sin(tilt)
+    level = np.array([[cos, 0.0, sin], [0.0, 1.0, 0.0], [-sin, 0.0, cos]])
+    push, turn = level @ force, level @ moment
+    arm = np.array([-bearing.overhang * cos, 0.0, bearing.shaft_above + bearing.overhang * sin])
+    turn = turn + np.cross(arm[:, None], push, axis=0)
+    weight = bearing.nacelle_mass * GRAVITY
+    push = push - np.array([0.0, 0.0, weight])[:, None]
+    turn = turn + np.array([0.0, bearing.nacelle_downwind * weight, 0.0])[:, None]
+    # the axis of a bearing is the first of its frame
+    own = [2, 0, 1]
+    forces, moments = push[own], turn[own]
+    moments[0] = 0.0
+    return xr.Dataset(
+        {
+            "force": (
+                ("bearing", "axis", "time"),
+                forces[None],
+                {"units": "N", "long_name": "force of the shaft on the bearing"},
+            ),
+            "moment": (
+                ("bearing", "axis", "time"),
+                moments[None],
+                {"units": "N m", "long_name": "moment of the shaft on the bearing"},
+            ),
+        },
+        {
+            "bearing": list(bearing.bearings),
+            "axis": ["x", "y", "z"],
+            "position": (
+                "bearing",
+                [bearing.overhang],
+                {
+                    "units": "m",
+                    "long_name": "position of the bearing along the shaft from the hub centre",
+                },
+            ),
+        },
+    )

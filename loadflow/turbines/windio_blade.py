@@ -1,0 +1,151 @@
+"""Blade and airfoils of windIO as the tables of a turbine file."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from .checks import Array
+from .windio_paths import Source
+
+_DEGREE = np.pi / 180
+_UPPER = [(i, j) for i in range(6) for j in range(i, 6)]
+"""Places of the 21 numbers of a symmetric matrix in the ontology of WISDEM."""
+
+
+def foil_table(source: Source) -> tuple[dict[str, Any], dict[str, float]]:
+    """Polars by name, and the relative thickness of each; angles in radians."""
+    foils, thickness = {}, {}
+    for entry in source.path("airfoils") or []:
+        name = str(entry["name"])
+        given = entry.get("rthick", entry.get("relative_thickness"))
+        polar = entry["polars"][0]
+        if "re_sets" in polar:
+            sets, unit, names = polar["re_sets"][0], _DEGREE, ("cl", "cd", "cm")
+        else:
+            sets, unit, names = polar, 1.0, ("c_l", "c_d", "c_m")
+        lift, drag, moment = (sets.get(key) for key in names)
+        grid = np.union1d(lift["grid"], drag["grid"])
+        angle = np.clip(grid * unit, -np.pi, np.pi)
+        angle[[0, -1]] = -np.pi, np.pi
+        foil = {
+            "angle": angle.tolist(),
+            "lift": np.interp(grid, lift["grid"], lift["values"]).tolist(),
+            "drag": np.interp(grid, drag["grid"], drag["values"]).tolist(),
+        }
+        if moment:
+            foil["moment"] = np.interp(grid, moment["grid"], moment["values"]).tolist()
+        if given is not None:
+            thickness[name] = float(given)
+            if float(given) not in [foils[other]["thickness"] for other in foils]:
+                foil["thickness"] = float(given)
+                foils[name] = foil
+    return foils, thickness
+
+
+def blade_table(
+    source: Source,
+    rotor: dict[str, Any],
+    thickness: dict[str, float],
+    sections: int,
+    damping: float,
+) -> dict[str, Any] | None:
+    """Sections, and the structure where the file has mass and stiffness of them."""
+    entry = source.path("components.blade") or {}
+    shape = entry.get("outer_shape", entry.get("outer_shape_bem"))
+    if shape is None or "hub_radius" not in rotor or "radius" not in rotor:
+        return None
+    axis = entry.get("reference_axis") or shape["reference_axis"]
+    length = rotor["radius"] - rotor["hub_radius"]
+    station = (np.arange(sections) + 0.5) / sections * length
+    grid, height = axis["z"]["grid"], axis["z"]["values"]
+
+    def at(table: dict[str, Any]) -> Array:
+        """Values over the shares of the reference axis, at the sections."""
+        along = np.interp(table["grid"], grid, height)
+        return np.interp(station, along, table["values"])
+
+    unit = 1 / _DEGREE if source.old else 1.0
+    if "rthick" in shape:
+        thick = at(shape["rthick"])
+    else:
+        places = shape["airfoil_position"]
+        values = [thickness[name] for name in places["labels"]]
+        thick = at({"grid": places["grid"], "values": values})
+    known = sorted(thickness.values())
+    thick = np.clip(np.round(thick, 4), known[0], known[-1])
+    columns = zip(
+        rotor["hub_radius"] + station, at(shape["twist"]) * unit, at(shape["chord"]), thick
+    )
+    table: dict[str, Any] = {
+        "damping": damping,
+        "sections": [[float(x) for x in row] for row in columns],
+        "prebend": (-at(axis["x"])).tolist(),
+    }
+    structure = _structure(entry, axis, unit)
+    if structure is None:
+        where = "components.blade.structure.elastic_properties"
+        where += " or components.blade.elastic_properties_mb.six_x_six"
+        source.hints |= {"blade.structure": f"in windIO: {where}", "blade.mass": f"with {where}"}
+        return table
+    span, twist, density, matrix = structure
+    torsion, centre = _twisting(matrix)
+    ahead = _quarter_chord_ahead(shape, span / length) + centre
+    return table | {
+        "mass": float(np.trapezoid(density, span)),
+        "structure": np.array([span, twist, density, matrix[:, 4, 4], matrix[:, 3, 3]]).T.tolist(),
+        "torsion": np.array([span, torsion, ahead]).T.tolist(),
+    }
+
+
+def _structure(
+    entry: dict[str, Any], axis: dict[str, Any], unit: float
+) -> tuple[Array, ...] | None:
+    """Span m, twist deg, mass kg/m, and the stiffness of the sections, (n, 6, 6)."""
+    modern = entry.get("structure", {}).get("elastic_properties")
+    former = entry.get("elastic_properties_mb", {}).get("six_x_six")
+    if modern is not None:
+        stiff, inertia = modern["stiffness_matrix"], modern["inertia_matrix"]
+        share = np.asarray(stiff["grid"], float)
+        upper = np.array([stiff[f"K{i + 1}{j + 1}"] for i, j in _UPPER], float).T
+        density = np.interp(share, inertia["grid"], inertia["mass"])
+        twist = entry["outer_shape"]["twist"]
+    elif former is not None:
+        stiff, inertia = former["stiff_matrix"], former["inertia_matrix"]
+        share = np.asarray(stiff["grid"], float)
+        upper = np.asarray(stiff["values"], float)
+        mass = np.asarray(inertia["values"], float)[:, 0]
+        density = np.interp(share, inertia["grid"], mass)
+        twist = entry["outer_shape_bem"]["twist"]
+        axis = former.get("reference_axis", axis)
+    else:
+        return None
+    span = np.interp(share, axis["z"]["grid"], axis["z"]["values"])
+    turned = np.interp(share, twist["grid"], twist["values"]) * unit
+    matrix = np.zeros((share.size, 6, 6))
+    for (i, j), values in zip(_UPPER, upper.T):
+        matrix[:, i, j] = matrix[:, j, i] = values
+    return span - span[0], turned, density, matrix
+
+
+def _twisting(matrix: Array) -> tuple[Array, Array]:
+    """Torsional stiffness of sections free to bend, N m², and their shear centre, m.
+
+    The centre is the distance behind the reference axis at which a force across the chord does not
+    twist the section. The third diagonal entry of the moments alone is stiffer: it holds the
+    section where the axis is, which need not be the shear centre.
+    """
+    compliance = np.linalg.inv(matrix)
+    stiffness = 1 / compliance[:, 5, 5]
+    return stiffness, compliance[:, 5, 0] * stiffness
+
+
+def _quarter_chord_ahead(shape: dict[str, Any], share: Array) -> Array:
+    """Distance of the quarter chord ahead of the reference axis, m."""
+    chord = np.interp(share, shape["chord"]["grid"], shape["chord"]["values"])
+    if "section_offset_y" in shape:
+        offset = shape["section_offset_y"]
+        return np.interp(share, offset["grid"], offset["values"]) - 0.25 * chord
+    place = shape["pitch_axis"]  # share of the chord behind the leading edge
+    return (np.interp(share, place["grid"], place["values"]) - 0.25) * chord

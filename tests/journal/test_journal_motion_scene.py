@@ -1,0 +1,79 @@
+"""A film in motion lies in the bearing as the beam of the shaft does, with heat and contact."""
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from loadflow.errors import InputError
+from loadflow.scene import make_scene
+from loadflow.stages.effects import film
+from loadflow.stages.journal import fast_film, follow
+
+TIME = np.arange(0.0, 1.0, 0.05)
+FORCE = np.stack([0 * TIME, 2e5 * np.cos(2 * TIME), -2e6 + 2e5 * np.sin(TIME)], axis=-1)
+TILT = 5e-5 * np.stack([0 * TIME, np.cos(TIME), np.sin(TIME)], axis=-1)
+MOVING = {"motion": "transient", "rung": "reduced"}
+ROUGH = {"asperities": {"roughness": 2e-6, "contact_modulus": 1.1e11, "factor": 1e-3}}
+
+
+def reactions(tilt=TILT):
+    values = {"force": FORCE, "moment": 0.01 * FORCE, "tilt": tilt, "curvature": TILT / 5}
+    return xr.Dataset({name: (("time", "axis"), rows) for name, rows in values.items()})
+
+
+def loads(speed=1.2):
+    return xr.Dataset({"time": ("time", TIME), "speed": ("time", np.full(TIME.size, speed))})
+
+
+def in_film(vectors):
+    """In the frame of the film: down, then left."""
+    return np.stack([-vectors[:, 2], vectors[:, 1]], axis=-1)
+
+
+def test_tilt_of_the_beam_reaches_the_film_in_motion():
+    journal = make_scene({"journal": MOVING | {"tilt": True}}).journal
+    path = follow(journal, loads(), reactions())
+    np.testing.assert_allclose(path.tilt.values, in_film(TILT), atol=1e-15)
+    aligned = follow(journal.model_copy(update={"tilt": False}), loads(), reactions())
+    ends = np.hypot(*path.tilt.values.T) * journal.geometry.width / 2
+    lost = aligned.minimum_film.values - path.minimum_film.values
+    assert np.all(lost < 1.2 * ends)
+    assert lost.max() > 0.3 * ends.max()
+
+
+def test_without_a_beam_the_shaft_tilts_freely_under_its_moment():
+    journal = make_scene({"journal": MOVING | {"tilt": True}}).journal
+    path = follow(journal, loads(), reactions(tilt=np.nan * TILT))
+    np.testing.assert_allclose(path.moment, 0.01 * in_film(FORCE), rtol=1e-3, atol=20.0)
+
+
+@pytest.mark.parametrize("rung", ["reduced", "grid"])
+def test_motion_tilt_heat_and_contact_are_one_scene(rung):
+    heat = {"oil": "mineral-vg-320", "capacity": 1e6, "start_temperature": 313.15}
+    words = {"motion": "transient", "rung": rung, "tilt": True, "contact": ROUGH, "heat": heat}
+    journal = make_scene({"journal": words}).journal
+    assert journal.film_model.heat.capacity == 1e6
+    assert fast_film(journal).rung == "reduced"
+    if rung == "reduced":
+        path = follow(journal, loads(), reactions())
+        assert {"temperature", "tilt", "moment", "contact_share"} <= set(path)
+
+
+def test_the_plan_may_have_tilt_and_motion_together():
+    scene = make_scene({"journal": MOVING, "shaft": {"two_point": {"beam": {}}}})
+    tilted = film.TILT.switched(scene, True)
+    assert tilted is not None
+    assert tilted.journal.tilt
+    assert tilted.journal.in_motion
+    assert film.TILT.known_by(tilted)
+    assert film.MOTION.is_on(tilted)
+
+
+def test_what_does_not_go_together_is_named():
+    thick = {"kind": "thick", "outer_diameter": 3.5, "modulus": 2.1e11}
+    with pytest.raises(InputError, match=r"rung = 'reduced' .* an elastic shell"):
+        make_scene({"journal": MOVING | {"shell": thick}})
+    local = {"kind": "local", "compliance": 1e-12}
+    assert make_scene({"journal": MOVING | {"shell": local}}).journal.shell.compliance == 1e-12
+    with pytest.raises(InputError, match=r"contact = .* None with an elastic shell"):
+        make_scene({"journal": MOVING | {"shell": local, "contact": ROUGH}})

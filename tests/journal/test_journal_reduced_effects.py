@@ -1,0 +1,307 @@
+"""The rung "reduced" with effects against the rung "grid" with the same ones."""
+
+import time as clock
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from loadflow.errors import InputError
+from loadflow.journal import (
+    Contact,
+    Film,
+    GasMixture,
+    Guembel,
+    Heat,
+    JournalBearing,
+    LinedShell,
+    LocalShell,
+    Lubricant,
+    MassConserving,
+    Reynolds,
+    ThickShell,
+)
+from loadflow.journal.models import composed
+from loadflow.journal.models.width_modes import half_width_nodes, lobatto, whole_width
+from loadflow.tribology import AsperityContact
+
+BEARING = JournalBearing(diameter=3.0, width=2.25, relative_clearance=0.5e-3)
+FILM = Film(Lubricant(0.05), GasMixture(0.05e6), edge_pressure=0.5e6, grid=(60, 20))
+REDUCED = replace(FILM, rung="reduced")
+ROUGH = Contact(AsperityContact(roughness=2e-6, contact_modulus=115e9, factor=1e-3), friction=0.1)
+SOFT = LocalShell(3e-11)
+SPEED, FORCE = 1.267, np.array([2e6, 4e5])
+UNIT = BEARING.clearance / BEARING.radius  # tilt by a clearance at one radius from the middle
+TIME = np.linspace(0.0, 1.5, 31)
+LOAD = np.stack([2e6 + 5e5 * np.sin(1.5 * TIME), 4e5 * np.cos(4 * TIME)], axis=-1)
+TILT = UNIT * np.stack([0.2 * np.sin(1.2 * TIME), 0.1 * np.cos(2 * TIME)], axis=-1)
+OIL = {"oil": "mineral-vg-320", "inlet_temperature": 313.15}
+
+# what is on: fields of the film, and how the shaft lies
+EFFECTS = {
+    "tilt": ({}, {"tilt": TILT}),
+    "tilt and bend": ({}, {"tilt": TILT, "bend": TILT / 3}),
+    "moment": ({}, {"moment": np.stack([5e4 * np.sin(TIME), 3e4 * np.cos(TIME)], axis=-1)}),
+    "shell": ({"shell": SOFT}, {}),
+    "shell, tilt": ({"shell": SOFT}, {"tilt": TILT}),
+    "contact": ({"contact": ROUGH}, {}),
+    "contact, tilt": ({"contact": ROUGH}, {"tilt": TILT}),
+    "pattern, tilt": ({"contact": replace(ROUGH, pattern=3.0)}, {"tilt": TILT}),
+}
+ANSWERS = ("eccentricity_ratio", "minimum_film", "maximum_pressure", "friction_power", "side_flow")
+OFF = (0.003, 0.008, 0.013, 0.004, 0.01)
+"""How far both models are apart at most, each on 60 cells around; the grid with 20 across."""
+
+FREE = {"minimum_film": 0.016}
+"""A shaft that tilts freely has the film of its ends follow what moment the grid's 20 cells give:
+against 40 cells it is 0.01, on both 120 around 0.004."""
+
+
+def apart(one, other, name):
+    values = np.asarray(getattr(other, name))
+    return float(np.abs(np.asarray(getattr(one, name)) / values - 1.0).max())
+
+
+@pytest.mark.parametrize("inner", [4, 5, 6])
+def test_slopes_are_exact_for_their_polynomials(inner):
+    nodes = whole_width(0.7, inner)
+    value = np.polynomial.Polynomial([0.49, 0, -1]) * np.polynomial.Polynomial([1.0, 0.4, -0.3])
+    np.testing.assert_allclose(nodes.slopes @ value(nodes.z[:inner]), value.deriv()(nodes.z))
+    assert nodes.weights @ value(nodes.z) == pytest.approx(value.integ()(0.7) - value.integ()(-0.7))
+
+
+def test_the_half_width_is_that_of_the_aligned_film():
+    nodes, axial = half_width_nodes(0.7, 3), lobatto(0.7, 3)
+    np.testing.assert_allclose(nodes.z[:3], axial.points)
+    stiffness = nodes.slopes.T @ (nodes.weights[:, None] * nodes.slopes)
+    np.testing.assert_allclose(stiffness, axial.stiffness, atol=1e-12 * axial.stiffness.max())
+    np.testing.assert_allclose(-nodes.slopes[-1], axial.leak, rtol=1e-11)
+
+
+@pytest.mark.parametrize("effect", EFFECTS)
+def test_orbits_agree_with_the_grid(effect):
+    film, line = EFFECTS[effect]
+    grid = BEARING.orbit(TIME, LOAD, SPEED, replace(FILM, **film), **line)
+    few = BEARING.orbit(TIME, LOAD, SPEED, replace(REDUCED, **film), **line)
+    for name, off in zip(ANSWERS, OFF):
+        assert apart(few, grid, name) < (FREE.get(name, off) if "moment" in line else off), name
+    if line:
+        size = np.abs(grid.moment).max()
+        np.testing.assert_allclose(few.moment, grid.moment, atol=0.02 * float(size))
+        np.testing.assert_allclose(few.tilt, grid.tilt, atol=0.012 * UNIT)
+    if "shell" in film:
+        assert apart(few, grid, "shell_deformation") < 0.015
+    assert float(few.residual.max()) < 1e-8
+
+
+@pytest.mark.parametrize("effect", EFFECTS)
+def test_equilibria_agree_with_the_grid(effect):
+    film, line = EFFECTS[effect]
+    some = {name: values[::10] for name, values in line.items()}
+    grid = BEARING.equilibrium(LOAD[::10], SPEED, replace(FILM, **film), **some)
+    few = BEARING.equilibrium(LOAD[::10], SPEED, replace(REDUCED, **film), **some)
+    for name, off in zip(ANSWERS, OFF):
+        assert apart(few, grid, name) < (FREE.get(name, off) if "moment" in line else off), name
+    for name in ("stiffness", "damping"):
+        one, other = getattr(few, name), getattr(grid, name)
+        assert one.shape == other.shape
+        np.testing.assert_allclose(one, other, atol=0.03 * np.abs(other).max(axis=(1, 2)).max())
+
+
+@pytest.mark.parametrize("effect", ["tilt and bend", "shell, tilt", "contact, tilt"])
+def test_off_is_the_film_without_the_effect(effect):
+    """No tilt, no compliance, no roughness to speak of: what is left is the aligned film."""
+    film, line = EFFECTS[effect]
+    film = dict(film)
+    if "shell" in film:
+        film["shell"] = LocalShell(1e-22)
+    if "contact" in film:
+        film["contact"] = replace(ROUGH, asperities=replace(ROUGH.asperities, roughness=1e-9))
+    still = {name: 0.0 * values for name, values in line.items()}
+    plain = BEARING.orbit(TIME, LOAD, SPEED, REDUCED)
+    with_it = BEARING.orbit(TIME, LOAD, SPEED, replace(REDUCED, **film), **still)
+    for name in ANSWERS:  # 6 points over the width beside 3 over the half: the same polynomials
+        between_points = name == "minimum_film" and "shell" in film  # where an elastic gap is asked
+        assert apart(with_it, plain, name) < (1e-3 if between_points else 1e-6), name
+
+
+def test_stiffness_and_damping_are_the_slopes_of_the_load():
+    film, tilt = replace(REDUCED, shell=SOFT), TILT[3]
+    tight = {"tolerance": 1e-12}
+    state = BEARING.equilibrium(FORCE, SPEED, film, tilt=tilt, **tight)
+    step = 20.0 * np.array([[1, 0], [-1, 0], [0, 1], [0, -1]])
+    moved = BEARING.equilibrium(FORCE + step, SPEED, film, tilt=tilt, **tight).eccentricity
+    compliance = np.stack([moved[0] - moved[1], moved[2] - moved[3]], axis=-1) / 40.0
+    np.testing.assert_allclose(state.stiffness[:2, :2] @ compliance, np.eye(2), atol=1e-6)
+    moments = state.moment + np.array([[10.0, 0.0], [-10.0, 0.0]])
+    turned = BEARING.equilibrium(np.tile(FORCE, (2, 1)), SPEED, film, moment=moments, **tight)
+    place = np.concatenate([turned.eccentricity, turned.tilt], axis=-1)
+    answer = state.stiffness @ (place[0] - place[1])
+    np.testing.assert_allclose(answer, [0.0, 0.0, 20.0, 0.0], atol=2e-3)
+
+
+def test_a_held_tilt_and_its_moment_are_each_others_inverse():
+    held = BEARING.equilibrium(FORCE, SPEED, REDUCED, tilt=TILT[5])
+    free = BEARING.equilibrium(FORCE, SPEED, REDUCED, moment=held.moment)
+    np.testing.assert_allclose(free.tilt, held.tilt, rtol=1e-6)
+    np.testing.assert_allclose(free.eccentricity, held.eccentricity, rtol=1e-7)
+
+
+def test_order_across_is_that_of_polynomials(monkeypatch):
+    """Each odd and even pair more takes the error of a tilted film down severalfold."""
+    found = []
+    for points in (3, 5, 7, 11):
+        monkeypatch.setattr(composed, "POINTS", points)
+        found.append(BEARING.equilibrium(FORCE, SPEED, REDUCED, tilt=UNIT * np.array([0.2, 0.1])))
+    errors = [np.linalg.norm(one.moment / found[-1].moment - 1.0) for one in found[:-1]]
+    assert errors[0] > 4 * errors[1] > 16 * errors[2]
+    assert errors[2] < 1e-3
+
+
+def test_order_around_is_that_of_the_grid():
+    """The fill of the mixture goes with the flow, by first order, in both models."""
+    ends = {}
+    for rung in ("grid", "reduced"):
+        ratios = [
+            float(
+                BEARING.equilibrium(
+                    FORCE, SPEED, replace(FILM, rung=rung, grid=(cells, 20)), tilt=TILT[5]
+                ).eccentricity_ratio
+            )
+            for cells in (60, 120, 240)
+        ]
+        coarse, fine = np.diff(ratios)
+        ends[rung] = np.log2(coarse / fine)
+    assert ends["reduced"] > 0.8
+    assert ends["reduced"] == pytest.approx(ends["grid"], abs=0.4)
+
+
+@pytest.mark.parametrize("effect", ["tilt and bend", "shell", "contact"])
+def test_second_order_in_time(effect):
+    film, line = EFFECTS[effect]
+    ends = []
+    for n in (20, 40, 80):
+        time = np.linspace(0.0, 1.0, n + 1)
+        force = FORCE + np.outer(time**3, [6e5, -4e5])  # leaves with zero slope
+        more = {name: np.outer(time**3, [0.1, 0.2]) * UNIT for name in line}
+        orbit = BEARING.orbit(time, force, SPEED, replace(REDUCED, **film), tolerance=1e-11, **more)
+        ends.append(orbit.eccentricity.values[-1])
+    coarse, fine = np.linalg.norm(np.diff(ends, axis=0), axis=1)
+    assert np.log2(coarse / fine) > 1.6
+
+
+def test_a_stop_ends_on_the_asperities():
+    """Through the speed 0 the load goes over from the film to the asperities, as on the grid."""
+    small = JournalBearing(diameter=0.2, width=0.1, relative_clearance=1e-3)
+    rough = Contact(
+        AsperityContact(roughness=5e-7, contact_modulus=115e9, factor=1e-3), friction=0.1
+    )
+    film = Film(Lubricant(0.03), GasMixture(5e4), edge_pressure=1.5e5, contact=rough)
+    time = np.linspace(0.0, 4.0, 81)
+    speed = 40.0 * np.clip(1.0 - time / 2.0, 0.0, None)
+    force = np.tile([40e3, 0.0], (time.size, 1))
+    few = small.orbit(time, force, speed, replace(film, rung="reduced", grid=(240, 12)))
+    grid = small.orbit(time, force, speed, replace(film, grid=(240, 12)))
+    assert float(few.contact_share[0]) < 0.01
+    assert float(few.contact_share[-1]) > 0.4  # squeeze carries the rest for a while
+    assert np.all(np.diff(few.contact_share.values[41:]) > 0)
+    np.testing.assert_allclose(few.minimum_film, grid.minimum_film, rtol=0.03)
+    np.testing.assert_allclose(few.contact_share, grid.contact_share, atol=0.02)
+    np.testing.assert_allclose(few.contact_power, grid.contact_power, atol=0.01 * 40e3 * 0.1)
+    still = small.equilibrium((40e3, 0.0), 0.0, replace(film, rung="reduced", grid=(240, 12)))
+    assert float(still.contact_share) == pytest.approx(1.0, abs=1e-3)
+    assert float(still.minimum_film) < float(few.minimum_film[-1])
+
+
+def test_an_orbit_may_begin_at_standstill():
+    time = np.linspace(0.0, 2.0, 41)
+    force, speed = np.tile(FORCE, (41, 1)), SPEED * np.clip(time - 0.2, 0.0, None)
+    few, grid = (
+        BEARING.orbit(time, force, speed, replace(film, contact=ROUGH), tilt=TILT[:1] * 0.2)
+        for film in (REDUCED, FILM)
+    )
+    np.testing.assert_allclose(few.minimum_film, grid.minimum_film, rtol=0.03, atol=2e-6)
+    assert float(few.contact_share[0]) > 0.99 > 0.01 > float(few.contact_share[-1])
+
+
+@pytest.mark.parametrize("line", [{}, {"tilt": TILT}], ids=["aligned", "tilt"])
+@pytest.mark.parametrize("stored", [{}, {"capacity": 3e3, "start_temperature": 313.15}], ids=str)
+def test_temperature_of_a_film_in_motion(line, stored):
+    """The grid takes path and temperature in turns, the reduced film takes both in one loop."""
+    heat = Heat(**OIL, **stored)
+    found = [
+        BEARING.orbit(TIME, LOAD, SPEED, replace(film, lubricant=None, heat=heat), **line)
+        for film in (FILM, REDUCED)
+    ]
+    grid, few = found
+    np.testing.assert_allclose(few.temperature, grid.temperature, atol=0.05)
+    np.testing.assert_allclose(few.friction_power, grid.friction_power, rtol=4e-3)
+    np.testing.assert_allclose(few.minimum_film, grid.minimum_film, rtol=8e-3)
+    assert few.temperature.units == "K"
+    assert bool(np.ptp(few.temperature.values) > 1.0) == bool(stored)
+
+
+def test_stored_heat_ends_at_the_heat_balance():
+    """Under a load that stays, the slow state comes to rest where the equilibrium is."""
+    heat = Heat(**OIL, capacity=2e3, start_temperature=313.15, transfer=50.0)
+    time = np.linspace(0.0, 20.0, 201)
+    film = replace(REDUCED, lubricant=None, heat=heat)
+    path = BEARING.orbit(time, np.tile(4 * FORCE, (201, 1)), SPEED, film)
+    rest = BEARING.equilibrium(4 * FORCE, SPEED, film)
+    assert float(path.temperature[-1]) == pytest.approx(float(rest.temperature), abs=2e-3)
+    for name in ANSWERS:
+        assert float(path[name][-1]) == pytest.approx(float(getattr(rest, name)), rel=1e-4)
+
+
+def test_heat_is_of_second_order_in_time():
+    heat, ends = Heat(**OIL, capacity=8e3, start_temperature=308.15), []
+    for n in (10, 20, 40):
+        time = np.linspace(0.0, 1.0, n + 1)
+        film = replace(REDUCED, lubricant=None, heat=heat)
+        path = BEARING.orbit(time, np.tile(FORCE, (n + 1, 1)), SPEED, film, tolerance=1e-11)
+        ends.append(float(path.temperature[-1]))
+    coarse, fine = np.diff(ends)
+    assert np.log2(abs(coarse / fine)) > 1.5
+
+
+@pytest.mark.parametrize("law", [MassConserving(), Guembel(), Reynolds()], ids=lambda x: x.kind)
+def test_every_law_tilts(law):
+    film = Film(
+        Lubricant(0.05), law, edge_pressure=1e5, inlet=None, grading="uniform", grid=(60, 20)
+    )
+    some = slice(None, 16)
+    grid, few = (
+        BEARING.orbit(TIME[some], LOAD[some], SPEED, replace(film, rung=rung), tilt=TILT[some])
+        for rung in ("grid", "reduced")
+    )
+    np.testing.assert_allclose(few.eccentricity_ratio, grid.eccentricity_ratio, rtol=8e-3)
+    np.testing.assert_allclose(few.friction_power, grid.friction_power, rtol=5e-3)
+
+
+def test_what_it_does_not_know_is_named():
+    thick = ThickShell(outer_diameter=3.5, modulus=2.1e11)
+    with pytest.raises(InputError, match=r"rung = 'reduced' .* an elastic shell"):
+        BEARING.equilibrium(FORCE, SPEED, replace(REDUCED, shell=thick))
+    with pytest.raises(InputError, match=r"contact .* None with an elastic shell"):
+        BEARING.orbit(TIME, LOAD, SPEED, replace(REDUCED, shell=SOFT, contact=ROUGH))
+    with pytest.raises(InputError, match="thickness, poisson_ratio"):
+        BEARING.equilibrium(FORCE, SPEED, replace(REDUCED, shell=LinedShell(0.5, 1e9, 0.45)))
+
+
+def test_effects_cost_a_few_times_the_plain_film():
+    """Processor time in one process on the same steps; measured 4.2 (tilt), 1.8, 1.8 and 4.5."""
+    time = np.arange(0.0, 5.0, 0.025)
+    force = np.stack([2e6 + 5e5 * np.sin(1.5 * time), 4e5 * np.cos(4 * time)], axis=-1)
+    tilt = UNIT * np.stack([0.2 * np.sin(1.2 * time), 0.1 * np.cos(2 * time)], axis=-1)
+
+    def seconds(film, **line):
+        spent = []
+        for _ in range(3):
+            begun = clock.process_time()
+            BEARING.orbit(time, force, SPEED, film, **line)
+            spent.append(clock.process_time() - begun)
+        return min(spent)
+
+    plain = seconds(REDUCED)
+    assert seconds(replace(REDUCED, contact=ROUGH)) < 8 * plain
+    assert seconds(replace(REDUCED, shell=SOFT), tilt=tilt) < 15 * plain

@@ -1,0 +1,140 @@
+"""Pitch and yaw bearings swing: capacity, life, torque, and the loads under a nacelle."""
+
+import math
+
+import numpy as np
+import pytest
+from synthetic import case
+
+from loadflow.errors import InputError
+from loadflow.rolling import Oscillation, RollerBearing, SlewingBearing, friction_torque_forces
+from loadflow.rolling.rating.oscillation import IDLE_TORQUES, MOUNTING_FACTORS
+from loadflow.scene.scene import make_scene
+from loadflow.shaft import YawBearing, yaw_loads
+from loadflow.stages import friction, reduction, rolling, shaft
+from loadflow.studies.verdicts import verdicts
+
+BLADE = SlewingBearing(
+    balls=129, rows=2, ball_diameter=0.04, pitch_diameter=1.9, groove_radius=0.0205,
+    contact_angle=math.pi / 4, hardness=600.0,
+)  # fmt: skip
+HUB = case(8.0, 1, steps=200)
+GRAVITY = 9.80665
+
+
+class One:
+    dlc, wind_speed, seed, weight, name = "1.1", 8.0, 1, 1.0, "dlc1.1_v8_s1"
+
+
+def test_a_full_turn_there_and_back_is_two_revolutions():
+    turn = Oscillation(amplitude=math.pi, frequency=1.0)  # from −180° to 180° and back
+    life = turn.life(BLADE, [1e5], [1.0])
+    revolutions = (BLADE.rated_capacity / 1e5) ** 3
+    assert life == pytest.approx(revolutions / 2)
+    assert turn.hours(3.6e-3) == pytest.approx(1.0)
+
+
+def test_small_oscillations_last_longer_and_soft_mounts_shorten_life():
+    wide, narrow = (Oscillation(math.radians(a), 0.1) for a in (30.0, 10.0))
+    lives = [one.life(BLADE, [2e5, 3e5], [0.5, 0.5]) for one in (wide, narrow)]
+    assert lives[1] == pytest.approx(3 * lives[0])
+    soft = Oscillation(math.radians(30.0), 0.1, mounting="yaw, four-leg tower")
+    assert soft.life(BLADE, [2e5, 3e5], [0.5, 0.5]) == pytest.approx(0.25 * lives[0])
+    assert MOUNTING_FACTORS["pitch"] == 0.85
+
+
+def test_rollers_have_their_own_exponent():
+    rollers = RollerBearing(
+        rollers=40, roller_diameter=0.05, roller_length=0.08, pitch_diameter=1.0, contact_angle=0.3
+    )
+    turn = Oscillation(math.pi, 1.0)
+    expected = (rollers.rated_capacity / 1e5) ** (10 / 3) / 2
+    assert turn.life(rollers, [1e5], [1.0]) == pytest.approx(expected)
+
+
+def test_idle_friction_of_the_blade_bearing_adds_up_to_what_was_measured():
+    assert sum(IDLE_TORQUES.values()) == 7560.0
+    assert sum(IDLE_TORQUES[part] for part in ("first row", "second row")) == 4260.0
+
+
+@pytest.mark.parametrize("wrong", [{"amplitude": 0.0}, {"frequency": 0.0}, {"mounting": "sea"}])
+def test_what_does_not_swing_is_refused(wrong):
+    with pytest.raises(InputError):
+        Oscillation(**{"amplitude": 0.1, "frequency": 0.1} | wrong)
+
+
+def test_a_yaw_bearing_carries_what_stands_on_it():
+    yaw = YawBearing(overhang=5.0, shaft_above=2.0, nacelle_mass=240e3, nacelle_downwind=1.9)
+    force, moment = np.array([5e5, 1e5, -1e6]), np.array([4e6, 1e6, 3e5])
+    found = yaw_loads(yaw, force, moment)
+    axial, downwind, left = found["force"].values[0, :, 0]
+    assert (axial, downwind, left) == pytest.approx((-1e6 - 240e3 * GRAVITY, 5e5, 1e5))
+    _, about_downwind, about_left = found["moment"].values[0, :, 0]
+    # the rotor's weight ahead of the tower tips the nacelle forward, its thrust backward
+    assert about_left == pytest.approx(1e6 + 2 * 5e5 - 5 * 1e6 + 1.9 * 240e3 * GRAVITY)
+    assert about_downwind == pytest.approx(4e6 - 2 * 1e5)
+    tilted = yaw_loads(yaw, force, moment, tilt=0.1)
+    size = np.linalg.norm(tilted["force"].values[0, :, 0] + [240e3 * GRAVITY, 0, 0])
+    assert size == pytest.approx(np.linalg.norm(force))
+
+
+def scene_of(**yaw):
+    swings = {"amplitude": 0.5, "frequency": 0.01, "mounting": "yaw, tubular tower"}
+    geometry = {
+        "balls": 120, "rows": 1, "ball_diameter": 0.05, "pitch_diameter": 2.6,
+        "groove_radius": 0.026, "contact_angle": math.pi / 4, "shoulder_angle": 1.2,
+    }  # fmt: skip
+    part = {"kind": "four-point", "geometry": geometry, "oscillation": swings} | yaw
+    return make_scene(
+        {
+            "name": "yaw",
+            "results": ["rolling.life"],
+            "shaft": {"two_point": {}, "yaw": {}},
+            "bearings": {"Y": part},
+        }
+    )
+
+
+def answered(scene):
+    found = {"loads": HUB, "shaft": shaft.bearing_loads(scene, None, {"loads": HUB})}
+    found["reduction"] = reduction.reduced_loads(scene, One(), found)
+    return rolling.load_distribution(scene, One(), found), found
+
+
+def test_a_scene_rates_a_yaw_bearing_by_its_oscillation():
+    scene = scene_of()
+    part, inputs = answered(scene)
+    reduced = inputs["reduction"]["Y"].to_dataset()
+    swings = scene.rolling.oscillation
+    solved = rolling.solve_bearing(scene, "Y", reduced)
+    life = swings.life(scene.rolling.geometry, solved.equivalent_load, reduced["weight"].values)
+    hours = rolling.hours_together(rolling.summary({One(): part}), "bearing_life")
+    assert hours[0] == pytest.approx(swings.hours(life), rel=1e-9)
+    assert np.isfinite(float(part["bearing_truncated"][0]))
+    rule = friction_torque_forces(solved.force_sum, 2.6)
+    assert float(part["bearing_torque"][0]) == pytest.approx(rule.max(), rel=0.2)
+
+
+def test_idle_friction_adds_to_the_torque_of_a_scene():
+    swings = {"amplitude": 0.5, "frequency": 0.01, "idle_torque": 7560.0}
+    more = float(answered(scene_of(oscillation=swings))[0]["bearing_torque"][0])
+    usual = float(answered(scene_of())[0]["bearing_torque"][0])
+    assert more - usual == pytest.approx(7560.0)
+
+
+def test_a_yaw_bearing_that_turns_with_the_rotor_is_refused():
+    with pytest.raises(InputError, match="oscillation"):
+        scene_of(oscillation=None)
+
+
+def test_what_swings_has_no_modified_life_and_loses_at_its_own_speed():
+    scene = scene_of()
+    part, inputs = answered(scene)
+    table = rolling.summary({One(): part})
+    said = [verdict.quantity for verdict in verdicts(scene, {"rolling": table}, None)]
+    assert "rating life L10h" in said
+    assert "modified rating life L10mh" not in said
+    assert np.isnan(table["bearing_modified_life_hours"].values).all()
+    lost = friction.losses(scene, One(), inputs)
+    ratio = lost["friction_power"] / lost["friction_torque"]
+    np.testing.assert_allclose(ratio, 4 * 0.5 * 0.01, rtol=1e-9)

@@ -1,0 +1,108 @@
+"""What a person meets at the command line: help, examples, completion, other code pages."""
+
+import os
+import shlex
+import subprocess
+import sys
+
+import pytest
+import typer.main
+from synthetic import cube_file
+
+from loadflow import validation
+from loadflow.cli import EXAMPLE, main
+from loadflow.cli.base import app
+from loadflow.validation.check import Check
+
+COMMAND = typer.main.get_command(app)
+
+
+def call(capsys, *arguments, code=0):
+    with pytest.raises(SystemExit) as stop:
+        main(arguments)
+    assert (stop.value.code or 0) == code
+    return capsys.readouterr()
+
+
+@pytest.mark.parametrize("name", COMMAND.commands)
+def test_the_help_of_a_command_ends_with_an_example_that_it_takes(name, capsys):
+    assert "Example: loadflow" in call(capsys, name, "--help").out
+    program, command, *arguments = shlex.split(EXAMPLE[name])
+    assert (program, command) == ("loadflow", name)
+    COMMAND.commands[name].make_context(name, arguments)  # click refuses unknown options
+
+
+@pytest.mark.parametrize("name", ["journal", "rolling", "wind"])
+def test_the_example_of_one_bearing_or_wind_gives_an_answer(name, capsys):
+    assert call(capsys, *shlex.split(EXAMPLE[name])[1:]).out
+
+
+def test_help_keeps_what_stands_in_brackets(capsys, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "200")
+    assert "[journal]" in call(capsys, "journal", "--help").out
+
+
+@pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
+def test_completion_is_written_for_the_shell(shell, tmp_path):
+    away = {"HOME": str(tmp_path), "_TYPER_COMPLETE_TEST_DISABLE_SHELL_DETECTION": "1"}
+    done = subprocess.run(
+        [sys.executable, "-c", "from loadflow.cli import main; main()", "--install-completion", shell],
+        capture_output=True, text=True, check=False, env=os.environ | away,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    written = [path for path in tmp_path.rglob("*") if path.is_file()]
+    assert any("_COMPLETE" in path.read_text(encoding="utf-8") for path in written)
+
+
+def test_validate_shows_only_what_failed_when_asked(capsys, monkeypatch):
+    assert "ours" not in call(capsys, "validate", "seeds", "--failed").out
+    good = list(validation.all_checks("seeds"))
+    wrong = Check("twice", good[0].source, 2.0, 1.0, 0.1)
+    monkeypatch.setattr(validation, "all_checks", lambda name: [*good, wrong])
+    told = call(capsys, "validate", "seeds", "--failed", code=1)
+    assert "twice" in told.out
+    assert good[0].name not in told.out
+    assert f"{len(good)} of {len(good) + 1} within" in told.out
+
+
+# what another system lacks: affinity of processes, UTF-8 files by default, Greek in its code page
+ELSEWHERE = """
+import os, sys
+for name in ("sched_getaffinity", "process_cpu_count"):
+    if hasattr(os, name):
+        delattr(os, name)
+from loadflow.cli import main
+main(sys.argv[1:])
+"""
+CODE_PAGE = {
+    "LC_ALL": "C",
+    "PYTHONUTF8": "0",
+    "PYTHONCOERCECLOCALE": "0",
+    "PYTHONIOENCODING": "cp1252",
+}
+
+
+def elsewhere(*arguments):
+    return subprocess.run(
+        [sys.executable, "-c", ELSEWHERE, *map(str, arguments)],
+        capture_output=True, encoding="cp1252", check=False, env=os.environ | CODE_PAGE,
+    )  # fmt: skip
+
+
+def test_letters_that_a_code_page_lacks_are_escaped():
+    done = elsewhere("wind", "12")
+    assert done.returncode == 0, done.stderr
+    assert "\\u03c3" in done.stdout  # σ
+
+
+def test_a_run_needs_neither_affinity_nor_utf8(tmp_path):
+    cube = cube_file(tmp_path / "loads.h5", wind_speeds=(8.0,), seeds=(1, 2))
+    scene = tmp_path / "scene.toml"
+    scene.write_text(
+        '# Größe ω ≤ 1\nname = "away"\nresults = ["reduction.histogram", "rolling.loads"]\n'
+        '[shaft.moment]\n[loads]\nsource = "files"\n',
+        encoding="utf-8",
+    )
+    done = elsewhere("run", scene, "--loads", cube, "--out", tmp_path, "--workers", 2)
+    assert done.returncode == 0, done.stderr
+    assert not (tmp_path / "away" / "report.html").read_text(encoding="utf-8").isascii()

@@ -1,0 +1,77 @@
+"""No turbine stands on the bearing positions of another without a word."""
+
+import importlib.resources
+
+import pytest
+
+from loadflow.errors import InputError
+from loadflow.scene.scene import make_scene, read_scene
+from loadflow.turbines import load_turbine
+
+SHIPPED = (importlib.resources.files("loadflow.turbines") / "nrel-5mw.toml").read_text()
+
+
+@pytest.fixture
+def larger(tmp_path):
+    """The 5 MW with twice the radius in its file, which tells nothing of its bearings."""
+    path = tmp_path / "own.toml"
+    path.write_text(SHIPPED.replace("radius = 63.0", "radius = 89.0"))
+    return path
+
+
+def test_the_turbine_of_the_defaults_keeps_them():
+    scene = make_scene({"shaft": {"two_point": {}}})
+    assert scene.shaft.two_point.hub_to_first == 1.912
+    assert scene.taken == []
+
+
+@pytest.mark.parametrize("shaft", [None, {"two_point": {}}, {"two_point": {"span": 5.0}}])
+def test_another_turbine_has_scaled_distances_and_says_so(larger, shaft):
+    data = {"turbine": {"file": str(larger)}} | ({} if shaft is None else {"shaft": shaft})
+    scene = make_scene(data)
+    two_point, ratio = scene.shaft.two_point, 89 / 63
+    assert two_point.hub_to_first == pytest.approx(1.912 * ratio)
+    assert two_point.span == (5.0 if shaft and shaft["two_point"] else pytest.approx(3.6 * ratio))
+    told = "\n".join(scene.taken)
+    assert "hub_to_first = 2.701" in told
+    assert ("span" in told.split(":")[1]) == (two_point.span != 5.0)
+    assert "scaled to NREL 5 MW" in told
+
+
+def test_distances_in_the_file_of_the_turbine_are_its_own(larger):
+    text = larger.read_text()
+    line = "[drivetrain]\nhub_to_bearing = 2.5\nbearing_span = 4.0"
+    larger.write_text(text.replace("[drivetrain]", line))
+    scene = make_scene({"turbine": {"file": str(larger)}})
+    assert scene.shaft.two_point.positions == (2.5, 6.5)
+    assert scene.shaft.moment.hub_to_bearing == 2.5
+    assert not any("hub_to_first" in said or "span =" in said for said in scene.taken)
+
+
+def test_a_scene_names_its_turbine_by_file_relative_to_itself(tmp_path, larger):
+    path = tmp_path / "scene.toml"
+    path.write_text('[turbine]\nfile = "own.toml"\n')
+    scene = read_scene(path)
+    assert scene.turbine.name == str(larger)
+    again = tmp_path / "again.toml"
+    again.write_text(scene.to_toml())
+    assert read_scene(again).shaft == scene.shaft
+    with pytest.raises(InputError, match="name and file: give one of both"):
+        make_scene({"turbine": {"file": str(larger), "name": "nrel-5mw"}})
+
+
+def test_a_windio_file_is_a_turbine_of_a_scene():
+    pytest.importorskip("windIO")
+    folder = importlib.resources.files("windIO") / "examples" / "turbine"
+    scene = make_scene({"turbine": {"file": str(folder / "IEA-15-240-RWT.yaml")}})
+    # its own distances, of a direct drive
+    assert scene.shaft.direct_drive.positions == pytest.approx((1.0, 2.2))
+    assert any("rated_mechanical_power" in said for said in scene.taken)
+    assert load_turbine(scene.turbine.name).rated_power == 15e6
+
+
+def test_a_turbine_file_that_changes_is_another_input(larger):
+    data = {"turbine": {"file": str(larger)}}
+    before = make_scene(data).digest("turbine")
+    larger.write_text(larger.read_text().replace("cut_out = 25.0", "cut_out = 24.0"))
+    assert make_scene(data).digest("turbine") != before
