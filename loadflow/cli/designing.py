@@ -41,10 +41,7 @@ def design(
     overwrite: Annotated[bool, typer.Option(help="Replace parts of other settings.")] = False,
     as_json: AsJson = False,
 ) -> None:
-    """Search the best bearing: least friction with enough margin under the loads of the scene.
-
-    Example: loadflow design scene.toml --candidate two-spherical
-    """
+    """Search the best bearing: least friction with enough margin under the loads of the scene."""
     from loadflow.running.designing import design as carry_out
     from loadflow.running.executor import usable_cores
 
