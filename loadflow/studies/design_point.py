@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, fields
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -283,6 +284,11 @@ def _film_conditions(
 
 
 # --- rolling bearings -----------------------------------------------------------------------------
+
+
+def _lives(turned: _Turned, wanted: float, factor: float) -> bool:
+    """Whether a bearing reaches a modified life, h, under its loads times a factor."""
+    return bool(turned.modified(factor) >= wanted)
 
 
 def _add_rolling(
