@@ -31,7 +31,7 @@ CHANNELS, SHOWN = (
 )
 
 ROTORS = {
-    "induction of the moment (no dynamic inflow)": {"dynamic_inflow": False},
+    "with dynamic inflow": {"dynamic_inflow": True},
     "with dynamic stall": {"dynamic_stall": True},
     "without unsteady attached flow": {"shed_wake": False},
     "without the turn of bent blades": {"bend_twist": 0.0},
@@ -89,8 +89,6 @@ def measured(wind_speed, seeds):
         runs |= {
             name: loads(wind_speed, fields["fine"], **switch) for name, switch in ROTORS.items()
         }
-        theirs = fields["both: their wind"]
-        runs["their wind, no dynamic inflow"] = loads(wind_speed, theirs, dynamic_inflow=False)
         for name, series in runs.items():
             found.setdefault(name, []).append(each([series], TILT))
         print(f"seed {seed}", flush=True)
