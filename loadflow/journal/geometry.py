@@ -71,13 +71,13 @@ class JournalGeometry:
         """B/D."""
         return self.width / self.diameter
 
-    def sommerfeld_number(self, force: ArrayLike, speed: ArrayLike, viscosity: float) -> Any:
+    def sommerfeld_number(self, force: ArrayLike, speed: ArrayLike, viscosity: ArrayLike) -> Any:
         """So = F ψ²/(B D η |ω|), (1.13) of [Jonuschies 2015]; 0 without load, else ∞ at rest.
 
         Of numbers a number, of arrays of sizes of forces (N) and speeds (rad/s) an array.
         """
         load = np.asarray(force) * self.relative_clearance**2
-        drag = self.width * self.diameter * viscosity * np.abs(speed)
+        drag = self.width * self.diameter * np.asarray(viscosity) * np.abs(speed)
         with np.errstate(divide="ignore", invalid="ignore"):
             found = np.where(load == 0.0, 0.0, np.divide(load, drag))
         return found[()]

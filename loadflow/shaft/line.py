@@ -215,14 +215,14 @@ def assembled(
             system.held += [row, row + 1]
             continue
         k, c = support.matrices()
-        own = np.arange(row, row + len(k))
+        joined = np.arange(row, row + len(k))
         if not any(support.housing):
-            system.stiffness[np.ix_(own, own)] += k
-            system.damping[np.ix_(own, own)] += c
+            system.stiffness[np.ix_(joined, joined)] += k
+            system.damping[np.ix_(joined, joined)] += c
             continue
         moving = np.arange(place, place + 2)
         spread = np.zeros((len(k), size))  # motion of the shaft against the housing
-        spread[np.arange(len(k)), own] = 1.0
+        spread[np.arange(len(k)), joined] = 1.0
         spread[[0, 1], moving] -= 1.0
         system.stiffness += spread.T @ k @ spread
         system.damping += spread.T @ c @ spread
