@@ -40,6 +40,7 @@ from loadflow.shaft import (
     MomentBearing,
     ThreePoint,
     TwoPoint,
+    YawBearing,
 )
 from loadflow.stages import loads, seeds, shaft, statistics
 
@@ -170,6 +171,7 @@ def measure_shaft(bench: Bench) -> Rungs:
         Shaft(moment=stiff),
         Shaft(two_point=bent, moment=one),
         Shaft(two_point=bent, moment=stiff),
+        Shaft(yaw=YawBearing()),
     ]
     rungs = {
         rung_key(bench.scene.model_copy(update={"shaft": section}), "shaft"): section

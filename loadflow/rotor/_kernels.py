@@ -169,7 +169,7 @@ def blade_aerodynamics(
 ):  # fmt: skip
     """Aerodynamic force (x, r, t) on each section of one blade, N, and nose-up couple, N m.
 
-    `tilt` and `drift` (6,): see `nacelle_motion`; `motion` (n, 7): see `deflection`; `guess` (n,):
+    `tilt` and `drift` (6,): see `nacelle_motion`; `motion` (n, 8): see `deflection`; `guess` (n,):
     inflow angles of the step before, replaced; `wake` (n, SECTION_STATES): see `coefficients`;
     `induced` (n, 2, 3): see `inflow_lag`. Returns the mean wind over the sections (x, y, z).
     """
@@ -198,13 +198,15 @@ def blade_aerodynamics(
         lean_s, lean_c = np.sin(lean), np.cos(lean)
         normal = shaft_x * lean_c + radial * lean_s - motion[i, 2]
         tangential = speed * out + motion[i, 3] + cosine * wind_y + sine * shaft_z
-        turned = pitch + motion[i, 6]
+        # a blade that twists turns the section in the flow; one that bends both ways turns but the
+        # axes in which its airfoil is looked up, which momentum knows nothing of
+        twisted = pitch + motion[i, 7]
         if momentum == 0.0:
             a = swirl = 0.0
         elif m.table.shape[0] > 0:
-            a, swirl = tabulated_induction(m, i, turned, normal, tangential)
+            a, swirl = tabulated_induction(m, i, twisted, normal, tangential)
         else:
-            angle, a, swirl = solve(m, i, turned, normal, tangential, guess[i])
+            angle, a, swirl = solve(m, i, twisted, normal, tangential, guess[i])
             guess[i] = angle
         if momentum < 1.0:
             a, swirl = a * momentum, swirl * momentum
@@ -213,7 +215,7 @@ def blade_aerodynamics(
         a = skewed(m, a, y, z, state)
         # rotation of the rotor turns a section that leans about its span
         f_normal, f_tangential, couple = section_force(
-            m, i, turned, -speed * lean_s, normal, tangential, a, swirl, dt, wake[i]
+            m, i, twisted + motion[i, 6], -speed * lean_s, normal, tangential, a, swirl, dt, wake[i]
         )
         force[i, 0] = f_normal * lean_c * m.width[i]
         force[i, 1] = f_normal * lean_s * m.width[i]
@@ -238,7 +240,7 @@ def march(
     """
     sections, modes, count, twist = m.radius.size, q.shape[1], h.size, m.frame.twist
     shape = np.zeros((m.blades, sections, modes, 4))
-    motion = np.zeros((sections, 7))
+    motion = np.zeros((sections, 8))
     force = np.zeros((m.blades, sections, 4))
     twists = torsions.shape[1] > 0
     answer = np.zeros((m.blades, modes, 1 + count))
@@ -261,7 +263,7 @@ def march(
             q_ahead = q[b] + dt * v[b] + 0.5 * dt * dt * acc[b]
             deflection(m, pitch, shape[b], q_ahead, v[b] + dt * acc[b], motion)
             if twists:
-                motion[:, 6] += torsions[b]
+                motion[:, 7] = torsions[b]
             wind = blade_aerodynamics(
                 m, inflow, step, time, azimuth, pitch, speed, tilt, drift, motion, state, guess[b],
                 wake[b], induced[b], since, force[b],

@@ -11,6 +11,7 @@ from loadflow.rolling import RollerBearing, SlewingBearing, SphericalRollerBeari
 from loadflow.scene.loads import Loads
 from loadflow.scene.scene import Scene, make_scene
 from loadflow.scene.section import Section
+from loadflow.turbines import load_turbine
 from loadflow.turbines.files import scaled_name
 from loadflow.wind.cases import LOAD_CASES, STANDING, LoadCase
 
@@ -145,6 +146,8 @@ def _of_loads(scene: Scene) -> Iterator[tuple[str, str]]:
     else:
         yield from _of_wind(loads, rows)
     yield from _of_rotor(loads, rows)
+    if not load_turbine(scene.turbine.name).blade.twists:
+        yield "blade_torsion", "the turbine does not tell the torsional stiffness of its blades"
 
 
 def _of_files(loads: Loads) -> Iterator[tuple[str, str]]:
@@ -178,8 +181,8 @@ def _of_wind(loads: Loads, rows: list[LoadCase]) -> Iterator[tuple[str, str]]:
 def _of_rotor(loads: Loads, rows: list[LoadCase]) -> Iterator[tuple[str, str]]:
     standing = [row.events[0] in STANDING for row in rows]
     if loads.rung in ("tables", "bem") or (loads.rung is None and all(standing)):
-        for key in ("bend_twist", "blade_torsion"):
-            yield key, "the blades of this rung do not bend"
+        yield "bend_twist", "the blades of this rung do not bend"
+        yield "blade_torsion", "the blades of this rung do not bend"
     if all(standing):
         for key in ("individual_pitch", "dynamic_inflow"):
             yield key, "the rotor stands or idles in every load case"
@@ -241,6 +244,9 @@ def _of_journal(scene: Scene) -> Iterator[tuple[str, str]]:
     if journal.heat is None:
         for key in ("limits.oil", "limits.oil_hours", "limits.temperature"):
             yield key, "the temperature of the film is not computed; give journal.heat"
+    if isinstance(journal.heat, Heat) and not journal.in_motion:
+        for key in ("heat.capacity", "heat.start_temperature"):
+            yield key, "only a film in motion stores heat"
     starts = {dlc for dlc in scene.loads.dlcs if _starts(dlc)}
     if scene.loads.source == "simulate" and not starts:
         yield "limits.start_time", "no load case of this scene starts, stops or stands"

@@ -161,7 +161,7 @@ def pad_checks() -> Iterator[Check]:
         assert isinstance(state, FilmHeatEquilibrium)
         got = float(state.maximum_temperature) - _CELSIUS
         missed = _CONDUCTION if rpm < 3000 else ""
-        name, source = f"T_max of four pads, {rpm}/min", "Fillon, Bligoud & Frêne 1992"
+        name, source = f"T_max of four pads, {rpm}/min", "Fillon, Bligoud and Frêne 1992"
         yield Check(
             f"{name}, 3 K below the measured", source, measured - 3.0, got, 5.0, "absolute", "°C",
             missed=missed, evidence="measured elsewhere",

@@ -7,6 +7,7 @@ from loadflow.errors import InputError
 from loadflow.journal import (
     Control,
     Film,
+    FilmHeat,
     GasMixture,
     Heat,
     JournalBearing,
@@ -123,7 +124,7 @@ def test_heat_is_refused_where_no_model_has_it():
     with pytest.raises(InputError, match="heat = "):
         BEARING.pressure((0.0, 0.0), 100.0, film)
     with pytest.raises(InputError, match="heat = "):
-        BEARING.orbit([0.0, 0.1], [LOAD, LOAD], 100.0, film)
+        BEARING.orbit([0.0, 0.1], [LOAD, LOAD], 100.0, Film(heat=FilmHeat(), **WORDS))
 
 
 def test_a_film_may_be_part_of_a_set():

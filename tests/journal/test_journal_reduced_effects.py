@@ -147,6 +147,7 @@ def test_a_held_tilt_and_its_moment_are_each_others_inverse():
     np.testing.assert_allclose(free.eccentricity, held.eccentricity, rtol=1e-7)
 
 
+@pytest.mark.slow
 def test_order_across_is_that_of_polynomials(monkeypatch):
     """Each odd and even pair more takes the error of a tilted film down severalfold."""
     found = []

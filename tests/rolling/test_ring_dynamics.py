@@ -105,6 +105,7 @@ def test_modes_carry_the_mass_of_the_ring():
         assert 0.9 * whole < effective[direction, direction] < whole * (1 + 1e-9)
 
 
+@pytest.mark.slow
 def test_rings_with_mass_settle_where_statics_says_with_any_number_of_modes():
     static = BEARING.equilibrium(*LOAD, rings=BOTH)
     peaks = []

@@ -46,8 +46,9 @@ def turned_shapes(m, pitch, shape):
 
 @kernel
 def deflection(m, pitch, shape, q, v, motion):
-    """Motion of each section, (n, 7): deflection normal and tangential, their rates, slope of the
-    normal deflection, pull towards the root, nose-down turn. Modes and prebend turn with the pitch.
+    """Motion of each section, (n, 8): deflection normal and tangential, their rates, slope of the
+    normal deflection, pull towards the root, nose-down turn by bending; the last, that by torsion,
+    stays 0. Modes and prebend turn with the pitch.
 
     A blade that bends both ways turns its sections by the product of the two slopes, see
     `RotorOptions.bend_twist`.
