@@ -46,6 +46,8 @@ class Journal(Section, BaseModel):
     series, as its loads change faster than a bearing warms. With ``kind = "film"`` an energy
     equation gives every cell of the film at rest its own temperature.
 
+    ``step`` is the largest step of a film in motion, s: it passes over the samples between;
+    default every sample.
     With ``tilt`` the shaft is tilted and bent in them as the beam of its suspension is; if it
     has none, it tilts freely under the moment that the shaft stage gives. The film is then solved
     over its full width.
@@ -88,6 +90,7 @@ class Journal(Section, BaseModel):
     rung: RungName = "grid"
     heat: HeatTable | None = None
     motion: Literal["quasi-static", "transient"] = "quasi-static"
+    step: Positive | None = None
     tilt: bool = False
     shell: LocalShell | LinedShell | ThickShell | MatrixShell | None = None
     contact: Contact | None = None
@@ -143,6 +146,10 @@ class Journal(Section, BaseModel):
         """Whether the film follows the whole series; it does not read the reduced one then."""
         return self.motion == "transient"
 
+    def every(self, step: float) -> int:
+        """How-manyth sample a film in motion takes of a series sampled at `step`, s."""
+        return 1 if self.step is None else max(1, int(self.step / step + 1e-6))
+
     @property
     def film_model(self) -> Film:
         """The film that these keys describe."""
@@ -180,7 +187,7 @@ class Journal(Section, BaseModel):
         return self
 
 
-_OF_ALL = ("motion", "tilt", "rung", "grid", "grading")
+_OF_ALL = ("motion", "step", "tilt", "rung", "grid", "grading")
 """What all journal bearings of a scene share: how the film is modelled."""
 
 

@@ -236,17 +236,6 @@ class Scene(Section, BaseModel):
                 raise ValueError(f"{what}: it aligns itself; leave out takes_moment")
         return self
 
-    @model_validator(mode="after")
-    def _tilted_at_rest(self) -> Self:
-        journal = self.journal
-        tilted = journal.tilt and any(map(self.shaft.bends_at, journal.bearings))
-        if tilted and journal.in_motion:
-            raise ValueError(
-                'journal.motion = "transient" does not know the tilt of a shaft with a beam; set '
-                '"quasi-static", or leave out journal.tilt or the beam'
-            )
-        return self
-
     @property
     def taken(self) -> list[str]:
         """What neither scene nor turbine state, and what is taken instead."""

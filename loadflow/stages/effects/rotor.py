@@ -32,7 +32,7 @@ def _simulated(scene: Scene) -> bool:
 
 
 def _of_loads(share: float) -> Sizes:
-    return {"bearing load max": share, "bearing force DEL": share}
+    return dict.fromkeys(("bearing load max", "radial force max", "bearing force DEL"), share)
 
 
 def _inflow(at: Situation) -> Sizes:

@@ -17,7 +17,7 @@ def _determinate(at: Situation) -> Sizes:
 
     How a bent shaft tilts in its films is counted there, as tilt.
     """
-    return {"bearing load max": 0.0, "bearing force DEL": 0.0}
+    return dict.fromkeys(("bearing load max", "radial force max", "bearing force DEL"), 0.0)
 
 
 def _rigid(scene: Scene, on: bool) -> Scene | None:
