@@ -184,9 +184,6 @@ LONGEST = 450
 
 LONGER = {
     "journal/models/_composed_kernels.py",
-    "running/designing.py",
-    "running/report_page.py",
-    "running/runner.py",
 }
 """Known longer files."""
 

@@ -6,12 +6,10 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from jinja2 import Environment, PackageLoader, select_autoescape
-
 from loadflow.plots.style import to_svg
 from loadflow.report.compare_page import short
 from loadflow.report.design_figures import front_figure, map_figure
-from loadflow.storage import write_text
+from loadflow.report.page import write_filled
 
 FRONT_ROWS = 12
 """Designs of the front that the page lists."""
@@ -43,12 +41,11 @@ def write_design(path: Path, data: Mapping[str, Any]) -> Path:
     data : mapping
         `loadflow.studies.design_result.Designs.as_dict`.
     """
-    environment = Environment(
-        loader=PackageLoader("loadflow.report"), autoescape=select_autoescape(["html"])
-    )
     checks = data["checks"]
     best = next((name for name in reversed(checks) if name != "start"), None)
-    page = environment.get_template("design.html").render(
+    return write_filled(
+        path,
+        "design.html",
         data=data,
         best=checks[best] if best else None,
         start=checks.get("start"),
@@ -57,7 +54,6 @@ def write_design(path: Path, data: Mapping[str, Any]) -> Path:
         figure=to_svg(front_figure(data)),
         maps=[(one["keys"], to_svg(map_figure(data, k))) for k, one in enumerate(data["maps"])],
     )
-    return write_text(path, page)
 
 
 def _rows(data: Mapping[str, Any], best: str | None) -> Any:

@@ -1,4 +1,4 @@
-"""What a comparison gives: numbers with what is known of their error, candidates, all of them."""
+"""Result of a comparison: numbers with their errors, candidates, and all of them together."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class Number:
     time : float
         Its time in that case, s.
     place : str
-        Bearing that it is of.
+        Bearing that it belongs to.
     note : str
         What else must be known.
     """
@@ -80,7 +80,7 @@ class Judged:
     checks : list
         How far sampled answers moved with better models: stage, quantity, change.
     bearings : list
-        What stands at each place.
+        The bearing at each place.
     folder : str
         Of its run, relative to that of the comparison.
     unanswered : dict
@@ -111,6 +111,26 @@ class Judged:
     def holds(self) -> bool:
         """Whether all hold, but for the lack of a thrust bearing."""
         return not self.broken and not self.unanswered
+
+    def as_dict(self) -> dict[str, Any]:
+        """All of it in plain values for JSON; what is not known is None."""
+        return {
+            "name": self.name,
+            "title": self.title,
+            "source": self.source,
+            "kind": self.kind,
+            "holds": self.holds,
+            "thrust": self.thrust,
+            "governs": self.governs,
+            "change": self.change,
+            "numbers": {key: plain(vars(n)) for key, n in self.numbers.items()},
+            "verdicts": [v.as_dict() for v in self.verdicts],
+            "models": self.models,
+            "checks": self.checks,
+            "bearings": self.bearings,
+            "folder": self.folder,
+            "unanswered": self.unanswered,
+        }
 
 
 QUANTITIES: dict[str, tuple[str, str]] = {
@@ -175,26 +195,7 @@ class Comparison:
             "quantities": {
                 key: {"name": name, "unit": unit} for key, (name, unit) in QUANTITIES.items()
             },
-            "candidates": [
-                {
-                    "name": one.name,
-                    "title": one.title,
-                    "source": one.source,
-                    "kind": one.kind,
-                    "holds": one.holds,
-                    "thrust": one.thrust,
-                    "governs": one.governs,
-                    "change": one.change,
-                    "numbers": {key: plain(vars(n)) for key, n in one.numbers.items()},
-                    "verdicts": [v.as_dict() for v in one.verdicts],
-                    "models": one.models,
-                    "checks": one.checks,
-                    "bearings": one.bearings,
-                    "folder": one.folder,
-                    "unanswered": one.unanswered,
-                }
-                for one in self.candidates
-            ],
+            "candidates": [one.as_dict() for one in self.candidates],
             "shaft": self.shaft,
             "failures": self.failures,
             "without_place": self.without_place,

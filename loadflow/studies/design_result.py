@@ -235,18 +235,7 @@ class Designs:
                 }
                 for one in self.maps
             ],
-            "checks": {
-                name: {
-                    "title": one.title,
-                    "holds": one.holds,
-                    "governs": one.governs,
-                    "folder": one.folder,
-                    "models": one.models,
-                    "numbers": {key: plain(vars(n)) for key, n in one.numbers.items()},
-                    "verdicts": [v.as_dict() for v in one.verdicts],
-                }
-                for name, one in self.judged.items()
-            },
+            "checks": {name: one.as_dict() for name, one in self.judged.items()},
             "failures": self.failures,
         }
 
