@@ -3,7 +3,7 @@
 The inner ring with its structure has mass, contacts and rings have damping. The rings are their
 static modes without inertia (Guyan), or with their masses and some modes of vibration with held
 patches (Craig–Bampton). What comes to rest is the equilibrium of `BallRaceways.equilibrium`; the
-way there depends on damping, which the source gives no value for.
+way there depends on damping, which Ritzer gives no value for.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ class Inertia:
         Radius of gyration about the tilt axes, m.
     contact_damping : float
         C_max of (3.2) over K √step, s, K the stiffness of both contacts of a ball in series; the
-        √step gives the source's numeric rule its units.
+        √step gives Ritzer's numeric rule its units.
     step : float
         Penetration at which the damping of a contact is fully on, m (3.1).
     ring_damping : float
