@@ -15,18 +15,18 @@ FRONT_ROWS = 12
 """Designs of the front that the page lists."""
 
 CHECKED = (
-    ("load_factor", "capacity margin", "×"),
-    ("energy", "energy lost a year", "MWh"),
-    ("friction", "mean friction loss", "kW"),
-    ("minimum_film", "smallest film", "µm"),
-    ("film_pressure", "largest film pressure", "MPa"),
-    ("eccentricity_ratio", "largest eccentricity ratio", "–"),
-    ("tilt", "tilt of the shaft to its limit, told only", "%"),
-    ("oil_flow", "oil that leaves the film", "l/min"),
-    ("static_safety", "static rating over the design load", "–"),
-    ("contact_pressure", "largest contact pressure", "MPa"),
-    ("modified_life", "modified life of all bearings", "years"),
-    ("rating_life", "rating life of all bearings", "years"),
+    "load_factor",
+    "energy",
+    "friction",
+    "minimum_film",
+    "film_pressure",
+    "eccentricity_ratio",
+    "tilt",
+    "oil_flow",
+    "static_safety",
+    "contact_pressure",
+    "modified_life",
+    "rating_life",
 )
 """Rows of the first table: numbers of the fast models and of the runs, in one unit."""
 
@@ -61,7 +61,8 @@ def _rows(data: Mapping[str, Any], best: str | None) -> Any:
     numbers = data["designs"][data["best"]]["numbers"] if data["best"] is not None else {}
     runs = [data["checks"].get(name) for name in ("start", best) if name]
     runs += [None] * (2 - len(runs))
-    for key, name, unit in CHECKED:
+    for key in CHECKED:
+        about = data["quantities"][key]
         factor = data["numbers"].get(key, {"shown": [1.0]})["shown"][0]
         fast = [
             "" if one.get(key) is None else short(factor * one[key])
@@ -70,7 +71,7 @@ def _rows(data: Mapping[str, Any], best: str | None) -> Any:
         run = [_run_value(one, key) for one in runs]
         cells = [fast[0], run[0], fast[1], run[1]]
         if any(cells):
-            yield name, unit, cells
+            yield about["name"], about["unit"], cells
 
 
 def _run_value(run: Mapping[str, Any] | None, key: str) -> str:

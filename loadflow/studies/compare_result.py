@@ -146,7 +146,7 @@ QUANTITIES: dict[str, tuple[str, str]] = {
     "row_share": ("load on the row that takes the thrust, at largest thrust", "%"),
     "row_overload": ("the same over an even share", "×"),
     "film_parameter": ("film parameter Λ at low speed", "–"),
-    "tilt": ("tilt of the shaft to its limit", "%"),
+    "tilt": ("tilt of the shaft over its limit", "%"),
     "friction": ("mean friction loss", "kW"),
     "energy": ("energy lost a year", "MWh"),
     "oil_flow": ("oil that leaves the film", "l/min"),
@@ -154,6 +154,11 @@ QUANTITIES: dict[str, tuple[str, str]] = {
     "mixed_time": ("time in mixed friction a year", "h"),
 }
 """What is compared: its name and unit, in the order of the table."""
+
+
+def named_quantities() -> dict[str, dict[str, str]]:
+    """Name and unit of what is compared, for JSON."""
+    return {key: {"name": name, "unit": unit} for key, (name, unit) in QUANTITIES.items()}
 
 
 @dataclass(frozen=True)
@@ -192,9 +197,7 @@ class Comparison:
             "name": self.name,
             "conclusion": self.conclusion,
             "facts": self.facts,
-            "quantities": {
-                key: {"name": name, "unit": unit} for key, (name, unit) in QUANTITIES.items()
-            },
+            "quantities": named_quantities(),
             "candidates": [one.as_dict() for one in self.candidates],
             "shaft": self.shaft,
             "failures": self.failures,
