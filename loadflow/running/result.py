@@ -1,4 +1,4 @@
-"""What a run has found: its parts joined in one tree, verdicts and lifetime, texts for others."""
+"""What a run has found: its parts joined in one tree, verdicts and lifetime."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ import xarray as xr
 from loadflow.cube import open_cube
 from loadflow.planning.plan import Plan
 from loadflow.planning.verification import CHECK
-from loadflow.running.cases import OpenedLate
+from loadflow.running.executor import Executor
 from loadflow.running.folder import part_file
+from loadflow.running.whole import summaries
 from loadflow.scene.scene import Scene
 from loadflow.stages.registry import STAGES
-from loadflow.storage import write_text
 from loadflow.verdict import Verdict, from_dataset, to_dataset
 
 
@@ -81,21 +81,11 @@ class Run:
         return self.path / "report.html"
 
 
-def collect(plan: Plan, folder: Path) -> xr.DataTree:
+def collect(plan: Plan, folder: Path, where: Executor) -> xr.DataTree:
     """Join what the stages found, reduced to what a reader wants of each case."""
-    groups: dict[str, xr.Dataset | xr.DataTree] = {}
-    missing: dict[str, list[str]] = {}
-    for step in plan.steps:
-        if step.stage.scope == "run":
-            groups[step.name] = open_cube(part_file(folder, step.name))
-        elif step.stage.summarise:
-            files = {case: part_file(folder, step.name, case) for case in plan.cases}
-            there = {case: file for case, file in files.items() if file.exists()}
-            missing[step.name] = [case.name for case in files if case not in there]
-            parts = OpenedLate(there, open_cube)
-            found = step.stage.summarise(parts) if parts else None
-            if found is not None:
-                groups[step.name] = found
+    found, missing = summaries(plan, folder, where)
+    found |= {step.name: open_cube(part_file(folder, step.name)) for step in plan.of_scope("run")}
+    groups = {step.name: found[step.name] for step in plan.steps if step.name in found}
     groups |= _judged(plan.scene, groups, missing)
     return xr.DataTree.from_dict(
         {
@@ -104,18 +94,6 @@ def collect(plan: Plan, folder: Path) -> xr.DataTree:
             for path, node in _nodes(data)
         }
     )
-
-
-def export(plan: Plan, folder: Path) -> None:
-    """Write what stages give as text, for other programs."""
-    for step in plan.of_scope("case"):
-        if (exports := step.stage.exports) is None:
-            continue
-        for case in plan.cases:
-            if (part := part_file(folder, step.name, case)).exists():
-                for name, text in exports(case, open_cube(part)).items():
-                    (folder / name).parent.mkdir(exist_ok=True)
-                    write_text(folder / name, text)
 
 
 def _judged(
