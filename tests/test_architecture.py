@@ -184,10 +184,6 @@ LONGEST = 450
 
 LONGER = {
     "journal/models/_composed_kernels.py",
-    "running/designing.py",
-    "running/report_page.py",
-    "running/runner.py",
-    "turbines/schema.py",
 }
 """Known longer files."""
 

@@ -57,7 +57,7 @@ class Journal(Section, BaseModel):
     line at the widest gap, or does not; "auto" leaves it to the law.
 
     A ``shell`` makes the bore elastic; its key ``kind`` says how: local, lined, thick, or matrix
-    with a ``matrix`` of influence numbers, or the name of a file that holds it.
+    with a ``matrix`` of influence coefficients, or the name of a file that holds it.
 
     ``shaft_roughness`` and ``shell_roughness`` are R_z, m, about 6.3 R_a of the 0.2 and 0.4 µm that
     Autodesk Inventor's plain bearing calculator recommends. Where the film would be thinner than

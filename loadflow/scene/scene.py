@@ -218,21 +218,21 @@ class Scene(Section, BaseModel):
     @model_validator(mode="after")
     def _supports_have_bearings(self) -> Self:
         there = {"journal": self.journal.bearings, "rolling": [*self.rolling.geometries]}
-        for name, seat in self.shaft.coupled.items():
-            what = f'shaft: seat of bearing {name} with stiffness = "{seat.stiffness}"'
-            have = there[seat.stiffness]
+        for name, support in self.shaft.coupled.items():
+            what = f'shaft: support of bearing {name} with stiffness = "{support.stiffness}"'
+            have = there[support.stiffness]
             if name not in have:
                 raise ValueError(
-                    f"{what}: the scene has {seat.stiffness} bearings at {', '.join(have)} only"
+                    f"{what}: the scene has {support.stiffness} bearings at {', '.join(have)} only"
                 )
-            if seat.takes_moment and seat.stiffness == "journal" and not self.journal.tilt:
+            if support.takes_moment and support.stiffness == "journal" and not self.journal.tilt:
                 raise ValueError(
                     f"{what} and takes_moment = true: only a tilted film takes a moment; set "
                     "journal.tilt = true, or leave out takes_moment"
                 )
             geometry = self.rolling.geometries.get(name)
             aligning = geometry is not None and not geometry.takes_moment
-            if seat.takes_moment and seat.stiffness == "rolling" and aligning:
+            if support.takes_moment and support.stiffness == "rolling" and aligning:
                 raise ValueError(f"{what}: it aligns itself; leave out takes_moment")
         return self
 
