@@ -183,7 +183,6 @@ LONGEST = 450
 """Lines of a file."""
 
 LONGER = {
-    "journal/models/_composed_kernels.py",
     "running/designing.py",
     "running/report_page.py",
     "running/runner.py",

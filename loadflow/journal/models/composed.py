@@ -14,11 +14,9 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.errors import SolverError
 from loadflow.journal.contact import Contact
 from loadflow.journal.film._rough_kernels import NO_CONTACT
 from loadflow.journal.film.asperity_load import CylinderLoad
-from loadflow.journal.film.discretise import build_film
 from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.gap_rough import RoughGap
 from loadflow.journal.film.integrals import Integrals, in_units
@@ -30,13 +28,13 @@ from loadflow.journal.models._composed_kernels import summarise
 from loadflow.journal.models._composed_loops import finish, march, newton
 from loadflow.journal.models.composed_film import Composed, ComposedWork, Rough, make_work
 from loadflow.journal.models.model import Steps
+from loadflow.journal.models.ring import estimates, no_start, ring_of, stopped, units_of
 from loadflow.journal.models.slow_heat import THIN, cooled, slow_states
 from loadflow.journal.models.width_modes import half_width_nodes, whole_width
 from loadflow.journal.rows import operating_columns, without_supply
 from loadflow.journal.shells import LinedShell, LocalShell
-from loadflow.journal.solvers.estimate import NEAR, closed_form_position
-from loadflow.journal.solvers.messages import no_equilibrium, not_found
-from loadflow.numerics.convergence import Limits, unresolved
+from loadflow.journal.solvers.estimate import NEAR
+from loadflow.numerics.convergence import Limits
 
 Array = NDArray[np.float64]
 
@@ -104,20 +102,13 @@ class ComposedFilm:
 
     def cold(self) -> Array:
         """Unknowns of a film at edge pressure."""
-        return self.units.unknown_of(np.full(self.work.u.shape, self.film.p_edge))
+        return self.units.unknown_of(np.full(self.work.u.shape, self.units.p_edge))
 
     def estimates(self, force: Array, speed: Array, lines: Array) -> Array:
         """First positions (n, 4): closed form, as near as asperities and given tilt ask."""
         size = np.hypot(*force.T)
-        numbers = [
-            self.bearing.sommerfeld_number(*point, self.units.viscosity)
-            for point in zip(size.tolist(), speed.tolist())
-        ]
-        ratio = self.bearing.width / self.bearing.diameter
-        ruptures = self.units.ruptures
-        finite = np.where(np.isfinite(numbers), numbers, 1e9)
         places = np.zeros((speed.size, 4))
-        places[:, :2] = closed_form_position(ratio, finite, force, speed, ruptures)
+        places[:, :2] = estimates(self.bearing, self.units, force, speed)
         if self.size == 2:
             places[:, 2:] = lines[:, :2]
         standing = speed == 0.0
@@ -278,7 +269,7 @@ def orbit(
     model = build(bearing, options, speed, line)
     raised = float(np.hypot(*force.T).max()) / (bearing.width * bearing.diameter)
     model.units.raise_scale(raised)
-    film = model.film._replace(scale=model.units.scale)
+    film = model.film._replace(ring=model.film.ring._replace(scale=model.units.scale))
     model = replace(model, film=film)
     work, rows = model.work, np.zeros((time.size, at.RESULTS))
     lines, loads = model.lines(time.size), model.loads(force)
@@ -305,8 +296,8 @@ def orbit(
                 film, work, first, loads[0], moving, turning, 0.0, *limits
             )
     if not converged:
-        why = not_found(residual, rounding, iterations, float(np.hypot(*first[:2])))
-        raise SolverError(f"orbit cannot start: {no_equilibrium(force[0], speed[0], why)}")
+        found = residual, rounding, iterations
+        raise no_start(force[0], speed[0], float(np.hypot(*first[:2])), found)
     summarise(film, work, first, rows[0])
     rows[0, at.RESIDUAL :] = residual, iterations, converged, rounding
     solved = march(
@@ -315,12 +306,9 @@ def orbit(
     )  # fmt: skip
     last = solved - 1
     if not rows[last, at.CONVERGED]:
-        raise SolverError(
-            f"orbit stops at t = {time[last]:.6g} s: F = ({force[last, 0]:.6g}, "
-            f"{force[last, 1]:.6g}) N, ω = {speed[last]:.6g} rad/s, "
-            f"ε = {np.hypot(rows[last, at.X], rows[last, at.Y]):.6g}; "
-            + unresolved(*rows[last, [at.RESIDUAL, at.ROUNDING, at.ITERATIONS]])
-        )
+        found = tuple(rows[last, [at.RESIDUAL, at.ROUNDING, at.ITERATIONS]])
+        ratio = float(np.hypot(rows[last, at.X], rows[last, at.Y]))
+        raise stopped(time[last], force[last], speed[last], ratio, found)
     values = model.results(rows, speed * states[:, THIN])
     values |= {"x": rows[:, at.X], "y": rows[:, at.Y]}
     if options.contact is not None:
@@ -353,22 +341,15 @@ def _share(carried: Array, force: Array) -> Array:
 
 def build(bearing: JournalGeometry, options: Film, speed: Array, line: Line) -> ComposedFilm:
     """Put a film on cells around and points across."""
-    bare = replace(options, grading="uniform", inlet=None, contact=None, shell=None)
-    units = build_film(bearing.diameter, bearing.width, bearing.relative_clearance, bare)
-    units.set_scale(float(np.abs(speed).max()))
+    units = units_of(bearing, options, speed)
     half = float(units.mesh.z_edges[-1])
     whole = not line.straight
     nodes = whole_width(half, POINTS) if whole else half_width_nodes(half, HALF_POINTS)
-    angle = units.mesh.angle
-    face = angle + np.pi / angle.size
     film = Composed(
-        np.cos(angle), np.sin(angle), np.cos(face), np.sin(face), units.mesh.order,
-        (0,) * nodes.slopes.shape[1], (0,) * nodes.z.size, nodes,
-        units.law.address, np.array(units.law.numbers), units.law.fill_at(units.p_edge),
-        units.scale, units.p_edge, units.slope, (1.0 if whole else 2.0) * units.radius**2,
-        _give(bearing, options), _rough(bearing, options.contact, whole, units),
+        ring_of(units, 1.0 if whole else 2.0), (0,) * nodes.slopes.shape[1], (0,) * nodes.z.size,
+        nodes, _give(bearing, options), _rough(bearing, options.contact, whole, units),
     )  # fmt: skip
-    return ComposedFilm(bearing, options, line, units, film, make_work(angle.size, nodes))
+    return ComposedFilm(bearing, options, line, units, film, make_work(units.mesh.shape[0], nodes))
 
 
 def _give(bearing: JournalGeometry, options: Film) -> float:
