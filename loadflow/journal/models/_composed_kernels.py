@@ -331,6 +331,12 @@ def summarise(film, work, q, row):
             for j in range(m):
                 value += fine[k, j] * (p[i % nx, j] - film.ring.p_edge)
             peak = max(peak, value)
+    left = 0.0
+    for n in range(film.nodes.highest.shape[0]):
+        value = 0.0
+        for j in range(m):
+            value += film.nodes.highest[n, j] * (p[highest, j] - film.ring.p_edge)
+        left = max(left, abs(value))
     for k in range(4):
         row[k] = q[k]
     row[at.PEAK] = peak
@@ -346,3 +352,8 @@ def summarise(film, work, q, row):
     row[at.MOMENT_Y] = unit * my + work.touch[0, 3]
     row[at.CONTACT_X] = work.touch[0, 0]
     row[at.CONTACT_Y] = work.touch[0, 1]
+    mean = np.hypot(unit * fx + work.touch[0, 0], unit * fy + work.touch[0, 1])
+    mean /= (
+        2.0 * film.ring.area * weights.sum()
+    )  # beside asperities a film may carry next to nothing
+    row[at.HIGHEST] = left / max(peak - film.ring.p_edge, mean, 1e-3 * film.ring.scale)

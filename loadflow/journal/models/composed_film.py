@@ -22,9 +22,9 @@ Array = NDArray[np.float64]
 # columns of a row of results
 (
     X, Y, TILT_X, TILT_Y, PEAK, DISSIPATION, SHEAR, OUTFLOW, FILLED, LEAST, GROWTH, MOMENT_X,
-    MOMENT_Y, CONTACT_X, CONTACT_Y, NORMAL, RESIDUAL, ITERATIONS, CONVERGED, ROUNDING,
-) = range(20)  # fmt: skip
-RESULTS = 20
+    MOMENT_Y, CONTACT_X, CONTACT_Y, NORMAL, HIGHEST, RESIDUAL, ITERATIONS, CONVERGED, ROUNDING,
+) = range(21)  # fmt: skip
+RESULTS = 21
 
 
 class Rough(NamedTuple):
