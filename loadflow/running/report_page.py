@@ -17,6 +17,7 @@ from loadflow.plots.style import readable
 from loadflow.report import Picture, Section, Table, figures, write_page
 from loadflow.running.dynamics_page import dynamics_section
 from loadflow.running.folder import read_manifest
+from loadflow.running.start_page import start_tables
 from loadflow.scene.scene import Scene, read_scene
 from loadflow.scene.unused import scaling_note, unused_keys
 from loadflow.stages.loads import doubts, trips, when_tripped
@@ -112,7 +113,9 @@ def _sections(
             *_per_bearing(folder, "journal", shown, film_series),
             *_per_bearing(folder, "journal", shown[:1], orbit),
         ]
-        yield Section("Journal bearing", tables=[_case_table(tables["journal"])], pictures=pictures)
+        films = tables["journal"]
+        listed = [*start_tables(films), _case_table(films)]
+        yield Section("Journal bearing", tables=listed, pictures=pictures)
     if "dynamics" in tables:
         yield dynamics_section(tables["dynamics"])
     if "rolling" in tables:
