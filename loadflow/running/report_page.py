@@ -18,6 +18,7 @@ from loadflow.report import Picture, Section, Table, figures, write_page
 from loadflow.running.dynamics_page import dynamics_section
 from loadflow.running.folder import read_manifest
 from loadflow.running.start_page import start_tables
+from loadflow.running.wear_page import wear_section
 from loadflow.scene.scene import Scene, read_scene
 from loadflow.scene.unused import scaling_note, unused_keys
 from loadflow.stages.loads import doubts, trips, when_tripped
@@ -74,6 +75,12 @@ def _facts(scene: Scene, manifest: dict[str, Any]) -> dict[str, str]:
     }
 
 
+def _groups(folder: Path, stage: str) -> dict[str, xr.Dataset]:
+    """What a stage found of each bearing, all load cases together."""
+    found = open_cube(folder / "result.h5")[stage]
+    return {name: node.to_dataset().load() for name, node in found.children.items()}
+
+
 def _turbine_fact(scene: Scene) -> str:
     from loadflow.turbines import load_turbine
 
@@ -116,6 +123,8 @@ def _sections(
         films = tables["journal"]
         listed = [*start_tables(films), _case_table(films)]
         yield Section("Journal bearing", tables=listed, pictures=pictures)
+    if "wear" in tables:
+        yield wear_section(_groups(folder, "wear"))
     if "dynamics" in tables:
         yield dynamics_section(tables["dynamics"])
     if "rolling" in tables:
