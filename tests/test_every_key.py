@@ -18,7 +18,17 @@ from loadflow.planning.plan import make_plan
 from loadflow.scene.cases import list_cases
 from loadflow.scene.scene import Scene, make_scene
 from loadflow.scene.unused import unused_keys
-from loadflow.stages import dynamics, friction, journal, loads, reduction, rolling, seeds, shaft
+from loadflow.stages import (
+    dynamics,
+    friction,
+    journal,
+    loads,
+    reduction,
+    rolling,
+    seeds,
+    shaft,
+    wear,
+)
 from loadflow.studies.run_lifetime import run_lifetime
 from loadflow.studies.verdicts import verdicts
 
@@ -72,6 +82,13 @@ BASES = {
     "rotor dynamics, rigid": {"journal": FILM, "shaft": {"two_point": {}},
                               "results": ["journal.dynamics"]},
     "rigid and tilted": {"journal": FILM | {"tilt": True}, "shaft": {"two_point": {}}},
+    "worn bores": {
+        "journal": FILM | {"contact": {"asperities": {
+            "roughness": 1e-6, "contact_modulus": 1e11, "factor": 1e-3}}},
+        "reduction": {"size": 0.5}, "results": ["journal.film", "journal.wear"],
+        "wear": {"law": {"coefficient": 1e-13}, "samples": 12, "around": 90, "running_in": {
+            "initial_roughness": 1e-6, "final_roughness": 9e-7, "depth": 1e-6}},
+    },
     "tapered rollers": {
         "shaft": {"two_point": {}},
         "rolling": {"bearing": "N2", "geometry": {
@@ -110,6 +127,7 @@ READERS = {
     "rotor dynamics": ("dynamics",),
     "rotor dynamics, rigid": ("dynamics",),
     "rigid and tilted": ("journal",),
+    "worn bores": ("wear",),
     "tapered rollers": ("rolling", "friction"),
     "three points": ("shaft",),
     "integrated": ("shaft",),
@@ -172,6 +190,7 @@ OTHERS = {
     "journal.supply.grooves.0.restrictor": [{"diameter": 0.004, "length": 0.05}],
     "journal.supply.pump": [{"flow": [0.0, 0.01], "pressure": [8e5, 2e5]}],
     "dynamics.speed_range": [[0.8, 1.6]],
+    "wear.running_in.initial_roughness": [1.0000001e-6],
     "reduction.method": ["stationary", "histogram"],
     "reduction.bounds": [[0.02, 0.2]],
     "reduction.orders": [[1.0]],
@@ -344,6 +363,20 @@ def _dynamics(scene, add):
     add(dynamics.summary({ONE: tree}))
 
 
+class _Start(_One):
+    dlc, weight, name = "3.1", 1.0, "dlc3.1_v8_s1"
+
+
+_FILMS = {}
+
+
+def _wear(scene, add):
+    if (key := repr(scene.journal)) not in _FILMS:  # keys of wear do not change the films
+        inputs = _inputs(scene)
+        _FILMS[key] = inputs | {"journal": journal.film(scene, ONE, inputs)}
+    add(wear.wear(scene, [_Start()], {_Start.name: _FILMS[key]}))
+
+
 def _environment(scene, add):
     _loads(scene, add)
     _journal(scene, add)
@@ -370,7 +403,7 @@ def _seeds(scene, add):
 FOUND = {
     "loads": _loads, "turbine": _loads, "shaft": lambda s, add: _shaft(s, add) and None,
     "seeds": _seeds, "reduction": _reduction, "journal": _journal, "rolling": _rolling,
-    "friction": _friction, "dynamics": _dynamics,
+    "friction": _friction, "dynamics": _dynamics, "wear": _wear,
     "environment": _environment,
 }  # fmt: skip
 

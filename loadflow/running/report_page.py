@@ -19,6 +19,8 @@ from loadflow.running.dynamics_page import dynamics_section
 from loadflow.running.folder import answered, open_part, read_manifest
 from loadflow.running.loads_page import loads_section
 from loadflow.running.seeds_page import seed_section
+from loadflow.running.start_page import start_tables
+from loadflow.running.wear_page import wear_section
 from loadflow.scene.scene import Scene, read_scene
 from loadflow.scene.unused import scaling_note, unused_keys
 from loadflow.verdict import Verdict, from_dataset
@@ -65,6 +67,12 @@ def _facts(scene: Scene, manifest: dict[str, Any]) -> dict[str, str]:
     }
 
 
+def _groups(folder: Path, stage: str) -> dict[str, xr.Dataset]:
+    """What a stage found of each bearing, all load cases together."""
+    found = open_cube(folder / "result.h5")[stage]
+    return {name: node.to_dataset().load() for name, node in found.children.items()}
+
+
 def _turbine_fact(scene: Scene) -> str:
     from loadflow.turbines import load_turbine
 
@@ -100,7 +108,11 @@ def _sections(
             *_per_bearing(folder, "journal", shown, film_series),
             *_per_bearing(folder, "journal", shown[:1], orbit),
         ]
-        yield Section("Journal bearing", tables=[_case_table(tables["journal"])], pictures=pictures)
+        films = tables["journal"]
+        listed = [*start_tables(films), _case_table(films)]
+        yield Section("Journal bearing", tables=listed, pictures=pictures)
+    if "wear" in tables:
+        yield wear_section(_groups(folder, "wear"))
     if "dynamics" in tables:
         yield dynamics_section(tables["dynamics"])
     if "rolling" in tables:

@@ -35,6 +35,7 @@ from loadflow.scene.section import Section, too_large
 from loadflow.scene.series import Reduction, Seeds
 from loadflow.scene.shaft import Shaft
 from loadflow.scene.turbine import Turbine
+from loadflow.scene.wear import Wear, check_wear
 from loadflow.scene.written import SCENE, anchored, in_sections, origins
 from loadflow.shaft.options import MomentBearing, TwoPoint
 from loadflow.storage import check_name
@@ -48,12 +49,13 @@ Result = Literal[
     "reduction.histogram",
     "journal.film",
     "journal.dynamics",
+    "journal.wear",
     "rolling.loads",
     "rolling.life",
     "rolling.friction",
 ]
 
-BY_NAME: tuple[Result, ...] = ("journal.dynamics",)
+BY_NAME: tuple[Result, ...] = ("journal.dynamics", "journal.wear")
 """Results that are computed only where a scene asks for them by name."""
 
 USUAL: tuple[Result, ...] = tuple(name for name in get_args(Result) if name not in BY_NAME)
@@ -120,6 +122,7 @@ class Scene(Section, BaseModel):
     reduction: Reduction = Reduction()
     journal: Journal = Journal()
     dynamics: Dynamics = Dynamics()
+    wear: Wear = Wear()
     rolling: Rolling = Rolling()
     friction: Friction = Friction()
     candidates: dict[str, Candidate] = {}
@@ -193,6 +196,12 @@ class Scene(Section, BaseModel):
                         'reduction.method = "periodic": a closed orbit does not know the tilt of a '
                         "shaft with a beam; leave out journal.tilt or the beam"
                     )
+        return self
+
+    @model_validator(mode="after")
+    def _can_wear(self) -> Self:
+        if "journal.wear" in self.results:
+            check_wear(self.wear, self.journal, self.shaft)
         return self
 
     @model_validator(mode="after")

@@ -29,6 +29,7 @@ _RESULTS = {
     "reduction": ("reduction", "journal", "rolling.l"),
     "journal": ("journal",),
     "dynamics": ("journal.dynamics",),
+    "wear": ("journal.wear",),
     "rolling": ("rolling",),
     "friction": ("rolling",),
 }
