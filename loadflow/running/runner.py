@@ -26,16 +26,12 @@ from loadflow.planning import verification as check
 from loadflow.planning.choice import can_refine
 from loadflow.planning.effects import EffectVerdict
 from loadflow.planning.pilot import pilot
-from loadflow.planning.plan import Plan, Step, make_plan
+from loadflow.planning.plan import Plan, make_plan
 from loadflow.running.cases import (
-    OpenedLate,
     Outcome,
     do_case,
     is_missing,
-    is_ready,
-    open_inputs,
 )
-from loadflow.running.compiling import Compiling
 from loadflow.running.executor import Executor, Lost, executor
 from loadflow.running.folder import (
     known_verdict,
@@ -46,15 +42,15 @@ from loadflow.running.folder import (
     refinements,
 )
 from loadflow.running.lock import locked
-from loadflow.running.parts import save_part
 from loadflow.running.profile import COMPILING, Profile
 from loadflow.running.report_page import write_report
 from loadflow.running.warm_up import compile_kernels
+from loadflow.running.whole import finish_stages, summaries
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
 from loadflow.scene.unused import scaling_note, unused_keys
 from loadflow.stages.registry import STAGES
-from loadflow.storage import check_name, write_text
+from loadflow.storage import check_name
 from loadflow.verdict import Verdict, from_dataset, to_dataset
 
 log = logging.getLogger("loadflow.run")
@@ -256,9 +252,8 @@ def _run(
         manifest = prepare(folder, scene, plan, refined, overwrite, pilot_verdict)
         timing, failures = _carry_out(plan, folder, where, say, profile, pilot_verdict)
         begun = time.perf_counter()
-        tree = _collect(plan, folder)
+        tree = _collect(plan, folder, where)
         save_cube(tree, folder / "result.h5")
-        _export(plan, folder)
         wall = time.perf_counter() - started
         if profile:
             profile.add_wall("result", time.perf_counter() - begun)
@@ -320,25 +315,12 @@ def _carry_out(
     _check_there(plan, folder, failures)
 
     seen = pilot_verdict.cases if pilot_verdict else ()
-    for whole in plan.of_scope("run"):
-        say(whole.name, 0, 1)
-        if not (target := part_file(folder, whole.name)).exists():
-            begun = time.perf_counter()
-            cases = _looked_at(whole, plan.cases, folder, seen)
-            by_name = {case.name: case for case in cases}
-            inputs = OpenedLate(by_name, partial(open_inputs, whole, folder=folder))
-            with Compiling() as compiling:
-                save_part(whole.stage.run(plan.scene, cases, inputs), target, whole.digest)
-            timing[whole.name] = time.perf_counter() - begun
-            if profile:
-                profile.add_wall(whole.name, timing[whole.name], compiling.seconds)
-            log.info(
-                "%s: %.1f s, %.1f s of it compiling",
-                whole.name,
-                timing[whole.name],
-                compiling.seconds,
-            )
-        say(whole.name, 1, 1)
+    begun = time.perf_counter()
+    for stage in finish_stages(plan, folder, where, say, seen):
+        timing[stage.name] = stage.seconds
+        log.info("%s: %.1f s, %.1f s of it compiling", stage.name, stage.seconds, stage.compiling)
+    if profile:
+        profile.add_wall("stages over all cases", time.perf_counter() - begun)
     return timing, failures
 
 
@@ -381,37 +363,11 @@ def _check_there(plan: Plan, folder: Path, failures: dict[str, str]) -> None:
         )
 
 
-def _looked_at(
-    step: Step, cases: tuple[Case, ...], folder: Path, seen: tuple[str, ...]
-) -> list[Case]:
-    """Return the cases that a stage over all of them reads: those that are there, or a sample.
-
-    A sample is of other cases than the pilot has `seen`, where there are enough.
-    """
-    there, count = [case for case in cases if is_ready(step, case, folder)], step.stage.sample
-    if count is None or len(there) <= count:
-        return there
-    others = [case for case in there if case.name not in seen]
-    some = others if len(others) >= count else there
-    last, parts = len(some) - 1, count - 1
-    return [some[round(k * last / parts)] for k in range(count)]
-
-
-def _collect(plan: Plan, folder: Path) -> xr.DataTree:
+def _collect(plan: Plan, folder: Path, where: Executor) -> xr.DataTree:
     """Join what the stages found, reduced to what a reader wants of each case."""
-    groups: dict[str, xr.Dataset | xr.DataTree] = {}
-    missing: dict[str, list[str]] = {}
-    for step in plan.steps:
-        if step.stage.scope == "run":
-            groups[step.name] = open_cube(part_file(folder, step.name))
-        elif step.stage.summarise:
-            files = {case: part_file(folder, step.name, case) for case in plan.cases}
-            there = {case: file for case, file in files.items() if file.exists()}
-            missing[step.name] = [case.name for case in files if case not in there]
-            parts = OpenedLate(there, open_cube)
-            found = step.stage.summarise(parts) if parts else None
-            if found is not None:
-                groups[step.name] = found
+    found, missing = summaries(plan, folder, where)
+    found |= {step.name: open_cube(part_file(folder, step.name)) for step in plan.of_scope("run")}
+    groups = {step.name: found[step.name] for step in plan.steps if step.name in found}
     groups |= _judged(plan.scene, groups, missing)
     return xr.DataTree.from_dict(
         {
@@ -420,18 +376,6 @@ def _collect(plan: Plan, folder: Path) -> xr.DataTree:
             for path, node in _nodes(data)
         }
     )
-
-
-def _export(plan: Plan, folder: Path) -> None:
-    """Write what stages give as text, for other programs."""
-    for step in plan.of_scope("case"):
-        if (exports := step.stage.exports) is None:
-            continue
-        for case in plan.cases:
-            if (part := part_file(folder, step.name, case)).exists():
-                for name, text in exports(case, open_cube(part)).items():
-                    (folder / name).parent.mkdir(exist_ok=True)
-                    write_text(folder / name, text)
 
 
 def _judged(
