@@ -13,7 +13,8 @@ from loadflow.report.sketch import sketch
 GROUPS = (
     ("In short", ("load_factor", "energy", "friction")),
     ("Capacity", ("minimum_film", "film_to_roughness", "eccentricity_ratio", "film_pressure",
-        "static_safety", "contact_pressure", "modified_life", "rating_life")),
+        "thrust_film", "thrust_pressure", "static_safety", "contact_pressure", "modified_life",
+        "rating_life")),
     ("What fails before rating life does", ("row_share", "row_overload", "film_parameter", "tilt",
         "mixed_time")),
     ("Oil", ("oil_flow", "pump")),

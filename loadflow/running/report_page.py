@@ -113,6 +113,8 @@ def _sections(
         yield Section("Journal bearing", tables=listed, pictures=pictures)
     if "wear" in tables:
         yield wear_section(_groups(folder, "wear"))
+    if "thrust" in tables:
+        yield Section("Thrust bearing", tables=[_case_table(tables["thrust"])])
     if "dynamics" in tables:
         yield dynamics_section(tables["dynamics"])
     if "rolling" in tables:
@@ -184,7 +186,7 @@ def _lifetime_table(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
     if "lifetime" not in tables:
         return
     data, rows = tables["lifetime"], []
-    for kind in ("journal", "rolling"):
+    for kind in ("journal", "thrust", "rolling"):
         for name in data[kind].values.tolist() if kind in data.dims else ():
             own = {n: data[n].sel({kind: name}) for n in data.data_vars if kind in data[n].dims}
             life, modified = (

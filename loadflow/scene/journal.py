@@ -138,8 +138,7 @@ class Journal(Section, BaseModel):
     @property
     def least_film(self) -> float:
         """Smallest film allowed, m: as stated, or R_z + W_t of both surfaces and a margin (3.1)."""
-        stated = self.limits.minimum_film
-        return stated or self.contact_film + self.limits.waviness + self.limits.margin
+        return self.limits.least_film(self.contact_film)
 
     @property
     def in_motion(self) -> bool:

@@ -64,7 +64,7 @@ class Judged:
     Attributes
     ----------
     name, title, source, kind : str
-        Of the candidate; the kind is journal, rolling or both.
+        Of the candidate; the kind is journal, conical, rolling or several.
     numbers : dict
         By quantity (`QUANTITIES`).
     verdicts : tuple of Verdict
@@ -137,6 +137,8 @@ QUANTITIES: dict[str, tuple[str, str]] = {
     "load_factor": ("capacity margin: loads may grow by, to the first limit", "×"),
     "minimum_film": ("smallest film", "µm"),
     "film_to_roughness": ("smallest film over roughness R_z of both surfaces", "–"),
+    "thrust_film": ("smallest film of the thrust bearing", "µm"),
+    "thrust_pressure": ("largest film pressure of the thrust bearing", "MPa"),
     "eccentricity_ratio": ("largest eccentricity ratio ε", "–"),
     "film_pressure": ("largest film pressure", "MPa"),
     "static_safety": ("static rating over the design load", "–"),

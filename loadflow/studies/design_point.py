@@ -23,7 +23,8 @@ from loadflow.scene.scene import Candidate
 from loadflow.stages.friction import friction_options
 from loadflow.stages.journal import equilibria, shaft_line, surely_touching
 from loadflow.stages.rolling import rest
-from loadflow.studies.compare_margins import largest_factor, lubrication
+from loadflow.studies.compare_factor import largest_factor
+from loadflow.studies.compare_margins import lubrication
 from loadflow.studies.compare_result import QUANTITIES
 
 COARSE = (48, 12)
