@@ -3,7 +3,8 @@
 ===============  =========================================================================
 `bearing`        `JournalBearing`: what the user calls
 `film_model`     `Film`: one description of the film; `lubricant`, `cavitation`: its liquid and laws
-`thrust`         thrust bearings; `cone`, `conical_pair`: conical bearings, two of them
+`thrust`         thrust bearings; `double_thrust`: a collar between two
+`cone`           conical bearings; `conical_pair`: two of them
 `pad_bearing`    what these share; `pads`: rows of pads and their supports
 `surfaces`       cone, plane ring, straight pad, profiles
 `shapes`         shapes of the bore and their relief

@@ -32,6 +32,7 @@ EXTREMES = {
     "largest_pressure": ("maximum_pressure", np.nanargmax, "Pa", "largest pressure"),
     "largest_sommerfeld_number": ("sommerfeld_number", np.nanargmax, "1", "largest So"),
     "largest_load": ("load", np.nanargmax, "N", "largest radial load"),
+    "largest_moment": ("moment_load", np.nanargmax, "N m", "largest moment across the shaft"),
     "largest_axial_load": ("axial_load", np.nanargmax, "N", "largest force along the shaft"),
     "largest_temperature": ("temperature", np.nanargmax, "K", "largest effective temperature"),
 }
@@ -65,6 +66,8 @@ def extremes(samples: xr.Dataset) -> xr.Dataset:
             when = float(time.values[at]) if there else np.nan
             found[f"{name}_time"] = xr.DataArray(when), "s", f"time of the {meaning}"
     for name, (of, units, meaning) in MEANS.items():
+        if of not in samples:
+            continue
         found[name] = samples[of].weighted(weight).mean(), units, meaning
     answered = samples["converged"].astype(bool)
     touching = samples["in_contact"].astype(bool) if "in_contact" in samples else ~answered & False
@@ -100,8 +103,9 @@ def mixed_friction(samples: xr.Dataset) -> xr.Dataset:
     # each sample stands for `weight` steps of the full series
     weight = samples["weight"].values
     seconds = weight * (np.ptp(time) / max(weight.sum() - 1, 1))
-    critical = about["critical_eccentricity_ratio"]
-    ratio = np.where(touching, 1.0, samples["eccentricity_ratio"].values)
+    critical = about.get("critical_eccentricity_ratio", np.inf)
+    own = samples["eccentricity_ratio"].values if "eccentricity_ratio" in samples else 0.0
+    ratio = np.where(touching, 1.0, own)
     mixed = turning & (touching | (ratio > critical))
     rubbing = about["boundary_friction"] * about["radius"] * samples["load"].values * speed
     lost = np.where(touching & ~known, rubbing, samples["friction_power"].values)

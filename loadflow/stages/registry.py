@@ -14,6 +14,7 @@ from loadflow.stages import (
     seeds,
     shaft,
     statistics,
+    thrust,
     wear,
 )
 from loadflow.stages.stage import Rungs, Stage
@@ -27,6 +28,7 @@ STAGES: dict[str, Stage] = {
         seeds,
         reduction,
         journal,
+        thrust,
         dynamics,
         rolling,
         friction,
