@@ -181,6 +181,7 @@ OTHERS = {
     "journal.grid": [[36, 12]],
     "journal.supply": [{"grooves": [{"angle": 1.0, "arc": 0.2, "pressure": 6e5}]}],
     "journal.heat": [{"oil": "mineral-vg-320"}],
+    "journal.heat.growth": [{"shell_expansion": 12e-6}],
     "journal.heat.oil": ["mineral-vg-460", "iso-vg-68"],
     "journal.contact": [
         {"asperities": {"roughness": 1e-6, "contact_modulus": 1e11, "factor": 1e-3}}

@@ -12,11 +12,11 @@ from loadflow.errors import SolverError
 from loadflow.journal.line import Line
 from loadflow.journal.models.model import why_not
 from loadflow.journal.validity import critical_reynolds_number, reynolds_number
-from loadflow.quantities import table
 from loadflow.scene.cases import Case
 from loadflow.scene.journal import Journal
 from loadflow.scene.loads import Loads
 from loadflow.scene.scene import Scene
+from loadflow.stages.film_kept import kept_of
 from loadflow.stages.film_of_bearing import equilibria, follow, shaft_line, surely_touching
 from loadflow.stages.film_summary import summary
 from loadflow.stages.film_temperature import mean_temperature
@@ -24,30 +24,6 @@ from loadflow.stages.frames import to_film
 from loadflow.stages.labelling import label, of_samples
 from loadflow.stages.reduction import kept_share
 from loadflow.stages.stage import Link, Links, Measured, Rungs, Stage, load_links, steps_of
-
-KEPT = table(
-    "eccentricity_ratio",
-    "attitude_angle",
-    "minimum_film",
-    "maximum_pressure",
-    "sommerfeld_number",
-    "friction_power",
-    "side_flow",
-    "supply_flow",
-    "supply_power",
-    "converged",
-    "residual",
-    "iterations",
-)
-"""What is kept of every sample: units and meaning."""
-WARM = table("temperature")
-"""What is kept too where there is a heat balance."""
-
-ELASTIC = table("shell_deformation")
-"""What is kept too of an elastic shell."""
-
-CONTACT = table("contact_pressure", "contact_area", "contact_power", "contact_share")
-"""What is kept too of asperities."""
 
 _TRIES = 200  # samples of a start that are asked for the first film
 
@@ -104,7 +80,7 @@ def orbit(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
 
 def _resting(options: Journal, bearing: str, reduced: xr.Dataset) -> xr.Dataset:
     speed, force = reduced["speed"].values, reduced["force"].values
-    line, kept = shaft_line(options, reduced), _kept(options)
+    line, kept = shaft_line(options, reduced), kept_of(options)
     touching = surely_touching(options, force, speed)
     found = _nothing(options, speed.size)
     if np.any(asked := ~touching):
@@ -149,10 +125,12 @@ def _closing(options: Journal, bearing: str, reduced: xr.Dataset) -> xr.Dataset:
         )
     except SolverError as error:
         raise SolverError(f"bearing {bearing}: {error}") from error
-    found, kept = _nothing(options, speed.size), _kept(options)
+    found, kept = _nothing(options, speed.size), kept_of(options)
     _take_path(found, path, slice(None))
     if warm is not None:
         found["temperature"][:] = warm
+    if "clearance" in found:
+        found["clearance"][:] = held.geometry.clearance
     found["sommerfeld_number"][:] = options.geometry.sommerfeld_number(
         np.hypot(*force.T), speed, held.lubricant.viscosity
     )
@@ -188,7 +166,7 @@ def _moving(options: Journal, bearing: str, loads: xr.Dataset, reactions: xr.Dat
     time, speed = (loads[name].values.astype(float) for name in ("time", "speed"))
     begin, start = _lift_off(options, vectors, speed)
     touching = np.arange(time.size) < begin  # later on, squeeze carries more than a film at rest
-    found, kept = _nothing(options, time.size), _kept(options)
+    found, kept = _nothing(options, time.size), kept_of(options)
     force, left = to_film(vectors), slice(begin, None)
     if begin < time.size:
         try:
@@ -196,6 +174,9 @@ def _moving(options: Journal, bearing: str, loads: xr.Dataset, reactions: xr.Dat
         except SolverError as error:
             raise SolverError(f"bearing {bearing}: {error}") from error
         _take_path(found, path, left)
+        if "clearance" in found:
+            warm = float(path["temperature"].values[0])
+            found["clearance"][left] = options.at_temperature(warm).geometry.clearance
         viscosity = np.asarray(options.lubricant.viscosity)
         if options.heat is not None:
             viscosity = np.asarray(options.heat.liquid.viscosity(path["temperature"].values))
@@ -238,7 +219,7 @@ def _lift_off(
 
 def _nothing(options: Journal, count: int) -> dict[str, np.ndarray]:
     """What is kept of `count` samples, and where the shaft lies, before anything is known."""
-    none = {name: np.full(count, np.nan) for name in _kept(options)}
+    none = {name: np.full(count, np.nan) for name in kept_of(options)}
     none |= {"converged": np.zeros(count, dtype=bool), "iterations": np.zeros(count, dtype=int)}
     none["eccentricity"] = np.full((count, 2), np.nan)
     return none | ({"tilt": np.full((count, 2), np.nan)} if options.tilt else {})
@@ -266,13 +247,6 @@ def _loaded(force: np.ndarray, touching: np.ndarray) -> dict[str, Any]:
         "axial_load": ("sample", axial, label("N", "force along the shaft, its size")),
         "in_contact": ("sample", touching, about),
     }
-
-
-def _kept(options: Journal) -> dict[str, tuple[str, str]]:
-    """What is kept of every sample of a scene's bearing."""
-    more = ELASTIC if options.shell is not None else {}
-    more = more | (CONTACT if options.contact is not None else {})
-    return KEPT | more | (WARM if options.heat is not None else {})
 
 
 def _placed(options: Journal, samples: xr.Dataset, eccentricity: np.ndarray) -> xr.Dataset:
