@@ -18,7 +18,7 @@ from loadflow.report import Picture, Section, Table, figures, write_page
 from loadflow.running.dynamics_page import dynamics_section
 from loadflow.running.folder import read_manifest
 from loadflow.scene.scene import Scene, read_scene
-from loadflow.scene.unused import scaling_note, unused_keys
+from loadflow.scene.unused import friction_note, scaling_note, unused_keys
 from loadflow.stages.loads import doubts, trips, when_tripped
 from loadflow.stages.statistics import SLOPE
 from loadflow.studies.extreme_loads import safety_factor
@@ -130,7 +130,8 @@ def _sections(
         yield Section(
             "Friction of rolling bearings",
             f"Losses, film and slip over the series, {scene.friction.lubricant}; the friction "
-            "power of journal bearings stands in their own table.",
+            "power of journal bearings stands in their own table."
+            + "".join(f" Doubtful: {note}." for note in friction_note(scene)),
             tables=[_case_table(tables["friction"])],
         )
     if "check" in tables:

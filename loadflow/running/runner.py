@@ -52,7 +52,7 @@ from loadflow.running.report_page import write_report
 from loadflow.running.warm_up import compile_kernels
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
-from loadflow.scene.unused import scaling_note, unused_keys
+from loadflow.scene.unused import friction_note, scaling_note, unused_keys
 from loadflow.stages.registry import STAGES
 from loadflow.storage import check_name, write_text
 from loadflow.verdict import Verdict, from_dataset, to_dataset
@@ -279,7 +279,7 @@ def _run(
     if profile:
         profile.write(folder / "profile.json", where.workers)
     log.info("finished, %d parts have no answer", len(failures))
-    notes = (*scaling_note(scene), *scene.taken)
+    notes = (*scaling_note(scene), *friction_note(scene), *scene.taken)
     return Run(folder, tree, failures, unused_keys(scene), plan.shortfalls, notes)
 
 
