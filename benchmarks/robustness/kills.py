@@ -33,7 +33,7 @@ from loadflow.scene import make_scene
 PHASES = {
     "pilot": "pilot",
     "load cases": "_carry_out",
-    "result": "_collect",
+    "result": "collect",
     "page": "write_report",
 }
 """Functions of the runner by what they do."""

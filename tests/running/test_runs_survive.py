@@ -353,7 +353,8 @@ def test_a_lost_case_is_a_failure_of_the_run_and_the_others_are_kept(
 
         def outcomes(self, work, items):
             for item in items:
-                yield item, work(item) if item.wind_speed < 10 else Lost("killed")
+                lost = getattr(item, "wind_speed", None) == 12
+                yield item, Lost("killed") if lost else work(item)
 
     from contextlib import nullcontext
 
@@ -361,6 +362,28 @@ def test_a_lost_case_is_a_failure_of_the_run_and_the_others_are_kept(
     found = run(small_scene(finished), out=tmp_path, report=False)
     assert found.failures == {"dlc1.1_v12_s1, worker": "killed"}
     assert is_sound(tmp_path / PART)
+
+
+def test_a_worker_lost_in_the_check_ends_the_run_that_can_go_on(finished, tmp_path, monkeypatch):
+    import loadflow.running.runner as runner
+    from loadflow.running.whole import Piece
+
+    class Losing:
+        workers, shares_disk = 1, True
+
+        def outcomes(self, work, items):
+            for item in items:
+                yield item, Lost("killed") if isinstance(item, Piece) else work(item)
+
+    from contextlib import nullcontext
+
+    with monkeypatch.context() as patch:
+        patch.setattr(runner, "executor", lambda *_: nullcontext(Losing()))
+        with pytest.raises(LoadflowError, match="check: killed; started again, the run goes on"):
+            run(small_scene(finished), out=tmp_path, report=False)
+    again = run(small_scene(finished), out=tmp_path, report=False)
+    assert not again.failures
+    assert "check" in again.tree.children
 
 
 def test_what_no_solver_named_fails_one_case_and_is_in_the_log(finished, tmp_path, monkeypatch):
