@@ -437,7 +437,8 @@ def _seeds(scene, add):
         inputs[one.name] = {
             "loads": hub, "shaft": shaft.bearing_loads(scene, one, {"loads": hub}),
         }  # fmt: skip
-    add(seeds.equality_of_seeds(scene, cases, inputs))
+    found = [seeds.groups_in(scene, piece, inputs) for piece in seeds.pieces(scene, cases)]
+    add(seeds.joined(scene, found))
 
 
 FOUND = {

@@ -28,6 +28,7 @@ FEATURES = {
     "slow_heat": "heat that is stored",
     "film_heat": "an energy equation over the area of the film",
     "contact": "contact of asperities",
+    "contact_on_shell": "contact of asperities on a shell that gives way",
     "step": "adaptive steps",
     "periodic": "a closed orbit",
 }
@@ -36,6 +37,7 @@ FEATURES = {
 _LINE = {"moment", "tilt", "bend"}
 _SHELLS = {"shell", "local_shell"}
 _BORES = _LINE | _SHELLS | {"shape", "relief", "supply", "inlet", "grading"}
+_TOUCH = {"contact", "contact_on_shell"}
 _REDUCED = frozenset(_LINE | {"local_shell", "contact", "heat"})
 
 
@@ -125,9 +127,9 @@ RUNGS: dict[str, Rung] = {
         Rung(
             "grid",
             f"{_MODELS}.grid",
-            frozenset(_BORES | {"contact", "heat", "film_heat"}),
-            _WARMING | _BORES | {"contact", "step", "periodic"},
-            frozenset(_BORES | {"contact", "film_heat"}),
+            frozenset(_BORES | _TOUCH | {"heat", "film_heat"}),
+            _WARMING | _BORES | _TOUCH | {"step", "periodic"},
+            frozenset(_BORES | _TOUCH | {"film_heat"}),
         ),
     )
 }

@@ -102,12 +102,17 @@ class Journal(Section, BaseModel):
     @model_validator(mode="after")
     def _one_model_for_all(self) -> Self:
         for place, other in self.own.items():
-            for name in _OF_ALL:
+            for name in other.model_fields_set.intersection(_OF_ALL):
                 if getattr(other, name) != getattr(self, name):
                     raise ValueError(
                         f"{name}: all journal bearings of a scene have one, but {place} has "
                         f"{getattr(other, name)!r} beside {getattr(self, name)!r}"
                     )
+            stated = other.model_fields_set.copy()
+            alike = other.model_copy(update={name: getattr(self, name) for name in _OF_ALL})
+            # what it did not state stays open, so that the plan may change it for all of them
+            alike.__pydantic_fields_set__ = stated
+            self.own[place] = alike
         return self
 
     def at(self, place: str) -> Journal:

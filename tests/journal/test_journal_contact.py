@@ -16,12 +16,12 @@ from loadflow.journal import (
     Heat,
     JournalBearing,
     Lobes,
-    LocalShell,
     Lubricant,
     MassConserving,
     Reynolds,
     Sommerfeld,
     Supply,
+    ThickShell,
     TiltingPads,
     stribeck,
 )
@@ -281,7 +281,7 @@ def test_flow_factors_of_patterns_along_and_across():
 @pytest.mark.parametrize(
     ("words", "size", "named"),
     [
-        ({"shell": LocalShell(1e-12)}, {}, "contact = .* elastic shell"),
+        ({"shell": ThickShell(0.4, 2e11)}, {}, "contact = .* pressed open around"),
         ({}, {"shape": TiltingPads(4, np.radians(60.0))}, "contact = .* pads that tilt"),
         ({"rung": "map"}, {}, "rung = 'map' .* contact of asperities"),
     ],

@@ -1,6 +1,7 @@
 """Where the power of a bearing goes, and how far its film may be trusted."""
 
 import warnings
+from dataclasses import fields, replace
 
 import numpy as np
 import pytest
@@ -78,20 +79,43 @@ def test_turbulence_is_named_with_its_numbers():
 @pytest.mark.parametrize(
     ("law", "edge", "grid", "factors", "names"),
     [
-        # errors of second order: the estimate is three times as large
-        (Reynolds(), 0.0, (60, 20), (2.0, 6.0), ("eccentricity_ratio", "side_flow")),
+        # errors of second order: three times a difference that is three times as large
+        (Reynolds(), 0.0, (60, 20), (4.0, 18.0), ("eccentricity_ratio", "side_flow")),
         # the fill is carried upwind, of first order
-        (GasMixture(5e4), 1e5, (60, 20), (0.5, 4.0), ("attitude_angle",)),
+        (GasMixture(5e4), 1e5, (60, 20), (1.5, 12.0), ("attitude_angle",)),
     ],
     ids=["reynolds", "mixture"],
 )
-def test_two_grids_tell_the_error_of_the_cells(law, edge, grid, factors, names):
+def test_coarser_grids_bound_the_error_of_the_cells(law, edge, grid, factors, names):
     film = {"cavitation": law, "edge_pressure": edge}
     load = (2e4, 0.0)
-    estimate = grid_error(BEARING, load, 60.0, OIL, grid=grid, **film)
+    bound = grid_error(BEARING, load, 60.0, OIL, grid=grid, **film)
     found = BEARING.equilibrium(load, 60.0, OIL, grid=grid, **film)
     fine = BEARING.equilibrium(load, 60.0, OIL, grid=(4 * grid[0], 4 * grid[1]), **film)
-    for name in names:
-        error = abs(getattr(found, name) - getattr(fine, name))
-        low, high = factors
-        assert low * error < getattr(estimate, name) < high * error, name
+    for part in fields(bound):
+        error = abs(getattr(found, part.name) - getattr(fine, part.name))
+        assert error < getattr(bound, part.name), part.name
+        if part.name in names:
+            low, high = factors
+            assert low * error < getattr(bound, part.name) < high * error, part.name
+
+
+class LostOnCoarseGrids(JournalBearing):
+    """A bearing whose second load has no answer on fewer than 60 cells around."""
+
+    def equilibrium(self, force, speed, film, **options):
+        state = super().equilibrium(force, speed, film, **options)
+        lost = np.array([False, film.cells[0] < 60])
+        return replace(state, converged=state.converged & ~lost)
+
+
+def test_a_grid_error_that_no_coarser_grid_tells_is_infinite():
+    bearing = LostOnCoarseGrids(BEARING.diameter, BEARING.width, BEARING.relative_clearance)
+    bound = grid_error(bearing, [(2e4, 0.0), (3e4, 0.0)], 60.0, OIL, grid=(60, 8))
+    assert 0.0 < bound.minimum_film[0] < 1e-5
+    assert bound.minimum_film[1] == np.inf
+
+
+def test_a_grid_that_cannot_be_halved_is_named():
+    with pytest.raises(InputError, match=r"grid\[1\] = 2 .* at least 4 cells across"):
+        grid_error(BEARING, (2e4, 0.0), 60.0, OIL, grid=(60, 2))

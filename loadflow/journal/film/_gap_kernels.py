@@ -2,8 +2,9 @@
 
 Between two cell centres the flux is taken constant, so that conductance and effective gap are
 G = 1/∫H⁻³, E = G ∫H⁻²; this stays right across steps of the gap. One source serves smooth and
-rough surfaces: `rough` is None, or roughness, flow factors along and across the motion and slip as
-`_rough_kernels` takes them; what is not asked for is not compiled.
+rough surfaces: `rough` is None, or roughness, flow factors along and across the motion, slip, and
+what the shell yields to asperities, as `_rough_kernels` takes them; what is not asked for is not
+compiled.
 """
 
 from __future__ import annotations
@@ -12,7 +13,13 @@ import numpy as np
 from numba import njit
 
 from loadflow.journal.film._kernels import CELL3, COS, H3, HINV, HM, SIN, E, G
-from loadflow.journal.film._rough_kernels import conductance, dragged, mean_film, sheared
+from loadflow.journal.film._rough_kernels import (
+    conductance,
+    dragged,
+    mean_film,
+    sheared,
+    yielded,
+)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -23,12 +30,13 @@ def resistance(h, w, rough):
         w2 = w * r * r
         w3 = w2 * r
         return w2, w3, -2.0 * w3, -3.0 * w3 * r
-    s, along, _, slip = rough
+    s, along, _, slip, give = rough
+    h, opens = yielded(h, s, give)
     flow, rise = conductance(h, s, along)
     drag, drag_rise = dragged(h, s, along, slip)
     w3 = w / flow
-    d3 = -w3 * rise / flow
-    return w3 * drag, w3, d3 * drag + w3 * drag_rise, d3
+    d3 = -w3 * rise * opens / flow
+    return w3 * drag, w3, d3 * drag + w3 * drag_rise * opens, d3
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -39,10 +47,12 @@ def cell_terms(h, w, rough):
     """
     if rough is None:
         return w * h * h * h, 3.0 * w * h * h, w * h, w, w / h, 1.0
-    s, along, across, _ = rough
+    s, along, across, _, give = rough
+    h, opens = yielded(h, s, give)
     flow, rise = conductance(h, s, across)
     mean, share = mean_film(h, s)
-    return w * flow, w * rise, w * mean, w * share, w * sheared(h, s, along), share
+    share *= opens
+    return w * flow, w * rise * opens, w * mean, w * share, w * sheared(h, s, along), share
 
 
 @njit(cache=True, nogil=True, error_model="numpy")

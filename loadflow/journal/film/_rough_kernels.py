@@ -14,6 +14,28 @@ from loadflow.tribology import kernels as laws
 LEAST = 1e-3  # mean gap over the roughness: valleys stay open under any load
 _PRINTED = 1.0  # film parameter down to which φ_x h³ is taken as printed
 NO_CONTACT = 12.0  # film parameter above which asperities carry less than rounding
+_YIELDS = 60  # Newton steps of `yielded`; about one for each roughness that asperities lift
+
+
+@njit(cache=True, nogil=True)
+def yielded(h, s, give):
+    """Gap of the mean planes where asperities press a shell open, and its derivative by `h`.
+
+    h is the gap without that; `give` is the growth of the gap, clearances, under the unit K E* of
+    asperity pressure. The equation h' = h + give F(h'/s) rises with h' and bends down, so that
+    Newton's steps from h go up to its root.
+    """
+    if give == 0.0 or h > NO_CONTACT * s:
+        return h, 1.0
+    planes = h
+    for _ in range(_YIELDS):
+        value, rise = laws.pressure_integral(planes / s)
+        step = (h + give * value - planes) / (1.0 - give * rise / s)
+        planes += step
+        if step <= 1e-15 * s:
+            break
+    _, rise = laws.pressure_integral(planes / s)
+    return planes, 1.0 / (1.0 - give * rise / s)
 
 
 @njit(cache=True, nogil=True)
@@ -62,24 +84,33 @@ def sheared(h, s, rows):
 
 
 @njit(cache=True, nogil=True)
-def pressed(gap, s, weights_around, weights_across, held, reach, lengths, load, stiffness):
+def pressed(
+    gap, s, give, weights_around, weights_across, held, reach, lengths, load, stiffness, relief
+):
     """Sums over asperities at the nodes of a `gap` (n, rows), in units of K E*.
 
-    `reach` (m, n) times `lengths` (m, rows) are the modes; `held` nodes, grooves, carry none.
-    Fills ∫ F N_j and −∫ F' N_j N_k / s, and returns ∫ F and the narrowest gap of those that touch.
+    `reach` (m, n) times `lengths` (m, rows) are the modes; `held` nodes, grooves, carry none; the
+    shell yields by `give`. Fills ∫ F N_j and −∫ F' N_j N_k / s, at the nodes F'/s times their
+    weight into `relief` (n, rows) unless that is empty, and returns ∫ F and the narrowest gap of
+    those that touch.
     """
     n, rows = gap.shape
     size = load.size
     normal, narrowest = 0.0, NO_CONTACT * s
     load[:] = 0.0
     stiffness[:] = 0.0
+    relief[:] = 0.0
     for i in range(n):
         for k in range(rows):
             if gap[i, k] > NO_CONTACT * s or held[i, k]:
                 continue
-            value, rise = laws.pressure_integral(gap[i, k] / s)
-            narrowest = min(narrowest, gap[i, k])
+            planes, share = yielded(gap[i, k], s, give)
+            value, rise = laws.pressure_integral(planes / s)
+            rise *= share
+            narrowest = min(narrowest, planes)
             weight = weights_around[i] * weights_across[k]
+            if relief.size > 0:
+                relief[i, k] = weight * rise / s
             normal += weight * value
             for a in range(size):
                 mode = weight * reach[a, i] * lengths[a, k]

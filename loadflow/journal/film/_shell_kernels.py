@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from numba import njit
 
+from loadflow.journal.film._gap_kernels import cell_terms, resistance
 from loadflow.journal.film._kernels import CELL3, FILL, H3, E, G, P
 
 ITSELF, BEFORE, AFTER, INNER, OUTER = range(5)
@@ -16,13 +17,14 @@ ITSELF, BEFORE, AFTER, INNER, OUTER = range(5)
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def gap_stencil(
-    state, coef, face, face_gap, cell, cell_gap, dz, gz, closed, wedge, ends, storing, groove, out
-):
+    state, coef, face, face_gap, cell, cell_gap, rough, dz, gz, closed, wedge, ends, storing,
+    groove, out,
+):  # fmt: skip
     """Fill `out` (5, nx, nz) at the state and gap last placed.
 
-    `face`, `cell` and their gaps are those of `_kernels.shaped_coefficients`, the gaps in place and
-    deformed; `ends` are edge pressure, pressure and fill of an inlet line; `storing` (Pa) is the
-    squeeze pressure of a growth of the gap in one implicit step.
+    `face`, `cell`, their gaps and `rough` are those of `_gap_kernels.shaped_coefficients`, the gaps
+    in place and deformed; `ends` are edge pressure, pressure and fill of an inlet line; `storing`
+    (Pa) is the squeeze pressure of a growth of the gap in one implicit step.
     """
     _, nx, nz = state.shape
     p_edge, p_line, f_line = ends
@@ -42,9 +44,8 @@ def gap_stencil(
             for side in range(2):
                 if not (has_left if side == 0 else has_right):
                     continue
-                h = face_gap[i, side, k]
-                share = face[2, i, side] * g / (h * h * h)
-                by_g, by_e = 3.0 * share * g / h, share * (3.0 * e / h - 2.0)
+                _, _, by_2, by_3 = resistance(face_gap[i, side, k], face[2, i, side], rough)
+                by_g, by_e = -g * g * by_3, g * (by_2 - e * by_3)
                 flow = dz[k] * (drag * by_e - by_g * (p_right - p_left))
                 if side == 0:
                     out[ITSELF, left, k] += flow
@@ -56,9 +57,8 @@ def gap_stencil(
                         out[BEFORE, right, k] += flow
     for i in range(nx):
         for k in range(nz):
-            h = cell_gap[i, k]
-            cubed = 3.0 * cell[2, i] * h * h
-            out[ITSELF, i, k] += fill[i, k] * storing * cell[2, i] * dz[k]
+            _, cubed, _, wider, _, _ = cell_terms(cell_gap[i, k], cell[2, i], rough)
+            out[ITSELF, i, k] += fill[i, k] * storing * wider * dz[k]
             if k == 0 and not groove[i, 0]:
                 out[ITSELF, i, 0] += cubed * gz[0] * (p[i, 0] - p_edge)
             if k + 1 == nz:
@@ -71,8 +71,8 @@ def gap_stencil(
             here = flow * dz[k] * cubed / coef[CELL3, i, k] ** 2
             out[ITSELF, i, k] += here
             out[OUTER, i, k] -= here
-            h = cell_gap[i, k + 1]
-            there = flow * dz[k + 1] * 3.0 * cell[2, i] * h * h / coef[CELL3, i, k + 1] ** 2
+            _, cubed, _, _, _, _ = cell_terms(cell_gap[i, k + 1], cell[2, i], rough)
+            there = flow * dz[k + 1] * cubed / coef[CELL3, i, k + 1] ** 2
             out[INNER, i, k + 1] += there
             out[ITSELF, i, k + 1] -= there
 

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from loadflow.journal.contact import Contact
 from loadflow.journal.film import _rough_kernels as kernel
 from loadflow.journal.film.gap import turning_frame
+from loadflow.journal.film.gap_rough import RoughElasticGap
 from loadflow.journal.film.gap_shaped import ShapedGap
 
 Array = NDArray[np.float64]
@@ -26,6 +27,7 @@ _STEP = np.radians(0.5)  # largest distance of nodes around; less where the surf
 _FINEST = np.radians(0.05)
 _PER_ZONE = 0.3  # of the half width √(2s) of the zone of contact
 _FAR = 10.0  # film parameter beyond which a cylinder does not touch
+_NOT_ASKED = np.zeros((0, 0))
 
 
 @dataclass(frozen=True)
@@ -93,7 +95,7 @@ class CylinderLoad:
         weights, one = self._area * half * self._w, np.ones(1)
         none = np.zeros(gap.shape, dtype=bool)
         normal, _ = kernel.pressed(
-            gap, s, weights, one, none, reach, np.ones((2, 1)), load, stiffness
+            gap, s, 0.0, weights, one, none, reach, np.ones((2, 1)), load, stiffness, _NOT_ASKED
         )
         scale = self.contact.asperities.scale
         return Touch(
@@ -136,20 +138,72 @@ class NodeLoad:
         counts = np.maximum(1, np.ceil(mesh.dx / step)).astype(int)
         angle, self._around, columns = _nodes(mesh.edges, counts, 1)
         z, self._across, rows = _nodes(mesh.z_edges, np.ones(mesh.z.size, dtype=int), _ACROSS)
+        self._angle, self._z = angle, z
         self._modes = gap.modes_at(angle, mesh.segment[columns], z)
         self._held = np.ascontiguousarray(grooves[np.ix_(columns, rows)])
 
     def at(self, position: Array) -> Touch:
         """What they carry with the shaft at `position` (m,), clearances."""
-        modes, size = self._modes, position.size
+        gaps = self._modes.gaps(position, self._gap.curvature)
+        return self._touch(gaps, 0.0, _NOT_ASKED)
+
+    @property
+    def _unit(self) -> float:
+        """Load, N, over the sums of the kernel."""
+        return self._area * self.contact.asperities.scale
+
+    def _touch(self, gaps: Array, give: float, relief: Array) -> Touch:
+        """What they carry at the `gaps` of the nodes; fills `relief` as `pressed` does."""
+        modes, size = self._modes, self._modes.reach.shape[0]
         load, stiffness = np.zeros(size), np.zeros((size, size))
         normal, least = kernel.pressed(
-            modes.gaps(position, self._gap.curvature) - self._summits, self._roughness,
-            self._around, self._across, self._held, modes.reach, modes.lengths, load, stiffness,
+            gaps - self._summits, self._roughness, give, self._around, self._across, self._held,
+            modes.reach, modes.lengths, load, stiffness, relief,
         )  # fmt: skip
-        unit = self._area * self.contact.asperities.scale
-        worst = _worst(self.contact, least / self._roughness)
+        worst, unit = _worst(self.contact, least / self._roughness), self._unit
         return Touch(unit * load, unit * stiffness, unit * normal, *worst)
+
+
+class YieldingNodeLoad(NodeLoad):
+    """Asperities on a shell that yields where it is pressed, by film and asperities alike.
+
+    Parameters
+    ----------
+    contact, radius, mirrors, grooves
+        As for `NodeLoad`.
+    gap : RoughElasticGap
+        Gap of the mean planes; the growth of its cells is that by the pressure of the film.
+    """
+
+    def __init__(
+        self,
+        contact: Contact,
+        gap: RoughElasticGap,
+        radius: float,
+        mirrors: float,
+        grooves: NDArray[np.bool_],
+    ) -> None:
+        super().__init__(contact, gap, radius, mirrors, grooves)
+        self._shell = gap
+        self._between = gap.between(self._angle, self._z)
+
+    def at(self, position: Array) -> Touch:
+        """What they carry with the shaft at `position` (m,), clearances."""
+        return self._touch(self._gaps(position), self._shell.rough.give, _NOT_ASKED)
+
+    def by_growth(self, position: Array) -> Array:
+        """Derivative of the load by the growth of the cells, (m, nx, nz), N per clearance."""
+        gaps, modes = self._gaps(position), self._modes
+        relief = np.zeros(gaps.shape)
+        self._touch(gaps, self._shell.rough.give, relief)
+        parts = self._unit * relief * modes.reach[:, :, None] * modes.lengths[:, None, :]
+        shape = self._shell.mesh.shape
+        return np.array([self._between.back(part, shape) for part in parts])
+
+    def _gaps(self, position: Array) -> Array:
+        """Gap of the nodes but for what asperities press open."""
+        rigid = self._modes.gaps(position, self._gap.curvature)
+        return rigid + self._between.of(self._shell.growth)
 
 
 def _worst(contact: Contact, parameter: float) -> tuple[float, float]:

@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
+from typing import cast
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError
 from loadflow.journal.cavitation import CavitationLaw
-from loadflow.journal.film.asperity_load import CylinderLoad, NodeLoad
-from loadflow.journal.film.compliance import compliance_of
+from loadflow.journal.film.asperity_load import CylinderLoad, NodeLoad, YieldingNodeLoad
+from loadflow.journal.film.compliance import Compliance, compliance_of
 from loadflow.journal.film.elastic import ElasticFilm
 from loadflow.journal.film.feed import Feed
 from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.gap import CylindricalGap
 from loadflow.journal.film.gap_elastic import ElasticGap
 from loadflow.journal.film.gap_mesh import ShapedMesh, crowded, relief_marks, shaped_mesh
-from loadflow.journal.film.gap_rough import RoughGap, RoughShapedGap
+from loadflow.journal.film.gap_rough import RoughElasticGap, RoughGap, RoughShapedGap
 from loadflow.journal.film.gap_shaped import Bore, ShapedGap
 from loadflow.journal.film.gap_warm import WarmGap
 from loadflow.journal.film.groove_pressure import Pockets
@@ -102,15 +104,18 @@ def shaped_film(
         gap = _rigid_gap(mesh, bore, options)
         film = DiscreteFilm(gap, *oil, pressure)
     else:
-        require(contact is None, "contact", contact, "None with an elastic shell")
         require(not bore.pads, "shell", options.shell, "None for pads, whose backs are not held")
         compliance = compliance_of(options.shell, mesh, bore.radius)
-        gap = ElasticGap(mesh, bore, ends_deform=compliance.spreads)
-        film = ElasticFilm(compliance, gap, *oil, pressure)
+        elastic = _elastic_gap(mesh, bore, options, compliance)
+        gap, film = elastic, ElasticFilm(compliance, elastic, *oil, pressure)
     film.fill(mesh.groove, pressure)
     film.ambient = _outside(gap, film, options.edge_pressure, bearing.shape)
     if contact is not None:
-        film.contact = NodeLoad(contact, gap, bore.radius, film.mirrors, film.grooved)
+        places = bore.radius, film.mirrors, film.grooved
+        if options.shell is None:
+            film.contact = NodeLoad(contact, gap, *places)
+        else:
+            film.contact = YieldingNodeLoad(contact, cast("RoughElasticGap", gap), *places)
     return gap, film
 
 
@@ -140,6 +145,15 @@ def _rigid_gap(mesh: ShapedMesh, bore: Bore, options: Film) -> ShapedGap:
         require(options.heat is None, "contact", contact, "None with a heat balance of the film")
         return RoughShapedGap(mesh, bore, contact)
     return ShapedGap(mesh, bore) if options.heat is None else WarmGap(mesh, bore)
+
+
+def _elastic_gap(mesh: ShapedMesh, bore: Bore, options: Film, compliance: Compliance) -> ElasticGap:
+    """Gap of an elastic shell, which yields to asperities only where they press."""
+    if options.contact is None:
+        return ElasticGap(mesh, bore, ends_deform=compliance.spreads)
+    allowed = "None with an elastic shell that gives way around what is pressed"
+    require(not compliance.spreads, "contact", options.contact, allowed)
+    return RoughElasticGap(mesh, bore, options.contact, float(compliance.local.flat[0]))
 
 
 def _outside(

@@ -7,7 +7,7 @@ stands in the band; what it owes to others is iterated on top of the band's fact
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 from loadflow.journal.cavitation import DLOAD, FILL, LOAD
 from loadflow.journal.film import _kernels as kernel
 from loadflow.journal.film import _shell_kernels as shell_kernel
+from loadflow.journal.film.asperity_load import YieldingNodeLoad
 from loadflow.journal.film.compliance import Compliance
 from loadflow.journal.film.film import DiscreteFilm
-from loadflow.journal.film.gap import KEPT
 from loadflow.journal.film.gap_elastic import ElasticGap
 
 Array = NDArray[np.float64]
@@ -45,7 +45,19 @@ class ElasticFilm(DiscreteFilm):
         """Evaluate law, shell and gap at `u` and `position`; returns the axes of the frame."""
         self._apply_law(u)
         self._grow()
+        self._place = position
         return self.gap.place(position)
+
+    def _carried(self, columns: Array) -> Array:
+        """Change of the load by each of `columns`, that of the asperities with it."""
+        carried = super()._carried(columns)
+        if self.contact is not None:
+            pressure = self.state[DLOAD] * self._fields(columns)
+            growth = self._per_clearance * self.compliance.growth(pressure)
+            asperities = cast("YieldingNodeLoad", self.contact)
+            slopes = asperities.by_growth(self._place) / (self.mirrors * self.radius**2)
+            carried += np.einsum("mxz,lxz->lm", slopes, growth)
+        return carried
 
     def relax(self, share: float = 1.0) -> None:
         """Undo what pressure has deformed; the shell then has a `share` of its compliance."""
@@ -64,7 +76,8 @@ class ElasticFilm(DiscreteFilm):
     @property
     def deformation(self) -> Array:
         """Growth of the gap of the cells last placed, (nx, nz), m."""
-        return self.gap.growth * (self.relative_clearance * self.radius)
+        growth = self.gap.growth + self.gap.pressed_open()
+        return growth * (self.relative_clearance * self.radius)
 
     def target(self, position: Array, step: Array) -> Array:
         """Where a step of the shaft may lead: as far as the shell deforms."""
@@ -72,7 +85,7 @@ class ElasticFilm(DiscreteFilm):
 
     def clearance_left(self, position: Array) -> float:
         """Narrowest gap over the clearance, that between cells included."""
-        return min(self.gap.least(position), self.gap.narrowest(position))
+        return self.gap.left(position)
 
     def narrowest(self, u: Array, position: Array) -> float:
         """Narrowest gap over the clearance at any unknowns `u` and `position`."""
@@ -84,7 +97,7 @@ class ElasticFilm(DiscreteFilm):
     ) -> float:
         """Share of a Newton step that leaves at least a third of the narrowest gap."""
         start, target = way
-        least = KEPT * self.gap.least(start)
+        least = self.gap.least_after(start)
         share = 1.0
         while share > _SMALLEST:
             trial = u.copy()
@@ -112,8 +125,8 @@ class ElasticFilm(DiscreteFilm):
         mesh = self.mesh
         ends = (self.p_edge, self.p_line, self.line_fill)
         shell_kernel.gap_stencil(
-            self.state, self.gap.coef, *self.gap.nodes, mesh.dz, mesh.gz, mesh.closed, self.wedge,
-            ends, self.slope * rate, self.fixed, self.stencil,
+            self.state, self.gap.coef, *self.gap.nodes, self.gap.surfaces, mesh.dz, mesh.gz,
+            mesh.closed, self.wedge, ends, self.slope * rate, self.fixed, self.stencil,
         )  # fmt: skip
         growth = self._per_clearance * self.compliance.local * self.state[DLOAD]
         shell_kernel.add_stencil(self.stencil, growth, mesh.order, self.fixed, self.ab)
@@ -156,6 +169,8 @@ class ElasticFilm(DiscreteFilm):
         pressure = -self.state[DLOAD] * self._fields(by_place)
         growth = self._per_clearance * self.compliance.growth(pressure)
         volume = self.slope * self.state[FILL] * self.gap.widths * growth
+        if self.gap.open_share is not None:
+            volume *= self.gap.open_share
         volume[:, self.fixed] = 0.0
         more = self._columns(volume)
         self._solve(factors, more)

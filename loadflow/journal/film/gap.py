@@ -20,6 +20,10 @@ from loadflow.numerics.convergence import EPS
 
 Array = NDArray[np.float64]
 
+Surfaces = tuple[float, Array, Array, float, float]
+"""Roughness as the kernels take it: its size, flow factors along and across, slip, and what a shell
+yields to asperities."""
+
 _SHELL = np.eye(2)
 KEPT = 0.3  # share of the narrowest gap that a step of the shaft leaves
 
@@ -132,7 +136,7 @@ class CylindricalGap:
     axisymmetric, tilts = True, False
     pads: NDArray[np.int64] = np.arange(0)
     first_gap = 0.0  # that of the closed form, which is its own
-    surfaces: tuple[float, Array, Array, float] | None = None  # roughness, as the kernels take it
+    surfaces: Surfaces | None = None  # where they are rough
     roughness: float = 0.0
     open_share: Array | None = None
 

@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from loadflow.journal.film.gap import KEPT
 from loadflow.journal.film.gap_mesh import ShapedMesh
 from loadflow.journal.film.gap_shaped import Bore, ShapedGap
 
@@ -33,7 +34,8 @@ class ElasticGap(ShapedGap):
         columns = np.arange(mesh.shape[0])
         first, last = (columns[-1], 0) if mesh.closed else (0, columns[-1])
         self._sides = np.append(first, columns), np.append(columns, last)
-        self._to_spots = _around(self._spots_angle, mesh), _across(self._spots_z, mesh, ends_deform)
+        self._ends_deform = ends_deform
+        self._to_spots = self.between(self._spots_angle, self._spots_z)
         self.growth = np.zeros(mesh.shape)
 
     def grow(self, growth: Array) -> None:
@@ -44,10 +46,11 @@ class ElasticGap(ShapedGap):
 
     def gaps(self, position: Array) -> Array:
         """Gap at the sampled places, in clearances; the growth runs straight between cells."""
-        around, across = self._to_spots
-        still = np.zeros((around.low.size, 1))
-        grown = np.hstack([around.of(self.growth), still])
-        return super().gaps(position) + across.of(grown.T).T
+        return super().gaps(position) + self._to_spots.of(self.growth)
+
+    def between(self, angle: Array, z: Array) -> Between:
+        """Growth on straight lines between the cells, at `angle` (n,), rad, and `z` (l,)."""
+        return Between(_around(angle, self.mesh), _across(z, self.mesh, self._ends_deform))
 
     @property
     def widths(self) -> Array:
@@ -72,6 +75,18 @@ class ElasticGap(ShapedGap):
         """Narrowest gap, in clearances, that the balance of the film takes up."""
         return min(float(gaps.min()) for gaps in self.films(*self.centre(position)))
 
+    def least_after(self, position: Array) -> float:
+        """Gap, in clearances, that a step from `position` must leave."""
+        return KEPT * self.least(position)
+
+    def left(self, position: Array) -> float:
+        """Narrowest gap over the clearance, that between cells included."""
+        return min(self.least(position), self.narrowest(position))
+
+    def pressed_open(self) -> Array:
+        """Growth of the cells by what is not in the film: none."""
+        return np.zeros(self.mesh.shape)
+
 
 class _Line(NamedTuple):
     """Straight lines through neighbouring rows: their numbers, and the share of the higher."""
@@ -90,6 +105,31 @@ class _Line(NamedTuple):
     def of(self, values: Array) -> Array:
         """Values (rows, m) on the lines, (places, m)."""
         return (1.0 - self.share) * values[self.low] + self.share * values[self.high]
+
+    def spread(self, weights: Array, rows: int) -> Array:
+        """What `of` does, transposed: `weights` (places, m) given back to the rows (rows, m)."""
+        out = np.zeros((rows, weights.shape[1]))
+        np.add.at(out, self.low, (1.0 - self.share) * weights)
+        np.add.at(out, self.high, self.share * weights)
+        return out
+
+
+class Between(NamedTuple):
+    """Places between the cells, at which what the cells (nx, nz) have runs straight."""
+
+    around: _Line
+    across: _Line
+
+    def of(self, values: Array) -> Array:
+        """Values of the cells (nx, nz) at the places (n, l)."""
+        still = np.zeros((self.around.low.size, 1))
+        return self.across.of(np.hstack([self.around.of(values), still]).T).T
+
+    def back(self, weights: Array, shape: tuple[int, int]) -> Array:
+        """Sum of `weights` (n, l) over the places, to the cells (nx, nz) that they depend on."""
+        nx, nz = shape
+        rows = self.around.spread(weights, nx)
+        return self.across.spread(rows.T, nz + 1).T[:, :nz]
 
 
 def _around(angle: Array, mesh: ShapedMesh) -> _Line:

@@ -1,4 +1,4 @@
-"""Gaps between rough surfaces, which only asperities close: `CylindricalGap`, `ShapedGap`.
+"""Gaps between rough surfaces, which only asperities close: cylindrical, shaped, elastic.
 
 The shaft may pass the place where smooth surfaces would touch; the oil flows through the mean gap
 that is left, `narrowest` is its smallest value.
@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 
 from loadflow.journal.contact import Contact
 from loadflow.journal.film import _rough_kernels as kernel
-from loadflow.journal.film.gap import KEPT, CylindricalGap
+from loadflow.journal.film.gap import KEPT, CylindricalGap, Surfaces
+from loadflow.journal.film.gap_elastic import ElasticGap
 from loadflow.journal.film.gap_mesh import ShapedMesh
 from loadflow.journal.film.gap_shaped import Bore, ShapedGap
 from loadflow.journal.film.mesh import Mesh
@@ -25,30 +26,36 @@ _DEEPEST = 8.0  # overlap of the mean planes of summits over their σ at which t
 _FARTHEST = 0.03  # the same in clearances, where the mesh that turns with the shaft ends
 
 
-class _Rough:
-    """What both gaps need of the roughness, in clearances."""
+class Roughness:
+    """What the gaps need of the roughness, in clearances; of a shell its compliance, m/Pa."""
 
-    def __init__(self, contact: Contact, clearance: float) -> None:
+    def __init__(self, contact: Contact, clearance: float, compliance: float = 0.0) -> None:
         contact.check_clearance(clearance)
         self.roughness = contact.roughness / clearance
         tips = contact.asperities
         overlap = (_DEEPEST * tips.roughness - tips.summit_height) / clearance
         self.deepest = min(max(overlap, 0.0), _FARTHEST)
+        self.give = compliance * contact.asperities.scale / clearance
         pattern, none = contact.pattern, np.empty((0, 16))
         self._along = none if pattern is None else laws.flow_rows(pattern)
         self._across = none if pattern is None else laws.flow_rows(1.0 / pattern)
         self._slip = 2.0 * contact.shaft_share - 1.0  # Φ_s of the shaft less that of the shell
 
     @property
-    def numbers(self) -> tuple[float, Array, Array, float]:
+    def numbers(self) -> Surfaces:
         """What the kernels take."""
-        return self.roughness, self._along, self._across, self._slip
+        return self.roughness, self._along, self._across, self._slip, self.give
+
+    def planes(self, gap: float) -> float:
+        """Gap of the mean planes where it is `gap` without what asperities press a shell open."""
+        return float(kernel.yielded(gap, self.roughness, self.give)[0])
 
     def mean(self, gap: float) -> float:
-        """Mean gap at that of the mean planes, clearances; 0 where the law of contact ends."""
-        if not gap >= -self.deepest * (1.0 + 1e-9):
+        """Mean gap at one of the mean planes, clearances; 0 where the law of contact ends."""
+        planes = self.planes(gap)
+        if not planes >= -self.deepest * (1.0 + 1e-9):
             return 0.0
-        return float(kernel.mean_film(gap, self.roughness)[0])
+        return float(kernel.mean_film(planes, self.roughness)[0])
 
 
 class RoughGap(CylindricalGap):
@@ -68,7 +75,7 @@ class RoughGap(CylindricalGap):
 
     def __init__(self, mesh: Mesh, contact: Contact, clearance: float) -> None:
         super().__init__(mesh)
-        self.rough = _Rough(contact, clearance)
+        self.rough = Roughness(contact, clearance)
         self.roughness, self.surfaces = self.rough.roughness, self.rough.numbers
         self.open_share = np.ones((mesh.angle.size, 1))
 
@@ -102,7 +109,7 @@ class RoughShapedGap(ShapedGap):
 
     def __init__(self, mesh: ShapedMesh, bore: Bore, contact: Contact) -> None:
         super().__init__(mesh, bore)
-        self.rough = _Rough(contact, bore.clearance)
+        self.rough = Roughness(contact, bore.clearance)
         self.roughness, self.surfaces = self.rough.roughness, self.rough.numbers
         self.open_share = np.ones_like(self._cell_gap)
 
@@ -121,3 +128,50 @@ class RoughShapedGap(ShapedGap):
     def narrowest(self, position: Array) -> float:
         """Narrowest mean gap over the clearance; 0 beyond where the law of contact ends."""
         return self.rough.mean(float(self.gaps(position).min()))
+
+
+class RoughElasticGap(ElasticGap):
+    """Gap between rough surfaces, of which the shell yields to asperities where they press.
+
+    The growth that the film gives to a cell is that of `ElasticGap`; what asperities add to it
+    follows from the gap at hand, so that the kernels find it place by place.
+
+    Parameters
+    ----------
+    mesh, bore
+        As for `ElasticGap`.
+    contact : Contact
+        Roughness and its pattern.
+    compliance : float
+        Growth of the gap over pressure, m/Pa.
+    """
+
+    def __init__(self, mesh: ShapedMesh, bore: Bore, contact: Contact, compliance: float) -> None:
+        super().__init__(mesh, bore, ends_deform=False)
+        self.rough = Roughness(contact, bore.clearance, compliance)
+        self.roughness, self.surfaces = self.rough.roughness, self.rough.numbers
+        self.open_share = np.ones_like(self._cell_gap)
+
+    def narrowest(self, position: Array) -> float:
+        """Narrowest mean gap over the clearance; 0 beyond where the law of contact ends."""
+        return self.rough.mean(float(self.gaps(position).min()))
+
+    def least(self, position: Array) -> float:
+        """Narrowest gap of the mean planes, clearances, that the balance of the film takes up."""
+        return self.rough.planes(super().least(position))
+
+    def least_after(self, position: Array) -> float:
+        """Gap that a step from `position` must leave: a third of the gap or of the roughness."""
+        gap = self.least(position)
+        kept = gap - (1.0 - KEPT) * max(gap, self.roughness)
+        return max(kept, -self.rough.deepest)
+
+    def left(self, position: Array) -> float:
+        """Narrowest gap, clearances, over that at which the law of contact ends."""
+        return min(self.least(position) + self.rough.deepest, self.narrowest(position))
+
+    def pressed_open(self) -> Array:
+        """Growth of the cells (nx, nz) by asperities where last placed, clearances."""
+        _, _, _, gaps = self.nodes
+        rough = self.rough
+        return np.vectorize(rough.planes)(gaps) - gaps

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.journal.film import _gap_kernels as kernel
-from loadflow.journal.film.gap import KEPT
+from loadflow.journal.film.gap import KEPT, Surfaces
 from loadflow.journal.film.gap_mesh import ShapedMesh
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.shapes import Relief, Segment
@@ -105,7 +105,7 @@ class ShapedGap:
 
     roughness: float = 0.0
     open_share: Array | None = None
-    surfaces: tuple[float, Array, Array, float] | None = None  # roughness, as the kernels take it
+    surfaces: Surfaces | None = None  # where they are rough
     axisymmetric = False
     first_gap = 0.02
 

@@ -230,7 +230,7 @@ def _rough(
     if contact is None:
         return Rough(0.0, none, none, 0.0, 0.0, 9.0, 1.0, np.zeros((4, 2)), np.zeros(1), np.ones(1))
     gap = _rough_gap(contact, units, bearing.clearance)
-    size, along, across, slip = gap.rough.numbers
+    size, along, across, slip, _ = gap.rough.numbers
     first, step, table = _line_of_contact(contact, bearing.radius, bearing.clearance)
     x, w = np.polynomial.legendre.leggauss(_LINES if whole else 1)
     half = bearing.width / bearing.diameter

@@ -163,6 +163,7 @@ def _asked(
         "supply": film.supply,
         "local_shell" if film.shell is not None and film.shell.local else "shell": film.shell,
         "contact": film.contact,
+        "contact_on_shell": None if film.shell is None else film.contact,
         "step": None if steps.step == "given" else steps.step,
         "periodic": steps.periodic or None,
     }
@@ -191,7 +192,8 @@ def _pairs(
         )
     yield "shell", film.shell, pads, "None for pads, whose backs are not held"
     yield "shell", film.shell, over_area, "None with heat over the area"
-    yield "contact", film.contact, film.shell is not None, "None with an elastic shell"
+    spreads = film.shell is not None and not film.shell.local
+    yield "contact", film.contact, spreads, "None with a shell that is pressed open around, too"
     yield "contact", film.contact, pads, "None for pads that tilt"
     yield "contact", film.contact, over_area, "None with heat over the area"
 

@@ -116,17 +116,27 @@ def solve_by_approach(
     place = position - (1.0 - share) * way
     state = _first_film(film, place, *limits)
     spent, u = state.iterations, state.u
+    reached, stride = share if state.converged else 0.0, 1.0
+    if not film.law.moves_by_cells:
+        limits = (tolerance, min(max_iterations, _STEPS_EACH))
     for _ in range(_APPROACHES):
         place = position - (1.0 - share) * way
         moving = velocity if share == 1.0 else 0.0 * velocity
         state = solve_film(film, u, place, moving, *limits)
         spent += state.iterations
-        if share == 1.0 or not state.converged:
+        if not state.converged:
+            stride = 0.5 * (share - reached)
+            if reached == 0.0 or stride < _SHORTEST:
+                break
+            share = reached + stride
+            continue
+        if share == 1.0:
             break
-        least, step, u = KEPT * gap.narrowest(place), 1.0 - share, state.u
+        least, step, u, reached = KEPT * gap.narrowest(place), 1.0 - share, state.u, share
         while gap.narrowest(place + step * way) < least and step > _NEAREST:
             step *= _BACK
-        share = min(1.0, share + step)
+        share = min(1.0, share + min(step, stride))
+        stride *= 2.0
     return replace(state, converged=state.converged and share == 1.0, iterations=spent)
 
 

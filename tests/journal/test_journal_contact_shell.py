@@ -1,0 +1,121 @@
+"""Asperities on a shell that gives way where film and asperities press it."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from loadflow.errors import InputError
+from loadflow.journal import (
+    Contact,
+    Film,
+    GasMixture,
+    Guembel,
+    JournalBearing,
+    LocalShell,
+    Lubricant,
+    ThickShell,
+)
+from loadflow.tribology import AsperityContact
+
+BEARING = JournalBearing(diameter=0.2, width=0.1, relative_clearance=1e-3)
+ROUGH = Contact(AsperityContact(roughness=5e-7, contact_modulus=115e9, factor=1e-3), friction=0.1)
+FILM = Film(
+    Lubricant(0.03), GasMixture(5e4), edge_pressure=1.5e5, contact=ROUGH, grid=(192, 8),
+    grading="uniform", inlet=None, shell=LocalShell(1e-13),
+)  # fmt: skip
+FORCE, SPEED = np.array([4e4, 5e3]), 0.3
+TILT = np.array([2e-6, 1e-6])
+TIGHT = {"tolerance": 1e-11}
+NAMES = ("eccentricity_ratio", "minimum_film", "contact_share", "friction_power")
+
+
+def test_a_stiff_shell_is_a_rigid_one():
+    rigid = BEARING.equilibrium(FORCE, SPEED, replace(FILM, shell=None), tilt=TILT, **TIGHT)
+    off = []
+    for compliance in (1e-17, 1e-18):
+        stiff = replace(FILM, shell=LocalShell(compliance))
+        state = BEARING.equilibrium(FORCE, SPEED, stiff, tilt=TILT, **TIGHT)
+        off.append([float(getattr(state, n) / getattr(rigid, n)) - 1.0 for n in NAMES])
+    assert 0.05 < float(rigid.contact_share) < 0.5
+    np.testing.assert_allclose(off[1], 0.0, atol=2e-4)
+    # what is left falls with the compliance, but for nodes between cells: theirs is that of cells
+    np.testing.assert_allclose(off[1], 0.1 * np.array(off[0]), atol=1e-4)
+
+
+def test_load_of_a_smooth_shaft_on_a_standing_elastic_foundation():
+    """p = δ/C over the overlap: F = R B c/C (ε (θ₀ + sin 2θ₀/2) − 2 sin θ₀), cos θ₀ = 1/ε."""
+    compliance, ratio = 1e-11, 1.2
+    smooth = replace(ROUGH, asperities=replace(ROUGH.asperities, roughness=2e-8))
+    film = replace(FILM, shell=LocalShell(compliance), contact=smooth)
+    end = np.arccos(1.0 / ratio)
+    shape = ratio * (end + 0.5 * np.sin(2 * end)) - 2.0 * np.sin(end)
+    force = BEARING.radius * BEARING.width * BEARING.clearance / compliance * shape
+    state = BEARING.equilibrium((force, 0.0), 0.0, film)
+    # asperities are lifted by some roughness, 2e-4 c each
+    assert float(state.eccentricity_ratio) == pytest.approx(ratio, abs=1e-3)
+    deepest = (ratio - 1.0) * BEARING.clearance
+    assert float(state.contact_pressure) == pytest.approx(deepest / compliance, rel=5e-3)
+    assert float(state.shell_deformation) == pytest.approx(deepest, rel=5e-3)
+
+
+@pytest.mark.parametrize("law", [GasMixture(5e4), Guembel()], ids=lambda law: law.kind)
+def test_position_to_load_and_back(law):
+    film = replace(FILM, cavitation=law)
+    state = BEARING.equilibrium(FORCE, SPEED, film, tilt=TILT, **TIGHT)
+    field = BEARING.pressure(state.eccentricity, SPEED, film, tilt=TILT, **TIGHT)
+    np.testing.assert_allclose(field.force, FORCE, rtol=1e-6, atol=1e-6 * FORCE[0])
+    back = BEARING.equilibrium(field.force, SPEED, film, tilt=TILT, **TIGHT)
+    np.testing.assert_allclose(back.eccentricity, state.eccentricity, rtol=1e-6)
+
+
+def test_stiffness_is_the_slope_of_the_load():
+    state = BEARING.equilibrium(FORCE, SPEED, FILM, tilt=TILT, **TIGHT)
+    assert 0.001 < float(state.contact_share) < 0.6
+    way = np.array([[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]])
+    force = BEARING.pressure(
+        state.eccentricity + 1e-10 * way, SPEED, FILM, tilt=TILT, **TIGHT
+    ).force
+    slopes = np.stack([force[0] - force[1], force[2] - force[3]], axis=-1) / 2e-10
+    known = state.stiffness[:2, :2]
+    np.testing.assert_allclose(known, slopes, atol=3e-5 * np.abs(known).max())
+
+
+def test_damping_is_the_lag_behind_a_load_that_grows_slowly():
+    rate, time = np.array([20.0, -10.0]), np.linspace(0.0, 2.0, 41)
+    force = FORCE + np.outer(time - time[-1], rate)
+    path = BEARING.orbit(time, force, SPEED, FILM, tolerance=1e-11)
+    still = BEARING.equilibrium(FORCE, SPEED, FILM, **TIGHT)
+    moving = np.gradient(path.eccentricity.values, time, axis=0)[-1]
+    lag = still.eccentricity - path.eccentricity.values[-1]
+    behind = np.linalg.solve(still.stiffness, still.damping @ moving)
+    np.testing.assert_allclose(lag, behind, atol=0.02 * np.abs(behind).max())
+
+
+def test_a_yielding_shell_spreads_the_contact():
+    """Softer: the film carries more of the load, at less pressure and friction."""
+    states = [
+        BEARING.equilibrium(FORCE, SPEED, replace(FILM, shell=LocalShell(c)), **TIGHT)
+        for c in (1e-15, 1e-14, 1e-13)
+    ]
+    for name in ("contact_share", "maximum_pressure", "friction_power"):
+        values = [float(getattr(state, name)) for state in states]
+        assert values == sorted(values, reverse=True), name
+    assert float(states[-1].eccentricity_ratio) > 1.0 > float(states[0].eccentricity_ratio)
+
+
+def test_a_stop_ends_on_the_yielding_asperities():
+    time = np.linspace(0.0, 1.0, 41)
+    speed = 10.0 * np.clip(1.0 - time / 0.5, 0.0, None)
+    path = BEARING.orbit(time, np.tile(FORCE, (41, 1)), speed, FILM)
+    assert float(path.contact_share[0]) < 1e-3
+    assert np.all(np.diff(path.contact_share.values[21:]) > 0)
+    still = BEARING.equilibrium(FORCE, 0.0, FILM)
+    assert float(still.contact_share) == pytest.approx(1.0, abs=1e-6)
+    assert float(still.minimum_film) < float(path.minimum_film[-1])
+
+
+def test_a_shell_that_spreads_is_refused_by_name():
+    thick = ThickShell(outer_diameter=0.3, modulus=2.1e11)
+    with pytest.raises(InputError, match=r"contact .* pressed open around"):
+        BEARING.equilibrium(FORCE, SPEED, replace(FILM, shell=thick))
