@@ -28,6 +28,7 @@ from loadflow.stages import (
     seeds,
     shaft,
     thrust,
+    wear,
 )
 from loadflow.studies.run_lifetime import run_lifetime
 from loadflow.studies.verdicts import verdicts
@@ -82,6 +83,13 @@ BASES = {
     "rotor dynamics, rigid": {"journal": FILM, "shaft": {"two_point": {}},
                               "results": ["journal.dynamics"]},
     "rigid and tilted": {"journal": FILM | {"tilt": True}, "shaft": {"two_point": {}}},
+    "worn bores": {
+        "journal": FILM | {"contact": {"asperities": {
+            "roughness": 1e-6, "contact_modulus": 1e11, "factor": 1e-3}}},
+        "reduction": {"size": 0.5}, "results": ["journal.film", "journal.wear"],
+        "wear": {"law": {"coefficient": 1e-13}, "samples": 12, "around": 90, "running_in": {
+            "initial_roughness": 1e-6, "final_roughness": 9e-7, "depth": 1e-6}},
+    },
     "tapered rollers": {
         "shaft": {"two_point": {}},
         "rolling": {"bearing": "N2", "geometry": {
@@ -135,6 +143,7 @@ READERS = {
     "rotor dynamics": ("dynamics",),
     "rotor dynamics, rigid": ("dynamics",),
     "rigid and tilted": ("journal",),
+    "worn bores": ("wear",),
     "tapered rollers": ("rolling", "friction"),
     "thrust collar": ("thrust",),
     "pair of cones": ("thrust",),
@@ -199,6 +208,7 @@ OTHERS = {
     "journal.supply.grooves.0.restrictor": [{"diameter": 0.004, "length": 0.05}],
     "journal.supply.pump": [{"flow": [0.0, 0.01], "pressure": [8e5, 2e5]}],
     "dynamics.speed_range": [[0.8, 1.6]],
+    "wear.running_in.initial_roughness": [1.0000001e-6],
     "thrust.bearings.N2.geometry.profile": [{"kind": "step", "height": 1e-4}],
     "thrust.bearings.N2.geometry.pivot": [{"share": 0.6}],
     "thrust.bearings.N2.geometry.first_pad": [0.1],
@@ -393,6 +403,20 @@ def _dynamics(scene, add):
     add(dynamics.summary({ONE: tree}))
 
 
+class _Start(_One):
+    dlc, weight, name = "3.1", 1.0, "dlc3.1_v8_s1"
+
+
+_FILMS = {}
+
+
+def _wear(scene, add):
+    if (key := repr(scene.journal)) not in _FILMS:  # keys of wear do not change the films
+        inputs = _inputs(scene)
+        _FILMS[key] = inputs | {"journal": journal.film(scene, ONE, inputs)}
+    add(wear.wear(scene, [_Start()], {_Start.name: _FILMS[key]}))
+
+
 def _environment(scene, add):
     _loads(scene, add)
     _journal(scene, add)
@@ -419,7 +443,7 @@ def _seeds(scene, add):
 FOUND = {
     "loads": _loads, "turbine": _loads, "shaft": lambda s, add: _shaft(s, add) and None,
     "seeds": _seeds, "reduction": _reduction, "journal": _journal, "rolling": _rolling,
-    "friction": _friction, "dynamics": _dynamics,
+    "friction": _friction, "dynamics": _dynamics, "wear": _wear,
     "thrust": _thrust,
     "environment": _environment,
 }  # fmt: skip

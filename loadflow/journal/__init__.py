@@ -9,6 +9,7 @@
 `surfaces`       cone, plane ring, straight pad, profiles
 `shapes`         shapes of the bore and their relief
 `shells`         elastic shells; `contact`: asperities; `stribeck`: friction over speed
+`wear`           wear of a bore over a lifetime of starts and stops; `worn_surface`: its points
 `supply`         grooves, pockets, restrictors, pump
 `results`        what comes back; `rows`: how solved films become results
 `heat`           oil and cooling: `Heat`, `FilmHeat`; `heat_results` what comes back

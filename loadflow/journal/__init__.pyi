@@ -57,3 +57,7 @@ from .surfaces import Step as Step
 from .surfaces import Taper as Taper
 from .thrust import RectangularThrustBearing as RectangularThrustBearing
 from .thrust import ThrustBearing as ThrustBearing
+from .wear import Cycle as Cycle
+from .wear import Wear as Wear
+from .wear import WornBearing as WornBearing
+from .wear import wear_bearing as wear_bearing

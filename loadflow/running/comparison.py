@@ -164,14 +164,14 @@ def shared_loads(scene: Scene, out: str | Path, how: Means) -> SharedLoads:
     """
     folder = Path(out) / scene.name
     base = _base(scene)
-    settled = _as_run(base, scene, folder)
-    if settled is None or not _there(make_plan(settled), folder):
+    as_run = _as_run(base, scene, folder)
+    if as_run is None or not _there(make_plan(as_run), folder):
         run(
             base, out=out, workers=how.workers, scheduler=how.scheduler, overwrite=how.overwrite,
             report=False, progress=how.progress,
         )  # fmt: skip
-        settled = _as_run(base, scene, folder) or base
-    return SharedLoads(settled, make_plan(settled), folder)
+        as_run = _as_run(base, scene, folder) or base
+    return SharedLoads(as_run, make_plan(as_run), folder)
 
 
 def run_candidates(

@@ -37,6 +37,7 @@ from loadflow.scene.series import Reduction, Seeds
 from loadflow.scene.shaft import Shaft
 from loadflow.scene.thrust import Thrust, check_thrust
 from loadflow.scene.turbine import Turbine
+from loadflow.scene.wear import Wear, check_wear
 from loadflow.scene.written import SCENE, anchored, in_sections, origins
 from loadflow.shaft.options import MomentBearing, TwoPoint
 from loadflow.storage import check_name
@@ -50,13 +51,14 @@ Result = Literal[
     "reduction.histogram",
     "journal.film",
     "journal.dynamics",
+    "journal.wear",
     "rolling.loads",
     "rolling.life",
     "rolling.friction",
     "thrust.film",
 ]
 
-BY_NAME: tuple[Result, ...] = ("journal.dynamics",)
+BY_NAME: tuple[Result, ...] = ("journal.dynamics", "journal.wear")
 """Results that are computed only where a scene asks for them by name."""
 
 OF_PLACES: tuple[Result, ...] = tuple(name for name in get_args(Result) if name not in BY_NAME)
@@ -103,6 +105,7 @@ class Scene(Section, BaseModel):
     reduction: Reduction = Reduction()
     journal: Journal = Journal()
     dynamics: Dynamics = Dynamics()
+    wear: Wear = Wear()
     rolling: Rolling = Rolling()
     thrust: Thrust = Thrust()
     friction: Friction = Friction()
@@ -183,6 +186,12 @@ class Scene(Section, BaseModel):
         return self
 
     @model_validator(mode="after")
+    def _can_wear(self) -> Self:
+        if "journal.wear" in self.results:
+            check_wear(self.wear, self.journal, self.shaft)
+        return self
+
+    @model_validator(mode="after")
     def _yaw_bearings_swing(self) -> Self:
         part = self.rolling.bearings.get("Y")
         if part is not None and part.oscillation is None:
@@ -211,33 +220,22 @@ class Scene(Section, BaseModel):
     @model_validator(mode="after")
     def _supports_have_bearings(self) -> Self:
         there = {"journal": self.journal.bearings, "rolling": [*self.rolling.geometries]}
-        for name, seat in self.shaft.coupled.items():
-            what = f'shaft: seat of bearing {name} with stiffness = "{seat.stiffness}"'
-            have = there[seat.stiffness]
+        for name, support in self.shaft.coupled.items():
+            what = f'shaft: support of bearing {name} with stiffness = "{support.stiffness}"'
+            have = there[support.stiffness]
             if name not in have:
                 raise ValueError(
-                    f"{what}: the scene has {seat.stiffness} bearings at {', '.join(have)} only"
+                    f"{what}: the scene has {support.stiffness} bearings at {', '.join(have)} only"
                 )
-            if seat.takes_moment and seat.stiffness == "journal" and not self.journal.tilt:
+            if support.takes_moment and support.stiffness == "journal" and not self.journal.tilt:
                 raise ValueError(
                     f"{what} and takes_moment = true: only a tilted film takes a moment; set "
                     "journal.tilt = true, or leave out takes_moment"
                 )
             geometry = self.rolling.geometries.get(name)
             aligning = geometry is not None and not geometry.takes_moment
-            if seat.takes_moment and seat.stiffness == "rolling" and aligning:
+            if support.takes_moment and support.stiffness == "rolling" and aligning:
                 raise ValueError(f"{what}: it aligns itself; leave out takes_moment")
-        return self
-
-    @model_validator(mode="after")
-    def _tilted_at_rest(self) -> Self:
-        journal = self.journal
-        tilted = journal.tilt and any(map(self.shaft.bends_at, journal.bearings))
-        if tilted and journal.in_motion:
-            raise ValueError(
-                'journal.motion = "transient" does not know the tilt of a shaft with a beam; set '
-                '"quasi-static", or leave out journal.tilt or the beam'
-            )
         return self
 
     @property

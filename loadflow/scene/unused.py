@@ -30,6 +30,7 @@ _RESULTS = {
     "journal": ("journal",),
     "thrust": ("thrust",),
     "dynamics": ("journal.dynamics",),
+    "wear": ("journal.wear",),
     "rolling": ("rolling",),
     "friction": ("rolling",),
 }
@@ -246,6 +247,8 @@ def _of_journal(scene: Scene) -> Iterator[tuple[str, str]]:
     if journal.heat is None:
         for key in ("limits.oil", "limits.oil_hours", "limits.temperature"):
             yield key, "the temperature of the film is not computed; give journal.heat"
+    if not journal.in_motion:
+        yield "step", "only a film in motion goes from step to step"
     if isinstance(journal.heat, Heat) and not journal.in_motion:
         for key in ("heat.capacity", "heat.start_temperature"):
             yield key, "only a film in motion stores heat"

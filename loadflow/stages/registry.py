@@ -15,6 +15,7 @@ from loadflow.stages import (
     shaft,
     statistics,
     thrust,
+    wear,
 )
 from loadflow.stages.stage import Rungs, Stage
 
@@ -31,6 +32,7 @@ STAGES: dict[str, Stage] = {
         dynamics,
         rolling,
         friction,
+        wear,
     )
 }
 
