@@ -108,10 +108,10 @@ BASES = {
     "pair of cones": {
         "shaft": {"moment": {}}, "results": ["thrust.film"],
         "reduction": {"size": 0.02, "classes": 2},
-        "thrust": {"bearings": {"M": {"kind": "conical-pair", "grid": [10, 6],
+        "thrust": {"bearings": {"M": {"kind": "conical-pair", "grid": [8, 4],
             "lubricant": {"viscosity": 0.2}, "geometry": {"distance": 3.2, "left": {
-                "half_angle": 0.5, "slant": [1.59, 2.59], "clearance": 2e-4, "pads": 10,
-                "pad_angle": 0.55, "profile": {"kind": "taper", "taper": 8e-5}}}}}},
+                "half_angle": 0.5, "slant": [1.59, 2.59], "clearance": 2e-4, "pads": 6,
+                "pad_angle": 0.95, "profile": {"kind": "taper", "taper": 8e-5}}}}}},
     },
     "three points": {"shaft": {"three_point": {}}, "journal": FILM},
     "integrated": {"shaft": {"integrated": {}}, "journal": FILM},
