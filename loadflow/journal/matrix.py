@@ -65,7 +65,7 @@ _GROOVE = Groove(1.57, arc=0.3, length=0.05, pressure=2e5)
 _ROUGH = Contact(AsperityContact(roughness=5e-7, contact_modulus=1e11, factor=1e-3))
 
 PARTS: dict[str, Part] = _LAWS | {
-    "arc": Part("bore", bearing={"shape": Arc(0.0, 2.6)}),
+    "arc": Part("bore", bearing={"shape": Arc(0.3, 3.0)}),
     "lobes": Part("bore", bearing={"shape": Lobes(3, preload=0.3)}),
     "tilting pads": Part("bore", bearing={"shape": TiltingPads(4, 1.2)}),
     "crown": Part("bore", bearing={"relief": (Crown(1e-5, 0.02),)}),

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from loadflow.journal.film._kernels import COS, HM, SIN
+from loadflow.journal.film._kernels import HM
 from loadflow.journal.film.groove_pressure import UNSUPPLIED
 from loadflow.journal.film.integrals import summary
 from loadflow.journal.geometry import JournalGeometry
@@ -15,6 +15,7 @@ from loadflow.journal.validity import critical_reynolds_number, reynolds_number
 
 if TYPE_CHECKING:
     from loadflow.journal.film.film import DiscreteFilm, Linear
+    from loadflow.journal.film.gap import BoreGap
     from loadflow.journal.lubricant import Lubricant
     from loadflow.journal.solvers.newton import Solution
 
@@ -80,32 +81,30 @@ def without_supply(count: int) -> dict[str, Any]:
     return {name: np.array([value] * count) for name, value in UNSUPPLIED.items()}
 
 
-def field_row(film: DiscreteFilm, solution: Solution) -> dict[str, Any]:
-    """One row of `FilmField`, but for z; the half film is mirrored."""
+def field_row(film: DiscreteFilm, gap: BoreGap, solution: Solution) -> dict[str, Any]:
+    """One row of `FilmField`, but for z, of a film and its `gap`; the half film is mirrored."""
     *cells, angle, load = film.field(solution.u, solution.position)
-    cells += [film.deformation, _mean_gap(film, cells[0].shape)]
+    cells += [film.deformation, _mean_gap(film, gap.arcs(solution.position))]
     if film.mesh.half:
         cells = [np.concatenate([values[:, ::-1], values], axis=1) for values in cells]
-    pressure, fill, deformation, gap = cells
+    pressure, fill, deformation, heights = cells
     return {
         "film_force": -load[:2],
         "force": load[:2],
         "pressure": pressure,
         "fill": fill,
         "deformation": deformation,
-        "gap": gap,
+        "gap": heights,
         "angle": angle,
         **_common_row(film, solution),
     }
 
 
-def _mean_gap(film: DiscreteFilm, shape: tuple[int, ...]) -> Array:
-    """Mean gap of the cells, m, where the film was last placed."""
-    # of each cell ∫h dθ is known, and its arc by ∫cos θ dθ and ∫sin θ dθ
-    coef, (columns, rows) = film.gap.coef, shape
-    arc = np.hypot(coef[COS, :columns, :1], coef[SIN, :columns, :1])
-    heights = coef[HM, :columns, :rows] / arc * film.relative_clearance * film.radius
-    return np.broadcast_to(heights, shape)
+def _mean_gap(film: DiscreteFilm, arcs: Array) -> Array:
+    """Mean gap of the cells, m, where the film was last placed: ∫h dθ over the `arcs`, rad."""
+    columns, rows = film.mesh.shape
+    heights = film.gap.coef[HM, :columns, :rows] / arcs[:, None]
+    return np.broadcast_to(heights * film.relative_clearance * film.radius, film.mesh.shape)
 
 
 def _common_row(film: DiscreteFilm, solution: Solution, whirl: float = 0.0) -> dict[str, Any]:

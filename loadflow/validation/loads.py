@@ -1,9 +1,9 @@
 """NREL 5 MW in steady wind, and starting in it, and IEA 15 MW in steady wind, beside OpenFAST.
 
 Source: OpenFAST v5, quasi-steady wake, two flap and one edge mode, tower dam, shear 0.2, tilt 5°,
-cone 2.5°; means over the settled part. The aims are 2 % of power, 3 % of thrust, 0.4° of pitch, 1 %
-of speed, and 8 % or 60 kN m of the moments; those in turbulence stand with their numbers. Where the
-model misses its aim, the row says so and why; see the documentation of the rotor.
+cone 2.5°; means over the part after the start-up. The aims are 2 % of power, 3 % of thrust, 0.4° of
+pitch, 1 % of speed, and 8 % or 60 kN m of the moments; those in turbulence stand with their
+numbers. Where the model misses its aim, the row says so and why; see docs/rotor.md.
 """
 
 from __future__ import annotations
@@ -152,7 +152,7 @@ def _iea() -> Iterator[Check]:
 
     turbine = load_turbine("iea-15mw")
     weight = turbine.rotor_mass * 9.80665 * np.sin(turbine.rotor.tilt)
-    # the coefficients are of the air alone; a tower that leans turns weight into the shaft
+    # the coefficients are of the air alone; a tower that is bent turns weight into the shaft
     points = steady_state(turbine, wind_speed=list(_IEA), shear=0.0, rung="flap")
     for i, (wind, (power, thrust)) in enumerate(_IEA.items()):
         point = points.isel(wind_speed=i)

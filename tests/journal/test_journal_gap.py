@@ -418,3 +418,13 @@ def test_newton_finds_light_and_heavy_loads(shape, share):
 def test_what_cannot_be_is_named(call, error, message):
     with pytest.raises(error, match=message):
         call()
+
+
+@pytest.mark.parametrize("grading", ["uniform", "graded"])
+@pytest.mark.parametrize("tilt", [None, (0.0, 0.0)], ids=["cylindrical", "fixed to the shell"])
+def test_the_gap_of_a_cell_is_its_mean(grading, tilt):
+    """Of the cell's arc, not of its chord, which is by 1 % shorter where twelve go around."""
+    options = film(Guembel(), 0.0, grid=(12, 4)) | {"grading": grading, "inlet": None}
+    line = {} if tilt is None else {"tilt": tilt}
+    centred = PLAIN.pressure((0.0, 0.0), 10.0, **options, **line)
+    np.testing.assert_allclose(centred.gap, CLEARANCE, rtol=1e-12)

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from loadflow.errors import InputError
+from loadflow.errors import InputError, ValidityWarning
 from loadflow.journal import (
     Contact,
     Film,
@@ -21,7 +21,7 @@ from loadflow.journal import (
     Reynolds,
     ThickShell,
 )
-from loadflow.journal.models import composed
+from loadflow.journal.models import composed_model
 from loadflow.journal.models.width_modes import half_width_nodes, lobatto, whole_width
 from loadflow.tribology import AsperityContact
 
@@ -49,12 +49,18 @@ EFFECTS = {
     "pattern, tilt": ({"contact": replace(ROUGH, pattern=3.0)}, {"tilt": TILT}),
 }
 ANSWERS = ("eccentricity_ratio", "minimum_film", "maximum_pressure", "friction_power", "side_flow")
-OFF = (0.003, 0.008, 0.013, 0.004, 0.01)
-"""How far both models are apart at most, each on 60 cells around; the grid with 20 across."""
+OFF = (0.0008, 0.0019, 0.0018, 0.0006, 0.0013)
+"""How far both models are apart at most, each on 60 cells around; the grid with 40 across."""
 
-FREE = {"minimum_film": 0.016}
-"""A shaft that tilts freely has the film of its ends follow what moment the grid's 20 cells give:
-against 40 cells it is 0.01, on both 120 around 0.004."""
+OFF_IF = {
+    "moment": {"minimum_film": 0.004},  # free to tilt, the film at the ends follows the moment
+    "shell, tilt": {"side_flow": 0.004},  # of which the reduced film's own 6 points make 0.0037
+}
+CELLS = (60, 40)
+
+
+def off(effect):
+    return dict(zip(ANSWERS, OFF)) | OFF_IF.get(effect, {})
 
 
 def apart(one, other, name):
@@ -81,31 +87,43 @@ def test_the_half_width_is_that_of_the_aligned_film():
 @pytest.mark.parametrize("effect", EFFECTS)
 def test_orbits_agree_with_the_grid(effect):
     film, line = EFFECTS[effect]
-    grid = BEARING.orbit(TIME, LOAD, SPEED, replace(FILM, **film), **line)
-    few = BEARING.orbit(TIME, LOAD, SPEED, replace(REDUCED, **film), **line)
-    for name, off in zip(ANSWERS, OFF):
-        assert apart(few, grid, name) < (FREE.get(name, off) if "moment" in line else off), name
+    grid = BEARING.orbit(TIME, LOAD, SPEED, replace(FILM, grid=CELLS, **film), **line)
+    few = BEARING.orbit(TIME, LOAD, SPEED, replace(REDUCED, grid=CELLS, **film), **line)
+    for name, bound in off(effect).items():
+        assert apart(few, grid, name) < bound, name
     if line:
         size = np.abs(grid.moment).max()
-        np.testing.assert_allclose(few.moment, grid.moment, atol=0.02 * float(size))
-        np.testing.assert_allclose(few.tilt, grid.tilt, atol=0.012 * UNIT)
+        np.testing.assert_allclose(few.moment, grid.moment, atol=0.006 * float(size))
+        np.testing.assert_allclose(few.tilt, grid.tilt, atol=0.002 * UNIT)
     if "shell" in film:
-        assert apart(few, grid, "shell_deformation") < 0.015
+        assert apart(few, grid, "shell_deformation") < 0.0025
     assert float(few.residual.max()) < 1e-8
+
+
+def at_rest(effect, film, cells):
+    """Equilibria of an effect on cells."""
+    more, line = EFFECTS[effect]
+    some = {name: values[::10] for name, values in line.items()}
+    return BEARING.equilibrium(LOAD[::10], SPEED, replace(film, grid=cells, **more), **some)
 
 
 @pytest.mark.parametrize("effect", EFFECTS)
 def test_equilibria_agree_with_the_grid(effect):
-    film, line = EFFECTS[effect]
-    some = {name: values[::10] for name, values in line.items()}
-    grid = BEARING.equilibrium(LOAD[::10], SPEED, replace(FILM, **film), **some)
-    few = BEARING.equilibrium(LOAD[::10], SPEED, replace(REDUCED, **film), **some)
-    for name, off in zip(ANSWERS, OFF):
-        assert apart(few, grid, name) < (FREE.get(name, off) if "moment" in line else off), name
+    few, grid = at_rest(effect, REDUCED, CELLS), at_rest(effect, FILM, CELLS)
+    for name, bound in off(effect).items():
+        assert apart(few, grid, name) < bound, name
     for name in ("stiffness", "damping"):
         one, other = getattr(few, name), getattr(grid, name)
         assert one.shape == other.shape
-        np.testing.assert_allclose(one, other, atol=0.03 * np.abs(other).max(axis=(1, 2)).max())
+        np.testing.assert_allclose(one, other, atol=0.0025 * np.abs(other).max(axis=(1, 2)).max())
+
+
+@pytest.mark.parametrize("effect", ["tilt and bend", "moment", "contact"])
+def test_what_is_apart_is_the_second_order_of_the_grid_across(effect):
+    few = at_rest(effect, REDUCED, CELLS)
+    coarse, fine = (at_rest(effect, FILM, (60, across)) for across in (20, 40))
+    for name in ANSWERS:
+        assert 3.2 < apart(few, coarse, name) / apart(few, fine, name) < 5.5, name
 
 
 @pytest.mark.parametrize("effect", ["tilt and bend", "shell, tilt", "contact, tilt"])
@@ -152,7 +170,7 @@ def test_order_across_is_that_of_polynomials(monkeypatch):
     """Each odd and even pair more takes the error of a tilted film down severalfold."""
     found = []
     for points in (3, 5, 7, 11):
-        monkeypatch.setattr(composed, "POINTS", points)
+        monkeypatch.setattr(composed_model, "POINTS", (points, points))
         found.append(BEARING.equilibrium(FORCE, SPEED, REDUCED, tilt=UNIT * np.array([0.2, 0.1])))
     errors = [np.linalg.norm(one.moment / found[-1].moment - 1.0) for one in found[:-1]]
     assert errors[0] > 4 * errors[1] > 16 * errors[2]
@@ -202,25 +220,42 @@ def test_a_stop_ends_on_the_asperities():
     speed = 40.0 * np.clip(1.0 - time / 2.0, 0.0, None)
     force = np.tile([40e3, 0.0], (time.size, 1))
     few = small.orbit(time, force, speed, replace(film, rung="reduced", grid=(240, 12)))
-    grid = small.orbit(time, force, speed, replace(film, grid=(240, 12)))
+    grid = small.orbit(time, force, speed, replace(film, grid=(240, 48)))
     assert float(few.contact_share[0]) < 0.01
     assert float(few.contact_share[-1]) > 0.4  # squeeze carries the rest for a while
     assert np.all(np.diff(few.contact_share.values[41:]) > 0)
-    np.testing.assert_allclose(few.minimum_film, grid.minimum_film, rtol=0.03)
-    np.testing.assert_allclose(few.contact_share, grid.contact_share, atol=0.02)
-    np.testing.assert_allclose(few.contact_power, grid.contact_power, atol=0.01 * 40e3 * 0.1)
+    # of the second order of the grid across: 24 cells leave 0.0057 and 0.0053
+    np.testing.assert_allclose(few.minimum_film, grid.minimum_film, rtol=0.0015)
+    np.testing.assert_allclose(few.maximum_pressure, grid.maximum_pressure, rtol=0.004)
+    np.testing.assert_allclose(few.contact_share, grid.contact_share, atol=0.0014)
+    np.testing.assert_allclose(few.contact_power, grid.contact_power, atol=0.001 * 40e3 * 0.1)
     still = small.equilibrium((40e3, 0.0), 0.0, replace(film, rung="reduced", grid=(240, 12)))
     assert float(still.contact_share) == pytest.approx(1.0, abs=1e-3)
     assert float(still.minimum_film) < float(few.minimum_film[-1])
 
 
+@pytest.mark.filterwarnings("error::loadflow.errors.ValidityWarning")
+def test_a_rough_end_that_touches_takes_more_points_across():
+    """Six polynomials alone had the largest pressure 83 % and the friction 150 % off."""
+    rough = replace(ROUGH, asperities=replace(ROUGH.asperities, roughness=1e-5))
+    film, lies = {"contact": rough, "grid": (60, 60)}, {"tilt": 0.5 * TILT[::3]}
+    time, load = TIME[::3], LOAD[::3]
+    few = BEARING.orbit(time, load, 0.1, replace(REDUCED, **film), **lies)
+    grid = BEARING.orbit(time, load, 0.1, replace(FILM, **film), **lies)
+    assert float(grid.contact_share.max()) > 0.02
+    # what is left is that of the grid: on 20, 40, 80 cells across 0.02, 0.005, 0.0016 of the film
+    for name, bound in zip(ANSWERS, (0.0003, 0.003, 0.01, 0.01, 0.002)):
+        assert apart(few, grid, name) < bound, name
+    np.testing.assert_allclose(few.contact_share, grid.contact_share, atol=0.001)
+
+
 def test_an_orbit_may_begin_at_standstill():
     time = np.linspace(0.0, 2.0, 41)
     force, speed = np.tile(FORCE, (41, 1)), SPEED * np.clip(time - 0.2, 0.0, None)
-    few, grid = (
-        BEARING.orbit(time, force, speed, replace(film, contact=ROUGH), tilt=TILT[:1] * 0.2)
-        for film in (REDUCED, FILM)
-    )
+    rough, line = {"contact": ROUGH}, {"tilt": TILT[:1] * 0.2}
+    grid = BEARING.orbit(time, force, speed, replace(FILM, **rough), **line)
+    with pytest.warns(ValidityWarning, match="bearing end is not resolved at .* first at t = 0.25"):
+        few = BEARING.orbit(time, force, speed, replace(REDUCED, **rough), **line)
     np.testing.assert_allclose(few.minimum_film, grid.minimum_film, rtol=0.03, atol=2e-6)
     assert float(few.contact_share[0]) > 0.99 > 0.01 > float(few.contact_share[-1])
 
@@ -290,19 +325,19 @@ def test_what_it_does_not_know_is_named():
 
 
 def test_effects_cost_a_few_times_the_plain_film():
-    """Processor time in one process on the same steps; measured 4.2 (tilt), 1.8, 1.8 and 4.5."""
+    """Processor time in one process on the same steps; measured 2.4 and 4.0."""
     time = np.arange(0.0, 5.0, 0.025)
     force = np.stack([2e6 + 5e5 * np.sin(1.5 * time), 4e5 * np.cos(4 * time)], axis=-1)
     tilt = UNIT * np.stack([0.2 * np.sin(1.2 * time), 0.1 * np.cos(2 * time)], axis=-1)
 
     def seconds(film, **line):
         spent = []
-        for _ in range(3):
+        for _ in range(5):
             begun = clock.process_time()
             BEARING.orbit(time, force, SPEED, film, **line)
             spent.append(clock.process_time() - begun)
         return min(spent)
 
     plain = seconds(REDUCED)
-    assert seconds(replace(REDUCED, contact=ROUGH)) < 8 * plain
-    assert seconds(replace(REDUCED, shell=SOFT), tilt=tilt) < 15 * plain
+    assert seconds(replace(REDUCED, contact=ROUGH)) < 3.5 * plain
+    assert seconds(replace(REDUCED, shell=SOFT), tilt=tilt) < 5 * plain

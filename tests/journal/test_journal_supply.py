@@ -1,10 +1,13 @@
 """Grooves, pockets, restrictors and pumps against the film."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from loadflow.errors import InputError, SolverError
 from loadflow.journal import (
+    Arc,
     Capillary,
     ConstantFlow,
     GasMixture,
@@ -227,3 +230,10 @@ def test_bad_supplies_are_named(make, message):
 def test_grooves_that_do_not_fit_are_named(grooves, message):
     with pytest.raises(InputError, match=message):
         BEARING.pressure((0.0, 0.0), 1.0, **options(Supply(grooves)))
+
+
+def test_a_groove_beside_the_shell_is_named():
+    """An arc leaves a part of the circle without shell."""
+    half = replace(BEARING, shape=Arc(0.0, np.pi))
+    with pytest.raises(InputError, match=r"grooves\[0\].angle = 3.0 .* an angle, rad, at which"):
+        half.pressure((0.0, 0.0), 1.0, **options(Supply([Groove(3.0, arc=0.1)])))

@@ -74,21 +74,22 @@ class CylinderLoad:
     def __init__(self, contact: Contact, radius: float, width: float, clearance: float) -> None:
         self.contact = contact
         self._area = radius * width
-        self._roughness = contact.roughness / clearance
+        self._roughness = contact.asperities.roughness / clearance
+        self._summits = contact.asperities.summit_height / clearance
         self._x, self._w = np.polynomial.legendre.leggauss(_NODES)
 
     def at(self, position: Array) -> Touch:
         """What they carry with the shaft at `position` (2,), clearances."""
         ratio = math.hypot(*position)
         s, frame = self._roughness, turning_frame(position)
-        least = (1.0 - _FAR * s) / max(ratio, 1e-12)
+        least = (1.0 - self._summits - _FAR * s) / max(ratio, 1e-12)
         load, stiffness = np.zeros(2), np.zeros((2, 2))
         if least >= 1.0:
             return Touch(load, stiffness, 0.0, 0.0, 0.0)
         half = math.acos(max(least, -1.0))
         angle = half * self._x
         reach = np.stack([np.cos(angle), np.sin(angle)])
-        gap = (1.0 - ratio * reach[0])[:, None]
+        gap = (1.0 - self._summits - ratio * reach[0])[:, None]
         weights, one = self._area * half * self._w, np.ones(1)
         none = np.zeros(gap.shape, dtype=bool)
         normal, _ = kernel.pressed(
@@ -99,7 +100,7 @@ class CylinderLoad:
             scale * (frame @ load),
             scale * (frame @ stiffness @ frame.T),
             scale * normal,
-            *_worst(self.contact, (1.0 - ratio) / s),
+            *_worst(self.contact, (1.0 - self._summits - ratio) / s),
         )
 
 
@@ -129,7 +130,8 @@ class NodeLoad:
         self.contact, self._gap = contact, gap
         self._area = mirrors * radius**2
         mesh = gap.mesh
-        self._roughness = contact.roughness / gap.bore.clearance
+        self._roughness = contact.asperities.roughness / gap.bore.clearance
+        self._summits = contact.asperities.summit_height / gap.bore.clearance
         step = min(_STEP, max(_FINEST, _PER_ZONE * math.sqrt(2.0 * self._roughness)))
         counts = np.maximum(1, np.ceil(mesh.dx / step)).astype(int)
         angle, self._around, columns = _nodes(mesh.edges, counts, 1)
@@ -142,8 +144,8 @@ class NodeLoad:
         modes, size = self._modes, position.size
         load, stiffness = np.zeros(size), np.zeros((size, size))
         normal, least = kernel.pressed(
-            modes.gaps(position, self._gap.curvature), self._roughness, self._around, self._across,
-            self._held, modes.reach, modes.lengths, load, stiffness,
+            modes.gaps(position, self._gap.curvature) - self._summits, self._roughness,
+            self._around, self._across, self._held, modes.reach, modes.lengths, load, stiffness,
         )  # fmt: skip
         unit = self._area * self.contact.asperities.scale
         worst = _worst(self.contact, least / self._roughness)
@@ -151,10 +153,11 @@ class NodeLoad:
 
 
 def _worst(contact: Contact, parameter: float) -> tuple[float, float]:
-    """Pressure, Pa, and share of the real area at a film parameter."""
+    """Pressure, Pa, and share of the real area at a film parameter of the summits."""
     if parameter >= kernel.NO_CONTACT:
         return 0.0, 0.0
-    gap, asperities = parameter * contact.roughness, contact.asperities
+    asperities = contact.asperities
+    gap = parameter * asperities.roughness + asperities.summit_height
     return float(asperities.pressure(gap)), float(asperities.area(gap))
 
 

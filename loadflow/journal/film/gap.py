@@ -92,6 +92,9 @@ class BoreGap(Gap, Protocol):
     pads: NDArray[np.int64]
     first_gap: float
 
+    def arcs(self, position: Array) -> Array:
+        """Angles that the cells span around (nx,), rad, with the shaft at `position`."""
+
     def held(self, tilt: Array | None, bend: Array | None) -> Array:
         """Centred position (m,) of a shaft whose line has the given tilt and curvature."""
 
@@ -209,6 +212,13 @@ class CylindricalGap:
         return 1.0 - math.hypot(*position)
 
     # --- what statics asks -----------------------------------------------------------------------
+    def arcs(self, position: Array) -> Array:
+        """Angles that the cells span around (nx,), rad, with the shaft at `position`."""
+        stretch = self.mesh.stretch(math.hypot(*position)) if self.mesh.polar else 0.0
+        cos, _, weights = self.mesh.trigonometry[3:]
+        mapped = weights * math.sqrt(1.0 - stretch * stretch) / (1.0 + stretch * cos)
+        return np.asarray(mapped.sum(axis=1))
+
     def held(self, tilt: Array | None, bend: Array | None) -> Array:
         """Centred position; the shaft is aligned and straight."""
         return np.zeros(2)

@@ -21,7 +21,7 @@ from loadflow.tribology import kernels as laws
 
 Array = NDArray[np.float64]
 
-_DEEPEST = 8.0  # overlap of the mean planes over the roughness at which the law of contact ends
+_DEEPEST = 8.0  # overlap of the mean planes of summits over their σ at which the law ends
 _FARTHEST = 0.03  # the same in clearances, where the mesh that turns with the shaft ends
 
 
@@ -31,7 +31,9 @@ class _Rough:
     def __init__(self, contact: Contact, clearance: float) -> None:
         contact.check_clearance(clearance)
         self.roughness = contact.roughness / clearance
-        self.deepest = min(_DEEPEST * self.roughness, _FARTHEST)
+        tips = contact.asperities
+        overlap = (_DEEPEST * tips.roughness - tips.summit_height) / clearance
+        self.deepest = min(max(overlap, 0.0), _FARTHEST)
         pattern, none = contact.pattern, np.empty((0, 16))
         self._along = none if pattern is None else laws.flow_rows(pattern)
         self._across = none if pattern is None else laws.flow_rows(1.0 / pattern)

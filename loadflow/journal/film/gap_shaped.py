@@ -180,6 +180,10 @@ class ShapedGap:
         self._spots_segment = segment
         self._spots_line = np.zeros((2, z.size))
 
+    def arcs(self, position: Array) -> Array:
+        """Angles that the cells span around (nx,), rad."""
+        return self._cell[2]
+
     # --- the shaft's centre line -----------------------------------------------------------------
     def held(self, tilt: Array | None, bend: Array | None) -> Array:
         """Centred position of a shaft tilted by `tilt` (2,), rad, and bent by `bend` (2,), 1/m."""

@@ -64,7 +64,7 @@ def groove_numbers(
     Raises
     ------
     InputError
-        A groove beyond the bearing end, or two that overlap.
+        A groove beyond the bearing end or beside the shell, or two that overlap.
     """
     numbers = np.full((angle.size, z.size), -1)
     for number, groove in enumerate(supply.grooves if supply else ()):
@@ -82,6 +82,11 @@ def groove_numbers(
             inside = np.hypot(away, along) < half_length
         else:
             inside = (away < 0.5 * _arc(groove, count, radius)) & (along < half_length)
+        if not inside.any():
+            raise InputError(
+                f"grooves[{number}].angle = {groove.angle!r} is not allowed: an angle, rad, at "
+                "which there is shell"
+            )
         other = numbers[inside].max(initial=-1)
         if other >= 0:
             raise InputError(f"grooves[{number}] overlaps grooves[{other}]: give them apart")

@@ -11,104 +11,21 @@ import numpy as np
 from numba import njit
 
 from loadflow.journal.cavitation import DFILL, DLOAD, DP, DSLACK, FILL, LOAD, SLACK, P
-from loadflow.journal.film._kernels import apply_law
-from loadflow.journal.film._rough_kernels import conductance, dragged, mean_film, sheared
+from loadflow.journal.film._rough_kernels import sheared
 from loadflow.journal.models import composed_film as at
-
-PLANES, MEAN, OPEN, CUBE = range(4)  # of `work.gap`
-_FAR = 8.5  # film parameter above which the mean gap is that of the mean planes, to rounding
-FLOW, DRAG, FLOW_SLOPE, DRAG_SLOPE, FACE_PLANES = range(5)  # of `work.face`
-
-
-@njit(cache=True, nogil=True)
-def place(film, work, q):
-    """Evaluate law, shell and gap at the unknowns and the position `q` (4,)."""
-    apply_law(film.law, film.numbers, film.scale, work.u, work.state)
-    nx, m = work.u.shape[0], len(film.lanes)
-    z = film.nodes.z
-    points = len(film.points)
-    for k in range(points):
-        work.centre[0, k] = q[0] + q[3] * z[k] + 0.5 * work.bend[0] * z[k] * z[k]
-        work.centre[1, k] = q[1] - q[2] * z[k] + 0.5 * work.bend[1] * z[k] * z[k]
-    ex, ey, give, p = work.centre[0], work.centre[1], film.give, work.state[LOAD]
-    gap, face = work.gap, work.face
-    for i in range(nx):
-        c, s = film.cos[i], film.sin[i]
-        c_face, s_face = film.cos_face[i], film.sin_face[i]
-        for k in range(points):
-            gap[PLANES, i, k] = 1.0 - ex[k] * c - ey[k] * s
-        for k in range(m):
-            face[FACE_PLANES, i, k] = 1.0 - ex[k] * c_face - ey[k] * s_face
-        if give > 0.0:
-            right = i + 1 if i + 1 < nx else 0
-            for k in range(m):
-                gap[PLANES, i, k] += give * (p[i, k] - film.p_edge)
-                face[FACE_PLANES, i, k] += give * (0.5 * (p[i, k] + p[right, k]) - film.p_edge)
-    if film.rough.size > 0.0:
-        _rough_gap(film.rough, work)
-        return
-    for i in range(nx):
-        for k in range(points):
-            h = gap[PLANES, i, k]
-            gap[MEAN, i, k] = h
-            gap[CUBE, i, k] = h * h * h
-            work.gap_slope[i, k] = 3.0 * h * h
-        for k in range(m):
-            h = face[FACE_PLANES, i, k]
-            face[FLOW, i, k] = h * h * h
-            face[FLOW_SLOPE, i, k] = 3.0 * h * h
-            face[DRAG, i, k] = h
-
-
-@njit(cache=True, nogil=True)
-def _far(rough):
-    """Gap above which surfaces count as smooth, clearances; none where flow factors reach far."""
-    return _FAR * rough.size if rough.along.shape[0] == 0 else np.inf
-
-
-@njit(cache=True, nogil=True)
-def _rough_gap(rough, work):
-    """Mean gap and conductances between rough surfaces."""
-    nx, m = work.u.shape
-    gap, face, s = work.gap, work.face, rough.size
-    far = _far(rough)
-    for i in range(nx):
-        for k in range(gap.shape[2]):
-            h = gap[PLANES, i, k]
-            if h > far:
-                gap[MEAN, i, k], gap[OPEN, i, k] = h, 1.0
-                gap[CUBE, i, k], work.gap_slope[i, k] = h * h * h, 3.0 * h * h
-            else:
-                gap[MEAN, i, k], gap[OPEN, i, k] = mean_film(h, s)
-                gap[CUBE, i, k], work.gap_slope[i, k] = conductance(h, s, rough.across)
-        for k in range(m):
-            h = face[FACE_PLANES, i, k]
-            if h > far:
-                face[FLOW, i, k], face[FLOW_SLOPE, i, k] = h * h * h, 3.0 * h * h
-                face[DRAG, i, k], face[DRAG_SLOPE, i, k] = h, 1.0
-            else:
-                face[FLOW, i, k], face[FLOW_SLOPE, i, k] = conductance(h, s, rough.along)
-                face[DRAG, i, k], face[DRAG_SLOPE, i, k] = dragged(h, s, rough.along, rough.slip)
-
-
-@njit(cache=True, nogil=True)
-def narrowest(film, work):
-    """Narrowest gap of the mean planes at points and faces, after `place`; clearances.
-
-    Around a rigid shell it is that between the points, too.
-    """
-    least = 1e300
-    if film.give == 0.0:
-        for k in range(film.nodes.z.size):
-            least = min(least, 1.0 - np.hypot(work.centre[0, k], work.centre[1, k]))
-        return least
-    nx, m = work.u.shape[0], len(film.lanes)
-    for i in range(nx):
-        for k in range(work.gap.shape[2]):
-            least = min(least, work.gap[PLANES, i, k])
-        for k in range(m):
-            least = min(least, work.face[FACE_PLANES, i, k])
-    return least
+from loadflow.journal.models._composed_gap_kernels import (
+    CUBE,
+    DRAG,
+    DRAG_SLOPE,
+    FLOW,
+    FLOW_SLOPE,
+    MEAN,
+    OPEN,
+    PLANES,
+    narrowest,
+    smooth_beyond,
+    touch,
+)
 
 
 @njit(cache=True, nogil=True)
@@ -124,11 +41,11 @@ def balance(film, work, wedge, rate, size):
     p, fill, columns, gap, face = (
         work.state[P], work.state[FILL], work.columns, work.gap, work.face,
     )  # fmt: skip
-    squeeze = film.slope * step
+    squeeze = film.ring.slope * step
     fx, fy, mx, my = 0.0, 0.0, 0.0, 0.0
     for i in range(nx):
-        base = film.order[i] * m
-        c, s = film.cos[i], film.sin[i]
+        base = film.ring.order[i] * m
+        c, s = film.ring.cos[i], film.ring.sin[i]
         load, turn = 0.0, 0.0
         for k in range(m):
             held = squeeze * weights[k]
@@ -144,7 +61,7 @@ def balance(film, work, wedge, rate, size):
         for k in range(points):
             slope = 0.0
             for j in range(m):
-                slope += slopes[k, j] * (p[i, j] - film.p_edge)
+                slope += slopes[k, j] * (p[i, j] - film.ring.p_edge)
             work.slope[i, k] = slope
             flow = step * weights[k] * slope
             by_gap = -flow * work.gap_slope[i, k]
@@ -168,10 +85,10 @@ def balance(film, work, wedge, rate, size):
         my += turn * c
     for i in range(nx):  # face between cell i and the next one
         right = i + 1 if i + 1 < nx else 0
-        base = film.order[i] * m
-        base_r = film.order[right] * m
+        base = film.ring.order[i] * m
+        base_r = film.ring.order[right] * m
         upwind = i if wedge > 0 else right
-        c, s = film.cos_face[i], film.sin_face[i]
+        c, s = film.ring.cos_face[i], film.ring.sin_face[i]
         for k in range(m):
             w = weights[k]
             rise = (p[right, k] - p[i, k]) / step
@@ -193,69 +110,10 @@ def balance(film, work, wedge, rate, size):
     largest = 0.0
     for row in range(columns.shape[0]):
         largest = max(largest, abs(columns[row, 0]))
-    unit = film.area * step
+    unit = film.ring.area * step
     work.load[0], work.load[1] = unit * fx, unit * fy
     work.load[2], work.load[3] = unit * mx, unit * my
     return largest
-
-
-@njit(cache=True, nogil=True)
-def touch(rough, work, q):
-    """Load of the asperities and its derivative by the position into `work.touch`; ∫ p_a, N."""
-    work.touch[:] = 0.0
-    normal = 0.0
-    if rough.size == 0.0:
-        return normal
-    last = rough.table.shape[1] - 2
-    load, stiffness = work.touch[0], work.touch[1:]
-    for g in range(rough.z.size):
-        z, w = rough.z[g], rough.weights[g]
-        ex = q[0] + q[3] * z + 0.5 * work.bend[0] * z * z
-        ey = q[1] - q[2] * z + 0.5 * work.bend[1] * z * z
-        ratio = np.hypot(ex, ey)
-        if not ratio > rough.first:
-            continue
-        place_in = (ratio - rough.first) / rough.step
-        i = min(int(place_in), last)
-        force, rise = _between(rough.table[0], rough.table[1], i, place_in - i, rough.step)
-        pressed, _ = _between(rough.table[2], rough.table[3], i, place_in - i, rough.step)
-        normal += w * pressed
-        c, s = ex / ratio, ey / ratio
-        along = w * rise
-        aside = w * force / ratio
-        xx = along * c * c + aside * s * s
-        xy = (along - aside) * c * s
-        yy = along * s * s + aside * c * c
-        load[0] += w * force * c
-        load[1] += w * force * s
-        load[2] -= w * force * s * z
-        load[3] += w * force * c * z
-        stiffness[0, 0] += xx
-        stiffness[0, 1] += xy
-        stiffness[0, 2] -= xy * z
-        stiffness[0, 3] += xx * z
-        stiffness[1, 1] += yy
-        stiffness[1, 2] -= yy * z
-        stiffness[1, 3] += xy * z
-        stiffness[2, 2] += yy * z * z
-        stiffness[2, 3] -= xy * z * z
-        stiffness[3, 3] += xx * z * z
-    for a in range(4):
-        for b in range(a):
-            stiffness[a, b] = stiffness[b, a]
-    return normal
-
-
-@njit(cache=True, nogil=True)
-def _between(values, slopes, i, t, step):
-    """Cubic through values and slopes at i and i + 1, and its slope; straight on beyond."""
-    if t > 1.0:
-        return values[i + 1] + (t - 1.0) * step * slopes[i + 1], slopes[i + 1]
-    a, b = values[i], values[i + 1]
-    u, v = step * slopes[i], step * slopes[i + 1]
-    second, third = 3.0 * (b - a) - 2.0 * u - v, 2.0 * (a - b) + u + v
-    value = a + t * (u + t * (second + t * third))
-    return value, (u + t * (2.0 * second + 3.0 * t * third)) / step
 
 
 @njit(cache=True, nogil=True)
@@ -272,19 +130,19 @@ def magnitudes(film, work, wedge, rate):
         for k in range(m):
             drags = face[DRAG, left, k] + face[DRAG, i, k]
             flows = (face[FLOW, left, k] + face[FLOW, i, k]) / step
-            total = film.slope * step * weights[k] * rate * fill[i, k] * gap[MEAN, i, k]
+            total = film.ring.slope * step * weights[k] * rate * fill[i, k] * gap[MEAN, i, k]
             total += weights[k] * (
                 abs(wedge) * drags + flows * max(abs(p[i, k]), abs(p[left, k]), abs(p[right, k]))
             )
             for j in range(weights.size):
                 flow = step * weights[j] * gap[CUBE, i, j] * abs(slopes[j, k])
                 for n in range(m):
-                    total += flow * abs(slopes[j, n]) * (abs(p[i, n]) + abs(film.p_edge))
+                    total += flow * abs(slopes[j, n]) * (abs(p[i, n]) + abs(film.ring.p_edge))
             largest = max(largest, total + abs(work.state[SLACK, i, k]))
             peak = max(peak, abs(work.state[LOAD, i, k]))
     least = max(narrowest(film, work), film.rough.size)
     lost = 1.0 + 3.0 / max(least, 1e-16)
-    pressed = film.area * 2.0 * np.pi * weights.sum() * peak
+    pressed = film.ring.area * 2.0 * np.pi * weights.sum() * peak
     stiff = 0.0
     for a in range(4):
         stiff = max(stiff, abs(work.touch[1 + a, a]))
@@ -302,11 +160,11 @@ def matrix(film, work, wedge, rate):
     mid = 2 * m
     dp, df, p = work.state[DP], work.state[DFILL], work.state[P]
     fill, grows = work.state[FILL], work.state[DLOAD]
-    squeeze = film.slope * step * rate
+    squeeze = film.ring.slope * step * rate
     give = film.give
     band[:] = 0.0
     for i in range(nx):
-        base = film.order[i] * m
+        base = film.ring.order[i] * m
         for j in range(points):
             flow = step * weights[j] * gap[CUBE, i, j]
             for k in range(m):
@@ -327,8 +185,8 @@ def matrix(film, work, wedge, rate):
                     band[base + n, mid + k - n] += slopes[k, n] * wider
     for i in range(nx):
         right = i + 1 if i + 1 < nx else 0
-        base = film.order[i] * m
-        base_r = film.order[right] * m
+        base = film.ring.order[i] * m
+        base_r = film.ring.order[right] * m
         shift = base_r - base
         upwind = i if wedge > 0 else right
         for k in range(m):
@@ -392,26 +250,26 @@ def carry(film, work, size):
     z, weights, columns, carried = film.nodes.z, film.nodes.weights, work.columns, work.carried
     slope = work.state[DLOAD]
     carried[:] = 0.0
-    unit = film.area * 2.0 * np.pi / nx
+    unit = film.ring.area * 2.0 * np.pi / nx
     if size == 2:  # forces alone
         fx0, fx1, fx2, fy0, fy1, fy2 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
         for i in range(nx):
-            base = film.order[i] * m
+            base = film.ring.order[i] * m
             a, b, d = 0.0, 0.0, 0.0
             for k in range(m):
                 part, row = weights[k] * slope[i, k], base + k
                 a += part * columns[row, 0]
                 b += part * columns[row, 1]
                 d += part * columns[row, 2]
-            c, s = unit * film.cos[i], unit * film.sin[i]
+            c, s = unit * film.ring.cos[i], unit * film.ring.sin[i]
             fx0, fx1, fx2 = fx0 + a * c, fx1 + b * c, fx2 + d * c
             fy0, fy1, fy2 = fy0 + a * s, fy1 + b * s, fy2 + d * s
         carried[0, 0], carried[1, 0], carried[2, 0] = fx0, fx1, fx2
         carried[0, 1], carried[1, 1], carried[2, 1] = fy0, fy1, fy2
         return
     for i in range(nx):
-        base = film.order[i] * m
-        c, s = unit * film.cos[i], unit * film.sin[i]
+        base = film.ring.order[i] * m
+        c, s = unit * film.ring.cos[i], unit * film.ring.sin[i]
         for column in range(1 + size):
             load, turn = 0.0, 0.0
             for k in range(m):
@@ -432,7 +290,7 @@ def summarise(film, work, q, row):
     step = 2.0 * np.pi / nx
     weights, slopes, fine = film.nodes.weights, film.nodes.slopes, film.nodes.fine
     p, gap, rough = work.state[LOAD], work.gap, film.rough
-    far = -1.0 if rough.size == 0.0 else _far(rough)
+    far = -1.0 if rough.size == 0.0 else smooth_beyond(rough)
     peak, dissipation, shear, outflow = -np.inf, 0.0, 0.0, 0.0
     liquid, volume, highest = 0.0, 0.0, 0
     fx, fy, mx, my = 0.0, 0.0, 0.0, 0.0
@@ -442,10 +300,10 @@ def summarise(film, work, q, row):
         for k in range(points):
             slope = 0.0
             for j in range(m):
-                slope += slopes[k, j] * (p[i, j] - film.p_edge)
+                slope += slopes[k, j] * (p[i, j] - film.ring.p_edge)
             flow = step * gap[CUBE, i, k] * slope
             dissipation += weights[k] * flow * slope
-            inside = film.edge_fill
+            inside = film.ring.edge_fill
             if k < m:
                 inside = work.state[FILL, i, k]
                 rise = p[right, k] - p[i, k]
@@ -463,16 +321,22 @@ def summarise(film, work, q, row):
                 shear += weights[k] * step * sheared(gap[PLANES, i, k], rough.size, rough.along)
             else:
                 shear += weights[k] * step / gap[PLANES, i, k]
-        fx += load * film.cos[i]
-        fy += load * film.sin[i]
-        mx -= turn * film.sin[i]
-        my += turn * film.cos[i]
+        fx += load * film.ring.cos[i]
+        fy += load * film.ring.sin[i]
+        mx -= turn * film.ring.sin[i]
+        my += turn * film.ring.cos[i]
     for i in range(highest - 1, highest + 2):  # between the points
         for k in range(fine.shape[0]):
-            value = film.p_edge
+            value = film.ring.p_edge
             for j in range(m):
-                value += fine[k, j] * (p[i % nx, j] - film.p_edge)
+                value += fine[k, j] * (p[i % nx, j] - film.ring.p_edge)
             peak = max(peak, value)
+    left = 0.0
+    for n in range(film.nodes.highest.shape[0]):
+        value = 0.0
+        for j in range(m):
+            value += film.nodes.highest[n, j] * (p[highest, j] - film.ring.p_edge)
+        left = max(left, abs(value))
     for k in range(4):
         row[k] = q[k]
     row[at.PEAK] = peak
@@ -481,10 +345,15 @@ def summarise(film, work, q, row):
     row[at.OUTFLOW] = outflow
     row[at.FILLED] = liquid / volume
     row[at.LEAST] = narrowest(film, work)
-    row[at.GROWTH] = film.give * (peak - film.p_edge)
+    row[at.GROWTH] = film.give * (peak - film.ring.p_edge)
     row[at.NORMAL] = touch(rough, work, q)
-    unit = film.area * step
+    unit = film.ring.area * step
     row[at.MOMENT_X] = unit * mx + work.touch[0, 2]
     row[at.MOMENT_Y] = unit * my + work.touch[0, 3]
     row[at.CONTACT_X] = work.touch[0, 0]
     row[at.CONTACT_Y] = work.touch[0, 1]
+    mean = np.hypot(unit * fx + work.touch[0, 0], unit * fy + work.touch[0, 1])
+    mean /= (
+        2.0 * film.ring.area * weights.sum()
+    )  # beside asperities a film may carry next to nothing
+    row[at.HIGHEST] = left / max(peak - film.ring.p_edge, mean, 1e-3 * film.ring.scale)

@@ -11,31 +11,32 @@ from numba import njit
 
 from loadflow.journal.cavitation import DLOAD, FILL, LOAD
 from loadflow.journal.models import composed_film as at
+from loadflow.journal.models._composed_gap_kernels import MEAN, OPEN, narrowest, place, touch
 from loadflow.journal.models._composed_kernels import (
-    MEAN,
-    OPEN,
     balance,
     carry,
     magnitudes,
     matrix,
-    narrowest,
-    place,
     substitute_all,
     summarise,
-    touch,
 )
 from loadflow.journal.models._reduced_kernels import factorise, substitute
-from loadflow.journal.models._reduced_loops import is_small, predict, rounding_level
+from loadflow.journal.models._reduced_loops import (
+    COARSEST,
+    LATE,
+    SMALLEST,
+    STEP_LIMIT,
+    is_small,
+    predict,
+    rounding_level,
+    shift,
+    two_steps,
+)
 from loadflow.journal.models.slow_heat import slow_heat
-from loadflow.numerics import convergence
 
-_STEP_LIMIT = 0.5  # change of the film over its pressure, up to which the shaft goes all the way
-_SMALLEST = 1.0 / 256  # of a given step, to which a step that fails may be cut
-_LATE = 8  # Newton steps after which a residual is asked whether it is that of rounding
 _KEPT = 0.3  # share of the narrowest gap that a step of the shaft leaves
 _ROOM = 1.0 / 2**20  # share of a step below which an elastic shell has no room for it
 _FALLS = 0.01  # ratio of residuals below which the next step takes the factors of the last one
-_COARSEST = convergence.COARSEST
 
 
 @njit(cache=True, nogil=True)
@@ -115,13 +116,13 @@ def _shaft_step(film, work, load, size, step):
             work.system[a, b] = work.carried[1 + b, a] - work.touch[1 + a, b]
     if not _solve(work.system, size):
         return
-    change, peak = 0.0, film.scale
+    change, peak = 0.0, film.ring.scale
     for i in range(nx):
-        base = film.order[i] * m
+        base = film.ring.order[i] * m
         for k in range(m):
             change = max(change, abs(work.columns[base + k, 0]))
             peak = max(peak, work.state[LOAD, i, k])
-    excess = max(1.0, change / (peak * _STEP_LIMIT))
+    excess = max(1.0, change / (peak * STEP_LIMIT))
     for a in range(size):
         step[a] = work.system[a, size] / excess
 
@@ -131,7 +132,7 @@ def _correct(film, work, step, size, share):
     """Unknowns after a share of a Newton step from `work.trial`."""
     nx, m = work.u.shape[0], len(film.lanes)
     for i in range(nx):
-        base = film.order[i] * m
+        base = film.ring.order[i] * m
         for k in range(m):
             change = work.columns[base + k, 0]
             for a in range(size):
@@ -171,12 +172,12 @@ def newton(film, work, q, load, size, speed, rate, tolerance, max_iterations):
     residual, Newton steps, whether the residual is small by the rule of `convergence`, and its
     rounding level, which is looked at where the tolerance is not met soon.
     """
-    wedge = 0.5 * film.slope * speed
-    flux = (abs(wedge) + film.scale) * film.nodes.weights.max()
+    wedge = 0.5 * film.ring.slope * speed
+    flux = (abs(wedge) + film.ring.scale) * film.nodes.weights.max()
     total = 0.0
     for a in range(size):
         total += load[a] * load[a]
-    force_scale = max(np.sqrt(total), 0.5e-3 * film.scale * film.area)
+    force_scale = max(np.sqrt(total), 0.5e-3 * film.ring.scale * film.ring.area)
     step = np.zeros(4)
     spent, last = 0, 0.0
     place(film, work, q)
@@ -191,10 +192,10 @@ def newton(film, work, q, load, size, speed, rate, tolerance, max_iterations):
             residual = np.inf
         done = residual < tolerance or spent == max_iterations or not residual < np.inf
         rounding = 0.0
-        if not residual < tolerance and (done or spent >= _LATE):
+        if not residual < tolerance and (done or spent >= LATE):
             cells, forces = magnitudes(film, work, wedge, rate)
             rounding = rounding_level(max(cells / flux, forces / force_scale if size else 0.0))
-        answered = is_small(residual, tolerance, min(rounding, _COARSEST))
+        answered = is_small(residual, tolerance, min(rounding, COARSEST))
         if done or answered:
             return residual, spent, answered, rounding
         spent += 1
@@ -224,7 +225,7 @@ def finish(film, work, q, speed, size, row, stiffness, damping):
     nx, m = work.u.shape[0], len(film.lanes)
     place(film, work, q)
     summarise(film, work, q, row)
-    wedge = 0.5 * film.slope * speed
+    wedge = 0.5 * film.ring.slope * speed
     balance(film, work, wedge, 0.0, size)
     matrix(film, work, wedge, 0.0)
     factorise(film.lanes, work.band, work.columns.shape[0])
@@ -233,17 +234,17 @@ def finish(film, work, q, speed, size, row, stiffness, damping):
     for a in range(size):
         for b in range(size):
             stiffness[a, b] = work.touch[1 + a, b] - work.carried[1 + b, a]
-    squeeze = film.slope * 2.0 * np.pi / nx
+    squeeze = film.ring.slope * 2.0 * np.pi / nx
     for i in range(nx):
-        base = film.order[i] * m
+        base = film.ring.order[i] * m
         for k in range(m):
             held = -squeeze * film.nodes.weights[k] * work.state[FILL, i, k]
             held *= work.gap[OPEN, i, k]
             modes = (
-                film.cos[i],
-                film.sin[i],
-                -film.nodes.z[k] * film.sin[i],
-                film.nodes.z[k] * film.cos[i],
+                film.ring.cos[i],
+                film.ring.sin[i],
+                -film.nodes.z[k] * film.ring.sin[i],
+                film.nodes.z[k] * film.ring.cos[i],
             )
             # an elastic shell follows: its gap changes by what the pressure of the place makes
             row_of = base + k
@@ -262,13 +263,11 @@ def finish(film, work, q, speed, size, row, stiffness, damping):
 
 @njit(cache=True, nogil=True)
 def keep(work):
-    """Shift the history: what is current becomes the last time."""
+    """Make what is current that of the last time."""
+    shift(work)
     nx, m = work.u.shape
     for i in range(nx):
         for k in range(m):
-            work.before[i, k] = work.last[i, k]
-            work.last[i, k] = work.u[i, k]
-            work.liquid[2, i, k] = work.liquid[1, i, k]
             work.liquid[1, i, k] = work.state[FILL, i, k] * work.gap[MEAN, i, k]
 
 
@@ -308,7 +307,7 @@ def march(
         while done < 1.0:
             to = min(1.0, done + share)
             step = (to - done) * whole
-            rate, weight, weight_before, ratio = 1.0 / step, 1.0 / step, 0.0, 0.0
+            rate, weight, weight_before, ratio = two_steps(step, step_before)
             for a in range(2):
                 work.bend[a] = line[n - 1, 2 + a] + to * (line[n, 2 + a] - line[n - 1, 2 + a])
             new[:] = q
@@ -317,10 +316,6 @@ def march(
                     new[2 + a] = line[n - 1, a] + to * (line[n, a] - line[n - 1, a])
             ahead = False
             if step_before > 0.0:
-                ratio = step / step_before
-                rate = (1.0 + 2.0 * ratio) / (1.0 + ratio) / step
-                weight = (1.0 + ratio) / step
-                weight_before = -ratio * ratio / (1.0 + ratio) / step
                 for a in range(size):
                     new[a] = q[a] + ratio * (q[a] - before[a])
                 ahead = film.give > 0.0 or _leaves_room(film, work, q, new)
@@ -342,7 +337,7 @@ def march(
                 step_before = step
                 done = to
                 share = min(2.0 * share, 1.0)
-            elif share > _SMALLEST:
+            elif share > SMALLEST:
                 share *= 0.5
             else:
                 break

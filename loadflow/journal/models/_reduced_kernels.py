@@ -21,10 +21,10 @@ from loadflow.journal.models.reduced_film import DISSIPATION, FILLED, OUTFLOW, P
 @njit(cache=True, nogil=True)
 def place(film, work, x, y):
     """Evaluate law and gap at the unknowns and the position (x, y)."""
-    apply_law(film.law, film.numbers, film.scale, work.u, work.state)
-    for i in range(film.cos.size):
-        work.gap[i] = 1.0 - x * film.cos[i] - y * film.sin[i]
-        work.gap_face[i] = 1.0 - x * film.cos_face[i] - y * film.sin_face[i]
+    apply_law(film.ring.law, film.ring.numbers, film.ring.scale, work.u, work.state)
+    for i in range(film.ring.cos.size):
+        work.gap[i] = 1.0 - x * film.ring.cos[i] - y * film.ring.sin[i]
+        work.gap_face[i] = 1.0 - x * film.ring.cos_face[i] - y * film.ring.sin_face[i]
 
 
 @njit(cache=True, nogil=True)
@@ -39,13 +39,13 @@ def balance(film, work, wedge, rate):
     p = work.state[P]
     fill = work.state[FILL]
     columns = work.columns
-    squeeze = film.slope * step
+    squeeze = film.ring.slope * step
     fx = 0.0
     fy = 0.0
     for i in range(nx):
-        base = film.order[i] * m
-        c = film.cos[i]
-        s = film.sin[i]
+        base = film.ring.order[i] * m
+        c = film.ring.cos[i]
+        s = film.ring.sin[i]
         h = work.gap[i]
         h3 = step * h * h * h
         slope3 = -3.0 * step * h * h
@@ -53,7 +53,7 @@ def balance(film, work, wedge, rate):
         for k in range(m):
             outflow = 0.0
             for j in range(m):
-                outflow += axial.stiffness[k, j] * (p[i, j] - film.p_edge)
+                outflow += axial.stiffness[k, j] * (p[i, j] - film.ring.p_edge)
             held = squeeze * axial.weights[k]
             by_gap = slope3 * outflow - held * rate * fill[i, k]
             columns[base + k, 0] = (
@@ -68,8 +68,8 @@ def balance(film, work, wedge, rate):
         fy += load * s
     for i in range(nx):  # face between cell i and the next one
         right = i + 1 if i + 1 < nx else 0
-        base = film.order[i] * m
-        base_r = film.order[right] * m
+        base = film.ring.order[i] * m
+        base_r = film.ring.order[right] * m
         h = work.gap_face[i]
         g = h * h * h / step
         by_g = 3.0 * h * h / step
@@ -80,8 +80,8 @@ def balance(film, work, wedge, rate):
             flow = wedge * fill[upwind, k]
             q = w * (flow * h - g * rise)
             dq = w * (flow - by_g * rise)
-            dx = -dq * film.cos_face[i]
-            dy = -dq * film.sin_face[i]
+            dx = -dq * film.ring.cos_face[i]
+            dy = -dq * film.ring.sin_face[i]
             columns[base + k, 0] += q
             columns[base + k, 1] += dx
             columns[base + k, 2] += dy
@@ -91,7 +91,7 @@ def balance(film, work, wedge, rate):
     largest = 0.0
     for row in range(columns.shape[0]):
         largest = max(largest, abs(columns[row, 0]))
-    return largest, film.area * step * fx, film.area * step * fy
+    return largest, film.ring.area * step * fx, film.ring.area * step * fy
 
 
 @njit(cache=True, nogil=True)
@@ -113,18 +113,18 @@ def magnitudes(film, work, wedge, rate):
         narrow = min(narrow, h, h_r)
         around = h_l * h_l * h_l / step + h_r * h_r * h_r / step
         for k in range(m):
-            total = film.slope * step * axial.weights[k] * rate * fill[i, k] * h
+            total = film.ring.slope * step * axial.weights[k] * rate * fill[i, k] * h
             total += axial.weights[k] * (
                 abs(wedge) * (h_l + h_r)
                 + around * max(abs(p[i, k]), abs(p[left, k]), abs(p[right, k]))
             )
             for j in range(m):
                 stiffness = step * h * h * h * abs(axial.stiffness[k, j])
-                total += stiffness * (abs(p[i, j]) + abs(film.p_edge))
+                total += stiffness * (abs(p[i, j]) + abs(film.ring.p_edge))
             largest = max(largest, total + abs(work.state[SLACK, i, k]))
             peak = max(peak, abs(work.state[LOAD, i, k]))
     lost = 1.0 + 3.0 / max(narrow, 1e-16)
-    return largest * lost, film.area * 2.0 * np.pi * axial.weights.sum() * peak * lost
+    return largest * lost, film.ring.area * 2.0 * np.pi * axial.weights.sum() * peak * lost
 
 
 @njit(cache=True, nogil=True)
@@ -137,10 +137,10 @@ def matrix(film, work, wedge, rate):
     mid = 2 * m
     dp = work.state[DP]
     df = work.state[DFILL]
-    squeeze = film.slope * step * rate
+    squeeze = film.ring.slope * step * rate
     band[:] = 0.0
     for i in range(nx):
-        base = film.order[i] * m
+        base = film.ring.order[i] * m
         h = work.gap[i]
         h3 = step * h * h * h
         for k in range(m):
@@ -150,8 +150,8 @@ def matrix(film, work, wedge, rate):
             band[base + k, mid] += held * df[i, k] + work.state[DSLACK, i, k]
     for i in range(nx):
         right = i + 1 if i + 1 < nx else 0
-        base = film.order[i] * m
-        base_r = film.order[right] * m
+        base = film.ring.order[i] * m
+        base_r = film.ring.order[right] * m
         shift = base_r - base
         h = work.gap_face[i]
         g = h * h * h / step
@@ -231,21 +231,21 @@ def carried(film, work):
     fx0, fx1, fx2, fy0, fy1, fy2 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for i in range(nx):
         a0, a1, a2 = 0.0, 0.0, 0.0
-        base = film.order[i] * m
+        base = film.ring.order[i] * m
         for k in range(m):
             w = film.axial.weights[k] * work.state[DLOAD, i, k]
             a0 += w * work.columns[base + k, 0]
             a1 += w * work.columns[base + k, 1]
             a2 += w * work.columns[base + k, 2]
-        c = film.cos[i]
-        s = film.sin[i]
+        c = film.ring.cos[i]
+        s = film.ring.sin[i]
         fx0 += a0 * c
         fx1 += a1 * c
         fx2 += a2 * c
         fy0 += a0 * s
         fy1 += a1 * s
         fy2 += a2 * s
-    f = film.area * 2.0 * np.pi / nx
+    f = film.ring.area * 2.0 * np.pi / nx
     return (f * fx0, f * fy0), (f * fx1, f * fy1), (f * fx2, f * fy2)
 
 
@@ -257,23 +257,23 @@ def summarise(film, work, x, y, row):
     axial = film.axial
     p = work.state[LOAD]
     peak, dissipation, shear, outflow, liquid = -np.inf, 0.0, 0.0, 0.0, 0.0
-    half_width = axial.weights.sum() + axial.rim_weight
+    half_width = axial.weights.sum() + axial.end_weight
     for i in range(nx):
         right = i + 1 if i + 1 < nx else 0
         h = work.gap[i]
         h3 = step * h * h * h
         g = work.gap_face[i] ** 3 / step
-        middle, leak, inside = 0.0, 0.0, film.edge_fill * axial.rim_weight
+        middle, leak, inside = 0.0, 0.0, film.ring.edge_fill * axial.end_weight
         for k in range(m):
-            q = p[i, k] - film.p_edge
+            q = p[i, k] - film.ring.p_edge
             middle += axial.middle[k] * q
             leak += axial.leak[k] * q
             inside += axial.weights[k] * work.state[FILL, i, k]
             dissipation += g * axial.weights[k] * (p[right, k] - p[i, k]) ** 2
             for j in range(m):
-                dissipation += h3 * q * axial.stiffness[k, j] * (p[i, j] - film.p_edge)
+                dissipation += h3 * q * axial.stiffness[k, j] * (p[i, j] - film.ring.p_edge)
             peak = max(peak, p[i, k])
-        peak = max(peak, middle + film.p_edge)
+        peak = max(peak, middle + film.ring.p_edge)
         outflow += max(h3 * leak, 0.0)
         liquid += step * h * inside
         shear += step * half_width / h

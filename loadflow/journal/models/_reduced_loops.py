@@ -32,11 +32,10 @@ from loadflow.journal.models.reduced_film import (
 from loadflow.journal.models.slow_heat import slow_heat
 from loadflow.numerics import convergence
 
-_STEP_LIMIT = 0.5  # change of the film over its pressure, up to which the shaft goes all the way
-_SMALLEST = 1.0 / 256  # of a given step, to which a step that fails may be cut
-_LATE = 8  # Newton steps after which a residual is asked whether it is that of rounding
-
-_COARSEST = convergence.COARSEST
+STEP_LIMIT = 0.5  # change of the film over its pressure, up to which the shaft goes all the way
+SMALLEST = 1.0 / 256  # of a given step, to which a step that fails may be cut
+LATE = 8  # Newton steps after which a residual is asked whether it is that of rounding
+COARSEST = convergence.COARSEST
 rounding_level = njit(cache=True, nogil=True)(convergence.rounding_level)
 is_small = njit(cache=True, nogil=True)(convergence.is_small)
 
@@ -73,13 +72,13 @@ def shaft_step(film, work, x, y, gx, gy):
     if det == 0.0:
         return x, y
     change = 0.0
-    peak = film.scale
+    peak = film.ring.scale
     for i in range(nx):
-        base = film.order[i] * m
+        base = film.ring.order[i] * m
         for k in range(m):
             change = max(change, abs(work.columns[base + k, 0]))
             peak = max(peak, work.state[LOAD, i, k])
-    excess = max(1.0, change / (peak * _STEP_LIMIT))
+    excess = max(1.0, change / (peak * STEP_LIMIT))
     scale = -1.0 / (det * excess)
     return limited(x, y, scale * (ayy * gx - axy * gy), scale * (axx * gy - ayx * gx))
 
@@ -93,9 +92,9 @@ def newton(film, work, x, y, fx, fy, speed, rate, tolerance, max_iterations):
     rounding level, which is looked at where the tolerance is not met soon.
     """
     nx, m = work.u.shape
-    wedge = 0.5 * film.slope * speed
-    flux = (abs(wedge) + film.scale) * film.axial.weights.max()
-    force_scale = max(np.hypot(fx, fy), 0.5e-3 * film.scale * film.area)
+    wedge = 0.5 * film.ring.slope * speed
+    flux = (abs(wedge) + film.ring.scale) * film.axial.weights.max()
+    force_scale = max(np.hypot(fx, fy), 0.5e-3 * film.ring.scale * film.ring.area)
     spent = 0
     while True:
         place(film, work, x, y)
@@ -105,10 +104,10 @@ def newton(film, work, x, y, fx, fy, speed, rate, tolerance, max_iterations):
             residual = max(residual, np.hypot(fx - lx, fy - ly) / force_scale)
         done = residual < tolerance or spent == max_iterations or not residual < np.inf
         rounding = 0.0
-        if not residual < tolerance and (done or spent >= _LATE):
+        if not residual < tolerance and (done or spent >= LATE):
             cells, load = magnitudes(film, work, wedge, rate)
             rounding = rounding_level(max(cells / flux, load / force_scale if film.free else 0.0))
-        answered = is_small(residual, tolerance, min(rounding, _COARSEST))
+        answered = is_small(residual, tolerance, min(rounding, COARSEST))
         if done or answered:
             return x, y, residual, spent, answered, rounding
         spent += 1
@@ -122,7 +121,7 @@ def newton(film, work, x, y, fx, fy, speed, rate, tolerance, max_iterations):
             dx, dy = x_new - x, y_new - y
             x, y = x_new, y_new
         for i in range(nx):
-            base = film.order[i] * m
+            base = film.ring.order[i] * m
             for k in range(m):
                 row = base + k
                 work.u[i, k] -= (
@@ -140,20 +139,20 @@ def finish(film, work, x, y, speed, row, stiffness, damping):
     nx, m = work.u.shape
     place(film, work, x, y)
     summarise(film, work, x, y, row)
-    wedge = 0.5 * film.slope * speed
+    wedge = 0.5 * film.ring.slope * speed
     balance(film, work, wedge, 0.0)
     matrix(film, work, wedge, 0.0)
     factorise(film.lanes, work.band, work.columns.shape[0])
     substitute(film.lanes, work.band, work.columns)
     _, by_x, by_y = carried(film, work)
-    squeeze = film.slope * 2.0 * np.pi / nx
+    squeeze = film.ring.slope * 2.0 * np.pi / nx
     for i in range(nx):
-        base = film.order[i] * m
+        base = film.ring.order[i] * m
         for k in range(m):
             held = -squeeze * film.axial.weights[k] * work.state[FILL, i, k]
             work.columns[base + k, 0] = 0.0
-            work.columns[base + k, 1] = held * film.cos[i]
-            work.columns[base + k, 2] = held * film.sin[i]
+            work.columns[base + k, 1] = held * film.ring.cos[i]
+            work.columns[base + k, 2] = held * film.ring.sin[i]
     substitute(film.lanes, work.band, work.columns)
     _, by_vx, by_vy = carried(film, work)
     for axis in range(2):
@@ -162,15 +161,37 @@ def finish(film, work, x, y, speed, row, stiffness, damping):
 
 
 @njit(cache=True, nogil=True)
-def keep(work):
-    """Shift the history: what is current becomes the last time."""
+def shift(work):
+    """Make the unknowns those of the last time, and what were these those of the time before."""
     nx, m = work.u.shape
     for i in range(nx):
         for k in range(m):
             work.before[i, k] = work.last[i, k]
             work.last[i, k] = work.u[i, k]
             work.liquid[2, i, k] = work.liquid[1, i, k]
+
+
+@njit(cache=True, nogil=True)
+def keep(work):
+    """Make what is current that of the last time."""
+    shift(work)
+    nx, m = work.u.shape
+    for i in range(nx):
+        for k in range(m):
             work.liquid[1, i, k] = work.state[FILL, i, k] * work.gap[i]
+
+
+@njit(cache=True, nogil=True)
+def two_steps(step, before):
+    """Rate of an implicit step (BDF2 of variable step), weights of the last two times, and ratio.
+
+    `before` is the step before, 0 at the first: its rule is of first order.
+    """
+    if before == 0.0:
+        return 1.0 / step, 1.0 / step, 0.0, 0.0
+    ratio = step / before
+    rate = (1.0 + 2.0 * ratio) / (1.0 + ratio) / step
+    return rate, (1.0 + ratio) / step, -ratio * ratio / (1.0 + ratio) / step, ratio
 
 
 @njit(cache=True, nogil=True)
@@ -208,13 +229,9 @@ def march(film, work, x, y, time, force, speed, tolerance, max_iterations, rows,
         while done < 1.0:
             at = min(1.0, done + share)
             step = (at - done) * whole
-            rate, weight, weight_before = 1.0 / step, 1.0 / step, 0.0
-            x_new, y_new, ratio, ahead = x, y, 0.0, False
+            rate, weight, weight_before, ratio = two_steps(step, step_before)
+            x_new, y_new, ahead = x, y, False
             if step_before > 0.0:
-                ratio = step / step_before
-                rate = (1.0 + 2.0 * ratio) / (1.0 + ratio) / step
-                weight = (1.0 + ratio) / step
-                weight_before = -ratio * ratio / (1.0 + ratio) / step
                 x_ahead = x + ratio * (x - x_before)
                 y_ahead = y + ratio * (y - y_before)
                 ahead = np.hypot(x_ahead, y_ahead) < 0.5 + 0.5 * np.hypot(x, y)
@@ -240,7 +257,7 @@ def march(film, work, x, y, time, force, speed, tolerance, max_iterations, rows,
                 step_before = step
                 done = at
                 share = min(2.0 * share, 1.0)
-            elif share > _SMALLEST:
+            elif share > SMALLEST:
                 share *= 0.5
             else:
                 break

@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from loadflow.journal.models.ring import Ring
 from loadflow.journal.models.width_modes import Nodes
 
 Array = NDArray[np.float64]
@@ -21,9 +22,9 @@ Array = NDArray[np.float64]
 # columns of a row of results
 (
     X, Y, TILT_X, TILT_Y, PEAK, DISSIPATION, SHEAR, OUTFLOW, FILLED, LEAST, GROWTH, MOMENT_X,
-    MOMENT_Y, CONTACT_X, CONTACT_Y, NORMAL, RESIDUAL, ITERATIONS, CONVERGED, ROUNDING,
-) = range(20)  # fmt: skip
-RESULTS = 20
+    MOMENT_Y, CONTACT_X, CONTACT_Y, NORMAL, HIGHEST, RESIDUAL, ITERATIONS, CONVERGED, ROUNDING,
+) = range(21)  # fmt: skip
+RESULTS = 21
 
 
 class Rough(NamedTuple):
@@ -60,51 +61,26 @@ class Rough(NamedTuple):
 
 
 class Composed(NamedTuple):
-    """Constants of a film: cells around, fixed to the shell, points across, what fills them.
+    """Constants of a film with effects.
 
     Attributes
     ----------
-    cos, sin, cos_face, sin_face : array (nx,)
-        Of the cell centres, and of the faces behind them.
-    order : array (nx,)
-        Place of each column of cells in the folded band.
+    ring : Ring
+        Cells around, and what fills them.
     lanes, points : tuple of int
         As long as there are inner points across, and all of them: lengths that the compiler knows.
     nodes : Nodes
         Points across.
-    law : int
-        Address of the law of cavitation.
-    numbers : array
-        Its parameters.
-    edge_fill : float
-        Fill of the oil that enters at the bearing ends.
-    scale, p_edge : float
-        Scale of pressure, and pressure at the ends, Pa.
-    slope : float
-        12 η/ψ², Pa s.
-    area : float
-        Load over ∫ p over the points: R², or 2 R² of half the width, m².
     give : float
         Growth of the gap over pressure, clearances per Pa; 0: a rigid shell.
     rough : Rough
         Asperities.
     """
 
-    cos: Array
-    sin: Array
-    cos_face: Array
-    sin_face: Array
-    order: NDArray[np.int64]
+    ring: Ring
     lanes: tuple[int, ...]
     points: tuple[int, ...]
     nodes: Nodes
-    law: int
-    numbers: Array
-    edge_fill: float
-    scale: float
-    p_edge: float
-    slope: float
-    area: float
     give: float
     rough: Rough
 

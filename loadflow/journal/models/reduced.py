@@ -15,8 +15,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.errors import SolverError
-from loadflow.journal.film.discretise import build_film
 from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.integrals import Integrals, in_units
 from loadflow.journal.film_model import Film
@@ -28,14 +26,14 @@ from loadflow.journal.models._reduced_kernels import summarise
 from loadflow.journal.models._reduced_loops import finish, march, newton
 from loadflow.journal.models.grid import solve_on_grid
 from loadflow.journal.models.model import Steps
-from loadflow.journal.models.reduced_film import Ring, Work, make_work
+from loadflow.journal.models.reduced_film import Reduced, Work, make_work
+from loadflow.journal.models.ring import estimates, no_start, ring_of, stopped, units_of
 from loadflow.journal.models.slow_heat import THIN, cooled, slow_states
 from loadflow.journal.models.width_modes import lobatto
 from loadflow.journal.rows import operating_columns, without_supply
-from loadflow.journal.solvers.estimate import NEAR, closed_form_position
-from loadflow.journal.solvers.messages import no_equilibrium, not_found
+from loadflow.journal.solvers.estimate import NEAR
 from loadflow.journal.solvers.transient import orbit_dataset
-from loadflow.numerics.convergence import Limits, unresolved
+from loadflow.numerics.convergence import Limits
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -56,12 +54,12 @@ def equilibrium(
     if composed.composes(options, line):
         answer, found = composed.equilibrium(bearing, options, force, speed, line, control)
         return _with_the_grid(bearing, options, line, answer | {"converged": found}, control)
-    film = _film(bearing, options, speed)
+    film = units_of(bearing, options, speed)
     reduced, work = _discrete(film)
     count = speed.size
     rows = np.zeros((count, at.RESULTS))
     stiffness, damping = np.zeros((count, 2, 2)), np.zeros((count, 2, 2))
-    starts = _Starts(film, work, _estimate(bearing, film, force, speed))
+    starts = _Starts(film, work, estimates(bearing, film, force, speed))
     for n in range(count):
         spent, converged = 0, False
         for x, y in starts.of(n):
@@ -133,12 +131,12 @@ def orbit(
             bearing, options, time, force, speed, line, control, steps, first_position
         )
         return orbit_dataset(values, time, force, speed, bearing.clearance)
-    film = _film(bearing, options, speed)
+    film = units_of(bearing, options, speed)
     film.raise_scale(float(np.hypot(*force.T).max()) / (bearing.width * bearing.diameter))
     reduced, work = _discrete(film)
     work.u[:] = film.unknown_of(np.full(work.u.shape, film.p_edge))
     start = steps.start
-    first = _estimate(bearing, film, force[:1], speed[:1])[0] if start is None else start
+    first = estimates(bearing, film, force[:1], speed[:1])[0] if start is None else start
     rows = np.zeros((time.size, at.RESULTS))
     warmth, states = slow_states(options, film, 1.0, 0.0, steps.temperature, time.size)
     begin = reduced._replace(free=start is None)
@@ -147,8 +145,8 @@ def orbit(
         control.tolerance, 2 * control.max_iterations,
     )  # fmt: skip
     if not converged:
-        why = not_found(residual, rounding, iterations, float(np.hypot(x, y)))
-        raise SolverError(f"orbit cannot start: {no_equilibrium(force[0], speed[0], why)}")
+        found = residual, rounding, iterations
+        raise no_start(force[0], speed[0], float(np.hypot(x, y)), found)
     summarise(reduced, work, x, y, rows[0])
     rows[0, at.RESIDUAL :] = residual, iterations, converged, rounding
     solved = march(
@@ -157,12 +155,9 @@ def orbit(
     )  # fmt: skip
     last = solved - 1
     if not rows[last, at.CONVERGED]:
-        raise SolverError(
-            f"orbit stops at t = {time[last]:.6g} s: F = ({force[last, 0]:.6g}, "
-            f"{force[last, 1]:.6g}) N, ω = {speed[last]:.6g} rad/s, "
-            f"ε = {np.hypot(rows[last, at.X], rows[last, at.Y]):.6g}; "
-            + unresolved(*rows[last, [at.RESIDUAL, at.ROUNDING, at.ITERATIONS]])
-        )
+        found = tuple(rows[last, [at.RESIDUAL, at.ROUNDING, at.ITERATIONS]])
+        ratio = float(np.hypot(rows[last, at.X], rows[last, at.Y]))
+        raise stopped(time[last], force[last], speed[last], ratio, found)
     values = _results(film, rows, speed * states[:, THIN])
     values = cooled(warmth, states, values) | {"x": rows[:, at.X], "y": rows[:, at.Y]}
     return orbit_dataset(values, time, force, speed, bearing.clearance)
@@ -194,36 +189,11 @@ class _Starts:
         self.last = n, position
 
 
-def _film(bearing: JournalGeometry, options: Film, speed: Array) -> DiscreteFilm:
-    """The grid's film on cells fixed to the shell: what the few unknowns take their data from."""
-    fixed = replace(options, grading="uniform", inlet=None)
-    film = build_film(bearing.diameter, bearing.width, bearing.relative_clearance, fixed)
-    film.set_scale(float(np.abs(speed).max()))
-    return film
-
-
-def _discrete(film: DiscreteFilm) -> tuple[Ring, Work]:
+def _discrete(film: DiscreteFilm) -> tuple[Reduced, Work]:
     """Constants and work arrays of the compiled loops."""
-    angle = film.mesh.angle
-    face = angle + np.pi / angle.size
     axial = lobatto(float(film.mesh.z_edges[-1]), POINTS)
-    reduced = Ring(
-        np.cos(angle), np.sin(angle), np.cos(face), np.sin(face), film.mesh.order,
-        (0,) * POINTS, axial, film.law.address, np.array(film.law.numbers),
-        film.law.fill_at(film.p_edge), film.scale, film.p_edge, film.slope,
-        2.0 * film.radius**2, True,
-    )  # fmt: skip
-    return reduced, make_work(angle.size, POINTS)
-
-
-def _estimate(bearing: JournalGeometry, film: DiscreteFilm, force: Array, speed: Array) -> Array:
-    load = np.hypot(*force.T)
-    numbers = [
-        bearing.sommerfeld_number(*point, film.viscosity)
-        for point in zip(load.tolist(), speed.tolist())
-    ]
-    ratio = bearing.width / bearing.diameter
-    return closed_form_position(ratio, numbers, force, speed, film.ruptures)
+    reduced = Reduced(ring_of(film, 2.0), (0,) * POINTS, axial, True)
+    return reduced, make_work(film.mesh.angle.size, POINTS)
 
 
 def _results(film: DiscreteFilm, rows: Array, speed: Array) -> dict[str, Any]:

@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from loadflow.journal.models.ring import Ring
 from loadflow.journal.models.width_modes import Axial
 
 Array = NDArray[np.float64]
@@ -18,49 +19,24 @@ X, Y, PEAK, DISSIPATION, SHEAR, OUTFLOW, FILLED, RESIDUAL, ITERATIONS, CONVERGED
 RESULTS = 11
 
 
-class Ring(NamedTuple):
-    """Constants of a film: the cells around, fixed to the shell, and what fills them.
+class Reduced(NamedTuple):
+    """Constants of an aligned film with smooth, rigid surfaces.
 
     Attributes
     ----------
-    cos, sin, cos_face, sin_face : array (nx,)
-        Of the cell centres, and of the faces behind them.
-    order : array (nx,)
-        Place of each column of cells in the folded band.
+    ring : Ring
+        Cells around, and what fills them.
     lanes : tuple of int
         As long as there are points across: a length that the compiler knows.
     axial : Axial
         Points across the half width.
-    law : int
-        Address of the law of cavitation.
-    numbers : array
-        Its parameters.
-    edge_fill : float
-        Fill of the oil that enters at the bearing ends.
-    scale, p_edge : float
-        Scale of pressure, and pressure at the ends, Pa.
-    slope : float
-        12 η/ψ², Pa s.
-    area : float
-        Load over ∫ p over the half film, 2 R², m².
     free : bool
         Whether the shaft moves to where its load is carried.
     """
 
-    cos: Array
-    sin: Array
-    cos_face: Array
-    sin_face: Array
-    order: NDArray[np.int64]
+    ring: Ring
     lanes: tuple[int, ...]
     axial: Axial
-    law: int
-    numbers: Array
-    edge_fill: float
-    scale: float
-    p_edge: float
-    slope: float
-    area: float
     free: bool
 
 

@@ -29,7 +29,7 @@ class Axial(NamedTuple):
         −∂p at the bearing end is leak · q.
     middle : array (m,)
         q at mid-plane is middle · q.
-    rim_weight : float
+    end_weight : float
         Width that belongs to the bearing end itself.
     """
 
@@ -38,7 +38,7 @@ class Axial(NamedTuple):
     stiffness: Array
     leak: Array
     middle: Array
-    rim_weight: float
+    end_weight: float
 
 
 @lru_cache(maxsize=8)
@@ -54,8 +54,8 @@ def lobatto(half_width: float, nodes: int) -> Axial:
     series[degree] = 1.0
     inner = np.sort(legendre.legroots(legendre.legder(series)).real)
     zeta = inner[inner > 0][:nodes]
-    rim = 2.0 / (degree * (degree + 1))
-    weights = np.asarray(rim / legendre.legval(zeta, series) ** 2, dtype=float)
+    end = 2.0 / (degree * (degree + 1))
+    weights = np.asarray(end / legendre.legval(zeta, series) ** 2, dtype=float)
     power = 2 * np.arange(nodes)
     column = zeta[:, None]
     from_values = np.linalg.inv((1 - column**2) * column**power)
@@ -68,7 +68,7 @@ def lobatto(half_width: float, nodes: int) -> Axial:
         stiffness=0.5 * (stiffness + stiffness.T) / half_width,
         leak=2.0 * from_values.sum(axis=0) / half_width,
         middle=from_values[0].copy(),
-        rim_weight=half_width * rim,
+        end_weight=half_width * end,
     )
 
 
@@ -91,6 +91,8 @@ class Nodes(NamedTuple):
         Sense of the outward direction at each end: −1 or 1.
     fine : array (f, m)
         Values at places close by each other, from those at the points.
+    highest : array (g, m)
+        Share of the highest polynomials L_{n+1} − L_{n−1} of Legendre's, an even and an odd one.
     """
 
     z: Array
@@ -98,6 +100,7 @@ class Nodes(NamedTuple):
     slopes: Array
     ends: Array
     fine: Array
+    highest: Array
 
 
 _FINE = 41  # places across the width at which the largest pressure is sought
@@ -117,6 +120,7 @@ def whole_width(half_width: float, points: int) -> Nodes:
         slopes=np.ascontiguousarray(slopes[np.ix_(order, inner)]) / half_width,
         ends=np.array([-1.0, 1.0]),
         fine=np.ascontiguousarray(fine[:, inner]),
+        highest=_shares(zeta[inner], np.arange(1, points + 1))[-2:],
     )
 
 
@@ -136,7 +140,14 @@ def half_width_nodes(half_width: float, points: int) -> Nodes:
         slopes=np.ascontiguousarray(even[order]) / half_width,
         ends=np.array([1.0]),
         fine=np.ascontiguousarray(fine[:, inner] + fine[:, mirror]),
+        highest=_shares(zeta[inner], 2 * np.arange(points) + 1)[-1:],
     )
+
+
+def _shares(zeta: Array, degrees: NDArray[np.int64]) -> Array:
+    """Shares of L_{n+1} − L_{n−1} of the `degrees` n in what has given values at the points."""
+    unit = np.eye(int(degrees[-1]) + 2)
+    return np.linalg.inv(legendre.legval(zeta, (unit[degrees + 1] - unit[degrees - 1]).T).T)
 
 
 def _lobatto_rule(degree: int) -> tuple[Array, Array]:

@@ -111,7 +111,7 @@ def field_rows(
         solution = statics.hold(index, place, moving, omega, control)
         if not solution.converged and control.strict:
             raise SolverError(f"film {index}: {statics.message(solution)}")
-        rows.append(field_row(statics.film, solution))
+        rows.append(field_row(statics.film, statics.gap, solution))
     return rows, statics.film.mesh.z * bearing.radius
 
 

@@ -115,7 +115,7 @@ def warm_fields(
         if not found.converged and control.strict:
             why = found.why or statics.message(found.solution)
             raise SolverError(f"film {index}: {why}")
-        row = field_row(statics.film, _flagged(found))
+        row = field_row(statics.film, statics.gap, _flagged(found))
         rows.append(row | _heat_columns(equation, found))
     return rows, statics.film.mesh.z * bearing.radius
 

@@ -17,7 +17,12 @@ from numpy.typing import ArrayLike, NDArray
 from loadflow.errors import InputError, SolverError
 from loadflow.rolling import equilibrium
 from loadflow.rolling.contacts import Array, Raceway
-from loadflow.rolling.equilibrium import Control, RingEquilibrium, broadcast_loads, complain
+from loadflow.rolling.equilibrium import (
+    Control,
+    RingEquilibrium,
+    broadcast_loads,
+    raise_not_converged,
+)
 from loadflow.rolling.rings.condensation import ring_modes
 from loadflow.rolling.rings.condensed import Coupling, RingModes
 from loadflow.rolling.rings.flexible import FlexibleRings
@@ -200,7 +205,7 @@ def solve_flexible(
     )
     if control.strict and not converged.all():
         _refuse_exit(loads, converged, residual, control.tolerance)
-        complain(loads, converged, residual, rounding, iterations, shape)
+        raise_not_converged(loads, converged, residual, rounding, iterations, shape)
     displacement = (x[:, :5] * contacts.scale).reshape(*shape, 5)
     amplitudes = x[:, 5:].reshape(*shape, -1)
     elements = FlexibleRingForces(rings, modes, displacement, amplitudes)

@@ -41,13 +41,13 @@ class FlexibleRings:
         How far each ring has turned with its structure, rad; matters for structures that are not
         rotationally symmetric. Loads and displacements stay in the fixed frame.
     turning_patches : bool
-        Whether a raceway patch turns with its section, or only shifts with its master point as the
+        Whether a raceway patch turns with its section, or only shifts with its master point as
         source's. Of balls: raceways of rollers turn with their section.
     shell : float
         Thickness T_S of the patches of balls, m.
     master_width : float, optional
         Side of the square over which a force enters a ring at a master node, m: the size of the
-        elements there. The rings of the source yield under it although Hertz's approach holds that
+        elements there. The rings of Ritzer yield under it although Hertz's approach holds that
         already. By default it is counted once.
 
     Raises

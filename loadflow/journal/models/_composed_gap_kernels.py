@@ -1,0 +1,168 @@
+"""Compiled gap of the reduced film with effects, and the asperities in it.
+
+At a position q of the shaft the shell, the mean gap and the conductances of points and faces follow
+from law and unknowns; `film` and `work` are those of `composed_film`.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from loadflow.journal.cavitation import LOAD
+from loadflow.journal.film._kernels import apply_law
+from loadflow.journal.film._rough_kernels import conductance, dragged, mean_film
+
+PLANES, MEAN, OPEN, CUBE = range(4)  # of `work.gap`
+FLOW, DRAG, FLOW_SLOPE, DRAG_SLOPE, FACE_PLANES = range(5)  # of `work.face`
+_FAR = 8.5  # film parameter above which the mean gap is that of the mean planes, to rounding
+
+
+@njit(cache=True, nogil=True)
+def place(film, work, q):
+    """Evaluate law, shell and gap at the unknowns and the position `q` (4,)."""
+    apply_law(film.ring.law, film.ring.numbers, film.ring.scale, work.u, work.state)
+    nx, m = work.u.shape[0], len(film.lanes)
+    z = film.nodes.z
+    points = len(film.points)
+    for k in range(points):
+        work.centre[0, k] = q[0] + q[3] * z[k] + 0.5 * work.bend[0] * z[k] * z[k]
+        work.centre[1, k] = q[1] - q[2] * z[k] + 0.5 * work.bend[1] * z[k] * z[k]
+    ex, ey, give, p = work.centre[0], work.centre[1], film.give, work.state[LOAD]
+    gap, face = work.gap, work.face
+    for i in range(nx):
+        c, s = film.ring.cos[i], film.ring.sin[i]
+        c_face, s_face = film.ring.cos_face[i], film.ring.sin_face[i]
+        for k in range(points):
+            gap[PLANES, i, k] = 1.0 - ex[k] * c - ey[k] * s
+        for k in range(m):
+            face[FACE_PLANES, i, k] = 1.0 - ex[k] * c_face - ey[k] * s_face
+        if give > 0.0:
+            right = i + 1 if i + 1 < nx else 0
+            for k in range(m):
+                gap[PLANES, i, k] += give * (p[i, k] - film.ring.p_edge)
+                face[FACE_PLANES, i, k] += give * (0.5 * (p[i, k] + p[right, k]) - film.ring.p_edge)
+    if film.rough.size > 0.0:
+        _rough_gap(film.rough, work)
+        return
+    for i in range(nx):
+        for k in range(points):
+            h = gap[PLANES, i, k]
+            gap[MEAN, i, k] = h
+            gap[CUBE, i, k] = h * h * h
+            work.gap_slope[i, k] = 3.0 * h * h
+        for k in range(m):
+            h = face[FACE_PLANES, i, k]
+            face[FLOW, i, k] = h * h * h
+            face[FLOW_SLOPE, i, k] = 3.0 * h * h
+            face[DRAG, i, k] = h
+
+
+@njit(cache=True, nogil=True)
+def smooth_beyond(rough):
+    """Gap above which surfaces count as smooth, clearances; none where flow factors reach far."""
+    return _FAR * rough.size if rough.along.shape[0] == 0 else np.inf
+
+
+@njit(cache=True, nogil=True)
+def _rough_gap(rough, work):
+    """Mean gap and conductances between rough surfaces."""
+    nx, m = work.u.shape
+    gap, face, s = work.gap, work.face, rough.size
+    far = smooth_beyond(rough)
+    for i in range(nx):
+        for k in range(gap.shape[2]):
+            h = gap[PLANES, i, k]
+            if h > far:
+                gap[MEAN, i, k], gap[OPEN, i, k] = h, 1.0
+                gap[CUBE, i, k], work.gap_slope[i, k] = h * h * h, 3.0 * h * h
+            else:
+                gap[MEAN, i, k], gap[OPEN, i, k] = mean_film(h, s)
+                gap[CUBE, i, k], work.gap_slope[i, k] = conductance(h, s, rough.across)
+        for k in range(m):
+            h = face[FACE_PLANES, i, k]
+            if h > far:
+                face[FLOW, i, k], face[FLOW_SLOPE, i, k] = h * h * h, 3.0 * h * h
+                face[DRAG, i, k], face[DRAG_SLOPE, i, k] = h, 1.0
+            else:
+                face[FLOW, i, k], face[FLOW_SLOPE, i, k] = conductance(h, s, rough.along)
+                face[DRAG, i, k], face[DRAG_SLOPE, i, k] = dragged(h, s, rough.along, rough.slip)
+
+
+@njit(cache=True, nogil=True)
+def narrowest(film, work):
+    """Narrowest gap of the mean planes at points and faces, after `place`; clearances.
+
+    Around a rigid shell it is that between the points, too.
+    """
+    least = 1e300
+    if film.give == 0.0:
+        for k in range(film.nodes.z.size):
+            least = min(least, 1.0 - np.hypot(work.centre[0, k], work.centre[1, k]))
+        return least
+    nx, m = work.u.shape[0], len(film.lanes)
+    for i in range(nx):
+        for k in range(work.gap.shape[2]):
+            least = min(least, work.gap[PLANES, i, k])
+        for k in range(m):
+            least = min(least, work.face[FACE_PLANES, i, k])
+    return least
+
+
+@njit(cache=True, nogil=True)
+def touch(rough, work, q):
+    """Load of the asperities and its derivative by the position into `work.touch`; ∫ p_a, N."""
+    work.touch[:] = 0.0
+    normal = 0.0
+    if rough.size == 0.0:
+        return normal
+    last = rough.table.shape[1] - 2
+    load, stiffness = work.touch[0], work.touch[1:]
+    for g in range(rough.z.size):
+        z, w = rough.z[g], rough.weights[g]
+        ex = q[0] + q[3] * z + 0.5 * work.bend[0] * z * z
+        ey = q[1] - q[2] * z + 0.5 * work.bend[1] * z * z
+        ratio = np.hypot(ex, ey)
+        if not ratio > rough.first:
+            continue
+        place_in = (ratio - rough.first) / rough.step
+        i = min(int(place_in), last)
+        force, rise = _between(rough.table[0], rough.table[1], i, place_in - i, rough.step)
+        pressed, _ = _between(rough.table[2], rough.table[3], i, place_in - i, rough.step)
+        normal += w * pressed
+        c, s = ex / ratio, ey / ratio
+        along = w * rise
+        aside = w * force / ratio
+        xx = along * c * c + aside * s * s
+        xy = (along - aside) * c * s
+        yy = along * s * s + aside * c * c
+        load[0] += w * force * c
+        load[1] += w * force * s
+        load[2] -= w * force * s * z
+        load[3] += w * force * c * z
+        stiffness[0, 0] += xx
+        stiffness[0, 1] += xy
+        stiffness[0, 2] -= xy * z
+        stiffness[0, 3] += xx * z
+        stiffness[1, 1] += yy
+        stiffness[1, 2] -= yy * z
+        stiffness[1, 3] += xy * z
+        stiffness[2, 2] += yy * z * z
+        stiffness[2, 3] -= xy * z * z
+        stiffness[3, 3] += xx * z * z
+    for a in range(4):
+        for b in range(a):
+            stiffness[a, b] = stiffness[b, a]
+    return normal
+
+
+@njit(cache=True, nogil=True)
+def _between(values, slopes, i, t, step):
+    """Cubic through values and slopes at i and i + 1, and its slope; straight on beyond."""
+    if t > 1.0:
+        return values[i + 1] + (t - 1.0) * step * slopes[i + 1], slopes[i + 1]
+    a, b = values[i], values[i + 1]
+    u, v = step * slopes[i], step * slopes[i + 1]
+    second, third = 3.0 * (b - a) - 2.0 * u - v, 2.0 * (a - b) + u + v
+    value = a + t * (u + t * (second + t * third))
+    return value, (u + t * (2.0 * second + 3.0 * t * third)) / step
