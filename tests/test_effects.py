@@ -201,6 +201,12 @@ def test_the_pilot_says_the_same_again(cube, verdict):
     assert EffectVerdict.from_json(json.loads(json.dumps(verdict.to_json()))) == verdict
 
 
+def test_a_series_shorter_than_what_it_takes_to_settle_is_measured_too(tmp_path):
+    short = cube_file(tmp_path / "loads.h5", wind_speeds=(8.0,), seeds=(1,), steps=50)
+    found = pilot(scene_of(short))
+    assert 0 < found.sizes["motion of the film"]["minimum film"] < 10
+
+
 def test_models_as_given_need_no_pilot(cube):
     assert pilot(scene_of(cube, accuracy="given")) is None
 

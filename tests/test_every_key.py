@@ -27,11 +27,8 @@ from loadflow.stages import (
     rolling,
     seeds,
     shaft,
-<<<<<<< HEAD
-    wear,
-=======
     thrust,
->>>>>>> refs/heads/decide
+    wear,
 )
 from loadflow.studies.run_lifetime import run_lifetime
 from loadflow.studies.verdicts import verdicts
@@ -211,9 +208,7 @@ OTHERS = {
     "journal.supply.grooves.0.restrictor": [{"diameter": 0.004, "length": 0.05}],
     "journal.supply.pump": [{"flow": [0.0, 0.01], "pressure": [8e5, 2e5]}],
     "dynamics.speed_range": [[0.8, 1.6]],
-<<<<<<< HEAD
     "wear.running_in.initial_roughness": [1.0000001e-6],
-=======
     "thrust.bearings.N2.geometry.profile": [{"kind": "step", "height": 1e-4}],
     "thrust.bearings.N2.geometry.pivot": [{"share": 0.6}],
     "thrust.bearings.N2.geometry.first_pad": [0.1],
@@ -230,7 +225,6 @@ OTHERS = {
     "thrust.bearings.M.limits.material": [[[400.0, 5e6]]],
     "thrust.bearings.M.geometry.arrangement": ["X"],
     "thrust.bearings.M.geometry.clearance": [2.5e-4],
->>>>>>> refs/heads/decide
     "reduction.method": ["stationary", "histogram"],
     "reduction.bounds": [[0.02, 0.2]],
     "reduction.orders": [[1.0]],
@@ -449,12 +443,8 @@ def _seeds(scene, add):
 FOUND = {
     "loads": _loads, "turbine": _loads, "shaft": lambda s, add: _shaft(s, add) and None,
     "seeds": _seeds, "reduction": _reduction, "journal": _journal, "rolling": _rolling,
-<<<<<<< HEAD
     "friction": _friction, "dynamics": _dynamics, "wear": _wear,
-=======
-    "friction": _friction, "dynamics": _dynamics,
     "thrust": _thrust,
->>>>>>> refs/heads/decide
     "environment": _environment,
 }  # fmt: skip
 

@@ -114,8 +114,8 @@ def named_by_file(turbine: Any) -> Any:
 
 def _turbine_of(data: dict[str, Any]) -> str:
     turbine = named_by_file(data.get("turbine", {}))
-    name = turbine.get("name", "nrel-5mw") if isinstance(turbine, dict) else turbine.name
-    return str(name)
+    name = turbine.get("name") if isinstance(turbine, dict) else getattr(turbine, "name", None)
+    return "nrel-5mw" if name is None else str(name)  # what is no table is told by the section
 
 
 def origins(data: dict[str, Any]) -> dict[Location, Location]:

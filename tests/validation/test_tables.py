@@ -4,10 +4,12 @@ from collections import Counter
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from loadflow import validation
-from loadflow.validation import _slewing_refused, rings
+from loadflow.errors import InputError
+from loadflow.validation import _slewing_refused, rings, turbines
 
 PAGE = Path(__file__).parents[2] / "docs" / "validation.md"
 BEGIN, END = "<!-- counts: begin -->\n", "<!-- counts: end -->"
@@ -68,6 +70,22 @@ def test_a_number_that_ours_misses_is_in_order_only_while_it_does():
     assert (row.outcome, row.verdict) == ("missed", "missed: rigid rings")
     assert replace(row, got=1.05).outcome == "out"
     assert replace(row, got=float("nan")).outcome == "out"
+
+
+def test_numbers_of_files_that_are_not_shipped_ask_for_their_folder(tmp_path):
+    with pytest.raises(InputError, match="no number of the table seeds needs files"):
+        list(validation.all_checks("seeds", tmp_path))
+    with pytest.raises(InputError, match=r"no clone of github\.com/IEAWindTask37/IEA-3\.4-130-RWT"):
+        list(turbines.checks_of_files(tmp_path))
+
+
+def test_the_printed_steady_states_are_those_of_four_turbines_with_rising_wind():
+    for public in turbines.TURBINES:
+        wind, speed, _, power, thrust = turbines.published_states(public.name).T
+        assert wind.size == 9
+        assert (np.diff(wind) > 0).all()
+        assert (speed > 0).all()
+        assert (power < thrust * wind).all()  # P = T v (1 − a)
 
 
 def test_a_number_that_needs_what_is_not_installed_is_told_apart(monkeypatch):
