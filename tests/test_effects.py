@@ -294,3 +294,48 @@ def test_bearings_of_different_size_are_put_in_motion_together(cube):
     stated = {"N": {"kind": "journal"}, "N2": {"kind": "journal", "motion": "transient"} | other}
     with pytest.raises(InputError, match="all journal bearings of a scene have one"):
         make_scene(data | {"bearings": stated})
+
+
+# --- elastic rings ----------------------------------------------------------------------------
+TAPERED = {
+    "kind": "roller", "rollers": 60, "rows": 2, "roller_diameter": 0.085, "roller_length": 0.12,
+    "pitch_diameter": 2.5, "contact_angle": 0.7, "row_spacing": 0.3, "slices": 6,
+    "clearance": -50e-6,
+}  # fmt: skip
+OUTER = {"section": {"width": 0.15, "height": 0.5}, "radius": 1.36}
+
+
+def test_elastic_rings_of_rollers_are_switched_on_where_sections_are_stated(cube):
+    rings = next(effect for effect in effects.EFFECTS if effect.name == "elastic rings")
+    part = {"bearing": "M", "geometry": TAPERED}
+    keys = {"results": ["rolling.life"], "shaft": {"moment": {}}}
+    without = scene_of(cube, rolling=part, **keys)
+    assert rings.switched(without, True) is None
+    assert "four-point" not in rings.needs
+    scene = scene_of(cube, rolling=part | {"outer_ring": OUTER}, **keys)
+    on = rings.switched(scene, True)
+    assert on.rolling.ring_model.outer.radius == OUTER["radius"]
+    assert rings.switched(on, False).rolling.ring_model == "rigid"
+    # what free rings do to the bearing of the main job, at most
+    for one in (without, scene):
+        size = rings.indicator(situation(one, list_cases(one)))
+        assert 0.2 < size["life"] <= 0.28
+        assert 0.15 < size["maximum force"] <= 0.21
+
+
+def test_elastic_rings_are_switched_on_in_every_bearing_that_has_sections(cube):
+    rings = next(effect for effect in effects.EFFECTS if effect.name == "elastic rings")
+    spherical = {
+        "kind": "spherical", "rollers": 30, "roller_diameter": 0.09, "roller_length": 0.14,
+        "pitch_diameter": 1.0, "contact_angle": 0.21,
+    }  # fmt: skip
+    ring = {"section": {"width": 0.1, "height": 0.3}, "radius": 0.6}
+    parts = [
+        {"bearing": "N", "geometry": spherical},
+        {"bearing": "N2", "geometry": spherical, "outer_ring": ring},
+    ]
+    scene = scene_of(cube, results=["rolling.life"], rolling=parts)
+    on = rings.switched(scene, True)
+    assert [part.rings for part in on.rolling.bearings.values()] == ["rigid", "flexible"]
+    off = rings.switched(on, False)
+    assert [part.rings for part in off.rolling.bearings.values()] == ["rigid", "rigid"]

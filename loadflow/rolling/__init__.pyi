@@ -48,13 +48,13 @@ from .rating.oscillation import Oscillation as Oscillation
 from .rating.static import Verdict as Verdict
 from .rating.static import verdicts as verdicts
 from .rings.beam import RingBeam as RingBeam
-from .rings.condensed import FlexibleRings as FlexibleRings
 from .rings.dynamics import craig_bampton as craig_bampton
 from .rings.dynamics import natural_frequencies as natural_frequencies
 from .rings.expansion import ExpansionResult as ExpansionResult
 from .rings.expansion import RingSections as RingSections
 from .rings.expansion import axial_expansion as axial_expansion
 from .rings.finite_element import FiniteElementRing as FiniteElementRing
+from .rings.flexible import FlexibleRings as FlexibleRings
 from .rings.given import CompliantRing as CompliantRing
 from .rings.given import guyan as guyan
 from .rings.patches import patch_points as patch_points

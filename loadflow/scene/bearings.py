@@ -182,7 +182,8 @@ class FurtherBearing(BaseModel):
         if self.rings == "rigid":
             return "rigid"
         if not self.geometry.flexible_rings:
-            raise InputError("for slewing bearings of balls only")
+            known = ", ".join(kind for kind, cls in KINDS.items() if cls.flexible_rings)
+            raise InputError(f"rings of a {self.geometry.kind} bearing are rigid; not of {known}")
         return around(self.geometry, self.inner_ring, self.outer_ring)
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from loadflow.journal import Heat
 from loadflow.journal.rungs import RUNGS
-from loadflow.rolling import RollerBearing, SlewingBearing, SphericalRollerBearing
+from loadflow.rolling import RollerBearing, SphericalRollerBearing
 from loadflow.rolling.friction import Churning
 from loadflow.scene.loads import Loads
 from loadflow.scene.scene import Scene, make_scene
@@ -290,10 +290,10 @@ def _of_rolling(scene: Scene) -> Iterator[tuple[str, str]]:
     geometry = scene.rolling.geometry
     if getattr(geometry, "rows", None) == 1 and getattr(geometry, "row_spacing", 0.0) != 0.0:
         yield "geometry.row_spacing", "the bearing has one row"
-    if not isinstance(geometry, SlewingBearing):
+    if not geometry.flexible_rings:
         for key in ("inner_ring", "outer_ring"):
             if getattr(scene.rolling, key) is not None:
-                yield key, "only slewing bearings of balls have flexible rings"
+                yield key, f"a {geometry.kind} bearing has rigid rings only"
 
 
 def _of_friction(scene: Scene) -> Iterator[tuple[str, str]]:

@@ -21,7 +21,7 @@ from loadflow.rolling import (
     legs,
     patch_points,
 )
-from loadflow.rolling.rings.condensed import ring_modes
+from loadflow.rolling.rings.condensation import ring_modes
 from loadflow.rolling.rings.expansion import RingSections
 from loadflow.rolling.rings.patches import PatchPoints
 from loadflow.scene.bearings import Rolling
@@ -331,7 +331,7 @@ def test_the_last_mode_kept_favours_no_direction():
 @pytest.mark.parametrize("sectors", [None, legs(3, 0.4)])
 def test_waves_around_the_ring_shift_the_contacts_as_the_basis_does(sectors):
     ring = dataclasses.replace(OUTER, supports=(flange(0.15, -0.02, sectors=sectors),))
-    modes = ring_modes(DRIVE, FlexibleRings(inner=INNER, outer=ring), 0.03)
+    modes = ring_modes(DRIVE.ring_coupling(0.03), FlexibleRings(inner=INNER, outer=ring))
     waves = modes.waves
     shift = np.zeros((modes.size, *waves.amplitude.shape[1:], DRIVE.balls))
     for owner, wave, amplitude in zip(waves.owner, waves.wave, waves.amplitude):

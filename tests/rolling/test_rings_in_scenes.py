@@ -109,7 +109,49 @@ def test_every_slewing_bearing_of_a_scene_may_have_flexible_rings(tmp_path):
     assert largest[True] != pytest.approx(largest[False], rel=0.01)
 
 
+TAPERED = {
+    "kind": "roller", "rollers": 60, "roller_diameter": 0.085, "roller_length": 0.12,
+    "pitch_diameter": 2.5, "contact_angle": 0.7, "rows": 2, "row_spacing": 0.3, "slices": 6,
+    "clearance": -50e-6,
+}  # fmt: skip
+CUPS = {
+    "inner_ring": {"section": {"width": 0.15, "height": 0.5}, "radius": 1.14},
+    "outer_ring": {"section": {"width": 0.15, "height": 0.5}, "radius": 1.36},
+}
+
+
+@pytest.mark.parametrize("kind", ["tapered", "spherical"])
+def test_roller_bearings_of_a_scene_may_have_flexible_rings(tmp_path, kind):
+    cube = cube_file(tmp_path / "loads.h5", wind_speeds=(12.0,), seeds=(1,))
+    place, geometry, cups = {
+        "tapered": ("M", TAPERED, CUPS),
+        "spherical": (
+            "N",
+            {"kind": "spherical"} | SPHERICAL,
+            {"outer_ring": {"section": {"width": 0.08, "height": 0.3}, "radius": 0.58}},
+        ),
+    }[kind]
+    life, force = {}, {}
+    for rings in ("rigid", "flexible"):
+        part = {"bearing": place, "geometry": geometry, "rings": rings} | cups
+        scene = make_scene(
+            {
+                "name": rings, "results": ["rolling.life", "rolling.loads"], "rolling": part,
+                "loads": {"source": "files", "files": [str(cube)]},
+                "shaft": {"moment": {}} if place == "M" else {"two_point": {}},
+            }
+        )  # fmt: skip
+        table = lf.run(scene, out=tmp_path, report=False).tree["rolling"]
+        assert int(table["not_converged"].sum()) == 0
+        life[rings] = float(table["bearing_life_hours"].sel(bearing=place).max())
+        force[rings] = float(table["bearing_force"].sel(bearing=place).max())
+        assert float(table["bearing_design_safety"].min()) > 0
+    assert life["flexible"] != pytest.approx(life["rigid"], rel=0.02)
+    assert force["flexible"] != pytest.approx(force["rigid"], rel=1e-3)
+
+
 def test_flexible_rings_of_other_bearings_are_refused():
-    first = {"geometry": {"kind": "spherical"} | SPHERICAL, "rings": "flexible", "outer_ring": RING}
-    with pytest.raises(InputError, match="slewing bearings of balls only"):
+    crossed = {"kind": "crossed", "rollers": 60, "roller_diameter": 0.04, "roller_length": 0.03}
+    first = {"geometry": crossed | {"pitch_diameter": 2.5}, "rings": "flexible", "outer_ring": RING}
+    with pytest.raises(InputError, match="rings of a crossed bearing are rigid"):
         make_scene({"name": "x", "rolling": [first]})

@@ -11,7 +11,7 @@ import numpy as np
 
 from loadflow.errors import InputError
 from loadflow.numerics.fields import check_choice
-from loadflow.rolling.bearings.base import BearingOfBalls
+from loadflow.rolling.bearings.elements import BearingOfBalls
 from loadflow.rolling.contacts import POINT, Contacts, azimuths, row_sides
 from loadflow.rolling.raceways import BallRaceways
 from loadflow.rolling.rating import capacity

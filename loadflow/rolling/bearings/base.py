@@ -23,14 +23,14 @@ from loadflow.rolling.motion.spinning import Spin, spin_equilibrium
 from loadflow.rolling.rating import modified_life
 from loadflow.rolling.rating.modified_life import LifeModification, Lubrication
 from loadflow.rolling.results import ContactResult
-from loadflow.rolling.rings.condensed import FlexibleRings
+from loadflow.rolling.rings.condensed import Coupling
 from loadflow.rolling.rings.equilibrium import FlexibleRingForces, solve_flexible
+from loadflow.rolling.rings.flexible import FlexibleRings
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from loadflow.rolling.raceways import BallRaceways
-    from loadflow.rolling.roller_raceways import RollerRaceways
 
 Kind = TypeVar("Kind", bound="RollingBearing", covariant=True)
 _Own = TypeVar("_Own", bound="RollingBearing")
@@ -72,7 +72,7 @@ class RollingEquilibrium(ContactResult[Kind]):
         return self.elements
 
     def ring_displacement(self, ring: Literal["inner", "outer"]) -> Array:
-        """Displacement (r, θ, z) of a flexible ring's raceway patches, m, (…, groups, ball, 3).
+        """Displacement (r, θ, z) of a flexible ring's raceways, m, (…, groups, element, 3).
 
         Raises
         ------
@@ -260,7 +260,8 @@ class RollingBearing(RollingGeometry):
         rest: RingEquilibrium
         elements: ContactForces
         if rings != "rigid":
-            rest, elements = solve_flexible(self._balls, rings, angle, force, moment, control)
+            coupling = self.ring_coupling(angle)
+            rest, elements = solve_flexible(coupling, rings, force, moment, control)
         else:
             rest = solve(contacts, force, moment, **vars(control))
             elements = RigidRingForces(contacts, rest.displacement)
@@ -351,9 +352,32 @@ class RollingBearing(RollingGeometry):
             "rolling.friction_torque_loads estimates its torque from the loads"
         )
 
+    def ring_coupling(self, element_angle: float = 0.0) -> Coupling:
+        """How its contacts feel flexible rings.
+
+        Parameters
+        ----------
+        element_angle : float
+            Azimuth of the first rolling element of each row, rad.
+
+        Raises
+        ------
+        InputError
+            If this kind of bearing has rigid rings only.
+
+        Examples
+        --------
+        >>> from loadflow.rolling import RollerBearing
+        >>> bearing = RollerBearing(rollers=14, roller_diameter=11e-3, roller_length=11e-3,
+        ...     pitch_diameter=60.5e-3)
+        >>> bearing.ring_coupling().elements
+        14
+        """
+        raise InputError(f"rings: a {type(self).__name__} has rigid rings only")
+
     @property
     def _balls(self) -> BallRaceways:
-        """The bearing as one of balls, which flexible rings and inertia are for."""
+        """The bearing as one of balls, which inertia is for."""
         return cast("BallRaceways", self)
 
     @property
@@ -404,37 +428,10 @@ class RollingBearing(RollingGeometry):
             raise InputError("moment: a self-aligning bearing takes none, it must be 0")
         if rings != "rigid" and not isinstance(rings, FlexibleRings):
             raise InputError(f"rings: must be 'rigid' or FlexibleRings, got {rings!r}")
-        if rings != "rigid" and not self.flexible_rings:
-            raise InputError(f"rings: a {name} has rigid rings only")
         if speed is not None and not self.element_inertia:
             raise InputError(f"speed: the inertia of the elements of a {name} is not modelled")
         if speed is not None and rings != "rigid":
             raise InputError("speed: the inertia of the elements is modelled with rigid rings only")
-
-
-class BearingOfBalls(RollingBearing):
-    """Verbs of bearings whose balls roll in grooves."""
-
-    friction_model: ClassVar[Literal["balls", "rollers"] | None] = "balls"
-
-    def losses(
-        self, result: RollingEquilibrium[RollingBearing], speed: ArrayLike, options: FrictionOptions
-    ) -> BearingFriction:
-        """Friction of the contacts of a `result`; see `RollingEquilibrium.friction`."""
-        return friction.ball_friction(cast("ContactResult[BallRaceways]", result), speed, options)
-
-
-class BearingOfRollers(RollingBearing):
-    """Verbs of bearings whose rollers roll straight on."""
-
-    friction_model: ClassVar[Literal["balls", "rollers"] | None] = "rollers"
-
-    def losses(
-        self, result: RollingEquilibrium[RollingBearing], speed: ArrayLike, options: FrictionOptions
-    ) -> BearingFriction:
-        """Friction of the contacts of a `result`; see `RollingEquilibrium.friction`."""
-        rollers = cast("ContactResult[RollerRaceways]", result)
-        return friction.roller_friction(rollers, speed, options)
 
 
 def _first_angle(angle: float, renamed: dict[str, float]) -> float:

@@ -13,12 +13,14 @@ from annotated_types import Gt, Le
 
 from loadflow.errors import InputError
 from loadflow.numerics.fields import check_choice
-from loadflow.rolling.bearings.base import BearingOfBalls, TorqueModel
+from loadflow.rolling.bearings.base import TorqueModel
+from loadflow.rolling.bearings.elements import BearingOfBalls
 from loadflow.rolling.contact_forces import ContactForces
 from loadflow.rolling.contacts import POINT, Array, Contacts, azimuths
 from loadflow.rolling.friction import FRICTION_FACTORS
 from loadflow.rolling.raceways import BallRaceways
 from loadflow.rolling.rating import capacity, life
+from loadflow.rolling.rings.coupling import PointCoupling
 
 DIAGONALS = (1.0, -1.0)  # diagonal 0 carries +Fz on the inner ring, diagonal 1 carries -Fz
 
@@ -107,6 +109,10 @@ class SlewingBearing(BallRaceways, BearingOfBalls):
             self.gamma,
             self.osculation_ratio,
         )
+
+    def ring_coupling(self, element_angle: float = 0.0) -> PointCoupling:
+        """How balls feel flexible rings, the first one of each row at an azimuth, rad."""
+        return PointCoupling(self, element_angle)
 
     @property
     def groups(self) -> tuple[int, ...]:

@@ -10,7 +10,7 @@ import numpy as np
 from annotated_types import Ge, Lt
 
 from loadflow.numerics.fields import check_choice
-from loadflow.rolling.bearings.base import BearingOfRollers
+from loadflow.rolling.bearings.elements import BearingOfRollers
 from loadflow.rolling.contacts import LINE, Contacts, azimuths, row_sides
 from loadflow.rolling.roller_raceways import RollerRaceways
 

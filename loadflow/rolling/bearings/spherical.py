@@ -9,7 +9,7 @@ from typing import ClassVar
 import numpy as np
 
 from loadflow.errors import InputError
-from loadflow.rolling.bearings.base import BearingOfRollers
+from loadflow.rolling.bearings.elements import BearingOfRollers
 from loadflow.rolling.contacts import LINE, Contacts, azimuths
 from loadflow.rolling.roller_raceways import RollerRaceways
 

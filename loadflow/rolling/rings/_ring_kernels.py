@@ -3,9 +3,10 @@
 Unknowns x = (ux, uy, uz, R θx, R θy, a): motion of the inner ring's structure relative to the outer
 one's, all lengths, and the ring modes of unit stiffness. `basis` (3, contact, unknown) gives the
 relative shift (r, θ, z) of the two groove centres of each contact; `waves` gives the same as few
-waves around the ring, `loadflow.rolling.rings.condensed.RingWaves`. `local` is the compliance of
-the rings right at a contact, along its force. Contacts are numbered kind by kind, the table is
-that of `loadflow.rolling.contacts`. The potential is convex in x.
+waves around the ring, `loadflow.rolling.rings.condensed.RingWaves`. Contacts are numbered kind by
+kind. `law` (`loadflow.rolling.rings.condensed.ContactLaw`) holds their table and `local`, the
+compliance of the rings right at a contact, along its force; of line contacts the shift has two
+fields in place of three (`loadflow.rolling.rings._line_kernels`). The potential is convex in x.
 """
 
 from __future__ import annotations
@@ -16,7 +17,8 @@ import numpy as np
 from numba import njit
 
 from loadflow.rolling._kernels import rounding_level, stalled
-from loadflow.rolling.contacts import FREE, GAP, NORMAL_R, NORMAL_Z, STIFFNESS
+from loadflow.rolling.contacts import FREE, GAP, NORMAL_R, NORMAL_Z, POINT, STIFFNESS
+from loadflow.rolling.rings._line_kernels import line_contacts, line_rows
 
 # Sums may be reordered (so that they use vector units); nothing else of fast mathematics.
 _REORDER = {"reassoc", "contract", "nsz"}
@@ -141,12 +143,16 @@ def shift_of(x, waves, amount, shift):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def forces(x, shift, waves, table, local, amount, push, slope, across, pull):
+def forces(x, shift, waves, law, amount, push, slope, across, slant, pull):
     """Energy, sum of forces, and whether a loaded contact lies beyond 90°, at known shifts.
 
-    Fills what `_contacts` fills, and the force `pull` on all unknowns.
+    Fills what `_contacts` or `line_contacts` fills, and the force `pull` on all unknowns.
     """
-    energy, total, beyond = _contacts(shift, table, local, push, slope, across)
+    beyond = False
+    if law.power == POINT:
+        energy, total, beyond = _contacts(shift, law.table, law.local, push, slope, across)
+    else:
+        energy, total = line_contacts(shift, law.table, push, slope, across, slant)
     for a in range(x.shape[0]):
         pull[a] = x[a] if a >= 5 else 0.0
         energy += 0.5 * pull[a] * pull[a]
@@ -155,24 +161,26 @@ def forces(x, shift, waves, table, local, amount, push, slope, across, pull):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def evaluate(x, waves, table, local):
+def evaluate(x, waves, law):
     """Contacts in the state x.
 
-    Returns the shift and push (3 kind, ball) of the contacts, their slopes along and across (kind,
-    ball), and the force on all unknowns.
+    Returns the shift and push (3 kind, ball) of the contacts, their slopes along and across and
+    their slant (kind, ball), and the force on all unknowns.
     """
-    balls, kinds = waves[0].shape[1], table.shape[0]
-    amount = np.zeros((waves[0].shape[0], 3 * kinds))
-    shift, push = np.zeros((3 * kinds, balls)), np.zeros((3 * kinds, balls))
-    slope, across, pull = np.zeros((kinds, balls)), np.zeros((kinds, balls)), np.zeros(x.shape[0])
+    balls, fields = waves[0].shape[1], waves[3].shape[1]
+    kinds = fields // 3 if law.power == POINT else fields // 2
+    amount = np.zeros((waves[0].shape[0], fields))
+    shift, push = np.zeros((fields, balls)), np.zeros((fields, balls))
+    slope, across = np.zeros((kinds, balls)), np.zeros((kinds, balls))
+    slant, pull = np.zeros((kinds, balls)), np.zeros(x.shape[0])
     shift_of(x, waves, amount, shift)
-    forces(x, shift, waves, table, local, amount, push, slope, across, pull)
-    return shift, push, slope, across, pull
+    forces(x, shift, waves, law, amount, push, slope, across, slant, pull)
+    return shift, push, slope, across, slant, pull
 
 
 @njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER)
 def _rows(basis, push, slope, across, rows):
-    """Fill the rows whose squares are the tangent; returns how many, padded to whole eights."""
+    """Fill the rows of points whose squares are the tangent; returns how many."""
     balls, size = push.shape[1], basis.shape[2]
     k = 0
     for i in range(basis.shape[1]):
@@ -194,9 +202,6 @@ def _rows(basis, push, slope, across, rows):
             second[a] = side * (br * gr[a] + bz * gz[a])
             third[a] = side * (flat * gt[a] - ratio * normal)
         k += 3
-    while k % 8:
-        rows[k, :] = 0.0
-        k += 1
     return k
 
 
@@ -224,11 +229,18 @@ def _squares(rows, count, hessian):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def tangent(basis, push, slope, across):
-    """Exact Hessian of the potential."""
-    size = basis.shape[2]
-    rows, hessian = np.empty((3 * basis.shape[1] + 8, size)), np.zeros((size, size))
-    _squares(rows, _rows(basis, push, slope, across, rows), hessian)
+def tangent(basis, push, slope, across, slant):
+    """Exact Hessian of the potential; of points with three fields in the basis, of lines two."""
+    fields, contacts, size = basis.shape
+    rows, hessian = np.empty((fields * contacts + 8, size)), np.zeros((size, size))
+    if fields == 3:
+        count = _rows(basis, push, slope, across, rows)
+    else:
+        count = line_rows(basis, slope, across, slant, rows)
+    while count % 8:
+        rows[count, :] = 0.0
+        count += 1
+    _squares(rows, count, hessian)
     for a in range(size):
         hessian[a, a] += 1.0 if a >= 5 else 0.0
         for b in range(a):
@@ -237,12 +249,13 @@ def tangent(basis, push, slope, across):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def contact_state(states, waves, table, local):
-    """Force and signed angle (from the radial plane) of each contact, (n, kind, ball)."""
+def contact_state(states, waves, law):
+    """Force and signed angle (from the radial plane) of each point contact, (n, kind, ball)."""
+    table = law.table
     balls, kinds = waves[0].shape[1], table.shape[0]
     force, angle = np.zeros((2, len(states), kinds, balls))
     for i in range(len(states)):
-        shift, push, _, _, _ = evaluate(states[i], waves, table, local)
+        shift, push, _, _, _, _ = evaluate(states[i], waves, law)
         for k in range(kinds):
             for j in range(balls):
                 pr, pt, pz = push[3 * k, j], push[3 * k + 1, j], push[3 * k + 2, j]

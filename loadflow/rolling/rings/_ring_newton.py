@@ -55,13 +55,13 @@ def _solve(factor, rhs):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _condense(basis, push, slope, across, factor, solved, condensed):
+def _condense(basis, push, slope, across, slant, factor, solved, condensed):
     """Tangent with the modes eliminated.
 
     Fills the Cholesky `factor` of the modes, the modes `solved` (5, mode) that follow each rigid
     unknown, and the 5 × 5 tangent that is left.
     """
-    hessian = tangent(basis, push, slope, across)
+    hessian = tangent(basis, push, slope, across, slant)
     modes = factor.shape[0]
     for a in range(modes):
         for b in range(modes):
@@ -106,6 +106,21 @@ def _free(basis, push, slope, across):
         if cholesky_solve(rigid, 0.0, rest, small, step) > 1e-12:
             return False
     return True
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _free_lines(basis, slope, across, slant):
+    """Whether line contacts leave a motion without resistance."""
+    rigid, rest, step, small = np.zeros((5, 5)), np.zeros(5), np.zeros(5), np.zeros((5, 5))
+    for i in range(basis.shape[1]):
+        k, j = i // slope.shape[1], i % slope.shape[1]
+        middle, turn = basis[0, i], basis[1, i]
+        for a in range(5):
+            along = middle[a] + slant[k, j] * turn[a]
+            for b in range(a + 1):
+                rigid[a, b] += slope[k, j] * along * (middle[b] + slant[k, j] * turn[b])
+                rigid[a, b] += across[k, j] * turn[a] * turn[b]
+    return cholesky_solve(rigid, 0.0, rest, small, step) <= 1e-12
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -169,7 +184,7 @@ def _remember(moves, changes, held):
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _newton(
-    x, load, waves, basis, table, local, reach, cap, tolerance, limit, factor, solved, condensed,
+    x, load, waves, basis, law, reach, cap, tolerance, limit, factor, solved, condensed,
     moves, changes, held, known,
 ):  # fmt: skip
     """Minimise energy - load·x from `x`.
@@ -181,12 +196,15 @@ def _newton(
     steps (`known` says whether a tangent from near `x` is there to begin with), a cap on the step
     of the contacts, and halving until energy or residual falls.
     """
-    kinds, balls, size = table.shape[0], waves[0].shape[1], x.shape[0]
-    amount, small, one = np.zeros((waves[0].shape[0], 3 * kinds)), np.zeros((5, 5)), np.ones(size)
+    fields, balls, size = waves[3].shape[1], waves[0].shape[1], x.shape[0]
+    kinds = fields // basis.shape[0]
+    amount, small, one = np.zeros((waves[0].shape[0], fields)), np.zeros((5, 5)), np.ones(size)
     # one by one: arrays unpacked from a larger one count as strided, and their loops stay scalar
-    shift, far = np.zeros((3 * kinds, balls)), np.zeros((3 * kinds, balls))
-    between, push = np.zeros((3 * kinds, balls)), np.zeros((3 * kinds, balls))
-    slope, across = np.zeros((kinds, balls)), np.zeros((kinds, balls))
+    shift, far = np.zeros((fields, balls)), np.zeros((fields, balls))
+    between, push = np.zeros((fields, balls)), np.zeros((fields, balls))
+    slope, across, slant = (
+        np.zeros((kinds, balls)), np.zeros((kinds, balls)), np.zeros((kinds, balls)),
+    )  # fmt: skip
     pull, rest, step, trial = np.zeros(size), np.zeros(size), np.zeros(size), np.zeros(size)
     for a in range(size):
         trial[a] = x[a]
@@ -197,7 +215,7 @@ def _newton(
     potential, descent, halvings = 0.0, 0.0, 0
     while True:
         energy, total, beyond = forces(
-            trial, between, waves, table, local, amount, push, slope, across, pull
+            trial, between, waves, law, amount, push, slope, across, slant, pull
         )
         new_norm = 0.0
         for a in range(size):
@@ -239,7 +257,7 @@ def _newton(
             known, fresh, halvings = False, True, 0
             continue
         if exact:
-            _condense(basis, push, slope, across, factor, solved, condensed)
+            _condense(basis, push, slope, across, slant, factor, solved, condensed)
             known, held = True, 0
         _secant(rest, factor, solved, condensed, cap, small, moves, changes, held, step)
         iterations += 1
@@ -252,12 +270,15 @@ def _newton(
         _between(x, step, shift, far, damping, trial, between)
     rounding = 0.0
     if residual > tolerance:
-        forces(x, shift, waves, table, local, amount, push, slope, across, pull)
-        _condense(basis, push, slope, across, factor, solved, condensed)
+        forces(x, shift, waves, law, amount, push, slope, across, slant, pull)
+        _condense(basis, push, slope, across, slant, factor, solved, condensed)
         stiffest, _ = _direction(rest, factor, solved, condensed, cap, small, step)
         rounding = rounding_level(moved * stiffest) / max(external, 1e-4 * total, 1e-300)
     answered = is_small(residual, tolerance, rounding) and not beyond
-    singular = _free(basis, push, slope, across)
+    if basis.shape[0] == 3:
+        singular = _free(basis, push, slope, across)
+    else:
+        singular = _free_lines(basis, slope, across, slant)
     return answered, residual, iterations, singular, rounding, held
 
 
@@ -282,7 +303,7 @@ def _between(x, step, shift, far, damping, trial, between):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def solve_series(loads, rigid, waves, basis, table, local, reach, cap, tolerance, limit, chunk):
+def solve_series(loads, rigid, waves, basis, law, reach, cap, tolerance, limit, chunk):
     """Equilibrium for each load (n, 5) of lengths; warm start inside chunks of `chunk` cases.
 
     `rigid` (n, 5) is the equilibrium with rigid rings, from which a cold start goes. A case that
@@ -311,7 +332,7 @@ def solve_series(loads, rigid, waves, basis, table, local, reach, cap, tolerance
                 for a in range(size):
                     x[a] = rigid[i, a] if a < 5 else 0.0
             ok, res, more, free, rounding[i], held = _newton(
-                x, load, waves, basis, table, local, reach, cap, tolerance, limit, factor, solved,
+                x, load, waves, basis, law, reach, cap, tolerance, limit, factor, solved,
                 condensed, moves, changes, held, attempt == 0,
             )  # fmt: skip
             count += more
@@ -324,11 +345,11 @@ def solve_series(loads, rigid, waves, basis, table, local, reach, cap, tolerance
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def stiffness_series(states, waves, basis, table, local):
+def stiffness_series(states, waves, basis, law):
     """Tangent (n, 5, 5) of the rigid unknowns, modes eliminated, in each state."""
     n, modes = states.shape[0], states.shape[1] - 5
     stiffness, factor, solved = np.zeros((n, 5, 5)), np.zeros((modes, modes)), np.zeros((5, modes))
     for i in range(n):
-        _, push, slope, across, _ = evaluate(states[i], waves, table, local)
-        _condense(basis, push, slope, across, factor, solved, stiffness[i])
+        _, push, slope, across, slant, _ = evaluate(states[i], waves, law)
+        _condense(basis, push, slope, across, slant, factor, solved, stiffness[i])
     return stiffness

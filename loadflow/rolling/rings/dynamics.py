@@ -22,7 +22,8 @@ from loadflow.rolling.rings.solid_section import SolidSection
 
 if TYPE_CHECKING:
     from loadflow.rolling.raceways import BallRaceways
-    from loadflow.rolling.rings.condensed import FlexibleRings, RingModes
+    from loadflow.rolling.rings.condensed import RingModes
+    from loadflow.rolling.rings.flexible import FlexibleRings
 
 
 @dataclass(frozen=True, eq=False)

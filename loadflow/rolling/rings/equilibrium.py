@@ -1,11 +1,12 @@
-"""Equilibrium of a slewing bearing with flexible rings: the static state of [Ritzer 2018] ch. 3.
+"""Equilibrium of a bearing with flexible rings: of balls the static state of [Ritzer 2018] ch. 3.
 
-Rigid motion of the rings' structures, ring modes and contacts in one Newton iteration with exact
-distances of the groove centres (2.39) and the exact tangent.
+Rigid motion of the rings' structures, ring modes and contacts in one Newton iteration with the
+exact tangent; balls with exact distances of the groove centres (2.39), rollers with their slices.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal
@@ -15,16 +16,16 @@ from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError, SolverError
 from loadflow.rolling import equilibrium
-from loadflow.rolling.contacts import Array, Contacts, Raceway
+from loadflow.rolling.contacts import Array, Raceway
 from loadflow.rolling.equilibrium import (
     Control,
     RingEquilibrium,
     broadcast_loads,
     raise_not_converged,
 )
-from loadflow.rolling.raceways import BallRaceways
-from loadflow.rolling.rings.condensed import FlexibleRings, RingModes, ring_modes
-from loadflow.rolling.rings.patches import patch_points
+from loadflow.rolling.rings.condensation import ring_modes
+from loadflow.rolling.rings.condensed import Coupling, RingModes
+from loadflow.rolling.rings.flexible import FlexibleRings
 
 _BLOCK = 512  # cases whose contact forces are formed at once
 
@@ -35,10 +36,6 @@ class FlexibleRingForces:
 
     Attributes
     ----------
-    bearing : BallRaceways
-        The bearing.
-    contacts : Contacts
-        Its contacts.
     rings : FlexibleRings
         The rings.
     modes : RingModes
@@ -49,8 +46,6 @@ class FlexibleRingForces:
         Of the ring modes, √(N m).
     """
 
-    bearing: BallRaceways
-    contacts: Contacts
     rings: FlexibleRings
     modes: RingModes
     displacement: Array
@@ -63,36 +58,27 @@ class FlexibleRingForces:
     @cached_property
     def _unknowns(self) -> Array:
         """All unknowns, (case, 5 + mode)."""
-        rigid = self.displacement / self.contacts.scale
+        rigid = self.displacement / self.modes.coupling.contacts.scale
         return np.concatenate([rigid, self.amplitudes], axis=-1).reshape(-1, self.modes.size)
 
-    def _contact_state(self, cases: slice) -> tuple[Array, Array]:
-        """Force and signed angle of each contact, (case, kind, ball)."""
-        from loadflow.rolling.rings import _ring_kernels
-
-        force, angle = _ring_kernels.contact_state(
-            self._unknowns[cases], self.modes.waves, self.contacts.table, self.modes.local
-        )
-        return force, angle
+    def _in_blocks(self) -> Iterator[Array]:
+        """Unknowns of some cases at a time, so that arrays of all contacts stay small."""
+        for first in range(0, max(len(self._unknowns), 1), _BLOCK):
+            yield self._unknowns[first : first + _BLOCK]
 
     @cached_property
     def _state(self) -> tuple[Array, Array]:
-        force, angle = self._contact_state(slice(None))
+        force, angle = self.modes.coupling.state(self._unknowns, self.modes)
         shape = (*self._cases, *force.shape[1:])
         return force.reshape(shape), angle.reshape(shape)
 
     @cached_property
     def _statistics(self) -> tuple[Array, Array]:
-        largest, sums = [], []
-        for first in range(0, len(self._unknowns), _BLOCK):
-            force, _ = self._contact_state(slice(first, first + _BLOCK))
-            largest.append(force.max(axis=-1))
-            sums.append(np.stack([(force**p).sum(axis=-1) for p in (1, 3, 10 / 3)], axis=-1))
-        kinds = len(self.contacts.table)
-        return (
-            np.concatenate(largest).reshape(*self._cases, kinds),
-            np.concatenate(sums).reshape(*self._cases, kinds, 3),
-        )
+        coupling = self.modes.coupling
+        parts = [coupling.statistics(some, self.modes) for some in self._in_blocks()]
+        largest, sums = (np.concatenate(part) for part in zip(*parts))
+        kinds = largest.shape[-1]
+        return largest.reshape(*self._cases, kinds), sums.reshape(*self._cases, kinds, 3)
 
     @property
     def forces(self) -> Array:
@@ -109,30 +95,32 @@ class FlexibleRingForces:
         return self._statistics[0]
 
     def power_sums(self, raceway: Raceway) -> Array:
-        """Sums of the forces, their cubes and 10/3 powers, (..., kind, 3)."""
+        """Sums of powers of the forces, (..., kind, 3); the same at both raceways."""
         return self._statistics[1]
 
     def grouped(self, groups: int) -> Array:
         """Forces summed over the kinds of each group, N, (..., group, ball)."""
-        force = self.forces
-        return force.reshape(*self._cases, groups, -1, force.shape[-1]).sum(axis=-2)
+        coupling = self.modes.coupling
+        parts = [coupling.grouped(some, self.modes, groups) for some in self._in_blocks()]
+        force = np.concatenate(parts)
+        return force.reshape(*self._cases, *force.shape[1:])
 
     def stiffness(self) -> Array:
         """Tangent of the rings' structures, ring modes eliminated, (..., 5, 5); N/m, N, N m/rad."""
         from loadflow.rolling.rings import _ring_newton
 
         found = _ring_newton.stiffness_series(
-            self._unknowns, self.modes.waves, self.modes.basis, self.contacts.table,
-            self.modes.local,
-        )  # fmt: skip
-        found /= np.multiply.outer(self.contacts.scale, self.contacts.scale)
+            self._unknowns, self.modes.waves, self.modes.basis, self.modes.law
+        )
+        scale = self.modes.coupling.contacts.scale
+        found /= np.multiply.outer(scale, scale)
         return np.asarray(found.reshape(*self._cases, 5, 5))
 
     def ring_displacement(self, ring: Literal["inner", "outer"]) -> Array:
-        """Displacement (r, θ, z) of a ring's raceway patches, m, (..., row, diagonal, ball, 3).
+        """Displacement (r, θ, z) of a ring's raceways, m, (..., *groups, element, 3).
 
-        Relative to the ring's structure, from the contact forces and the ring's whole compliance
-        rather than from the kept modes.
+        Of balls at each patch, of rollers in their middle. Relative to the ring's structure, from
+        the contact forces and the ring's whole compliance rather than from the kept modes.
 
         Raises
         ------
@@ -142,26 +130,17 @@ class FlexibleRingForces:
         model = self.rings.outer if ring == "outer" else self.rings.inner
         if model is None:
             raise InputError(f"ring: the {ring} ring is rigid")
-        turn = self.rings.outer_angle if ring == "outer" else self.rings.inner_angle
-        azimuth = self.contacts.azimuth - turn
-        points = patch_points(
-            self.bearing, ring, azimuth, self.rings.shell, self.rings.turning_patches
-        )
-        factor = model.flexibility(points)
-        force, angle = self._state
+        coupling = self.modes.coupling
+        factor = model.flexibility(coupling.points(ring, self.rings))
         sign = 1.0 if ring == "outer" else -1.0
-        push = sign * np.stack(
-            [force * np.cos(angle), np.zeros_like(force), force * np.sin(angle)], axis=-1
-        )
+        push = sign * coupling.pushes(*self._state)
         modal = np.einsum("...kbc,kbcm->...m", push, factor)
-        moved = np.einsum("kbcm,...m->...kbc", factor, modal)
-        return moved.reshape(*self._cases, *self.bearing.groups, self.bearing.balls, 3)
+        return coupling.raceways(np.einsum("kbcm,...m->...kbc", factor, modal))
 
 
 def solve_flexible(
-    bearing: BallRaceways,
+    coupling: Coupling,
     rings: FlexibleRings,
-    ball_angle: float,
     force: ArrayLike,
     moment: ArrayLike,
     control: Control,
@@ -173,8 +152,10 @@ def solve_flexible(
 
     Parameters
     ----------
-    bearing, rings, ball_angle
-        See `RollingBearing.equilibrium`.
+    coupling : Coupling
+        How the contacts of the bearing feel its rings.
+    rings : FlexibleRings
+        The rings.
     force, moment : array_like, shape (..., 3) and (..., 2)
         Load on the inner ring, N and N m.
     control : Control
@@ -198,8 +179,8 @@ def solve_flexible(
 
     f, m = broadcast_loads(force, moment)
     shape = f.shape[:-1]
-    contacts = bearing.contacts(ball_angle)
-    modes = ring_modes(bearing, rings, ball_angle)
+    modes = ring_modes(coupling, rings)
+    contacts = coupling.contacts
     loads = np.concatenate([f, m], axis=-1).reshape(-1, 5)
     rigid = equilibrium.solve(
         contacts,
@@ -215,8 +196,7 @@ def solve_flexible(
         (rigid.displacement / contacts.scale).reshape(-1, 5),
         modes.waves,
         modes.basis,
-        contacts.table,
-        modes.local,
+        modes.law,
         modes.reach,
         contacts.cap,
         control.tolerance,
@@ -228,7 +208,7 @@ def solve_flexible(
         raise_not_converged(loads, converged, residual, rounding, iterations, shape)
     displacement = (x[:, :5] * contacts.scale).reshape(*shape, 5)
     amplitudes = x[:, 5:].reshape(*shape, -1)
-    elements = FlexibleRingForces(bearing, contacts, rings, modes, displacement, amplitudes)
+    elements = FlexibleRingForces(rings, modes, displacement, amplitudes)
     found = RingEquilibrium(
         force=f,
         moment=m,

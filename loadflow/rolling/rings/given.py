@@ -76,7 +76,8 @@ class CompliantRing:
     ----------
     compliance : array_like, shape (3 n, 3 n)
         Displacements of the n patches under unit forces on them, m/N, symmetric. Patches in the
-        order of `patch_points`, (row, diagonal, ball), three components each.
+        order of `patch_points`, (row, diagonal, ball), of rollers (row, end, roller), the end
+        toward -z first; three components each.
     axes : {"cylindrical", "cartesian"}
         Components (r, θ, z) of each patch, or (x, y, z) of the ring's frame.
     first_angle : float

@@ -19,7 +19,9 @@ from loadflow.errors import SolverError
 from loadflow.rolling.contacts import Array
 from loadflow.rolling.equilibrium import solve
 from loadflow.rolling.raceways import Raceway
-from loadflow.rolling.rings.condensed import FlexibleRings, rigid_basis
+from loadflow.rolling.rings.condensation import rigid_basis
+from loadflow.rolling.rings.coupling import PointCoupling
+from loadflow.rolling.rings.flexible import FlexibleRings
 from loadflow.rolling.rings.patches import patch_points
 
 if TYPE_CHECKING:
@@ -139,7 +141,8 @@ def _geometry(bearing: BallRaceways, rings: FlexibleRings) -> tuple[Array, Array
     first = 5 + 3 * rows * balls
     size = first + sum(factor.shape[-1] for _, factor in parts)
     shift = np.zeros((2, kinds, balls, 3, size))
-    basis = rigid_basis(contacts).reshape(3, kinds, balls, 5)
+    places = PointCoupling(bearing).places
+    basis = rigid_basis(places, contacts).reshape(3, kinds, balls, 5)
     shift[0, ..., :5] = np.moveaxis(basis, 0, 2)
     for kind in range(kinds):
         for ball in range(balls):

@@ -20,8 +20,11 @@ from loadflow.errors import InputError, SolverError
 from loadflow.numerics.fields import check_fields
 from loadflow.rolling.contacts import STIFFNESS, Array, Contacts
 from loadflow.rolling.equilibrium import broadcast_loads
-from loadflow.rolling.rings.condensed import FlexibleRings, RingModes, ring_modes
+from loadflow.rolling.rings.condensation import ring_modes
+from loadflow.rolling.rings.condensed import RingModes
+from loadflow.rolling.rings.coupling import PointCoupling
 from loadflow.rolling.rings.dynamics import RingMotion, joint_motion
+from loadflow.rolling.rings.flexible import FlexibleRings
 
 if TYPE_CHECKING:
     from loadflow.rolling.raceways import BallRaceways
@@ -160,7 +163,7 @@ def transient_response(
     from loadflow.rolling.rings import _ring_kernels
 
     contacts = bearing.contacts()
-    modes = ring_modes(bearing, rings, 0.0)
+    modes = ring_modes(PointCoupling(bearing), rings)
     f, m = broadcast_loads(force, moment)
     load = np.zeros(modes.size)
     load[:5] = np.concatenate([f, m]) * contacts.scale
@@ -181,7 +184,7 @@ def transient_response(
     if not answer.success:
         raise SolverError(f"the motion could not be followed: {answer.message}")
     states = np.ascontiguousarray(answer.y[: modes.size].T)
-    largest = _ring_kernels.contact_state(states, modes.waves, contacts.table, modes.local)[0]
+    largest = _ring_kernels.contact_state(states, modes.waves, modes.law)[0]
     pull, _ = system.forces(states[-1])
     return Transient(
         answer.t,
@@ -207,7 +210,7 @@ class _System:
 
     def forces(self, x: Array) -> tuple[Array, Array]:
         """Elastic force on all unknowns, damping matrix of the contacts."""
-        _, push, _, _, pull = self.contact(x)
+        _, push, *_, pull = self.contact(x)
         basis, table = self.modes.basis, self.contacts.table
         push = push.reshape(len(table), 3, -1).transpose(1, 0, 2).reshape(3, -1)
         force = np.linalg.norm(push, axis=0)
@@ -224,14 +227,14 @@ class _System:
         """Slope of the elastic force on all unknowns."""
         from loadflow.rolling.rings import _ring_kernels
 
-        _, push, slope, across, _ = self.contact(x)
-        return _ring_kernels.tangent(self.modes.basis, push, slope, across)
+        _, push, slope, across, slant, _ = self.contact(x)
+        return _ring_kernels.tangent(self.modes.basis, push, slope, across, slant)
 
-    def contact(self, x: Array) -> tuple[Array, Array, Array, Array, Array]:
-        """Shift and force of all contacts, slopes along and across, force on the unknowns."""
+    def contact(self, x: Array) -> tuple[Array, ...]:
+        """Shift and force of all contacts, slopes along and across, slant, force on unknowns."""
         from loadflow.rolling.rings import _ring_kernels
 
-        return _ring_kernels.evaluate(x, self.modes.waves, self.contacts.table, self.modes.local)
+        return _ring_kernels.evaluate(x, self.modes.waves, self.modes.law)
 
 
 @dataclass(frozen=True, eq=False)

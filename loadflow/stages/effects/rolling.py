@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from loadflow.data import ladder
-from loadflow.errors import InputError
+from loadflow.rolling import RingBeam, RingSection
 from loadflow.scene.bearings import FurtherBearing, Rolling
 from loadflow.scene.scene import Scene
 from loadflow.stages.effects.effect import Effect, Sizes
@@ -16,7 +16,13 @@ from loadflow.stages.stage import with_settings
 
 STEEL_DENSITY = 7850.0  # kg/m³
 SECTION_SIDE = 2.4
-"""Sides of a ring's square section over the diameter of its elements, where none is stated."""
+"""Width of a ring's section over the diameter of its elements, where none is stated."""
+
+ROLLER_SIZES = {"maximum force": 0.21, "maximum pressure": 0.05, "life": 0.28}
+"""What free rings change of the tapered bearing of `pipelines/dlc_1_1.toml` (docs/rolling.md)."""
+
+PRESSED = 3e-4
+"""Approach of a roller over its diameter that its stiffness is taken at, of about 1 GPa."""
 
 
 def _ring_compliance(part: FurtherBearing) -> float:
@@ -39,27 +45,74 @@ def _ring_compliance(part: FurtherBearing) -> float:
     return float((pitch / 2) ** 4 * around * sum(1 / inertia for inertia in inertias))
 
 
-def _rings(at: Situation) -> Sizes:
+def _roller_share(part: FurtherBearing) -> float:
+    """Share of the approach that free rings take which bend to ovals, against rollers.
+
+    Each ring yields as R⁴/(9 E I); a section that is not stated is as wide as `SECTION_SIDE`
+    rollers and as high beyond the outer rows. Where one ring is stated, the other is rigid.
+    """
+    bearing: Any = part.geometry
+    slope = bearing.slice_stiffness * bearing.slices
+    slope *= 10 / 9 * (PRESSED * bearing.roller_diameter) ** (1 / 9)
+    radius = bearing.pitch_diameter / 2
+    contact = bearing.rows * bearing.rollers * slope / (2 * np.pi * radius)
+    side = SECTION_SIDE * bearing.roller_diameter
+    high = side + (bearing.rows - 1) * bearing.row_spacing
+    assumed = RingBeam(section=RingSection.rectangle(side, high), radius=radius)
+    stated = [ring for ring in (part.inner_ring, part.outer_ring) if ring is not None]
+    yielding = sum(
+        contact * ring.radius**4 / (9 * ring.elastic_modulus * ring.section.inertia_axial)
+        for ring in stated or [assumed, assumed]
+    )
+    return float(yielding / (1 + yielding))
+
+
+def _of_balls(parts: list[FurtherBearing]) -> Sizes:
     """Ring bending against contact approach, from the bearing of the ladder.
 
     Its rigid rings were measured against its flexible ones (docs/speed-vs-error.md). The share of
     the approach that the rings take is s/(1 + s), with s over that of the ladder's bearing.
     """
     known = ladder()["rolling"]["rigid"]["errors"]
-    share = max(_ring_compliance(part) for part in at.scene.rolling.bearings.values())
+    share = max((_ring_compliance(part) for part in parts), default=0.0)
     share /= _ring_compliance(Rolling())
     factor = 2.0 * share / (1.0 + share)
-    return {
-        name: factor * known[name]["max"] for name in ("maximum force", "maximum pressure", "life")
-    }
+    return {name: factor * known[name]["max"] for name in ROLLER_SIZES}
+
+
+def _rings(at: Situation) -> Sizes:
+    """Rings against contacts: of rollers from the bearing of the main job, of others the ladder's.
+
+    Rollers: `ROLLER_SIZES` times the share of the approach that the rings take.
+    """
+    parts = at.scene.rolling.bearings.values()
+    rollers = [part for part in parts if part.geometry.friction_model == "rollers"]
+    others = [part for part in parts if part not in rollers]
+    share = max(map(_roller_share, rollers), default=0.0)
+    balls = _of_balls(others)
+    return {name: max(balls[name], share * size) for name, size in ROLLER_SIZES.items()}
 
 
 def _with_flexible_rings(scene: Scene, on: bool) -> Scene | None:
-    changed = with_settings(scene, "rolling", {"rings": "flexible" if on else "rigid"})
-    try:
-        return changed if changed is None or changed.rolling.ring_model else None
-    except InputError:
+    """Switch the rings of all bearings that have sections of theirs."""
+    rolling = scene.rolling
+    able = [
+        name
+        for name, part in rolling.bearings.items()
+        if part.geometry.flexible_rings and (part.inner_ring or part.outer_ring)
+    ]
+    if on and not able:
         return None
+
+    def rings(part: FurtherBearing) -> str:
+        return "flexible" if on and part.bearing in able else "rigid"
+
+    settings: dict[str, Any] = {"rings": rings(rolling)}
+    if rolling.further:
+        settings["further"] = [
+            part.model_dump(exclude_unset=True) | {"rings": rings(part)} for part in rolling.further
+        ]
+    return with_settings(scene, "rolling", settings)
 
 
 RINGS = Effect(
@@ -70,7 +123,7 @@ RINGS = Effect(
     switched=_with_flexible_rings,
     indicator=_rings,
     out='rolling.rings = "rigid"',
-    needs="rolling.inner_ring and rolling.outer_ring, of a four-point bearing",
+    needs="rolling.inner_ring and rolling.outer_ring",
 )
 
 

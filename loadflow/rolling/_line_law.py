@@ -1,0 +1,32 @@
+"""The power of line contacts, F = K δ^(10/9), without a branch or a call in it.
+
+Loops over slices spend their time in δ^(1/9). A logarithm and an exponential keep a loop from
+vector units; this root is a guess from the bits of δ and three steps of a series.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+_GUESS = 5118843878464958409  # bits of δ^(-1/9) where those of δ are 0, put to the middle of ±3 %
+_NINTH = 477218588  # 2³²/9
+
+
+@njit(forceinline=True, nogil=True, error_model="numpy")
+def ninth_root(delta):
+    """δ^(1/9) of δ ≥ 0, to the last two bits; 0 for a δ below 1e-290.
+
+    z = δ^(-1/9): the upper half of the bits of a double is a line in log δ but for 3 %; each step
+    z ← z (1 - e)^(-1/9), e = 1 - δ z⁹, in a series to e³, leaves 3e-2, 2e-4, 5e-14 and rounding.
+    """
+    held = np.float64(max(delta, 1e-290))
+    root = np.int64(_GUESS - (held.view(np.int64) >> 32) * _NINTH).view(np.float64)
+    for _ in range(3):
+        cube = root * root * root
+        miss = 1.0 - held * (cube * cube * cube)
+        series = 1.0 / 9.0 + miss * (5.0 / 81.0 + miss * (95.0 / 2187.0))
+        root = root * (1.0 + miss * series)
+    square = root * root
+    fourth = square * square
+    return delta * (fourth * fourth)

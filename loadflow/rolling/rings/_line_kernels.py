@@ -1,0 +1,135 @@
+"""Compiled loops of rollers between flexible rings: slices of a line contact.
+
+Fields of the contacts are two for each row of rollers: the approach at the roller's middle along
+its normal, and what the relative turn of the raceways adds to it at the roller's end, both lengths.
+`table` (row · slice, 3) holds the ARM of each slice from the middle over half the roller's length,
+its GAP and STIFFNESS; F = K δ^(10/9) of each, all of them added up at once for a row.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+
+from loadflow.rolling._line_law import ninth_root
+
+ARM, GAP, STIFFNESS = range(3)
+
+# Sums may be reordered (so that they use vector units); nothing else of fast mathematics.
+_REORDER = {"reassoc", "contract", "nsz"}
+
+
+@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER)
+def line_contacts(shift, table, push, slope, across, slant):
+    """Fill push (2 row, roller), slope, across and slant (row, roller) of rollers by their shift.
+
+    Slope is the stiffness of a roller along its normal, slant its lever over half the length, and
+    across what resists a turn about that lever. Free of branches. Returns energy and sum of forces.
+    """
+    energy = total = 0.0
+    rows = slope.shape[0]
+    slices = table.shape[0] // rows
+    for k in range(rows):
+        middle, turn = shift[2 * k], shift[2 * k + 1]
+        force, moment = push[2 * k], push[2 * k + 1]
+        stiff, first, second = slope[k], slant[k], across[k]
+        for j in range(middle.shape[0]):
+            force[j] = moment[j] = stiff[j] = first[j] = second[j] = 0.0
+        for s in range(k * slices, (k + 1) * slices):
+            arm, gap, stiffness = table[s, ARM], table[s, GAP], table[s, STIFFNESS]
+            square = arm * arm
+            for j in range(middle.shape[0]):
+                delta = max(middle[j] + arm * turn[j] - gap, 0.0)
+                along = stiffness * ninth_root(delta)
+                part = along * delta
+                energy += part * delta
+                force[j] += part
+                moment[j] += arm * part
+                stiff[j] += along
+                first[j] += arm * along
+                second[j] += square * along
+        for j in range(middle.shape[0]):
+            total += force[j]
+            lever = first[j] / max(stiff[j], 1e-300)
+            second[j] = 10.0 / 9.0 * max(second[j] - lever * first[j], 0.0)
+            stiff[j] *= 10.0 / 9.0
+            first[j] = lever
+    return 9.0 / 19.0 * energy, total
+
+
+@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER)
+def line_rows(basis, slope, across, slant, rows):
+    """Fill the rows whose squares are the tangent; returns how many."""
+    balls, size = slope.shape[1], basis.shape[2]
+    k = 0
+    for i in range(basis.shape[1]):
+        row, j = i // balls, i % balls
+        if slope[row, j] == 0.0:
+            continue
+        along, side, lever = math.sqrt(slope[row, j]), math.sqrt(across[row, j]), slant[row, j]
+        middle, turn = basis[0, i], basis[1, i]
+        first, second = rows[k], rows[k + 1]
+        for a in range(size):
+            first[a] = along * (middle[a] + lever * turn[a])
+            second[a] = side * turn[a]
+        k += 2
+    return k
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def slice_forces(shift, table):
+    """Force of each slice, (n, row · slice, roller), by the shift (n, row, 2, roller)."""
+    cases, rows, _, count = shift.shape
+    slices = table.shape[0] // rows
+    force = np.zeros((cases, table.shape[0], count))
+    for i in range(cases):
+        for s in range(table.shape[0]):
+            middle, turn = shift[i, s // slices]
+            arm, gap, stiffness = table[s, ARM], table[s, GAP], table[s, STIFFNESS]
+            for j in range(count):
+                delta = max(middle[j] + arm * turn[j] - gap, 0.0)
+                force[i, s, j] = stiffness * ninth_root(delta) * delta
+    return force
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def roller_forces(shift, table):
+    """Force of each roller, (n, row, roller), by the shift (n, row, 2, roller)."""
+    cases, rows, _, count = shift.shape
+    slices = table.shape[0] // rows
+    force = np.zeros((cases, rows, count))
+    for i in range(cases):
+        for s in range(table.shape[0]):
+            total = force[i, s // slices]
+            middle, turn = shift[i, s // slices]
+            arm, gap, stiffness = table[s, ARM], table[s, GAP], table[s, STIFFNESS]
+            for j in range(count):
+                delta = max(middle[j] + arm * turn[j] - gap, 0.0)
+                total[j] += stiffness * ninth_root(delta) * delta
+    return force
+
+
+@njit(cache=True, nogil=True, error_model="numpy", fastmath=_REORDER)
+def slice_sums(shift, table):
+    """Largest force (n, row · slice) and sums of F, F⁴ and F^4.5, (n, row · slice, 3)."""
+    cases, rows, _, count = shift.shape
+    slices = table.shape[0] // rows
+    largest, sums = np.zeros((cases, table.shape[0])), np.zeros((cases, table.shape[0], 3))
+    for i in range(cases):
+        for s in range(table.shape[0]):
+            middle, turn = shift[i, s // slices]
+            arm, gap, stiffness = table[s, ARM], table[s, GAP], table[s, STIFFNESS]
+            most = first = fourth = powers = 0.0
+            for j in range(count):
+                delta = max(middle[j] + arm * turn[j] - gap, 0.0)
+                force = stiffness * ninth_root(delta) * delta
+                square = force * force
+                most = max(most, force)
+                first += force
+                fourth += square * square
+                powers += square * square * math.sqrt(force)
+            largest[i, s] = most
+            sums[i, s, 0], sums[i, s, 1], sums[i, s, 2] = first, fourth, powers
+    return largest, sums
