@@ -114,7 +114,7 @@ def cone(
     """Solve the films of two cones against each other for one force and moment."""
     from loadflow.studies.thrust_point import thrust_point
 
-    one = {
+    one: dict[str, Any] = {
         "half_angle": None if half_angle_deg is None else math.radians(half_angle_deg),
         "slant": slant,
         "clearance": clearance,

@@ -144,6 +144,7 @@ class JournalBearing(JournalGeometry):
         ) -> dict[str, Any]:
             return model.equilibrium(grown, cold, force, speed, line.at(places), each)
 
+        assert isinstance(film.heat, Heat)  # the other kind is over the area
         share, at_rest = shares(weights, shape), in_grown_bearings(solve, self, film.heat)
         answer = warm_film(at_rest, loads, speeds, film, share, strict=limits.strict)
         warn_if_turbulent(self, speeds, _hottest(film.heat, answer["temperature"]))

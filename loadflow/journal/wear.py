@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Annotated, Any, cast
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 from annotated_types import Ge, Gt, Le
@@ -104,7 +104,7 @@ class Wear:
     def grown(self, depth: Array, work: Array, friction: float) -> Array:
         """Depth, m, after a further ∫ p ds = `work`, N/m, at each place."""
         if self.running_in is None:
-            return cast("Array", depth + self.law.depth(work, 1.0, friction))
+            return depth + self.law.depth(work, 1.0, friction)
         return self.running_in.worn(self.law, work, 1.0, depth, friction)
 
 
@@ -355,7 +355,7 @@ class _Run:
     @classmethod
     def of(cls, bearing: JournalBearing, cycle: Cycle, film: Film, control: Control | None) -> _Run:
         """Follow a cycle, or solve each of its samples."""
-        line = {
+        line: dict[str, Any] = {
             key: values
             for key, values in (("tilt", cycle.tilt), ("bend", cycle.bend))
             if values is not None

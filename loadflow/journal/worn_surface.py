@@ -51,8 +51,8 @@ class Surface:
     def __init__(self, bearing: JournalBearing, around: int, across: int) -> None:
         self.bearing = bearing
         turn, count = 2.0 * np.pi / around, across
-        self.angle = turn * np.arange(around)
-        self.z = bearing.width * ((np.arange(count) + 0.5) / count - 0.5)
+        self.angle: Array = np.asarray(turn * np.arange(around))
+        self.z: Array = np.asarray(bearing.width * ((np.arange(count) + 0.5) / count - 0.5))
         self.shape = around, count
         self.area = turn * bearing.radius * bearing.width / count
         self._way = np.stack([np.cos(self.angle), np.sin(self.angle)])
@@ -66,7 +66,7 @@ class Surface:
         if not depth.any():
             return self.bearing
         z = tuple(self.z) if self.z.size > 1 else None
-        contour = Contour(tuple(self.angle), depth if z else depth[:, 0], z)
+        contour = Contour(tuple(self.angle), (depth if z else depth[:, 0]).tolist(), z)
         return replace(self.bearing, relief=(*self.bearing.relief, contour))
 
     def pressed(self, groups: list[Group], rough: Contact, depth: Array) -> tuple[Array, float]:

@@ -174,7 +174,7 @@ class Journal(Section, BaseModel):
         """The bearing with its oil held at `temperature`, K."""
         if self.heat is None:
             return self
-        held = {"lubricant": self.heat.lubricant(temperature), "heat": None}
+        held: dict[str, Any] = {"lubricant": self.heat.lubricant(temperature), "heat": None}
         if isinstance(self.heat, Heat):  # as shaft and shell have grown
             held["geometry"] = grown_by(self.geometry, self.heat, temperature)
         return self.model_copy(update=held)

@@ -57,7 +57,8 @@ def _told(value: Any, handler: Any) -> Any:
 
 
 if TYPE_CHECKING:
-    Lands, Cones = ThrustBearing, ConicalPair
+    Lands = ThrustBearing
+    Cones = ConicalPair
 else:
     Lands = Annotated[ThrustBearing, WrapSerializer(_told)]
     Cones = Annotated[ConicalPair, BeforeValidator(_both_alike), WrapSerializer(_told)]

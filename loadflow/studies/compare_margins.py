@@ -334,9 +334,9 @@ def carries_thrust(scene: Scene, tables: Tables) -> str:
             if force > 0 and bearing.takes_thrust:
                 return f"{place}, up to {force / 1e3:.0f} kN"
     if "thrust" in tables:
-        force = tables["thrust"]["largest_axial_load"].max("case")
-        k = int(np.argmax(force.values))
-        return f"{force['bearing'].values[k]}, up to {float(force[k]) / 1e3:.0f} kN"
+        forces = tables["thrust"]["largest_axial_load"].max("case")
+        k = int(np.argmax(forces.values))
+        return f"{forces['bearing'].values[k]}, up to {float(forces[k]) / 1e3:.0f} kN"
     if "journal" in tables:
         force = float(tables["journal"]["largest_axial_load"].max())
         return f"none: needs a thrust bearing for {force / 1e3:.0f} kN"

@@ -111,11 +111,12 @@ def shaped_film(
     film.fill(mesh.groove, pressure)
     film.ambient = _outside(gap, film, options.edge_pressure, bearing.shape)
     if contact is not None:
-        places = bore.radius, film.mirrors, film.grooved
+        radius, mirrors, grooved = bore.radius, film.mirrors, film.grooved
         if options.shell is None:
-            film.contact = NodeLoad(contact, gap, *places)
+            film.contact = NodeLoad(contact, gap, radius, mirrors, grooved)
         else:
-            film.contact = YieldingNodeLoad(contact, cast("RoughElasticGap", gap), *places)
+            between = cast("RoughElasticGap", gap)
+            film.contact = YieldingNodeLoad(contact, between, radius, mirrors, grooved)
     return gap, film
 
 

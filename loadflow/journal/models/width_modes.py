@@ -147,7 +147,8 @@ def half_width_nodes(half_width: float, points: int) -> Nodes:
 def _shares(zeta: Array, degrees: NDArray[np.int64]) -> Array:
     """Shares of L_{n+1} − L_{n−1} of the `degrees` n in what has given values at the points."""
     unit = np.eye(int(degrees[-1]) + 2)
-    return np.linalg.inv(legendre.legval(zeta, (unit[degrees + 1] - unit[degrees - 1]).T).T)
+    inverse = np.linalg.inv(legendre.legval(zeta, (unit[degrees + 1] - unit[degrees - 1]).T).T)
+    return np.asarray(inverse, dtype=float)
 
 
 def _lobatto_rule(degree: int) -> tuple[Array, Array]:
