@@ -1,6 +1,7 @@
 """An effect is one object and one row: the plan counts and chooses it, the pilot measures it."""
 
 import json
+import tomllib
 from dataclasses import replace
 
 import pytest
@@ -8,6 +9,7 @@ from synthetic import cube_file
 
 import loadflow as lf
 from loadflow.cli import main
+from loadflow.errors import InputError
 from loadflow.planning.effects import EffectVerdict, switched
 from loadflow.planning.pilot import hardest, pilot
 from loadflow.planning.plan import make_plan, needed_stages
@@ -201,6 +203,12 @@ def test_the_pilot_says_the_same_again(cube, verdict):
     assert EffectVerdict.from_json(json.loads(json.dumps(verdict.to_json()))) == verdict
 
 
+def test_a_series_shorter_than_what_it_takes_to_settle_is_measured_too(tmp_path):
+    short = cube_file(tmp_path / "loads.h5", wind_speeds=(8.0,), seeds=(1,), steps=50)
+    found = pilot(scene_of(short))
+    assert 0 < found.sizes["motion of the film"]["minimum film"] < 10
+
+
 def test_models_as_given_need_no_pilot(cube):
     assert pilot(scene_of(cube, accuracy="given")) is None
 
@@ -270,3 +278,19 @@ def test_needed_stages_follow_from_what_each_stage_needs(cube):
     assert needed_stages(moving) == {"loads", "shaft", "journal"}
     still = scene_of(cube, journal={"motion": "quasi-static"})
     assert needed_stages(still) == {"loads", "shaft", "reduction", "journal"}
+
+
+def test_bearings_of_different_size_are_put_in_motion_together(cube):
+    other = {"geometry": {"diameter": 2.0, "width": 1.2, "relative_clearance": 1e-3}}
+    bearings = {"N": {"kind": "journal"}, "N2": {"kind": "journal"} | other}
+    data = {"name": "two", "loads": {"files": [str(cube)]}, "results": ["journal.film"]}
+    scene = make_scene(data | {"bearings": bearings})
+    moving = switched(scene, film.MOTION, True)
+    assert moving.journal.at("N2").geometry.diameter == 2.0
+    assert {moving.journal.at(place).motion for place in ("N", "N2")} == {"transient"}
+    again = make_scene(tomllib.loads(moving.to_toml()))
+    assert again.journal.at("N2").motion == "transient"
+    assert again.digest() == moving.digest()
+    stated = {"N": {"kind": "journal"}, "N2": {"kind": "journal", "motion": "transient"} | other}
+    with pytest.raises(InputError, match="all journal bearings of a scene have one"):
+        make_scene(data | {"bearings": stated})

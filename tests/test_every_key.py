@@ -18,7 +18,18 @@ from loadflow.planning.plan import make_plan
 from loadflow.scene.cases import list_cases
 from loadflow.scene.scene import Scene, make_scene
 from loadflow.scene.unused import unused_keys
-from loadflow.stages import dynamics, friction, journal, loads, reduction, rolling, seeds, shaft
+from loadflow.stages import (
+    dynamics,
+    friction,
+    journal,
+    loads,
+    reduction,
+    rolling,
+    seeds,
+    shaft,
+    thrust,
+    wear,
+)
 from loadflow.studies.run_lifetime import run_lifetime
 from loadflow.studies.verdicts import verdicts
 
@@ -72,6 +83,13 @@ BASES = {
     "rotor dynamics, rigid": {"journal": FILM, "shaft": {"two_point": {}},
                               "results": ["journal.dynamics"]},
     "rigid and tilted": {"journal": FILM | {"tilt": True}, "shaft": {"two_point": {}}},
+    "worn bores": {
+        "journal": FILM | {"contact": {"asperities": {
+            "roughness": 1e-6, "contact_modulus": 1e11, "factor": 1e-3}}},
+        "reduction": {"size": 0.5}, "results": ["journal.film", "journal.wear"],
+        "wear": {"law": {"coefficient": 1e-13}, "samples": 12, "around": 90, "running_in": {
+            "initial_roughness": 1e-6, "final_roughness": 9e-7, "depth": 1e-6}},
+    },
     "tapered rollers": {
         "shaft": {"two_point": {}},
         "rolling": {"bearing": "N2", "geometry": {
@@ -79,6 +97,21 @@ BASES = {
             "pitch_diameter": 1.2, "rows": 2, "row_spacing": 0.25, "contact_angle": 0.35,
             "clearance": -5e-5}},
         "friction": {"conductance": 50.0},
+    },
+    "thrust collar": {
+        "shaft": {"two_point": {}}, "results": ["thrust.film"],
+        "reduction": {"size": 0.02, "classes": 2},
+        "thrust": {"bearings": {"N2": {"kind": "thrust", "grid": [12, 6], "geometry": {
+            "pads": 8, "inner_radius": 0.8, "outer_radius": 1.2, "pad_angle": 0.7,
+            "taper": 1e-4}}}},
+    },
+    "pair of cones": {
+        "shaft": {"moment": {}}, "results": ["thrust.film"],
+        "reduction": {"size": 0.02, "classes": 2},
+        "thrust": {"bearings": {"M": {"kind": "conical-pair", "grid": [10, 6],
+            "lubricant": {"viscosity": 0.2}, "geometry": {"distance": 3.2, "left": {
+                "half_angle": 0.5, "slant": [1.59, 2.59], "clearance": 2e-4, "pads": 10,
+                "pad_angle": 0.55, "profile": {"kind": "taper", "taper": 8e-5}}}}}},
     },
     "three points": {"shaft": {"three_point": {}}, "journal": FILM},
     "integrated": {"shaft": {"integrated": {}}, "journal": FILM},
@@ -110,7 +143,10 @@ READERS = {
     "rotor dynamics": ("dynamics",),
     "rotor dynamics, rigid": ("dynamics",),
     "rigid and tilted": ("journal",),
+    "worn bores": ("wear",),
     "tapered rollers": ("rolling", "friction"),
+    "thrust collar": ("thrust",),
+    "pair of cones": ("thrust",),
     "three points": ("shaft",),
     "integrated": ("shaft",),
     "yaw": ("shaft", "rolling"),
@@ -172,6 +208,23 @@ OTHERS = {
     "journal.supply.grooves.0.restrictor": [{"diameter": 0.004, "length": 0.05}],
     "journal.supply.pump": [{"flow": [0.0, 0.01], "pressure": [8e5, 2e5]}],
     "dynamics.speed_range": [[0.8, 1.6]],
+    "wear.running_in.initial_roughness": [1.0000001e-6],
+    "thrust.bearings.N2.geometry.profile": [{"kind": "step", "height": 1e-4}],
+    "thrust.bearings.N2.geometry.pivot": [{"share": 0.6}],
+    "thrust.bearings.N2.geometry.first_pad": [0.1],
+    "thrust.bearings.N2.back": [
+        {"pads": 8, "inner_radius": 0.8, "outer_radius": 1.3, "pad_angle": 0.7, "taper": 1e-4}
+    ],
+    "thrust.bearings.N2.grid": [[16, 8]],
+    "thrust.bearings.M.grid": [[12, 6]],
+    "thrust.bearings.N2.cavitation.kind": ["mass-conserving"],
+    "thrust.bearings.M.cavitation.kind": ["mass-conserving"],
+    "thrust.bearings.N2.cavitation.cavitation_pressure": [2e5],
+    "thrust.bearings.M.cavitation.cavitation_pressure": [9.9e4],
+    "thrust.bearings.N2.limits.material": [[[400.0, 5e6]]],
+    "thrust.bearings.M.limits.material": [[[400.0, 5e6]]],
+    "thrust.bearings.M.geometry.arrangement": ["X"],
+    "thrust.bearings.M.geometry.clearance": [2.5e-4],
     "reduction.method": ["stationary", "histogram"],
     "reduction.bounds": [[0.02, 0.2]],
     "reduction.orders": [[1.0]],
@@ -332,6 +385,12 @@ def _rolling(scene, add):
         _judge(scene, add, rolling, found)
 
 
+def _thrust(scene, add):
+    tree = thrust.films(scene, ONE, _inputs(scene))
+    add(tree)
+    _judge(scene, add, thrust, tree)
+
+
 def _friction(scene, add):
     inputs = _inputs(scene)
     add(friction.losses(scene, ONE, inputs))
@@ -342,6 +401,20 @@ def _dynamics(scene, add):
     tree = dynamics.dynamics(scene, ONE, _inputs(scene))
     add(tree)
     add(dynamics.summary({ONE: tree}))
+
+
+class _Start(_One):
+    dlc, weight, name = "3.1", 1.0, "dlc3.1_v8_s1"
+
+
+_FILMS = {}
+
+
+def _wear(scene, add):
+    if (key := repr(scene.journal)) not in _FILMS:  # keys of wear do not change the films
+        inputs = _inputs(scene)
+        _FILMS[key] = inputs | {"journal": journal.film(scene, ONE, inputs)}
+    add(wear.wear(scene, [_Start()], {_Start.name: _FILMS[key]}))
 
 
 def _environment(scene, add):
@@ -370,7 +443,8 @@ def _seeds(scene, add):
 FOUND = {
     "loads": _loads, "turbine": _loads, "shaft": lambda s, add: _shaft(s, add) and None,
     "seeds": _seeds, "reduction": _reduction, "journal": _journal, "rolling": _rolling,
-    "friction": _friction, "dynamics": _dynamics,
+    "friction": _friction, "dynamics": _dynamics, "wear": _wear,
+    "thrust": _thrust,
     "environment": _environment,
 }  # fmt: skip
 

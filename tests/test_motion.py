@@ -42,6 +42,22 @@ def test_a_film_in_motion_reads_the_whole_series(tmp_path):
     np.testing.assert_allclose(power, rest["mean_friction_power"], rtol=0.05)
 
 
+def test_a_film_in_motion_passes_over_samples_between_its_steps(tmp_path):
+    cube = save_cube(make_cube([case(8.0, 1, steps=800, dt=0.05)]), tmp_path / "loads.h5")
+    motion = FILM | {"motion": "transient", "rung": "reduced"}
+    found = {}
+    for step in (None, 0.12, 0.01):
+        keys = motion if step is None else motion | {"step": step}
+        run = lf.run(scene_of(cube, name=f"step_{step}", journal=keys), out=tmp_path, report=False)
+        with xr.open_datatree(next((run.path / "journal").glob("*.h5")), engine="h5netcdf") as tree:
+            found[step] = tree["N2"].to_dataset().load()
+    np.testing.assert_allclose(np.diff(found[0.12]["time"]), 0.1, rtol=1e-9)
+    assert found[None].sizes["sample"] == 800
+    assert found[0.01].sizes["sample"] == 800, "no step is shorter than that of the series"
+    fine, coarse = (float(found[step]["minimum_film"].min()) for step in (None, 0.12))
+    assert 0 < abs(coarse / fine - 1) < 0.01
+
+
 def test_a_shaft_that_stands_is_in_contact_and_its_case_has_an_answer(tmp_path):
     standing = case(8.0, 1)
     standing["speed"][:] = 0.0

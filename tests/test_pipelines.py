@@ -65,22 +65,75 @@ def test_cases_follow_the_table_of_load_cases():
     assert [c.seed for c in list_cases(few) if c.dlc == "3.2"] == [1, 2, 3, 4]
 
 
-def test_a_start_up_goes_through_to_the_film_and_flags_standstill(tmp_path):
-    path = next(path for path in PIPELINES if path.stem == "dlc_3_1_startup")
-    scene = read_scene(path).model_copy(update={"results": ["journal.film"]})
-    scene = changed(
-        scene, "loads", wind_speeds=[12.0], duration=100.0, step=0.05, rung="tables"
-    )  # the start begins after 50 s
-    scene = changed(scene, "reduction", size=0.02)
-    scene = changed(scene, "journal", bearings=["N"], rung="grid", grid=[24, 8])
-    run = lf.run(scene, out=tmp_path, report=False)
-    film = open_cube(run.path / "journal" / "dlc3.1_v12_s1.h5")["N"].to_dataset().load()
-    speed, carried = np.abs(film["speed"].values), film["converged"].values.astype(bool)
-    assert not carried[speed == 0.0].any()
-    assert carried[speed > 0.3].all()
-    assert run.flagged == {}  # standing in contact is a state, not a missing answer
-    assert (film["in_contact"].values[~carried] == 1).all()
-    assert np.isfinite(film["eccentricity_ratio"].values[carried]).all()
+EVENTS = {"dlc_3_1_startup": "3.1", "dlc_4_2_shutdown": "4.1", "dlc_5_1": "5.1"}
+
+
+def events(name, tmp_path, **loads):
+    """Film of a start or stop as its pipeline has it, and its summary."""
+    scene = read_scene(next(path for path in PIPELINES if path.stem == name))
+    scene = scene.model_copy(update={"results": ["journal.film"], "accuracy": "given"})
+    scene = changed(scene, "loads", rung="tables", step=0.1, seeds=1, **loads)
+    scene = changed(scene, "journal", rung="reduced", bearings=["N"])
+    run = lf.run(scene, out=tmp_path, report=True)
+    assert run.failures == {}
+    assert run.flagged == {}  # every sample has an answer, those at a stand too
+    part = next((run.path / "journal").glob("*.h5"))
+    return open_cube(part)["N"].to_dataset().load(), run.tree["journal"].to_dataset().squeeze(), run
+
+
+@pytest.mark.parametrize("name", EVENTS)
+def test_starts_and_stops_rest_on_asperities_in_their_pipelines(name):
+    journal = read_scene(next(path for path in PIPELINES if path.stem == name)).journal
+    assert journal.contact is not None
+    assert journal.in_motion
+
+
+def test_a_start_lifts_off_from_its_asperities(tmp_path):
+    film, told, run = events("dlc_3_1_startup", tmp_path, wind_speeds=[16.0], duration=80.0)
+    speed, share = np.abs(film["speed"].values), film["contact_share"].values
+    standing = np.flatnonzero(speed == 0.0)
+    assert film["converged"].values.all()
+    assert share[standing] == pytest.approx(1.0, abs=1e-6)
+    assert share[-1] < 1e-3
+    assert np.isfinite(film["minimum_film"].values).all()
+    # squeeze keeps the surfaces together beyond the speed that would part them at rest
+    assert 0.1 < told["lift_off_speed"] < told["transition_speed"] < 1.0
+    assert told["lift_off_time"] < told["transition_time"]
+    assert 0.0 < told["contact_time"] < told["mixed_friction_time"] < 30.0
+    assert 0.1 < told["mixed_friction_revolutions"] < 2.0
+    lost = np.abs(np.diff(film["time"]))[0] * film["friction_power"].values
+    mixed = (speed > 1e-3) & (film["eccentricity_ratio"].values > 0.95)
+    assert told["mixed_friction_energy"] == pytest.approx(lost[mixed].sum(), rel=0.02)
+    assert "transition at E_krit and mixed friction" in run.report.read_text(encoding="utf-8")
+
+
+def test_the_film_outlasts_an_emergency_stop_and_is_then_squeezed_out(tmp_path):
+    film, told, _ = events("dlc_5_1", tmp_path, wind_speeds=[12.0])
+    assert film["converged"].values.all()
+    assert told["contact_time"] == 0.0
+    assert 0.0 < told["standstill_eccentricity_ratio"] < 0.95
+    assert told["film_after_stop"] == pytest.approx(15.0, abs=5.0)  # s, of squeeze alone
+    assert told["transition_speed"] == pytest.approx(0.0, abs=1e-3)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["dlc_3_1_startup", "dlc_4_2_shutdown"])
+def test_a_start_and_a_stop_at_full_size(name, tmp_path):
+    scene = read_scene(next(path for path in PIPELINES if path.stem == name))
+    scene = scene.model_copy(update={"results": ["journal.film"]})
+    run = lf.run(scene, out=tmp_path)
+    assert run.failures == {}
+    assert run.flagged == {}
+    table = run.tree["journal"].to_dataset().sel(bearing="N")
+    assert (table["not_converged"] == 0).all()
+    assert (table["smallest_film"] > 0).all()
+    assert table["transition_time"].notnull().all()
+    if EVENTS[name] == "3.1":
+        assert (table["lift_off_speed"] > 0).all()
+        slowest = table["transition_speed"].sortby(table["wind_speed"]).values
+        assert slowest[-1] > slowest[0]  # as Table 5-21 of [Jonuschies 2015]
+    else:
+        assert (table["film_after_stop"] > 0).all()  # as from 16 m/s on in Table 5-22
 
 
 def test_the_report_ranks_ultimate_loads_with_their_safety_factors(tmp_path):

@@ -116,7 +116,7 @@ CASES = [(kind, name) for kind, ways in WRITTEN.items() for name in ways]
 
 @pytest.fixture
 def matrix(tmp_path):
-    """A file of influence numbers of the cells of the default scene."""
+    """A file of influence coefficients of the cells of the default scene."""
     cells = 60 * 20
     np.save(tmp_path / "matrix.npy", np.eye(cells) * 1e-14)
     return "matrix.npy"

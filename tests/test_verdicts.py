@@ -182,12 +182,14 @@ def test_unanswered_samples_are_a_verdict(run):
 
 
 def test_contact_in_production_breaks_every_verdict_on_the_film(tmp_path):
-    slow = case(8.0, 1)
-    slow["speed"][200:210] = 0.003
+    slow = case(8.0, 1, steps=100)
+    slow["speed"][50:60] = 0.003
     file = save_cube(make_cube([slow]), tmp_path / "loads.h5")
     # at rest: in motion the squeezed film would last for these seconds
     film = FILM | {"motion": "quasi-static"}
-    scene = scene_of(file, results=["journal.film"], reduction={"size": 1.0}, journal=film)
+    scene = scene_of(
+        file, results=["journal.film"], reduction={"size": 1.0}, journal=film, accuracy="given"
+    )
     found = {
         v.quantity: v
         for v in lf.run(scene, out=tmp_path, report=False).verdicts
@@ -202,20 +204,18 @@ def test_contact_in_production_breaks_every_verdict_on_the_film(tmp_path):
 
 
 def test_a_start_is_told_with_its_transition_and_has_a_limit_only_if_one_is_stated(tmp_path):
-    start = case(8.0, 1)
-    start["speed"][:] = np.linspace(0, 1.2, start.sizes["time"])
+    start = case(8.0, 1, steps=80)
+    slow, fast = np.linspace(0, 0.1, 60), np.linspace(0.1, 1.2, 20)
+    start["speed"][:] = np.concatenate([slow, fast])
     start = start.assign_coords(dlc="3.1")
     file = save_cube(make_cube([start]), tmp_path / "loads.h5")
+    film = FILM | {"motion": "quasi-static"}
+    keys = {"results": ["journal.film"], "reduction": {"size": 1.0}, "accuracy": "given"}
+    done = lf.run(scene_of(file, journal=film, **keys), out=tmp_path, report=False)
 
     def contact(**limits):
-        scene = scene_of(
-            file,
-            name=f"start{len(limits)}",
-            results=["journal.film"],
-            reduction={"size": 1.0},
-            journal=FILM | {"limits": limits, "motion": "quasi-static"},
-        )
-        judged = lf.run(scene, out=tmp_path, report=False).verdicts
+        scene = scene_of(file, journal=film | {"limits": limits}, **keys)
+        judged = verdicts(scene, tables(done), None)
         assert not [v for v in judged if v.quantity == "smallest film"]
         (found,) = (v for v in judged if v.subject == "journal N" and "contact" in v.quantity)
         return found
@@ -223,6 +223,7 @@ def test_a_start_is_told_with_its_transition_and_has_a_limit_only_if_one_is_stat
     told = contact()
     assert told.answer == "no limit"
     assert "transition at" in told.note
+    assert told.sentence in [v.sentence for v in done.verdicts]
     assert contact(start_time=1e-3).answer == "broken"
 
 

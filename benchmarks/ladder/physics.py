@@ -162,10 +162,10 @@ def answers(tree: Any) -> dict[str, float]:
     """What users read of a run: the hardest film, the friction, the largest force, the life."""
     film, rolling = tree["journal"], tree["rolling"]
     return {
-        "minimum film": float(film["minimum_film"].min()),
-        "eccentricity ratio": float(film["eccentricity_ratio"].max()),
-        "friction power": float(film["friction_power"].mean()),
-        "maximum force": float(rolling["maximum_force"].max()),
+        "minimum film": float(film["smallest_film"].min()),
+        "eccentricity ratio": float(film["largest_eccentricity_ratio"].max()),
+        "friction power": float(film["mean_friction_power"].mean()),
+        "maximum force": float(rolling["largest_ball_force"].max()),
         "life": float(rolling["life"].min()),
     }
 

@@ -30,7 +30,7 @@ from loadflow.turbines import load_turbine
 from loadflow.wind import Field, inflow
 
 FINEST = (21, 144)
-GRIDS = ((6, 24), (6, 48), (11, 24), (11, 36), (11, 48), (11, 72), (21, 72), FINEST)
+GRIDS = ((6, 24), (6, 48), (11, 24), (11, 36), (11, 48), (11, 72), (11, 144), (21, 72), FINEST)
 """Radii, with the hub, and angles: each a part of the finest."""
 
 NEXT, USUAL = (21, 72), (11, 48)

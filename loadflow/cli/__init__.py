@@ -16,6 +16,7 @@ from loadflow.cli import (  # noqa: F401  they register their commands
     points,
     processing,
     scenes,
+    thrust_points,
     viewing,
 )
 from loadflow.cli.base import app, err
@@ -35,7 +36,7 @@ GROUPS = {
         "view",
     ),
     "Load cubes": ("convert", "loads", "statistics", "seeds", "reduce", "lifetime"),
-    "One bearing, one wind": ("journal", "rolling", "wind"),
+    "One bearing, one wind": ("journal", "thrust", "cone", "rolling", "wind"),
     "How far to trust it": ("validate", "bench"),
 }
 """Commands in the order of the help."""
@@ -68,6 +69,11 @@ EXAMPLE = {
     "lifetime": "loadflow lifetime loads.h5 -o lifetime",
     "journal": "loadflow journal --diameter 1.2 --width 1 --relative-clearance 1e-3 "
     "--viscosity 0.2 --force-x 1e6 --speed-rpm 12",
+    "thrust": "loadflow thrust --pads 10 --inner-radius 0.75 --outer-radius 1.05 "
+    "--pad-angle-deg 32 --taper 6e-5 --viscosity 0.2 --force 9e5 --speed-rpm 12",
+    "cone": "loadflow cone --half-angle-deg 28.6 --slant 1.59 2.59 --clearance 2e-4 "
+    "--distance 3.2 --pads 10 --pad-angle-deg 33 --taper 8e-5 --viscosity 0.2 --force-x 1e6 "
+    "--force-z 8e5 --moment-y 4e6 --speed-rpm 12",
     "rolling": "loadflow rolling --balls 60 --ball-diameter 0.06 --pitch-diameter 2.4 "
     "--groove-radius 0.0315 --force-z 1e6 --moment-y 1e6",
     "wind": "loadflow wind 12",

@@ -33,6 +33,15 @@ def oils() -> Rows:
     return ("name", "at 40 °C", "at 70 °C"), rows
 
 
+def friction_pairs() -> Rows:
+    """Materials of shaft and shell, for journal.contact.friction."""
+    from loadflow.tribology import friction_pair, friction_pair_names
+
+    pairs = [friction_pair(name) for name in friction_pair_names()]
+    rows: list[Row] = [(one.name, f"{one.boundary_coefficient:g}", one.source) for one in pairs]
+    return ("name", "friction coefficient", "source"), rows
+
+
 def bearings() -> Rows:
     """Kinds of bearing, for kind, and the sized candidates of each turbine."""
     from loadflow.scene.candidates import candidates_of, machine_names
@@ -98,6 +107,7 @@ def scenes() -> Rows:
 LISTS: dict[str, Callable[[], Rows]] = {
     "turbines": turbines,
     "oils": oils,
+    "friction-pairs": friction_pairs,
     "bearings": bearings,
     "rungs": rungs,
     "effects": effects,

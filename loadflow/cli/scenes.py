@@ -315,6 +315,10 @@ def validate(
     summary: Annotated[
         bool, typer.Option("--summary", help="Show only the counts, by kind of evidence.")
     ] = False,
+    folder: Annotated[
+        Path | None,
+        typer.Option(help="Clones, OWNER/NAME, for the numbers of files that are not shipped."),
+    ] = None,
     as_json: AsJson = False,
 ) -> None:
     """Print the sources' numbers beside ours; fails if one is out of its tolerance."""
@@ -323,7 +327,10 @@ def validate(
     known = validation.names()
     if unknown := set(names or []) - set(known):
         raise InputError(f"no table {', '.join(sorted(unknown))}; there are {', '.join(known)}")
-    rows = [(name, check) for name in names or known for check in validation.all_checks(name)]
+    if folder and not names:
+        raise InputError("--folder: name the table whose numbers need the files, e.g. turbines")
+    tables = names or known
+    rows = [(name, check) for name in tables for check in validation.all_checks(name, folder)]
     bad = sum(check.outcome == "out" for _, check in rows)
     shown = [row for row in rows if not failed or row[1].outcome == "out"]
     if as_json and summary:

@@ -211,9 +211,9 @@ def _order(case: xr.Dataset) -> tuple[str, float, int]:
 
 def _labels_loaded(dataset: xr.Dataset) -> xr.Dataset:
     """Load what labels the cases; turn strings read as objects into fixed-width ones, as saved."""
-    labels = {n: c.compute() for n, c in dataset.coords.items()}
+    labels = dataset.coords.to_dataset().load().variables  # together: each would load all others
     strings = {n: c.astype(str) for n, c in labels.items() if c.dtype.kind in "OT"}
-    return dataset.assign_coords(labels | strings)
+    return dataset.assign_coords({**labels, **strings})
 
 
 def _encoding(dataset: xr.Dataset) -> dict[str, dict[str, Any]]:

@@ -3,11 +3,13 @@
 ===============  =========================================================================
 `bearing`        `JournalBearing`: what the user calls
 `film_model`     `Film`: one description of the film; `lubricant`, `cavitation`: its liquid and laws
-`thrust`         thrust bearings; `cone`, `conical_pair`: conical bearings, two of them
+`thrust`         thrust bearings; `double_thrust`: a collar between two
+`cone`           conical bearings; `conical_pair`: two of them
 `pad_bearing`    what these share; `pads`: rows of pads and their supports
 `surfaces`       cone, plane ring, straight pad, profiles
 `shapes`         shapes of the bore and their relief
 `shells`         elastic shells; `contact`: asperities; `stribeck`: friction over speed
+`wear`           wear of a bore over a lifetime of starts and stops; `worn_surface`: its points
 `supply`         grooves, pockets, restrictors, pump
 `results`        what comes back; `rows`: how solved films become results
 `heat`           oil and cooling: `Heat`, `FilmHeat`; `heat_results` what comes back

@@ -12,6 +12,8 @@ from .cone import ConicalBearing as ConicalBearing
 from .conical_pair import ConicalPair as ConicalPair
 from .contact import Contact as Contact
 from .dimensionless import UnitBearing as UnitBearing
+from .double_thrust import DoubleThrustBearing as DoubleThrustBearing
+from .double_thrust import DoubleThrustResult as DoubleThrustResult
 from .energy import EnergyBalance as EnergyBalance
 from .energy import energy_balance as energy_balance
 from .film_model import Control as Control
@@ -55,3 +57,7 @@ from .surfaces import Step as Step
 from .surfaces import Taper as Taper
 from .thrust import RectangularThrustBearing as RectangularThrustBearing
 from .thrust import ThrustBearing as ThrustBearing
+from .wear import Cycle as Cycle
+from .wear import Wear as Wear
+from .wear import WornBearing as WornBearing
+from .wear import wear_bearing as wear_bearing

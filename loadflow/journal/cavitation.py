@@ -343,7 +343,7 @@ class MassConserving(_AtPressure):
 class GasMixture(CavitationLaw):
     """Gas–liquid mixture of Wegmann, (3.41–3.51) of [Jonuschies 2015].
 
-    The gap is filled to ``F = p / (p + c)``, p absolute (the source misprints (3.48)).
+    The gap is filled to ``F = p / (p + c)``, p absolute (Jonuschies misprints (3.48)).
 
     Attributes
     ----------

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, ClassVar, Unpack
 
 import numpy as np
@@ -28,7 +28,7 @@ from loadflow.journal.pad_bearing import (
 from loadflow.journal.pad_results import ConicalResult, common
 from loadflow.journal.pads import Pads, Pivot, even_pads, finite
 from loadflow.journal.solvers.assembly import BODY, Assembly, AssemblyState, Member
-from loadflow.journal.surfaces import FLAT, Cone, Profile
+from loadflow.journal.surfaces import FLAT, Cone, Cut
 from loadflow.numerics.convergence import Limits
 from loadflow.numerics.fields import require
 
@@ -83,7 +83,7 @@ class ConicalBearing(PadBearing, ConicalFilms[ConicalResult]):
     pads: int | None = None
     pad_angle: float | None = None
     first_pad: float = 0.0
-    profile: Profile = FLAT
+    profile: Cut = FLAT
     pivot: Pivot | None = None
 
     def __post_init__(self) -> None:
@@ -111,6 +111,12 @@ class ConicalBearing(PadBearing, ConicalFilms[ConicalResult]):
             return Pads(surface, 2.0 * math.pi, (0.0,), closed=True)
         centres = even_pads(self.pads, self.pad_angle, self.first_pad)
         return Pads(surface, self.pad_angle, centres, profile=self.profile, pivot=self.pivot)
+
+    @property
+    def reversed(self) -> ConicalBearing:
+        """The same cone, its segments built for a shaft that turns the other way."""
+        pivot = self.pivot and replace(self.pivot, share=1.0 - self.pivot.share)
+        return replace(self, profile=self.profile.reversed, pivot=pivot)
 
     _axes: ClassVar[int] = 3
 

@@ -44,6 +44,7 @@ class ConicalPair(ConicalFilms[PairResult]):
     left, right : ConicalBearing
         The cones; each described in a frame of its own, whose third axis runs to its wide end. The
         frame of a cone whose wide end is on the left is turned by half a turn about the first axis.
+        Inlet and pivot of segments are those of the sense in which the shaft turns at speed > 0.
     distance : float
         Between the middles of both, m.
     clearance : float, optional
@@ -77,8 +78,9 @@ class ConicalPair(ConicalFilms[PairResult]):
 
     @property
     def cones(self) -> tuple[ConicalBearing, ConicalBearing]:
-        """Both cones, left and right."""
-        return self.left, self.right
+        """Both cones, left and right, as the shaft turns in the frame of each."""
+        left, right = self.left, self.right
+        return (left.reversed, right) if self.arrangement == "O" else (left, right.reversed)
 
     def views(self) -> tuple[Array, Array]:
         """Position of the shaft in the frame of each cone by that in the pair's, (5, 5) each."""

@@ -27,6 +27,8 @@ class Contact:
     ----------
     asperities : AsperityContact
         Combined roughness, contact modulus and factor of both surfaces [Greenwood and Tripp 1970].
+    surface_roughness : float, optional
+        Combined R_q of all heights, m, which the oil feels; left out, that of the asperities.
     friction : float or str
         Boundary friction coefficient μ, or the name of a pair of
         `loadflow.tribology.friction_pair_names`.
@@ -58,6 +60,7 @@ class Contact:
     friction: float | str = 0.15
     pattern: Annotated[float, Gt(0)] | None = None
     shaft_share: Annotated[float, Ge(0), Le(1)] = 0.5
+    surface_roughness: Annotated[float, Gt(0), Le(1e-3)] | None = None
 
     def __post_init__(self) -> None:
         check_fields(self)
@@ -74,8 +77,8 @@ class Contact:
 
     @property
     def roughness(self) -> float:
-        """Combined roughness σ, m."""
-        return self.asperities.roughness
+        """Combined roughness σ of all heights, m."""
+        return self.surface_roughness or self.asperities.roughness
 
     def check_clearance(self, clearance: float) -> None:
         """Refuse surfaces whose roughness is no longer small beside the radial `clearance`, m.
@@ -86,4 +89,10 @@ class Contact:
             Names the roughness and its range.
         """
         allowed = f"at most {ROUGHEST:g} of the radial clearance {clearance:.6g} m"
-        require(self.roughness <= ROUGHEST * clearance, "roughness", self.roughness, allowed)
+        rough, tips = self.asperities.roughness, self.asperities.summit_height
+        for name, size in (
+            ("roughness", rough),
+            ("surface_roughness", self.roughness),
+            ("summit_height", tips),
+        ):
+            require(size <= ROUGHEST * clearance, name, size, allowed)

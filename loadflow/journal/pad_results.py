@@ -50,10 +50,15 @@ _PADS: Table = {
 }
 
 
-class _Shown(Shown):
+class Shows(Shown):
     """Shown by the table of the class."""
 
     _table: ClassVar[Table]
+
+    @classmethod
+    def told(cls) -> Table:
+        """Dimensions, units and meaning of what it tells, by name."""
+        return cls._table
 
     def shown_quantities(self) -> Mapping[str, Quantity]:
         """Quantities of pads."""
@@ -65,7 +70,7 @@ class _Shown(Shown):
 
 
 @dataclass(frozen=True, repr=False)
-class PadResult(_Shown):
+class PadResult(Shows):
     """What all bearings of pads answer.
 
     Attributes
@@ -271,7 +276,7 @@ class ConicalResult(PadResult):
 
 
 @dataclass(frozen=True, repr=False)
-class PairResult(_Shown):
+class PairResult(Shows):
     """Films of two cones against each other.
 
     Attributes
@@ -338,6 +343,21 @@ class PairResult(_Shown):
 
     to_dataset = PadResult.to_dataset
     __repr__ = PadResult.__repr__
+
+
+AXIAL_BOTH: Table = {
+    "force": ((), "N", "force along the axis, > 0 on the front row"),
+    "gap": ((), "m", "film of the front row"),
+    "stiffness": ((), "N/m", "axial stiffness"),
+    "damping": ((), "N s/m", "axial damping"),
+} | {
+    name: _PADS[name]
+    for name in (
+        "minimum_film", "maximum_pressure", "friction_torque", "friction_power", "speed",
+        "converged", "residual", "iterations",
+    )
+}  # fmt: skip
+"""What two rows of pads on both sides of a collar answer."""
 
 
 def common(described: dict[str, Any]) -> dict[str, Any]:

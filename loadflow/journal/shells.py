@@ -142,7 +142,7 @@ class LinedShell(_Shell):
 class ThickShell(_Shell):
     """Thick-walled cylinder as wide as the bearing, held all over its outside.
 
-    Its influence numbers come from three-dimensional elasticity, harmonic by harmonic around.
+    Its influence coefficients come from three-dimensional elasticity, harmonic by harmonic around.
 
     Attributes
     ----------
@@ -172,7 +172,7 @@ class ThickShell(_Shell):
 
 @dataclass(frozen=True, eq=False)
 class MatrixShell(_Shell):
-    """Shell whose influence numbers are given, (3.52–3.56) of [Jonuschies 2015].
+    """Shell whose influence coefficients are given, (3.52–3.56) of [Jonuschies 2015].
 
     Attributes
     ----------
@@ -206,12 +206,12 @@ class MatrixShell(_Shell):
 
     @property
     def numbers(self) -> NDArray[np.float64]:
-        """Influence numbers (n, n), m/Pa."""
+        """Influence coefficients (n, n), m/Pa."""
         return np.asarray(self.__dict__["_numbers"])
 
 
 def _read_matrix(path: str | Path) -> NDArray[np.float64]:
-    """Read influence numbers from a file.
+    """Read influence coefficients from a file.
 
     Raises
     ------

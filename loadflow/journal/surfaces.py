@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import NamedTuple, Protocol
+from typing import Literal, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -254,6 +254,8 @@ class Flat:
     ()
     """
 
+    kind: Literal["flat"] = "flat"
+
     @property
     def kinks(self) -> tuple[float, ...]:
         """None."""
@@ -262,6 +264,11 @@ class Flat:
     def depth(self, share: Array) -> Array:
         """Zero."""
         return np.zeros_like(share)
+
+    @property
+    def reversed(self) -> Flat:
+        """The same for the other sense of rotation."""
+        return self
 
 
 FLAT = Flat()
@@ -289,6 +296,7 @@ class Taper:
 
     taper: float
     wedge: float = 0.75
+    kind: Literal["taper"] = "taper"
 
     def __post_init__(self) -> None:
         require(0 <= self.taper < math.inf, "taper", self.taper, "m, ≥ 0 and finite")
@@ -302,6 +310,11 @@ class Taper:
     def depth(self, share: Array) -> Array:
         """Depth at shares of the length, m."""
         return np.asarray(self.taper * np.maximum(0.0, 1.0 - share / self.wedge))
+
+    @property
+    def reversed(self) -> Reversed:
+        """The same for the other sense of rotation."""
+        return Reversed(self)
 
 
 @dataclass(frozen=True)
@@ -325,6 +338,7 @@ class Step:
 
     height: float
     share: float = 0.718
+    kind: Literal["step"] = "step"
 
     def __post_init__(self) -> None:
         require(0 <= self.height < math.inf, "height", self.height, "m, ≥ 0 and finite")
@@ -338,3 +352,47 @@ class Step:
     def depth(self, share: Array) -> Array:
         """Depth at shares of the length, m."""
         return np.where(share < self.share, self.height, 0.0)
+
+    @property
+    def reversed(self) -> Reversed:
+        """The same for the other sense of rotation."""
+        return Reversed(self)
+
+
+@dataclass(frozen=True)
+class Reversed:
+    """A profile cut for the other sense of rotation.
+
+    Attributes
+    ----------
+    profile : Profile
+        The profile as it is cut for the sense of motion.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.journal.surfaces import Reversed, Taper
+    >>> Reversed(Taper(taper=1e-4, wedge=0.75)).depth(np.array([0.0, 0.25, 1.0])).tolist()
+    [0.0, 0.0, 0.0001]
+    """
+
+    profile: Taper | Step
+    kind: Literal["reversed"] = "reversed"
+
+    @property
+    def kinks(self) -> tuple[float, ...]:
+        """Those of the profile, from the other end."""
+        return tuple(sorted(1.0 - share for share in self.profile.kinks))
+
+    def depth(self, share: Array) -> Array:
+        """Depth at shares of the length, m."""
+        return self.profile.depth(1.0 - share)
+
+    @property
+    def reversed(self) -> Taper | Step:
+        """The profile itself."""
+        return self.profile
+
+
+Cut = Flat | Taper | Step | Reversed
+"""What may be cut into the pads of a bearing."""

@@ -33,6 +33,11 @@ AtRest = Callable[[Array, Array, NDArray[np.int64]], Columns]
 TOLERANCE, TRIES = 1e-6, 40
 """What is left of a heat balance, K, and the temperatures that are tried."""
 
+_JUMP = 1e-3
+"""By how much, K, friction may warm a film more on one mesh than on another: a balance that jumps
+over zero where the mesh changes has its temperature there, and keeps what is left as its residual.
+"""
+
 
 def warm_film(
     at_rest: AtRest,
@@ -73,7 +78,7 @@ def warm_film(
     balance = _Balance(at_rest, force, speed, heat, weights)
     warmth = balance.solve(tolerance, max_iterations)
     state = balance.film(warmth.temperature, np.arange(speed.size))
-    found = state["converged"] & (warmth.residual <= tolerance)
+    found = state["converged"] & ((warmth.residual <= tolerance) | warmth.jumps)
     if strict and not found.all():
         worst = int(np.argmin(found))
         raise SolverError(
@@ -86,11 +91,15 @@ def warm_film(
 
 @dataclass(frozen=True)
 class _Warmth:
-    """Temperatures that were found, (n,), K; what is left of their balance, K; and the tries."""
+    """Temperatures that were found, (n,), K; what is left of their balance, K; and the tries.
+
+    `jumps` says where the balance steps over zero, by less than `_JUMP`.
+    """
 
     temperature: Array
     residual: Array
     iterations: int
+    jumps: NDArray[np.bool_]
 
     def said_of(self, film: Columns, heat: Heat) -> Columns:
         """The film with its temperatures."""
@@ -164,10 +173,13 @@ class _Balance:
             )
             apart = high[active] - low[active] > 1e-12 * HOTTEST
             active = active[(residual[active] > tolerance) & apart]
+        shape = self.speed.shape
+        jumps = (high - low <= 1e-12 * HOTTEST) & (residual <= _JUMP)
         return _Warmth(
-            np.broadcast_to(warm, self.speed.shape).copy(),
-            np.broadcast_to(residual, self.speed.shape).copy(),
+            np.broadcast_to(warm, shape).copy(),
+            np.broadcast_to(residual, shape).copy(),
             tries,
+            np.broadcast_to(jumps, shape).copy(),
         )
 
     def _excess(self, temperature: Array, active: NDArray[np.int64]) -> Array:

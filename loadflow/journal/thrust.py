@@ -25,7 +25,7 @@ from loadflow.journal.pad_bearing import (
 from loadflow.journal.pad_results import ThrustResult, common
 from loadflow.journal.pads import LIFTS, Pads, Pivot, even_pads, finite
 from loadflow.journal.solvers.assembly import BODY, Assembly, AssemblyState
-from loadflow.journal.surfaces import Cone, Profile, Strip, Surface, Taper
+from loadflow.journal.surfaces import Cone, Cut, Strip, Surface, Taper
 from loadflow.numerics.convergence import Limits
 from loadflow.numerics.fields import require
 
@@ -339,7 +339,7 @@ class ThrustBearing(_PadThrust):
     taper: float = 0.0
     wedge: float = 0.75
     first_pad: float = 0.0
-    profile: Profile | None = None
+    profile: Cut | None = None
     pivot: Pivot | None = None
 
     def __post_init__(self) -> None:
@@ -395,7 +395,7 @@ class RectangularThrustBearing(_PadThrust):
     taper: float = 0.0
     wedge: float = 0.75
     first_pad: float = 0.0
-    profile: Profile | None = None
+    profile: Cut | None = None
     pivot: Pivot | None = None
 
     def __post_init__(self) -> None:

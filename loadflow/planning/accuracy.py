@@ -69,7 +69,7 @@ def of_link(
     scene: Scene, result: str, quantity: str, link: Link, known: Estimates
 ) -> Iterator[Part]:
     """What the model at one link, and its effects that are left out, add to that error."""
-    gain = gains()[result.split(".")[0]].get(quantity) if link.of_load else 1.0
+    gain = gains().get(result.split(".")[0], {}).get(quantity) if link.of_load else 1.0
     share = _rung_error(scene, models()[link.model], link.quantity)
     if share != 0.0:
         yield Part(link.model, None, None if share is None or gain is None else share * gain)

@@ -11,7 +11,7 @@ import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from threadpoolctl import threadpool_limits
@@ -38,13 +38,18 @@ WORTH = 0.1
 """Share of the smallest error allowed, below which an indicator needs no measurement."""
 
 Report = Callable[[str, int, int], None]
+Item = TypeVar("Item")
+Outcome = TypeVar("Outcome")
+
 Outcomes = Callable[[Callable[[Case], Any], Iterable[Case]], Iterable[tuple[Case, Any]]]
 
 
-def in_turn(work: Callable[[Case], Any], cases: Iterable[Case]) -> Iterator[tuple[Case, Any]]:
-    """Work on one case after another in this process."""
-    for case in cases:
-        yield case, work(case)
+def in_turn(
+    work: Callable[[Item], Outcome], items: Iterable[Item]
+) -> Iterator[tuple[Item, Outcome]]:
+    """Work on one item after another in this process."""
+    for item in items:
+        yield item, work(item)
 
 
 def pilot(

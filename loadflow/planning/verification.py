@@ -83,5 +83,7 @@ CHECK = Stage(
     sections=always("accuracy"),
     warnings=warnings,
     sample=3,
+    pieces=lambda scene, cases: [[case] for case in cases],
+    joined=lambda scene, found: xr.concat(found, "check"),
 )
 """The last step of a plan that has a bearing; it reads of `READ` what there is."""

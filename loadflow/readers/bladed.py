@@ -175,7 +175,7 @@ def _over_time(entries: dict[str, str]) -> bool:
 
 
 def _names(entries: dict[str, str]) -> tuple[str, ...]:
-    """Return the names of the channels: in quotes, or else parted by tabs or several blanks."""
+    """Return the names of the channels: in quotes, or separated by tabs or several blanks."""
     text = entries["VARIAB"]
     if "'" in text:
         return tuple(re.findall(r"'([^']*)'", text))

@@ -1,4 +1,4 @@
-"""From the frame that turns with the rotor to the one that stands, and from gauge to apex."""
+"""From the rotating to the non-rotating frame, and from gauge to apex."""
 
 from __future__ import annotations
 
@@ -74,10 +74,10 @@ def at_apex(series: Series, distance: float) -> dict[str, NDArray[np.float64]]:
 def turning_order(
     lateral: NDArray[np.complex128], speed: NDArray[np.float64], step: float
 ) -> tuple[int, float, float] | None:
-    """How often a lateral force turns with the rotor: 0 in the frame that stands.
+    """How often a lateral force turns with the rotor: 0 in the non-rotating frame.
 
-    The mean of F_y + i F_z, mainly weight, is largest in the frame that stands; in one that turns
-    with the rotor it appears at −1 per revolution, turned the wrong way at −2 or +1.
+    The mean of F_y + i F_z, mainly weight, is largest in the non-rotating frame; in the
+    rotating one it appears at −1 per revolution, turned the wrong way at −2 or +1.
 
     Parameters
     ----------

@@ -72,14 +72,14 @@ class Table:
         Parameters
         ----------
         channel : str
-            Name, as written or in other capitals; ``"#7"`` for the seventh column of the file; or
+            Name, in upper or lower case; ``"#7"`` for the seventh column of the file; or
             words of the description that only one channel has. A leading minus is ignored. A
             channel with the unit `UNKNOWN` does not count.
 
         Raises
         ------
         loadflow.errors.InputError
-            Several columns bear the name.
+            Several columns have the name.
         """
         columns = self.columns(channel)
         if len(columns) > 1:
@@ -109,7 +109,7 @@ class Table:
         return []
 
     def _description(self, column: int) -> str:
-        """Description in small letters with single blanks."""
+        """Description in lower case with single blanks."""
         text = self.descriptions[column] if self.descriptions else ""
         return " ".join(text.casefold().split())
 
@@ -119,14 +119,14 @@ class Table:
         Parameters
         ----------
         channel : str
-            As in `find`; with a leading minus the sign is turned.
+            As in `find`; with a leading minus the sign is reversed.
         si : str
             Unit to return, a key of `UNITS`.
 
         Raises
         ------
         loadflow.errors.InputError
-            No such channel, its unit cannot be turned into `si`, or a value is not finite.
+            No such channel, its unit cannot be converted to `si`, or a value is not finite.
         """
         column = self.find(channel)
         if column is None:
@@ -143,7 +143,7 @@ class Table:
         return sign * self._factor(column, si) * values
 
     def has_unit(self, channel: str, si: str) -> bool:
-        """Whether a channel that the file has can be turned into an SI unit."""
+        """Whether a channel that the file has can be converted to an SI unit."""
         column = self.find(channel)
         return column is not None and _plain_unit(self.units[column]) in UNITS[si]
 

@@ -194,7 +194,7 @@ def periodic(
     named : dict of str to float, optional
         Known frequencies in Hz (tower, drivetrain), for the labels.
     window, points, refine
-        See `loadflow.reduction.find_harmonics`. The source's tables come from
+        See `loadflow.reduction.find_harmonics`. Jonuschies's tables come from
         ``window="rectangular", points=2**15, refine=False``.
 
     Returns

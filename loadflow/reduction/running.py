@@ -11,9 +11,9 @@ from numpy.typing import ArrayLike
 from loadflow.errors import InputError
 from loadflow.reduction._series import Floats, finite
 
-HALF_SPEED = (
-    0.5  # a series that begins or ends slower than this was cut out of a run-up or run-down
-)
+HALF_SPEED = 0.5
+"""Share of the highest speed; a series that begins or ends slower was cut out of a run-up or
+run-down."""
 
 
 @dataclass(frozen=True)
@@ -73,19 +73,19 @@ def phases(speed: ArrayLike, still: float = 0.01, operating: float = 0.9) -> tup
     >>> [phase.name for phase in phases([0, 0, 3, 6, 10, 9.5, 10, 4, 0])]
     ['standstill', 'run-up', 'operation', 'run-down', 'standstill']
     """
-    pace = np.abs(finite("speed", speed))
-    if pace.ndim != 1 or pace.size == 0:
-        raise InputError(f"speed has shape {pace.shape}; (n,) with n >= 1 is needed")
+    magnitude = np.abs(finite("speed", speed))
+    if magnitude.ndim != 1 or magnitude.size == 0:
+        raise InputError(f"speed has shape {magnitude.shape}; (n,) with n >= 1 is needed")
     if not 0 < still < operating < 1:
         raise InputError(
             f"still = {still}, operating = {operating}; allowed: 0 < still < operating < 1"
         )
-    top = float(pace.max())
+    top = float(magnitude.max())
     if top == 0.0:
-        return (Phase("standstill", 0, pace.size),)
-    share = pace / top
+        return (Phase("standstill", 0, magnitude.size),)
+    share = magnitude / top
     stands = share < still
-    cuts = [0, *(np.flatnonzero(np.diff(stands)) + 1).tolist(), pace.size]
+    cuts = [0, *(np.flatnonzero(np.diff(stands)) + 1).tolist(), magnitude.size]
     found: list[Phase] = []
     for start, stop in pairwise(cuts):
         if stands[start]:

@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from jinja2 import Environment, PackageLoader, select_autoescape
-
+from loadflow.report.page import write_filled
 from loadflow.report.sketch import sketch
 
 GROUPS = (
     ("In short", ("load_factor", "energy", "friction")),
     ("Capacity", ("minimum_film", "film_to_roughness", "eccentricity_ratio", "film_pressure",
-        "static_safety", "contact_pressure", "modified_life", "rating_life")),
+        "thrust_film", "thrust_pressure", "static_safety", "contact_pressure", "modified_life",
+        "rating_life")),
     ("What fails before rating life does", ("row_share", "row_overload", "film_parameter", "tilt",
         "mixed_time")),
     ("Oil", ("oil_flow", "pump")),
@@ -49,15 +48,14 @@ def write_comparison(path: Path, data: Mapping[str, Any]) -> Path:
     Path
         The file.
     """
-    environment = Environment(
-        loader=PackageLoader("loadflow.report"), autoescape=select_autoescape(["html"])
-    )
     candidates = data["candidates"]
     groups = [
         (title, [row for key in keys if (row := _row(key, data)) is not None])
         for title, keys in GROUPS
     ]
-    page = environment.get_template("compare.html").render(
+    return write_filled(
+        path,
+        "compare.html",
         data=data,
         groups=groups,
         sketch=sketch(data["shaft"]),
@@ -65,10 +63,6 @@ def write_comparison(path: Path, data: Mapping[str, Any]) -> Path:
         extremes={one["name"]: [*_extremes(one, data)] for one in candidates},
         checks={one["name"]: [_check(c) for c in one["checks"]] for one in candidates},
     )
-    temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
-    temporary.write_text(page, encoding="utf-8")
-    os.replace(temporary, path)
-    return path
 
 
 def _row(key: str, data: Mapping[str, Any]) -> tuple[str, str, list[Cell]] | None:

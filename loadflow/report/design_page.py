@@ -6,29 +6,27 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from jinja2 import Environment, PackageLoader, select_autoescape
-
 from loadflow.plots.style import to_svg
 from loadflow.report.compare_page import short
 from loadflow.report.design_figures import front_figure, map_figure
-from loadflow.storage import write_text
+from loadflow.report.page import write_filled
 
 FRONT_ROWS = 12
 """Designs of the front that the page lists."""
 
 CHECKED = (
-    ("load_factor", "capacity margin", "×"),
-    ("energy", "energy lost a year", "MWh"),
-    ("friction", "mean friction loss", "kW"),
-    ("minimum_film", "smallest film", "µm"),
-    ("film_pressure", "largest film pressure", "MPa"),
-    ("eccentricity_ratio", "largest eccentricity ratio", "–"),
-    ("tilt", "tilt of the shaft to its limit, told only", "%"),
-    ("oil_flow", "oil that leaves the film", "l/min"),
-    ("static_safety", "static rating over the design load", "–"),
-    ("contact_pressure", "largest contact pressure", "MPa"),
-    ("modified_life", "modified life of all bearings", "years"),
-    ("rating_life", "rating life of all bearings", "years"),
+    "load_factor",
+    "energy",
+    "friction",
+    "minimum_film",
+    "film_pressure",
+    "eccentricity_ratio",
+    "tilt",
+    "oil_flow",
+    "static_safety",
+    "contact_pressure",
+    "modified_life",
+    "rating_life",
 )
 """Rows of the first table: numbers of the fast models and of the runs, in one unit."""
 
@@ -43,12 +41,11 @@ def write_design(path: Path, data: Mapping[str, Any]) -> Path:
     data : mapping
         `loadflow.studies.design_result.Designs.as_dict`.
     """
-    environment = Environment(
-        loader=PackageLoader("loadflow.report"), autoescape=select_autoescape(["html"])
-    )
     checks = data["checks"]
     best = next((name for name in reversed(checks) if name != "start"), None)
-    page = environment.get_template("design.html").render(
+    return write_filled(
+        path,
+        "design.html",
         data=data,
         best=checks[best] if best else None,
         start=checks.get("start"),
@@ -57,7 +54,6 @@ def write_design(path: Path, data: Mapping[str, Any]) -> Path:
         figure=to_svg(front_figure(data)),
         maps=[(one["keys"], to_svg(map_figure(data, k))) for k, one in enumerate(data["maps"])],
     )
-    return write_text(path, page)
 
 
 def _rows(data: Mapping[str, Any], best: str | None) -> Any:
@@ -65,7 +61,8 @@ def _rows(data: Mapping[str, Any], best: str | None) -> Any:
     numbers = data["designs"][data["best"]]["numbers"] if data["best"] is not None else {}
     runs = [data["checks"].get(name) for name in ("start", best) if name]
     runs += [None] * (2 - len(runs))
-    for key, name, unit in CHECKED:
+    for key in CHECKED:
+        about = data["quantities"][key]
         factor = data["numbers"].get(key, {"shown": [1.0]})["shown"][0]
         fast = [
             "" if one.get(key) is None else short(factor * one[key])
@@ -74,7 +71,7 @@ def _rows(data: Mapping[str, Any], best: str | None) -> Any:
         run = [_run_value(one, key) for one in runs]
         cells = [fast[0], run[0], fast[1], run[1]]
         if any(cells):
-            yield name, unit, cells
+            yield about["name"], about["unit"], cells
 
 
 def _run_value(run: Mapping[str, Any] | None, key: str) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 from jinja2 import Environment, PackageLoader, select_autoescape
 from matplotlib.figure import Figure
@@ -105,8 +106,12 @@ def write_page(path: Path, title: str, facts: dict[str, str], sections: list[Sec
     >>> "NREL 5 MW" in text and "h_min" in text
     True
     """
+    return write_filled(path, "page.html", title=title, facts=facts, sections=sections)
+
+
+def write_filled(path: Path, template: str, **values: Any) -> Path:
+    """Write a template of the package with its values filled in, whole or not at all."""
     environment = Environment(
         loader=PackageLoader("loadflow.report"), autoescape=select_autoescape(["html"])
     )
-    page = environment.get_template("page.html").render(title=title, facts=facts, sections=sections)
-    return write_text(path, page)
+    return write_text(path, environment.get_template(template).render(**values))

@@ -23,6 +23,7 @@ from .former_names import SlewingResult as SlewingResult
 from .former_names import SpinningResult as SpinningResult
 from .former_names import ThreeRowResult as ThreeRowResult
 from .former_names import bearing_modification as bearing_modification
+from .former_names import settle as settle
 from .former_names import static_capacity as static_capacity
 from .friction import FrictionOptions as FrictionOptions
 from .friction import ball_friction as ball_friction
@@ -66,6 +67,6 @@ from .rings.section import legs as legs
 from .rings.solid import SolidRing as SolidRing
 from .rings.transient import Inertia as Inertia
 from .rings.transient import Transient as Transient
-from .rings.transient import settle as settle
+from .rings.transient import transient_response as transient_response
 from .roller_raceways import RollerRaceways as RollerRaceways
 from .stiffness.rotor_coefficients import rotor_coefficients as rotor_coefficients

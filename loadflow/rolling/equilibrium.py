@@ -139,7 +139,7 @@ def solve(
         chunk,
     )
     if strict and not converged.all():
-        complain(loads, converged, residual, rounding, iterations, shape)
+        raise_not_converged(loads, converged, residual, rounding, iterations, shape)
     return RingEquilibrium(
         force=f,
         moment=m,
@@ -170,7 +170,7 @@ def broadcast_loads(force: ArrayLike, moment: ArrayLike) -> tuple[Array, Array]:
     return np.broadcast_to(f, (*shape, 3)), np.broadcast_to(m, (*shape, 2))
 
 
-def complain(
+def raise_not_converged(
     loads: Array,
     converged: NDArray[np.bool_],
     residual: Array,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from typing import Any
 
 from numpy.typing import ArrayLike
 
@@ -10,10 +11,24 @@ from loadflow.errors import InputError
 from loadflow.rolling.bearings.base import RollingBearing, RollingEquilibrium
 from loadflow.rolling.rating import modified_life
 from loadflow.rolling.rating.modified_life import LifeModification, Lubrication
+from loadflow.rolling.rings.transient import Transient, transient_response
 
 MainBearing = RollingBearing
 RollerResult = SlewingResult = FlexibleResult = RollingEquilibrium
 BallBearingResult = SpinningResult = ThreeRowResult = RollingEquilibrium
+
+
+def settle(*arguments: Any, **keywords: Any) -> Transient:
+    """`transient_response` under its former name; deprecated.
+
+    Examples
+    --------
+    >>> from loadflow.rolling import settle
+    >>> settle.__doc__.split()[0]
+    '`transient_response`'
+    """
+    warnings.warn("settle(…) is now transient_response(…)", DeprecationWarning, stacklevel=2)
+    return transient_response(*arguments, **keywords)
 
 
 def static_capacity(bearing: RollingBearing) -> float:

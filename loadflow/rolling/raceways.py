@@ -55,7 +55,7 @@ class BallRaceways(RollingGeometry):
         source's mean); from Hertz for each raceway if not given.
     curvature : {"exact", "ritzer"}
         Radius of the raceway along the ring: (D_pw/2 ∓ R_w cos α₀)/cos α₀, the normal curvature of
-        the torus, or D_pw/2 ∓ R_w as the source.
+        the torus, or D_pw/2 ∓ R_w as Ritzer.
     shoulder_angle : float, optional
         Angle from the radial plane at which the raceway ends, rad; enables ``truncated``.
 

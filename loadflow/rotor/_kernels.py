@@ -153,7 +153,7 @@ def skewed(m, a, r_y, r_z, state):
 @kernel
 def momentum_share(m, speed, state):
     """Share of the induction that momentum theory gives: none up to a tip speed ratio of 1, where
-    a rotor that stands or idles has no wake of rings, all of it from 2 on.
+    a rotor at standstill or idling has no helical wake, all of it from 2 on.
     """
     wind = np.sqrt(state[S_AXIAL] ** 2 + state[S_Y] ** 2 + state[S_Z] ** 2)
     excess = abs(speed) * m.tip_radius - wind
@@ -186,20 +186,20 @@ def blade_aerodynamics(
         wind_x, wind_y, wind_z = wind_at(m, inflow, step, time, ground_x, y, ground_z)
         shaft_x = wind_x * tilt_c - wind_z * tilt_s
         shaft_z = wind_x * tilt_s + wind_z * tilt_c
-        # as the moving nacelle meets it
+        # relative to the moving nacelle
         moved = carried(drift, along, y, z)
         shaft_x -= moved[0]
         wind_y -= moved[1]
         shaft_z -= moved[2]
         # a section bent out of the radius has a speed along it
         radial = -sine * wind_y + cosine * shaft_z + speed * turn
-        # the section leans with the slope of the bent blade
-        lean = m.cone - motion[i, 4]
-        lean_s, lean_c = np.sin(lean), np.cos(lean)
-        normal = shaft_x * lean_c + radial * lean_s - motion[i, 2]
+        # cone, and slope of the bent blade
+        bend = m.cone - motion[i, 4]
+        bend_s, bend_c = np.sin(bend), np.cos(bend)
+        normal = shaft_x * bend_c + radial * bend_s - motion[i, 2]
         tangential = speed * out + motion[i, 3] + cosine * wind_y + sine * shaft_z
-        # a blade that twists turns the section in the flow; one that bends both ways turns but the
-        # axes in which its airfoil is looked up, which momentum knows nothing of
+        # torsion turns the section in the flow; bending both ways only turns the axes in which its
+        # airfoil is looked up, which does not enter the momentum balance
         twisted = pitch + motion[i, 7]
         if momentum == 0.0:
             a = swirl = 0.0
@@ -213,12 +213,12 @@ def blade_aerodynamics(
         if m.dynamic_inflow:
             a, swirl = inflow_lag(m, i, normal, tangential, a, swirl, state, dt, induced[i])
         a = skewed(m, a, y, z, state)
-        # rotation of the rotor turns a section that leans about its span
+        # rotation of the rotor turns an inclined section about its span
         f_normal, f_tangential, couple = section_force(
-            m, i, twisted + motion[i, 6], -speed * lean_s, normal, tangential, a, swirl, dt, wake[i]
+            m, i, twisted + motion[i, 6], -speed * bend_s, normal, tangential, a, swirl, dt, wake[i]
         )
-        force[i, 0] = f_normal * lean_c * m.width[i]
-        force[i, 1] = f_normal * lean_s * m.width[i]
+        force[i, 0] = f_normal * bend_c * m.width[i]
+        force[i, 1] = f_normal * bend_s * m.width[i]
         force[i, 2] = f_tangential * m.width[i]
         force[i, 3] = couple * m.width[i]
         mean_x += shaft_x / count

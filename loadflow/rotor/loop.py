@@ -23,7 +23,7 @@ Array = NDArray[np.float64]
 
 @dataclass
 class State:
-    """What the loop carries from step to step; `run` moves it on."""
+    """What the loop carries from step to step; `run` advances it."""
 
     scalars: Array
     pitch: Array  # (blades,), rad
@@ -49,7 +49,7 @@ class State:
         return float(self.scalars[k.S_AZIMUTH])
 
     def copy(self) -> State:
-        """Return a state that moves on by itself."""
+        """Return an independent copy."""
         return State(*(getattr(self, f.name).copy() for f in fields(self)))
 
 
@@ -130,7 +130,7 @@ def run(
     Raises
     ------
     SolverError
-        If a value is not finite or the rotor runs away.
+        If a value is not finite or the rotor exceeds 10 rad/s.
     """
     out = np.full((steps, k.COLUMNS + m.blades), np.nan)
     # solving for accelerations refuses infinite loads: the steps that are left out stay NaN

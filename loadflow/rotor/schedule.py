@@ -1,7 +1,7 @@
 """The schedule of the lowest pitch over the power, from that over the wind.
 
 Sources give the lowest pitch over the wind, which their controllers estimate. Ours knows its power:
-a wind is recognised by the power that the rotor settles at in it, at the pitch that belongs to it.
+a wind is recognised by the steady power of the rotor in it, at the pitch that belongs to it.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Steady operation: what the control settles at in a wind that does not change."""
+"""Steady operation: the operating point that the control reaches in a steady wind."""
 
 from __future__ import annotations
 

@@ -17,6 +17,7 @@ from loadflow.running.folder import part_file
 from loadflow.running.parts import save_part
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
+from loadflow.storage import write_text
 
 Key = TypeVar("Key")
 Place = TypeVar("Place")
@@ -72,12 +73,21 @@ def do_case(case: Case, scene: Scene, steps: tuple[Step, ...], folder: Path) -> 
                 done.traces.append(traceback.format_exc())
                 continue
         answered = time.perf_counter()
+        _export(step, case, result, folder)  # before the part, which says that all is done
         save_part(result, target, step.digest)
         written = time.perf_counter()
         done.seconds[name] = written - begun
         done.compiling[name] = compiling.seconds
         done.writing[name] = written - answered
     return done
+
+
+def _export(step: Step, case: Case, result: Any, folder: Path) -> None:
+    """Write what a stage gives as text, for other programs."""
+    if step.stage.exports is not None:
+        for name, text in step.stage.exports(case, result).items():
+            (folder / name).parent.mkdir(exist_ok=True)
+            write_text(folder / name, text)
 
 
 def is_missing(plan: Plan, case: Case, folder: Path) -> bool:

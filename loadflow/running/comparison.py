@@ -164,14 +164,14 @@ def shared_loads(scene: Scene, out: str | Path, how: Means) -> SharedLoads:
     """
     folder = Path(out) / scene.name
     base = _base(scene)
-    settled = _as_run(base, scene, folder)
-    if settled is None or not _there(make_plan(settled), folder):
+    as_run = _as_run(base, scene, folder)
+    if as_run is None or not _there(make_plan(as_run), folder):
         run(
             base, out=out, workers=how.workers, scheduler=how.scheduler, overwrite=how.overwrite,
             report=False, progress=how.progress,
         )  # fmt: skip
-        settled = _as_run(base, scene, folder) or base
-    return SharedLoads(settled, make_plan(settled), folder)
+        as_run = _as_run(base, scene, folder) or base
+    return SharedLoads(as_run, make_plan(as_run), folder)
 
 
 def run_candidates(
@@ -230,7 +230,11 @@ def candidates_for(scene: Scene) -> tuple[dict[str, Candidate], list[str]]:
     found: dict[str, Candidate] = {}
     if "journal" in scene.model_fields_set:
         title = "journal bearings of the scene"
-        found["own-journal"] = Candidate(title=title, journal=scene.journal)
+        thrust = scene.thrust if scene.thrust.bearings else None
+        found["own-journal"] = Candidate(title=title, journal=scene.journal, thrust=thrust)
+    elif scene.thrust.bearings:
+        title = "film bearings of the scene"
+        found["own-thrust"] = Candidate(title=title, thrust=scene.thrust)
     sized = candidates_of(scene.turbine.name)
     if "rolling" in scene.model_fields_set:
         title = "rolling bearings of the scene"
@@ -281,6 +285,10 @@ def candidate_scene(base: Scene, name: str, candidate: Candidate, steps: int) ->
     if candidate.rolling is not None:
         results += ["rolling.loads", "rolling.life"]
         update["rolling"] = candidate.rolling
+    if candidate.thrust is not None:
+        results.append("thrust.film")
+        update["thrust"] = candidate.thrust
+        fewer = {"size": min(1.0, SHAPED_CLASSES**2 / steps), "classes": SHAPED_CLASSES}
     if not base.reduction.changed:
         update["reduction"] = base.reduction.model_copy(update=fewer)
     return base.model_copy(update=update | {"results": results})

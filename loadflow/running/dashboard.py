@@ -17,7 +17,7 @@ from loadflow.cube import open_cube
 from loadflow.errors import InputError
 from loadflow.plots.journal import film_series, orbit
 from loadflow.plots.style import envelope, figure, readable
-from loadflow.running.folder import read_manifest
+from loadflow.running.folder import answered, open_part, read_manifest
 from loadflow.studies.channels import channel, channel_names
 from loadflow.verdict import from_dataset
 
@@ -53,8 +53,8 @@ class RunView:
 
     def part(self, stage: str, case: str) -> Any:
         """What a stage found of a case; None where it has not run."""
-        path = self.folder / stage / f"{case}.h5"
-        return open_cube(path) if path.exists() else None
+        there = answered(self.folder, stage, [case])
+        return open_part(self.folder, stage, case) if there else None
 
     def series(self, case: str) -> xr.Dataset:
         """Loads and forces on the bearings of a case."""

@@ -26,6 +26,7 @@ from threading import Thread
 from typing import Any, Protocol, TypeVar
 
 from loadflow.errors import InputError, LoadflowError
+from loadflow.planning.pilot import in_turn
 
 Item = TypeVar("Item")
 Outcome = TypeVar("Outcome")
@@ -97,8 +98,7 @@ class _Here:
     def outcomes(
         self, work: Callable[[Item], Outcome], items: Iterable[Item]
     ) -> Iterator[tuple[Item, Outcome | Lost]]:
-        for item in items:
-            yield item, work(item)
+        return in_turn(work, items)
 
 
 class _Processes:

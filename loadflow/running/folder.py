@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import loadflow
+from loadflow.cube import open_cube
 from loadflow.errors import InputError, NewerVersionError
 from loadflow.planning.effects import EffectVerdict
 from loadflow.planning.plan import Plan
@@ -64,6 +65,16 @@ def part_files(folder: Path, stage: Stage, cases: Iterable[Case]) -> list[Path]:
     if stage.scope == "run":
         return [part_file(folder, stage.name)]
     return [part_file(folder, stage.name, case) for case in cases]
+
+
+def open_part(folder: Path, stage: str, case: str) -> Any:
+    """Open what a stage found of the case of a name."""
+    return open_cube(folder / stage / f"{case}.h5")
+
+
+def answered(folder: Path, stage: str, cases: Iterable[str]) -> list[str]:
+    """Return the names of the cases that the stage has answered."""
+    return [case for case in cases if (folder / stage / f"{case}.h5").exists()]
 
 
 def refinements(folder: Path, scene: Scene) -> list[str]:

@@ -30,11 +30,9 @@ class Profile:
     wall: dict[str, float] = field(default_factory=dict)
     stages: dict[str, dict[str, float]] = field(default_factory=dict)
 
-    def add_wall(self, phase: str, seconds: float, compiling: float = 0.0) -> None:
-        """Add to a phase; what it compiled is a phase of its own."""
-        self.wall[phase] = self.wall.get(phase, 0.0) + seconds - compiling
-        if compiling:
-            self.add_wall(COMPILING, compiling)
+    def add_wall(self, phase: str, seconds: float) -> None:
+        """Add to a phase."""
+        self.wall[phase] = self.wall.get(phase, 0.0) + seconds
 
     def add(self, outcome: Outcome) -> None:
         """Add a load case."""

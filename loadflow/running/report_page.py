@@ -16,20 +16,14 @@ from loadflow.plots.journal import film_series, orbit
 from loadflow.plots.style import readable
 from loadflow.report import Picture, Section, Table, figures, write_page
 from loadflow.running.dynamics_page import dynamics_section
-from loadflow.running.folder import read_manifest
+from loadflow.running.folder import answered, open_part, read_manifest
+from loadflow.running.loads_page import loads_section
+from loadflow.running.seeds_page import seed_section
+from loadflow.running.start_page import start_tables
+from loadflow.running.wear_page import wear_section
 from loadflow.scene.scene import Scene, read_scene
 from loadflow.scene.unused import scaling_note, unused_keys
-from loadflow.stages.loads import doubts, trips, when_tripped
-from loadflow.stages.statistics import SLOPE
-from loadflow.studies.extreme_loads import safety_factor
 from loadflow.verdict import Verdict, from_dataset
-
-LOAD_ROWS = (
-    ("speed", "speed"),
-    ("hub_force", "hub force"),
-    ("hub_moment", "hub moment"),
-    ("force", "bearing"),
-)
 
 
 def write_report(folder: Path) -> Path:
@@ -73,6 +67,12 @@ def _facts(scene: Scene, manifest: dict[str, Any]) -> dict[str, str]:
     }
 
 
+def _groups(folder: Path, stage: str) -> dict[str, xr.Dataset]:
+    """What a stage found of each bearing, all load cases together."""
+    found = open_cube(folder / "result.h5")[stage]
+    return {name: node.to_dataset().load() for name, node in found.children.items()}
+
+
 def _turbine_fact(scene: Scene) -> str:
     from loadflow.turbines import load_turbine
 
@@ -86,11 +86,7 @@ def _sections(
 ) -> Iterator[Section]:
     yield _overview(scene, tables, manifest)
     shown = _shown_cases(tables, manifest)
-    yield Section(
-        "Loads",
-        tables=[*_trip_table(tables), *_doubt_table(tables), *_load_tables(tables)],
-        pictures=[*_load_pictures(folder, shown)],
-    )
+    yield loads_section(folder, tables, shown)
     if "shaft" in tables:
         yield Section(
             "Shaft",
@@ -99,7 +95,7 @@ def _sections(
             tables=[_case_table(tables["shaft"])],
         )
     if "seeds" in tables:
-        yield _seed_section(folder, tables["seeds"], manifest)
+        yield seed_section(folder, tables["seeds"], manifest)
     histogram = scene.reduction.method == "histogram"
     if histogram and (folder / "reduction").is_dir() and "reduction" in manifest["stages"]:
         yield Section(
@@ -112,7 +108,13 @@ def _sections(
             *_per_bearing(folder, "journal", shown, film_series),
             *_per_bearing(folder, "journal", shown[:1], orbit),
         ]
-        yield Section("Journal bearing", tables=[_case_table(tables["journal"])], pictures=pictures)
+        films = tables["journal"]
+        listed = [*start_tables(films), _case_table(films)]
+        yield Section("Journal bearing", tables=listed, pictures=pictures)
+    if "wear" in tables:
+        yield wear_section(_groups(folder, "wear"))
+    if "thrust" in tables:
+        yield Section("Thrust bearing", tables=[_case_table(tables["thrust"])])
     if "dynamics" in tables:
         yield dynamics_section(tables["dynamics"])
     if "rolling" in tables:
@@ -121,9 +123,9 @@ def _sections(
             "Rings as the scene says; flexible rings share the load differently from rigid ones.",
             tables=_rolling_tables(tables["rolling"]),
             pictures=[
-                Picture(figures.ball_ring(case), _caption(name), k > 0)
-                for k, name in enumerate(_there(folder, "rolling", shown))
-                if "ball_forces" in (case := _open(folder, "rolling", name))
+                Picture(figures.ball_ring(case), name, k > 0)
+                for k, name in enumerate(answered(folder, "rolling", shown))
+                if "ball_forces" in (case := open_part(folder, "rolling", name))
             ],
         )
     if "friction" in tables:
@@ -184,7 +186,7 @@ def _lifetime_table(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
     if "lifetime" not in tables:
         return
     data, rows = tables["lifetime"], []
-    for kind in ("journal", "rolling"):
+    for kind in ("journal", "thrust", "rolling"):
         for name in data[kind].values.tolist() if kind in data.dims else ():
             own = {n: data[n].sel({kind: name}) for n in data.data_vars if kind in data[n].dims}
             life, modified = (
@@ -212,186 +214,10 @@ def _shown_cases(tables: dict[str, xr.Dataset], manifest: dict[str, Any]) -> lis
     return [first, *(n for k, n in by_speed.items() if k != first.rsplit("_s", 1)[0])][:16]
 
 
-def _open(folder: Path, stage: str, case: str) -> Any:
-    return open_cube(folder / stage / f"{case}.h5")
-
-
-def _there(folder: Path, stage: str, cases: list[str]) -> list[str]:
-    """Return the cases that the stage has answered."""
-    return [case for case in cases if (folder / stage / f"{case}.h5").exists()]
-
-
-def _caption(case: str, more: str = "") -> str:
-    return f"{case}{', ' + more if more else ''}"
-
-
-def _trip_table(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
-    """Cases that are no longer what their load case says; nothing if there are none."""
-    if rows := [[name, when_tripped(time)] for name, time in trips(tables).items()]:
-        yield Table("Tripped on overspeed, and stopped from then on", ["load case", "when"], rows)
-
-
-def _doubt_table(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
-    """What does not fit turbine, frame, unit or step; nothing if all does."""
-    rows = [[name, doubt] for name, said in doubts(tables).items() for doubt in said]
-    if rows:
-        marked = frozenset(range(len(rows)))
-        yield Table("Doubtful series", ["load case", "what does not fit"], rows, marked)
-
-
-def _load_tables(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
-    """Mean, spread and extremes of all loads; the largest with the safety factor of its case."""
-    if "statistics" not in tables:
-        return
-    data = tables["statistics"]
-    factors = np.array([safety_factor(str(dlc)) for dlc in data["dlc"].values])
-    rows, ultimate = [], []
-    for name, title in LOAD_ROWS:
-        if name not in data:
-            continue
-        for label, part in _parts(data[name], title):
-            values, unit = readable(part.assign_attrs(data[name].attrs))
-            table = dict(zip(part["statistic"].values, np.moveaxis(values, _axis(part), 0)))
-            rows.append(
-                [
-                    f"{label}, {unit}",
-                    *(f"{table[s].mean():.4g}" for s in ("mean", "std", "del")),
-                    f"{table['min'].min():.4g}",
-                    f"{table['max'].max():.4g}",
-                ]
-            )
-            if name != "speed":
-                largest = np.maximum(np.abs(table["min"]), np.abs(table["max"]))
-                k = int(np.argmax(factors * largest))
-                ultimate.append(
-                    [
-                        f"{label}, {unit}",
-                        f"{largest[k]:.4g}",
-                        f"{factors[k]:g}",
-                        f"{factors[k] * largest[k]:.4g}",
-                        str(data["case"].values[k]),
-                    ]
-                )
-    heads = [
-        "over all cases",
-        "mean",
-        "mean std",
-        f"mean DEL (m = {SLOPE:g})",
-        "smallest",
-        "largest",
-    ]
-    yield Table("Loads", heads, rows)
-    heads = ["largest magnitude", "characteristic", "γ_f", "design value", "load case"]
-    yield Table("Ultimate loads", heads, ultimate)
-
-
-def _axis(part: xr.DataArray) -> int:
-    return part.dims.index("statistic")
-
-
-def _parts(data: xr.DataArray, title: str) -> Iterator[tuple[str, xr.DataArray]]:
-    dims = [dim for dim in ("bearing", "axis") if dim in data.dims]
-    if not dims:
-        yield title, data
-        return
-    for labels, part in data.stack(part=dims).groupby("part"):
-        names = labels if isinstance(labels, tuple) else (labels,)
-        yield f"{title} {' '.join(map(str, names))}", part.squeeze("part", drop=True)
-
-
-def _load_pictures(folder: Path, shown: list[str]) -> Iterator[Picture]:
-    for k, name in enumerate(_there(folder, "shaft", shown)):
-        drawing = figures.load_series(
-            _open(folder, "loads", name).load(), _open(folder, "shaft", name).load()
-        )
-        yield Picture(drawing, _caption(name, "worst case" if k == 0 else ""), fold=k > 0)
-
-
 def _per_bearing(folder: Path, stage: str, shown: list[str], draw: Any) -> Iterator[Picture]:
-    for k, name in enumerate(_there(folder, stage, shown)):
-        for bearing, node in _open(folder, stage, name).children.items():
-            yield Picture(
-                draw(node.to_dataset().load()), _caption(name, f"bearing {bearing}"), k > 0
-            )
-
-
-def _seed_section(folder: Path, seeds: xr.Dataset, manifest: dict[str, Any]) -> Section:
-    tables: list[Table] = [_merge_table(seeds)]
-    pictures: list[Picture] = []
-    for method in seeds["variant"].values:
-        part = seeds.sel(variant=method)
-        rows = [
-            [
-                str(group["dlc"].item()),
-                f"{group['wind_speed'].item():g}",
-                f"{group['seeds'].item()}",
-                str(group["component"].item()),
-                *(_p(group["pvalue"].sel(test=test).item()) for test in group["test"].values),
-                str(group["verdict"].item()),
-            ]
-            for _, group in _cells(part)
-        ]
-        heads = ["DLC", "wind, m/s", "seeds", "component"]
-        heads += [f"p {test}" for test in part["test"].values] + ["verdict"]
-        tables.append(Table(f"Equality of seeds, {method}", heads, rows))
-        pictures.append(Picture(figures.seed_verdicts(seeds, method), f"Tests, {method}."))
-    pictures += _seed_boxes(folder, manifest)
-    text = (
-        "Series of one wind speed may be merged only if location, spread and spectrum agree. The "
-        "printed tests take every sample as independent, which samples of a record are not: they "
-        "reject nearly always. The calibrated ones hold their level."
-    )
-    return Section("Seeds", text, tables, pictures)
-
-
-def _merge_table(seeds: xr.Dataset) -> Table:
-    """Return one row for each wind speed: whether its seeds may be merged."""
-    rows = [
-        [
-            str(seeds["dlc"].values[g]),
-            f"{seeds['wind_speed'].values[g]:g}",
-            str(seeds["seeds"].values[g]),
-            *("yes" if merge else "no" for merge in seeds["may_merge"].isel(group=g).values),
-            str(seeds["together"].values[g]),
-        ]
-        for g in range(seeds.sizes["group"])
-    ]
-    variants = [str(variant) for variant in seeds["variant"].values]
-    heads = ["DLC", "wind, m/s", "seeds", *variants, "which belong together (calibrated)"]
-    return Table("May the seeds be merged?", heads, rows)
-
-
-def _cells(part: xr.Dataset) -> Iterator[tuple[Any, xr.Dataset]]:
-    for g in range(part.sizes["group"]):
-        for c in range(part.sizes["component"]):
-            yield (g, c), part.isel(group=g, component=c)
-
-
-def _p(value: float) -> str:
-    return "-" if np.isnan(value) else f"{value:.2g}"
-
-
-def _seed_boxes(folder: Path, manifest: dict[str, Any]) -> list[Picture]:
-    """Draw the spread of the seeds of every wind speed that has more than one."""
-    groups: dict[str, list[str]] = {}
-    for name in _there(folder, "shaft", manifest["cases"]):
-        groups.setdefault(name.rsplit("_s", 1)[0], []).append(name)
-    pictures: list[Picture] = []
-    for group, names in groups.items():
-        if len(names) < 2:
-            continue
-        samples: dict[str, dict[str, np.ndarray]] = {}
-        units: dict[str, str] = {}
-        for name in names:
-            seed = name.rsplit("_s", 1)[1]
-            force = _open(folder, "shaft", name)["force"]
-            for bearing in force["bearing"].values[:2]:
-                for axis in ("y", "z"):
-                    label = f"{bearing} F{axis}"
-                    values, units[label] = readable(force.sel(bearing=bearing, axis=axis))
-                    samples.setdefault(label, {})[seed] = values
-        pictures.append(Picture(figures.seed_boxes(samples, units), f"{group}", bool(pictures)))
-    return pictures
+    for k, name in enumerate(answered(folder, stage, shown)):
+        for bearing, node in open_part(folder, stage, name).children.items():
+            yield Picture(draw(node.to_dataset().load()), f"{name}, bearing {bearing}", k > 0)
 
 
 def _rolling_tables(data: xr.Dataset) -> list[Table]:

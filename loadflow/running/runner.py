@@ -9,119 +9,49 @@ from __future__ import annotations
 
 import logging
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
-from typing import Any
 
-import xarray as xr
 from threadpoolctl import threadpool_limits
 
 import loadflow
-from loadflow.cube import open_cube, save_cube
+from loadflow.cube import save_cube
 from loadflow.errors import LoadflowError, SolverError
 from loadflow.planning import verification as check
 from loadflow.planning.choice import can_refine
 from loadflow.planning.effects import EffectVerdict
 from loadflow.planning.pilot import pilot
-from loadflow.planning.plan import Plan, Step, make_plan
+from loadflow.planning.plan import Plan, make_plan
 from loadflow.running.cases import (
-    OpenedLate,
     Outcome,
     do_case,
     is_missing,
-    is_ready,
-    open_inputs,
 )
-from loadflow.running.compiling import Compiling
 from loadflow.running.executor import Executor, Lost, executor
 from loadflow.running.folder import (
     known_verdict,
-    part_file,
     part_files,
     prepare,
     record,
     refinements,
 )
 from loadflow.running.lock import locked
-from loadflow.running.parts import save_part
 from loadflow.running.profile import COMPILING, Profile
 from loadflow.running.report_page import write_report
+from loadflow.running.result import Run, collect
 from loadflow.running.warm_up import compile_kernels
+from loadflow.running.whole import finish_stages
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
 from loadflow.scene.unused import scaling_note, unused_keys
-from loadflow.stages.registry import STAGES
-from loadflow.storage import check_name, write_text
-from loadflow.verdict import Verdict, from_dataset, to_dataset
+from loadflow.storage import check_name
 
 log = logging.getLogger("loadflow.run")
 
 Report = Callable[[str, int, int], None]
 """Told of progress: what is being done, units done, units in all."""
-
-
-@dataclass(frozen=True)
-class Run:
-    """A finished run.
-
-    Attributes
-    ----------
-    path : Path
-        Its folder.
-    tree : xarray.DataTree
-        What was wanted: one group for each stage.
-    failures : dict
-        Load cases that a solver could not answer, and why.
-    unused : dict
-        Keys of the scene that are set but change nothing, and why.
-    shortfalls : tuple of str
-        Results that are not expected to be as accurate as asked for: how far off, why, what helps.
-    notes : tuple of str
-        What is doubtful about the scene itself, such as a turbine that is scaled, or what neither
-        scene nor turbine state, and what was taken instead.
-    """
-
-    path: Path
-    tree: xr.DataTree
-    failures: dict[str, str] = field(default_factory=dict)
-    unused: dict[str, str] = field(default_factory=dict)
-    shortfalls: tuple[str, ...] = ()
-    notes: tuple[str, ...] = ()
-
-    @property
-    def flagged(self) -> dict[str, int]:
-        """Number of samples without an answer, by stage and case, where there are any."""
-        found = {}
-        for stage, node in self.tree.children.items():
-            if "not_converged" in node:
-                flags = node.to_dataset()["not_converged"]
-                per_case = flags.sum([dim for dim in flags.dims if dim != "case"])
-                for case in per_case["case"].values[per_case.to_numpy() > 0]:
-                    found[f"{case}, {stage}"] = int(per_case.sel(case=case))
-        return found
-
-    @property
-    def verdicts(self) -> tuple[Verdict, ...]:
-        """What the bearings must hold, and whether they do."""
-        if "verdicts" not in self.tree.children:
-            return ()
-        return tuple(from_dataset(self.tree["verdicts"].to_dataset()))
-
-    @property
-    def warnings(self) -> list[str]:
-        """What the run found doubtful about its own models."""
-        ignored = [f"{key}: has no effect, {why}" for key, why in self.unused.items()]
-        stages = (*STAGES.values(), check.CHECK)
-        found = [said for stage in stages for said in stage.warnings(self.tree)]
-        return [*self.notes, *ignored, *found]
-
-    @property
-    def report(self) -> Path:
-        """The report page."""
-        return self.path / "report.html"
 
 
 def run(
@@ -256,9 +186,8 @@ def _run(
         manifest = prepare(folder, scene, plan, refined, overwrite, pilot_verdict)
         timing, failures = _carry_out(plan, folder, where, say, profile, pilot_verdict)
         begun = time.perf_counter()
-        tree = _collect(plan, folder)
+        tree = collect(plan, folder, where)
         save_cube(tree, folder / "result.h5")
-        _export(plan, folder)
         wall = time.perf_counter() - started
         if profile:
             profile.add_wall("result", time.perf_counter() - begun)
@@ -320,25 +249,12 @@ def _carry_out(
     _check_there(plan, folder, failures)
 
     seen = pilot_verdict.cases if pilot_verdict else ()
-    for whole in plan.of_scope("run"):
-        say(whole.name, 0, 1)
-        if not (target := part_file(folder, whole.name)).exists():
-            begun = time.perf_counter()
-            cases = _looked_at(whole, plan.cases, folder, seen)
-            by_name = {case.name: case for case in cases}
-            inputs = OpenedLate(by_name, partial(open_inputs, whole, folder=folder))
-            with Compiling() as compiling:
-                save_part(whole.stage.run(plan.scene, cases, inputs), target, whole.digest)
-            timing[whole.name] = time.perf_counter() - begun
-            if profile:
-                profile.add_wall(whole.name, timing[whole.name], compiling.seconds)
-            log.info(
-                "%s: %.1f s, %.1f s of it compiling",
-                whole.name,
-                timing[whole.name],
-                compiling.seconds,
-            )
-        say(whole.name, 1, 1)
+    begun = time.perf_counter()
+    for stage in finish_stages(plan, folder, where, say, seen):
+        timing[stage.name] = stage.seconds
+        log.info("%s: %.1f s, %.1f s of it compiling", stage.name, stage.seconds, stage.compiling)
+    if profile:
+        profile.add_wall("stages over all cases", time.perf_counter() - begun)
     return timing, failures
 
 
@@ -379,80 +295,6 @@ def _check_there(plan: Plan, folder: Path, failures: dict[str, str]) -> None:
             "was it changed meanwhile, or do the workers see another one? Started again, the run "
             "goes on where it was"
         )
-
-
-def _looked_at(
-    step: Step, cases: tuple[Case, ...], folder: Path, seen: tuple[str, ...]
-) -> list[Case]:
-    """Return the cases that a stage over all of them reads: those that are there, or a sample.
-
-    A sample is of other cases than the pilot has `seen`, where there are enough.
-    """
-    there, count = [case for case in cases if is_ready(step, case, folder)], step.stage.sample
-    if count is None or len(there) <= count:
-        return there
-    others = [case for case in there if case.name not in seen]
-    some = others if len(others) >= count else there
-    last, parts = len(some) - 1, count - 1
-    return [some[round(k * last / parts)] for k in range(count)]
-
-
-def _collect(plan: Plan, folder: Path) -> xr.DataTree:
-    """Join what the stages found, reduced to what a reader wants of each case."""
-    groups: dict[str, xr.Dataset | xr.DataTree] = {}
-    missing: dict[str, list[str]] = {}
-    for step in plan.steps:
-        if step.stage.scope == "run":
-            groups[step.name] = open_cube(part_file(folder, step.name))
-        elif step.stage.summarise:
-            files = {case: part_file(folder, step.name, case) for case in plan.cases}
-            there = {case: file for case, file in files.items() if file.exists()}
-            missing[step.name] = [case.name for case in files if case not in there]
-            parts = OpenedLate(there, open_cube)
-            found = step.stage.summarise(parts) if parts else None
-            if found is not None:
-                groups[step.name] = found
-    groups |= _judged(plan.scene, groups, missing)
-    return xr.DataTree.from_dict(
-        {
-            f"{name}/{path}".rstrip("/"): node
-            for name, data in groups.items()
-            for path, node in _nodes(data)
-        }
-    )
-
-
-def _export(plan: Plan, folder: Path) -> None:
-    """Write what stages give as text, for other programs."""
-    for step in plan.of_scope("case"):
-        if (exports := step.stage.exports) is None:
-            continue
-        for case in plan.cases:
-            if (part := part_file(folder, step.name, case)).exists():
-                for name, text in exports(case, open_cube(part)).items():
-                    (folder / name).parent.mkdir(exist_ok=True)
-                    write_text(folder / name, text)
-
-
-def _judged(
-    scene: Scene, groups: Mapping[str, Any], missing: Mapping[str, list[str]]
-) -> dict[str, xr.Dataset]:
-    """Lifetime and verdicts of what was found; nothing where no bearing was solved."""
-    from loadflow.studies.run_lifetime import run_lifetime
-    from loadflow.studies.verdicts import verdicts
-
-    lifetime = run_lifetime(scene, groups)
-    found = verdicts(scene, groups, lifetime, missing)
-    judged = {"verdicts": to_dataset(found)} if found else {}
-    return judged | ({} if lifetime is None else {"lifetime": lifetime})
-
-
-def _nodes(data: xr.Dataset | xr.DataTree) -> Iterator[tuple[str, xr.Dataset]]:
-    if isinstance(data, xr.Dataset):
-        yield "", data
-    else:
-        for node in data.subtree:
-            yield node.path.strip("/"), node.to_dataset(inherit=False)
 
 
 def _lines(failures: dict[str, str]) -> str:

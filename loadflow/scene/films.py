@@ -25,9 +25,11 @@ def law_of(value: Any) -> CavitationLaw:
     """
     if isinstance(value, CavitationLaw):
         return value
+    if not isinstance(value, str | dict):
+        raise InputError(f"{value!r:.200} is not allowed: a kind, or a table of it")
     table = {"kind": value} if isinstance(value, str) else dict(value)
     kind = table.pop("kind", GasMixture.kind)
-    if kind not in LAWS:
+    if not isinstance(kind, str) or kind not in LAWS:
         raise InputError(f"kind = {kind!r} is not allowed: {' or '.join(LAWS)}")
     parts = fields(LAWS[kind])
     known = [part.name for part in parts]
@@ -61,8 +63,8 @@ HEATS = {"balance": Heat, "film": FilmHeat}
 
 
 def _kind_of_heat(value: Any) -> Any:
-    """``kind`` of a table of heat; the balance if nothing is said."""
-    return value.get("kind", "balance") if isinstance(value, dict) else value.kind
+    """``kind`` of a table of heat; the balance if nothing is said; None of what is no heat."""
+    return value.get("kind", "balance") if isinstance(value, dict) else getattr(value, "kind", None)
 
 
 if TYPE_CHECKING:

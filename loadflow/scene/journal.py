@@ -46,6 +46,8 @@ class Journal(Section, BaseModel):
     series, as its loads change faster than a bearing warms. With ``kind = "film"`` an energy
     equation gives every cell of the film at rest its own temperature.
 
+    ``step`` is the largest step of a film in motion, s: it passes over the samples between;
+    default every sample.
     With ``tilt`` the shaft is tilted and bent in them as the beam of its suspension is; if it
     has none, it tilts freely under the moment that the shaft stage gives. The film is then solved
     over its full width.
@@ -55,7 +57,7 @@ class Journal(Section, BaseModel):
     line at the widest gap, or does not; "auto" leaves it to the law.
 
     A ``shell`` makes the bore elastic; its key ``kind`` says how: local, lined, thick, or matrix
-    with a ``matrix`` of influence numbers, or the name of a file that holds it.
+    with a ``matrix`` of influence coefficients, or the name of a file that holds it.
 
     ``shaft_roughness`` and ``shell_roughness`` are R_z, m, about 6.3 R_a of the 0.2 and 0.4 µm that
     Autodesk Inventor's plain bearing calculator recommends. Where the film would be thinner than
@@ -88,6 +90,7 @@ class Journal(Section, BaseModel):
     rung: RungName = "grid"
     heat: HeatTable | None = None
     motion: Literal["quasi-static", "transient"] = "quasi-static"
+    step: Positive | None = None
     tilt: bool = False
     shell: LocalShell | LinedShell | ThickShell | MatrixShell | None = None
     contact: Contact | None = None
@@ -99,12 +102,17 @@ class Journal(Section, BaseModel):
     @model_validator(mode="after")
     def _one_model_for_all(self) -> Self:
         for place, other in self.own.items():
-            for name in _OF_ALL:
+            for name in other.model_fields_set.intersection(_OF_ALL):
                 if getattr(other, name) != getattr(self, name):
                     raise ValueError(
                         f"{name}: all journal bearings of a scene have one, but {place} has "
                         f"{getattr(other, name)!r} beside {getattr(self, name)!r}"
                     )
+            stated = other.model_fields_set.copy()
+            alike = other.model_copy(update={name: getattr(self, name) for name in _OF_ALL})
+            # what it did not state stays open, so that the plan may change it for all of them
+            alike.__pydantic_fields_set__ = stated
+            self.own[place] = alike
         return self
 
     def at(self, place: str) -> Journal:
@@ -135,13 +143,16 @@ class Journal(Section, BaseModel):
     @property
     def least_film(self) -> float:
         """Smallest film allowed, m: as stated, or R_z + W_t of both surfaces and a margin (3.1)."""
-        stated = self.limits.minimum_film
-        return stated or self.contact_film + self.limits.waviness + self.limits.margin
+        return self.limits.least_film(self.contact_film)
 
     @property
     def in_motion(self) -> bool:
         """Whether the film follows the whole series; it does not read the reduced one then."""
         return self.motion == "transient"
+
+    def every(self, step: float) -> int:
+        """How-manyth sample a film in motion takes of a series sampled at `step`, s."""
+        return 1 if self.step is None else max(1, int(self.step / step + 1e-6))
 
     @property
     def film_model(self) -> Film:
@@ -180,7 +191,7 @@ class Journal(Section, BaseModel):
         return self
 
 
-_OF_ALL = ("motion", "tilt", "rung", "grid", "grading")
+_OF_ALL = ("motion", "step", "tilt", "rung", "grid", "grading")
 """What all journal bearings of a scene share: how the film is modelled."""
 
 

@@ -29,17 +29,11 @@ OIL_TEMPERATURES: dict[str, tuple[float, float]] = {
 OIL_HOURS = 100.0, 10_000.0
 
 
-class JournalLimits(Section, BaseModel):
-    """What a journal bearing must hold.
+class FilmLimits(Section, BaseModel):
+    """What the film of any bearing must hold.
 
     Attributes
     ----------
-    eccentricity_ratio : float
-        Largest ε; above E_krit = 0.95 begins mixed friction [Jonuschies 2015, (5.2)].
-    sommerfeld_range : tuple of float
-        So of the mean load, 1 … 6 in normal operation [Jonuschies 2015, ch. 3.4].
-    sommerfeld_peak : float
-        Largest So, reached briefly: 10 [Jonuschies 2015, ch. 3.4].
     waviness : float
         W_t of shaft and shell together, m; assumed.
     margin : float
@@ -51,21 +45,12 @@ class JournalLimits(Section, BaseModel):
         Points of temperature, K, and largest film pressure, Pa, of the shell's material; between
         them it falls in straight lines, above the last it carries nothing. White metal: 7 MPa up to
         127 °C, 1.4 MPa at 190 °C [Jonuschies 2015, ch. 3].
-    specific_load : float, optional
-        Largest F/(B D), Pa, such as p_lim of ISO 7902-3; not judged if left out.
-    oil, oil_hours
-        Kind of oil, and hours that it shall last, 100 … 10,000 [Jonuschies 2015, Table 3-2].
-    temperature : float, optional
-        Largest temperature of the film, K, such as T_lim of ISO 7902-3, in place of the oil's.
     contact_time : float
         Time in a case of power production, s, in which shaft and shell may touch while turning.
     start_time : float, optional
         The same of a start, a stop or a fault that stops; told without a limit if left out.
     """
 
-    eccentricity_ratio: Annotated[float, Field(gt=0, lt=1)] = 0.95
-    sommerfeld_range: tuple[Annotated[float, Field(ge=0)], Positive] = (1.0, 6.0)
-    sommerfeld_peak: Positive = 10.0
     waviness: Annotated[float, Field(ge=0)] = 5e-6
     margin: Annotated[float, Field(ge=0)] = 5e-6
     minimum_film: Positive | None = None
@@ -73,29 +58,24 @@ class JournalLimits(Section, BaseModel):
         (400.15, 7e6),
         (463.15, 1.4e6),
     )
-    specific_load: Positive | None = None
-    oil: Oil = "mineral, oxygen-saturated"
-    oil_hours: Annotated[float, Field(ge=100, le=10_000)] = 100.0
-    temperature: Positive | None = None
     contact_time: Annotated[float, Field(ge=0)] = 0.0
     start_time: Annotated[float, Field(ge=0)] | None = None
 
     @model_validator(mode="after")
-    def _in_order(self) -> Self:
-        low, high = self.sommerfeld_range
-        if not low < high <= self.sommerfeld_peak:
-            raise ValueError(
-                f"sommerfeld_range = {low:g} … {high:g} must rise and end at or below "
-                f"sommerfeld_peak = {self.sommerfeld_peak:g}"
-            )
+    def _film_in_order(self) -> Self:
         temperatures = [point[0] for point in self.material]
         if temperatures != sorted(set(temperatures)):
             raise ValueError(f"material: the temperatures {temperatures} K must rise")
-        if self.temperature is not None and {"oil", "oil_hours"} & self.changed:
-            raise ValueError("temperature: takes the place of oil and oil_hours; leave them out")
         if self.minimum_film is not None and {"waviness", "margin"} & self.changed:
             raise ValueError("minimum_film: takes the place of waviness and margin")
         return self
+
+    def least_film(self, contact_film: float) -> float:
+        """Smallest film allowed, m, of surfaces that touch at a film of `contact_film`, m.
+
+        As stated, or R_z + W_t of both surfaces and a margin (3.1).
+        """
+        return self.minimum_film or contact_film + self.waviness + self.margin
 
     def pressure_at(self, temperature: float) -> float:
         """Largest film pressure, Pa, that the material carries at a temperature, K."""
@@ -106,6 +86,46 @@ class JournalLimits(Section, BaseModel):
             if temperature <= t1:
                 return p0 + (p1 - p0) * (temperature - t0) / (t1 - t0)
         return 0.0
+
+
+class JournalLimits(FilmLimits):
+    """What a journal bearing must hold, beside `FilmLimits`.
+
+    Attributes
+    ----------
+    eccentricity_ratio : float
+        Largest ε; above E_krit = 0.95 begins mixed friction [Jonuschies 2015, (5.2)].
+    sommerfeld_range : tuple of float
+        So of the mean load, 1 … 6 in normal operation [Jonuschies 2015, ch. 3.4].
+    sommerfeld_peak : float
+        Largest So, reached briefly: 10 [Jonuschies 2015, ch. 3.4].
+    specific_load : float, optional
+        Largest F/(B D), Pa, such as p_lim of ISO 7902-3; not judged if left out.
+    oil, oil_hours
+        Kind of oil, and hours that it shall last, 100 … 10,000 [Jonuschies 2015, Table 3-2].
+    temperature : float, optional
+        Largest temperature of the film, K, such as T_lim of ISO 7902-3, in place of the oil's.
+    """
+
+    eccentricity_ratio: Annotated[float, Field(gt=0, lt=1)] = 0.95
+    sommerfeld_range: tuple[Annotated[float, Field(ge=0)], Positive] = (1.0, 6.0)
+    sommerfeld_peak: Positive = 10.0
+    specific_load: Positive | None = None
+    oil: Oil = "mineral, oxygen-saturated"
+    oil_hours: Annotated[float, Field(ge=100, le=10_000)] = 100.0
+    temperature: Positive | None = None
+
+    @model_validator(mode="after")
+    def _in_order(self) -> Self:
+        low, high = self.sommerfeld_range
+        if not low < high <= self.sommerfeld_peak:
+            raise ValueError(
+                f"sommerfeld_range = {low:g} … {high:g} must rise and end at or below "
+                f"sommerfeld_peak = {self.sommerfeld_peak:g}"
+            )
+        if self.temperature is not None and {"oil", "oil_hours"} & self.changed:
+            raise ValueError("temperature: takes the place of oil and oil_hours; leave them out")
+        return self
 
     @property
     def oil_temperature(self) -> float:

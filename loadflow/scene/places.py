@@ -16,11 +16,14 @@ from loadflow.rolling import KINDS
 JOURNAL = "journal"
 """The kind of all journal bearings; the others are kinds of rolling bearings."""
 
+AXIAL = ("thrust", "conical-pair")
+"""Kinds of film bearings that carry the force along the shaft."""
+
 FOUR_POINT = "four-point"
 _REGISTERED = {FOUR_POINT: "slewing"}
 _WRITTEN = {registered: written for written, registered in _REGISTERED.items()}
 
-PLACE_KINDS = (JOURNAL, *(_WRITTEN.get(kind, kind) for kind in KINDS))
+PLACE_KINDS = (JOURNAL, *AXIAL, *(_WRITTEN.get(kind, kind) for kind in KINDS))
 """What `kind` a bearing of a scene may have."""
 
 Location = tuple[int | str, ...]
@@ -36,19 +39,22 @@ class Sections:
         Data of the section of journal bearings.
     rolling : list of dict or None
         Data of the section of rolling bearings.
+    thrust : dict or None
+        Data of the section of film bearings that carry the force along the shaft.
     origins : dict
         Where the data of a section was written, to name it in messages.
     """
 
     journal: dict[str, Any] | None = None
     rolling: list[dict[str, Any]] | None = None
+    thrust: dict[str, Any] | None = None
     origins: dict[Location, Location] = field(default_factory=dict)
 
     @property
     def data(self) -> dict[str, Any]:
         """The sections that there are."""
-        both = {"journal": self.journal, "rolling": self.rolling}
-        return {name: data for name, data in both.items() if data is not None}
+        rooms = {"journal": self.journal, "rolling": self.rolling, "thrust": self.thrust}
+        return {name: data for name, data in rooms.items() if data is not None}
 
 
 def sections_of(places: Any, where: Location = ("bearings",)) -> Sections:
@@ -78,13 +84,17 @@ def sections_of(places: Any, where: Location = ("bearings",)) -> Sections:
             raise ValueError(f"{told}.kind = {kind!r}: must be one of {', '.join(PLACE_KINDS)}")
         if kind == JOURNAL:
             _add_journal(found, place, location, data)
+        elif kind in AXIAL:
+            _add_axial(found, place, location, data | {"kind": kind})
         else:
             _add_rolling(found, place, location, data, _REGISTERED.get(kind, kind))
     return found
 
 
 def places_of(
-    journal: Mapping[str, Any] | None, rolling: Mapping[str, Any] | None
+    journal: Mapping[str, Any] | None,
+    rolling: Mapping[str, Any] | None,
+    thrust: Mapping[str, Any] | None = None,
 ) -> dict[str, Any]:
     """The same as a scene writes it, of the plain data of its sections."""
     found: dict[str, list[dict[str, Any]]] = {}
@@ -106,6 +116,8 @@ def places_of(
             kind = geometry.pop("kind")
             told = {"kind": _WRITTEN.get(kind, kind), "geometry": geometry} | data
             found.setdefault(part["bearing"], []).append(told)
+    for place, part in (thrust or {"bearings": {}})["bearings"].items():
+        found.setdefault(place, []).append({**part})
     several = {place for place, parts in found.items() if len(parts) > 1}
     if several:  # "like" means a place with one bearing
         for parts in found.values():
@@ -150,6 +162,15 @@ def _add_journal(found: Sections, place: str, location: Location, data: dict[str
     if data != common:
         found.journal.setdefault("own", {})[place] = data
         found.origins["journal", "own", place] = location
+
+
+def _add_axial(found: Sections, place: str, location: Location, data: dict[str, Any]) -> None:
+    found.thrust = found.thrust or {"bearings": {}}
+    if place in found.thrust["bearings"]:
+        told = ".".join(map(str, location))
+        raise ValueError(f"{told}: a second bearing of its kind; write it under [candidates.NAME]")
+    found.thrust["bearings"][place] = data
+    found.origins["thrust", "bearings", place] = location
 
 
 def _add_rolling(

@@ -21,6 +21,7 @@ from loadflow.journal.line import Line
 from loadflow.journal.models.model import Steps, why_not
 from loadflow.numerics.fields import LARGEST_INTEGER, shown
 from loadflow.scene.bearings import Rolling
+from loadflow.scene.candidate import Candidate as Candidate
 from loadflow.scene.candidates import ABOUT, machine
 from loadflow.scene.design import Design
 from loadflow.scene.dynamics import Dynamics
@@ -34,7 +35,9 @@ from loadflow.scene.places import places_of
 from loadflow.scene.section import Section, too_large
 from loadflow.scene.series import Reduction, Seeds
 from loadflow.scene.shaft import Shaft
+from loadflow.scene.thrust import Thrust, check_thrust
 from loadflow.scene.turbine import Turbine
+from loadflow.scene.wear import Wear, check_wear
 from loadflow.scene.written import SCENE, anchored, in_sections, origins
 from loadflow.shaft.options import MomentBearing, TwoPoint
 from loadflow.storage import check_name
@@ -48,41 +51,23 @@ Result = Literal[
     "reduction.histogram",
     "journal.film",
     "journal.dynamics",
+    "journal.wear",
     "rolling.loads",
     "rolling.life",
     "rolling.friction",
+    "thrust.film",
 ]
 
-BY_NAME: tuple[Result, ...] = ("journal.dynamics",)
+BY_NAME: tuple[Result, ...] = ("journal.dynamics", "journal.wear")
 """Results that are computed only where a scene asks for them by name."""
 
-USUAL: tuple[Result, ...] = tuple(name for name in get_args(Result) if name not in BY_NAME)
-"""Results of a scene that names none."""
+OF_PLACES: tuple[Result, ...] = tuple(name for name in get_args(Result) if name not in BY_NAME)
+"""Results of a scene that names none, as far as it has bearings for them."""
+
+USUAL: tuple[Result, ...] = tuple(name for name in OF_PLACES if name != "thrust.film")
+"""The same of a scene that names no bearings either: no film bearing carries its thrust."""
 
 Positive = Annotated[float, Field(gt=0)]
-
-
-class Candidate(Section, BaseModel):
-    """An arrangement of bearings that is compared with others: what stands at its places.
-
-    Attributes
-    ----------
-    title, source : str
-        What it is called, and where its measures are from.
-    journal, rolling
-        Its bearings, as sections.
-    """
-
-    title: str = ""
-    source: str = ""
-    journal: Journal | None = None
-    rolling: Rolling | None = None
-
-    @property
-    def places(self) -> tuple[str, ...]:
-        """Places on the shaft that it needs."""
-        journal = self.journal.bearings if self.journal else []
-        return (*journal, *(self.rolling.geometries if self.rolling else ()))
 
 
 class Scene(Section, BaseModel):
@@ -120,7 +105,9 @@ class Scene(Section, BaseModel):
     reduction: Reduction = Reduction()
     journal: Journal = Journal()
     dynamics: Dynamics = Dynamics()
+    wear: Wear = Wear()
     rolling: Rolling = Rolling()
+    thrust: Thrust = Thrust()
     friction: Friction = Friction()
     candidates: dict[str, Candidate] = {}
     design: Design = Design()
@@ -135,13 +122,15 @@ class Scene(Section, BaseModel):
     def _in_sections(cls, data: Any) -> Any:
         if not isinstance(data, dict):
             return data
-        stated = {*data} & {"journal", "rolling"}
+        stated = {*data} & {"journal", "rolling", "thrust"}
         reduction = data.get("reduction")
         method = reduction.get("method") if isinstance(reduction, dict) else None
         if method in ("stationary", "periodic"):
             data = {"accuracy": "given"} | data
         own_shaft = "shaft" in data
-        data = surrounded(in_sections(data, USUAL))
+        data = surrounded(in_sections(data, OF_PLACES))
+        if "thrust" in stated and "results" not in data:
+            data = data | {"results": list(OF_PLACES)}
         if not own_shaft:
             data = _with_scaled_shaft(data)
         return _results_that_the_shaft_can_give(data, stated)
@@ -157,6 +146,7 @@ class Scene(Section, BaseModel):
         wanted = {
             "journal.bearings": self.journal.bearings if self.wants("journal") else [],
             "rolling.bearing": [*self.rolling.geometries] if self.wants("rolling") else [],
+            "thrust.bearings": [*self.thrust.bearings] if self.wants("thrust") else [],
         }
         for key, bearings in wanted.items():
             for bearing in bearings:
@@ -196,12 +186,24 @@ class Scene(Section, BaseModel):
         return self
 
     @model_validator(mode="after")
+    def _can_wear(self) -> Self:
+        if "journal.wear" in self.results:
+            check_wear(self.wear, self.journal, self.shaft)
+        return self
+
+    @model_validator(mode="after")
     def _yaw_bearings_swing(self) -> Self:
         part = self.rolling.bearings.get("Y")
         if part is not None and part.oscillation is None:
             raise ValueError("rolling bearing Y: the yaw bearing swings; give its oscillation")
         if self.wants("journal") and "Y" in self.journal.bearings:
             raise ValueError("journal.bearings = 'Y': the yaw bearing is a rolling bearing")
+        return self
+
+    @model_validator(mode="after")
+    def _films_take_the_thrust(self) -> Self:
+        if self.wants("thrust"):
+            check_thrust(self.thrust, self.reduction.method)
         return self
 
     @model_validator(mode="after")
@@ -218,33 +220,22 @@ class Scene(Section, BaseModel):
     @model_validator(mode="after")
     def _supports_have_bearings(self) -> Self:
         there = {"journal": self.journal.bearings, "rolling": [*self.rolling.geometries]}
-        for name, seat in self.shaft.coupled.items():
-            what = f'shaft: seat of bearing {name} with stiffness = "{seat.stiffness}"'
-            have = there[seat.stiffness]
+        for name, support in self.shaft.coupled.items():
+            what = f'shaft: support of bearing {name} with stiffness = "{support.stiffness}"'
+            have = there[support.stiffness]
             if name not in have:
                 raise ValueError(
-                    f"{what}: the scene has {seat.stiffness} bearings at {', '.join(have)} only"
+                    f"{what}: the scene has {support.stiffness} bearings at {', '.join(have)} only"
                 )
-            if seat.takes_moment and seat.stiffness == "journal" and not self.journal.tilt:
+            if support.takes_moment and support.stiffness == "journal" and not self.journal.tilt:
                 raise ValueError(
                     f"{what} and takes_moment = true: only a tilted film takes a moment; set "
                     "journal.tilt = true, or leave out takes_moment"
                 )
             geometry = self.rolling.geometries.get(name)
             aligning = geometry is not None and not geometry.takes_moment
-            if seat.takes_moment and seat.stiffness == "rolling" and aligning:
+            if support.takes_moment and support.stiffness == "rolling" and aligning:
                 raise ValueError(f"{what}: it aligns itself; leave out takes_moment")
-        return self
-
-    @model_validator(mode="after")
-    def _tilted_at_rest(self) -> Self:
-        journal = self.journal
-        tilted = journal.tilt and any(map(self.shaft.bends_at, journal.bearings))
-        if tilted and journal.in_motion:
-            raise ValueError(
-                'journal.motion = "transient" does not know the tilt of a shaft with a beam; set '
-                '"quasi-static", or leave out journal.tilt or the beam'
-            )
         return self
 
     @property
@@ -272,10 +263,10 @@ class Scene(Section, BaseModel):
         import tomli_w
 
         data = self.model_dump(mode="json", exclude_none=True)
-        data["bearings"] = places_of(data.pop("journal"), data.pop("rolling"))
+        data["bearings"] = places_of(*(data.pop(room) for room in ("journal", "rolling", "thrust")))
         data["candidates"] = {
             name: {key: candidate[key] for key in ABOUT if candidate[key]}
-            | places_of(candidate.get("journal"), candidate.get("rolling"))
+            | places_of(*(candidate.get(room) for room in ("journal", "rolling", "thrust")))
             for name, candidate in data["candidates"].items()
         }
         return tomli_w.dumps({SCENE.key: SCENE.version} | data)

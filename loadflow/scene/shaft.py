@@ -26,7 +26,7 @@ class Shaft(Section, BaseModel):
     (locating), ``three_point`` the bearing N and the gearbox's torque arms G; one of these at most.
     ``moment`` has the bearing M, ``yaw`` the yaw bearing Y under the nacelle, a rolling bearing
     that swings. With a ``beam`` in its table the shaft bends, and tilts in its bearings; an empty
-    one takes the defaults. A seat of the beam with ``stiffness = "journal"`` or
+    one takes the defaults. A support of the beam with ``stiffness = "journal"`` or
     ``"rolling"`` gives under each load as the bearing of that kind that the scene has there.
     """
 
@@ -69,10 +69,10 @@ class Shaft(Section, BaseModel):
     def coupled(self) -> dict[str, BearingSupport]:
         """Supports, by bearing, whose stiffness comes from a journal or rolling bearing."""
         return {
-            name: seat
+            name: support
             for concept in self.concepts
-            for name, seat in zip(concept.bearings, concept.beam.seats if concept.beam else ())
-            if seat.stiffness != "given"
+            for name, support in zip(concept.bearings, concept.beam.seats if concept.beam else ())
+            if support.stiffness != "given"
         }
 
     def bends_at(self, bearing: str) -> bool:

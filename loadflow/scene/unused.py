@@ -26,9 +26,11 @@ _TURBULENCE = ("seeds", "first_seed", "spectrum", "scaling", "lateral", "wind_gr
 _WITH_SIGMA = ("NTM", "ETM", "EOG", "EDC", "EWS")
 _RESULTS = {
     "seeds": ("seeds",),
-    "reduction": ("reduction", "journal", "rolling.l"),
+    "reduction": ("reduction", "journal", "rolling.l", "thrust"),
     "journal": ("journal",),
+    "thrust": ("thrust",),
     "dynamics": ("journal.dynamics",),
+    "wear": ("journal.wear",),
     "rolling": ("rolling",),
     "friction": ("rolling",),
 }
@@ -76,6 +78,7 @@ def _all(scene: Scene) -> Iterator[tuple[str, str]]:
         if key in scene.loads.changed:
             yield f"loads.{key}", reason
     yield from _of_shaft(scene)
+    yield from _of_thrust(scene) if "thrust" not in unread else ()
     for section, rules in (
         ("reduction", _of_reduction),
         ("journal", _of_journal),
@@ -244,6 +247,8 @@ def _of_journal(scene: Scene) -> Iterator[tuple[str, str]]:
     if journal.heat is None:
         for key in ("limits.oil", "limits.oil_hours", "limits.temperature"):
             yield key, "the temperature of the film is not computed; give journal.heat"
+    if not journal.in_motion:
+        yield "step", "only a film in motion goes from step to step"
     if isinstance(journal.heat, Heat) and not journal.in_motion:
         for key in ("heat.capacity", "heat.start_temperature"):
             yield key, "only a film in motion stores heat"
@@ -295,6 +300,20 @@ def _of_friction(scene: Scene) -> Iterator[tuple[str, str]]:
     ):
         for key in ribs:
             yield key, "the rollers press on no rib: friction.rib_angle is 0"
+
+
+def _of_thrust(scene: Scene) -> Iterator[tuple[str, str]]:
+    simulated = scene.loads.source == "simulate"
+    starts = any(map(_starts, scene.loads.dlcs))
+    for place, one in scene.thrust.bearings.items():
+        if simulated and not starts and one.limits.start_time is not None:
+            where = f"thrust.bearings.{place}.limits.start_time"
+            yield where, "no load case of this scene starts, stops or stands"
+        rows = (("geometry", one.geometry), ("back", one.back)) if one.kind == "thrust" else ()
+        for key, row in rows:
+            if row is not None and row.first_pad:
+                where = f"thrust.bearings.{place}.{key}.first_pad"
+                yield where, "the collar stays aligned, so that all pads carry alike"
 
 
 def _of_dynamics(scene: Scene) -> Iterator[tuple[str, str]]:

@@ -56,7 +56,7 @@ def in_sections(data: dict[str, Any], results: Sequence[str]) -> dict[str, Any]:
         if twice := sorted(set(sections) & set(read)):
             raise ValueError(f"bearings: beside [{twice[0]}]; write all as [bearings.PLACE]")
         if "results" not in read:
-            rooms = {"journal", "rolling"} - set(sections)
+            rooms = {"journal", "rolling", "thrust"} - set(sections)
             read["results"] = [name for name in results if name.split(".")[0] not in rooms]
         read |= sections
     if isinstance(read.get("candidates"), dict):
@@ -70,7 +70,7 @@ def _candidate(name: str, stated: Any, turbine: str) -> Any:
     """Data of a candidate in sections; one without places is that of the package."""
     if not isinstance(stated, dict):
         return stated
-    if {"journal", "rolling"} & {k for k, v in stated.items() if not _is_place(v)}:
+    if {"journal", "rolling", "thrust"} & {k for k, v in stated.items() if not _is_place(v)}:
         return stated  # in sections already
     places, about = _bare(stated), {key: stated[key] for key in ABOUT if key in stated}
     if not places:
@@ -114,8 +114,8 @@ def named_by_file(turbine: Any) -> Any:
 
 def _turbine_of(data: dict[str, Any]) -> str:
     turbine = named_by_file(data.get("turbine", {}))
-    name = turbine.get("name", "nrel-5mw") if isinstance(turbine, dict) else turbine.name
-    return str(name)
+    name = turbine.get("name") if isinstance(turbine, dict) else getattr(turbine, "name", None)
+    return "nrel-5mw" if name is None else str(name)  # what is no table is told by the section
 
 
 def origins(data: dict[str, Any]) -> dict[Location, Location]:

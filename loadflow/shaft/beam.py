@@ -122,7 +122,8 @@ class Beam:
     sections : tuple of ShaftSection
         From the hub centre downwind.
     seats : tuple of BearingSupport
-        One for each bearing; none: rigid, and free to tilt where there are two bearings.
+        Bearing supports, one for each bearing; none: rigid, and free to tilt where there are two
+        bearings.
     youngs_modulus : float
         Pa.
     poisson : float
@@ -157,19 +158,19 @@ class Beam:
             )
 
     def supports_of(self, bearings: int) -> tuple[BearingSupport, ...]:
-        """The seats, or rigid ones for that many bearings.
+        """The supports, or rigid ones for that many bearings.
 
         Raises
         ------
         loadflow.errors.InputError
             Another number of supports than of bearings; a single bearing that takes no moment.
         """
-        seats = self.seats or (BearingSupport(takes_moment=bearings == 1),) * bearings
-        if len(seats) != bearings:
-            raise InputError(f"seats: {len(seats)} are given, the shaft has {bearings} bearings")
-        if bearings == 1 and not seats[0].takes_moment:
+        supports = self.seats or (BearingSupport(takes_moment=bearings == 1),) * bearings
+        if len(supports) != bearings:
+            raise InputError(f"seats: {len(supports)} are given, the shaft has {bearings} bearings")
+        if bearings == 1 and not supports[0].takes_moment:
             raise InputError("seats[0].takes_moment = False: a single bearing must take the moment")
-        return seats
+        return supports
 
     def on_rigid_bearings(self) -> Beam:
         """The beam with rigid bearings in place of those that are solved, in their housings."""

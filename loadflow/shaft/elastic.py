@@ -111,7 +111,7 @@ def elastic_reactions(
     Raises
     ------
     loadflow.errors.InputError
-        Seats or sections do not fit the shaft; a model gives arrays of another shape.
+        Supports or sections do not fit the shaft; a model gives arrays of another shape.
     loadflow.errors.SolverError
         A bearing without stiffness; the iteration with the models does not converge.
     """
@@ -212,8 +212,8 @@ class _Redundant:
             reaction, compliance, offset, settled, convergence = self._iterated(
                 bearings, reaction, iteration
             )
-        seated = np.einsum("nrs,sn->rn", compliance, reaction) + offset
-        rest = seated - self.free + self.bent @ reaction
+        deflected = np.einsum("nrs,sn->rn", compliance, reaction) + offset
+        rest = deflected - self.free + self.bent @ reaction
         base = np.linalg.lstsq(self.arms, rest, rcond=None)[0]
         return reaction, base, convergence, settled
 
@@ -288,7 +288,7 @@ class _Redundant:
 
 @dataclass(frozen=True)
 class _Bearings:
-    """Seats of which some have models.
+    """Supports, some of them with models.
 
     Attributes
     ----------

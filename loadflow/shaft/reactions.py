@@ -132,8 +132,8 @@ def _numbered(concept: Concept, models: Mapping[str, BearingModel]) -> dict[int,
             raise InputError(f"models: no bearing {name!r}; there are {concept.bearings}")
     if models and concept.beam is None:
         raise InputError("models: a rigid shaft does not feel its bearings; give it a beam")
-    seats = concept.beam.seats if concept.beam else ()
-    for name, support in zip(concept.bearings, seats):
+    supports = concept.beam.seats if concept.beam else ()
+    for name, support in zip(concept.bearings, supports):
         if support.stiffness != "given" and name not in models:
             raise InputError(
                 f"models: bearing {name!r} is missing, its support has "

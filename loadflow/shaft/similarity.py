@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import fields, replace
 from typing import Any, TypeVar
 
-from loadflow.errors import InputError
 from loadflow.shaft.beam import Beam, BearingSupport, ShaftSection
 from loadflow.shaft.options import Concept
+from loadflow.turbines.similarity import check_positive
 
 _STIFFNESS = {
     "radial": 1, "housing_lateral": 1, "housing_vertical": 1, "tilt": 3, "housing_tilt": 3,
@@ -40,8 +39,7 @@ def scaled_suspension(concept: Suspension, factor: float) -> Suspension:
     >>> larger.span, larger.gearbox_mass
     (7.2, 480000.0)
     """
-    if not (math.isfinite(factor) and factor > 0):
-        raise InputError(f"factor = {factor}: must be > 0")
+    check_positive("factor", factor)
     changed: dict[str, Any] = {}
     for field in fields(concept):
         value = getattr(concept, field.name)
@@ -56,7 +54,7 @@ def _beam(beam: Beam, factor: float) -> Beam:
     return replace(
         beam,
         sections=tuple(_section(section, factor) for section in beam.sections),
-        seats=tuple(_support(seat, factor) for seat in beam.seats),
+        seats=tuple(_support(one, factor) for one in beam.seats),
     )
 
 
@@ -65,10 +63,10 @@ def _section(section: ShaftSection, factor: float) -> ShaftSection:
     return ShaftSection(factor * section.outer_diameter, factor * section.inner_diameter, length)
 
 
-def _support(seat: BearingSupport, factor: float) -> BearingSupport:
+def _support(support: BearingSupport, factor: float) -> BearingSupport:
     known = {
-        name: getattr(seat, name) * factor**power
+        name: getattr(support, name) * factor**power
         for name, power in _STIFFNESS.items()
-        if getattr(seat, name) is not None
+        if getattr(support, name) is not None
     }
-    return replace(seat, **known)
+    return replace(support, **known)

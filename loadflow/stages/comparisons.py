@@ -18,7 +18,7 @@ from loadflow.stages.effects.film import HEAT, MOTION
 from loadflow.stages.effects.rolling import RINGS
 from loadflow.stages.frames import to_film
 from loadflow.stages.journal import FILM as FILM_MODEL
-from loadflow.stages.journal import equilibria, fast_film, follow, shaft_line
+from loadflow.stages.journal import equilibria, fast_film, follow, series_step, shaft_line
 from loadflow.stages.loads import ROTOR, hub_loads
 from loadflow.stages.reduction import moment_governs
 from loadflow.stages.rolling import life_of, solve_bearing
@@ -75,7 +75,7 @@ def _film(scene: Scene, case: Case, parts: Parts) -> Iterator[Difference]:
     again = _orbits if scene.journal.in_motion else _films
     for model, against, options in _better_films(scene, parts):
         yield from again(scene, case, parts, model, against, options)
-    if not (scene.journal.in_motion or scene.journal.tilt):
+    if not scene.journal.in_motion:
         yield from _motion(scene, case, parts)
 
 
@@ -92,27 +92,32 @@ def _loads(scene: Scene, case: Case, parts: Parts) -> Iterator[Difference]:
 
 
 def describe_loads(scene: Scene, bearings: xr.Dataset, bearing: str) -> dict[str, float]:
-    """Return largest load and damage of what governs a bearing: radial force or tilting moment."""
-    load, time = _governing(scene, bearings, bearing), bearings["time"].values
+    """Return largest load and damage of what governs a bearing: radial force or tilting moment.
+
+    And the largest radial force by itself, where that governs.
+    """
+    load, by_moment = _governing(scene, bearings, bearing)
+    time = bearings["time"].values
     duration = float(time[-1] - time[0])
     sideways, upright = (damage_equivalent_load(track, SLOPE, duration) for track in load.T)
-    return {
-        "bearing load max": float(np.hypot(*load.T).max()),
-        "bearing force DEL": float(np.hypot(sideways, upright)),
-    }
+    largest = float(np.hypot(*load.T).max())
+    damage = {"bearing force DEL": float(np.hypot(sideways, upright))}
+    radial = {} if by_moment else {"radial force max": largest}
+    return {"bearing load max": largest} | radial | damage
 
 
-def _governing(scene: Scene, bearings: xr.Dataset, bearing: str) -> np.ndarray:
-    """Radial force or tilting moment (time, 2) of a bearing, whichever governs it."""
+def _governing(scene: Scene, bearings: xr.Dataset, bearing: str) -> tuple[np.ndarray, bool]:
+    """Radial force or tilting moment (time, 2) of a bearing, and whether it is the moment."""
     data = bearings.sel(bearing=bearing)
     moment = data["moment"].transpose("time", "axis").values.astype(float)
     force = data["force"].transpose("time", "axis").values.astype(float)
-    return to_film(moment if moment_governs(scene, bearing, moment) else force)
+    by_moment = moment_governs(scene, bearing, moment)
+    return to_film(moment if by_moment else force), by_moment
 
 
 def _reduction(scene: Scene, case: Case, parts: Parts) -> Iterator[Difference]:
     for bearing, node in parts["reduction"].children.items():
-        load = np.hypot(*_governing(scene, parts["shaft"], bearing).T)
+        load = np.hypot(*_governing(scene, parts["shaft"], bearing)[0].T)
         where, index = f"{case.name}, {bearing}", node["index"].values
         yield Difference(
             "reduction",
@@ -206,6 +211,8 @@ def _orbits(
     """A stretch of the orbit around its largest eccentricity, from the place where it begins."""
     for bearing, better in options.items():
         film = parts["journal"][bearing].to_dataset().load()
+        step = series_step(parts["loads"])
+        taken, finer = scene.journal.every(step), better.every(step)
         worst = int(np.nanargmax(film["eccentricity_ratio"].values))
         formed = int(np.argmax(np.isfinite(film["eccentricity"].values[:, 0])))
         begin = max(formed, min(worst - 3 * STEPS // 4, film.sizes["sample"] - STEPS))
@@ -213,10 +220,11 @@ def _orbits(
         ours = film.isel(sample=stretch)
         # taken up in the middle, a film has no past: what it does before it has one is no answer
         known = STEPS // 4 if begin > formed else 0
-        loads, shaft = (parts[name].isel(time=stretch).load() for name in ("loads", "shaft"))
+        series = slice(begin * taken, (begin + STEPS - 1) * taken + 1, finer)
+        loads, shaft = (parts[name].isel(time=series).load() for name in ("loads", "shaft"))
         try:
             path = follow(better, loads, shaft.sel(bearing=bearing), place)
-            theirs = extremes_of_orbit(path, known)
+            theirs = extremes_of_orbit(path, known * taken // finer)
         except SolverError:
             theirs = dict.fromkeys(FILM, np.nan)
         where = f"{case.name}, {bearing}"

@@ -122,10 +122,10 @@ def _supports(
     """What carries the shaft at a speed: films, rolling bearings, given stiffness, or rigid."""
     assert concept.beam is not None
     supports = []
-    for name, position, seat in zip(
+    for name, position, support in zip(
         concept.bearings, concept.positions, concept.beam.supports_of(len(concept.bearings))
     ):
-        housing = (seat.housing_vertical, seat.housing_lateral)
+        housing = (support.housing_vertical, support.housing_lateral)
         if name in films:
             # exact at the speeds that are tabulated, which are all that are asked for
             at = films[name].sel(speed=speed, method="nearest")
@@ -133,9 +133,9 @@ def _supports(
             turn = _SLOPES[:size, :size]
             k, c = (turn.T @ at[part].values @ turn for part in ("stiffness", "damping"))
             supports.append(LineSupport(position, k, c, housing))
-        elif (k := _stiffness(scene, name, seat, mean)) is not None:
+        elif (k := _stiffness(scene, name, support, mean)) is not None:
             supports.append(LineSupport(position, k, None, housing))
-        elif seat.takes_moment and seat.tilt is None:
+        elif support.takes_moment and support.tilt is None:
             raise SolverError(
                 f"bearing {name}: rigid against tilting; a shaft line needs the numbers of its tilt"
             )
@@ -144,26 +144,26 @@ def _supports(
     return supports
 
 
-def _stiffness(scene: Scene, name: str, seat: BearingSupport, mean: xr.Dataset) -> Floats | None:
+def _stiffness(scene: Scene, name: str, support: BearingSupport, mean: xr.Dataset) -> Floats | None:
     """Of a bearing without a film; None if it is rigid."""
-    if seat.stiffness == "rolling":
+    if support.stiffness == "rolling":
         force, moment = (
             mean[part].sel(bearing=name).values[None].astype(float) for part in ("force", "moment")
         )
         part = scene.rolling.bearings[name]
-        model = rolling_model(part, force[:, 0], tilting=seat.takes_moment)
+        model = rolling_model(part, force[:, 0], tilting=support.takes_moment)
         stiff = model(force, moment)[1][0]
         size = len(stiff)
         turn = TURN[:size, :size]
         own = _SLOPES[:size, :size]
         return np.asarray(own.T @ turn @ stiff @ turn.T @ own)
-    if seat.radial is None:
+    if support.radial is None:
         return None
-    diagonal = [seat.radial, seat.radial]
-    if seat.takes_moment:
-        if seat.tilt is None:
+    diagonal = [support.radial, support.radial]
+    if support.takes_moment:
+        if support.tilt is None:
             return None
-        diagonal += [seat.tilt, seat.tilt]
+        diagonal += [support.tilt, support.tilt]
     return np.diag(diagonal)
 
 

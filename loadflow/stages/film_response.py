@@ -23,7 +23,7 @@ def film_response(journal: Journal, speed: float) -> Response:
     It is the largest eccentricity ratio of the closed orbit under
     mean + amplitude · sin(2π frequency · t), by finite volumes (4.23). The closed orbit is solved
     for directly: near half the speed of the shaft the load drives its whirl, which would take
-    hundreds of periods to settle.
+    hundreds of periods to decay.
 
     Parameters
     ----------

@@ -32,6 +32,7 @@ EXTREMES = {
     "largest_pressure": ("maximum_pressure", np.nanargmax, "Pa", "largest pressure"),
     "largest_sommerfeld_number": ("sommerfeld_number", np.nanargmax, "1", "largest So"),
     "largest_load": ("load", np.nanargmax, "N", "largest radial load"),
+    "largest_moment": ("moment_load", np.nanargmax, "N m", "largest moment across the shaft"),
     "largest_axial_load": ("axial_load", np.nanargmax, "N", "largest force along the shaft"),
     "largest_temperature": ("temperature", np.nanargmax, "K", "largest effective temperature"),
 }
@@ -65,6 +66,8 @@ def extremes(samples: xr.Dataset) -> xr.Dataset:
             when = float(time.values[at]) if there else np.nan
             found[f"{name}_time"] = xr.DataArray(when), "s", f"time of the {meaning}"
     for name, (of, units, meaning) in MEANS.items():
+        if of not in samples:
+            continue
         found[name] = samples[of].weighted(weight).mean(), units, meaning
     answered = samples["converged"].astype(bool)
     touching = samples["in_contact"].astype(bool) if "in_contact" in samples else ~answered & False
@@ -89,6 +92,10 @@ def mixed_friction(samples: xr.Dataset) -> xr.Dataset:
     begins on one side of it and ends on the other, a start or a stop; NaN in the others. While the
     surfaces touch, the boundary friction of the whole load is lost, an upper bound, unless the film
     knows its asperities; above E_krit without contact, the friction of the film.
+
+    A start lifts off, and a stop touches down, where contact changes for the last time. Where the
+    shaft comes to a stand, `standstill_eccentricity_ratio` is the last ε in motion, and
+    `film_after_stop` how much later the film is squeezed out to E_krit; negative if it is before.
     """
     time, speed, about = samples["time"].values, np.abs(samples["speed"].values), samples.attrs
     touching, turning = samples["in_contact"].values.astype(bool), speed >= STANDING
@@ -96,12 +103,15 @@ def mixed_friction(samples: xr.Dataset) -> xr.Dataset:
     # each sample stands for `weight` steps of the full series
     weight = samples["weight"].values
     seconds = weight * (np.ptp(time) / max(weight.sum() - 1, 1))
-    critical = about["critical_eccentricity_ratio"]
-    ratio = np.where(touching, 1.0, samples["eccentricity_ratio"].values)
-    mixed = turning & (ratio > critical)
+    critical = about.get("critical_eccentricity_ratio", np.inf)
+    own = samples["eccentricity_ratio"].values if "eccentricity_ratio" in samples else 0.0
+    ratio = np.where(touching, 1.0, own)
+    mixed = turning & (touching | (ratio > critical))
     rubbing = about["boundary_friction"] * about["radius"] * samples["load"].values * speed
     lost = np.where(touching & ~known, rubbing, samples["friction_power"].values)
     when, at = _transition(time, speed, ratio, critical)
+    parted, landed = _changes(time, speed, touching)
+    stood, last = _standing(time, turning, np.where(touching & ~known, np.nan, ratio))
     values: dict[str, tuple[Any, str, str]] = {
         "duration": (seconds.sum(), "s", "length of the series"),
         "contact_time": (seconds[touching & turning].sum(), "s", "time in contact while turning"),
@@ -112,6 +122,13 @@ def mixed_friction(samples: xr.Dataset) -> xr.Dataset:
         "mixed_friction_energy": (np.nansum((seconds * lost)[mixed]), "J", "friction above E_krit"),
         "transition_time": (when, "s", "time of the transition at E_krit"),
         "transition_speed": (at, "rad/s", "speed of the transition at E_krit"),
+        "lift_off_time": (parted[0], "s", "time at which the surfaces part"),
+        "lift_off_speed": (parted[1], "rad/s", "speed at which the surfaces part"),
+        "touch_down_time": (landed[0], "s", "time at which the surfaces come to touch"),
+        "touch_down_speed": (landed[1], "rad/s", "speed at which the surfaces come to touch"),
+        "standstill_time": (stood, "s", "time at which the shaft comes to a stand"),
+        "standstill_eccentricity_ratio": (last, "1", "ε as the shaft comes to a stand"),
+        "film_after_stop": (when - stood, "s", "time from standstill to the transition at E_krit"),
     }  # fmt: skip
     return labelled(
         {name: (xr.DataArray(v), units, meaning) for name, (v, units, meaning) in values.items()}
@@ -131,3 +148,24 @@ def _transition(
     share = (critical - ratio[i]) / (ratio[j] - ratio[i])
     when, at = (float(x[i] + share * (x[j] - x[i])) for x in (time, speed))
     return when, at
+
+
+def _changes(
+    time: np.ndarray, speed: np.ndarray, touching: np.ndarray
+) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Time and speed of lift-off and of touch-down; NaN where a series ends as it begins."""
+    none = np.nan, np.nan
+    changed = np.flatnonzero(touching[1:] != touching[:-1]) + 1
+    if touching[0] == touching[-1] or not changed.size:
+        return none, none
+    last = int(changed[-1])
+    there = float(time[last]), float(speed[last])
+    return (there, none) if touching[0] else (none, there)
+
+
+def _standing(time: np.ndarray, turning: np.ndarray, ratio: np.ndarray) -> tuple[float, float]:
+    """When a turning shaft comes to a stand for good, and ε there; NaN where it does not."""
+    if not turning[0] or turning[-1]:
+        return np.nan, np.nan
+    last = int(np.flatnonzero(turning)[-1])
+    return float(time[last + 1]), float(ratio[last + 1])

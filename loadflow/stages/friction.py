@@ -44,8 +44,8 @@ def losses(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
     Raises
     ------
     loadflow.errors.SolverError
-        A sample has no equilibrium, the motion of rollers does not settle, or there is no friction
-        model for the bearing.
+        A sample has no equilibrium, the motion of rollers does not converge, or there is no
+        friction model for the bearing.
     """
     time = inputs["loads"]["time"].values.astype(float)
     stride = max(1, round(scene.friction.step / (time[1] - time[0])))

@@ -17,6 +17,7 @@ from loadflow.journal.validity import critical_reynolds_number, reynolds_number
 from loadflow.quantities import table
 from loadflow.scene.cases import Case
 from loadflow.scene.journal import Journal
+from loadflow.scene.loads import Loads
 from loadflow.scene.scene import Scene
 from loadflow.stages.film_summary import summary
 from loadflow.stages.film_temperature import mean_temperature
@@ -184,6 +185,8 @@ def _take_path(found: dict[str, np.ndarray], path: xr.Dataset, places: slice) ->
 
 def _moving(options: Journal, bearing: str, loads: xr.Dataset, reactions: xr.Dataset) -> xr.Dataset:
     """Film along the series, from the first sample on in which the surfaces need not touch."""
+    every = slice(None, None, options.every(series_step(loads)))
+    loads, reactions = loads.isel(time=every), reactions.isel(time=every)
     vectors = reactions["force"].transpose("time", "axis").values.astype(float)
     time, speed = (loads[name].values.astype(float) for name in ("time", "speed"))
     begin, start = _lift_off(options, vectors, speed)
@@ -212,6 +215,11 @@ def _moving(options: Journal, bearing: str, loads: xr.Dataset, reactions: xr.Dat
     )
     labels = of_samples(found, kept) | _loaded(vectors, touching) | _lying(options, found)
     return _placed(options, samples.assign(labels), found["eccentricity"])
+
+
+def series_step(loads: xr.Dataset) -> float:
+    """Step of a series, s."""
+    return float(loads["time"][1] - loads["time"][0])
 
 
 def _lift_off(
@@ -371,7 +379,8 @@ def film_key(scene: Scene) -> str:
     graded = ", graded" if journal.grading == "graded" else ""
     elastic = ", elastic" if journal.shell is not None else ""
     names = {"grid": f"grid, {around}x{across}{graded}{elastic}", "reduced": f"reduced, {around}"}
-    return names.get(journal.rung, journal.rung)
+    step = f", {journal.step:g} s" if journal.in_motion and journal.step is not None else ""
+    return names.get(journal.rung, journal.rung) + step
 
 
 def warm_films(options: Journal) -> float:
@@ -391,15 +400,17 @@ def fast_film(journal: Journal) -> Journal | None:
 def _finer_grid(scene: Scene) -> dict[str, Any]:
     """A film has no top: its grid is doubled, up to what a scene may ask for.
 
-    One in motion stays on the rung "reduced", which is nearest to the truth for its time.
+    One in motion stays on the rung "reduced", which is nearest to the truth for its time, and takes
+    every sample, so that both errors show.
     """
     journal = scene.journal
     around, across = journal.grid
+    every = {"step": None} if journal.step is not None else {}
     if 2 * around > FINEST_GRID:
-        return {}
+        return every
     if journal.in_motion and journal.rung == "reduced":
-        return {"grid": (2 * around, across)}
-    return {"rung": "grid", "grid": (2 * around, 2 * across)}
+        return {"grid": (2 * around, across)} | every
+    return {"rung": "grid", "grid": (2 * around, 2 * across)} | every
 
 
 def _links(scene: Scene) -> Links:
@@ -412,7 +423,7 @@ def _links(scene: Scene) -> Links:
     }
     return {
         quantity: (
-            *load_links("bearing load max"),
+            *load_links("radial force max"),
             *(() if scene.journal.in_motion else (Link("reduction", end),)),
             Link("journal", quantity),
         )
@@ -421,9 +432,17 @@ def _links(scene: Scene) -> Links:
 
 
 def _work(scene: Scene, cases: tuple[Case, ...], measured: Measured) -> float:
-    share = 1.0 if scene.journal.in_motion else kept_share(scene, measured)
+    if scene.journal.in_motion:
+        share = 1.0 / scene.journal.every(_step_of(scene))
+    else:
+        share = kept_share(scene, measured)
     films = share * len(scene.journal.bearings) * steps_of(cases)
     return films * warm_films(scene.journal)
+
+
+def _step_of(scene: Scene) -> float:
+    """Step of the scene's series, s; of given ones the usual one is taken."""
+    return scene.loads.step if scene.loads.source == "simulate" else Loads().step
 
 
 FILM = Rungs(

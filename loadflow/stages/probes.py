@@ -75,7 +75,7 @@ def _of_film(scene: Scene, case: Case, inputs: Mapping[str, Any]) -> Answers:
         stretch = slice(begin, begin + STEPS)
         loads, shaft = loads.isel(time=stretch), shaft.isel(time=stretch)
         if journal.in_motion:
-            film = follow(journal, loads, shaft).isel(time=slice(SETTLED, None))
+            film = follow(journal, loads, shaft).isel(time=slice(_settled(loads), None))
         else:
             film = _at_rest(scene, loads, shaft)
         for name, value in extremes_of_orbit(film).items():
@@ -83,8 +83,13 @@ def _of_film(scene: Scene, case: Case, inputs: Mapping[str, Any]) -> Answers:
     return found
 
 
+def _settled(loads: xr.Dataset) -> int:
+    """First sample of a stretch that counts: `SETTLED`, or the middle of a series that is short."""
+    return min(SETTLED, loads.sizes["time"] // 2)
+
+
 def _at_rest(scene: Scene, loads: xr.Dataset, shaft: xr.Dataset) -> xr.Dataset:
-    some = slice(SETTLED, None, EVERY)
+    some = slice(_settled(loads), None, EVERY)
     loads, shaft = loads.isel(time=some), shaft.isel(time=some)
     force = shaft["force"].transpose("time", "axis").values.astype(float)
     line = shaft_line(scene.journal, shaft)

@@ -14,12 +14,26 @@ from loadflow.stages import (
     seeds,
     shaft,
     statistics,
+    thrust,
+    wear,
 )
 from loadflow.stages.stage import Rungs, Stage
 
 STAGES: dict[str, Stage] = {
     module.STAGE.name: module.STAGE
-    for module in (loads, shaft, statistics, seeds, reduction, journal, dynamics, rolling, friction)
+    for module in (
+        loads,
+        shaft,
+        statistics,
+        seeds,
+        reduction,
+        journal,
+        thrust,
+        dynamics,
+        rolling,
+        friction,
+        wear,
+    )
 }
 
 

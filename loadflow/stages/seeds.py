@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from itertools import groupby
 from typing import Any
 
@@ -17,6 +17,12 @@ from loadflow.stages.reduction import moment_governs
 from loadflow.stages.stage import Rungs, Stage, always
 
 TESTS = ("location", "spread", "spectrum")
+
+Series = dict[str, np.ndarray]
+"""Of one case, by component."""
+
+Components = dict[str, list[np.ndarray]]
+"""Of the seeds of a group, by component."""
 
 
 def equality_of_seeds(
@@ -35,29 +41,54 @@ def equality_of_seeds(
         their level. `together` (group) says in words which seeds the calibrated tests let merge. A
         group is one wind speed of one load case, sampled at one step.
     """
+    found = [groups_in(scene, piece, inputs) for piece in pieces(scene, cases)]
+    return joined(scene, found)
 
-    def group_of(case: Case) -> tuple[str, float, float]:
-        return case.dlc, case.wind_speed, _step(inputs[case.name]["loads"])
 
-    groups = [list(group) for _, group in groupby(sorted(cases, key=group_of), key=group_of)]
-    per_method = []
-    for method in scene.seeds.methods:
-        found = xr.concat([_one_group(scene, method, group, inputs) for group in groups], "group")
-        per_method.append(found.assign(may_merge=_may_merge(found, method, scene.seeds.alpha)))
-    together = [_together(scene, group, inputs) for group in groups]
+def pieces(scene: Scene, cases: list[Case]) -> list[list[Case]]:
+    """Cases that are compared with each other: those of one wind speed of one load case."""
+    return [list(group) for _, group in groupby(sorted(cases, key=_condition), key=_condition)]
+
+
+def _condition(case: Case) -> tuple[str, float]:
+    return case.dlc, case.wind_speed
+
+
+def groups_in(scene: Scene, cases: list[Case], inputs: Mapping[str, dict[str, Any]]) -> xr.Dataset:
+    """Test the seeds of one of the `pieces`: a group for each step that its series have."""
+    by_step: dict[float, list[tuple[Case, Series]]] = {}
+    for case in cases:
+        step, series = series_of(scene, inputs[case.name])
+        by_step.setdefault(step, []).append((case, series))
+    found = []
+    for step in sorted(by_step):
+        group = [case for case, _ in by_step[step]]
+        tested = _by_component(one for _, one in by_step[step])
+        tests = [_one_group(scene, method, group, tested, step) for method in scene.seeds.methods]
+        together = [_together(scene, group, tested, step)]
+        words = {"long_name": "which seeds belong together"}
+        found.append(xr.concat(tests, "variant").assign(together=("group", together, words)))
+    return xr.concat(found, "group")
+
+
+def joined(scene: Scene, found: list[xr.Dataset]) -> xr.Dataset:
+    """Join the `pieces`, and judge all groups together."""
+    methods = scene.seeds.methods
+    whole = xr.concat(found, "group")
+    per_method = [
+        part.assign(may_merge=_may_merge(part, method, scene.seeds.alpha))
+        for method, part in zip(methods, (whole.isel(variant=k) for k in range(len(methods))))
+    ]
     return (
         xr.concat(per_method, "variant")
-        .assign(together=("group", together, {"long_name": "which seeds belong together"}))
-        .assign_coords(variant=list(scene.seeds.methods))
+        .assign(together=whole["together"])
+        .assign_coords(variant=list(methods))
         .assign_attrs(alpha=scene.seeds.alpha, band=scene.seeds.band)
     )
 
 
-def _together(scene: Scene, group: list[Case], inputs: Mapping[str, dict[str, Any]]) -> str:
+def _together(scene: Scene, group: list[Case], series: Components, step: float) -> str:
     """Say which seeds of one wind speed belong together, all components at once, and why."""
-    found = components(scene, group, inputs)
-    step = next(iter(found.values()))[1]
-    series = {name: values for name, (values, _) in found.items()}
     grouping = group_seeds_jointly(series, step, scene.seeds.alpha)
     return grouping.in_words([str(case.seed) for case in group])
 
@@ -78,13 +109,13 @@ def _may_merge(found: xr.Dataset, method: Method, alpha: float) -> xr.DataArray:
 
 
 def _one_group(
-    scene: Scene, method: Method, group: list[Case], inputs: Mapping[str, dict[str, Any]]
+    scene: Scene, method: Method, group: list[Case], series: Components, step: float
 ) -> xr.Dataset:
     """Test the seeds of one wind speed, every component by itself."""
     options = scene.seeds
     found = {
-        name: equality(series, step, alpha=options.alpha, method=method, band=options.band)
-        for name, (series, step) in components(scene, group, inputs).items()
+        name: equality(values, step, alpha=options.alpha, method=method, band=options.band)
+        for name, values in series.items()
     }
     dims = ("group", "component", "test")
 
@@ -114,28 +145,26 @@ def _one_group(
     )
 
 
-def components(
-    scene: Scene, group: list[Case], inputs: Mapping[str, dict[str, Any]]
-) -> dict[str, tuple[list[np.ndarray], float]]:
-    """Return for each component the series of all seeds, and their step."""
-    found: dict[str, tuple[list[np.ndarray], float]] = {}
-    for case in group:
-        for name, values, step in _series(scene, inputs[case.name]):
-            found.setdefault(name, ([], step))[0].append(values)
+def _by_component(series: Iterable[Series]) -> Components:
+    found: Components = {}
+    for one in series:
+        for name, values in one.items():
+            found.setdefault(name, []).append(values)
     return found
 
 
-def _series(scene: Scene, parts: dict[str, Any]) -> Iterator[tuple[str, np.ndarray, float]]:
+def series_of(scene: Scene, parts: dict[str, Any]) -> tuple[float, Series]:
+    """Return the step of a case, s, and the series that its seed is tested by."""
     loads, shaft = parts["loads"], parts["shaft"]
-    step = _step(loads)
-    yield "speed", loads["speed"].values.astype(float), step
+    found = {"speed": loads["speed"].values.astype(float)}
     for bearing in shaft["bearing"].values:
         moment = shaft["moment"].sel(bearing=bearing).transpose("time", "axis").values
         by_moment = moment_governs(scene, str(bearing), moment)
         name, load = ("M", shaft["moment"]) if by_moment else ("F", shaft["force"])
         for axis in ("y", "z"):
             component = load.sel(bearing=bearing, axis=axis)
-            yield f"{bearing} {name}{axis}", component.values.astype(float), step
+            found[f"{bearing} {name}{axis}"] = component.values.astype(float)
+    return _step(loads), found
 
 
 def seeds_key(scene: Scene) -> str:
@@ -145,7 +174,9 @@ def seeds_key(scene: Scene) -> str:
 
 STAGE = Stage(
     "seeds",
-    run=equality_of_seeds,
+    run=groups_in,
+    pieces=pieces,
+    joined=joined,
     results={"seeds.equality": lambda scene: {}},
     needs=always("loads", "shaft"),
     scope="run",

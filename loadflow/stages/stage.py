@@ -162,6 +162,11 @@ class Stage:
         Scene → sections of the scene that it depends on.
     models : tuple of Rungs
         What it models on rungs; the last one is its own.
+    pieces : callable
+        ``pieces(scene, cases)`` → groups of cases that a stage over all of them works on one by
+        one; default all together.
+    joined : callable
+        ``joined(scene, found)`` → what it gives, of what it found in each piece, in their order.
     summarise : callable, optional
         Joins what it gave, by case; None where there is nothing to tell.
     exports : callable, optional
@@ -186,6 +191,8 @@ class Stage:
     scope: Literal["case", "run"] = "case"
     sections: Callable[[Scene], tuple[str, ...]] = lambda scene: ()
     models: tuple[Rungs, ...] = ()
+    pieces: Callable[[Scene, list[Case]], list[list[Case]]] = lambda scene, cases: [cases]
+    joined: Callable[[Scene, list[Any]], Any] = lambda scene, found: found[0]
     summarise: Callable[[Mapping[Case, Any]], Any] | None = None
     exports: Callable[[Case, Any], Mapping[str, str]] | None = None
     warnings: Callable[[Any], list[str]] = lambda tree: []

@@ -12,9 +12,11 @@ from typing import Any, Literal
 import numpy as np
 import xarray as xr
 
+from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
+from loadflow.scene.thrust import AnyAxial
+from loadflow.studies.compare_factor import Margin
 from loadflow.studies.compare_margins import (
-    Margin,
     carries_thrust,
     margin_of,
     rolling_losses,
@@ -22,7 +24,7 @@ from loadflow.studies.compare_margins import (
     shaft_tilt,
 )
 from loadflow.studies.compare_result import QUANTITIES, Comparison, Judged, Number, plain
-from loadflow.studies.compare_words import bearings, conclusion, drawn, facts
+from loadflow.studies.compare_words import bearings, conclusion, drawn, facts, kind_of
 from loadflow.studies.run_lifetime import energy_per_year
 from loadflow.studies.seed_intervals import Groups, interval, joint_life
 from loadflow.verdict import Verdict, from_dataset
@@ -30,6 +32,9 @@ from loadflow.verdict import Verdict, from_dataset
 Sense = Literal["most", "least", "sum"]
 
 HOURS_PER_YEAR = 8766.0
+
+_POWER_OF = {"journal": "journal.film", "thrust": "thrust.film"}
+"""Result that knows the friction of a room."""
 
 
 @dataclass(frozen=True)
@@ -96,12 +101,12 @@ def _judged(run: Finished, folder: Path) -> Judged:
     verdicts = tuple(from_dataset(run.tables["verdicts"])) if "verdicts" in run.tables else ()
     margin = margin_of(run.scene, run.folder, run.tables, verdicts)
     numbers = dict(_numbers(run, verdicts, margin))
-    kinds = [room for room in ("journal", "rolling") if room in run.tables]
+    rooms = [room for room in ("journal", "thrust", "rolling") if room in run.tables]
     return Judged(
         name=run.name,
         title=run.title or run.name,
         source=run.source,
-        kind=" and ".join(kinds),
+        kind=kind_of(rooms),
         numbers={key: numbers[key] for key in QUANTITIES if key in numbers},
         verdicts=verdicts,
         thrust=carries_thrust(run.scene, run.tables),
@@ -109,7 +114,7 @@ def _judged(run: Finished, folder: Path) -> Judged:
         change=margin.change,
         models={stage: told["rung"] for stage, told in run.manifest.get("rungs", {}).items()},
         checks=_checks(run.tables),
-        bearings=bearings(run.scene, kinds),
+        bearings=bearings(run.scene, rooms),
         folder=run.folder.relative_to(folder).as_posix(),
         unanswered=dict(run.manifest.get("failures", {})),
     )
@@ -125,6 +130,8 @@ def _numbers(
     )  # fmt: skip
     if "journal" in run.tables:
         yield from _of_journal(run, verdicts)
+    if "thrust" in run.tables:
+        yield from _of_pads(run, verdicts)
     if "rolling" in run.tables:
         yield from _of_rolling(run, verdicts)
     tilt, limit, place, note = shaft_tilt(run.scene, run.folder, run.tables)
@@ -141,12 +148,7 @@ def _of_journal(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[st
     film = _extreme(run, table, groups, "smallest_film", "least", 1e6, "µm", "minimum film")
     yield "minimum_film", _against(film, verdicts, "smallest film", 1e6)
     if film.place:
-        rough = run.scene.journal.at(film.place).contact_film * 1e6
-        parts = {name: getattr(film, name) / rough for name in ("value", "low", "high")}
-        yield "film_to_roughness", Number(
-            **parts, unit="–", error=film.error, limit=1.0, holds=parts["value"] >= 1,
-            case=film.case, time=film.time, place=film.place,
-        )  # fmt: skip
+        yield "film_to_roughness", _over_roughness(film, run.scene.journal.at(film.place))
     name, model = "largest_eccentricity_ratio", "eccentricity ratio"
     ratio = _extreme(run, table, groups, name, "most", 1.0, "–", model)
     yield "eccentricity_ratio", _against(ratio, verdicts, "eccentricity ratio ε", 1.0)
@@ -161,13 +163,46 @@ def _of_journal(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[st
     for key, (name, scale, unit) in flows.items():
         whole = table[name].fillna(0.0).sum("bearing").values * scale
         yield key, _mean(run, whole, share, groups, unit)
-    hours = (table["mixed_friction_time"] / table["duration"]).max(
-        "bearing"
-    ).values * HOURS_PER_YEAR
+    yield "mixed_time", _mixed_time(run, table, share, groups)
+    yield from _lost(run, table, table["mean_friction_power"], "")
+
+
+def _of_pads(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[str, Number]]:
+    """Films of a thrust bearing beside journal bearings, or of a pair of cones in their place."""
+    table = run.tables["thrust"]
+    groups, share = Groups.of(table), _shares(run, table)
+    own = [v for v in verdicts if v.subject.startswith(("thrust ", "conical-pair "))]
+    beside = "journal" in run.tables
+    film = _extreme(run, table, groups, "smallest_film", "least", 1e6, "µm", "minimum film")
+    film = _against(film, own, "smallest film", 1e6)
+    name, model = "largest_pressure", "maximum pressure"
+    pressure = _extreme(run, table, groups, name, "most", 1e-6, "MPa", model)
+    pressure = _against(pressure, own, "largest film pressure", 1e-6)
+    yield ("thrust_film" if beside else "minimum_film"), film
+    yield ("thrust_pressure" if beside else "film_pressure"), pressure
+    if beside:
+        return
+    if film.place:
+        yield "film_to_roughness", _over_roughness(film, run.scene.thrust.bearings[film.place])
+    yield "mixed_time", _mixed_time(run, table, share, groups)
+    yield from _lost(run, table, table["mean_friction_power"], "")
+
+
+def _over_roughness(film: Number, surfaces: Journal | AnyAxial) -> Number:
+    """A film over the roughness R_z of both surfaces."""
+    rough = surfaces.contact_film * 1e6
+    value, low, high = (getattr(film, name) / rough for name in ("value", "low", "high"))
+    return replace(
+        film, value=value, low=low, high=high, unit="–", limit=1.0, holds=value >= 1, note=""
+    )
+
+
+def _mixed_time(run: Finished, table: xr.Dataset, share: np.ndarray, groups: Groups) -> Number:
+    """Hours a year above E_krit or in contact while turning, of the bearing with most of them."""
+    part = (table["mixed_friction_time"] / table["duration"]).max("bearing").values
     touching = float(table["contact_time"].sum())
     note = f"in contact for {touching:.3g} s of all cases together" if touching else ""
-    yield "mixed_time", _mean(run, hours, share, groups, "h", note)
-    yield from _lost(run, table, table["mean_friction_power"], "")
+    return _mean(run, part * HOURS_PER_YEAR, share, groups, "h", note)
 
 
 def _of_rolling(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[str, Number]]:
@@ -234,13 +269,25 @@ def _lost(
         yield "energy", Number(math.nan, "MWh", note="no model of friction")
         return
     share, groups = _shares(run, table), Groups.of(table)
+    if "thrust" in run.tables and table is not run.tables["thrust"]:
+        beside = run.tables["thrust"]["mean_friction_power"].drop_vars(("dlc",), errors="ignore")
+        names = [f"{name}, thrust" for name in beside["bearing"].values.tolist()]
+        power = xr.concat(
+            [power, beside.assign_coords(bearing=names)],
+            "bearing",
+            coords="minimal",
+            compat="override",
+        )
     own = power.sel(case=table["case"].values).fillna(0.0)
     loss = _mean(run, own.sum("bearing").values / 1e3, share, groups, "kW", note)
-    result = "journal.film" if "journal" in run.tables else "rolling.friction"
+    result = next(
+        (name for room, name in _POWER_OF.items() if room in run.tables), "rolling.friction"
+    )
     error = _error(run, result, "friction power")
     yield "friction", replace(loss, error=error)
     if "mean_supply_power" in table:
-        own = own + table["mean_supply_power"].fillna(0.0)
+        supply = table["mean_supply_power"].fillna(0.0)
+        own = own + supply.reindex(bearing=own["bearing"].values, fill_value=0.0)
     energy = float(energy_per_year(run.scene, table, own, share).sum()) / 3.6e9
     scale = energy / loss.value if loss.value else math.nan
     yield "energy", Number(energy, "MWh", loss.low * scale, loss.high * scale, error, note=note)
@@ -272,7 +319,9 @@ def _extreme(
     when = math.nan
     if times in table:
         when = float(table[times].transpose("case", "bearing").values[k, b])
-    result = "journal.film" if "journal" in run.tables else "rolling.loads"
+    result = {"thrust": "thrust.film", "rolling": "rolling.loads"}.get(
+        next(room for room, found in run.tables.items() if found is table), "journal.film"
+    )
     return Number(
         float(values[k, b]) * scale, unit, low * scale, high * scale, _error(run, result, model),
         case=str(table["case"].values[k]), time=when, place=str(table["bearing"].values[b]),

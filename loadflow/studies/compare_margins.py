@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -22,6 +22,14 @@ from loadflow.shaft import Beam, ShaftSection, bearing_loads
 from loadflow.stages.friction import friction_options, least_film_parameter
 from loadflow.stages.journal import equilibria
 from loadflow.stages.rolling import rest
+from loadflow.studies.compare_factor import (
+    Margin,
+    film_factors,
+    largest_factor,
+    loads_at,
+    pressure_factor,
+)
+from loadflow.studies.compare_pads import pad_margins
 from loadflow.tribology import lubricant
 from loadflow.verdict import Verdict
 
@@ -30,32 +38,9 @@ Tables = Mapping[str, xr.Dataset]
 SAMPLES = 40
 """Samples of each case that are looked at again, the extremes among them."""
 
-_WIDEST = 16.0  # factor on load, viscosity: beyond, nothing is asked
-_HALVINGS = 9
 _SLOW = 0.1  # share of the samples that counts as low speed
 _TOLD = 2  # changes that are told
 _WARMER = 60.0  # K: how much warmer the oil is asked to be at most
-
-
-@dataclass(frozen=True)
-class Margin:
-    """How far a candidate is from its first limit.
-
-    Attributes
-    ----------
-    factor : float
-        On all loads, with which the first limit is reached; below 1 if it is broken.
-    place, case : str
-        Where.
-    governs, change : str
-        Which limit that is; what else would reach it.
-    """
-
-    factor: float
-    place: str = ""
-    case: str = ""
-    governs: str = ""
-    change: str = ""
 
 
 @dataclass(frozen=True)
@@ -83,6 +68,9 @@ def margin_of(scene: Scene, folder: Path, tables: Tables, verdicts: Sequence[Ver
         table = tables["journal"]
         for place in table["bearing"].values.tolist():
             found += _film_margins(scene, folder, place, table.sel(bearing=place))
+    if "thrust" in tables:
+        for place, one in scene.thrust.bearings.items():
+            found += pad_margins(one, folder, place, tables["thrust"].sel(bearing=place))
     if "rolling" in tables:
         for place in scene.rolling.geometries:
             found += _rolling_margins(scene, folder, place, tables, verdicts)
@@ -115,27 +103,16 @@ def _film_margins(scene: Scene, folder: Path, place: str, table: xr.Dataset) -> 
         worst = int(pick(table[name].values))
         case, seen = str(table["case"].values[worst]), float(table[name].values[worst])
         time = float(table[f"{name}_time"].values[worst]) if f"{name}_time" in table else math.nan
-        value = partial(_film_value, options, *_at_time(folder, case, place, time), field)
+        value = partial(_film_value, options, *_force_at(folder, case, place, time), field)
         usual = value(1.0, 1.0)
         if usual > 0:
             allowed = limit / seen * usual  # motion changes a film by the same share there
             if field == "minimum_film":
-                factor, thinner = _film_factors(value, allowed)
+                factor, thinner = film_factors(value, allowed)
                 change = f"{place}: oil of {thinner * options.lubricant.viscosity:.2g} Pa s"
             else:
-                factor, change = _pressure_factor(value, allowed), ""
+                factor, change = pressure_factor(value, allowed), ""
             yield Margin(factor, place, case, f"{what} in {place}", change)
-
-
-def _film_factors(value: Callable[[float, float], float], allowed: float) -> tuple[float, float]:
-    """Largest factor on the load, and smallest on the viscosity, with which a film is allowed."""
-    load = largest_factor(lambda f: value(f, 1.0) >= allowed)
-    return load, 1 / largest_factor(lambda f: value(1.0, 1 / f) >= allowed)
-
-
-def _pressure_factor(value: Callable[[float, float], float], allowed: float) -> float:
-    """Largest factor on the load with which a pressure is allowed."""
-    return largest_factor(lambda f: value(f, 1.0) <= allowed)
 
 
 def _film_value(
@@ -150,22 +127,10 @@ def _film_value(
     return float(getattr(answer, field)[0]) if answer.converged[0] else math.nan
 
 
-def largest_factor(holds: Callable[[float], bool]) -> float:
-    """Largest factor with which something holds that holds for all smaller ones."""
-    low, high = 1 / _WIDEST, _WIDEST
-    for _ in range(_HALVINGS):
-        middle = math.sqrt(low * high)
-        low, high = (middle, high) if holds(middle) else (low, middle)
-    return math.sqrt(low * high)
-
-
-def _at_time(folder: Path, case: str, place: str, time: float) -> tuple[np.ndarray, float]:
+def _force_at(folder: Path, case: str, place: str, time: float) -> tuple[np.ndarray, float]:
     """Force (3,) on a bearing, N, and speed, rad/s, at a time of a case."""
-    loads: Any = open_cube(folder / "loads" / f"{case}.h5")
-    shaft: Any = open_cube(folder / "shaft" / f"{case}.h5").sel(bearing=place)
-    k = int(np.argmin(np.abs(loads["time"].values - time))) if math.isfinite(time) else 0
-    force = shaft["force"].isel(time=k).transpose("axis").values.astype(float)
-    return force, float(loads["speed"].values[k])
+    force, _, speed = loads_at(folder, case, place, time)
+    return force, speed
 
 
 # --- rolling bearings -----------------------------------------------------------------------------
@@ -368,6 +333,10 @@ def carries_thrust(scene: Scene, tables: Tables) -> str:
             force = float(table["bearing_axial_force"].sel(bearing=place).max())
             if force > 0 and bearing.takes_thrust:
                 return f"{place}, up to {force / 1e3:.0f} kN"
+    if "thrust" in tables:
+        force = tables["thrust"]["largest_axial_load"].max("case")
+        k = int(np.argmax(force.values))
+        return f"{force['bearing'].values[k]}, up to {float(force[k]) / 1e3:.0f} kN"
     if "journal" in tables:
         force = float(tables["journal"]["largest_axial_load"].max())
         return f"none: needs a thrust bearing for {force / 1e3:.0f} kN"

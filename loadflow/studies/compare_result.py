@@ -1,4 +1,4 @@
-"""What a comparison gives: numbers with what is known of their error, candidates, all of them."""
+"""Result of a comparison: numbers with their errors, candidates, and all of them together."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class Number:
     time : float
         Its time in that case, s.
     place : str
-        Bearing that it is of.
+        Bearing that it belongs to.
     note : str
         What else must be known.
     """
@@ -64,7 +64,7 @@ class Judged:
     Attributes
     ----------
     name, title, source, kind : str
-        Of the candidate; the kind is journal, rolling or both.
+        Of the candidate; the kind is journal, conical, rolling or several.
     numbers : dict
         By quantity (`QUANTITIES`).
     verdicts : tuple of Verdict
@@ -80,7 +80,7 @@ class Judged:
     checks : list
         How far sampled answers moved with better models: stage, quantity, change.
     bearings : list
-        What stands at each place.
+        The bearing at each place.
     folder : str
         Of its run, relative to that of the comparison.
     unanswered : dict
@@ -112,11 +112,33 @@ class Judged:
         """Whether all hold, but for the lack of a thrust bearing."""
         return not self.broken and not self.unanswered
 
+    def as_dict(self) -> dict[str, Any]:
+        """All of it in plain values for JSON; what is not known is None."""
+        return {
+            "name": self.name,
+            "title": self.title,
+            "source": self.source,
+            "kind": self.kind,
+            "holds": self.holds,
+            "thrust": self.thrust,
+            "governs": self.governs,
+            "change": self.change,
+            "numbers": {key: plain(vars(n)) for key, n in self.numbers.items()},
+            "verdicts": [v.as_dict() for v in self.verdicts],
+            "models": self.models,
+            "checks": self.checks,
+            "bearings": self.bearings,
+            "folder": self.folder,
+            "unanswered": self.unanswered,
+        }
+
 
 QUANTITIES: dict[str, tuple[str, str]] = {
     "load_factor": ("capacity margin: loads may grow by, to the first limit", "×"),
     "minimum_film": ("smallest film", "µm"),
     "film_to_roughness": ("smallest film over roughness R_z of both surfaces", "–"),
+    "thrust_film": ("smallest film of the thrust bearing", "µm"),
+    "thrust_pressure": ("largest film pressure of the thrust bearing", "MPa"),
     "eccentricity_ratio": ("largest eccentricity ratio ε", "–"),
     "film_pressure": ("largest film pressure", "MPa"),
     "static_safety": ("static rating over the design load", "–"),
@@ -126,7 +148,7 @@ QUANTITIES: dict[str, tuple[str, str]] = {
     "row_share": ("load on the row that takes the thrust, at largest thrust", "%"),
     "row_overload": ("the same over an even share", "×"),
     "film_parameter": ("film parameter Λ at low speed", "–"),
-    "tilt": ("tilt of the shaft to its limit", "%"),
+    "tilt": ("tilt of the shaft over its limit", "%"),
     "friction": ("mean friction loss", "kW"),
     "energy": ("energy lost a year", "MWh"),
     "oil_flow": ("oil that leaves the film", "l/min"),
@@ -134,6 +156,11 @@ QUANTITIES: dict[str, tuple[str, str]] = {
     "mixed_time": ("time in mixed friction a year", "h"),
 }
 """What is compared: its name and unit, in the order of the table."""
+
+
+def named_quantities() -> dict[str, dict[str, str]]:
+    """Name and unit of what is compared, for JSON."""
+    return {key: {"name": name, "unit": unit} for key, (name, unit) in QUANTITIES.items()}
 
 
 @dataclass(frozen=True)
@@ -172,29 +199,8 @@ class Comparison:
             "name": self.name,
             "conclusion": self.conclusion,
             "facts": self.facts,
-            "quantities": {
-                key: {"name": name, "unit": unit} for key, (name, unit) in QUANTITIES.items()
-            },
-            "candidates": [
-                {
-                    "name": one.name,
-                    "title": one.title,
-                    "source": one.source,
-                    "kind": one.kind,
-                    "holds": one.holds,
-                    "thrust": one.thrust,
-                    "governs": one.governs,
-                    "change": one.change,
-                    "numbers": {key: plain(vars(n)) for key, n in one.numbers.items()},
-                    "verdicts": [v.as_dict() for v in one.verdicts],
-                    "models": one.models,
-                    "checks": one.checks,
-                    "bearings": one.bearings,
-                    "folder": one.folder,
-                    "unanswered": one.unanswered,
-                }
-                for one in self.candidates
-            ],
+            "quantities": named_quantities(),
+            "candidates": [one.as_dict() for one in self.candidates],
             "shaft": self.shaft,
             "failures": self.failures,
             "without_place": self.without_place,

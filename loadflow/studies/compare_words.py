@@ -56,7 +56,10 @@ def facts(scene: Scene, runs: Sequence[Mapping[str, xr.Dataset]]) -> dict[str, s
     """Loads, seeds and lubricant, in words."""
     loads = scene.loads
     table = next(
-        tables[name] for tables in runs for name in ("journal", "rolling") if name in tables
+        tables[name]
+        for tables in runs
+        for name in ("journal", "rolling", "thrust")
+        if name in tables
     )
     seeds = Groups.of(table).sizes
     source = (
@@ -116,6 +119,9 @@ def bearings(scene: Scene, rooms: Sequence[str]) -> list[dict[str, Any]]:
                     f"{part.lubricant.viscosity:.3g} Pa s",
                 }
             )
+    if "thrust" in rooms:
+        for place, one in scene.thrust.bearings.items():
+            found.append({"place": place, "kind": one.words, "measures": one.measures})
     if "rolling" in rooms:
         for place, bearing in scene.rolling.geometries.items():
             found.append(
@@ -129,6 +135,13 @@ def bearings(scene: Scene, rooms: Sequence[str]) -> list[dict[str, Any]]:
                 }
             )
     return found
+
+
+def kind_of(rooms: Sequence[str]) -> str:
+    """Kind of a candidate by the rooms of its bearings; a thrust bearing is no kind of its own."""
+    words = {"journal": "journal", "thrust": "conical", "rolling": "rolling"}
+    alone = "journal" not in rooms
+    return " and ".join(words[room] for room in rooms if room != "thrust" or alone)
 
 
 def _or_zero(value: float) -> float:

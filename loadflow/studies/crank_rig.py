@@ -103,7 +103,7 @@ class CrankRig:
         K.
     film : str
         Law of the films in stage "film": "moes" in all regimes with asperities and hysteresis, or,
-        as the source has it, elastic films alone between smooth surfaces, such as "hamrock".
+        as von Hollen has it, elastic films alone between smooth surfaces, such as "hamrock".
     adhesion, sliding, rolling : float
         μ, μ′ and μ_R, Table 8.4.
     cage_mass : float
@@ -177,7 +177,7 @@ class CrankRig:
         rpm : float
             Speed of the shaft, 1/min, > 0.
         stage : {"coulomb", "film"}
-            The source's model stage 1 or 2.
+            Von Hollen's model stage 1 or 2.
 
         Raises
         ------

@@ -23,7 +23,9 @@ from loadflow.scene.scene import Candidate
 from loadflow.stages.friction import friction_options
 from loadflow.stages.journal import equilibria, shaft_line, surely_touching
 from loadflow.stages.rolling import rest
-from loadflow.studies.compare_margins import largest_factor, lubrication
+from loadflow.studies.compare_factor import largest_factor
+from loadflow.studies.compare_margins import lubrication
+from loadflow.studies.compare_result import QUANTITIES
 
 COARSE = (48, 12)
 """Cells at most of a film that is solved on the grid."""
@@ -31,19 +33,24 @@ COARSE = (48, 12)
 FACTORS = np.geomspace(1 / 8, 8, 25)
 """Factors on the loads among which that is sought with which a film reaches its limit."""
 
+_CONDITION = "smallest ratio of what else is allowed to what is found, 1 at the limit"
+_UNITS = {
+    "energy": "MWh",
+    "friction": "kW",
+    "load_factor": "1",
+    "condition": "1",
+    "minimum_film": "m",
+    "film_pressure": "Pa",
+    "eccentricity_ratio": "1",
+    "oil_flow": "m^3/s",
+    "static_safety": "1",
+    "contact_pressure": "Pa",
+    "rating_life": "h",
+    "modified_life": "h",
+}
 NUMBERS = {
-    "energy": ("MWh", "energy lost a year"),
-    "friction": ("kW", "mean friction loss while it turns"),
-    "load_factor": ("1", "capacity margin: loads may grow by, to the first limit"),
-    "condition": ("1", "smallest ratio of what else is allowed to what is found, 1 at the limit"),
-    "minimum_film": ("m", "smallest film"),
-    "film_pressure": ("Pa", "largest film pressure"),
-    "eccentricity_ratio": ("1", "largest eccentricity ratio"),
-    "oil_flow": ("m^3/s", "mean oil that leaves the film"),
-    "static_safety": ("1", "static rating over the design load"),
-    "contact_pressure": ("Pa", "largest contact pressure"),
-    "rating_life": ("h", "rating life L10h of all bearings"),
-    "modified_life": ("h", "modified life L10mh of all bearings"),
+    name: (units, QUANTITIES[name][0] if name in QUANTITIES else _CONDITION)
+    for name, units in _UNITS.items()
 }
 """Numbers of a design: units and meaning; NaN of those that its bearings do not have."""
 

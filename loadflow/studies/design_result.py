@@ -14,7 +14,7 @@ import tomli_w
 
 from loadflow.scene.design import Design
 from loadflow.scene.scene import Scene
-from loadflow.studies.compare_result import Judged, plain
+from loadflow.studies.compare_result import Judged, named_quantities, plain
 from loadflow.studies.design_point import NUMBERS, DesignPoint
 from loadflow.studies.design_space import Space
 from loadflow.studies.run_lifetime import HOURS_PER_YEAR
@@ -218,6 +218,7 @@ class Designs:
                 name: {"units": units, "meaning": meaning, "shown": SHOWN[units]}
                 for name, (units, meaning) in NUMBERS.items()
             },
+            "quantities": named_quantities(),
             "given": {name: plain(v) for name, v in self.given.numbers.items()},
             "best": None if self.best is None else self.index_of(self.best),
             "settings": self.settings,
@@ -235,18 +236,7 @@ class Designs:
                 }
                 for one in self.maps
             ],
-            "checks": {
-                name: {
-                    "title": one.title,
-                    "holds": one.holds,
-                    "governs": one.governs,
-                    "folder": one.folder,
-                    "models": one.models,
-                    "numbers": {key: plain(vars(n)) for key, n in one.numbers.items()},
-                    "verdicts": [v.as_dict() for v in one.verdicts],
-                }
-                for name, one in self.judged.items()
-            },
+            "checks": {name: one.as_dict() for name, one in self.judged.items()},
             "failures": self.failures,
         }
 

@@ -35,7 +35,7 @@ def lifetime_shares(
 
     A single design load case takes the whole lifetime, by its wind speeds. Of several, those of
     `per_year` take their number times their length, and production and idling share the rest as
-    the wind is within or outside `operating`; the others get 0. Cases of one wind speed part
+    the wind is within or outside `operating`; the others get 0. Cases of one wind speed share
     equally.
 
     Parameters

@@ -31,18 +31,23 @@ def run_lifetime(scene: Scene, tables: Tables) -> xr.Dataset | None:
     scene : Scene
         What was run.
     tables : mapping
-        Results by stage: journal, rolling, friction.
+        Results by stage: journal, thrust, rolling, friction.
 
     Returns
     -------
     xarray.Dataset or None
         `share` (case); of rolling bearings `life_hours` and `modified_life_hours` (rolling) with
-        `system_life_hours` and `system_modified_life_hours`, h; of journal and rolling bearings
-        `journal_energy` (journal) and `rolling_energy` (rolling), J a year, while the wind is
-        between cut-in and cut-out.
+        `system_life_hours` and `system_modified_life_hours`, h; of journal, thrust and rolling
+        bearings `journal_energy` (journal), `thrust_energy` (thrust) and `rolling_energy`
+        (rolling), J a year, while the wind is between cut-in and cut-out.
     """
     found: dict[str, xr.DataArray] = {}
-    for name, work in (("rolling", _lives), ("journal", _film_energy), ("friction", _energy)):
+    for name, work in (
+        ("rolling", _lives),
+        ("journal", _film_energy),
+        ("thrust", _pad_energy),
+        ("friction", _energy),
+    ):
         if name in tables:
             share = case_shares(scene, tables[name])
             if share is None:
@@ -101,6 +106,16 @@ def _film_energy(scene: Scene, table: xr.Dataset, share: np.ndarray) -> dict[str
     return {
         "share": _share_of(table, share),
         "journal_energy": xr.DataArray(energy, bearings, "journal", attrs=about),
+    }
+
+
+def _pad_energy(scene: Scene, table: xr.Dataset, share: np.ndarray) -> dict[str, xr.DataArray]:
+    energy = energy_per_year(scene, table, table["mean_friction_power"].fillna(0.0), share)
+    about = label("J", "friction of the thrust bearing or pair of cones, a year")
+    bearings = {"thrust": table["bearing"].values}
+    return {
+        "share": _share_of(table, share),
+        "thrust_energy": xr.DataArray(energy, bearings, "thrust", attrs=about),
     }
 
 

@@ -15,8 +15,9 @@ from loadflow.rolling.rating.static import (
     STATIC_SOURCE,
 )
 from loadflow.scene.journal import Journal
-from loadflow.scene.limits import JournalLimits, RollingLimits
+from loadflow.scene.limits import FilmLimits, JournalLimits, RollingLimits
 from loadflow.scene.scene import Scene
+from loadflow.scene.thrust import AnyAxial
 from loadflow.verdict import Verdict
 from loadflow.wind.cases import LOAD_CASES
 
@@ -39,25 +40,29 @@ def verdicts(
     scene : Scene
         What was run, with its limits.
     tables : mapping
-        Results by stage, each over ``bearing`` and ``case``: journal, rolling.
+        Results by stage, each over ``bearing`` and ``case``: journal, thrust, rolling.
     lifetime : xarray.Dataset or None
         Of `loadflow.studies.run_lifetime.run_lifetime`.
     missing : mapping, optional
         By stage, the load cases that it could not answer at all.
     """
+    carriers = [*scene.thrust.bearings] if "thrust" in tables else []
     found = [
         Verdict(
             stage, "load cases not answered", len(missing[stage]), 0.0, "at most", "cases",
             "extremes need every case", missing[stage][0],
             note=f"not answered: {len(missing[stage])} cases; the extremes lack them",
         )
-        for stage in ("journal", "rolling", "friction")
+        for stage in ("journal", "thrust", "rolling", "friction")
         if missing and missing.get(stage)
     ]  # fmt: skip
     if "journal" in tables:
         table = tables["journal"].load()
         for name in table["bearing"].values.tolist():
-            found += _of_journal(scene, name, table.sel(bearing=name))
+            found += _of_journal(scene, name, table.sel(bearing=name), carriers)
+    if "thrust" in tables:
+        for name in carriers:
+            found += _of_pads(scene.thrust.bearings[name], name, tables["thrust"].load())
     if "rolling" in tables:
         found += _of_rolling(scene, tables["rolling"].load(), lifetime)
     return found
@@ -66,19 +71,19 @@ def verdicts(
 # --- journal bearings -------------------------------------------------------------------------
 
 
-def _of_journal(scene: Scene, name: str, table: xr.Dataset) -> Iterator[Verdict]:
+def _of_journal(
+    scene: Scene, name: str, table: xr.Dataset, carriers: Sequence[str]
+) -> Iterator[Verdict]:
     """Verdicts on one journal bearing: production first, then what holds in every load case."""
     subject, options = f"journal {name}", scene.journal.at(name)
     limits = options.limits
     yield _answered(subject, table)
-    starting = np.array([_starts_or_stands(dlc) for dlc in table["dlc"].values.tolist()])
-    production, events = table.isel(case=~starting), table.isel(case=starting)
+    mixed = f"ε above {limits.eccentricity_ratio:g}"
+    yield from _in_contact(subject, table, limits, mixed, "journal")
+    production = _production(table)
     if production.sizes["case"]:
-        yield _contact(subject, production, "power production", limits.contact_time, limits)
         yield from _film(options, subject, production)
-    if events.sizes["case"]:
-        yield _contact(subject, events, "starts, stops and faults", limits.start_time, limits)
-    yield from _pressure(limits, subject, table)
+    yield from _pressure(limits, subject, table, "journal")
     if limits.specific_load is not None:
         area = options.geometry.width * options.geometry.diameter
         value, case, _ = _worst(table, "largest_load", "most")
@@ -88,7 +93,7 @@ def _of_journal(scene: Scene, name: str, table: xr.Dataset) -> Iterator[Verdict]
         )  # fmt: skip
     if options.heat is not None:
         yield _warmth(subject, table, limits)
-    if thrust := _thrust_on_journal(subject, table):
+    if name not in carriers and (thrust := _thrust_on_journal(subject, table)):
         yield thrust
 
 
@@ -115,23 +120,38 @@ def _answered(subject: str, table: xr.Dataset) -> Verdict:
     )
 
 
+def _in_contact(
+    subject: str, table: xr.Dataset, limits: FilmLimits, mixed: str, section: str
+) -> Iterator[Verdict]:
+    """How long the surfaces touch while the shaft turns: in power production, and in starts."""
+    for cases, situation, limit in (
+        (_production(table), "power production", limits.contact_time),
+        (_production(table, False), "starts, stops and faults", limits.start_time),
+    ):
+        if cases.sizes["case"]:
+            yield _contact(subject, cases, situation, limit, mixed, section)
+
+
+def _production(table: xr.Dataset, produces: bool = True) -> xr.Dataset:
+    """The load cases of power production, or those in which the shaft stands, starts or stops."""
+    standing = np.array([_starts_or_stands(dlc) for dlc in table["dlc"].values.tolist()])
+    return table.isel(case=standing != produces)
+
+
 def _contact(
-    subject: str, table: xr.Dataset, situation: str, limit: float | None, limits: JournalLimits
+    subject: str, table: xr.Dataset, situation: str, limit: float | None, mixed: str, section: str
 ) -> Verdict:
-    """How long the surfaces touch while the shaft turns, and what that means above E_krit."""
+    """How long the surfaces touch while the shaft turns, and what that means in mixed friction."""
     value, case, _ = _worst(table, "contact_time", "most")
     row = table.sel(case=case)
     turns, energy, seconds = (
         float(row[f"mixed_friction_{what}"]) for what in ("revolutions", "energy", "time")
     )
-    note = (
-        f"ε above {limits.eccentricity_ratio:g} for {seconds:.3g} s, {turns:.3g} revolutions, "
-        f"{energy / 1e3:.3g} kJ"
-    )
+    note = f"{mixed} for {seconds:.3g} s, {turns:.3g} revolutions, {energy / 1e3:.3g} kJ"
     if np.isfinite(float(row["transition_speed"])):
         rpm = float(row["transition_speed"]) * 30 / np.pi
         note += f"; transition at {rpm:.3g} 1/min, {float(row['transition_time']):.4g} s"
-    key = f"journal.limits.{'contact_time' if situation == 'power production' else 'start_time'}"
+    own = "contact_time" if situation == "power production" else "start_time"
     return Verdict(
         subject,
         f"time in contact while turning, {situation}",
@@ -142,7 +162,7 @@ def _contact(
         "no limit is stated" if limit is None else "the film must part the surfaces, (3.1)",
         case if value else "",
         note=note,
-        key=key,
+        key=f"{section}.limits.{own}",
     )
 
 
@@ -159,17 +179,7 @@ def _film(options: Journal, subject: str, table: xr.Dataset) -> Iterator[Verdict
         source=_source(limits, "eccentricity_ratio", "E_krit [Jonuschies 2015, (5.2)]"),
         case=case, time=time, note=touching, key="journal.limits.eccentricity_ratio",
     )  # fmt: skip
-    film = table.assign(smallest_film=_where(table, "smallest_film", 0))
-    value, case, time = _worst(film, "smallest_film", "least")
-    parts = (
-        f"R_z {1e6 * options.contact_film:.3g} + waviness {1e6 * limits.waviness:.3g} + "
-        f"margin {1e6 * limits.margin:.3g} µm, [Jonuschies 2015, (3.1)]"
-    )
-    yield Verdict(
-        subject, "smallest film", value, options.least_film, "at least", "m",
-        parts if limits.minimum_film is None else _STATED, case, time, touching,
-        "journal.limits.minimum_film",
-    )  # fmt: skip
+    yield _thinnest(options, subject, table, touching, "journal")
     rule = "[Jonuschies 2015, ch. 3.4]"
     low, high = limits.sommerfeld_range
     senses: tuple[tuple[float, Literal["at least", "at most"], Literal["least", "most"]], ...] = (
@@ -194,12 +204,32 @@ def _film(options: Journal, subject: str, table: xr.Dataset) -> Iterator[Verdict
     )  # fmt: skip
 
 
+def _thinnest(
+    options: Journal | AnyAxial, subject: str, table: xr.Dataset, touching: str, section: str
+) -> Verdict:
+    """Smallest film in power production; a contact breaks it."""
+    limits = options.limits
+    film = table.assign(smallest_film=_where(table, "smallest_film", 0))
+    value, case, time = _worst(film, "smallest_film", "least")
+    parts = (
+        f"R_z {1e6 * options.contact_film:.3g} + waviness {1e6 * limits.waviness:.3g} + "
+        f"margin {1e6 * limits.margin:.3g} µm, [Jonuschies 2015, (3.1)]"
+    )
+    return Verdict(
+        subject, "smallest film", value, options.least_film, "at least", "m",
+        parts if limits.minimum_film is None else _STATED, case, time, touching,
+        f"{section}.limits.minimum_film",
+    )  # fmt: skip
+
+
 def _where(table: xr.Dataset, name: str, in_contact: float) -> xr.DataArray:
     """An extreme of each case; where surfaces touch, what contact stands for."""
     return table[name].where(table["in_contact"] == 0, in_contact)
 
 
-def _pressure(limits: JournalLimits, subject: str, table: xr.Dataset) -> Iterator[Verdict]:
+def _pressure(
+    limits: FilmLimits, subject: str, table: xr.Dataset, section: str
+) -> Iterator[Verdict]:
     """Largest film pressure against the material at the temperature of the film."""
     warm = "largest_temperature" in table
     value, case, time = _worst(table, "largest_pressure", "most")
@@ -212,7 +242,8 @@ def _pressure(limits: JournalLimits, subject: str, table: xr.Dataset) -> Iterato
     yield Verdict(
         subject, "largest film pressure", value, limits.pressure_at(kelvin), "at most", "Pa",
         _source(limits, "material", f"white metal, {points} [Jonuschies 2015, ch. 3]"), case, time,
-        "" if warm else "temperature not computed: no journal.heat", "journal.limits.material",
+        "" if warm else "temperature not computed: the film has one viscosity",
+        f"{section}.limits.material",
     )  # fmt: skip
 
 
@@ -245,6 +276,28 @@ def _thrust_on_journal(subject: str, table: xr.Dataset) -> Verdict | None:
         f"none: {value / 1e3:.0f} kN along the shaft is carried by no bearing of this arrangement; "
         "it needs a thrust bearing",
     )
+
+
+# --- thrust bearings and pairs of cones ---------------------------------------------------------
+
+
+def _of_pads(part: AnyAxial, name: str, table: xr.Dataset) -> Iterator[Verdict]:
+    """Verdicts on the films of one bearing that carries the force along the shaft."""
+    subject, own = f"{part.kind} {name}", table.sel(bearing=name)
+    yield _answered(subject, own)
+    yield from _in_contact(subject, own, part.limits, "in contact", "thrust")
+    production = _production(own)
+    if production.sizes["case"]:
+        touching = production["in_contact"] > 0
+        note = f"in contact in {int(touching.sum())} load cases" if touching.any() else ""
+        yield _thinnest(part, subject, production, note, "thrust")
+    yield from _pressure(part.limits, subject, own, "thrust")
+    value, case, time = _worst(own, "largest_axial_load", "most")
+    yield Verdict(
+        subject, "force along the shaft without a bearing", 0.0, 0.0, "at most", "N",
+        "equilibrium of the shaft", case, time,
+        f"{value / 1e3:.0f} kN along the shaft is carried by {name}, a {part.words}",
+    )  # fmt: skip
 
 
 # --- rolling bearings -------------------------------------------------------------------------
@@ -350,6 +403,6 @@ def _worst(
     return float(values[k]), str(table["case"].values[k]), time
 
 
-def _source(limits: JournalLimits, key: str, default: str) -> str:
+def _source(limits: FilmLimits, key: str, default: str) -> str:
     """Where a limit comes from: its default's source, or the scene."""
     return _STATED if key in limits.changed else default

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Annotated
 
 import numpy as np
-from annotated_types import Gt, Le
+from annotated_types import Ge, Gt, Le
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError, SolverError
@@ -20,6 +20,8 @@ from loadflow.numerics.fields import check_fields
 
 Array = NDArray[np.float64]
 Value = float | NDArray[np.float64]
+
+_REACH = 12.0  # film parameter above which asperities carry less than rounding
 
 
 def combined_roughness(first: Value, second: Value) -> Value:
@@ -132,14 +134,18 @@ class AsperityContact:
     Attributes
     ----------
     roughness : float
-        Combined roughness σ of the heights of the asperities, m.
+        Combined roughness σ of the heights of the asperities, m: of their summits where
+        `summit_height` is given.
     contact_modulus : float
         E*, Pa (`loadflow.tribology.hertz.effective_modulus`).
     factor : float
-        K = 16√2 π/15 (σβη)² √(σ/β) of p = K E* F_5/2(h/σ).
+        K = 16√2 π/15 (σβη)² √(σ/β) of p = K E* F_5/2((h − δ)/σ).
     crowding : float
         σβη: roughness × radius of the tips × tips in an area; 0.03 … 0.05 for most surfaces. Gives
         the real area of contact.
+    summit_height : float
+        δ, how far the mean of the summits lies above the mean plane, of both surfaces together, m.
+        0 takes all heights for summits.
 
     Raises
     ------
@@ -159,13 +165,19 @@ class AsperityContact:
     contact_modulus: Annotated[float, Gt(0)]
     factor: Annotated[float, Gt(0), Le(1)]
     crowding: Annotated[float, Gt(0), Le(1)] = 0.04
+    summit_height: Annotated[float, Ge(0), Le(1e-3)] = 0.0
 
     def __post_init__(self) -> None:
         check_fields(self)
 
     @classmethod
     def of_tips(
-        cls, roughness: float, contact_modulus: float, tip_radius: float, density: float
+        cls,
+        roughness: float,
+        contact_modulus: float,
+        tip_radius: float,
+        density: float,
+        summit_height: float = 0.0,
     ) -> AsperityContact:
         """Contact of surfaces whose tips are known.
 
@@ -179,6 +191,8 @@ class AsperityContact:
             Radius β of an asperity, m.
         density : float
             Asperities of one surface in an area, η, 1/m².
+        summit_height : float
+            δ, m.
         """
         if not (tip_radius > 0 and density > 0):
             raise InputError(
@@ -191,12 +205,18 @@ class AsperityContact:
             contact_modulus=contact_modulus,
             factor=float(factor),
             crowding=crowding,
+            summit_height=summit_height,
         )
 
     @property
     def scale(self) -> float:
         """K E*, Pa."""
         return self.factor * self.contact_modulus
+
+    @property
+    def reach(self) -> float:
+        """Gap of the mean planes above which asperities carry less than rounding, m."""
+        return self.summit_height + _REACH * self.roughness
 
     def pressure(self, gap: ArrayLike) -> Array:
         """Mean pressure that asperities carry at a gap h (m), Pa."""
@@ -207,7 +227,7 @@ class AsperityContact:
         return self.scale / self.roughness * self._integrals(gap)[1]
 
     def area(self, gap: ArrayLike) -> Array:
-        """Real over nominal area of contact at a gap h (m): π² (σβη)² F_2(h/σ).
+        """Real over nominal area of contact at a gap h (m): π² (σβη)² F_2((h − δ)/σ).
 
         The elastic law holds while this is well below 1; it is not cut there.
         """
@@ -230,16 +250,16 @@ class AsperityContact:
         # ln F_5/2 is concave: after one step Newton's method comes from above and never passes
         u = np.zeros_like(target)
         for _ in range(60):
-            value, slope = self._integrals(self.roughness * u)[:2]
+            value, slope = self._integrals(self.roughness * u + self.summit_height)[:2]
             step = (np.log(value) - target) * value / slope
             u = np.minimum(u - step, 37.5)
             if np.max(np.abs(step) / (1 + np.abs(u)), initial=0.0) < 1e-12:
-                return np.where(p > 0, u * self.roughness, np.inf)
+                return np.where(p > 0, u * self.roughness + self.summit_height, np.inf)
         raise SolverError(f"gap of rough surfaces: not converged in 60 steps, last step {step}")
 
     def _integrals(self, gap: ArrayLike) -> Array:
         """F_5/2, its derivative, F_2 and its derivative at gaps, shape (4, ...)."""
         from loadflow.tribology.kernels import contact_table
 
-        u = np.asarray(gap, float) / self.roughness
+        u = (np.asarray(gap, float) - self.summit_height) / self.roughness
         return np.asarray(contact_table(np.ravel(u)).reshape(4, *u.shape))

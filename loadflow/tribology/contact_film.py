@@ -13,7 +13,7 @@ References
 ----------
 Hamrock, Schmid, Jacobson: Fundamentals of Fluid Film Lubrication. Moes: Lubrication and Beyond,
 Twente 2000. Nijenbanning, Venner, Moes: Wear 176 (1994) 217. Zhu, Cheng 1989, after Zhou, Hoeprich:
-J. Tribology 113 (1991) 590. Hamrock, Dowson: J. Lubrication Technology 99 (1977) 15.
+J. Tribology 113 (1991) 590. Hamrock, Dowson: J. Lubrication Technology, 1977.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ POWER_LAWS = {
     "dowson-toyoda": PowerLaw("line", 3.06, 0.56, 0.69, 0.10),
     "dowson-higginson": PowerLaw("line", 1.60, 0.60, 0.70, 0.13),
     "crook": PowerLaw("line", 2.14, 0.75, 0.75, 0.125),
-    # (5.90); the source prints the exponent 0.629 of U for 0.692: films 4.8 times too thick
+    # (5.90); von Hollen prints the exponent 0.629 of U for 0.692: films 4.8 times too thick
     "hamrock": PowerLaw("line", 2.922, 0.470, 0.692, 0.166),
     "hamrock-printed": PowerLaw("line", 2.922, 0.470, 0.629, 0.166),
 }

@@ -6,9 +6,9 @@ through the walls (conducting).
 
 References
 ----------
-Nahme, R.: Beiträge zur hydrodynamischen Theorie der Lagerreibung. Ing.-Archiv 11 (1940) 191.
-Gavis, J.; Laurence, R. L.: Viscous heating in plane and circular flow between moving surfaces.
-Ind. Eng. Chem. Fundamentals 7 (1968) 232.
+Nahme, R.: Beiträge zur hydrodynamischen Theorie der Lagerreibung. Ing.-Archiv, 1940.
+Gavis, J.; Laurence, R. L., 1968: Viscous heating in plane and circular flow between moving
+surfaces. Ind. Eng. Chem. Fundamentals.
 """
 
 from __future__ import annotations

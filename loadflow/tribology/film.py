@@ -16,7 +16,7 @@ Array = NDArray[np.float64]
 def effective_speed(shaft: float, shell: float = 0.0, load: float = 0.0) -> float:
     """Speed at which a film at rest would carry the same: ω_shaft + ω_shell − 2 ω_load, rad/s.
 
-    (3.8) of the source [Jonuschies 2015]; a load that turns at half the speed of the shaft finds
+    (3.8) of [Jonuschies 2015]; a load that turns at half the speed of the shaft finds
     no film.
 
     Examples
@@ -152,7 +152,7 @@ def squeeze_time(
 ) -> float:  # fmt: skip
     """Time (s) in which `force` (N) squeezes a wide film from ε `start` to `end`.
 
-    (1.5) of the source [Jonuschies 2015], exact for the Gümbel film; the values printed in its
+    (1.5) of [Jonuschies 2015], exact for the Gümbel film; the values printed in its
     Table 1-1 are twice as long.
 
     Examples

@@ -19,7 +19,7 @@ roughness on partial hydrodynamic lubrication. ASME J. Lubr. Technol. 100 (1978)
 Patir, N.; Cheng, H. S.: Application of average flow model to lubrication between rough sliding
 surfaces. ASME J. Lubr. Technol. 101 (1979) 220.
 Wu, C.; Zheng, L.: An average Reynolds equation for partial film lubrication with a contact factor.
-ASME J. Tribology 111 (1989) 188.
+ASME J. Tribology, 1989.
 """
 
 from __future__ import annotations

@@ -183,7 +183,7 @@ def hertz_point(
     k, k_integral, e_integral = ellipse(ratio, rung)
     e_star = effective_modulus(modulus, poisson, second_modulus, second_poisson)
 
-    minor = np.cbrt(2 * e_integral / (np.pi * k))  # η of the source; ξ = k η, ψ/ξ below
+    minor = np.cbrt(2 * e_integral / (np.pi * k))  # η of Ritzer; ξ = k η, ψ/ξ below
     psi_xi = 2 * k_integral / (np.pi * k * minor)
     size = np.cbrt(1.5 * load / (total * e_star))
     a, b = k * minor * size, minor * size

@@ -6,7 +6,7 @@ Equation numbers are those of von Hollen, *Reibung von Kurbelwellen-Wälzlagern*
 References
 ----------
 DIN 51563 (Ubbelohde–Walther); Barus 1893; Roelands 1966; Dowson & Higginson 1966 (density);
-Gold, Schmidt, Dicke, Loos, Assmann: J. Synthetic Lubrication 18 (2001) 51 (pressure–viscosity);
+Gold, Schmidt, Dicke, Loos, Assmann: J. Synthetic Lubrication, 2001 (pressure–viscosity);
 Cragoe 1929 (thermal conductivity).
 """
 
@@ -166,7 +166,7 @@ def density(
 ) -> Array:
     """Density at ambient pressure, kg/m³, falling by 0.605 kg/m³ each K, (5.59).
 
-    The source prints the slope in N s/mm²; N s²/mm⁴ is meant.
+    Von Hollen prints the slope in N s/mm²; N s²/mm⁴ is meant.
 
     Examples
     --------
@@ -177,20 +177,8 @@ def density(
     return np.asarray(states.density_state(t, 0.0, reference, reference_temperature)[0])
 
 
-def compressed_density(ambient: ArrayLike, pressure: ArrayLike) -> Array:
-    """Density under pressure after Dowson and Higginson, kg/m³.
-
-    Examples
-    --------
-    >>> round(float(compressed_density(870.0, 1e8)), 2)
-    914.62
-    """
-    p = np.asarray(pressure, float)
-    return np.asarray(ambient, float) * (1 + states.SQUEEZED * p / (1 + states.STIFFENED * p))
-
-
 def bulk_modulus(pressure: ArrayLike) -> Array:
-    """Bulk modulus ρ dp/dρ of that compression, Pa.
+    """Bulk modulus ρ dp/dρ of the compression after Dowson and Higginson, Pa.
 
     Examples
     --------
@@ -228,28 +216,6 @@ def gold_pressure_viscosity(
     return np.asarray(states.gold_state(np.asarray(viscosity, float), 0.0, *GOLD[base])[0])
 
 
-def printed_pressure_viscosity(viscosity_40: ArrayLike, temperature: ArrayLike) -> Array:
-    """Pressure–viscosity coefficient as the source prints it, 1/Pa, (5.60).
-
-    Twice what is usual for engine oils (3.6e-8 1/Pa for 65 mm²/s at 90 °C); kept to compare with.
-
-    Parameters
-    ----------
-    viscosity_40 : array_like
-        Kinematic viscosity at 40 °C, m²/s.
-    temperature : array_like
-        K.
-
-    Examples
-    --------
-    >>> round(float(printed_pressure_viscosity(65e-6, 363.15)) * 1e8, 2)
-    3.63
-    """
-    t = np.asarray(temperature, float) - CELSIUS
-    level = np.log10(np.asarray(viscosity_40, float) * _MM2)
-    return np.asarray((2.08 + 1.375 * level - 0.015 * t + 5e-5 * t**2) * 1e-8)
-
-
 def conductivity(
     temperature: ArrayLike,
     ambient_density: ArrayLike,
@@ -264,7 +230,7 @@ def conductivity(
     ambient_density : array_like
         kg/m³.
     variant : {"physics", "printed"}
-        Cragoe's formula takes °C; the source prints it with K, which lowers k_th by 13 % or so.
+        Cragoe's formula takes °C; von Hollen prints it with K, which lowers k_th by 13 % or so.
 
     Examples
     --------

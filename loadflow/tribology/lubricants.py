@@ -170,7 +170,7 @@ class ExponentialOil:
     """Oil whose viscosity falls exponentially with temperature, as many reference cases state it.
 
     η = η_ref exp(-β (T - T_ref)), times the rise under pressure; density, specific heat and
-    conductivity are constant. It answers the same questions as `Oil`.
+    conductivity are constant. It has the methods of `Oil`.
 
     Attributes
     ----------
@@ -233,7 +233,7 @@ class ExponentialOil:
         return self.viscosity(temperature) / self.reference_density
 
     def density(self, temperature: ArrayLike, pressure: ArrayLike = 0.0) -> Array:
-        """Density, kg/m³, the same everywhere."""
+        """Density, kg/m³, constant."""
         return np.full(
             np.broadcast_shapes(np.shape(temperature), np.shape(pressure)), self.reference_density
         )
@@ -246,19 +246,19 @@ class ExponentialOil:
         return nothing, nothing
 
     def steepness(self, temperature: ArrayLike) -> Array:
-        """Steepness β = -d(ln η)/dT, 1/K, the same everywhere."""
+        """Steepness β = -d(ln η)/dT, 1/K, constant."""
         return np.full(np.shape(temperature), self.constant_steepness)
 
     def pressure_viscosity(self, temperature: ArrayLike) -> Array:
-        """Pressure–viscosity coefficient α, 1/Pa, the same everywhere."""
+        """Pressure–viscosity coefficient α, 1/Pa, constant."""
         return np.full(np.shape(temperature), self.pressure_coefficient)
 
     def conductivity(self, temperature: ArrayLike) -> Array:
-        """Thermal conductivity, W/(m K), the same everywhere."""
+        """Thermal conductivity, W/(m K), constant."""
         return np.full(np.shape(temperature), self.constant_conductivity)
 
     def specific_heat(self, temperature: ArrayLike) -> Array:
-        """Specific heat, J/(kg K), the same everywhere."""
+        """Specific heat, J/(kg K), constant."""
         return np.full(np.shape(temperature), self.constant_specific_heat)
 
     def _viscosity(self, temperature: ArrayLike, pressure: ArrayLike) -> tuple[Array, Array, Array]:

@@ -38,19 +38,10 @@ def newtonian_stress(viscosity: Value, sliding: Value, film: Value) -> Value:
     return np.minimum(viscosity, _STIFFEST) * sliding / film
 
 
-def clipped_stress(newtonian: Value, limit: Value) -> Value:
-    """Stress after Table 5.1: Newtonian up to the limit, then the limit, Pa.
-
-    Examples
-    --------
-    >>> float(clipped_stress(9e6, 4e6))
-    4000000.0
-    """
-    return np.minimum(np.maximum(newtonian, -limit), limit)
-
-
 def smooth_stress(newtonian: Value, limit: Value) -> Value:
-    """The same without a kink, τ_lim tanh(τ_N/τ_lim), Pa; at most 24 % below it (at the kink).
+    """Stress τ_lim tanh(τ_N/τ_lim), Pa; at most 24 % below Table 5.1, at its kink.
+
+    Table 5.1: Newtonian up to the limit, then the limit.
 
     Examples
     --------
@@ -65,8 +56,8 @@ def inlet_force(
 ) -> Value:
     """Traction of the wedge around a contact, 3.154 η Δv l √(R/h), N; exact for rigid cylinders.
 
-    All there is where a roller hardly touches and its Hertzian strip vanishes; negligible beside
-    the strip's traction under load. To be added to `mixed_force`.
+    The only traction where a roller is barely loaded and its Hertzian strip vanishes; negligible
+    beside the strip's traction under load. To be added to `mixed_force`.
 
     Parameters
     ----------
@@ -90,7 +81,7 @@ def inlet_force(
 
 
 def boundary_coefficient(sliding: Value, coefficient: float, reference: float = 1e-3) -> Value:
-    """Friction coefficient of touching asperities, μ tanh(Δv/v_ref), which stands still at rest.
+    """Friction coefficient of touching asperities, μ tanh(Δv/v_ref), which vanishes at rest.
 
     Parameters
     ----------
@@ -99,7 +90,7 @@ def boundary_coefficient(sliding: Value, coefficient: float, reference: float = 
     coefficient : float
         Boundary friction coefficient μ_bl.
     reference : float
-        Speed over which the friction turns round, m/s.
+        Speed over which the friction reverses, m/s.
 
     Examples
     --------

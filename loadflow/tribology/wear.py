@@ -9,8 +9,8 @@ References
 Archard, J. F.: Contact and rubbing of flat surfaces. J. Appl. Phys. 24 (1953) 981.
 Fleischer, G.: Energetische Methode der Bestimmung des Verschleißes. Schmierungstechnik 4 (1973).
 Dufrane, K. F.; Kannel, J. W.; McCloskey, T. H.: Wear of steam turbine journal bearings at low
-operating speeds. ASME J. Lubr. Technol. 105 (1983) 313. Hashimoto, H.; Wada, S.; Nojima, K.:
-Performance characteristics of worn journal bearings. ASLE Trans. 29 (1986) 565.
+operating speeds. ASME J. Lubr. Technol., 1983. Hashimoto, H.; Wada, S.; Nojima, K.:
+Performance characteristics of worn journal bearings. ASLE Trans., 1986.
 """
 
 from __future__ import annotations

@@ -8,8 +8,8 @@ import numpy as np
 
 from loadflow.errors import InputError
 
+from .blade import Airfoil
 from .checks import Array
-from .schema import Airfoil
 
 
 def blended(airfoils: Mapping[str, Airfoil], thickness: float) -> Airfoil:

@@ -20,17 +20,10 @@ from pydantic import BaseModel, ConfigDict, ValidationError, model_validator
 from loadflow.errors import InputError
 
 from .airfoils import blended
+from .blade import Airfoil, Blade, Mode
+from .control import Control, Supervision
 from .modes import bending_modes, tower_mode
-from .schema import (
-    Airfoil,
-    Blade,
-    Control,
-    Drivetrain,
-    Mode,
-    RotorGeometry,
-    Supervision,
-    Turbine,
-)
+from .schema import Drivetrain, RotorGeometry, Turbine
 from .tower import Tower, TowerBending
 
 Made = TypeVar("Made")

@@ -6,8 +6,8 @@ import numpy as np
 
 from loadflow.errors import InputError
 
+from .blade import Mode
 from .checks import Array
-from .schema import Mode
 
 _POWERS = np.arange(2, 7)
 _FINE = 2001

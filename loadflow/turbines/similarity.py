@@ -86,8 +86,7 @@ def scaled(turbine: Turbine, factor: float) -> Turbine:
     >>> round(larger.rated_power / 1e6), round(larger.rotor.radius, 1)
     (10, 89.1)
     """
-    if not (math.isfinite(factor) and factor > 0):
-        raise InputError(f"factor = {factor}: must be > 0")
+    check_positive("factor", factor)
     parts = {
         name: _part(getattr(turbine, name), factor)
         for name in ("rotor", "tower", "drivetrain", "control", "blade", "supervision")
@@ -121,9 +120,14 @@ def factor_of_power(power: float, known: float) -> float:
     >>> factor_of_power(20e6, 5e6)
     2.0
     """
-    if not (math.isfinite(power) and power > 0):
-        raise InputError(f"power = {power} W: must be > 0")
+    check_positive("power", power, " W")
     return math.sqrt(power / known)
+
+
+def check_positive(name: str, value: float, unit: str = "") -> None:
+    """Raise unless a number is positive and finite."""
+    if not (math.isfinite(value) and value > 0):
+        raise InputError(f"{name} = {value}{unit}: must be > 0")
 
 
 def _part(part: Part, factor: float) -> Part:

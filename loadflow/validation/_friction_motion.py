@@ -130,7 +130,7 @@ def _stage_one(gaps: RollerGaps) -> Iterator[Check]:
         got = _percent(model, static_load(rpm, force))
         name = f"slip, stage 1, {rpm}/min, {force / 1e3:g} kN"
         of = _fitted(rpm == 1000 and force == 2e3)
-        yield Check(name, "Tab. 8.5", printed, got, 1.5, "absolute", "%", evidence=of)
+        yield Check(name, "Table 8.5", printed, got, 1.5, "absolute", "%", evidence=of)
 
     def uneven(pair: tuple[float, float]) -> tuple[float, float]:
         return pair[0] / 2, 1.5 * pair[1]
@@ -145,7 +145,7 @@ def _stage_one(gaps: RollerGaps) -> Iterator[Check]:
         got = _percent(model, reversing_load(rpm))
         name = f"slip, stage 1, ±2 kN, {rpm}/min"
         yield Check(
-            name, "Tab. 8.6", printed, got, 1.5, "absolute", "%",
+            name, "Table 8.6", printed, got, 1.5, "absolute", "%",
             missed=_FREQUENCY if rpm >= 2000 else "", evidence=_fitted(rpm == 500),
         )  # fmt: skip
 
@@ -158,7 +158,7 @@ def _stage_two(gaps: RollerGaps) -> Iterator[Check]:
     for rpm, force, _, _, printed in STATIC:
         got = _percent(model, static_load(rpm, force))
         name = f"slip, stage 2, {rpm}/min, {force / 1e3:g} kN"
-        yield Check(name, "Tab. 8.5", printed, got, 2.0, "absolute", "%")
+        yield Check(name, "Table 8.5", printed, got, 2.0, "absolute", "%")
 
 
 def errors(model: Model) -> tuple[float, float]:
@@ -184,7 +184,7 @@ def _beyond(gaps: RollerGaps) -> Iterator[Check]:
     pockets; and drained, since the tests were lubricated by drops). Oil at 60 °C in all rows. The
     limits are one-sided, since a model that is nearer to the measurements is no worse.
     """
-    source = "error of the print in the same rows, Tab. 8.5, 8.6"
+    source = "error of the print in the same rows, Table 8.5, 8.6"
     stage_one, stage_two = printed_errors(1), printed_errors(2)
     flooded = parts.drag_constants(gaps, AT_60, 9 / 22)
     models: Sequence[tuple[str, Model, tuple[float, float]]] = (

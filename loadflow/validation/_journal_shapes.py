@@ -190,7 +190,7 @@ def comsol_checks() -> Iterator[Check]:
 def pocket_slider(cells: int) -> FilmField:
     """Slider of Fowell 2007: L = 10 mm, h 1.05 … 1.0 µm, pocket of 1 µm at 2 … 5 mm, U = 1 m/s.
 
-    An arc of 10 mm on a shaft of 1 m radius, so wide that its rims do not count.
+    An arc of 10 mm on a shaft of 1 m radius, so wide that its ends do not count.
     """
     from loadflow.journal import Arc, Contour, JournalBearing, Lubricant, MassConserving, Recess
 

@@ -23,7 +23,7 @@ def checks() -> Iterator[Check]:
     ):
         yield Check(
             f"ΣF_k, case {i}",
-            f"Tab. 4.11, assuming {coacted}",
+            f"Table 4.11, assuming {coacted}",
             expected,
             float(got),
             tolerance,
@@ -47,7 +47,7 @@ def checks() -> Iterator[Check]:
     )
     combined = coacting(wide, 500e3, 500e3, 2000e3).maximum_force
     yield Check(
-        "F_k, Tab. 3.1",
+        "F_k, Table 3.1",
         f"ch. 3.3, assuming {coacted}, L_A = 60 mm",
         32_700,
         float(combined),
@@ -59,8 +59,8 @@ def checks() -> Iterator[Check]:
     for i, row in enumerate(SPECTRUM):
         band = f"assuming {coacted}, L_A = 60 mm; printed is flexible"
         for name, source, printed, ours, middle, half in (
-            ("F_k,max", "Tab. 4.4", row[3], spectrum.maximum_force[i], 1.125, 0.125),
-            ("P_ea", "Tab. 4.6", row[4], spectrum.equivalent_load[i], 1.125, 0.075),
+            ("F_k,max", "Table 4.4", row[3], spectrum.maximum_force[i], 1.125, 0.125),
+            ("P_ea", "Table 4.6", row[4], spectrum.equivalent_load[i], 1.125, 0.075),
         ):
             yield Check(
                 f"{name}, case {i + 1}, {printed:g} N printed over rigid rings",
@@ -78,7 +78,7 @@ def checks() -> Iterator[Check]:
         got = float(BLADE.raceway_contact("inner", force).pressure) / 1e6
         yield Check(
             f"p_max at {force} N",
-            "Bild 2.17, assuming the blade bearing, inner ring",
+            "Fig. 2.17, assuming the blade bearing, inner ring",
             pressure,
             got,
             0.015,

@@ -35,7 +35,7 @@ DRIVE = SlewingBearing(
     curvature="ritzer",
 )
 
-# Tab. 4.2, 4.4, 4.6, 4.7, 4.9:
+# Table 4.2, 4.4, 4.6, 4.7, 4.9:
 # F_r, F_a (N), M_k (N m), F_k,max, P_ea (N), t (%), N (1/min), O (°), n (1/min)
 SPECTRUM = np.array(
     [
@@ -49,7 +49,7 @@ SPECTRUM = np.array(
 )
 
 
-# Tab. 2.4: F_r, F_a (N), M_k (N m), measured torque (N m)
+# Table 2.4: F_r, F_a (N), M_k (N m), measured torque (N m)
 FRICTION_TESTS = np.array(
     [
         [250e3, 1000e3, 1000e3, 37_000],

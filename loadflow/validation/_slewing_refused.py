@@ -18,7 +18,7 @@ from loadflow.rolling import RingSections, axial_expansion, friction
 from loadflow.validation._slewing_cases import BLADE, FOUR_BALL, FRICTION_TESTS, RINGS
 from loadflow.validation.check import Check, evidence
 
-# Appendix B; its height is that of one row, both together carry the load of Bild 2.9
+# Appendix B; its height is that of one row, both together carry the load of Fig. 2.9
 APPENDIX_B = RingSections(
     outer_outside=2.100, outer_inside=1.902, inner_outside=1.888, inner_inside=1.700, height=0.100
 )
@@ -47,7 +47,7 @@ def _expansion() -> Iterator[Check]:
     grown = axial_expansion(BLADE, 3e6, APPENDIX_B)
     yield _refused(
         "u_z at 3000 kN, both rings",
-        "Bild 2.9",
+        "Fig. 2.9",
         0.35,
         float(grown.displacement) * 1e3,
         0.02,
@@ -71,7 +71,7 @@ def _expansion() -> Iterator[Check]:
     rigid = float(FOUR_BALL.equilibrium((0, 0, 5e3)).displacement[2]) * 1e3
     yield _refused(
         "u_z, four balls, 5 kN, flexible ring",
-        "Tab. 3.5",
+        "Table 3.5",
         0.020,
         rigid,
         0.05,
@@ -162,7 +162,7 @@ def _table_3_14() -> Iterator[Check]:
         ("F_r", 6500, abs(part * (up + down) @ along), "N"),
         ("M_k", 2000, abs(part * (up - down) @ along) * 0.125, "N m"),
     ):
-        yield _refused(name, "Tab. 3.10, 3.14", printed, float(got), 0.1, why, unit=unit)
+        yield _refused(name, "Table 3.10, 3.14", printed, float(got), 0.1, why, unit=unit)
 
 
 def _angles() -> Iterator[Check]:
@@ -170,7 +170,7 @@ def _angles() -> Iterator[Check]:
     angle = math.degrees(math.atan2(5830, 7500))
     yield _refused(
         "90° - α",
-        "Tab. 3.8",
+        "Table 3.8",
         38.19,
         angle,
         0.05,
@@ -201,7 +201,7 @@ def _friction() -> Iterator[Check]:
     for case, printed in ((2, 24_000), (3, 21_000)):
         yield _refused(
             f"M_R, case {case}, old model",
-            "Tab. 2.5, 4.12",
+            "Table 2.5, 4.12",
             printed,
             float(by_load[case - 1]),
             0.05,
@@ -212,7 +212,7 @@ def _friction() -> Iterator[Check]:
         for case, (printed, got) in enumerate(zip(measured, torques), start=1):
             yield _refused(
                 f"M_R, case {case}, test",
-                f"Tab. 4.12, by {model}",
+                f"Table 4.12, by {model}",
                 printed,
                 float(got),
                 0.2,

@@ -51,12 +51,12 @@ def _stiffer_than_printed() -> Iterator[Check]:
     table = ((5, 15, 20, 50, 100), (8, 18, 23, 45, 73), (10, 21, 28, 51, 82))
     thrust, mbs, test = np.array(table) * [[1e3], [1e-6], [1e-6]]
     shift = DRIVE.equilibrium(force=thrust[:, None] * [0, 0, 1]).displacement[:, 2]
-    yield _below("u_z, 45 balls, rigid over flexible rings", "Tab. 3.13", shift / mbs)
-    yield _below("u_z, 45 balls, rigid rings over test", "Tab. 3.13", shift / test)
+    yield _below("u_z, 45 balls, rigid over flexible rings", "Table 3.13", shift / mbs)
+    yield _below("u_z, 45 balls, rigid rings over test", "Table 3.13", shift / test)
     thrust = np.array([10e3, 20e3, 30e3, 40e3, 50e3])
     printed = np.array([45e-6, 75e-6, 105e-6, 128e-6, 148e-6])
     shift = FOUR_BALL.equilibrium(force=thrust[:, None] * [0, 0, 1]).displacement[:, 2]
-    yield _below("u_z, four balls, rigid over flexible rings", "Tab. 3.5", shift / printed)
+    yield _below("u_z, four balls, rigid over flexible rings", "Table 3.5", shift / printed)
     axial = BLADE.equilibrium(force=(0, 0, 94e3)).secant_stiffness[2, 2]
     yield _below("S_z, flexible over rigid rings, secant", "ch. 4.4", 5000e6 / axial)
     tilt = BLADE.equilibrium(force=(0, 0, 0), moment=(420.8e3, 0)).secant_stiffness[3, 3]
@@ -72,13 +72,13 @@ def _zones() -> Iterator[Check]:
     loaded = [int((result.ball_forces > 0).sum()) for result in (play, none, preload)]
     yield _below(
         "loaded contacts at G = 0.1, 0, -0.1 mm, over the next",
-        "Bild 2.18",
+        "Fig. 2.18",
         [loaded[0] / loaded[1], loaded[1] / loaded[2]],
     )
     idle = replace(BLADE, clearance=-1e-4).equilibrium(force=(0, 0, 0)).maximum_force
     yield _below(
         "what load adds to the preload of G = -0.1 mm",
-        "Bild 2.18",
+        "Fig. 2.18",
         preload.maximum_force / idle - 1,
     )
     tilt = BLADE.equilibrium(force=(0, 0, 0), moment=(5e5, 0))
@@ -108,7 +108,7 @@ def _zones() -> Iterator[Check]:
     # counter-acting loads; balls counted from +y, where the first one stands
     mixed = DRIVE.equilibrium(force=(0, -6500, 8000), moment=(2000, 0), element_angle=math.pi / 2)
     four_point = 1 + np.flatnonzero(mixed.ball_forces[0].min(axis=0) > 0)
-    source = "Tab. 3.14, assuming F_r and M_k counter-acting, rigid rings"
+    source = "Table 3.14, assuming F_r and M_k counter-acting, rigid rings"
     yield Check("first ball in four-point contact", source, 15, float(four_point[0]), 0, "absolute")
     # printed symmetric about ball 23 though ball 1 stands on the axis: one ball either way
     yield Check("last ball in four-point contact", source, 31, float(four_point[-1]), 1, "absolute")

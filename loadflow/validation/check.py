@@ -10,6 +10,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal, ParamSpec, get_args
 
+from loadflow.errors import InputError
+
 Evidence = Literal[
     "measured elsewhere", "another code", "closed form", "print of the source", "consistency"
 ]
@@ -159,6 +161,25 @@ def names() -> list[str]:
     return sorted(name for name in modules if name != "check" and not name.startswith("_"))
 
 
-def all_checks(name: str) -> Iterator[Check]:
-    """Yield the checks of the table `name`."""
-    yield from importlib.import_module(f"loadflow.validation.{name}").checks()
+def all_checks(name: str, folder: Path | None = None) -> Iterator[Check]:
+    """Yield the checks of the table `name`.
+
+    Parameters
+    ----------
+    name : str
+        One of `names`.
+    folder : Path, optional
+        With files that are not part of the package, for the rows that need them.
+
+    Raises
+    ------
+    InputError
+        A folder, but no row of this table needs one, or a file is not in it.
+    """
+    table = importlib.import_module(f"loadflow.validation.{name}")
+    of_files = getattr(table, "checks_of_files", None)
+    if folder is not None and of_files is None:
+        raise InputError(f"folder = {folder}: no number of the table {name} needs files")
+    yield from table.checks()
+    if folder is not None and of_files is not None:
+        yield from of_files(folder)

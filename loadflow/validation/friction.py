@@ -33,7 +33,7 @@ from loadflow.validation.check import Check, evidence
 RPM = math.pi / 30
 MODULUS = 2 * float(effective_modulus())
 
-# Tab. 8.2, NU2208; pocket angle and cage height are not given: half the cage's radial height
+# Table 8.2, NU2208; pocket angle and cage height are not given: half the cage's radial height
 MAIN = parts.RollerGaps(
     radius=5.5e-3,
     length=11e-3,
@@ -98,7 +98,7 @@ def _kinematics() -> Iterator[Check]:
         ("period, cage turns, pin", 21, cages),
     ]
     for name, expected, got in rows:
-        yield Check(name, "(4.50)–(4.60), Tab. 8.1, 8.2, rebuilt", expected, float(got), 5e-7)
+        yield Check(name, "(4.50)–(4.60), Table 8.1, 8.2, rebuilt", expected, float(got), 5e-7)
 
 
 @evidence("closed form")
@@ -143,19 +143,19 @@ def _cage_and_seal() -> Iterator[Check]:
 
 @evidence("closed form")
 def _traction() -> Iterator[Check]:
-    """Limiting shear stress, case A6, and other pressures of Tab. 5.1."""
+    """Limiting shear stress, case A6, and other pressures of Table 5.1."""
     oil = lubricant("crankshaft-5w-30")
     for pressure, expected in ((100, 4), (502, 4), (573.37, 8.9959), (1000, 38.86)):
         got = traction.limiting_stress(
             pressure * 1e6, oil.critical_stress, oil.critical_pressure, oil.limiting_slope
         )
         name = f"τ_lim at {pressure} MPa"
-        yield Check(name, "(5.54), Tab. 5.1", expected, float(got) / 1e6, 1e-6, unit="MPa")
+        yield Check(name, "(5.54), Table 5.1", expected, float(got) / 1e6, 1e-6, unit="MPa")
 
 
 @evidence("closed form")
 def _drag_integrals() -> Iterator[Check]:
-    """Areas of the roller's end, case A7, and the constants fitted to Tab. 8.5."""
+    """Areas of the roller's end, case A7, and the constants fitted to Table 8.5."""
     rows = (
         ("𝒜", 677.2424, drag.strip_moment(5.5, 2.75)),
         ("ℬ", 410.2441, drag.segment_polar(5.5, 1.6)),
@@ -206,7 +206,7 @@ def _distribution() -> Iterator[Check]:
 def _printed_law() -> Iterator[Check]:
     """Loads of single rollers with the law of the source, case B6."""
     angles, law = 2 * np.pi * np.arange(14) / 14, behw_law(11e-3)
-    source = "(5.13)–(5.16), Tab. 8.2, rebuilt"
+    source = "(5.13)–(5.16), Table 8.2, rebuilt"
     table = (
         (2000.0, 8.6408, 62.42, (718.29, 576.37, 194.97, 0.0), 691.72),
         (13_800.0, 27.8536, 81.74, (4208.63, 3685.55, 2251.54, 320.46), 4055.14),
@@ -229,7 +229,7 @@ def _printed_law() -> Iterator[Check]:
         (25, 17.194, 1143.9, 5), (13, 10.509, 964.7, 5), (0, 2.888, 677.0, 9),
     ):  # fmt: skip
         found = radial_distribution(3000.0, pin, gap * 1e-6, behw_law(18e-3))
-        name, source = f"pin, e = {gap} μm", "(5.13)–(5.16), Tab. 8.1, 3 kN, rebuilt"
+        name, source = f"pin, e = {gap} μm", "(5.13)–(5.16), Table 8.1, 3 kN, rebuilt"
         delta = float(found.displacement) * 1e6
         yield Check(f"δ₀, {name}", source, shift, delta, 5e-4, "absolute", "μm")
         yield Check(f"R_max, {name}", source, largest, float(found.loads.max()), 1e-4, unit="N")
@@ -285,7 +285,7 @@ def _contact() -> Iterator[Check]:
         ("M_Verf/α", 8.6796e-3, parts.hysteresis_moment(load, half, 1.0), 1e-4, "N m"),
     ]  # fmt: skip
     for name, expected, got, tolerance, unit in rows:
-        source = "Tab. 8.2, 718.29 N, 1000/min, rebuilt"
+        source = "Table 8.2, 718.29 N, 1000/min, rebuilt"
         yield Check(name, source, expected, float(got), tolerance, unit=unit)
     loading = film.thermal_loading(eta, 0.027789, u, 0.1386)
     heated = float(film.thermal_factor(loading))
@@ -293,7 +293,7 @@ def _contact() -> Iterator[Check]:
     # a circle, k = 1: what stands before G^0.53 U^0.67 W^-0.067
     circle = float(film.hamrock_dowson_central(1.0, 1.0, 1.0, 1.0))
     yield Check(
-        "Hamrock/Dowson, circle", "Tab. 5.2", 1.90, circle, 1e-3, "absolute",
+        "Hamrock/Dowson, circle", "Table 5.2", 1.90, circle, 1e-3, "absolute",
         evidence="print of the source",
     )  # fmt: skip
 

@@ -157,7 +157,7 @@ def friction_checks() -> Iterator[Check]:
 
 @evidence("closed form")
 def closed_form_checks() -> Iterator[Check]:
-    """Short and long bearings; what is left is the loss at the rims (about 0.7 D/B)."""
+    """Short and long bearings; what is left is the loss at the ends (about 0.7 D/B)."""
     from loadflow.journal import Guembel, Reynolds, Sommerfeld
     from loadflow.tribology import film as closed
 

@@ -52,7 +52,7 @@ UNCONDENSED: dict[Load, tuple[float, float]] = {
     (0, 0, 0, 2000, 0): (2.80028e-05, 1074.9315),
     (2e4, 0, 0, 0, 0): (3.19394e-05, 1275.7726),
 }
-# Tab. 3.13: F_a (N), u_z (m) of the source's multibody model and of its finite elements
+# Table 3.13: F_a (N), u_z (m) of the source's multibody model and of its finite elements
 TABLE_3_13 = ((5e3, 0.008e-3, 0.007e-3), (15e3, 0.018e-3, 0.016e-3), (20e3, 0.023e-3, 0.020e-3),
               (50e3, 0.045e-3, 0.041e-3), (100e3, 0.073e-3, 0.067e-3))  # fmt: skip
 MASTER_WIDTH = 3e-3  # m, of 3 to 5 quadratic elements across a ring of 21 mm
@@ -76,7 +76,7 @@ def drive_rings() -> FlexibleRings:
 
 
 def four_ball_rings() -> FlexibleRings:
-    """Rings of Tab. 3.6; outer ring resting on its lower, inner ring on its upper face."""
+    """Rings of Table 3.6; outer ring resting on its lower, inner ring on its upper face."""
     outer = RingProfile(
         bearing=FOUR_BALL, ring="outer", inside=0.108, outside=0.15, bottom=-0.03, top=0.03
     )
@@ -206,25 +206,25 @@ def _trends() -> Iterator[Check]:
 
 
 def _four_ball_printed() -> Iterator[Check]:
-    """Simplified model of Tab. 3.6 under 30 kN, as multibody model."""
+    """Simplified model of Table 3.6 under 30 kN, as multibody model."""
     as_source = replace(four_ball_rings(), master_width=MASTER_WIDTH)
     note = "assuming rings that slide on a held face, elements of 3 mm at the master nodes"
     for load, printed, name in ((3e4, 0.134, "tension"), (-3e4, 0.126, "compression")):
         shift, force = _solve_elements(FOUR_BALL, (0, 0, load, 0, 0), as_source)
         yield Check(f"u_z, four balls, {name}", f"ch. 3.5, {note}", printed, shift * 1e3, 0.15,
                     unit="mm", absent=ABSENT)  # fmt: skip
-    source = f"Tab. 3.8, {note}"
+    source = f"Table 3.8, {note}"
     yield Check("F_k, four balls", source, 9500, force, 0.15, unit="N", absent=ABSENT)
 
 
 @evidence("consistency")
 def _four_ball() -> Iterator[Check]:
-    """Simplified model of Tab. 3.6 beside the contact resolved."""
+    """Simplified model of Table 3.6 beside the contact resolved."""
     rings = four_ball_rings()
     for load, expected in SOLID_FOUR.items():
         axial: Load = (0, 0, load, 0, 0)
         name = f"four balls, F_a = {load / 1e3:g} kN"
-        yield from _beside(FOUR_BALL, axial, rings, expected, name, "own solid rings, Tab. 3.6")
+        yield from _beside(FOUR_BALL, axial, rings, expected, name, "own solid rings, Table 3.6")
 
 
 def _drive_printed() -> Iterator[Check]:
@@ -240,7 +240,7 @@ def _drive_printed() -> Iterator[Check]:
         ):
             shift = _solve_elements(DRIVE, (0, 0, thrust, 0, 0), model)[0]
             yield Check(
-                name, f"Tab. 3.13, {note}", printed * 1e3, shift * 1e3, 0.15, unit="mm",
+                name, f"Table 3.13, {note}", printed * 1e3, shift * 1e3, 0.15, unit="mm",
                 absent=ABSENT,
             )  # fmt: skip
 

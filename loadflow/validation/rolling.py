@@ -53,24 +53,24 @@ def checks() -> Iterator[Check]:
 
 
 def _contacts() -> Iterator[Check]:
-    """Hertz: Bild 3.1, Tab. 3.12, Tab. 4.3 and ch. 4.4."""
+    """Hertz: Fig. 3.1, Table 3.12, Table 4.3 and ch. 4.4."""
     sheet = ((80, 0.543, 2_154_099, 63.71951, 0.9617), (-120, 0.598, 2_271_910, 42.88618, 0.9431))
     for side, (r22, psi, k, total, cos_tau) in zip(RINGS, sheet):
         curvatures = (50.0, 50.0, -1 / 0.0205, 1e3 / r22)
         ours, cos_ours = curvature_sum(*curvatures)
-        yield Check(f"Σk, {side}", "Bild 3.1", total, float(ours), 1e-4, "absolute", "1/m")
-        yield Check(f"cos τ, {side}", "Bild 3.1", cos_tau, float(cos_ours), 1e-4, "absolute")
+        yield Check(f"Σk, {side}", "Fig. 3.1", total, float(ours), 1e-4, "absolute", "1/m")
+        yield Check(f"cos τ, {side}", "Fig. 3.1", cos_tau, float(cos_ours), 1e-4, "absolute")
         got = float(stiffness_factor(psi, ours, effective_modulus())) / MM15
         yield Check(
-            f"K_A with ψ/ξ = {psi}, {side}", "(3.5), Bild 3.1", k, got, 1e-6, unit="N/mm^1.5"
+            f"K_A with ψ/ξ = {psi}, {side}", "(3.5), Fig. 3.1", k, got, 1e-6, unit="N/mm^1.5"
         )
         exact = replace(FOUR_BALL, pitch_diameter=0.2).raceway_contact(side)
-        yield Check(f"ψ/ξ, {side}", "Bild 3.1", psi, float(exact.coefficient), 6e-3)
+        yield Check(f"ψ/ξ, {side}", "Fig. 3.1", psi, float(exact.coefficient), 6e-3)
     for bearing, name, printed in (
         # the worksheet enters D_pw for the radius of the raceway along the ring
-        (replace(FOUR_BALL, pitch_diameter=0.2), "Tab. 3.3", (2_154e3, 2_272e3, 2_213e3)),
-        (BLADE, "Tab. 4.3", (2_216e3, 2_221e3, 2_219e3)),
-        (DRIVE, "Tab. 3.12", (1_144e3, 1_161e3, 1_152e3)),
+        (replace(FOUR_BALL, pitch_diameter=0.2), "Table 3.3", (2_154e3, 2_272e3, 2_213e3)),
+        (BLADE, "Table 4.3", (2_216e3, 2_221e3, 2_219e3)),
+        (DRIVE, "Table 3.12", (1_144e3, 1_161e3, 1_152e3)),
     ):
         both = [float(bearing.raceway_contact(s).stiffness) / MM15 for s in RINGS]
         for label, expected, ours_k in zip(
@@ -99,7 +99,7 @@ def _statics() -> Iterator[Check]:
     yield Check("F_k, F_a = 2000 kN, rigid rings", "ch. 3.3", 10_438, force, 5e-4, unit="N")
     thrust = BLADE.equilibrium(force=(0, 0, 3e6))
     shift = float(thrust.displacement[2]) * 1e3
-    yield Check("u_z, F_a = 3000 kN, rigid rings", "Bild 2.9", 0.1, shift, 0.005, "absolute", "mm")
+    yield Check("u_z, F_a = 3000 kN, rigid rings", "Fig. 2.9", 0.1, shift, 0.005, "absolute", "mm")
 
 
 def _life() -> Iterator[Check]:
@@ -113,7 +113,7 @@ def _life() -> Iterator[Check]:
     rated = replace(BLADE, life_hardness_factor=1.0).rated_capacity
     yield Check("C_a", "(4.9)", 1_266_000, rated, 5e-3, unit="N")
     yield Check(
-        "f_cm, γ = 0.02", "Tab. 4.8", 51.7, capacity.capacity_factor(0.02, math.pi / 4), 1e-12
+        "f_cm, γ = 0.02", "Table 4.8", 51.7, capacity.capacity_factor(0.02, math.pi / 4), 1e-12
     )
     hardened = BLADE.rated_capacity
     yield Check("C_a,h", "(4.11)", 1_076_000, hardened, 5e-3, unit="N")
@@ -121,7 +121,7 @@ def _life() -> Iterator[Check]:
     yield Check("L_10", "(2.19)", 0.11, years, 0.005, "absolute", "10⁶")
     speed = life.oscillation_speed(rate, amplitude)
     for i, (expected, got) in enumerate(zip(printed_speed, speed / RPM), start=1):
-        yield Check(f"n, case {i}", "Tab. 4.9", expected, got, 6e-4, "absolute", "1/min")
+        yield Check(f"n, case {i}", "Table 4.9", expected, got, 6e-4, "absolute", "1/min")
     hours = float(life.life_hours(0.11, 0.015 * RPM))
     yield Check("L_10h from rounded L_10, n", "(4.12)", 122_222, hours, 1e-5, unit="h")
     mean = life.mean_speed(speed, share)
@@ -131,21 +131,21 @@ def _life() -> Iterator[Check]:
 
 
 def _friction() -> Iterator[Check]:
-    """Friction torque, Tab. 4.11 and 4.12."""
+    """Friction torque, Table 4.11 and 4.12."""
     sums, printed = (2_202_502, 2_703_230, 4_981_978), (15_300, 17_000, 24_600)
     for i, (total, expected) in enumerate(zip(sums, printed), start=1):
         got = float(friction.friction_torque_forces(total, 1.9, idle=8000))
-        yield Check(f"M_R, case {i}", "(2.37), Tab. 4.12", expected, got, 2e-3, unit="N m")
+        yield Check(f"M_R, case {i}", "(2.37), Table 4.12", expected, got, 2e-3, unit="N m")
     radial, axial, tilt, _ = FRICTION_TESTS[0]
     got = float(friction.friction_torque_loads(axial, radial, tilt, 1.9, idle=8000))
-    yield Check("M_R, case 1", "(2.26), Tab. 4.12", 19_000, got, 2e-3, unit="N m")
+    yield Check("M_R, case 1", "(2.26), Table 4.12", 19_000, got, 2e-3, unit="N m")
 
 
 def _geometry() -> Iterator[Check]:
     """Master points of the raceways."""
     cases = (
-        (FOUR_BALL, 0.5e-3, "Tab. 3.4, 3.7", 64.496, 35.504, 14.496),
-        (DRIVE, 0.1e-3, "Tab. 3.11", 130.374, 119.626, 5.374),
+        (FOUR_BALL, 0.5e-3, "Table 3.4, 3.7", 64.496, 35.504, 14.496),
+        (DRIVE, 0.1e-3, "Table 3.11", 130.374, 119.626, 5.374),
     )
     for bearing, shell, source, outer, inner, height in cases:
         for ring, radius in zip(RINGS, (inner, outer)):
@@ -164,4 +164,4 @@ def _geometry() -> Iterator[Check]:
         along, across, _ = raceway_points(DRIVE, ring, 0.1e-3)[0, 0, ball - 1] * 1e3
         for axis, printed, got in (("X", x, across), ("Y", y, along)):
             name = f"{axis}, {ring}, ball {ball}"
-            yield Check(name, "Tab. 3.11", printed, got, 1e-3, "absolute", "mm")
+            yield Check(name, "Table 3.11", printed, got, 1e-3, "absolute", "mm")

@@ -65,10 +65,10 @@ def checks() -> Iterator[Check]:
         found = _taken(push, 1e20, BearingSupport(_SOFT), BearingSupport(takes_moment=True), _hertz)
         name = f"moment on a bearing that hardens, P = {push:.4g} N"
         yield Check(name, "closed form", moment, found, 1e-8, unit="N m")
-    seat = BearingSupport(radial=3e9, takes_moment=True, tilt=2e8, housing_vertical=4e9)
+    support = BearingSupport(radial=3e9, takes_moment=True, tilt=2e8, housing_vertical=4e9)
     yield from _two_supports()
-    numbers = _taken(1e6, 2.1e11, BearingSupport(_SOFT), seat, None)
-    own = _taken(1e6, 2.1e11, BearingSupport(_SOFT), seat, _constant)
+    numbers = _taken(1e6, 2.1e11, BearingSupport(_SOFT), support, None)
+    own = _taken(1e6, 2.1e11, BearingSupport(_SOFT), support, _constant)
     name = "moment on a bearing of constant stiffness, iterated"
     source = "the same numbers as a support"
     yield Check(name, source, numbers, own, 1e-10, unit="N m", evidence="consistency")

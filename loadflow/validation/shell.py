@@ -52,7 +52,7 @@ def plane_ring(order: int) -> tuple[float, float]:
 
 
 def annular_seal(cells: int) -> tuple[float, float]:
-    """Flow from a groove round the middle to the rims past a soft wall at rest, exact and ours.
+    """Flow from a groove round the middle to the ends past a soft wall at rest, exact and ours.
 
     In h = c + a p the flow is ((c + a p)⁴ − c⁴)/(4 a) times what a rigid wall lets through.
     """

@@ -304,3 +304,41 @@ def test_bad_surfaces_are_named():
         stribeck(BEARING, LOAD, (1.0, 2.0), film(None))
     with pytest.raises(InputError, match="speeds"):
         stribeck(BEARING, LOAD, (0.0, 2.0), film())
+
+
+HIGH = Contact(
+    AsperityContact(roughness=0.4e-6, contact_modulus=115e9, factor=1e-3, summit_height=0.8e-6),
+    friction=0.1,
+    surface_roughness=0.5e-6,
+)
+
+
+@pytest.mark.parametrize("rung", ["grid", "reduced"])
+def test_summits_above_the_mean_plane_lift_a_standing_shaft_by_their_height(rung):
+    """The same tips, their mean plane higher: the shaft lies higher by just that."""
+    tips = HIGH.asperities
+    low = AsperityContact(
+        roughness=tips.roughness, contact_modulus=tips.contact_modulus, factor=tips.factor
+    )
+    films = [film(Contact(one), GasMixture(5e4), 1.5e5, rung=rung) for one in (low, tips)]
+    lies = [float(BEARING.equilibrium((8e4, 0.0), 0.0, one).eccentricity[0]) for one in films]
+    assert lies[0] - lies[1] == pytest.approx(0.8e-6, rel=0.02)
+
+
+def test_rungs_agree_on_summits_and_their_stiffness_is_exact():
+    rough = film(HIGH, GasMixture(5e4), 1.5e5, grid=(240, 20), grading="uniform")
+    fast = film(HIGH, GasMixture(5e4), 1.5e5, grid=(240, 20), rung="reduced")
+    fine, few = (BEARING.equilibrium(LOAD, 0.8, one) for one in (rough, fast))
+    assert 0.05 < fine.contact_share < 0.95
+    assert few.contact_share == pytest.approx(fine.contact_share, rel=0.03)
+    assert few.minimum_film == pytest.approx(fine.minimum_film, rel=0.03)
+    place = np.array([0.99 * C, 0.0])
+    crowned = JournalBearing(**SIZE, relief=(Crown(0.02, 1e-5),))
+    here = crowned.pressure(place, 2.0, film(HIGH, grid=(48, 8)))
+    step = np.array([1e-7 * C, 0.0])
+    ahead, behind = (
+        crowned.pressure(place + s * step, 2.0, film(HIGH, grid=(48, 8))).force for s in (1, -1)
+    )
+    slope = (ahead - behind) / (2 * step[0])
+    assert here.contact_pressure > 0
+    assert here.stiffness[:, 0] == pytest.approx(slope, rel=1e-4, abs=1e-4 * abs(slope[0]))

@@ -11,6 +11,7 @@ from scipy.optimize import brentq
 from loadflow.errors import InputError, SolverError
 from loadflow.journal import (
     Capillary,
+    Film,
     GasMixture,
     Groove,
     Heat,
@@ -20,6 +21,7 @@ from loadflow.journal import (
     Supply,
     warm_equilibrium,
 )
+from loadflow.journal.thermal import warm_film
 
 BEARING = JournalBearing(diameter=3.0, width=2.25, relative_clearance=0.5e-3)
 FILM = {"cavitation": GasMixture(0.05e6), "edge_pressure": 0.5e6, "grid": (36, 12)}
@@ -169,3 +171,32 @@ def test_a_capillary_feeds_a_warm_film():
 def test_bad_cooling_is_refused(keys, message):
     with pytest.raises(InputError, match=message):
         Heat(**keys)
+
+
+@pytest.mark.parametrize(("jump", "answered"), [(1e-6, True), (0.3, False)])
+def test_a_balance_that_steps_over_zero_where_a_mesh_changes_is_told(jump, answered):
+    """Film of constant friction but for a jump at the speed where another mesh takes over."""
+    heat = Heat(inlet_temperature=315.0)
+    film = Film(heat=heat, cavitation=Sommerfeld())
+    carried = 2.0 * float(heat.liquid.density(320.0)) * heat.heat_capacity
+
+    def at_rest(force, speed, places):
+        scale = speed / 1.0  # what `speed` is over that of the shaft, it is over viscosity
+        power = 5.0 * carried * 1e-5 * np.where(speed > changes, 1.0 + jump, 1.0 - jump)
+        count = speed.size
+        return {
+            "friction_power": power * scale, "side_flow": 1e-5 * scale,
+            "supply_flow": np.zeros(count), "supply_power": np.zeros(count),
+            "groove_flow": np.zeros((count, 0)), "damping": np.zeros((count, 2, 2)),
+            "reynolds_number": np.ones(count), "critical_reynolds_number": np.full(count, 2.0),
+            "residual": np.zeros(count), "converged": np.ones(count, dtype=bool),
+            "force": force, "speed": speed,
+        }  # fmt: skip
+
+    oil = heat.liquid
+    changes = float(oil.viscosity(320.0) / oil.viscosity(315.0))
+    found = warm_film(at_rest, np.array([[1e5, 0.0]]), np.ones(1), film, None, strict=False)
+    assert bool(found["converged"][0]) is answered
+    assert found["heat_residual"][0] > 1e-6
+    if answered:
+        assert found["temperature"][0] == pytest.approx(320.0, abs=1e-3)

@@ -59,7 +59,7 @@ def test_axial_operator_is_exact_for_its_polynomials(nodes):
     assert q @ axial.stiffness @ q == pytest.approx((square(1) - square(0)) / half)
     assert axial.leak @ q == pytest.approx(-slope(1) / half)
     assert axial.middle @ q == pytest.approx(value(0))
-    assert axial.weights.sum() + axial.rim_weight == pytest.approx(half)
+    assert axial.weights.sum() + axial.end_weight == pytest.approx(half)
     np.testing.assert_array_equal(axial.stiffness, axial.stiffness.T)
 
 

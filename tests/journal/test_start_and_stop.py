@@ -10,6 +10,7 @@ from loadflow.journal.transition import load_capacity
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import make_scene
 from loadflow.stages import journal as stage
+from loadflow.stages.film_summary import mixed_friction
 
 LOAD = 1e6
 FILM = {"grid": [24, 8], "bearings": ["N"]}
@@ -126,6 +127,42 @@ def test_a_stop_has_its_transition_where_a_start_with_the_same_speeds_has_it(sta
     assert stop["transition_time"].item() == pytest.approx(
         table["duration"].item() - table["transition_time"].item() - 0.1, abs=0.11
     )
+
+
+def test_lift_off_touch_down_and_standstill_are_told(start):
+    scene, speed, samples, table = start
+    parts = int(np.argmin(samples["in_contact"].values))
+    assert table["lift_off_speed"] == pytest.approx(speed[parts])
+    assert table["lift_off_time"] == pytest.approx(0.1 * parts)
+    assert np.isnan(table["touch_down_speed"])
+    assert np.isnan(table["standstill_time"])
+    stop = solved(scene, speed[::-1])[1]
+    assert np.isnan(stop["lift_off_speed"])
+    assert stop["touch_down_speed"] == pytest.approx(speed[parts - 1])
+    assert stop["standstill_time"] == pytest.approx(0.1 * (speed.size - 1), abs=0.11)
+    # at rest a film ends before the shaft does: its transition is earlier
+    assert stop["film_after_stop"] < 0
+
+
+def test_a_film_that_outlasts_the_stop_is_timed():
+    samples = xr.Dataset(
+        {
+            "time": ("sample", np.arange(8.0)),
+            "speed": ("sample", [1.0, 0.5, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
+            "weight": ("sample", np.ones(8)),
+            "load": ("sample", np.full(8, LOAD)),
+            "in_contact": ("sample", [0, 0, 0, 0, 0, 0, 1, 1]),
+            "friction_power": ("sample", np.ones(8)),
+            "eccentricity_ratio": ("sample", [0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.0, 1.0]),
+        },
+        attrs={"critical_eccentricity_ratio": 0.95, "boundary_friction": 0.1, "radius": 1.5},
+    )
+    told = mixed_friction(samples)
+    assert told["standstill_time"] == 2.0
+    assert told["standstill_eccentricity_ratio"] == 0.7
+    assert told["film_after_stop"] == pytest.approx(2.5)
+    assert told["touch_down_time"] == 6.0
+    assert told["mixed_friction_time"] == 0.0
 
 
 def test_rubbing_loses_the_boundary_friction_of_the_load():

@@ -32,13 +32,13 @@ def test_public_turbines_hold_their_published_steady_states():
         pytest.skip("set LOADFLOW_CLONES to a folder for clones of public repositories")
     from benchmarks.robustness import public_turbines as public
     from benchmarks.robustness.public_files import clone
+    from loadflow.validation import all_checks
 
     folder = Path(clones).absolute()
     for one in public.TURBINES:
         clone(one.repository, folder)
         assert len(public.missing(one, folder)) >= 3
-        speed, pitch, power, thrust = public.differences(one, public.completed(one, folder), folder)
-        assert abs(speed).max() < 0.05, one.file
-        assert abs(power).max() < 0.06, one.file
-        assert abs(thrust).max() < 0.10, one.file
-        assert abs(pitch).max() < 1.1, one.file
+    rows = list(all_checks("turbines", folder))
+    assert len(rows) == 216
+    assert [row for row in rows if row.outcome == "out"] == []
+    assert sum(row.outcome == "missed" for row in rows) == 54

@@ -176,7 +176,7 @@ def test_hydrodynamic_force_takes_the_smaller_regime():
         (rolling_resistance.hysteresis_moment, (700.0, 57e-6, 0.01)),
         (traction.limiting_stress, (1e9, 4e6, 502e6, 0.07)),
         (traction.newtonian_stress, (30.0, 0.1, 1e-7)),
-        (traction.clipped_stress, (5e6, 4e6)),
+        (traction.smooth_stress, (5e6, 4e6)),
         (traction.boundary_coefficient, (0.01, 0.12)),
         (asperities.asperity_share, (0.8,)),
         (contact_film.thermal_factor, (0.1,)),

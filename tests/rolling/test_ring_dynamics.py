@@ -19,7 +19,7 @@ from loadflow.rolling import (
     craig_bampton,
     natural_frequencies,
     patch_points,
-    settle,
+    transient_response,
 )
 
 pytest.importorskip("skfem")
@@ -110,14 +110,14 @@ def test_rings_with_mass_settle_where_statics_says_with_any_number_of_modes():
     static = BEARING.equilibrium(*LOAD, rings=BOTH)
     peaks = []
     for count in (0, 4, 16):
-        motion = settle(
+        motion = transient_response(
             BEARING, BOTH, Inertia(mass=30, radius=0.1), *LOAD, duration=0.2, fixed_modes=count
         )
         assert motion.residual < 1e-8
         assert motion.displacement[-1] == pytest.approx(static.displacement, rel=1e-7)
         assert motion.largest_force[-1] == pytest.approx(static.maximum_force, rel=1e-8)
         peaks.append(motion.largest_force.max())
-    massless = settle(BEARING, BOTH, Inertia(mass=30, radius=0.1), *LOAD, duration=0.2)
+    massless = transient_response(BEARING, BOTH, Inertia(mass=30, radius=0.1), *LOAD, duration=0.2)
     # inertia of rings that are stiff beside their contacts changes the overshoot by a percent
     assert 1e-3 < abs(massless.largest_force.max() / peaks[-1] - 1) < 0.05
     assert peaks[1] == pytest.approx(peaks[2], rel=1e-3)
@@ -126,7 +126,7 @@ def test_rings_with_mass_settle_where_statics_says_with_any_number_of_modes():
 
 def test_one_vibrating_ring_beside_a_rigid_one():
     rings = FlexibleRings(inner=INNER)
-    motion = settle(
+    motion = transient_response(
         BEARING, rings, Inertia(mass=30, radius=0.1), (0, 0, 5e3), duration=0.2, fixed_modes=4
     )
     static = BEARING.equilibrium((0, 0, 5e3), rings=rings)
@@ -147,6 +147,6 @@ def test_rings_that_cannot_vibrate_are_refused(inertia, outer, count, word):
     rings = dataclasses.replace(BOTH, outer=outer)
     moving = Inertia(**({"mass": 30.0, "radius": 0.1} | inertia))
     with pytest.raises(InputError, match=word):
-        settle(BEARING, rings, moving, *LOAD, fixed_modes=count)
+        transient_response(BEARING, rings, moving, *LOAD, fixed_modes=count)
     with pytest.raises(InputError, match="harmonic"):
         natural_frequencies(OUTER, -1)

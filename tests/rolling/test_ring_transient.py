@@ -13,7 +13,7 @@ from loadflow.rolling import (
     RingSection,
     SlewingBearing,
     Support,
-    settle,
+    transient_response,
 )
 
 BEARING = SlewingBearing(
@@ -34,7 +34,7 @@ RINGS = FlexibleRings(
 def test_motion_settles_to_the_static_answer_whatever_the_damping(damping, overshoots):
     force, moment = (4e3, -2e3, 9e3), (300.0, 450.0)
     inertia = Inertia(mass=50, radius=0.1, contact_damping=damping)
-    motion = settle(BEARING, RINGS, inertia, force, moment, duration=0.3)
+    motion = transient_response(BEARING, RINGS, inertia, force, moment, duration=0.3)
     static = BEARING.equilibrium(force, moment, rings=RINGS)
     assert motion.residual < 1e-8
     assert motion.displacement[-1] == pytest.approx(static.displacement, rel=1e-8)
@@ -44,7 +44,8 @@ def test_motion_settles_to_the_static_answer_whatever_the_damping(damping, overs
 
 
 def test_a_bearing_without_load_stays_where_it_is():
-    motion = settle(BEARING, RINGS, Inertia(mass=50, radius=0.1), (0, 0, 0), duration=0.01)
+    inertia = Inertia(mass=50, radius=0.1)
+    motion = transient_response(BEARING, RINGS, inertia, (0, 0, 0), duration=0.01)
     assert np.abs(motion.displacement).max() == 0
 
 

@@ -1,10 +1,13 @@
 """A kind of rolling bearing says what it is; everything else it inherits."""
 
-from dataclasses import dataclass
-from typing import ClassVar
+import json
+import subprocess
+import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
+from toy_bearing import HalfFilled
 
 from loadflow.errors import InputError, SolverError
 from loadflow.rolling import (
@@ -16,26 +19,8 @@ from loadflow.rolling import (
     SphericalRollerBearing,
     main_bearings,
 )
-from loadflow.rolling.contacts import Contacts
 
 ROLLERS = {"rollers": 30, "roller_diameter": 0.05, "roller_length": 0.07, "pitch_diameter": 0.9}
-
-
-@dataclass(frozen=True, kw_only=True)
-class HalfFilled(RollerBearing):
-    """A toy kind: a cylindrical bearing in which each second place around is empty."""
-
-    kind: ClassVar[str] = "half-filled"
-
-    @property
-    def track_rollers(self) -> int:
-        return self.rollers // 2
-
-    def contacts(self, element_angle: float = 0.0) -> Contacts:
-        whole = super().contacts(element_angle)
-        return Contacts(
-            whole.table, whole.azimuth[::2], whole.law, whole.spatial, whole.cap, whole.lever
-        )
 
 
 def test_a_toy_kind_has_every_verb():
@@ -48,6 +33,31 @@ def test_a_toy_kind_has_every_verb():
     path = toy.orbit([0.0, 1.0, 2.0], [(1e5, 0, 0), (2e5, 0, 0), (0, 1e5, 0)], speed=1.2)
     assert path["element_forces"].dims == ("time", "row", "element")
     assert result.life() == result.rating_life
+
+
+ONE_ROW = """
+import sys
+from toy_bearing import HalfFilled
+from loadflow.rolling.bearings.kinds import KINDS
+KINDS[HalfFilled.kind] = HalfFilled
+from loadflow.cli import main
+main(["rolling", "--scene", sys.argv[1], "--force-x", "1e5", "--json"])
+"""
+"""In a process of its own: scenes read the rows when they are imported."""
+
+
+def test_a_toy_kind_is_reached_by_its_row(tmp_path):
+    """One class and one row: the kind is read from a scene and solved by the command line."""
+    scene = tmp_path / "toy.toml"
+    numbers = "\n".join(f"{name} = {value}" for name, value in ROLLERS.items())
+    scene.write_text(f'[bearings.N]\nkind = "half-filled"\n[bearings.N.geometry]\n{numbers}\n')
+    run = subprocess.run(
+        [sys.executable, "-c", ONE_ROW, str(scene)],
+        cwd=Path(__file__).parents[1], capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert run.returncode == 0, run.stderr
+    direct = HalfFilled(**ROLLERS).equilibrium(force=(1e5, 0, 0))
+    assert json.loads(run.stdout)["maximum_force"]["value"] == float(direct.maximum_force)
 
 
 @pytest.mark.parametrize("kind", sorted(KINDS))

@@ -14,6 +14,7 @@ import pytest
 import workers
 from small_run import contents, small_scene
 
+from benchmarks.robustness import kills
 from loadflow.errors import FormerVersionWarning, InputError, LoadflowError, NewerVersionError
 from loadflow.running.executor import Lost, executor, usable_cores
 from loadflow.running.folder import MANIFEST, read_manifest, refinements
@@ -352,7 +353,8 @@ def test_a_lost_case_is_a_failure_of_the_run_and_the_others_are_kept(
 
         def outcomes(self, work, items):
             for item in items:
-                yield item, work(item) if item.wind_speed < 10 else Lost("killed")
+                lost = getattr(item, "wind_speed", None) == 12
+                yield item, Lost("killed") if lost else work(item)
 
     from contextlib import nullcontext
 
@@ -360,6 +362,28 @@ def test_a_lost_case_is_a_failure_of_the_run_and_the_others_are_kept(
     found = run(small_scene(finished), out=tmp_path, report=False)
     assert found.failures == {"dlc1.1_v12_s1, worker": "killed"}
     assert is_sound(tmp_path / PART)
+
+
+def test_a_worker_lost_in_the_check_ends_the_run_that_can_go_on(finished, tmp_path, monkeypatch):
+    import loadflow.running.runner as runner
+    from loadflow.running.whole import Piece
+
+    class Losing:
+        workers, shares_disk = 1, True
+
+        def outcomes(self, work, items):
+            for item in items:
+                yield item, Lost("killed") if isinstance(item, Piece) else work(item)
+
+    from contextlib import nullcontext
+
+    with monkeypatch.context() as patch:
+        patch.setattr(runner, "executor", lambda *_: nullcontext(Losing()))
+        with pytest.raises(LoadflowError, match="check: killed; started again, the run goes on"):
+            run(small_scene(finished), out=tmp_path, report=False)
+    again = run(small_scene(finished), out=tmp_path, report=False)
+    assert not again.failures
+    assert "check" in again.tree.children
 
 
 def test_what_no_solver_named_fails_one_case_and_is_in_the_log(finished, tmp_path, monkeypatch):
@@ -403,6 +427,36 @@ def test_kills_around_every_file_are_resumed_to_the_bit(tmp_path):
     found = kill_points(tmp_path, first=0, step=1)
     assert len(found["points"]) >= 36
     assert found["bad"] == []
+
+
+@pytest.mark.slow
+def test_of_50_kills_in_all_phases_each_is_resumed_to_the_bit(tmp_path):
+    assert kills.survey(tmp_path, 50) == []
+
+
+YEARS = 10 * 365 * 86400.0
+
+
+@pytest.mark.parametrize("jump", [-YEARS, YEARS])
+def test_a_clock_that_jumps_between_two_starts_changes_nothing(
+    finished, copied, tmp_path, monkeypatch, jump
+):
+    (copied / PART).unlink()
+    kept = copied / "small/reduction/dlc1.1_v12_s1.h5"
+    paths = [path for path in copied.rglob("*") if path.is_file()]
+    now = time.time()
+    for path in paths:
+        os.utime(path, (now + jump, now + jump))  # written by a clock that was off
+    monkeypatch.setattr(time, "time", lambda: now - jump)  # and now it is off the other way
+    assert again(finished, copied)
+    assert kept.stat().st_mtime == pytest.approx(now + jump)  # what was finished is not done again
+    assert (copied / PART).exists()
+    (tmp_path / "loads.h5").write_bytes((finished / "loads.h5").read_bytes())
+    os.utime(tmp_path / "loads.h5", (now + jump, now + jump))
+    touched = small_scene(tmp_path)
+    run(touched, out=tmp_path / "other", report=False)
+    found = contents(tmp_path / "other/small/result.h5")
+    assert found == contents(finished / "runs/small/result.h5")
 
 
 # --- the rest --------------------------------------------------------------------------------

@@ -4,10 +4,12 @@ from collections import Counter
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from loadflow import validation
-from loadflow.validation import _slewing_refused, rings
+from loadflow.errors import InputError
+from loadflow.validation import _slewing_refused, rings, turbines
 
 PAGE = Path(__file__).parents[2] / "docs" / "validation.md"
 BEGIN, END = "<!-- counts: begin -->\n", "<!-- counts: end -->"
@@ -70,6 +72,22 @@ def test_a_number_that_ours_misses_is_in_order_only_while_it_does():
     assert replace(row, got=float("nan")).outcome == "out"
 
 
+def test_numbers_of_files_that_are_not_shipped_ask_for_their_folder(tmp_path):
+    with pytest.raises(InputError, match="no number of the table seeds needs files"):
+        list(validation.all_checks("seeds", tmp_path))
+    with pytest.raises(InputError, match=r"no clone of github\.com/IEAWindTask37/IEA-3\.4-130-RWT"):
+        list(turbines.checks_of_files(tmp_path))
+
+
+def test_the_printed_steady_states_are_those_of_four_turbines_with_rising_wind():
+    for public in turbines.TURBINES:
+        wind, speed, _, power, thrust = turbines.published_states(public.name).T
+        assert wind.size == 9
+        assert (np.diff(wind) > 0).all()
+        assert (speed > 0).all()
+        assert (power < thrust * wind).all()  # P = T v (1 − a)
+
+
 def test_a_number_that_needs_what_is_not_installed_is_told_apart(monkeypatch):
     monkeypatch.setattr(rings, "ABSENT", "needs scikit-fem")
     rows = [*rings.checks(), *rings.printed()]
@@ -93,8 +111,8 @@ def test_rows_keep_what_they_say_themselves():
 
 def test_what_the_slewing_bearing_s_source_contradicts_is_refused():
     sources = " ".join(row.source for row in _slewing_refused.checks() if row.refused)
-    for place in ("Bild 2.9", "App. B", "Tab. 3.5", "Tab. 3.8", "3.14", "Tab. 2.5", "Tab. 4.12"):
-        assert place in sources
+    places = ("Fig. 2.9", "App. B", "Table 3.5", "Table 3.8", "3.14", "Table 2.5", "Table 4.12")
+    assert [place for place in places if place not in sources] == []
 
 
 if __name__ == "__main__":

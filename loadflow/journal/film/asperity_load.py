@@ -76,21 +76,22 @@ class CylinderLoad:
     def __init__(self, contact: Contact, radius: float, width: float, clearance: float) -> None:
         self.contact = contact
         self._area = radius * width
-        self._roughness = contact.roughness / clearance
+        self._roughness = contact.asperities.roughness / clearance
+        self._summits = contact.asperities.summit_height / clearance
         self._x, self._w = np.polynomial.legendre.leggauss(_NODES)
 
     def at(self, position: Array) -> Touch:
         """What they carry with the shaft at `position` (2,), clearances."""
         ratio = math.hypot(*position)
         s, frame = self._roughness, turning_frame(position)
-        least = (1.0 - _FAR * s) / max(ratio, 1e-12)
+        least = (1.0 - self._summits - _FAR * s) / max(ratio, 1e-12)
         load, stiffness = np.zeros(2), np.zeros((2, 2))
         if least >= 1.0:
             return Touch(load, stiffness, 0.0, 0.0, 0.0)
         half = math.acos(max(least, -1.0))
         angle = half * self._x
         reach = np.stack([np.cos(angle), np.sin(angle)])
-        gap = (1.0 - ratio * reach[0])[:, None]
+        gap = (1.0 - self._summits - ratio * reach[0])[:, None]
         weights, one = self._area * half * self._w, np.ones(1)
         none = np.zeros(gap.shape, dtype=bool)
         normal, _ = kernel.pressed(
@@ -101,7 +102,7 @@ class CylinderLoad:
             scale * (frame @ load),
             scale * (frame @ stiffness @ frame.T),
             scale * normal,
-            *_worst(self.contact, (1.0 - ratio) / s),
+            *_worst(self.contact, (1.0 - self._summits - ratio) / s),
         )
 
 
@@ -131,7 +132,8 @@ class NodeLoad:
         self.contact, self._gap = contact, gap
         self._area = mirrors * radius**2
         mesh = gap.mesh
-        self._roughness = contact.roughness / gap.bore.clearance
+        self._roughness = contact.asperities.roughness / gap.bore.clearance
+        self._summits = contact.asperities.summit_height / gap.bore.clearance
         step = min(_STEP, max(_FINEST, _PER_ZONE * math.sqrt(2.0 * self._roughness)))
         counts = np.maximum(1, np.ceil(mesh.dx / step)).astype(int)
         angle, self._around, columns = _nodes(mesh.edges, counts, 1)
@@ -155,8 +157,8 @@ class NodeLoad:
         modes, size = self._modes, self._modes.reach.shape[0]
         load, stiffness = np.zeros(size), np.zeros((size, size))
         normal, least = kernel.pressed(
-            gaps, self._roughness, give, self._around, self._across, self._held, modes.reach,
-            modes.lengths, load, stiffness, relief,
+            gaps - self._summits, self._roughness, give, self._around, self._across, self._held,
+            modes.reach, modes.lengths, load, stiffness, relief,
         )  # fmt: skip
         worst, unit = _worst(self.contact, least / self._roughness), self._unit
         return Touch(unit * load, unit * stiffness, unit * normal, *worst)
@@ -187,13 +189,13 @@ class YieldingNodeLoad(NodeLoad):
 
     def at(self, position: Array) -> Touch:
         """What they carry with the shaft at `position` (m,), clearances."""
-        return self._touch(self._gaps(position), self._shell.rough.give, _NOT_ASKED)
+        return self._touch(self._gaps(position), self._shell.rough.yields[0], _NOT_ASKED)
 
     def by_growth(self, position: Array) -> Array:
         """Derivative of the load by the growth of the cells, (m, nx, nz), N per clearance."""
         gaps, modes = self._gaps(position), self._modes
         relief = np.zeros(gaps.shape)
-        self._touch(gaps, self._shell.rough.give, relief)
+        self._touch(gaps, self._shell.rough.yields[0], relief)
         parts = self._unit * relief * modes.reach[:, :, None] * modes.lengths[:, None, :]
         shape = self._shell.mesh.shape
         return np.array([self._between.back(part, shape) for part in parts])
@@ -205,10 +207,11 @@ class YieldingNodeLoad(NodeLoad):
 
 
 def _worst(contact: Contact, parameter: float) -> tuple[float, float]:
-    """Pressure, Pa, and share of the real area at a film parameter."""
+    """Pressure, Pa, and share of the real area at a film parameter of the summits."""
     if parameter >= kernel.NO_CONTACT:
         return 0.0, 0.0
-    gap, asperities = parameter * contact.roughness, contact.asperities
+    asperities = contact.asperities
+    gap = parameter * asperities.roughness + asperities.summit_height
     return float(asperities.pressure(gap)), float(asperities.area(gap))
 
 

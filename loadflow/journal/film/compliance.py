@@ -20,7 +20,7 @@ from loadflow.numerics.fields import require
 
 Array = NDArray[np.float64]
 
-_HARMONICS = 2  # times the cells around: what a pressure even over a cell has beyond is left out
+_HARMONICS = 2  # times the cells around; higher ones of a pressure even over a cell are neglected
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,7 +37,7 @@ class Local:
 
 @dataclass(frozen=True, eq=False)
 class Numbers:
-    """Influence numbers (n, n) of the cells, m/Pa."""
+    """Influence coefficients (n, n) of the cells, m/Pa."""
 
     numbers: Array
     local: Array
@@ -51,7 +51,7 @@ class Numbers:
 
 @dataclass(frozen=True, eq=False)
 class Harmonic:
-    """Influence numbers of a body of revolution, harmonic by harmonic.
+    """Influence coefficients of a body of revolution, harmonic by harmonic.
 
     Attributes
     ----------
@@ -84,7 +84,7 @@ Compliance = Local | Numbers | Harmonic
 
 @singledispatch
 def compliance_of(shell: Shell, mesh: Mesh, radius: float) -> Compliance:
-    """Put `shell` on the cells of `mesh` around a shaft of `radius`, m: one function for each kind.
+    """Discretise `shell` on the cells of `mesh` around a shaft of `radius`, m, by its kind.
 
     Raises
     ------
@@ -103,7 +103,7 @@ def _local(shell: LocalShell | LinedShell, mesh: Mesh, radius: float) -> Local:
 
 @compliance_of.register
 def _given(shell: MatrixShell, mesh: Mesh, radius: float) -> Numbers:
-    """The given numbers; on half of the width each cell stands for its mirror image, too."""
+    """The given coefficients; on half of the width each cell stands for its mirror image, too."""
     nx, nz = mesh.shape
     across = 2 * nz if mesh.half else nz
     numbers, size = shell.numbers, nx * across

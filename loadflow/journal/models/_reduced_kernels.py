@@ -257,13 +257,13 @@ def summarise(film, work, x, y, row):
     axial = film.axial
     p = work.state[LOAD]
     peak, dissipation, shear, outflow, liquid = -np.inf, 0.0, 0.0, 0.0, 0.0
-    half_width = axial.weights.sum() + axial.rim_weight
+    half_width = axial.weights.sum() + axial.end_weight
     for i in range(nx):
         right = i + 1 if i + 1 < nx else 0
         h = work.gap[i]
         h3 = step * h * h * h
         g = work.gap_face[i] ** 3 / step
-        middle, leak, inside = 0.0, 0.0, film.ring.edge_fill * axial.rim_weight
+        middle, leak, inside = 0.0, 0.0, film.ring.edge_fill * axial.end_weight
         for k in range(m):
             q = p[i, k] - film.ring.p_edge
             middle += axial.middle[k] * q

@@ -177,7 +177,7 @@ class ComposedFilm:
         clearance, planes = self.bearing.clearance, rows[:, at.LEAST]
         gap = _rough_gap(contact, self.units, clearance)
         force = rows[:, [at.CONTACT_X, at.CONTACT_Y]]
-        touching = planes < NO_CONTACT * gap.roughness
+        touching = planes * clearance < contact.asperities.reach
         heights = np.where(touching, planes, 1.0) * clearance
         return {
             "minimum_film": clearance * np.array([gap.rough.mean(h) for h in planes.tolist()]),
@@ -245,9 +245,9 @@ def _line_of_contact(
 ) -> tuple[float, float, Array]:
     """Table of what asperities carry on a shaft radius of width, over the eccentricity ratio."""
     surfaces = CylinderLoad(contact, radius, radius, clearance)
-    size = contact.roughness / clearance
+    size, tips = contact.asperities.roughness / clearance, contact.asperities.summit_height
     step = _PER_SIZE * size
-    ratios = np.arange(1.0 - NO_CONTACT * size, 1.0 + 0.04, step)
+    ratios = np.arange(1.0 - tips / clearance - NO_CONTACT * size, 1.0 + 0.04, step)
     ratios = ratios[: int((NO_CONTACT + 9.0) / _PER_SIZE)]
     touches = [surfaces.at(np.array([ratio, 0.0])) for ratio in ratios.tolist()]
     normal = np.array([touch.normal for touch in touches])

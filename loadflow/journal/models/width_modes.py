@@ -29,7 +29,7 @@ class Axial(NamedTuple):
         −∂p at the bearing end is leak · q.
     middle : array (m,)
         q at mid-plane is middle · q.
-    rim_weight : float
+    end_weight : float
         Width that belongs to the bearing end itself.
     """
 
@@ -38,7 +38,7 @@ class Axial(NamedTuple):
     stiffness: Array
     leak: Array
     middle: Array
-    rim_weight: float
+    end_weight: float
 
 
 @lru_cache(maxsize=8)
@@ -54,8 +54,8 @@ def lobatto(half_width: float, nodes: int) -> Axial:
     series[degree] = 1.0
     inner = np.sort(legendre.legroots(legendre.legder(series)).real)
     zeta = inner[inner > 0][:nodes]
-    rim = 2.0 / (degree * (degree + 1))
-    weights = np.asarray(rim / legendre.legval(zeta, series) ** 2, dtype=float)
+    end = 2.0 / (degree * (degree + 1))
+    weights = np.asarray(end / legendre.legval(zeta, series) ** 2, dtype=float)
     power = 2 * np.arange(nodes)
     column = zeta[:, None]
     from_values = np.linalg.inv((1 - column**2) * column**power)
@@ -68,7 +68,7 @@ def lobatto(half_width: float, nodes: int) -> Axial:
         stiffness=0.5 * (stiffness + stiffness.T) / half_width,
         leak=2.0 * from_values.sum(axis=0) / half_width,
         middle=from_values[0].copy(),
-        rim_weight=half_width * rim,
+        end_weight=half_width * end,
     )
 
 

@@ -33,12 +33,12 @@ class SlewingBearing(BallRaceways, BearingOfBalls):
     Attributes
     ----------
     life_hardness_factor : float
-        Factor f_H on the dynamic capacity, (4.11); the source uses 0.85 for 55 HRC.
+        Factor f_H on the dynamic capacity, (4.11); Ritzer uses 0.85 for 55 HRC.
     distance : {"spatial", "meridional"}
         How groove centres move apart. ``"spatial"`` takes the full distance of (2.39), with the
         tangential shift of the rings; ``"meridional"`` takes it within the plane of each ball, as
         Harris and ISO/TS 16281 do, since a ball is free to roll along its groove. They differ
-        where radial displacement meets grooves without clearance: for the source's blade bearing
+        where radial displacement meets grooves without clearance: for Ritzer's blade bearing
         under 500 kN radial load the spatial distance gives 4 % less force on the hardest loaded
         ball.
 

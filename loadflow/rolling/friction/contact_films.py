@@ -94,14 +94,10 @@ def line_film(
     """
     half_width = np.sqrt(8 * force * radius / (np.pi * length * modulus))
     pressure = force / np.maximum(2 * half_width * length, 1e-30)
-    viscosity, alpha, share = _inlet(mean_speed, options)
-    groups = (
-        alpha * modulus,
-        viscosity * np.maximum(mean_speed, 1e-12) / (modulus * radius),
-        force / (modulus * radius * length),
-    )
-    ratio = contact_film.film_ratio(options.film, *groups)
-    film = np.where(mean_speed > 0, share * ratio * radius, 0.0)
+    material, speed, share = _inlet(mean_speed, radius, modulus, options)
+    load = force / (modulus * radius * length)
+    ratio = contact_film.film_ratio(options.film, material, speed, load)
+    film = _thickness(mean_speed, share * ratio * radius)
     return ContactFilm(film, half_width, np.full_like(force, length), pressure, radius, share)
 
 
@@ -141,14 +137,10 @@ def groove_film(
     modulus = 2 * float(effective_modulus(bearing.elastic_modulus, bearing.poisson_ratio))
     contact = bearing.raceway_contact(ring, force)
     across, along = contact.semi_axes
-    viscosity, alpha, share = _inlet(mean_speed, options)
-    ratio = contact_film.hamrock_dowson_central(
-        alpha * modulus,
-        viscosity * np.maximum(mean_speed, 1e-12) / (modulus * radius),
-        np.maximum(force, 1e-9) / (modulus * radius**2),
-        contact.ellipticity,
-    )
-    film = np.where(mean_speed > 0, share * ratio * radius, 0.0)
+    material, speed, share = _inlet(mean_speed, radius, modulus, options)
+    load = np.maximum(force, 1e-9) / (modulus * radius**2)
+    ratio = contact_film.hamrock_dowson_central(material, speed, load, contact.ellipticity)
+    film = _thickness(mean_speed, share * ratio * radius)
     return ContactFilm(film, along, np.pi / 2 * across, 2 / 3 * contact.pressure, radius, share)
 
 
@@ -175,22 +167,26 @@ def sphere_film(
     >>> bool(film[0] == 0.0 < film[1])
     True
     """
-    viscosity, alpha, share = _inlet(mean_speed, options)
-    ratio = contact_film.nijenbanning_point(
-        alpha * modulus,
-        viscosity * np.maximum(mean_speed, 1e-12) / (modulus * radius),
-        force / (modulus * radius**2),
-        1.0,
-    )
-    return np.asarray(np.where(mean_speed > 0, share * ratio * radius, 0.0))
+    material, speed, share = _inlet(mean_speed, radius, modulus, options)
+    load = force / (modulus * radius**2)
+    ratio = contact_film.nijenbanning_point(material, speed, load, 1.0)
+    return _thickness(mean_speed, share * ratio * radius)
 
 
-def _inlet(mean_speed: Array, options: FrictionOptions) -> tuple[float, float, Array]:
-    """Viscosity, pressure–viscosity coefficient, and what heat and starvation leave of the film."""
+def _inlet(
+    mean_speed: Array, radius: float, modulus: float, options: FrictionOptions
+) -> tuple[float, Array, Array]:
+    """Material and speed parameter of a film, and what heat and starvation leave of it."""
     oil, t = options.oil, options.temperature
     viscosity = float(oil.viscosity(t))
     loading = contact_film.thermal_loading(
         viscosity, float(oil.steepness(t)), mean_speed, float(oil.conductivity(t))
     )
     share = options.starvation * contact_film.thermal_factor(loading)
-    return viscosity, float(oil.pressure_viscosity(t)), np.asarray(share)
+    speed = viscosity * np.maximum(mean_speed, 1e-12) / (modulus * radius)
+    return float(oil.pressure_viscosity(t)) * modulus, speed, np.asarray(share)
+
+
+def _thickness(mean_speed: Array, film: Array) -> Array:
+    """The film where surfaces move, 0 at standstill."""
+    return np.asarray(np.where(mean_speed > 0, film, 0.0))

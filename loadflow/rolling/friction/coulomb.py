@@ -74,8 +74,8 @@ def driving_moment(
 ) -> Value:
     """Moment that drives the spin before viscous drag, N m, (4.74), (4.76).
 
-    It contains the cage friction with the sign of the source, which for a driving outer ring helps
-    the spin; `pocket_loss` has the dissipative form. The source prints (1 ∓ μ') for (1 ∓ μ)
+    It contains the cage friction with the sign of von Hollen, which for a driving outer ring helps
+    the spin; `pocket_loss` has the dissipative form. Von Hollen prints (1 ∓ μ') for (1 ∓ μ)
     in the rib's term and, in (5.32), in that of U.
 
     Parameters
@@ -172,7 +172,7 @@ def pocket_loss(
 ) -> Value:
     """Loss of roller and cage, μ' ρ |K| |ω_w|, W, (5.40), (5.41).
 
-    The source prints μ'² for μ', which makes it 25 times too small.
+    Von Hollen prints μ'² for μ', which makes it 25 times too small.
 
     Examples
     --------

@@ -109,7 +109,7 @@ def roller_torques(
     """Torques that drive inner ring, outer ring and cage against one roller, N m.
 
     The cage is pushed by what the roller's tangential balance leaves: tractions, shear of the
-    rolling film, and the resultants of its pressure, which lean by 2 F R_eff/ρ.
+    rolling film, and the resultants of its pressure, which are inclined by 2 F R_eff/ρ.
 
     Examples
     --------

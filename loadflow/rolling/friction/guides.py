@@ -24,7 +24,7 @@ def cage_side_torque(
 ) -> Value:
     """Viscous torque between the sides of a cage and its guides, N m, (5.44).
 
-    The source takes radii about the pitch circle; the cage's own are right.
+    Von Hollen takes radii about the pitch circle; the cage's own are right.
 
     Parameters
     ----------
@@ -72,7 +72,7 @@ def cage_rub_torque(
 ) -> Value:
     """Torque of a cage that rubs on its guide with mixed friction, μ' F r_cage, N m, (8.3).
 
-    The source prints r² dτ'/dt with the crank's radius for the force's r ω² and the cage's radius:
+    Von Hollen prints r² dτ'/dt with the crank's radius for the force's r ω² and the cage's radius:
     not a torque at all (kg m²/s).
 
     Parameters
@@ -106,7 +106,7 @@ def cage_rub_torque(
 def thrust_washer_torque(
     axial: Value, friction: float, outer_radius: float, inner_radius: float
 ) -> Value:
-    """Torque of a thrust washer, μ F_a (r_o + r_i)/2, N m, (8.4); the source takes F_a = 0.04 F_r.
+    """Torque of a thrust washer, μ F_a (r_o + r_i)/2, N m, (8.4); von Hollen takes F_a = 0.04 F_r.
 
     Parameters
     ----------

@@ -1,11 +1,11 @@
 """Viscous drag on a roller in its pocket and at the ribs (Hampp), with two constants.
 
 The moment against the spin ω_w (relative to the cage) of a roller in a bearing of speed ω is
-M_f = C₁ ω_w + C₃₂ ω, (5.18). Equation numbers are those of von Hollen 2013; where the source
+M_f = C₁ ω_w + C₃₂ ω, (5.18). Equation numbers are those of von Hollen 2013; where von Hollen
 misprints or errs, `variant` names the choice:
 
 ``"thesis"``
-    what the source's program must have computed (its tables follow): the pocket of (4.80) as
+    what von Hollen's program must have computed (its tables follow): the pocket of (4.80) as
     printed, the rest put right;
 ``"geometric"``
     the pocket as the flat bar of the drawing has it, 4 to 8 times less drag; at the rib also the
@@ -136,7 +136,7 @@ def segment_area_moment(radius: float, height: float) -> float:
 def segment_polar(radius: float, height: float, variant: Variant = "geometric") -> float:
     """Twice the polar moment of that segment, m⁴, in (4.79).
 
-    The source prints (ρ - h)/ρ² where (ρ - h)²/ρ² is meant (taken in metres here).
+    Von Hollen prints (ρ - h)/ρ² where (ρ - h)²/ρ² is meant (taken in metres here).
     """
     r, left = radius, radius - height
     share = left / r**2 if variant == "printed" else (left / r) ** 2
@@ -145,7 +145,7 @@ def segment_polar(radius: float, height: float, variant: Variant = "geometric") 
 
 
 def segment_square(radius: float, height: float, variant: Variant = "geometric") -> float:
-    """∫ y² dA of that segment, m⁴: ½{…} of (4.79), whose second sign the source prints wrongly."""
+    """∫ y² dA of that segment, m⁴: ½{…} of (4.79), whose second sign von Hollen prints wrongly."""
     r, left = radius, radius - height
     chord = math.sqrt(2 * r * height - height**2)
     cube = -left * chord**3 if variant == "printed" else left * chord**3
@@ -263,7 +263,7 @@ def coulomb_drag_constants(
     adhesion, sliding : float
         Friction coefficients μ of roller and raceway, μ' of roller and cage.
     driving : {"inner", "outer"}
-        Ring that turns in the frame of the load; "outer" is the source's crank-pin bearing.
+        Ring that turns in the frame of the load; "outer" is von Hollen's crank-pin bearing.
 
     Examples
     --------
@@ -281,7 +281,7 @@ def coulomb_drag_constants(
     side = 1.0 if rib == "outer" else -1.0
     lever = sliding / (0.75 * (1 - adhesion * sliding))
     change = -side * lever * (1 - adhesion) if driving == "inner" else side * lever * (1 + adhesion)
-    half = 2.0 if variant == "printed" else 1.0  # the source drops the factor ½ of (5.20)
+    half = 2.0 if variant == "printed" else 1.0  # von Hollen drops the factor ½ of (5.20)
     rib_part = half * rib_constant(gaps, viscosity, variant)
     return DragConstants(plain.spin + change * rib_part, plain.orbit * (1 + change))
 

@@ -30,7 +30,7 @@ _MARTIN = 2.0796226
 def hysteresis_moment(load: Value, half_width: Value, loss: float) -> Value:
     """Rolling moment α 2/(3π) Q a of one contact, N m, (4.39).
 
-    Its power is the moment times the rolling speed u/R_eff; the source takes the roller's spin,
+    Its power is the moment times the rolling speed u/R_eff; von Hollen takes the roller's spin,
     which is right on a plane.
 
     Parameters
@@ -162,7 +162,7 @@ def hydrodynamic_torque(
     inner_diameter, outer_diameter : float
         Raceway diameters, m.
     variant : {"physics", "printed"}
-        The source prints R - R_eff for the lever at the inner ring; R + R_eff makes both levers
+        Von Hollen prints R - R_eff for the lever at the inner ring; R + R_eff makes both levers
         D d/(D + d), so that torque times speed is the power 2 u F.
     contact_angle : float
         Of both rings, rad.

@@ -1,10 +1,10 @@
 """Friction torque of slewing bearings, [Ritzer 2018] ch. 2.6: from loads and from ball forces.
 
 (2.23) takes the equivalent load, (2.25) the loads, (2.37) the ball forces.
-On the source's blade bearing (2.25) gives 25 … 54 % less than was measured and (2.37) 40 … 61 %
+On Ritzer's blade bearing (2.25) gives 25 … 54 % less than was measured and (2.37) 40 … 61 %
 less: rules of thumb. Makers allow ±25 % for (2.25), which for roller slewing rings has 4.1 and 2.05
 in place of 4.4 and 2.2. Friction factors belong to their formula and must
-not be exchanged; the source has none for three-row bearings.
+not be exchanged; Ritzer has none for three-row bearings.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ def friction_torque_loads(
     pitch_diameter : float
         m.
     friction : float
-        Factor μ of Tab. 2.3 (`FRICTION_FACTORS`).
+        Factor μ of Table 2.3 (`FRICTION_FACTORS`).
     idle : float
         Torque M_R0 without load, N m.
 
@@ -81,7 +81,7 @@ def friction_torque_forces(
     pitch_diameter : float
         m.
     friction : float
-        Factor μ that the source calibrated.
+        Factor μ that Ritzer calibrated.
     idle : float
         Torque M_R0 without load and without preload (which is in `force_sum`), N m.
 

@@ -40,7 +40,7 @@ class RodSwing(NamedTuple):
 class PinLoads(NamedTuple):
     """Load of the crank pin's bearing in three frames, N, last axis (x, y).
 
-    `rod` moves with the rod, `crank` with the crank (the source's Hz), `space` is fixed.
+    `rod` moves with the rod, `crank` with the crank (von Hollen's Hz), `space` is fixed.
     """
 
     rod: Array
@@ -122,7 +122,7 @@ class CrankDrive:
     def piston(self, angle: ArrayLike, speed: ArrayLike, exact: bool = True) -> PistonMotion:
         """Motion of the piston at constant `speed` (rad/s), (4.3), or as series (4.5)–(4.8).
 
-        The source prints +λ²/2 sin² in the root's expansion (4.4) for -λ²/2 sin².
+        Von Hollen prints +λ²/2 sin² in the root's expansion (4.4) for -λ²/2 sin².
         """
         phi, omega = np.asarray(angle, float), np.asarray(speed, float)
         sin, cos, lam = np.sin(phi), np.cos(phi), self.ratio
@@ -202,7 +202,7 @@ class CrankDrive:
     ) -> RollerInertia:
         """Inertia of rollers of the crank-pin bearing in ideal rolling, (4.69), (4.70).
 
-        The source prints the wrong sign before the second term of (4.68).
+        Von Hollen prints the wrong sign before the second term of (4.68).
 
         Parameters
         ----------

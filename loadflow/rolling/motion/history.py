@@ -206,7 +206,7 @@ def radial_history(
     direction: ArrayLike = 0.0,
     gravity: float = 0.0,
 ) -> RollerHistory:
-    """Rollers of a bearing under a radial load, outer ring at rest (the source's main bearing).
+    """Rollers of a bearing under a radial load, outer ring at rest (von Hollen's main bearing).
 
     Parameters
     ----------
@@ -221,7 +221,7 @@ def radial_history(
     law : LineLaw
         Of both contacts together.
     gravity : float
-        m/s², along angle 0; the source neglects it.
+        m/s², along angle 0; von Hollen neglects it.
     """
     t = np.asarray(time, float)
     speed, load, angle = (

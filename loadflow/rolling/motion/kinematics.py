@@ -76,7 +76,7 @@ def contact_speeds(
 ) -> ContactSpeeds:
     """Sliding and mean speeds of both contacts for any spin, (5.69)–(5.84).
 
-    For a driving outer ring the source counts all of them, and the spin, the other way round.
+    For a driving outer ring von Hollen counts all of them, and the spin, the other way round.
 
     Parameters
     ----------

@@ -34,7 +34,7 @@ class RadialDistribution(NamedTuple):
 def behw_law(length: float) -> LineLaw:
     """C = 26 200 l^0.92 and n = 1.08 (N, mm) for a steel roller of `length` (m), (5.14), (5.15).
 
-    The source prints I_eff δ^0.92 for l_eff^0.92.
+    Von Hollen prints I_eff δ^0.92 for l_eff^0.92.
     """
     return LineLaw(26_200 * (length * 1e3) ** 0.92 * 1e3**1.08, 1.08)
 
@@ -65,7 +65,7 @@ def radial_distribution(
     InputError
         Negative clearance, or a force that is negative or not finite.
     SolverError
-        If no roller can carry the force, or Newton's method does not settle.
+        If no roller can carry the force, or Newton's method does not converge.
 
     Examples
     --------

@@ -1,6 +1,6 @@
 """Motion of the rollers: how far their spin falls short of ideal rolling, over load histories.
 
-Two models of friction. *Coulomb* (the source's first stage): raceways grip with μ times the force,
+Two models of friction. *Coulomb* (von Hollen's first stage): raceways grip with μ times the force,
 oil drags, and the equation of motion is linear between events, so that it is solved exactly. *Film*
 (its second stage): traction of the oil up to a limiting stress, rolling resistance, asperities,
 weight; stiff, solved implicitly. Equation numbers are those of von Hollen 2013.
@@ -135,7 +135,7 @@ def coulomb_motion(
         brake = sliding * row.radius * np.abs(around + pull)
     turning = history.inner_speed - history.outer_speed
     swing = np.gradient(history.cage_speed, history.time)
-    # the source's crank-pin bearing counts spin and moments in the sense of the turning outer ring
+    # von Hollen's crank-pin bearing counts spin and moments in the sense of the turning outer ring
     sense = -1.0 if driving == "outer" else 1.0
     moment = sense * push + (row.inertia * swing - drag.orbit * turning)[:, None]
     spin = np.full(row.rollers, ideal[0])
@@ -193,7 +193,7 @@ def longest_slip(
 
     Examples
     --------
-    The source's main bearing at 1000/min and 2 kN, Table 8.5:
+    Von Hollen's main bearing at 1000/min and 2 kN, Table 8.5:
 
     >>> row = RollerRow(rollers=14, roller_diameter=11e-3, roller_length=11e-3,
     ...     pitch_diameter=60.5e-3, roller_mass=11e-3)
@@ -222,7 +222,7 @@ def film_motion(
 
     With ``film="moes"`` films, rolling forces and the traction of the wedge hold in all regimes,
     from rollers that hardly touch to loaded ones; with a power law of elastic films the friction is
-    that of the source, which leaves free rollers to stop. Asperities rub where the film is thin.
+    that of von Hollen, which leaves free rollers to stop. Asperities rub where the film is thin.
 
     Parameters
     ----------
@@ -245,7 +245,7 @@ def film_motion(
     Raises
     ------
     SolverError
-        If an implicit step does not settle.
+        If an implicit step does not converge.
     """
     from loadflow.rolling.motion import _motion_kernels as kernels
 
@@ -259,8 +259,8 @@ def film_motion(
         spin = spins[-1].copy()
     if tally[1] and tally[2] > 1e-3:
         raise SolverError(
-            f"roller motion: {int(tally[1])} of {int(2 * tally[3])} stages not settled, the worst "
-            f"moves by {tally[2]:.2g} of the ideal spin"
+            f"roller motion: {int(tally[1])} of {int(2 * tally[3])} stages not converged, the "
+            f"worst moves by {tally[2]:.2g} of the ideal spin"
         )
     reached = Convergence(not tally[1], float(tally[2]), int(tally[0]))
     return RollerMotion(history, spins, energy, density, reached, int(tally[3]))

@@ -131,7 +131,7 @@ def spin_equilibrium(
         If the speed is not finite.
     SolverError
         If balls or rings do not come to rest, or the loads of inertia of a ball that is about to
-        leave the inner ring do not settle within 1e-4 of the largest load.
+        leave the inner ring do not converge within 1e-4 of the largest load.
     """
     shape = rest.displacement.shape[:-1]
     omega = np.abs(np.broadcast_to(np.asarray(speed, float), shape)).reshape(-1)

@@ -1,7 +1,7 @@
 """Friction torque of a row of rollers whose motion is known: every loss, and their sum.
 
 Losses of stage 1 (Coulomb) are (5.36)–(5.43) of von Hollen 2013, those of stage 2 (films)
-(5.104)–(5.109) with the loss of slip, which the source leaves out. The torque is the mean power
+(5.104)–(5.109) with the loss of slip, which von Hollen leaves out. The torque is the mean power
 over the speed, (7.2).
 """
 
@@ -105,7 +105,7 @@ def coulomb_torque(
     driving : {"inner", "outer"}
         Ring that turns.
     pocket : {"physics", "printed"}
-        Friction at the cage as it is, or with the μ′² of the source, (5.40).
+        Friction at the cage as it is, or with the μ′² of von Hollen, (5.40).
 
     Raises
     ------
@@ -128,7 +128,7 @@ def coulomb_torque(
     """
     history = motion.history
     row = history.row
-    # N and U as the source counts them: radial inertia outward, tangential against the turning
+    # N and U as von Hollen counts them: radial inertia outward, tangential against the turning
     radial, around = history.outward, history.tangential
     push = np.asarray(coulomb.cage_force(radial, around, 0.0, adhesion, sliding, driving))
     spin = np.abs(motion.spin)

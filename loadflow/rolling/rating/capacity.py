@@ -16,7 +16,7 @@ Array = NDArray[np.float64]
 _LINE_REDUCTION = 0.83  # λν of ISO/TS 16281: edge loading and unequal distribution
 _THRUST_REDUCTION = 0.73  # λν of thrust roller bearings
 
-# Tab. 4.8: f_cm over γ for contact angles of 45°, 60°, 75° (ISO 281, thrust ball bearings).
+# Table 4.8: f_cm over γ for contact angles of 45°, 60°, 75° (ISO 281, thrust ball bearings).
 _GAMMA = np.r_[1:11, 12:31:2] / 100
 _F_CM = {
     45: "42.1 51.7 58.2 63.3 67.3 70.7 73.5 75.9 78.0 79.7 82.3 84.1 85.1 85.5 85.4 84.9 84.0 82.8 "
@@ -28,7 +28,7 @@ _COLUMNS = {np.radians(a): np.array(text.split(), float) for a, text in _F_CM.it
 
 
 def capacity_factor(gamma: float, contact_angle: float) -> float:
-    """Factor f_cm of Tab. 4.8, linear in γ and in the contact angle.
+    """Factor f_cm of Table 4.8, linear in γ and in the contact angle.
 
     Parameters
     ----------
@@ -82,7 +82,7 @@ def slewing_capacity(
     Raises
     ------
     InputError
-        If the osculation (r - R_w)/R_w exceeds 0.08, where the source leaves the correction open,
+        If the osculation (r - R_w)/R_w exceeds 0.08, where Ritzer leaves the correction open,
         or the geometry is outside the table.
     """
     osculation = 2 * groove_radius / ball_diameter - 1

@@ -216,7 +216,7 @@ def oscillation_load(
         Critical amplitude, rad, as a whole path (`critical_amplitude`); without it x = 1
         throughout.
     rule : {"as-printed", "rumbarger"}
-        Where x = 9/10: above the critical amplitude as the source prints, or below it as in
+        Where x = 9/10: above the critical amplitude as Ritzer prints, or below it as in
         Rumbarger's and Harris's rule, of which the print is probably a swap.
     definition : {"travel", "half"}
         Of `amplitude`, see `oscillation_speed`.

@@ -67,7 +67,7 @@ class FlexibleRings:
         Thickness T_S of the patches, m.
     master_width : float, optional
         Side of the square over which a force enters a ring at a master node, m: the size of the
-        elements there. The rings of the source yield under it although Hertz's approach holds that
+        elements there. The rings of Ritzer yield under it although Hertz's approach holds that
         already. By default it is counted once.
 
     Raises

@@ -16,7 +16,12 @@ from numpy.typing import ArrayLike, NDArray
 from loadflow.errors import InputError, SolverError
 from loadflow.rolling import equilibrium
 from loadflow.rolling.contacts import Array, Contacts, Raceway
-from loadflow.rolling.equilibrium import Control, RingEquilibrium, broadcast_loads, complain
+from loadflow.rolling.equilibrium import (
+    Control,
+    RingEquilibrium,
+    broadcast_loads,
+    raise_not_converged,
+)
 from loadflow.rolling.raceways import BallRaceways
 from loadflow.rolling.rings.condensed import FlexibleRings, RingModes, ring_modes
 from loadflow.rolling.rings.patches import patch_points
@@ -220,7 +225,7 @@ def solve_flexible(
     )
     if control.strict and not converged.all():
         _refuse_exit(loads, converged, residual, control.tolerance)
-        complain(loads, converged, residual, rounding, iterations, shape)
+        raise_not_converged(loads, converged, residual, rounding, iterations, shape)
     displacement = (x[:, :5] * contacts.scale).reshape(*shape, 5)
     amplitudes = x[:, 5:].reshape(*shape, -1)
     elements = FlexibleRingForces(bearing, contacts, rings, modes, displacement, amplitudes)

@@ -1,7 +1,7 @@
 """Equilibrium with ball centres and every patch as unknowns: reference of the condensed solver.
 
 The static state of § 3 of [Ritzer 2018] written down as it stands: rigid motion of the inner ring's
-structure, all three coordinates of each ball centre (the source's springs along the groove are as
+structure, all three coordinates of each ball centre (Ritzer's springs along the groove are as
 good as none), all modes of each ring; four contacts at each ball, each with the stiffness of its
 own raceway; F = K ⟨|b - c| - (r - R_w)⟩^1.5 between ball centre b and groove centre c. Slow and
 dense, for small bearings.

@@ -3,7 +3,7 @@
 The inner ring with its structure has mass, contacts and rings have damping. The rings are their
 static modes without inertia (Guyan), or with their masses and some modes of vibration with held
 patches (Craig–Bampton). What comes to rest is the equilibrium of `BallRaceways.equilibrium`; the
-way there depends on damping, which the source gives no value for.
+way there depends on damping, which Ritzer gives no value for.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ class Inertia:
         Radius of gyration about the tilt axes, m.
     contact_damping : float
         C_max of (3.2) over K √step, s, K the stiffness of both contacts of a ball in series; the
-        √step gives the source's numeric rule its units.
+        √step gives Ritzer's numeric rule its units.
     step : float
         Penetration at which the damping of a contact is fully on, m (3.1).
     ring_damping : float
@@ -98,7 +98,7 @@ class Transient:
     residual: float
 
 
-def settle(
+def transient_response(
     bearing: BallRaceways,
     rings: FlexibleRings,
     inertia: Inertia,
@@ -109,7 +109,7 @@ def settle(
     tolerance: float = 1e-8,
     fixed_modes: int | None = None,
 ) -> Transient:
-    """Let a bearing come to rest under a load put on at once.
+    """Follow a bearing to rest under a load that is applied suddenly.
 
     Parameters
     ----------
@@ -143,13 +143,13 @@ def settle(
     --------
     >>> from loadflow.rolling import FlexibleRings, Inertia, RingBeam, RingSection
     >>> from loadflow.rolling import SlewingBearing, Support
-    >>> from loadflow.rolling import settle
+    >>> from loadflow.rolling import transient_response
     >>> bearing = SlewingBearing(balls=12, ball_diameter=0.04, pitch_diameter=0.5,
     ...     groove_radius=0.0208, contact_angle=0.785)
     >>> wall = Support.wall(radius=0.3, height=0.06, thickness=0.03, length=0.3)
     >>> outer = RingBeam(section=RingSection.rectangle(0.05, 0.1), radius=0.3, supports=(wall,))
     >>> rings = FlexibleRings(outer=outer)
-    >>> motion = settle(bearing, rings, Inertia(mass=1e3, radius=0.3), (0.0, 0.0, 5e4),
+    >>> motion = transient_response(bearing, rings, Inertia(mass=1e3, radius=0.3), (0.0, 0.0, 5e4),
     ...     duration=0.1)
     >>> rest = bearing.equilibrium((0.0, 0.0, 5e4), rings=rings).displacement[2]
     >>> bool(abs(motion.displacement[-1, 2] / rest - 1) < 1e-2)

@@ -21,7 +21,6 @@ from loadflow.errors import InputError
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
-PROPORTIONAL_RANGE = (0.25e-5, 2.5e-5)  # s, C = σ K (Krämer)
 
 # 1 - tanh(z)/z in powers of z², from z²; below |z| = 0.2 the closed form cancels
 _SERIES = (
@@ -134,7 +133,7 @@ def richter_roller(
     frequency : array_like
         rad/s.
     variant : {"physics", "printed"}
-        Films and structure carry the same load and are in series; the source adds the structure in
+        Films and structure carry the same load and are in series; Kruk adds the structure in
         parallel, and puts the films' stiffnesses and dampings in series each by itself.
     """
     secant = np.asarray(force, float) / np.asarray(deflection, float)
@@ -151,7 +150,7 @@ def richter_roller(
 def dietl_contact_stiffness(load: ArrayLike, deflection: ArrayLike, exponent: float) -> Array:
     """Tangent n Q/δ of a contact Q = C δ^n, N/m, (2.11).
 
-    The source prints C^n Q^((n-1)/n²), which is no stiffness; C^(1/n) Q^((n-1)/n) n is meant.
+    Kruk prints C^n Q^((n-1)/n²), which is no stiffness; C^(1/n) Q^((n-1)/n) n is meant.
     """
     return np.asarray(exponent * np.asarray(load, float) / np.asarray(deflection, float))
 
@@ -235,7 +234,7 @@ def proportional_damping(stiffness: ArrayLike, time_constant: float = 1e-5) -> A
     stiffness : array_like
         Any stiffness.
     time_constant : float
-        σ, s; `PROPORTIONAL_RANGE` is what Krämer gives for rolling bearings.
+        σ, s; Krämer gives 0.25e-5 … 2.5e-5 for rolling bearings.
 
     Raises
     ------

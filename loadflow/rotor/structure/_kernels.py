@@ -125,7 +125,7 @@ def torsion(m, b, dt, speed, azimuth, drift, gravity, force, motion, turned):
 @kernel
 def nacelle_motion(m, h, v, drift, gravity):
     """Speed of the apex and rate of rotation of the nacelle, `drift` (6,), and `gravity` (3,), in
-    the shaft frame, which leans with the nacelle; returns its tilt.
+    the shaft frame, which tilts with the nacelle; returns its tilt.
     """
     drift[:] = 0.0
     turn_x = turn_y = turn_z = 0.0

@@ -5,6 +5,8 @@ How blades and tower bend stands on the rungs of the rotor, the wind's grid on t
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from loadflow.scene.scene import Scene
@@ -32,7 +34,30 @@ def _simulated(scene: Scene) -> bool:
 
 
 def _of_loads(share: float) -> Sizes:
-    return {"bearing load max": share, "bearing force DEL": share}
+    return dict.fromkeys(("bearing load max", "radial force max", "bearing force DEL"), share)
+
+
+def _switch(
+    name: str,
+    key: str,
+    indicator: Callable[[Situation], Sizes],
+    out: str,
+    cost: float,
+    concerns: Callable[[Scene], bool] = _simulated,
+) -> Effect:
+    """An effect that one key of the loads turns on; `cost` is the time over that without it."""
+    return Effect(
+        name,
+        model="loads",
+        keys=(f"loads.{key}",),
+        is_on=lambda scene: getattr(scene.loads, key),
+        switched=lambda scene, on: with_settings(scene, "loads", {key: on}),
+        indicator=indicator,
+        out=out,
+        needs=f"loads.{key} = true",
+        concerns=concerns,
+        cost=lambda scene: cost,
+    )
 
 
 def _inflow(at: Situation) -> Sizes:
@@ -41,17 +66,12 @@ def _inflow(at: Situation) -> Sizes:
     return _of_loads(LAG * float(np.max(0.5 * (1.0 - np.sqrt(1.0 - thrust)))))
 
 
-INFLOW = Effect(
+INFLOW = _switch(
     "dynamic inflow",
-    model="loads",
-    keys=("loads.dynamic_inflow",),
-    is_on=lambda scene: scene.loads.dynamic_inflow,
-    switched=lambda scene, on: with_settings(scene, "loads", {"dynamic_inflow": on}),
-    indicator=_inflow,
+    "dynamic_inflow",
+    _inflow,
     out="no loads.dynamic_inflow: induction follows the load at once",
-    needs="loads.dynamic_inflow = true",
-    concerns=_simulated,
-    cost=lambda scene: 1.03,
+    cost=1.03,
 )
 
 
@@ -61,17 +81,12 @@ def _stall(at: Situation) -> Sizes:
     return _of_loads(SEPARATION * (float(np.max(at.turbulence)) + yaw))
 
 
-STALL = Effect(
+STALL = _switch(
     "dynamic stall",
-    model="loads",
-    keys=("loads.dynamic_stall",),
-    is_on=lambda scene: scene.loads.dynamic_stall,
-    switched=lambda scene, on: with_settings(scene, "loads", {"dynamic_stall": on}),
-    indicator=_stall,
+    "dynamic_stall",
+    _stall,
     out="no loads.dynamic_stall: separation follows lift at once",
-    needs="loads.dynamic_stall = true",
-    concerns=_simulated,
-    cost=lambda scene: 1.03,
+    cost=1.03,
 )
 
 BEND_TWIST = Effect(
@@ -110,15 +125,11 @@ def _torsion(at: Situation) -> Sizes:
     return _of_loads(TWISTED * abs(float(np.interp(0.75 * span[-1], span, turned))))
 
 
-TORSION = Effect(
+TORSION = _switch(
     "torsion of the blades",
-    model="loads",
-    keys=("loads.blade_torsion",),
-    is_on=lambda scene: scene.loads.blade_torsion,
-    switched=lambda scene, on: with_settings(scene, "loads", {"blade_torsion": on}),
-    indicator=_torsion,
+    "blade_torsion",
+    _torsion,
     out="loads.blade_torsion = false",
-    needs="loads.blade_torsion = true",
+    cost=1.1,
     concerns=_twists,
-    cost=lambda scene: 1.1,
 )

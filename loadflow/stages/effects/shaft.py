@@ -17,7 +17,7 @@ def _determinate(at: Situation) -> Sizes:
 
     How a bent shaft tilts in its films is counted there, as tilt.
     """
-    return {"bearing load max": 0.0, "bearing force DEL": 0.0}
+    return dict.fromkeys(("bearing load max", "radial force max", "bearing force DEL"), 0.0)
 
 
 def _rigid(scene: Scene, on: bool) -> Scene | None:
@@ -64,6 +64,6 @@ STIFFNESS = Effect(
     switched=_given,
     indicator=_determinate,
     out="no support of the shaft takes its stiffness from a bearing",
-    needs='supports (seats) of the beam with stiffness = "journal" or "rolling"',
+    needs='supports (`seats`) of the beam with stiffness = "journal" or "rolling"',
     concerns=lambda scene: any(concept.beam is not None for concept in scene.shaft.concepts),
 )

@@ -1,8 +1,8 @@
-"""Loads and films of a scene before anything is solved: what indicators are made of.
+"""Loads and films of a scene, estimated before anything is solved: the basis of indicators.
 
 For simulated loads these are closed forms: thrust after [Frandsen 2007], c_T = 7/V; the rotor's
 weight; moments that swing with the turbulence, three standard deviations either way. Given series
-tell their own. The film is that of the closed charts of ISO 7902.
+are read. The film is that of the closed charts of ISO 7902.
 """
 
 from __future__ import annotations

@@ -1,0 +1,217 @@
+"""A thrust collar between two rows of pads: it carries the force along the shaft both ways."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Any, ClassVar, Unpack
+
+from loadflow.errors import SolverError
+from loadflow.journal.film_model import Control, Film, Keywords
+from loadflow.journal.lubricant import Lubricant
+from loadflow.journal.pad_bearing import AT_REST, asked, limits_of
+from loadflow.journal.pad_results import AXIAL_BOTH, PadResult, Shows, Table, ThrustResult
+from loadflow.journal.pads import finite
+from loadflow.journal.thrust import ThrustBearing
+from loadflow.numerics.fields import require
+
+_ROUNDS = 60
+_CLOSED = 1e-4  # of the play: the thinnest film that is tried
+
+
+@dataclass(frozen=True, repr=False)
+class DoubleThrustResult(Shows):
+    """Films on both sides of a collar.
+
+    Attributes
+    ----------
+    front, back : ThrustResult
+        Films of both rows.
+    force : float
+        Along the axis, N; > 0 presses the collar on the front row.
+    gap : float
+        Film of the front row, m.
+    minimum_film, maximum_pressure, friction_torque, friction_power : float
+        Of both rows.
+    stiffness, damping : float
+        Axial, N/m and N s/m.
+    speed, converged, residual, iterations
+        As in `PadResult`; the residual is that of the force, over the larger of both films' forces.
+
+    Examples
+    --------
+    >>> from loadflow.journal import DoubleThrustBearing, Film, Guembel, Lubricant, ThrustBearing
+    >>> lands = ThrustBearing(6, 0.5, 1.0, pad_angle=0.785, taper=1e-4)
+    >>> collar = DoubleThrustBearing(lands, lands, play=4e-4)
+    >>> film = Film(Lubricant(0.05), Guembel(), grid=(20, 10))
+    >>> found = collar.equilibrium(1e6, 10.0, film)
+    >>> round(found.front.force - found.back.force), found.converged
+    (1000000, True)
+    """
+
+    front: ThrustResult
+    back: ThrustResult
+    force: float
+    gap: float
+    minimum_film: float
+    maximum_pressure: float
+    friction_torque: float
+    friction_power: float
+    stiffness: float
+    damping: float
+    speed: float
+    converged: bool
+    residual: float
+    iterations: int
+
+    _table: ClassVar[Table] = AXIAL_BOTH
+
+    to_dataset = PadResult.to_dataset
+    __repr__ = PadResult.__repr__
+
+
+@dataclass(frozen=True)
+class DoubleThrustBearing:
+    """Thrust collar between two rows of pads, `play` apart from both together.
+
+    Attributes
+    ----------
+    front, back : ThrustBearing
+        Pads that carry a force > 0 and < 0 along the axis; the pads of both are cut for the same
+        sense of rotation of the shaft.
+    play : float
+        Films of both rows together, m: what the shaft moves from one row to the other.
+
+    Examples
+    --------
+    >>> from loadflow.journal import DoubleThrustBearing, Film, Guembel, Lubricant, ThrustBearing
+    >>> lands = ThrustBearing(6, 0.5, 1.0, pad_angle=0.785, taper=1e-4)
+    >>> film = Film(Lubricant(0.05), Guembel(), grid=(20, 10))
+    >>> found = DoubleThrustBearing(lands, lands, play=4e-4).equilibrium(-1e6, 10.0, film)
+    >>> found.back.gap < found.front.gap
+    True
+    """
+
+    front: ThrustBearing
+    back: ThrustBearing
+    play: float
+
+    def __post_init__(self) -> None:
+        require(0 < self.play < math.inf, "play", self.play, "m, > 0, finite")
+
+    def pressure(
+        self,
+        gap: float,
+        speed: float,
+        film: Film | Lubricant | None = None,
+        *more: Any,
+        control: Control | None = None,
+        **keywords: Unpack[Keywords],
+    ) -> DoubleThrustResult:
+        """Films with the front one as thick as `gap`, m.
+
+        Parameters
+        ----------
+        gap : float
+            Film of the front row, m, between 0 and the play.
+        speed, film, control, **keywords
+            As of `ThrustBearing.pressure`.
+
+        Raises
+        ------
+        loadflow.errors.InputError
+            A gap that the play does not leave; values that are not finite.
+        loadflow.errors.SolverError
+            Pads that find no tilt without moment.
+        """
+        film, control = asked(film, more, control, keywords)
+        require(0 < gap < self.play, "gap", gap, f"m, between 0 and the play of {self.play:g}")
+        front = self.front.pressure(gap, speed, film, control=control)
+        back = self.back.pressure(self.play - gap, speed, film, control=control)
+        return DoubleThrustResult(
+            front=front,
+            back=back,
+            force=front.force - back.force,
+            gap=gap,
+            minimum_film=min(front.minimum_film, back.minimum_film),
+            maximum_pressure=max(front.maximum_pressure, back.maximum_pressure),
+            friction_torque=front.friction_torque + back.friction_torque,
+            friction_power=front.friction_power + back.friction_power,
+            stiffness=front.stiffness + back.stiffness,
+            damping=front.damping + back.damping,
+            speed=float(speed),
+            converged=front.converged and back.converged,
+            residual=max(front.residual, back.residual),
+            iterations=front.iterations + back.iterations,
+        )
+
+    def equilibrium(
+        self,
+        force: float,
+        speed: float,
+        film: Film | Lubricant | None = None,
+        *more: Any,
+        control: Control | None = None,
+        **keywords: Unpack[Keywords],
+    ) -> DoubleThrustResult:
+        """Place of the collar at which both films carry `force`.
+
+        Newton in 1/h² of the film that the force presses on, on which its force depends nearly
+        linearly, kept between bounds.
+
+        Parameters
+        ----------
+        force : float
+            Along the axis, N; > 0 presses the collar on the front row.
+        speed, film, control, **keywords
+            As of `ThrustBearing.equilibrium`.
+
+        Returns
+        -------
+        DoubleThrustResult
+
+        Raises
+        ------
+        loadflow.errors.InputError
+            Values that are not finite or out of range.
+        loadflow.errors.SolverError
+            No film carries the force, with the reason.
+        """
+        film, control = asked(film, more, control, keywords)
+        force, speed = finite("force", force), finite("speed", speed)
+        limits = limits_of(control)
+        head = f"F = {force:.6g} N at ω = {speed:.6g} rad/s"
+        if speed == 0.0:
+            raise SolverError(f"{head}: {AT_REST}")
+        pressed = 1.0 if force >= 0 else -1.0
+
+        def at(inverse: float) -> DoubleThrustResult:
+            film_there = 1.0 / math.sqrt(inverse)
+            gap = film_there if pressed > 0 else self.play - film_there
+            return self.pressure(gap, speed, film, control=control)
+
+        def answer(found: DoubleThrustResult, error: float, converged: bool) -> DoubleThrustResult:
+            residual = max(error, found.residual)
+            return replace(found, residual=residual, iterations=spent, converged=converged)
+
+        low = (1.0 / ((1.0 - _CLOSED) * self.play)) ** 2
+        high = (1.0 / (_CLOSED * self.play)) ** 2
+        x, spent = (2.0 / self.play) ** 2, 0
+        for _ in range(_ROUNDS):
+            found = at(x)
+            spent += found.iterations
+            missing = pressed * (force - found.force)
+            scale = max(abs(force), found.front.force, found.back.force)
+            error = abs(missing) / scale if scale > 0 else math.inf
+            if found.converged and error < max(limits.tolerance, 1e-9):
+                return answer(found, error, True)
+            low, high = (x, high) if missing > 0 else (low, x)
+            slope = 0.5 * found.stiffness * x**-1.5
+            trial = x + missing / slope if slope > 0 else math.nan
+            x = trial if low < trial < high else math.sqrt(low * high)
+            if high / low - 1.0 < 1e-12:
+                break
+        if limits.strict:
+            most = f"{pressed * found.force:.4g} N at a film of {1e6 / math.sqrt(x):.3g} µm"
+            raise SolverError(f"{head}: no film carries it; {most}")
+        return answer(found, error, False)

@@ -1,0 +1,114 @@
+"""Loads of a run on its report page: doubts, statistics, ultimate loads, series."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from loadflow.plots.style import readable
+from loadflow.report import Picture, Section, Table, figures
+from loadflow.running.folder import answered, open_part
+from loadflow.stages.loads import doubts, trips, when_tripped
+from loadflow.stages.statistics import SLOPE
+from loadflow.studies.extreme_loads import safety_factor
+
+LOAD_ROWS = (
+    ("speed", "speed"),
+    ("hub_force", "hub force"),
+    ("hub_moment", "hub moment"),
+    ("force", "bearing"),
+)
+
+
+def loads_section(folder: Path, tables: dict[str, xr.Dataset], shown: list[str]) -> Section:
+    """What is doubtful about the loads, their statistics, and series of the cases to be shown."""
+    return Section(
+        "Loads",
+        tables=[*_trip_table(tables), *_doubt_table(tables), *_load_tables(tables)],
+        pictures=[*_load_pictures(folder, shown)],
+    )
+
+
+def _trip_table(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
+    """Cases that are no longer what their load case says; nothing if there are none."""
+    if rows := [[name, when_tripped(time)] for name, time in trips(tables).items()]:
+        yield Table("Tripped on overspeed, and stopped from then on", ["load case", "when"], rows)
+
+
+def _doubt_table(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
+    """What does not fit turbine, frame, unit or step; nothing if all does."""
+    rows = [[name, doubt] for name, said in doubts(tables).items() for doubt in said]
+    if rows:
+        marked = frozenset(range(len(rows)))
+        yield Table("Doubtful series", ["load case", "what does not fit"], rows, marked)
+
+
+def _load_tables(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
+    """Mean, spread and extremes of all loads; the largest with the safety factor of its case."""
+    if "statistics" not in tables:
+        return
+    data = tables["statistics"]
+    factors = np.array([safety_factor(str(dlc)) for dlc in data["dlc"].values])
+    rows, ultimate = [], []
+    for name, title in LOAD_ROWS:
+        if name not in data:
+            continue
+        for label, part in _parts(data[name], title):
+            values, unit = readable(part.assign_attrs(data[name].attrs))
+            table = dict(zip(part["statistic"].values, np.moveaxis(values, _axis(part), 0)))
+            rows.append(
+                [
+                    f"{label}, {unit}",
+                    *(f"{table[s].mean():.4g}" for s in ("mean", "std", "del")),
+                    f"{table['min'].min():.4g}",
+                    f"{table['max'].max():.4g}",
+                ]
+            )
+            if name != "speed":
+                largest = np.maximum(np.abs(table["min"]), np.abs(table["max"]))
+                k = int(np.argmax(factors * largest))
+                ultimate.append(
+                    [
+                        f"{label}, {unit}",
+                        f"{largest[k]:.4g}",
+                        f"{factors[k]:g}",
+                        f"{factors[k] * largest[k]:.4g}",
+                        str(data["case"].values[k]),
+                    ]
+                )
+    heads = [
+        "over all cases",
+        "mean",
+        "mean std",
+        f"mean DEL (m = {SLOPE:g})",
+        "smallest",
+        "largest",
+    ]
+    yield Table("Loads", heads, rows)
+    heads = ["largest magnitude", "characteristic", "γ_f", "design value", "load case"]
+    yield Table("Ultimate loads", heads, ultimate)
+
+
+def _axis(part: xr.DataArray) -> int:
+    return part.dims.index("statistic")
+
+
+def _parts(data: xr.DataArray, title: str) -> Iterator[tuple[str, xr.DataArray]]:
+    dims = [dim for dim in ("bearing", "axis") if dim in data.dims]
+    if not dims:
+        yield title, data
+        return
+    for labels, part in data.stack(part=dims).groupby("part"):
+        names = labels if isinstance(labels, tuple) else (labels,)
+        yield f"{title} {' '.join(map(str, names))}", part.squeeze("part", drop=True)
+
+
+def _load_pictures(folder: Path, shown: list[str]) -> Iterator[Picture]:
+    for k, name in enumerate(answered(folder, "shaft", shown)):
+        drawing = figures.load_series(
+            open_part(folder, "loads", name).load(), open_part(folder, "shaft", name).load()
+        )
+        yield Picture(drawing, name if k else f"{name}, worst case", fold=k > 0)

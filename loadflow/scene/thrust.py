@@ -1,0 +1,325 @@
+"""Film bearings of a scene that carry the force along the shaft: thrust collars, pairs of cones."""
+
+from __future__ import annotations
+
+import math
+from abc import abstractmethod
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import (
+    BaseModel,
+    BeforeValidator,
+    Discriminator,
+    Field,
+    Tag,
+    WrapSerializer,
+    model_validator,
+)
+
+from loadflow.journal import (
+    ConicalPair,
+    DoubleThrustBearing,
+    DoubleThrustResult,
+    Film,
+    Guembel,
+    Lubricant,
+    PairResult,
+    ThrustBearing,
+)
+from loadflow.scene.films import Law
+from loadflow.scene.limits import FilmLimits
+from loadflow.scene.section import Section
+
+Positive = Annotated[float, Field(gt=0)]
+Array = NDArray[np.float64]
+
+
+def _finite(value: Any) -> Any:
+    """Plain data without what is infinite, which is what rigid supports have by default."""
+    if isinstance(value, Mapping):
+        kept = {name: _finite(part) for name, part in value.items()}
+        return {name: part for name, part in kept.items() if part != math.inf}
+    return value
+
+
+def _both_alike(pair: Any) -> Any:
+    """A pair of which the right cone is left out: as the left one."""
+    if isinstance(pair, Mapping) and "left" in pair and "right" not in pair:
+        return {**pair, "right": pair["left"]}
+    return pair
+
+
+def _told(value: Any, handler: Any) -> Any:
+    return _finite(handler(value))
+
+
+if TYPE_CHECKING:
+    Lands, Cones = ThrustBearing, ConicalPair
+else:
+    Lands = Annotated[ThrustBearing, WrapSerializer(_told)]
+    Cones = Annotated[ConicalPair, BeforeValidator(_both_alike), WrapSerializer(_told)]
+
+
+UNKNOWN_TO_PADS = frozenset(
+    ("motion", "heat", "shell", "contact", "supply", "inlet", "tilt", "rung", "grading")
+)
+"""Keys of journal bearings that those of pads do not have: at rest, at one temperature, aligned."""
+
+
+class AxialBearing(Section, BaseModel):
+    """What bearings of pads share in a scene: the film, the surfaces, what they must hold.
+
+    Films of pads know one temperature, rigid pads (their supports may give way), no contact and no
+    motion: keys for these are refused. `boundary_friction` is that of surfaces that touch.
+    """
+
+    lubricant: Lubricant = Lubricant(viscosity=0.050)
+    cavitation: Law = Guembel()
+    edge_pressure: Annotated[float, Field(ge=0)] = 0.1e6
+    grid: tuple[Annotated[int, Field(ge=8, le=320)], Annotated[int, Field(ge=4, le=160)]] = (20, 10)
+    shaft_roughness: Positive = 1.3e-6
+    shell_roughness: Positive = 2.5e-6
+    boundary_friction: Annotated[float, Field(gt=0, le=1)] = 0.15
+    limits: FilmLimits = FilmLimits()
+
+    @model_validator(mode="before")
+    @classmethod
+    def _no_more_than_pads_know(cls, data: Any) -> Any:
+        for name in UNKNOWN_TO_PADS & {*data} if isinstance(data, dict) else ():
+            raise ValueError(f"{name}: films of pads and cones do not know it; leave it out")
+        return data
+
+    @property
+    def contact_film(self) -> float:
+        """Film, m, below which the surfaces touch: the sum of their R_z."""
+        return self.shaft_roughness + self.shell_roughness
+
+    @property
+    def least_film(self) -> float:
+        """Smallest film allowed, m."""
+        return self.limits.least_film(self.contact_film)
+
+    @property
+    def film_model(self) -> Film:
+        """The film that these keys describe."""
+        return Film(
+            lubricant=self.lubricant,
+            cavitation=self.cavitation,
+            edge_pressure=self.edge_pressure,
+            inlet=None,
+            grid=self.grid,
+        )
+
+    @property
+    @abstractmethod
+    def radius(self) -> float:
+        """Mean radius of the film, m."""
+
+    @property
+    @abstractmethod
+    def words(self) -> str:
+        """What it is."""
+
+    @property
+    @abstractmethod
+    def measures(self) -> str:
+        """Its measures, in words."""
+
+    @abstractmethod
+    def normal_load(self, force: Array, moment: Array) -> Array:
+        """Load (n,) that presses on the films under force and moment (n, 3) of the bearing, N.
+
+        It tells which samples are the hard ones; force and moment are in the frame of the bearing,
+        whose third axis is that of the shaft.
+        """
+
+    @abstractmethod
+    def solve(self, force: Array, moment: Array, speed: float) -> DoubleThrustResult | PairResult:
+        """Equilibrium under a force (3,), N, and a moment (3,), N m, in the frame of the bearing.
+
+        Raises
+        ------
+        loadflow.errors.SolverError
+            No film carries it.
+        """
+
+    @abstractmethod
+    def touches(self, force: Array, speed: float) -> bool:
+        """Whether surfaces touch for certain under a load that no film was found to carry."""
+
+
+class ThrustCollar(AxialBearing):
+    """Thrust bearing beside journal bearings: a collar between two rows of pads.
+
+    It carries the force along the shaft both ways, and neither radial forces nor moments; its pads
+    are held so that they stay aligned with the collar. ``geometry`` is that of the row that carries
+    thrust downwind, ``back`` of the other one, alike if left out; ``play`` is what the collar moves
+    from one row to the other, m.
+    """
+
+    kind: Literal["thrust"] = "thrust"
+    geometry: Lands
+    back: Lands | None = None
+    play: Positive = 4e-4
+
+    @property
+    def bearing(self) -> DoubleThrustBearing:
+        """Both rows."""
+        return DoubleThrustBearing(self.geometry, self.back or self.geometry, self.play)
+
+    @property
+    def radius(self) -> float:
+        """Mean radius of the front row, m."""
+        return 0.5 * (self.geometry.inner_radius + self.geometry.outer_radius)
+
+    @property
+    def words(self) -> str:
+        """What it is."""
+        row = self.geometry
+        pads = "tilting pads" if row.pivot is not None else "fixed pads"
+        return f"thrust bearing, {row.pads} {pads} on each side"
+
+    @property
+    def measures(self) -> str:
+        """Its measures, in words."""
+        row = self.geometry
+        return (
+            f"d {2e3 * row.inner_radius:.0f} … D {2e3 * row.outer_radius:.0f} mm, play "
+            f"{1e6 * self.play:.0f} µm, {self.lubricant.viscosity:.3g} Pa s"
+        )
+
+    def normal_load(self, force: Array, moment: Array) -> Array:
+        """The force along the shaft."""
+        return np.abs(force[:, 2])
+
+    def solve(self, force: Array, moment: Array, speed: float) -> DoubleThrustResult:
+        """Place of the collar under the force along the shaft."""
+        return self.bearing.equilibrium(float(force[2]), speed, self.film_model)
+
+    def touches(self, force: Array, speed: float) -> bool:
+        """At standstill, or where a film as thin as the roughness carries less."""
+        row = self.geometry if force[2] >= 0 else self.back or self.geometry
+        if speed == 0.0:
+            return True
+        carried = row.pressure(self.contact_film, speed, self.film_model).force
+        return bool(carried < abs(float(force[2])))
+
+    @model_validator(mode="after")
+    def _room_for_a_film(self) -> Self:
+        least = 2.0 * self.contact_film
+        if self.play <= least:
+            raise ValueError(f"play = {self.play:g}: must be > {least:g} m, twice the roughness")
+        return self
+
+
+class ConePair(AxialBearing):
+    """Two cones against each other, which locate the shaft: forces and moments.
+
+    The cone ``geometry.left`` is upwind; ``geometry.right`` is like it if left out.
+    """
+
+    kind: Literal["conical-pair"] = "conical-pair"
+    geometry: Cones
+
+    @property
+    def radius(self) -> float:
+        """Mean radius of the left cone, m."""
+        cone = self.geometry.left
+        return 0.5 * sum(cone.slant) * math.sin(cone.half_angle)
+
+    @property
+    def words(self) -> str:
+        """What it is."""
+        pads = self.geometry.left.pads
+        rows = "whole rings" if pads is None else f"{pads} segments each"
+        return f"pair of cones in {self.geometry.arrangement}, {rows}"
+
+    @property
+    def measures(self) -> str:
+        """Its measures, in words."""
+        cone, pair = self.geometry.left, self.geometry
+        clearance = cone.clearance if pair.clearance is None else pair.clearance
+        return (
+            f"mean D {2e3 * self.radius:.0f} mm, B {1e3 * (cone.slant[1] - cone.slant[0]):.0f} mm "
+            f"along the cone, {math.degrees(cone.half_angle):.0f}°, {1e3 * pair.distance:.0f} mm "
+            f"apart, clearance {1e6 * clearance:.0f} µm, {self.lubricant.viscosity:.3g} Pa s"
+        )
+
+    def normal_load(self, force: Array, moment: Array) -> Array:
+        """Load normal to the film of the harder pressed cone, if each took its part alone."""
+        angle, pair = self.geometry.left.half_angle, self.geometry
+        across = np.hypot(force[:, 0], force[:, 1])
+        turning = np.hypot(moment[:, 0], moment[:, 1])
+        radial = 0.5 * across + turning / pair.distance
+        return np.asarray(radial / math.cos(angle) + np.abs(force[:, 2]) / math.sin(angle))
+
+    def solve(self, force: Array, moment: Array, speed: float) -> PairResult:
+        """Place and tilt of the shaft."""
+        return self.geometry.equilibrium(force, moment[:2], speed, self.film_model)
+
+    def touches(self, force: Array, speed: float) -> bool:
+        """At standstill; while turning the cones may carry, whatever the solver found."""
+        return speed == 0.0
+
+
+def _kind(value: Any) -> str | None:
+    return value.get("kind") if isinstance(value, dict) else getattr(value, "kind", None)
+
+
+if TYPE_CHECKING:
+    AnyAxial = ThrustCollar | ConePair
+else:
+    AnyAxial = Annotated[
+        Annotated[ThrustCollar, Tag("thrust")] | Annotated[ConePair, Tag("conical-pair")],
+        Discriminator(
+            _kind,
+            custom_error_type="kind",
+            custom_error_message="kind must be one of thrust, conical-pair",
+        ),
+    ]
+
+
+class Thrust(Section, BaseModel):
+    """The bearings of pads on the shaft, by place.
+
+    Examples
+    --------
+    >>> from loadflow.scene import make_scene
+    >>> lands = {"pads": 8, "inner_radius": 0.8, "outer_radius": 1.2, "pad_angle": 0.7}
+    >>> journal = {"kind": "journal", "geometry": {"diameter": 1.4, "width": 1.3,
+    ...     "relative_clearance": 1e-3}}
+    >>> collar = {"kind": "thrust", "geometry": lands | {"taper": 1e-4}}
+    >>> scene = make_scene({"shaft": {"two_point": {}}, "bearings": {"N": journal,
+    ...     "N2": [journal, collar]}})
+    >>> list(scene.thrust.bearings), scene.wants("thrust")
+    (['N2'], True)
+    """
+
+    bearings: dict[str, AnyAxial] = {}
+
+
+def check_thrust(thrust: Thrust, method: str) -> None:
+    """Refuse what films of pads cannot be asked for in a scene.
+
+    Raises
+    ------
+    ValueError
+        No such bearing; loads that a film must follow; a collar where forces across the shaft and
+        moments have no other bearing.
+    """
+    if not thrust.bearings:
+        raise ValueError('results: thrust.film needs a bearing of kind "thrust" or "conical-pair"')
+    if method == "periodic":
+        raise ValueError(
+            'reduction.method = "periodic": films of pads and cones have no closed orbit; set '
+            '"histogram" or "stationary"'
+        )
+    for place, one in thrust.bearings.items():
+        if one.kind == "thrust" and place in ("M", "Y"):
+            raise ValueError(
+                f"bearings.{place}: a thrust bearing takes neither radial forces nor moments; a "
+                '"conical-pair" does'
+            )

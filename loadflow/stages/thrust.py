@@ -1,0 +1,177 @@
+"""Loads of one case → films of thrust bearings and pairs of cones, at static equilibrium."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from loadflow.errors import SolverError
+from loadflow.quantities import table
+from loadflow.reduction import histogram
+from loadflow.scene.cases import Case
+from loadflow.scene.scene import Scene
+from loadflow.scene.thrust import AnyAxial
+from loadflow.stages.film_summary import summary
+from loadflow.stages.frames import to_rolling
+from loadflow.stages.labelling import label, of_samples
+from loadflow.stages.reduction import kept_share
+from loadflow.stages.stage import Link, Links, Measured, Stage, always, load_links, steps_of
+
+KEPT = table(
+    "minimum_film", "maximum_pressure", "friction_power", "converged", "residual", "iterations"
+)
+"""What is kept of every sample: units and meaning."""
+
+_LOADS = {
+    "load": ("N", "load that presses on the films"),
+    "axial_load": ("N", "force along the shaft, its size"),
+    "moment_load": ("N m", "moment across the shaft, its size"),
+    "friction_torque": ("N m", "friction torque"),
+    "in_contact": ("1", "whether surfaces touch"),
+}
+
+
+def films(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
+    """Solve the films of every bearing for some samples of the series; one group per bearing.
+
+    Samples are chosen by the histogram of speed and of the load that presses on the films, where
+    the scene's reduction is by histogram, else they are those of the reduction.
+
+    Raises
+    ------
+    loadflow.errors.SolverError
+        No sample at all has an equilibrium or is in contact.
+    """
+    found = {}
+    for place, bearing in scene.thrust.bearings.items():
+        found[place] = solved(bearing, place, samples_of(scene, case, bearing, place, inputs))
+    return xr.DataTree.from_dict(found)
+
+
+def samples_of(
+    scene: Scene, case: Case, bearing: AnyAxial, place: str, inputs: dict[str, Any]
+) -> xr.Dataset:
+    """Samples of one case: `time`, `speed`, `weight` (sample), `force` and `moment` (sample, axis).
+
+    Force and moment are in the frame of the cube.
+    """
+    if scene.reduction.method != "histogram":
+        reduced: xr.Dataset = inputs["reduction"][place].to_dataset()
+        return reduced[["time", "speed", "weight", "force", "moment"]]
+    loads, shaft = inputs["loads"].load(), inputs["shaft"].load().sel(bearing=place)
+    force, moment = (
+        shaft[name].transpose("time", "axis").values.astype(float) for name in ("force", "moment")
+    )
+    pressed = bearing.normal_load(to_rolling(force), to_rolling(moment))
+    kept = histogram(
+        loads["speed"].values.astype(float),
+        np.column_stack([pressed, np.zeros_like(pressed)]),
+        loads["time"].values,
+        size=scene.reduction.size,
+        classes=scene.reduction.classes,
+        pick=scene.reduction.pick,
+        seed=scene.reduction.seed,
+        source=f"{case.name}, bearing {place}",
+    )
+    axes = ("sample", "axis")
+    return xr.Dataset(
+        {
+            "time": ("sample", kept.time, label("s", "time")),
+            "speed": ("sample", kept.speed, label("rad/s", "rotor speed")),
+            "weight": ("sample", kept.weight, label("1", "samples of the full series")),
+            "force": (axes, force[kept.index], label("N", "force on the bearing")),
+            "moment": (axes, moment[kept.index], label("N m", "moment on the bearing")),
+        },
+        {"axis": ["x", "y", "z"]},
+    )
+
+
+def solved(bearing: AnyAxial, place: str, samples: xr.Dataset) -> xr.Dataset:
+    """Films of one bearing under samples of loads.
+
+    Where the film is thinner than both surfaces are rough they are ``in_contact``, and the sample
+    has no film. A sample that the solver did not answer has none either, and ``converged`` 0.
+
+    Raises
+    ------
+    loadflow.errors.SolverError
+        No sample has an equilibrium or is in contact.
+    """
+    force, moment = (
+        to_rolling(samples[name].transpose("sample", "axis").values.astype(float))
+        for name in ("force", "moment")
+    )
+    speed = samples["speed"].values.astype(float)
+    found = {name: np.full(speed.size, np.nan) for name in (*KEPT, "friction_torque")}
+    found |= {"converged": np.zeros(speed.size, bool), "iterations": np.zeros(speed.size, int)}
+    touching, why = np.zeros(speed.size, bool), ""
+    for k in range(speed.size):
+        try:
+            answer = bearing.solve(force[k], moment[k], float(speed[k]))
+        except SolverError as error:
+            touching[k], why = bearing.touches(force[k], float(speed[k])), str(error)
+            continue
+        if answer.minimum_film < bearing.contact_film:
+            touching[k] = True
+            continue
+        for name, values in found.items():
+            values[k] = getattr(answer, name)
+    if not np.any(found["converged"] | touching):
+        raise SolverError(f"bearing {place}: no film carries any of the samples; {why}")
+    loads = {
+        "load": bearing.normal_load(force, moment),
+        "axial_load": np.abs(force[:, 2]),
+        "moment_load": np.hypot(moment[:, 0], moment[:, 1]),
+        "in_contact": touching,
+    }
+    given = samples[["time", "speed", "weight"]]
+    thickest = float(np.nanmax(found["minimum_film"], initial=0.0))
+    oil = bearing.lubricant
+    fastest = float(np.abs(speed).max()) * bearing.radius
+    about = {
+        "motion": "quasi-static",
+        "largest_reynolds_number": oil.density * fastest * thickest / oil.viscosity,
+        "radius": bearing.radius,
+        "boundary_friction": bearing.boundary_friction,
+    }
+    return given.assign(of_samples(found, KEPT)).assign(
+        of_samples(loads | {"friction_torque": found["friction_torque"]}, _LOADS)
+    ).assign_attrs(about)  # fmt: skip
+
+
+def _links(scene: Scene) -> Links:
+    """The loads; how films of pads err by their grid is not in the ladder."""
+    through = (*load_links("bearing load max"), Link("reduction", "largest load", of_load=True))
+    return dict.fromkeys(("minimum film", "maximum pressure", "friction power"), through)
+
+
+def _left_out(scene: Scene) -> dict[str, str]:
+    """What films of pads and cones do not know."""
+    if not scene.wants("thrust"):
+        return {}
+    return {
+        "thrust: motion, heat, contact": "films of pads and cones are solved at rest, at one "
+        "temperature, without asperities",
+        "thrust: tilt of the collar": "the pads of a thrust bearing follow the shaft",
+    }
+
+
+def _work(scene: Scene, cases: tuple[Case, ...], measured: Measured) -> float:
+    return kept_share(scene, measured) * len(scene.thrust.bearings) * steps_of(cases)
+
+
+STAGE = Stage(
+    "thrust",
+    run=films,
+    results={"thrust.film": _links},
+    needs=lambda scene: (
+        ("loads", "shaft") if scene.reduction.method == "histogram" else ("reduction",)
+    ),
+    sections=always("thrust", "reduction"),
+    summarise=summary,
+    work=_work,
+    more_seconds=lambda scene, measured: None,
+    left_out=_left_out,
+)

@@ -1,0 +1,138 @@
+"""Films of all starts and stops → worn bore of each journal bearing over a lifetime of them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from loadflow.journal.wear import TOUCHING, Cycle, WornBearing, wear_bearing
+from loadflow.scene.cases import Case
+from loadflow.scene.journal import Journal
+from loadflow.scene.scene import Scene
+from loadflow.stages.frames import to_film
+from loadflow.stages.journal import shaft_line
+from loadflow.stages.labelling import label
+from loadflow.stages.stage import Stage, always
+from loadflow.wind.cases import LOAD_CASES
+
+_AFTER = 0.25  # of the time in contact, for which a cycle is followed beyond it
+
+
+def wear(scene: Scene, cases: list[Case], inputs: Mapping[str, dict[str, Any]]) -> xr.DataTree:
+    """Wear each bore by all starts, stops and faults that touch; one group per bearing.
+
+    Returns
+    -------
+    xarray.DataTree
+        Of each bearing `depth` (angle, z) after the life, and over ``renewal`` (and ``cycle``) the
+        history of `loadflow.journal.WornBearing`; without values where no case touches.
+
+    Raises
+    ------
+    loadflow.errors.SolverError
+        A film in a worn bore without an answer.
+    """
+    found = {}
+    for name in scene.journal.bearings:
+        options = scene.journal.at(name)
+        cycles, temperatures = [], []
+        for case in cases:
+            if not (case.dlc in LOAD_CASES and LOAD_CASES[case.dlc].stands_or_starts):
+                continue
+            film = inputs[case.name]["journal"][name].to_dataset().load()
+            cycle = _cycle(scene, options, case, film, inputs[case.name], name)
+            if cycle is not None:
+                cycles.append(cycle)
+                if "temperature" in film:
+                    temperatures.append(float(film["temperature"].median()))
+        found[name] = _told(_worn(scene, options, cycles, temperatures), cycles)
+    return xr.DataTree.from_dict(found)
+
+
+def _worn(
+    scene: Scene, options: Journal, cycles: list[Cycle], temperatures: list[float]
+) -> WornBearing | None:
+    """The bore after all cycles; None where there are none."""
+    if not cycles:
+        return None
+    held = options
+    if temperatures:
+        held = options.at_temperature(float(np.mean(temperatures)))
+    film = replace(held.film_model, rung="grid")
+    return wear_bearing(options.geometry, cycles, film, scene.wear.model)
+
+
+def _cycle(
+    scene: Scene,
+    options: Journal,
+    case: Case,
+    film: xr.Dataset,
+    parts: Mapping[str, Any],
+    name: str,
+) -> Cycle | None:
+    """What of a load case is in contact while it turns, and the sample before; None: nothing."""
+    loads, shaft = parts["loads"].load(), parts["shaft"].sel(bearing=name).load()
+    time, speed = (loads[key].values.astype(float) for key in ("time", "speed"))
+    share = film["contact_share"].values
+    rubs = (np.nan_to_num(share) > TOUCHING) & (np.abs(film["speed"].values) > 0)
+    if not rubs.any():
+        return None
+    seconds = film["time"].values[rubs]
+    first, last = float(seconds.min()), float(seconds.max())
+    step = float(time[1] - time[0])
+    first, last = first - step, last + _AFTER * (last - first) + step
+    count = max(2, min(scene.wear.samples, int((last - first) / step) + 1))
+    when = np.linspace(max(first, float(time[0])), min(last, float(time[-1])), count)
+    line = {key: to_film(values) for key, values in shaft_line(options, shaft).items()}
+    force = to_film(shaft["force"].transpose("time", "axis").values.astype(float))
+    return Cycle(
+        when,
+        _between(when, time, force),
+        np.interp(when, time, speed),
+        count=scene.wear.count(case.dlc) * case.weight,
+        in_motion=options.in_motion,
+        name=case.name,
+        **{key: _between(when, time, values) for key, values in line.items()},
+    )
+
+
+def _between(when: np.ndarray, time: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Straight lines through `values` (n, 2)."""
+    return np.stack([np.interp(when, time, column) for column in values.T], axis=-1)
+
+
+def _told(found: WornBearing | None, cycles: list[Cycle]) -> xr.Dataset:
+    """Worn contour and history of one bearing."""
+    if found is None:
+        return xr.Dataset(attrs={"cycles": 0})
+    about = label("m", "worn depth after the life")
+    places = {
+        "angle": ("angle", found.angle, label("rad", "from straight down, with the rotation")),
+        "z": ("z", found.z, label("m", "place across the width, from its middle")),
+    }
+    counts = label("1", "how often in the life")
+    return found.history.assign(
+        depth_of_bore=(("angle", "z"), found.depth, about),
+        count=("cycle", np.array([cycle.count for cycle in cycles]), counts),
+    ).assign_coords(places).assign_attrs(
+        cycles=len(cycles), films=found.iterations, residual=found.residual, volume=found.volume,
+        work=found.work,
+    )  # fmt: skip
+
+
+STAGE = Stage(
+    "wear",
+    run=wear,
+    results={"journal.wear": lambda scene: {}},
+    needs=always("loads", "shaft", "journal"),
+    scope="run",
+    sections=always("journal", "wear"),
+    work=lambda scene, cases, measured: None,
+    left_out=lambda scene: {
+        "wear in power production": "only load cases that start, stop or stand wear the bore"
+    },
+)

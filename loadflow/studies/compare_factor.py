@@ -1,0 +1,71 @@
+"""How far a candidate is from a limit: factors on its loads, sought where the limit is nearest."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from loadflow.cube import open_cube
+
+_WIDEST = 16.0  # factor on load, viscosity: beyond, nothing is asked
+_HALVINGS = 9
+
+
+@dataclass(frozen=True)
+class Margin:
+    """How far a candidate is from its first limit.
+
+    Attributes
+    ----------
+    factor : float
+        On all loads, with which the first limit is reached; below 1 if it is broken.
+    place, case : str
+        Where.
+    governs, change : str
+        Which limit that is; what else would reach it.
+    """
+
+    factor: float
+    place: str = ""
+    case: str = ""
+    governs: str = ""
+    change: str = ""
+
+
+def largest_factor(holds: Callable[[float], bool]) -> float:
+    """Largest factor with which something holds that holds for all smaller ones."""
+    low, high = 1 / _WIDEST, _WIDEST
+    for _ in range(_HALVINGS):
+        middle = math.sqrt(low * high)
+        low, high = (middle, high) if holds(middle) else (low, middle)
+    return math.sqrt(low * high)
+
+
+def film_factors(value: Callable[[float, float], float], limit: float) -> tuple[float, float]:
+    """Largest factor on the load, and smallest on the viscosity, with which a film is allowed."""
+    load = largest_factor(lambda f: value(f, 1.0) >= limit)
+    return load, 1.0 / largest_factor(lambda f: value(1.0, 1.0 / f) >= limit)
+
+
+def pressure_factor(value: Callable[[float, float], float], limit: float) -> float:
+    """Largest factor on the load with which a pressure is allowed."""
+    return largest_factor(lambda f: value(f, 1.0) <= limit)
+
+
+def loads_at(
+    folder: Path, case: str, place: str, time: float
+) -> tuple[np.ndarray, np.ndarray, float]:
+    """Force and moment (3,) on a bearing, N and N m, and speed, rad/s, at a time of a case."""
+    loads: Any = open_cube(folder / "loads" / f"{case}.h5")
+    shaft: Any = open_cube(folder / "shaft" / f"{case}.h5").sel(bearing=place)
+    k = int(np.argmin(np.abs(loads["time"].values - time))) if math.isfinite(time) else 0
+    force, moment = (
+        shaft[name].isel(time=k).transpose("axis").values.astype(float)
+        for name in ("force", "moment")
+    )
+    return force, moment, float(loads["speed"].values[k])

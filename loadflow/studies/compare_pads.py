@@ -1,0 +1,66 @@
+"""Margins of thrust bearings and pairs of cones: their hardest samples under larger loads."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from loadflow.errors import SolverError
+from loadflow.scene.thrust import AnyAxial
+from loadflow.stages.frames import to_rolling
+from loadflow.studies.compare_factor import Margin, film_factors, loads_at, pressure_factor
+
+
+def pad_margins(bearing: AnyAxial, folder: Path, place: str, table: xr.Dataset) -> Iterator[Margin]:
+    """Margins of smallest film and of largest pressure of one bearing of pads.
+
+    The samples with the smallest film and with the largest pressure are solved again.
+    """
+    if (table["in_contact"] > 0).any():
+        case = str(table["case"].values[int(np.argmax(table["in_contact"].values))])
+        why = f"surfaces of the {bearing.kind} bearing touch in {place}"
+        yield Margin(0.0, place, case, why, f"{place}: thicker oil")
+        return
+    pressure = bearing.limits.pressure_at(bearing.limits.material[0][0])
+    asked = (
+        ("smallest_film", np.nanargmin, "minimum_film", bearing.least_film, "smallest film"),
+        ("largest_pressure", np.nanargmax, "maximum_pressure", pressure, "largest film pressure"),
+    )
+    for name, pick, field, limit, what in asked:
+        if not np.isfinite(table[name].values).any():
+            continue
+        worst = int(pick(table[name].values))
+        case, time = str(table["case"].values[worst]), float(table[f"{name}_time"].values[worst])
+        force, moment, speed = loads_at(folder, case, place, time)
+        value = partial(value_of, bearing, to_rolling(force), to_rolling(moment), speed, field)
+        told = f"{what} of the {bearing.kind} bearing in {place}"
+        if field == "minimum_film":
+            factor, thinner = film_factors(value, limit)
+            change = f"{place}: oil of {thinner * bearing.lubricant.viscosity:.2g} Pa s"
+            yield Margin(factor, place, case, told, change)
+        else:
+            yield Margin(pressure_factor(value, limit), place, case, told)
+
+
+def value_of(
+    bearing: AnyAxial,
+    force: np.ndarray,
+    moment: np.ndarray,
+    speed: float,
+    field: str,
+    load: float,
+    oil: float,
+) -> float:
+    """A value of the films with factors on load and viscosity; NaN without an answer."""
+    liquid = replace(bearing.lubricant, viscosity=oil * bearing.lubricant.viscosity)
+    try:
+        thinner = bearing.model_copy(update={"lubricant": liquid})
+        return float(getattr(thinner.solve(load * force, load * moment, speed), field))
+    except SolverError:
+        return math.nan

@@ -1,0 +1,246 @@
+"""Worn bores: volume, contour and depth against closed forms, and what the film does afterwards."""
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+import loadflow as lf
+from loadflow.errors import InputError, SolverError
+from loadflow.journal import (
+    Contact,
+    Cycle,
+    Film,
+    GasMixture,
+    Heat,
+    JournalBearing,
+    Lobes,
+    Lubricant,
+    MassConserving,
+    Reynolds,
+    Wear,
+    wear_bearing,
+)
+from loadflow.scene.scene import make_scene
+from loadflow.tribology import Archard, AsperityContact, Fleischer, RunningIn, ShaftImprint
+
+BEARING = JournalBearing(diameter=0.2, width=0.1, relative_clearance=1e-3)
+ROUGH = AsperityContact(roughness=0.5e-6, contact_modulus=115e9, factor=1e-3)
+OIL, LOAD = Lubricant(0.03), 4e4
+LAWS = [(Reynolds(), 0.0), (GasMixture(5e4), 1.5e5), (MassConserving(), 1e5)]
+
+
+def film(law=None, edge=0.0, rough=ROUGH, **words):
+    words = {"grid": (60, 8)} | words
+    return Film(OIL, law, edge_pressure=edge, contact=Contact(rough, friction=0.1), **words)
+
+
+def start(count=1e4, samples=21, load=LOAD, **words):
+    time = np.linspace(0.0, 10.0, samples)
+    return Cycle(time, np.tile((load, 0.0), (samples, 1)), time, count, **words)
+
+
+def creeping(radius, distance, load, **words):
+    """Turns so slowly that asperities carry all: the distance is that of the whole life."""
+    return Cycle(
+        [0.0, 1.0], [(load, 0.0)] * 2, [1e-6, 1e-6], distance / (1e-6 * radius),
+        in_motion=False, **words,
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("relative_clearance", [5e-4, 2e-3])
+def test_a_smooth_shaft_wears_its_imprint(relative_clearance):
+    """Archard with clearance c: d' = k F/(R B (φ + sin φ cos φ)), cos φ = c/(c + d)."""
+    load, radius, width, k, distance = 100e3, 0.2, 0.25, 1e-14, 5e3
+    bearing = JournalBearing(2 * radius, width, relative_clearance)
+    c = bearing.clearance
+    smooth = AsperityContact(roughness=0.004 * c, contact_modulus=115e9, factor=1e-2)
+    wear = Wear(Archard(k), step=0.5, renewal=10.0, max_renewals=1000)
+    found = wear_bearing(
+        bearing, [creeping(radius, distance, load)], film(rough=smooth, grid=(36, 4)), wear
+    )
+
+    def sinks(s, depth):
+        angle = np.arccos(c / (c + max(depth[0], 1e-10)))
+        return k * load / (radius * width * (angle + np.sin(angle) * np.cos(angle)))
+
+    deepest = solve_ivp(sinks, (0.0, distance), [1e-10], rtol=1e-8, atol=1e-13).y[0, -1]
+    imprint = ShaftImprint(largest_depth=deepest, clearance=c)
+    assert found.depth.max() == pytest.approx(deepest, rel=0.005)
+    assert found.depth[:, 0] == pytest.approx(imprint.depth(found.angle), abs=0.01 * deepest)
+    assert found.volume == pytest.approx(imprint.volume(radius, width), rel=0.005)
+
+
+@pytest.mark.parametrize("law", [Archard(1e-16), Fleischer(1e15)], ids=["Archard", "Fleischer"])
+def test_volume_is_that_of_the_normal_force(law):
+    found = wear_bearing(BEARING, [start()], film(), Wear(law, renewal=2.0))
+    assert found.volume == pytest.approx(1e-16 * found.work, rel=1e-10)
+    assert found.residual < 1e-9
+    assert found.converged
+    assert found.history["life"][-1] == 1.0
+    again = found.depth.sum() * 2 * np.pi / 720 * BEARING.radius * BEARING.width
+    assert found.volume == pytest.approx(again, rel=1e-12)
+    # asperities are pressed by more than the load along it, by 4/π at most
+    slid = 1e4 * found.history["contact_energy"][:, 0].values / 0.1
+    assert slid.min() * 0.99 < found.work < slid.max() * 1.01
+
+
+def test_two_halves_of_a_life_make_the_whole():
+    wear = Wear(Archard(1e-16), step=0.05, renewal=0.5)
+    whole = wear_bearing(BEARING, [start(2e3)], film(), wear)
+    half = wear_bearing(BEARING, [start(1e3)], film(), wear)
+    rest = wear_bearing(BEARING, [start(1e3)], film(), wear, worn=half.depth)
+    assert rest.volume == pytest.approx(whole.volume, rel=0.1)
+    assert half.volume < 0.9 * whole.volume
+
+
+@pytest.mark.parametrize(("law", "edge"), LAWS, ids=lambda v: getattr(v, "kind", None))
+def test_wear_deeper_than_the_film_leaves_a_film(law, edge):
+    """60 µm off where the film has 8 µm: the shaft lies at ε = 1.6, in less contact.
+
+    The imprint of the shaft itself has no wedge, and little film; the starts that follow give it
+    one.
+    """
+    deep = ShaftImprint(largest_depth=60e-6, clearance=BEARING.clearance)
+    worn = deep.depth(2 * np.pi / 720 * np.arange(720))[:, None]
+    surface = film(law, edge, grid=(120, 8))
+    found = wear_bearing(BEARING, [start(1e4)], surface, Wear(Archard(3e-16)), worn=worn)
+    assert found.depth.max() > 60e-6
+    speeds = np.array([0.0, 0.1, 10.0])
+    after = found.bearing.equilibrium((LOAD, 0.0), speeds, found.film)
+    new = BEARING.equilibrium((LOAD, 0.0), speeds, surface)
+    assert after.converged.all()
+    assert (after.eccentricity_ratio > 1.5).all()
+    assert (after.minimum_film > 0).all()
+    assert after.contact_share[0] == pytest.approx(1.0, abs=1e-6)
+    # it fits its bore: at low speed more of the load floats; at high speed the film is thinner
+    assert after.contact_share[1] < 0.5 * new.contact_share[1]
+    assert after.minimum_film[2] < new.minimum_film[2]
+    assert after.friction_power[1] < new.friction_power[1] < after.friction_power[2]
+
+
+def test_starts_in_motion_press_less_as_the_bore_wears():
+    surface = film(GasMixture(5e4), 1.5e5)
+    found = wear_bearing(BEARING, [start(2e5)], surface, Wear(Archard(1e-16), renewal=2.0))
+    history = found.history.isel(cycle=0)
+    assert history["contact_pressure"][-1] < 0.6 * history["contact_pressure"][0]
+    assert history["minimum_film"][-1] > 1.3 * history["minimum_film"][0]
+    assert (np.diff(history["depth"]) > 0).all()
+    # where the bore conforms, the wedge of a start is lost: asperities take part for longer
+    assert history["contact_energy"].max() > 1.5 * history["contact_energy"][0]
+
+
+def test_a_surface_runs_in_first_fast_then_slowly():
+    running_in = RunningIn(
+        initial_roughness=0.5e-6, final_roughness=0.2e-6, depth=0.2e-6, excess=5.0
+    )
+    law, cycles = Archard(2e-17), [start(2e4)]
+    steady = wear_bearing(BEARING, cycles, film(), Wear(law, renewal=2.0))
+    found = wear_bearing(BEARING, cycles, film(), Wear(law, running_in, renewal=2.0))
+    left = found.film.contact.asperities
+    assert found.volume > steady.volume
+    assert 0.2e-6 < left.roughness < 0.4e-6
+    assert left.factor == pytest.approx(ROUGH.factor * (left.roughness / 0.5e-6) ** 0.5)
+    # smoother surfaces part at a lower speed
+    assert found.history["contact_speed"][-1, 0] < found.history["contact_speed"][0, 0]
+
+
+def test_a_tilted_shaft_wears_the_edge():
+    count = 5
+    tilted = Cycle(
+        np.linspace(0.0, 1.0, count), np.tile((LOAD, 0.0), (count, 1)), np.full(count, 0.1), 1e4,
+        in_motion=False, tilt=np.tile((0.0, 5e-5), (count, 1)),
+    )  # fmt: skip
+    wear = Wear(Archard(1e-16), across=12, around=360, renewal=4.0)
+    found = wear_bearing(BEARING, [tilted], film(), wear)
+    across = found.depth.max(axis=0)
+    assert across.argmax() == 11  # θ_y > 0 lowers the end z > 0
+    assert across[0] < 0.1 * across[-1]
+    level = found.bearing.equilibrium((LOAD, 0.0), 0.1, found.film, tilt=(0.0, 5e-5))
+    before = BEARING.equilibrium((LOAD, 0.0), 0.1, film(), tilt=(0.0, 5e-5))
+    assert level.contact_pressure < before.contact_pressure
+
+
+def test_no_contact_wears_nothing():
+    fast = Cycle([0.0, 1.0], [(LOAD, 0.0)] * 2, [100.0, 100.0], 1e6, in_motion=False)
+    found = wear_bearing(BEARING, [fast], film(), Wear(Archard(1e-15)))
+    assert not found.depth.any()
+    assert found.bearing == BEARING
+    assert found.volume == found.work == 0.0
+
+
+@pytest.mark.parametrize(
+    ("change", "named"),
+    [
+        ({"film": Film(OIL)}, "contact"),
+        ({"film": Film(heat=Heat(), contact=Contact(ROUGH))}, "heat"),
+        ({"bearing": JournalBearing(0.2, 0.1, 1e-3, shape=Lobes(2))}, "shape"),
+        ({"cycles": []}, "cycles"),
+        ({"worn": [[1e-6]]}, "worn"),
+        ({"wear": Wear(Archard(1e-16), RunningIn(
+            initial_roughness=1e-6, final_roughness=0.5e-6, depth=1e-6))}, "initial_roughness"),
+    ],
+)  # fmt: skip
+def test_what_cannot_wear_is_named(change, named):
+    asked = {"bearing": BEARING, "cycles": [start()], "film": film(), "wear": Wear(Archard(1e-16))}
+    with pytest.raises(InputError, match=named):
+        wear_bearing(**asked | change)
+
+
+def test_bad_cycles_and_an_endless_life_are_told():
+    with pytest.raises(InputError, match="force"):
+        Cycle([0.0, 1.0], [1.0, 2.0], [0.0, 0.0])
+    with pytest.raises(InputError, match="increasing"):
+        Cycle([1.0, 0.0], [(1.0, 2.0)] * 2, [0.0, 0.0])
+    with pytest.raises(SolverError, match="after 2 films"):
+        wear_bearing(BEARING, [start(1e6)], film(), Wear(Archard(1e-15), max_renewals=2))
+
+
+# --- in a scene -------------------------------------------------------------------------------
+
+SCENE = {
+    "name": "life",
+    "results": ["journal.film", "journal.wear"],
+    "accuracy": "given",
+    "loads": {"dlc": "3.1", "wind_speeds": [16.0], "rung": "tables", "step": 0.1,
+              "duration": 75.0},
+    "shaft": {"two_point": {}},
+    "journal": {
+        "bearings": ["N"], "motion": "transient", "rung": "reduced", "grid": [60, 8],
+        "contact": {"friction": 0.15, "asperities": {
+            "roughness": 0.56e-6, "contact_modulus": 46.5e9, "factor": 1e-3}},
+    },
+    "wear": {"law": {"coefficient": 1e-16}, "samples": 60, "renewal": 2.0, "events": 1e4},
+}  # fmt: skip
+
+
+def changed(**sections):
+    return make_scene(SCENE | {name: SCENE.get(name, {}) | keys for name, keys in sections.items()})
+
+
+def test_a_scene_wears_its_bearings_over_a_lifetime_of_starts(tmp_path):
+    run = lf.run(changed(), out=tmp_path)
+    assert run.failures == {}
+    assert run.flagged == {}
+    worn = run.tree["wear"]["N"].to_dataset().load()
+    assert worn["count"].values == pytest.approx([1e4])
+    assert 0.1e-6 < worn["depth_of_bore"].max() < 10e-6
+    down = np.degrees(worn["angle"].values[worn["depth_of_bore"].values[:, 0].argmax()])
+    assert min(down, 360 - down) < 15.0
+    assert worn.attrs["volume"] == pytest.approx(1e-16 * worn.attrs["work"], rel=1e-10)
+    contact = run.tree["journal"].to_dataset()["contact_time"].values.ravel()
+    assert worn["contact_time"].values[0] == pytest.approx(contact, rel=0.25)
+    assert "Worn bores after the life" in run.report.read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("sections", "named"),
+    [
+        ({"wear": {"law": None}}, "wear.law"),
+        ({"journal": {"contact": None}}, "journal.contact"),
+        ({"journal": {"tilt": True, "motion": "quasi-static"}}, "journal.tilt"),
+        ({"wear": {"law": {"coefficient": -1.0}}}, "coefficient"),
+    ],
+)
+def test_a_scene_that_cannot_wear_is_refused(sections, named):
+    with pytest.raises(InputError, match=named):
+        changed(**sections)

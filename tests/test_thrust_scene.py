@@ -1,0 +1,210 @@
+"""Thrust bearings and pairs of cones in scenes and on the command line."""
+
+import json
+import math
+import tomllib
+
+import numpy as np
+import pytest
+from synthetic import cube_file
+
+from loadflow.cli import main
+from loadflow.cube import open_cube
+from loadflow.errors import InputError, SolverError
+from loadflow.journal import (
+    ConicalBearing,
+    ConicalPair,
+    DoubleThrustBearing,
+    Film,
+    Guembel,
+    Lubricant,
+    Taper,
+    ThrustBearing,
+)
+from loadflow.running.runner import run
+from loadflow.scene.candidates import candidates_of
+from loadflow.scene.scene import make_scene
+from loadflow.scene.unused import unused_keys
+
+FILM = Film(Lubricant(0.2), Guembel(), inlet=None, grid=(20, 10), edge_pressure=1e5)
+LANDS = {"pads": 10, "inner_radius": 0.75, "outer_radius": 1.05, "pad_angle": 0.56, "taper": 6e-5}
+CONE = {
+    "half_angle": 0.5, "slant": [1.59, 2.59], "clearance": 2e-4, "pads": 10, "pad_angle": 0.58,
+    "profile": {"kind": "taper", "taper": 8e-5},
+}  # fmt: skip
+JOURNAL = {
+    "kind": "journal", "lubricant": {"viscosity": 0.2}, "edge_pressure": 1e5,
+    "geometry": {"diameter": 1.4, "width": 1.3, "relative_clearance": 1e-3},
+}  # fmt: skip
+COLLAR = {"kind": "thrust", "lubricant": {"viscosity": 0.2}, "geometry": LANDS}
+PAIR = {
+    "kind": "conical-pair", "lubricant": {"viscosity": 0.2},
+    "geometry": {"distance": 3.2, "left": CONE},
+}  # fmt: skip
+SHAFT = {"two_point": {}, "moment": {}}
+PLACES = {"N": JOURNAL, "N2": [JOURNAL, COLLAR], "M": PAIR}
+
+
+@pytest.fixture(scope="module")
+def done(tmp_path_factory):
+    place = tmp_path_factory.mktemp("thrust")
+    cube = cube_file(place / "loads.h5", steps=200)
+    scene = make_scene(
+        {
+            "name": "thrust", "accuracy": "given", "loads": {"files": [str(cube)]}, "shaft": SHAFT,
+            "bearings": {"N2": COLLAR, "M": PAIR}, "results": ["thrust.film"],
+            "reduction": {"size": 0.02, "classes": 3},
+        }
+    )  # fmt: skip
+    return run(scene, out=place / "runs", report=False)
+
+
+def test_a_small_scene_runs_through_and_says_what_carries_the_thrust(done):
+    table = done.tree["thrust"].to_dataset()
+    assert table["bearing"].values.tolist() == ["N2", "M"]
+    assert (table["smallest_film"] > 1e-5).all()
+    assert (table["mean_friction_power"] > 0).all()
+    said = [v for v in done.verdicts if v.quantity == "force along the shaft without a bearing"]
+    assert {v.subject for v in said} == {"thrust N2", "conical-pair M"}
+    assert all(v.holds and "carried by" in v.note for v in said)
+    energy = done.tree["lifetime"]["thrust_energy"].values
+    assert energy.shape == (2,)
+    assert (energy > 0).all()
+
+
+def test_every_sample_is_one_equilibrium(done):
+    part = next((done.path / "thrust").glob("*.h5"))
+    tree = open_cube(part)
+    for place in ("N2", "M"):
+        samples = tree[place].to_dataset().load()
+        answered = samples["converged"].values.astype(bool)
+        assert answered.all()
+        power = samples["friction_torque"] * samples["speed"]
+        np.testing.assert_allclose(power, samples["friction_power"], rtol=1e-9)
+
+
+def test_the_collar_carries_both_ways_and_its_two_films_are_the_force():
+    row = ThrustBearing(**LANDS)
+    collar = DoubleThrustBearing(row, row, play=4e-4)
+    one, other = (collar.equilibrium(force, 1.2, FILM) for force in (8e5, -8e5))
+    assert one.front.force - one.back.force == pytest.approx(8e5, rel=1e-8)
+    assert one.front.gap == pytest.approx(other.back.gap, rel=1e-8)
+    assert one.stiffness == pytest.approx(other.stiffness, rel=1e-6)
+    step = 1e-8
+    more, less = (collar.pressure(one.gap + d, 1.2, FILM).force for d in (step, -step))
+    assert (less - more) / (2 * step) == pytest.approx(one.stiffness, rel=1e-5)
+
+
+def test_a_collar_without_load_stands_in_the_middle():
+    row = ThrustBearing(**LANDS)
+    found = DoubleThrustBearing(row, row, play=4e-4).equilibrium(0.0, 1.2, FILM)
+    assert found.gap == pytest.approx(2e-4, rel=1e-6)
+
+
+def test_a_collar_with_much_play_is_the_single_row():
+    row = ThrustBearing(**LANDS)
+    alone = row.equilibrium(8e5, 1.2, FILM)
+    beside = DoubleThrustBearing(row, row, play=0.1).equilibrium(8e5, 1.2, FILM)
+    assert beside.minimum_film == pytest.approx(alone.minimum_film, rel=1e-4)
+
+
+def test_a_collar_that_stands_or_turns_backward_carries_nothing():
+    collar = DoubleThrustBearing(ThrustBearing(**LANDS), ThrustBearing(**LANDS), play=4e-4)
+    with pytest.raises(SolverError, match="without rotation"):
+        collar.equilibrium(1e5, 0.0, FILM)
+    with pytest.raises(SolverError, match="no film carries it"):
+        collar.equilibrium(1e6, -1.2, FILM)
+
+
+def test_a_pair_of_tapered_segments_is_symmetric_and_in_balance():
+    """Inlets of both cones are those of the shaft's rotation: no load leaves it in the middle."""
+    cone = ConicalBearing(0.5, (1.59, 2.59), 2e-4, pads=10, pad_angle=0.58, profile=Taper(8e-5))
+    pair = ConicalPair(cone, cone, distance=3.2)
+    rest = pair.equilibrium((0.0, 0.0, 0.0), (0.0, 0.0), 1.25, FILM)
+    assert np.abs(rest.eccentricity).max() < 1e-12
+    assert rest.left.normal_force.sum() == pytest.approx(rest.right.normal_force.sum(), rel=1e-9)
+    force, moment = np.array([-2e4, -1e6, 8e5]), np.array([4e5, 4e6])
+    found = pair.equilibrium(force, moment, 1.25, FILM)
+    assert np.abs(found.force - force).max() < 1.0
+    assert np.abs(found.moment - moment).max() < 1.0
+    mirrored = pair.equilibrium(force * (1, 1, -1), -moment, 1.25, FILM)
+    assert mirrored.load_share[::-1] == pytest.approx(found.load_share, rel=1e-6)
+
+
+def test_scenes_are_written_and_read_alike():
+    scene = make_scene({"name": "x", "shaft": SHAFT, "bearings": PLACES})
+    assert {"journal.film", "thrust.film"} <= set(scene.results)
+    assert not any(name.startswith("rolling") for name in scene.results)
+    again = make_scene(tomllib.loads(scene.to_toml()))
+    assert again == scene
+
+
+@pytest.mark.parametrize(
+    ("places", "words"),
+    [
+        ({"N2": COLLAR | {"motion": "transient"}}, "motion: films of pads"),
+        ({"N2": COLLAR | {"heat": {}}}, "heat: films of pads"),
+        ({"M": COLLAR}, "neither radial forces nor moments"),
+        ({"N2": COLLAR | {"play": 1e-6}}, "twice the roughness"),
+        ({"N2": [COLLAR, COLLAR]}, "a second bearing of its kind"),
+        ({"N2": COLLAR | {"geometry": LANDS | {"pad_angle": 1.0}}}, "pad_angle"),
+        ({"G": COLLAR}, "the shaft has the bearings"),
+    ],
+)
+def test_what_films_of_pads_do_not_know_is_refused_by_name(places, words):
+    with pytest.raises(InputError, match=words):
+        make_scene({"name": "x", "shaft": SHAFT, "bearings": places})
+
+
+def test_periodic_loads_and_a_result_without_bearings_are_refused():
+    with pytest.raises(InputError, match="no closed orbit"):
+        make_scene(
+            {"name": "x", "shaft": SHAFT, "bearings": {"N2": COLLAR},
+             "reduction": {"method": "periodic"}}
+        )  # fmt: skip
+    with pytest.raises(InputError, match=r"thrust\.film needs a bearing"):
+        make_scene({"name": "x", "results": ["thrust.film"]})
+
+
+def test_a_pad_that_comes_first_changes_nothing_and_it_is_told():
+    turned = COLLAR | {"geometry": LANDS | {"first_pad": 0.2}}
+    scene = make_scene({"name": "x", "shaft": SHAFT, "bearings": {"N2": turned}})
+    assert "thrust.bearings.N2.geometry.first_pad" in unused_keys(scene)
+
+
+def answer(arguments, capsys):
+    with pytest.raises(SystemExit) as stopped:
+        main([*arguments, "--json"])
+    assert stopped.value.code == 0
+    return json.loads(capsys.readouterr().out)
+
+
+def test_the_commands_answer_for_one_load(capsys):
+    found = answer(
+        ["thrust", "--pads", "10", "--inner-radius", "0.75", "--outer-radius", "1.05",
+         "--pad-angle-deg", "32", "--taper", "6e-5", "--viscosity", "0.2", "--force", "9e5",
+         "--speed-rpm", "12", "--grid", "20", "10"], capsys,
+    )  # fmt: skip
+    assert found["force"]["value"] == pytest.approx(9e5, rel=1e-6)
+    found = answer(
+        ["cone", "--half-angle-deg", "28.6", "--slant", "1.59", "2.59", "--clearance", "2e-4",
+         "--distance", "3.2", "--pads", "10", "--pad-angle-deg", "33", "--taper", "8e-5",
+         "--viscosity", "0.2", "--force-x", "1e6", "--force-z", "8e5", "--moment-y", "4e6",
+         "--speed-rpm", "12", "--grid", "20", "10"], capsys,
+    )  # fmt: skip
+    np.testing.assert_allclose(found["force"]["value"], [1e6, 0, 8e5], atol=1.0)
+    assert found["film_holds"]["value"]
+
+
+def test_a_command_without_a_measure_names_it():
+    with pytest.raises(SystemExit) as stopped:
+        main(["thrust", "--viscosity", "0.2", "--force", "1e5", "--speed-rpm", "12"])
+    assert stopped.value.code == 2
+
+
+def test_sized_candidates_carry_the_thrust():
+    sized = candidates_of("nrel-5mw")
+    assert sized["conical-pair"]["M"]["kind"] == "conical-pair"
+    kinds = [one["kind"] for one in sized["journal-thrust"]["N2"]]
+    assert kinds == ["journal", "thrust"]
+    assert math.isfinite(sized["journal-thrust"]["N2"][1]["play"])
