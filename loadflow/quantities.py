@@ -79,6 +79,8 @@ FILM: dict[str, Quantity] = {
     "pad_tilt": Quantity("δ", "rad", "rotation of each pad about its pivot"),
     "shell_deformation": Quantity("", "m", "largest growth of the gap by the elastic shell"),
     "temperature": Quantity("T", "K", "effective temperature of the film"),
+    "clearance": Quantity("c", "m", "radial clearance as shaft and shell have grown"),
+    "inlet_temperature": Quantity("T_in", "K", "temperature of the oil that enters"),
     "outlet_temperature": Quantity("T_out", "K", "temperature of the oil that leaves"),
     "viscosity": Quantity("η", "Pa s", "viscosity at the effective temperature"),
     "heat_residual": Quantity("", "K", "what is left of the heat balance"),

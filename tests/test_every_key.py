@@ -108,10 +108,10 @@ BASES = {
     "pair of cones": {
         "shaft": {"moment": {}}, "results": ["thrust.film"],
         "reduction": {"size": 0.02, "classes": 2},
-        "thrust": {"bearings": {"M": {"kind": "conical-pair", "grid": [10, 6],
+        "thrust": {"bearings": {"M": {"kind": "conical-pair", "grid": [8, 4],
             "lubricant": {"viscosity": 0.2}, "geometry": {"distance": 3.2, "left": {
-                "half_angle": 0.5, "slant": [1.59, 2.59], "clearance": 2e-4, "pads": 10,
-                "pad_angle": 0.55, "profile": {"kind": "taper", "taper": 8e-5}}}}}},
+                "half_angle": 0.5, "slant": [1.59, 2.59], "clearance": 2e-4, "pads": 6,
+                "pad_angle": 0.95, "profile": {"kind": "taper", "taper": 8e-5}}}}}},
     },
     "three points": {"shaft": {"three_point": {}}, "journal": FILM},
     "integrated": {"shaft": {"integrated": {}}, "journal": FILM},
@@ -181,6 +181,7 @@ OTHERS = {
     "journal.grid": [[36, 12]],
     "journal.supply": [{"grooves": [{"angle": 1.0, "arc": 0.2, "pressure": 6e5}]}],
     "journal.heat": [{"oil": "mineral-vg-320"}],
+    "journal.heat.growth": [{"shell_expansion": 12e-6}],
     "journal.heat.oil": ["mineral-vg-460", "iso-vg-68"],
     "journal.contact": [
         {"asperities": {"roughness": 1e-6, "contact_modulus": 1e11, "factor": 1e-3}}
@@ -437,7 +438,8 @@ def _seeds(scene, add):
         inputs[one.name] = {
             "loads": hub, "shaft": shaft.bearing_loads(scene, one, {"loads": hub}),
         }  # fmt: skip
-    add(seeds.equality_of_seeds(scene, cases, inputs))
+    found = [seeds.groups_in(scene, piece, inputs) for piece in seeds.pieces(scene, cases)]
+    add(seeds.joined(scene, found))
 
 
 FOUND = {

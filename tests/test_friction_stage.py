@@ -4,12 +4,15 @@ import numpy as np
 import pytest
 
 import loadflow as lf
-from loadflow.errors import InputError
+from loadflow.errors import InputError, SolverError
 from loadflow.planning.plan import make_plan
 from loadflow.rolling import main_bearings
+from loadflow.scene.cases import list_cases
 from loadflow.scene.scene import make_scene
+from loadflow.scene.unused import unused_warnings
 from loadflow.stages import friction
 from loadflow.stages.loads import hub_loads
+from loadflow.stages.registry import STAGES
 from loadflow.stages.shaft import bearing_loads
 from loadflow.tribology import lubricant
 
@@ -101,6 +104,41 @@ def test_a_cooled_bearing_has_the_temperature_that_carries_off_its_friction(roll
     # the slip of rollers, which the balance leaves out, is small
     shed = conductance * (temperature - 283.15)
     assert float(found["friction_power"].mean()) == pytest.approx(shed, rel=0.03)
+
+
+def test_the_modified_life_has_the_oil_at_the_temperature_of_the_heat_balance():
+    def rated(**friction):
+        scene = short(rolling=TAPERED, friction={"step": 0.5} | friction)
+        case = next(iter(list_cases(scene)))
+        inputs = {}
+        for name in ("loads", "shaft", "reduction"):
+            inputs[name] = STAGES[name].run(scene, case, inputs)
+        found = STAGES["rolling"].run(scene, case, inputs)
+        return [float(found[f"bearing_{what}"][0]) for what in ("temperature", "modified_life")]
+
+    hot, less = rated(conductance=15.0, ambient_temperature=313.15)
+    assert hot > 320.0
+    assert rated(temperature=hot) == pytest.approx([hot, less], rel=1e-9)
+    cold, more = rated()
+    assert cold == 313.15
+    assert less < more
+    with pytest.raises(SolverError, match=r"bearing M: heat balance"):
+        rated(conductance=0.01)
+
+
+@pytest.mark.parametrize(
+    ("given", "left_out"),
+    [
+        ({}, "churning and seals"),
+        ({"seal_torque": 50.0}, "churning"),
+        ({"churning": {"viscous": 50.0}}, "seals"),
+        ({"churning": {"viscous": 50.0}, "seal_torque": 50.0}, None),
+    ],
+)
+def test_friction_that_is_not_counted_is_told(given, left_out):
+    told = [said for said in unused_warnings(short(friction=given)) if "not counted" in said]
+    assert len(told) == (left_out is not None)
+    assert all(said.startswith(f"friction: {left_out} of the rolling") for said in told)
 
 
 def test_an_unknown_lubricant_is_refused_with_those_there_are():

@@ -12,7 +12,7 @@ from loadflow.cube import open_cube
 from loadflow.errors import InputError, ValidityWarning
 from loadflow.planning.plan import make_plan
 from loadflow.scene.scene import make_scene
-from loadflow.stages.journal import equilibria
+from loadflow.stages.film_of_bearing import equilibria
 
 
 def scene_of(cube, **keys):

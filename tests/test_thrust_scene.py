@@ -142,7 +142,7 @@ def test_scenes_are_written_and_read_alike():
 @pytest.mark.parametrize(
     ("places", "words"),
     [
-        ({"N2": COLLAR | {"motion": "transient"}}, "motion: films of pads"),
+        ({"N2": COLLAR | {"motion": "transient"}}, r"bearings\.N2: motion: films of pads"),
         ({"N2": COLLAR | {"heat": {}}}, "heat: films of pads"),
         ({"M": COLLAR}, "neither radial forces nor moments"),
         ({"N2": COLLAR | {"play": 1e-6}}, "twice the roughness"),

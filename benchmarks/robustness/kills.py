@@ -1,6 +1,6 @@
 """Kills a run with SIGKILL anywhere in each of its phases, takes it up again, and compares.
 
-    python -m benchmarks.robustness.kills [count] [--folder FOLDER]
+    python -m benchmarks.robustness.kills [count] [--only PHASE] [--folder FOLDER]
 
 A phase is a function of the runner: the pilot, the load cases with the check after them, the
 collection of the result, the report page. Its calls are counted in a run that is left alone; a run
@@ -18,7 +18,7 @@ import signal
 import subprocess
 import sys
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from types import FrameType
 from typing import Any
@@ -33,7 +33,7 @@ from loadflow.scene import make_scene
 PHASES = {
     "pilot": "pilot",
     "load cases": "_carry_out",
-    "result": "_collect",
+    "result": "collect",
     "page": "write_report",
 }
 """Functions of the runner by what they do."""
@@ -105,15 +105,20 @@ def contents(out: Path) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def survey(folder: Path, count: int, say: Callable[[str], None] = print) -> list[str]:
+def survey(
+    folder: Path,
+    count: int,
+    phases: Sequence[str] = tuple(PHASES),
+    say: Callable[[str], None] = print,
+) -> list[str]:
     """Kill `count` runs; return the points whose run was not taken up to the bit."""
     write_loads(folder / "loads.h5")
     in_process(folder, folder / "whole")
     wanted, bad = contents(folder / "whole"), []
     say(head("phase", "calls", "killed", "to the bit"))
-    for number, phase in enumerate(PHASES):
+    for number, phase in enumerate(phases):
         _, calls = in_process(folder, folder / f"counted{number}", phase)
-        share = count // len(PHASES) + (number < count % len(PHASES))
+        share = count // len(phases) + (number < count % len(phases))
         fine = 0
         for point in range(share):
             limit = max(1, round((point + 0.5) / share * calls))
@@ -134,6 +139,7 @@ def survey(folder: Path, count: int, say: Callable[[str], None] = print) -> list
 def main() -> None:
     parser = arguments(__doc__)
     parser.add_argument("count", type=int, nargs="?", default=50)
+    parser.add_argument("--only", choices=PHASES, help="one phase; default: all")
     parser.add_argument("--folder", type=Path, help="where the runs are left; default: nowhere")
     for inner in ("--out", "--phase", "--limit"):
         parser.add_argument(inner, help=argparse.SUPPRESS)
@@ -144,7 +150,7 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as place:
         folder = asked.folder or Path(place)
         folder.mkdir(parents=True, exist_ok=True)
-        bad = survey(folder, asked.count)
+        bad = survey(folder, asked.count, [asked.only] if asked.only else [*PHASES])
     print("\n".join(bad))
     sys.exit(bool(bad))
 

@@ -22,6 +22,7 @@ from .geometry import JournalGeometry as JournalGeometry
 from .grid_error import GridError as GridError
 from .grid_error import grid_error as grid_error
 from .heat import FilmHeat as FilmHeat
+from .heat import Growth as Growth
 from .heat import Heat as Heat
 from .heat_results import FilmHeatEquilibrium as FilmHeatEquilibrium
 from .heat_results import FilmHeatField as FilmHeatField

@@ -19,7 +19,7 @@ from loadflow.journal.lubricant import Lubricant
 from loadflow.journal.models.model import Steps, model_of
 from loadflow.journal.results import Equilibrium, FilmField, WarmEquilibrium
 from loadflow.journal.rows import shaped
-from loadflow.journal.thermal import shares, warm_film
+from loadflow.journal.thermal import in_grown_bearings, shares, warm_film
 from loadflow.journal.validity import warn_if_turbulent
 from loadflow.journal.warm_orbit import warm_orbit
 from loadflow.numerics.convergence import Control
@@ -139,10 +139,12 @@ class JournalBearing(JournalGeometry):
 
         cold, each = film.isothermal(), replace(limits, strict=False)
 
-        def at_rest(force: Array, speed: Array, places: NDArray[np.int64]) -> dict[str, Any]:
-            return model.equilibrium(self, cold, force, speed, line.at(places), each)
+        def solve(
+            grown: JournalGeometry, force: Array, speed: Array, places: NDArray[np.int64]
+        ) -> dict[str, Any]:
+            return model.equilibrium(grown, cold, force, speed, line.at(places), each)
 
-        share = shares(weights, shape)
+        share, at_rest = shares(weights, shape), in_grown_bearings(solve, self, film.heat)
         answer = warm_film(at_rest, loads, speeds, film, share, strict=limits.strict)
         warn_if_turbulent(self, speeds, _hottest(film.heat, answer["temperature"]))
         return WarmEquilibrium(**shaped(answer, shape))

@@ -51,6 +51,57 @@ class _Entering:
 
 
 @dataclass(frozen=True)
+class Growth:
+    """Expansion of shaft and shell, by which a warm bearing has another clearance than a cold one.
+
+    c(T) = c + R [α_shell (T_shell − T_ref) − α_shaft (T_shaft − T_ref)]; with both as warm as the
+    film that of ISO 7902-1, Δψ = (α_shell − α_shaft)(T − T_ref). The bearing's own clearance is the
+    one at `reference_temperature`.
+
+    Attributes
+    ----------
+    shaft_expansion, shell_expansion : float
+        α of steel by default, 1/K.
+    shaft_share, shell_share : float
+        Rise of either above ambient over that of the film; a shell in a cool housing has less
+        than 1.
+    shaft_temperature, shell_temperature : float, optional
+        K, in place of the shares.
+    reference_temperature : float
+        K.
+
+    Examples
+    --------
+    >>> from loadflow.journal import Growth
+    >>> cool_shell = Growth(shell_share=0.5)
+    >>> round(float(cool_shell.radial(333.15, 293.15, radius=1.5)) * 1e6)  # µm, of 1.5 m
+    -351
+    """
+
+    shaft_expansion: Annotated[float, Ge(0), Le(1e-4)] = 11.7e-6
+    shell_expansion: Annotated[float, Ge(0), Le(1e-4)] = 11.7e-6
+    shaft_share: Annotated[float, Ge(0), Le(2)] = 1.0
+    shell_share: Annotated[float, Ge(0), Le(2)] = 1.0
+    shaft_temperature: Annotated[float, Gt(200)] | None = None
+    shell_temperature: Annotated[float, Gt(200)] | None = None
+    reference_temperature: Annotated[float, Gt(200)] = 293.15
+
+    def __post_init__(self) -> None:
+        check_fields(self)
+
+    def radial(self, temperature: ArrayLike, ambient: float, radius: float) -> Array:
+        """Growth of the radial clearance, m, of a film at `temperature`, K, on a shaft, m."""
+        rise = np.asarray(temperature) - ambient
+
+        def warmth(given: float | None, share: float) -> Array:
+            return np.asarray(ambient + share * rise if given is None else given)
+
+        shaft = warmth(self.shaft_temperature, self.shaft_share) - self.reference_temperature
+        shell = warmth(self.shell_temperature, self.shell_share) - self.reference_temperature
+        return np.asarray(radius * (self.shell_expansion * shell - self.shaft_expansion * shaft))
+
+
+@dataclass(frozen=True)
 class Heat(_Entering):
     """Oil and cooling of a bearing: one temperature of the whole film by its heat balance.
 
@@ -73,6 +124,12 @@ class Heat(_Entering):
     start_temperature : float, optional
         Of a film in motion at its first time, K; left out, that of the mean friction and flow of
         its series.
+    sump_transfer : float, optional
+        Heat that the sump gives off for each kelvin above ambient, W/K: the oil goes round, enters
+        as warm as the sump is, and `inlet_temperature` only says where the search begins. Left out,
+        it enters at `inlet_temperature`, whatever cools it.
+    growth : Growth, optional
+        Expansion of shaft and shell; left out, the clearance is the same at all temperatures.
 
     Examples
     --------
@@ -87,9 +144,18 @@ class Heat(_Entering):
     ambient_temperature: Annotated[float, Gt(200)] = 293.15
     capacity: Annotated[float, Gt(0)] | None = None
     start_temperature: Annotated[float, Gt(200)] | None = None
+    sump_transfer: Annotated[float, Gt(0)] | None = None
+    growth: Growth | None = None
     kind: Literal["balance"] = "balance"
 
     over_area: ClassVar[bool] = False
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        for name in ("sump_transfer", "growth"):
+            value = getattr(self, name)
+            apart = self.capacity is None or value is None
+            require(apart, name, value, "None with capacity: what is stored has one clearance")
 
     def _temperatures(self) -> tuple[str, ...]:
         """Names of the fields that are temperatures."""
@@ -98,7 +164,7 @@ class Heat(_Entering):
     @property
     def coldest(self) -> float:
         """Lowest temperature that the film may have, K."""
-        taken = [self.ambient_temperature] if self.transfer else []
+        taken = [self.ambient_temperature] if self.transfer or self.sump_transfer else []
         if self.start_temperature is not None:
             taken.append(self.start_temperature)
         return min([self.inlet_temperature, *taken])
@@ -109,10 +175,29 @@ class Heat(_Entering):
         # a film that stands still neither warms its oil nor moves it
         standing = (carried == 0.0) & (self.transfer == 0.0) & (np.asarray(friction_power) == 0.0)
         carried = np.where(standing, 1.0, carried)
+        carried, inlet = self._leaving(carried)
         lost = carried + self.transfer
-        gained = carried * self.inlet_temperature + self.transfer * self.ambient_temperature
+        gained = carried * inlet + self.transfer * self.ambient_temperature
         with np.errstate(divide="ignore"):  # no flow, no transfer: it never stops to warm
             return np.asarray((np.asarray(friction_power) + gained) / lost)
+
+    def entering(self, side_flow: ArrayLike, at: ArrayLike) -> Array:
+        """Temperature (K) of the oil that enters a film at `at` with a flow, m³/s."""
+        warm = np.asarray(at)
+        if self.sump_transfer is None:
+            return np.full(warm.shape, self.inlet_temperature)
+        carried = 2.0 * self.liquid.density(warm) * self.heat_capacity * np.asarray(side_flow)
+        sump, ambient = self.sump_transfer, self.ambient_temperature
+        return np.asarray((carried * warm + sump * ambient) / (carried + sump))
+
+    def _leaving(self, carried: Array) -> tuple[Array, float]:
+        """W/K that the oil takes along, and the temperature, K, above which it does."""
+        if self.sump_transfer is None:
+            return carried, self.inlet_temperature
+        # oil and sump carry one after the other
+        return carried * self.sump_transfer / (carried + self.sump_transfer), (
+            self.ambient_temperature
+        )
 
 
 @dataclass(frozen=True)

@@ -270,6 +270,10 @@ class WarmEquilibrium(Equilibrium):
         What is left of the heat balance, K.
     heat_iterations : array of int (…)
         Temperatures tried.
+    inlet_temperature : array (…), optional
+        Of the oil that enters, K: as given, or that of the sump.
+    clearance : array (…), optional
+        Radial clearance as shaft and shell have grown, m; None where they do not.
 
     Examples
     --------
@@ -284,6 +288,8 @@ class WarmEquilibrium(Equilibrium):
     viscosity: Array = field(default_factory=lambda: np.zeros(()))
     heat_residual: Array = field(default_factory=lambda: np.zeros(()))
     heat_iterations: NDArray[np.int64] = field(default_factory=lambda: np.zeros((), dtype=int))
+    inlet_temperature: Array | None = None
+    clearance: Array | None = None
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)

@@ -13,7 +13,7 @@ in one call.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, cast
 
 import numpy as np
@@ -21,14 +21,16 @@ from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError, SolverError
 from loadflow.journal.film_model import Film
+from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.heat import HOTTEST, Heat
 from loadflow.numerics.fields import require
 
 Array = NDArray[np.float64]
 Columns = dict[str, Any]
 """Fields of `Equilibrium`, (n, …)."""
-AtRest = Callable[[Array, Array, NDArray[np.int64]], Columns]
-"""Equilibria of an isothermal film under loads (m, 2) at speeds (m,); their places among all."""
+AtRest = Callable[[Array, Array, NDArray[np.int64], Array], Columns]
+"""Equilibria of an isothermal film under loads (m, 2) at speeds (m,); their places among all, and
+the temperatures (m,), K, by which their bearing has grown."""
 
 TOLERANCE, TRIES = 1e-6, 40
 """What is left of a heat balance, K, and the temperatures that are tried."""
@@ -103,9 +105,11 @@ class _Warmth:
 
     def said_of(self, film: Columns, heat: Heat) -> Columns:
         """The film with its temperatures."""
+        entering = heat.entering(film["side_flow"], self.temperature)
         return film | {
             "temperature": np.where(film["converged"], self.temperature, np.nan),
-            "outlet_temperature": 2.0 * self.temperature - heat.inlet_temperature,
+            "outlet_temperature": 2.0 * self.temperature - entering,
+            "inlet_temperature": entering,
             "viscosity": np.asarray(heat.liquid.viscosity(self.temperature)),
             "heat_residual": self.residual,
             "heat_iterations": np.full(self.residual.shape, self.iterations),
@@ -127,7 +131,7 @@ class _Balance:
         reference = self.heat.lubricant(self.heat.inlet_temperature)
         thinner = self.heat.liquid.viscosity(temperature) / reference.viscosity
         speed = self.speed[places]
-        state = self.at_rest(self.force[places], speed * thinner, places)
+        state = self.at_rest(self.force[places], speed * thinner, places, temperature)
         lighter = self.heat.liquid.density(temperature) / reference.density
         reynolds = state["reynolds_number"] * lighter / thinner**2
         power, flow = ("friction_power", "contact_power"), ("side_flow", "supply_flow")
@@ -235,6 +239,60 @@ def shares(weights: ArrayLike | None, shape: tuple[int, ...]) -> Array | None:
     valid = bool(np.all(share >= 0) and np.isfinite(share).all() and share.any())
     require(valid, "weights", weights, "≥ 0, not all 0")
     return share
+
+
+def grown_by(bearing: JournalGeometry, heat: Heat, temperature: float) -> JournalGeometry:
+    """The bearing with the clearance that it has with a film at `temperature`, K.
+
+    Where the shaft has grown into the shell a hundredth of the clearance is left, in which no film
+    has a heat balance.
+    """
+    if heat.growth is None:
+        return bearing
+    wider = float(heat.growth.radial(temperature, heat.ambient_temperature, bearing.radius))
+    clearance = max(bearing.clearance + wider, 0.01 * bearing.clearance)
+    return replace(bearing, relative_clearance=clearance / bearing.radius)
+
+
+def in_grown_bearings(
+    solve: Callable[[JournalGeometry, Array, Array, NDArray[np.int64]], Columns],
+    bearing: JournalGeometry,
+    heat: Heat,
+) -> AtRest:
+    """Equilibria in a bearing of the clearance that goes with each temperature.
+
+    Parameters
+    ----------
+    solve : callable
+        Equilibria in a bearing, as `AtRest` without temperatures.
+    bearing : JournalGeometry
+        As it is made.
+    heat : Heat
+        With its growth, or none.
+    """
+
+    def at_rest(
+        force: Array, speed: Array, places: NDArray[np.int64], temperature: Array
+    ) -> Columns:
+        if heat.growth is None:
+            return solve(bearing, force, speed, places)
+        joined: Columns = {}
+        for one in np.unique(temperature):
+            some = temperature == one
+            now = grown_by(bearing, heat, float(one))
+            found = solve(now, force[some], speed[some], places[some])
+            found = found | {"clearance": np.full(int(some.sum()), now.clearance)}
+            for name, values in found.items():
+                if values is None:
+                    joined[name] = None
+                    continue
+                whole = joined.setdefault(
+                    name, np.zeros((speed.size, *values.shape[1:]), dtype=values.dtype)
+                )
+                whole[some] = values
+        return joined
+
+    return at_rest
 
 
 def check_scalable(film: Film) -> None:

@@ -22,7 +22,7 @@ from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.heat import HOTTEST, Heat
 from loadflow.journal.line import Line
 from loadflow.journal.models.model import Model, Steps
-from loadflow.journal.thermal import check_scalable, warm_film
+from loadflow.journal.thermal import check_scalable, grown_by, in_grown_bearings, warm_film
 from loadflow.numerics.convergence import Limits
 from loadflow.quantities import FILM
 
@@ -69,6 +69,7 @@ def warm_orbit(
     if start is None or heat.capacity is None:
         start = series_temperature(model, bearing, film, force, speed, line)
     held = replace(film, lubricant=heat.lubricant(start), heat=None)
+    bearing = grown_by(bearing, heat, start)
 
     def path(times: Array, speeds: Array) -> xr.Dataset:
         return model.orbit(bearing, held, times, force, speeds, line, limits, steps)
@@ -94,9 +95,14 @@ def series_temperature(
     some = np.unique(np.linspace(0, speed.size - 1, SAMPLES).round().astype(int))
     cold, limits, own = film.isothermal(), Limits(1e-10, 60, strict=False), line.at(some)
 
-    def at_rest(forces: Array, speeds: Array, places: NDArray[np.int64]) -> dict[str, Any]:
-        return model.equilibrium(bearing, cold, forces, speeds, own.at(places), limits)
+    def solve(
+        grown: JournalGeometry, forces: Array, speeds: Array, places: NDArray[np.int64]
+    ) -> dict[str, Any]:
+        return model.equilibrium(grown, cold, forces, speeds, own.at(places), limits)
 
+    heat = film.heat
+    assert isinstance(heat, Heat)
+    at_rest = in_grown_bearings(solve, bearing, heat)
     shares = np.full(some.size, 1.0 / some.size)
     found = warm_film(at_rest, force[some], speed[some], film, shares, strict=False)
     if not np.any(found["converged"]):

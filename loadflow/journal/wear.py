@@ -334,6 +334,7 @@ def _checked(bearing: JournalBearing, cycles: Sequence[Cycle], film: Film, wear:
         raise InputError("contact: not given; only asperities that touch wear")
     require(bearing.shape == CYLINDER, "shape", bearing.shape.kind, "cylindrical, for wear")
     require(film.heat is None, "heat", film.heat, "None, for wear: the film as warm as it is")
+    require(film.shell is None, "shell", film.shell, "None, for wear: a rigid shell")
     require(len(cycles) > 0, "cycles", "none", "one or more")
     if wear.running_in is not None:
         new, rough = wear.running_in.initial_roughness, contact.asperities.roughness

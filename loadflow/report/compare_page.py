@@ -15,8 +15,8 @@ GROUPS = (
     ("Capacity", ("minimum_film", "film_to_roughness", "eccentricity_ratio", "film_pressure",
         "thrust_film", "thrust_pressure", "static_safety", "contact_pressure", "modified_life",
         "rating_life")),
-    ("What fails before rating life does", ("row_share", "row_overload", "film_parameter", "tilt",
-        "mixed_time")),
+    ("What fails before rating life does", ("row_share", "row_overload", "film_parameter",
+        "viscosity_ratio", "minimum_load", "standstill", "tilt", "mixed_time", "wear")),
     ("Oil", ("oil_flow", "pump")),
 )  # fmt: skip
 """Rows of the table, in groups."""

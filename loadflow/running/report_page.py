@@ -22,7 +22,7 @@ from loadflow.running.seeds_page import seed_section
 from loadflow.running.start_page import start_tables
 from loadflow.running.wear_page import wear_section
 from loadflow.scene.scene import Scene, read_scene
-from loadflow.scene.unused import scaling_note, unused_keys
+from loadflow.scene.unused import friction_note, scaling_note, unused_keys
 from loadflow.verdict import Verdict, from_dataset
 
 
@@ -132,7 +132,8 @@ def _sections(
         yield Section(
             "Friction of rolling bearings",
             f"Losses, film and slip over the series, {scene.friction.lubricant}; the friction "
-            "power of journal bearings stands in their own table.",
+            "power of journal bearings stands in their own table."
+            + "".join(f" Doubtful: {note}." for note in friction_note(scene)),
             tables=[_case_table(tables["friction"])],
         )
     if "check" in tables:

@@ -45,7 +45,7 @@ from loadflow.running.warm_up import compile_kernels
 from loadflow.running.whole import finish_stages
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
-from loadflow.scene.unused import scaling_note, unused_keys
+from loadflow.scene.unused import friction_note, scaling_note, unused_keys
 from loadflow.storage import check_name
 
 log = logging.getLogger("loadflow.run")
@@ -208,7 +208,7 @@ def _run(
     if profile:
         profile.write(folder / "profile.json", where.workers)
     log.info("finished, %d parts have no answer", len(failures))
-    notes = (*scaling_note(scene), *scene.taken)
+    notes = (*scaling_note(scene), *friction_note(scene), *scene.taken)
     return Run(folder, tree, failures, unused_keys(scene), plan.shortfalls, notes)
 
 

@@ -23,7 +23,8 @@ class Friction(Section, BaseModel):
     Churning and seals have no values of their own: they count only if they are given.
 
     With a ``conductance`` (W/K) to ``ambient_temperature`` (K) each bearing has the temperature in
-    a load case at which that carries off its mean friction; else it is ``temperature``.
+    a load case at which that carries off its mean friction; else it is ``temperature``. Its
+    modified life has the oil at that temperature, too.
 
     ``cleanliness`` is one of `loadflow.rolling.rating.modified_life.CLEANLINESS`; with lubricant
     and temperature it gives the modified life. Loads are taken every ``step`` (s); rollers have

@@ -21,8 +21,10 @@ from loadflow.journal import (
     Supply,
     ThickShell,
 )
+from loadflow.journal.heat import Heat
 from loadflow.journal.line import Line
 from loadflow.journal.models.model import Verb, why_not
+from loadflow.journal.thermal import grown_by
 from loadflow.scene.films import HeatTable, Law, RungName
 from loadflow.scene.limits import JournalLimits
 from loadflow.scene.messages import message
@@ -172,7 +174,10 @@ class Journal(Section, BaseModel):
         """The bearing with its oil held at `temperature`, K."""
         if self.heat is None:
             return self
-        return self.model_copy(update={"lubricant": self.heat.lubricant(temperature), "heat": None})
+        held = {"lubricant": self.heat.lubricant(temperature), "heat": None}
+        if isinstance(self.heat, Heat):  # as shaft and shell have grown
+            held["geometry"] = grown_by(self.geometry, self.heat, temperature)
+        return self.model_copy(update=held)
 
     @model_validator(mode="after")
     def _one_oil(self) -> Self:

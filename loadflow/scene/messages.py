@@ -11,7 +11,7 @@ from pydantic import ValidationError
 from loadflow.numerics.fields import shown, unknown_key
 from loadflow.rolling import KINDS
 from loadflow.scene.films import HEATS
-from loadflow.scene.places import Location
+from loadflow.scene.places import AXIAL, Location
 
 
 def message(
@@ -76,8 +76,10 @@ _TAGS: dict[int | str, Mapping[str, Any]] = {"geometry": KINDS, "heat": HEATS}
 
 def _place(location: Location) -> Iterator[int | str]:
     """Keys down to a value, without the tag that pydantic puts after a key with kinds."""
-    for before, part in zip(("", *location), location):
-        if part not in _TAGS.get(before, ()):
+    for k, part in enumerate(location):
+        before = location[k - 1] if k else ""
+        of_place = location[max(k - 3, 0) : k - 1] == ("thrust", "bearings") and part in AXIAL
+        if part not in _TAGS.get(before, ()) and not of_place:
             yield part
 
 

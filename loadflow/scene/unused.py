@@ -8,6 +8,7 @@ from pathlib import Path
 from loadflow.journal import Heat
 from loadflow.journal.rungs import RUNGS
 from loadflow.rolling import RollerBearing, SlewingBearing, SphericalRollerBearing
+from loadflow.rolling.friction import Churning
 from loadflow.scene.loads import Loads
 from loadflow.scene.scene import Scene, make_scene
 from loadflow.scene.section import Section
@@ -60,9 +61,9 @@ def unused_keys(scene: Scene) -> dict[str, str]:
 
 
 def unused_warnings(scene: Scene) -> list[str]:
-    """Return a sentence on each of them, and on a turbine that is scaled."""
+    """Return a sentence on each of them, on a turbine that is scaled, on friction not counted."""
     unused = [f"{key}: has no effect, {reason}" for key, reason in unused_keys(scene).items()]
-    return [*scaling_note(scene), *unused]
+    return [*scaling_note(scene), *friction_note(scene), *unused]
 
 
 def _all(scene: Scene) -> Iterator[tuple[str, str]]:
@@ -124,6 +125,21 @@ def scaling_note(scene: Scene) -> tuple[str, ...]:
     return (
         f"turbine: {base} scaled to {power / 1e6:.4g} MW by similarity: real turbines of that size "
         "are lighter and softer, and gravity does not follow; bearings keep the size they have",
+    )
+
+
+def friction_note(scene: Scene) -> tuple[str, ...]:
+    """A sentence on parts of the friction of rolling bearings that are wanted but not given."""
+    if "rolling.friction" not in scene.results:
+        return ()
+    options = scene.friction
+    absent = {"churning": options.churning == Churning(), "seals": options.seal_torque == 0}
+    left_out = [part for part, is_absent in absent.items() if is_absent]
+    if not left_out:
+        return ()
+    return (
+        f"friction: {' and '.join(left_out)} of the rolling bearings not counted, as no closed "
+        "form is trustworthy; friction.churning and friction.seal_torque take measured ones",
     )
 
 

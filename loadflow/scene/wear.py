@@ -72,6 +72,8 @@ def check_wear(wear: Wear, journal: Journal, shaft: Shaft) -> None:
         one = journal.at(place)
         if one.contact is None:
             raise ValueError(f"journal.contact: the result journal.wear needs it, at {place}")
+        if one.shell is not None:
+            raise ValueError("journal.shell: wear knows rigid shells")
         if one.geometry.shape.segments:
             kind = one.geometry.shape.kind
             raise ValueError(f"journal.geometry.shape = {kind!r}: wear knows cylindrical bores")

@@ -16,9 +16,10 @@ from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.stages.effects.film import HEAT, MOTION
 from loadflow.stages.effects.rolling import RINGS
+from loadflow.stages.film_of_bearing import equilibria, follow, shaft_line
 from loadflow.stages.frames import to_film
 from loadflow.stages.journal import FILM as FILM_MODEL
-from loadflow.stages.journal import equilibria, fast_film, follow, series_step, shaft_line
+from loadflow.stages.journal import fast_film, series_step
 from loadflow.stages.loads import ROTOR, hub_loads
 from loadflow.stages.reduction import moment_governs
 from loadflow.stages.rolling import life_of, solve_bearing

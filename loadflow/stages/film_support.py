@@ -7,7 +7,7 @@ import numpy as np
 from loadflow.errors import SolverError
 from loadflow.scene.journal import Journal
 from loadflow.shaft import BearingModel
-from loadflow.stages.journal import equilibria
+from loadflow.stages.film_of_bearing import equilibria
 
 Floats = np.ndarray
 

@@ -9,16 +9,15 @@ import numpy as np
 import xarray as xr
 
 from loadflow.errors import SolverError
-from loadflow.journal import Equilibrium
 from loadflow.journal.line import Line
 from loadflow.journal.models.model import why_not
-from loadflow.journal.transition import load_capacity
 from loadflow.journal.validity import critical_reynolds_number, reynolds_number
-from loadflow.quantities import table
 from loadflow.scene.cases import Case
 from loadflow.scene.journal import Journal
 from loadflow.scene.loads import Loads
 from loadflow.scene.scene import Scene
+from loadflow.stages.film_kept import kept_of
+from loadflow.stages.film_of_bearing import equilibria, follow, shaft_line, surely_touching
 from loadflow.stages.film_summary import summary
 from loadflow.stages.film_temperature import mean_temperature
 from loadflow.stages.frames import to_film
@@ -26,32 +25,6 @@ from loadflow.stages.labelling import label, of_samples
 from loadflow.stages.reduction import kept_share
 from loadflow.stages.stage import Link, Links, Measured, Rungs, Stage, load_links, steps_of
 
-KEPT = table(
-    "eccentricity_ratio",
-    "attitude_angle",
-    "minimum_film",
-    "maximum_pressure",
-    "sommerfeld_number",
-    "friction_power",
-    "side_flow",
-    "supply_flow",
-    "supply_power",
-    "converged",
-    "residual",
-    "iterations",
-)
-"""What is kept of every sample: units and meaning."""
-WARM = table("temperature")
-"""What is kept too where there is a heat balance."""
-
-ELASTIC = table("shell_deformation")
-"""What is kept too of an elastic shell."""
-
-CONTACT = table("contact_pressure", "contact_area", "contact_power", "contact_share")
-"""What is kept too of asperities."""
-
-_CERTAIN = 1.2  # times the load that a film as thin as the roughness carries: no film is asked
-_LIGHT = 10.0  # Sommerfeld number below which the film is asked in any case
 _TRIES = 200  # samples of a start that are asked for the first film
 
 
@@ -107,7 +80,7 @@ def orbit(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
 
 def _resting(options: Journal, bearing: str, reduced: xr.Dataset) -> xr.Dataset:
     speed, force = reduced["speed"].values, reduced["force"].values
-    line, kept = shaft_line(options, reduced), _kept(options)
+    line, kept = shaft_line(options, reduced), kept_of(options)
     touching = surely_touching(options, force, speed)
     found = _nothing(options, speed.size)
     if np.any(asked := ~touching):
@@ -152,10 +125,12 @@ def _closing(options: Journal, bearing: str, reduced: xr.Dataset) -> xr.Dataset:
         )
     except SolverError as error:
         raise SolverError(f"bearing {bearing}: {error}") from error
-    found, kept = _nothing(options, speed.size), _kept(options)
+    found, kept = _nothing(options, speed.size), kept_of(options)
     _take_path(found, path, slice(None))
     if warm is not None:
         found["temperature"][:] = warm
+    if "clearance" in found:
+        found["clearance"][:] = held.geometry.clearance
     found["sommerfeld_number"][:] = options.geometry.sommerfeld_number(
         np.hypot(*force.T), speed, held.lubricant.viscosity
     )
@@ -191,7 +166,7 @@ def _moving(options: Journal, bearing: str, loads: xr.Dataset, reactions: xr.Dat
     time, speed = (loads[name].values.astype(float) for name in ("time", "speed"))
     begin, start = _lift_off(options, vectors, speed)
     touching = np.arange(time.size) < begin  # later on, squeeze carries more than a film at rest
-    found, kept = _nothing(options, time.size), _kept(options)
+    found, kept = _nothing(options, time.size), kept_of(options)
     force, left = to_film(vectors), slice(begin, None)
     if begin < time.size:
         try:
@@ -199,6 +174,9 @@ def _moving(options: Journal, bearing: str, loads: xr.Dataset, reactions: xr.Dat
         except SolverError as error:
             raise SolverError(f"bearing {bearing}: {error}") from error
         _take_path(found, path, left)
+        if "clearance" in found:
+            warm = float(path["temperature"].values[0])
+            found["clearance"][left] = options.at_temperature(warm).geometry.clearance
         viscosity = np.asarray(options.lubricant.viscosity)
         if options.heat is not None:
             viscosity = np.asarray(options.heat.liquid.viscosity(path["temperature"].values))
@@ -239,32 +217,9 @@ def _lift_off(
     return speed.size, None
 
 
-def surely_touching(options: Journal, force: np.ndarray, speed: np.ndarray) -> np.ndarray:
-    """Whether shaft and shell touch under each load (n, 3), N, in the cube's frame, for certain.
-
-    At standstill, and where the load is far above what the film of the coldest oil carries when it
-    is as thin as both surfaces are rough. The others have to be solved, and so have those of an
-    elastic shell, which carries more the more it gives way.
-    """
-    film = options.film_model.isothermal()
-    if options.heat is not None:
-        film = replace(film, lubricant=options.heat.lubricant(options.heat.coldest))
-    load, turning = np.hypot(*to_film(force).T), np.abs(speed) > 0
-    if options.contact is not None:  # the film knows what asperities carry
-        return np.zeros_like(turning)
-    touching, doubtful = np.asarray(~turning), np.zeros_like(turning)
-    if options.shell is None:
-        number = options.geometry.sommerfeld_number(load, speed, film.liquid.viscosity)
-        doubtful = turning & (number > _LIGHT)
-    if doubtful.any():
-        capacity = load_capacity(options.geometry, options.contact_film, speed[doubtful], film)
-        touching[doubtful] = load[doubtful] > _CERTAIN * capacity
-    return touching
-
-
 def _nothing(options: Journal, count: int) -> dict[str, np.ndarray]:
     """What is kept of `count` samples, and where the shaft lies, before anything is known."""
-    none = {name: np.full(count, np.nan) for name in _kept(options)}
+    none = {name: np.full(count, np.nan) for name in kept_of(options)}
     none |= {"converged": np.zeros(count, dtype=bool), "iterations": np.zeros(count, dtype=int)}
     none["eccentricity"] = np.full((count, 2), np.nan)
     return none | ({"tilt": np.full((count, 2), np.nan)} if options.tilt else {})
@@ -292,59 +247,6 @@ def _loaded(force: np.ndarray, touching: np.ndarray) -> dict[str, Any]:
         "axial_load": ("sample", axial, label("N", "force along the shaft, its size")),
         "in_contact": ("sample", touching, about),
     }
-
-
-def _kept(options: Journal) -> dict[str, tuple[str, str]]:
-    """What is kept of every sample of a scene's bearing."""
-    more = ELASTIC if options.shell is not None else {}
-    more = more | (CONTACT if options.contact is not None else {})
-    return KEPT | more | (WARM if options.heat is not None else {})
-
-
-def follow(
-    options: Journal, loads: xr.Dataset, bearing: xr.Dataset, start: np.ndarray | None = None
-) -> xr.Dataset:
-    """Follow the shaft through a series, from equilibrium or from the place `start` (2,), m.
-
-    With heat the result has the `temperature` of the film: that of the whole series, or one that
-    follows where heat is stored. A shaft with `tilt` lies as its beam says, or tilts freely.
-    """
-    force = to_film(bearing["force"].transpose("time", "axis").values.astype(float))
-    time, speed = (loads[name].values.astype(float) for name in ("time", "speed"))
-    lying: dict[str, Any] = {
-        name: to_film(vectors) for name, vectors in shaft_line(options, bearing).items()
-    }
-    return options.geometry.orbit(time, force, speed, options.film_model, start=start, **lying)
-
-
-def shaft_line(options: Journal, bearing: xr.Dataset) -> dict[str, np.ndarray]:
-    """How the shaft lies in the bearing: as its beam says, or free under a moment, or aligned.
-
-    Keywords of `equilibria`, each (n, 3), from a series of loads with a last dimension ``axis``.
-    """
-    if not options.tilt:
-        return {}
-    names = {"moment": "moment"}
-    if "tilt" in bearing and bool(bearing["tilt"].notnull().all()):
-        names = {"tilt": "tilt", "bend": "curvature"}
-    return {
-        key: bearing[name].transpose(..., "axis").values.astype(float)
-        for key, name in names.items()
-    }
-
-
-def equilibria(
-    options: Journal, force: np.ndarray, speed: np.ndarray, **line: np.ndarray
-) -> Equilibrium:
-    """Solve the film of a scene's bearing for `force` (n, 3) in the cube's frame, N.
-
-    With a `moment` (n, 3), N m, the shaft tilts under it; with a `tilt` (n, 3), rad, and a `bend`,
-    1/m, it lies as they say; without, it stays aligned.
-    """
-    lying: dict[str, Any] = {name: to_film(vectors) for name, vectors in line.items()}
-    return options.geometry.equilibrium(
-        to_film(force), speed, options.film_model, strict=False, **lying
-    )
 
 
 def _placed(options: Journal, samples: xr.Dataset, eccentricity: np.ndarray) -> xr.Dataset:

@@ -16,8 +16,8 @@ import xarray as xr
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
 from loadflow.stages.comparisons import FILM, describe_loads, extremes_of_orbit
+from loadflow.stages.film_of_bearing import equilibria, follow, shaft_line
 from loadflow.stages.frames import to_film
-from loadflow.stages.journal import equilibria, follow, shaft_line
 from loadflow.stages.loads import hub_loads
 from loadflow.stages.reduction import moment_governs
 from loadflow.stages.rolling import life_of, solve_bearing

@@ -10,11 +10,13 @@ import xarray as xr
 
 from loadflow.errors import SolverError
 from loadflow.rolling import Lubrication, modified_spectrum_life, system_life
+from loadflow.rolling.friction import balanced_temperature
 from loadflow.rolling.rating import life, safety
 from loadflow.scene.bearings import FurtherBearing
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
 from loadflow.stages.frames import to_rolling
+from loadflow.stages.friction import friction_options
 from loadflow.stages.labelling import label, labelled, of_samples
 from loadflow.stages.reduction import kept_share
 from loadflow.stages.stage import Link, Links, Measured, Rungs, Stage, always, load_links, steps_of
@@ -40,6 +42,7 @@ EACH = {
     "bearing_life": ("1e6 revolution", "rating life L10"),
     "bearing_modified_life": ("1e6 revolution", "modified life L10m, ISO 281"),
     "bearing_viscosity_ratio": ("1", "smallest viscosity ratio κ of what turns"),
+    "bearing_temperature": ("K", "temperature of the bearing in its modified life"),
     "bearing_thin_share": ("1", "share of the revolutions with κ below 0.1, a_ISO taken as 0.1"),
     "bearing_static_safety": ("1", "smallest static safety, by force, characteristic loads"),
     "bearing_design_safety": ("1", "smallest static safety, by force, design loads"),
@@ -62,12 +65,13 @@ def load_distribution(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Da
     Of the first bearing all samples are kept, and every ball force of the worst one; of all
     bearings what `EACH` names. The hardest samples are solved again under design loads: with the
     partial safety factor of their load case on force and moment. The modified life takes oil,
-    temperature and cleanliness of ``[friction]``.
+    temperature and cleanliness of ``[friction]``; with a conductance the temperature is that at
+    which it carries off the mean friction of the case.
 
     Raises
     ------
     loadflow.errors.SolverError
-        A sample has no equilibrium.
+        A sample has no equilibrium, or a bearing does not shed its heat.
     """
     names = list(scene.rolling.geometries)
     loads = {name: inputs["reduction"][name].to_dataset() for name in names}
@@ -118,10 +122,9 @@ def _of_bearing(
 ) -> dict[str, float]:
     """Values of `EACH`."""
     options, weight = scene.friction, reduced["weight"].values
+    temperature = _temperature(scene, name, answer, reduced)
     lubrication = Lubrication(
-        oil=lubricant(options.lubricant),
-        temperature=options.temperature,
-        cleanliness=options.cleanliness,
+        oil=lubricant(options.lubricant), temperature=temperature, cleanliness=options.cleanliness
     )
     modified = modified_spectrum_life(
         answer.bearing, answer.equivalent_load, reduced["speed"].values, lubrication, weight
@@ -139,6 +142,7 @@ def _of_bearing(
         "bearing_life": life,
         "bearing_modified_life": modified.life if swings is None else np.nan,
         "bearing_viscosity_ratio": modified.least_viscosity_ratio,
+        "bearing_temperature": temperature,
         "bearing_thin_share": modified.thin_share,
         "bearing_static_safety": float(np.min(answer.static_safety)),
         "bearing_design_safety": safety,
@@ -150,6 +154,28 @@ def _of_bearing(
         "bearing_pressure": float(np.max(answer.maximum_pressure)),
         "bearing_force": float(np.max(answer.maximum_force)),
     }
+
+
+def _temperature(scene: Scene, name: str, answer: Any, reduced: xr.Dataset) -> float:
+    """Temperature of a bearing in a case, K: in balance with its friction, or as the scene says."""
+    options, part = scene.friction, scene.rolling.bearings[name]
+    bearing = answer.bearing
+    balances = bearing.friction_model is not None and part.oscillation is None
+    if options.conductance is None or not balances:
+        return options.temperature
+    try:
+        balance = balanced_temperature(
+            answer,
+            np.abs(reduced["speed"].values),
+            friction_options(options, bearing),
+            options.conductance,
+            options.ambient_temperature,
+            weights=reduced["weight"].values,
+            model=bearing.losses,
+        )
+    except SolverError as error:
+        raise SolverError(f"bearing {name}: {error}") from error
+    return balance.temperature
 
 
 def _torque(answer: Any, idle: float) -> float:

@@ -25,26 +25,6 @@ Components = dict[str, list[np.ndarray]]
 """Of the seeds of a group, by component."""
 
 
-def equality_of_seeds(
-    scene: Scene, cases: list[Case], inputs: Mapping[str, dict[str, Any]]
-) -> xr.Dataset:
-    """Test the seeds of every wind speed, for rotor speed and each load component of each bearing.
-
-    The components are those of the radial force, or of the tilting moment where one is taken.
-
-    Returns
-    -------
-    xarray.Dataset
-        `statistic`, `pvalue`, `equal` (variant, group, component, test), `verdict` in words
-        (variant, group, component), and `may_merge` (variant, group): whether all components are
-        equal, with Holm's correction for their number and that of the groups where the tests hold
-        their level. `together` (group) says in words which seeds the calibrated tests let merge. A
-        group is one wind speed of one load case, sampled at one step.
-    """
-    found = [groups_in(scene, piece, inputs) for piece in pieces(scene, cases)]
-    return joined(scene, found)
-
-
 def pieces(scene: Scene, cases: list[Case]) -> list[list[Case]]:
     """Cases that are compared with each other: those of one wind speed of one load case."""
     return [list(group) for _, group in groupby(sorted(cases, key=_condition), key=_condition)]
@@ -55,7 +35,11 @@ def _condition(case: Case) -> tuple[str, float]:
 
 
 def groups_in(scene: Scene, cases: list[Case], inputs: Mapping[str, dict[str, Any]]) -> xr.Dataset:
-    """Test the seeds of one of the `pieces`: a group for each step that its series have."""
+    """Test the seeds of one of the `pieces`: a group for each step that its series have.
+
+    The components are rotor speed and, of each bearing, those of the radial force, or of the
+    tilting moment where one is taken.
+    """
     by_step: dict[float, list[tuple[Case, Series]]] = {}
     for case in cases:
         step, series = series_of(scene, inputs[case.name])
@@ -72,7 +56,17 @@ def groups_in(scene: Scene, cases: list[Case], inputs: Mapping[str, dict[str, An
 
 
 def joined(scene: Scene, found: list[xr.Dataset]) -> xr.Dataset:
-    """Join the `pieces`, and judge all groups together."""
+    """Join the `pieces`, and judge all groups together.
+
+    Returns
+    -------
+    xarray.Dataset
+        `statistic`, `pvalue`, `equal` (variant, group, component, test), `verdict` in words
+        (variant, group, component), and `may_merge` (variant, group): whether all components are
+        equal, with Holm's correction for their number and that of the groups where the tests hold
+        their level. `together` (group) says in words which seeds the calibrated tests let merge. A
+        group is one wind speed of one load case, sampled at one step.
+    """
     methods = scene.seeds.methods
     whole = xr.concat(found, "group")
     per_method = [

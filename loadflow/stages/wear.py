@@ -13,8 +13,8 @@ from loadflow.journal.wear import TOUCHING, Cycle, WornBearing, wear_bearing
 from loadflow.scene.cases import Case
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
+from loadflow.stages.film_of_bearing import shaft_line
 from loadflow.stages.frames import to_film
-from loadflow.stages.journal import shaft_line
 from loadflow.stages.labelling import label
 from loadflow.stages.stage import Stage, always
 from loadflow.wind.cases import LOAD_CASES

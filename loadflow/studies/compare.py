@@ -24,6 +24,7 @@ from loadflow.studies.compare_margins import (
     shaft_tilt,
 )
 from loadflow.studies.compare_result import QUANTITIES, Comparison, Judged, Number, plain
+from loadflow.studies.compare_risks import rolling_risks, wear
 from loadflow.studies.compare_words import bearings, conclusion, drawn, facts, kind_of
 from loadflow.studies.run_lifetime import energy_per_year
 from loadflow.studies.seed_intervals import Groups, interval, joint_life
@@ -164,6 +165,9 @@ def _of_journal(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[st
         whole = table[name].fillna(0.0).sum("bearing").values * scale
         yield key, _mean(run, whole, share, groups, unit)
     yield "mixed_time", _mixed_time(run, table, share, groups)
+    yield "wear", wear(run.scene, table, share)
+    if "rolling" not in run.tables:
+        yield from _without(_OF_ROLLING, "no rolling elements")
     yield from _lost(run, table, table["mean_friction_power"], "")
 
 
@@ -185,7 +189,19 @@ def _of_pads(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[str, 
     if film.place:
         yield "film_to_roughness", _over_roughness(film, run.scene.thrust.bearings[film.place])
     yield "mixed_time", _mixed_time(run, table, share, groups)
+    yield from _without(_OF_ROLLING, "no rolling elements")
+    yield "wear", Number(math.nan, "µm", note="not computed for films of pads")
     yield from _lost(run, table, table["mean_friction_power"], "")
+
+
+_OF_ROLLING = ("row_share", "row_overload", "viscosity_ratio", "minimum_load", "standstill")
+_OF_FILMS = ("mixed_time", "wear", "minimum_film")
+
+
+def _without(keys: Sequence[str], why: str) -> Iterator[tuple[str, Number]]:
+    """Rows that make no sense for a kind of bearing, with the reason."""
+    for key in keys:
+        yield key, Number(math.nan, QUANTITIES[key][1], note=f"n/a: {why}")
 
 
 def _over_roughness(film: Number, surfaces: Journal | AnyAxial) -> Number:
@@ -235,6 +251,9 @@ def _of_rolling(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[st
             note="as a system" if table.sizes["bearing"] > 1 else "",
         )  # fmt: skip
     yield from _rows(run)
+    yield from rolling_risks(run.scene, run.folder, table, share)
+    if not {"journal", "thrust"} & {*run.tables}:
+        yield from _without(_OF_FILMS, "no film bearing")
     losses = rolling_losses(run.scene, run.folder)
     if losses is not None:
         speed = losses.speed * 30 / np.pi

@@ -19,8 +19,8 @@ from loadflow.scene.friction import Friction
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.shaft import Beam, ShaftSection, bearing_loads
+from loadflow.stages.film_of_bearing import equilibria
 from loadflow.stages.friction import friction_options, least_film_parameter
-from loadflow.stages.journal import equilibria
 from loadflow.stages.rolling import rest
 from loadflow.studies.compare_factor import (
     Margin,

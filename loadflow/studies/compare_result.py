@@ -148,12 +148,16 @@ QUANTITIES: dict[str, tuple[str, str]] = {
     "row_share": ("load on the row that takes the thrust, at largest thrust", "%"),
     "row_overload": ("the same over an even share", "×"),
     "film_parameter": ("film parameter Λ at low speed", "–"),
+    "viscosity_ratio": ("smallest viscosity ratio κ while turning", "–"),
+    "minimum_load": ("smallest load over the dynamic capacity (skidding)", "%"),
+    "standstill": ("time standing, share of the lifetime (marks of standing)", "%"),
     "tilt": ("tilt of the shaft over its limit", "%"),
     "friction": ("mean friction loss", "kW"),
     "energy": ("energy lost a year", "MWh"),
     "oil_flow": ("oil that leaves the film", "l/min"),
     "pump": ("power to supply the oil", "kW"),
     "mixed_time": ("time in mixed friction a year", "h"),
+    "wear": ("wear of the shell in 20 years, at most", "µm"),
 }
 """What is compared: its name and unit, in the order of the table."""
 

@@ -20,8 +20,8 @@ from loadflow.scene.bearings import FurtherBearing
 from loadflow.scene.friction import Friction
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Candidate
+from loadflow.stages.film_of_bearing import equilibria, shaft_line, surely_touching
 from loadflow.stages.friction import friction_options
-from loadflow.stages.journal import equilibria, shaft_line, surely_touching
 from loadflow.stages.rolling import rest
 from loadflow.studies.compare_factor import largest_factor
 from loadflow.studies.compare_margins import lubrication

@@ -267,7 +267,7 @@ def completed(public: PublicTurbine, folder: Path) -> Turbine:
 
 def controlled_states(public: PublicTurbine, turbine: Turbine) -> np.ndarray:
     """Return ours in the winds of the print, as the rows of `published_states` without the wind."""
-    winds = published_states(public.name)[:, 0]
+    winds = published_states(public.name)[:, 0].tolist()
     options = RotorOptions(tower_dam=False)
     found = steady_state(turbine, winds, shear=0.0, rung="flap", options=options)
     weight = turbine.rotor_mass * _GRAVITY * np.sin(turbine.rotor.tilt)

@@ -32,6 +32,7 @@ from loadflow.running.comparison import (
 from loadflow.scene.scene import make_scene
 from loadflow.studies.compare_margins import rolling_losses
 from loadflow.studies.compare_result import QUANTITIES
+from loadflow.studies.compare_risks import wear
 from loadflow.studies.seed_intervals import Groups, interval, joint_life
 
 BROWSER = next(
@@ -93,6 +94,48 @@ def test_the_load_factor_of_a_film_is_where_its_limit_is(found):
     assert factor.holds == one.holds
     assert factor.place in ("N", "N2")
     assert one.governs.endswith(factor.place)
+
+
+def test_rolling_bearings_have_skidding_films_and_standstill_journal_bearings_a_reason(found):
+    rolling = by_name(found)["two-spherical"].numbers
+    assert rolling["minimum_load"].limit == 2.0
+    assert rolling["minimum_load"].holds == (rolling["minimum_load"].value >= 2.0)
+    assert rolling["minimum_load"].case
+    assert rolling["viscosity_ratio"].limit == 0.1
+    assert rolling["viscosity_ratio"].value > 0.1
+    assert "not judged" in rolling["standstill"].note  # no case of this cube stands
+    film = by_name(found)["journal-cylindrical"].numbers
+    assert film["wear"].holds
+    assert film["wear"].limit == pytest.approx(0.1 * 700.0)
+    for key in ("minimum_load", "viscosity_ratio", "standstill", "row_share"):
+        assert math.isnan(film[key].value), key
+        assert film[key].note.startswith("n/a"), key
+
+
+def test_wear_is_the_way_in_mixed_friction_times_the_mean_pressure():
+    """k p s: 1e-16 m²/N, 1 MPa on D × B, π D for each revolution, 20 years."""
+    size = {"diameter": 1.0, "width": 1.0, "relative_clearance": 1e-3}
+    scene = make_scene(
+        {"name": "worn", "shaft": {"two_point": {}},
+         "journal": {"bearings": ["N"], "geometry": size}}
+    )  # fmt: skip
+    shape = ("bearing", "case")
+    table = xr.Dataset(
+        {
+            "largest_load": (shape, [[1e6, 1e6]]),
+            "mixed_friction_revolutions": (shape, [[6.0, 0.0]]),
+            "duration": (shape, [[600.0, 600.0]]),
+            "in_contact": (shape, [[3, 0]]),
+        },
+        {"bearing": ["N"], "case": ["rough", "smooth"], "dlc": ("case", ["1.1", "1.1"])},
+    )
+    found = wear(scene, table, np.array([0.25, 0.75]))
+    way = np.pi * 1.0 * 6.0 / 600.0 * 20 * 8766 * 3600
+    assert found.value == pytest.approx(0.25 * 1e-16 * 1e6 * way * 1e6)
+    assert (found.case, found.place) == ("rough", "N")
+    assert found.holds == (found.value <= 50.0)
+    started = wear(scene, table.assign_coords(dlc=("case", ["3.1", "1.1"])), np.array([0.0, 1.0]))
+    assert started.value == pytest.approx(20_000 * 1e-16 * 1e6 * np.pi * 6.0 * 1e6)
 
 
 def test_a_spherical_pair_has_its_thrust_on_one_row(found):

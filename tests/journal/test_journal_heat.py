@@ -14,6 +14,7 @@ from loadflow.journal import (
     Film,
     GasMixture,
     Groove,
+    Growth,
     Heat,
     JournalBearing,
     Orifice,
@@ -180,7 +181,7 @@ def test_a_balance_that_steps_over_zero_where_a_mesh_changes_is_told(jump, answe
     film = Film(heat=heat, cavitation=Sommerfeld())
     carried = 2.0 * float(heat.liquid.density(320.0)) * heat.heat_capacity
 
-    def at_rest(force, speed, places):
+    def at_rest(force, speed, places, temperature):
         scale = speed / 1.0  # what `speed` is over that of the shaft, it is over viscosity
         power = 5.0 * carried * 1e-5 * np.where(speed > changes, 1.0 + jump, 1.0 - jump)
         count = speed.size
@@ -200,3 +201,95 @@ def test_a_balance_that_steps_over_zero_where_a_mesh_changes_is_told(jump, answe
     assert found["heat_residual"][0] > 1e-6
     if answered:
         assert found["temperature"][0] == pytest.approx(320.0, abs=1e-3)
+
+
+SMALL = JournalBearing(diameter=0.2, width=0.1, relative_clearance=1e-3)
+WARM = {"oil": "iso-vg-68", "inlet_temperature": 313.15}
+MIXED = FILM | {"edge_pressure": 1.5e5, "grid": (60, 20)}
+
+
+@pytest.mark.parametrize("rung", ["grid", "reduced", "chart"])
+def test_shaft_and_shell_grow_as_iso_7902_says(rung):
+    """Δψ = (α_shell − α_shaft)(T − 20 °C), and the film is that of a bearing made with it."""
+    growth = Growth(shaft_expansion=11e-6, shell_expansion=18e-6)
+    film = MIXED | {"rung": rung}
+    if rung == "chart":
+        film = {"rung": rung}
+    loads = np.array([[1e4, 0.0], [4e4, 0.0]])
+    found = SMALL.equilibrium(loads, 100.0, heat=Heat(**WARM, growth=growth), **film)
+    psi = 1e-3 + (18e-6 - 11e-6) * (found.temperature - 293.15)
+    assert found.clearance == pytest.approx(psi * 0.1, rel=1e-12)
+    for load, one, warm, ratio, thin in zip(
+        loads, psi, found.temperature, found.eccentricity_ratio, found.minimum_film
+    ):
+        made = JournalBearing(0.2, 0.1, float(one))
+        alike = made.equilibrium(load, 100.0, heat=Heat(**WARM), **film)
+        assert alike.temperature == pytest.approx(warm, abs=1e-4)
+        assert ratio == pytest.approx(alike.eccentricity_ratio, rel=1e-5)
+        assert thin == pytest.approx(alike.minimum_film, rel=1e-5)
+
+
+def test_growth_alike_changes_nothing_and_a_cool_shell_narrows_the_gap():
+    loads = np.array([[1e4, 0.0], [4e4, 0.0]])
+
+    def solved(**more):
+        return SMALL.equilibrium(loads, 60.0, heat=Heat(**WARM, **more), **MIXED, rung="reduced")
+
+    none, alike = solved(), solved(growth=Growth())
+    assert alike.temperature == pytest.approx(none.temperature, rel=1e-12)
+    assert none.clearance is None
+    cool = solved(growth=Growth(shell_share=0.8))
+    lost = 11.7e-6 * 0.1 * 0.2 * (cool.temperature - 293.15)
+    assert cool.clearance == pytest.approx(1e-4 - lost, rel=1e-12)
+    assert (cool.temperature > none.temperature).all()
+    given = solved(growth=Growth(shaft_temperature=330.0, shell_temperature=310.0))
+    assert given.clearance == pytest.approx(1e-4 - 11.7e-6 * 0.1 * 20.0, rel=1e-12)
+
+
+def test_a_shaft_that_grows_into_its_shell_has_no_balance():
+    heat = Heat(**WARM, growth=Growth(shell_share=0.2))
+    with pytest.raises(SolverError, match="no heat balance"):
+        SMALL.equilibrium((1e4, 0.0), 100.0, heat=heat, **MIXED, rung="reduced")
+
+
+def test_oil_that_goes_round_enters_as_warm_as_its_sump():
+    """Sump and housing give off all of the friction: a balance of three temperatures."""
+    heat = Heat(**WARM, sump_transfer=300.0, transfer=20.0, ambient_temperature=290.0)
+    loads = np.array([[1e4, 0.0], [4e4, 0.0]])
+    found = SMALL.equilibrium(loads, 60.0, heat=heat, **MIXED, rung="reduced")
+    inlet, warm = found.inlet_temperature, found.temperature
+    by_sump, by_housing = 300.0 * (inlet - 290.0), 20.0 * (warm - 290.0)
+    assert by_sump + by_housing == pytest.approx(found.friction_power, rel=1e-6)
+    carried = heat.liquid.density(warm) * heat.heat_capacity * found.side_flow
+    assert carried * (found.outlet_temperature - inlet) == pytest.approx(by_sump, rel=1e-6)
+    assert 0.5 * (inlet + found.outlet_temperature) == pytest.approx(warm)
+    cold = SMALL.equilibrium(
+        loads, 60.0, heat=Heat(**WARM, sump_transfer=1e9, ambient_temperature=313.15), **MIXED,
+        rung="reduced",
+    )  # fmt: skip
+    fresh = SMALL.equilibrium(loads, 60.0, heat=Heat(**WARM), **MIXED, rung="reduced")
+    assert cold.temperature == pytest.approx(fresh.temperature, abs=1e-4)
+
+
+def test_a_series_grows_to_the_clearance_of_its_temperature():
+    heat = Heat(**WARM, growth=Growth(shell_expansion=18e-6))
+    time = np.linspace(0.0, 0.2, 21)
+    force = np.stack([3e4 + 5e3 * np.sin(30 * time), np.zeros(21)], axis=-1)
+    path = SMALL.orbit(time, force, 60.0, heat=heat, **MIXED, rung="reduced")
+    warm = float(path["temperature"][0])
+    made = JournalBearing(0.2, 0.1, 1e-3 + (18e-6 - 11.7e-6) * (warm - 293.15))
+    alone = made.orbit(time, force, 60.0, heat.lubricant(warm), **MIXED, rung="reduced")
+    assert path["minimum_film"].values == pytest.approx(alone["minimum_film"].values, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("keys", "film", "named"),
+    [
+        ({"growth": Growth(), "capacity": 1e5}, {}, "growth"),
+        ({"sump_transfer": 1e2, "capacity": 1e5}, {}, "sump_transfer"),
+        ({"growth": Growth()}, {"rung": "map"}, "heat.growth"),
+    ],
+)
+def test_what_does_not_grow_says_so(keys, film, named):
+    with pytest.raises(InputError, match=named):
+        SMALL.equilibrium((1e4, 0.0), 60.0, heat=Heat(**WARM, **keys), **MIXED | film)

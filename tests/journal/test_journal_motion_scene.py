@@ -7,7 +7,8 @@ import xarray as xr
 from loadflow.errors import InputError
 from loadflow.scene import make_scene
 from loadflow.stages.effects import film
-from loadflow.stages.journal import fast_film, follow
+from loadflow.stages.film_of_bearing import follow
+from loadflow.stages.journal import fast_film
 
 TIME = np.arange(0.0, 1.0, 0.05)
 FORCE = np.stack([0 * TIME, 2e5 * np.cos(2 * TIME), -2e6 + 2e5 * np.sin(TIME)], axis=-1)

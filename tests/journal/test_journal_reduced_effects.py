@@ -254,7 +254,7 @@ def test_an_orbit_may_begin_at_standstill():
     force, speed = np.tile(FORCE, (41, 1)), SPEED * np.clip(time - 0.2, 0.0, None)
     rough, line = {"contact": ROUGH}, {"tilt": TILT[:1] * 0.2}
     grid = BEARING.orbit(time, force, speed, replace(FILM, **rough), **line)
-    with pytest.warns(ValidityWarning, match="bearing end is not resolved at .* first at t = 0.25"):
+    with pytest.warns(ValidityWarning, match="bearing end is not resolved at .* first at t = 0.3"):
         few = BEARING.orbit(time, force, speed, replace(REDUCED, **rough), **line)
     np.testing.assert_allclose(few.minimum_film, grid.minimum_film, rtol=0.03, atol=2e-6)
     assert float(few.contact_share[0]) > 0.99 > 0.01 > float(few.contact_share[-1])

@@ -26,7 +26,7 @@ from loadflow.journal import (
     TiltingPads,
 )
 from loadflow.scene.journal import Journal
-from loadflow.stages.journal import equilibria, follow
+from loadflow.stages.film_of_bearing import equilibria, follow
 from loadflow.validation.shell import annular_seal, plane_ring, soft_arc
 
 BEARING = JournalBearing(diameter=3.0, width=2.25, relative_clearance=0.5e-3)

@@ -14,6 +14,7 @@ from loadflow.journal import (
     Heat,
     JournalBearing,
     Lobes,
+    LocalShell,
     Lubricant,
     MassConserving,
     Reynolds,
@@ -174,6 +175,7 @@ def test_no_contact_wears_nothing():
         ({"film": Film(OIL)}, "contact"),
         ({"film": Film(heat=Heat(), contact=Contact(ROUGH))}, "heat"),
         ({"bearing": JournalBearing(0.2, 0.1, 1e-3, shape=Lobes(2))}, "shape"),
+        ({"film": film(shell=LocalShell(1e-14))}, "shell"),
         ({"cycles": []}, "cycles"),
         ({"worn": [[1e-6]]}, "worn"),
         ({"wear": Wear(Archard(1e-16), RunningIn(

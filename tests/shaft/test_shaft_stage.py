@@ -8,8 +8,9 @@ from loadflow.errors import InputError
 from loadflow.scene.scene import make_scene
 from loadflow.shaft import Beam, ShaftSection, TwoPoint
 from loadflow.shaft import bearing_loads as suspended
+from loadflow.stages.film_of_bearing import equilibria
 from loadflow.stages.film_support import film_model
-from loadflow.stages.journal import equilibria, film
+from loadflow.stages.journal import film
 from loadflow.stages.reduction import reduced_loads
 from loadflow.stages.shaft import bearing_loads
 
@@ -92,13 +93,6 @@ def test_every_concept_is_an_option_of_a_scene(concept, bearings):
         (
             {"shaft": {"two_point": {"beam": {"sections": [{"outer_diameter": -1.0}]}}}},
             "outer_diameter",
-        ),
-        (
-            {
-                "shaft": {"two_point": {"beam": {}}},
-                "journal": {"tilt": True, "motion": "transient"},
-            },
-            "quasi-static",
         ),
     ],
 )

@@ -190,6 +190,9 @@ def _pairs(
             stored and bool(steps.periodic),
             "without capacity on a closed path",
         )
+    growth = getattr(film.heat, "growth", None)
+    one = "None on a map, which has one clearance"
+    yield "heat.growth", growth, growth is not None and film.rung == "map", one
     yield "shell", film.shell, pads, "None for pads, whose backs are not held"
     yield "shell", film.shell, over_area, "None with heat over the area"
     spreads = film.shell is not None and not film.shell.local

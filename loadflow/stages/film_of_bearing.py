@@ -1,0 +1,86 @@
+"""The film of a scene's bearing under loads in the frame of the cube: at rest, and in time."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from loadflow.journal import Equilibrium
+from loadflow.journal.transition import load_capacity
+from loadflow.scene.journal import Journal
+from loadflow.stages.frames import to_film
+
+_CERTAIN = 1.2  # times the load that a film as thin as the roughness carries: no film is asked
+_LIGHT = 10.0  # Sommerfeld number below which the film is asked in any case
+
+
+def follow(
+    options: Journal, loads: xr.Dataset, bearing: xr.Dataset, start: np.ndarray | None = None
+) -> xr.Dataset:
+    """Follow the shaft through a series, from equilibrium or from the place `start` (2,), m.
+
+    With heat the result has the `temperature` of the film: that of the whole series, or one that
+    follows where heat is stored. A shaft with `tilt` lies as its beam says, or tilts freely.
+    """
+    force = to_film(bearing["force"].transpose("time", "axis").values.astype(float))
+    time, speed = (loads[name].values.astype(float) for name in ("time", "speed"))
+    lying: dict[str, Any] = {
+        name: to_film(vectors) for name, vectors in shaft_line(options, bearing).items()
+    }
+    return options.geometry.orbit(time, force, speed, options.film_model, start=start, **lying)
+
+
+def shaft_line(options: Journal, bearing: xr.Dataset) -> dict[str, np.ndarray]:
+    """How the shaft lies in the bearing: as its beam says, or free under a moment, or aligned.
+
+    Keywords of `equilibria`, each (n, 3), from a series of loads with a last dimension ``axis``.
+    """
+    if not options.tilt:
+        return {}
+    names = {"moment": "moment"}
+    if "tilt" in bearing and bool(bearing["tilt"].notnull().all()):
+        names = {"tilt": "tilt", "bend": "curvature"}
+    return {
+        key: bearing[name].transpose(..., "axis").values.astype(float)
+        for key, name in names.items()
+    }
+
+
+def equilibria(
+    options: Journal, force: np.ndarray, speed: np.ndarray, **line: np.ndarray
+) -> Equilibrium:
+    """Solve the film of a scene's bearing for `force` (n, 3) in the cube's frame, N.
+
+    With a `moment` (n, 3), N m, the shaft tilts under it; with a `tilt` (n, 3), rad, and a `bend`,
+    1/m, it lies as they say; without, it stays aligned.
+    """
+    lying: dict[str, Any] = {name: to_film(vectors) for name, vectors in line.items()}
+    return options.geometry.equilibrium(
+        to_film(force), speed, options.film_model, strict=False, **lying
+    )
+
+
+def surely_touching(options: Journal, force: np.ndarray, speed: np.ndarray) -> np.ndarray:
+    """Whether shaft and shell touch under each load (n, 3), N, in the cube's frame, for certain.
+
+    At standstill, and where the load is far above what the film of the coldest oil carries when it
+    is as thin as both surfaces are rough. The others have to be solved, and so have those of an
+    elastic shell, which carries more the more it gives way.
+    """
+    film = options.film_model.isothermal()
+    if options.heat is not None:
+        film = replace(film, lubricant=options.heat.lubricant(options.heat.coldest))
+    load, turning = np.hypot(*to_film(force).T), np.abs(speed) > 0
+    if options.contact is not None:  # the film knows what asperities carry
+        return np.zeros_like(turning)
+    touching, doubtful = np.asarray(~turning), np.zeros_like(turning)
+    if options.shell is None:
+        number = options.geometry.sommerfeld_number(load, speed, film.liquid.viscosity)
+        doubtful = turning & (number > _LIGHT)
+    if doubtful.any():
+        capacity = load_capacity(options.geometry, options.contact_film, speed[doubtful], film)
+        touching[doubtful] = load[doubtful] > _CERTAIN * capacity
+    return touching
