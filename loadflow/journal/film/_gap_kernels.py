@@ -17,8 +17,8 @@ from loadflow.journal.film._rough_kernels import (
     conductance,
     dragged,
     mean_film,
+    opened,
     sheared,
-    yielded,
 )
 
 
@@ -30,8 +30,8 @@ def resistance(h, w, rough):
         w2 = w * r * r
         w3 = w2 * r
         return w2, w3, -2.0 * w3, -3.0 * w3 * r
-    s, along, _, slip, give = rough
-    h, opens = yielded(h, s, give)
+    s, along, _, slip, yields = rough
+    h, opens = opened(h, yields)
     flow, rise = conductance(h, s, along)
     drag, drag_rise = dragged(h, s, along, slip)
     w3 = w / flow
@@ -47,8 +47,8 @@ def cell_terms(h, w, rough):
     """
     if rough is None:
         return w * h * h * h, 3.0 * w * h * h, w * h, w, w / h, 1.0
-    s, along, across, _, give = rough
-    h, opens = yielded(h, s, give)
+    s, along, across, _, yields = rough
+    h, opens = opened(h, yields)
     flow, rise = conductance(h, s, across)
     mean, share = mean_film(h, s)
     share *= opens

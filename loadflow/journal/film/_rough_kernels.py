@@ -19,7 +19,7 @@ _YIELDS = 60  # Newton steps of `yielded`; about one for each roughness that asp
 
 @njit(cache=True, nogil=True)
 def yielded(h, s, give):
-    """Gap of the mean planes where asperities press a shell open, and its derivative by `h`.
+    """Gap of the summits where they press a shell open, and its derivative by `h`.
 
     h is the gap without that; `give` is the growth of the gap, clearances, under the unit K E* of
     asperity pressure. The equation h' = h + give F(h'/s) rises with h' and bends down, so that
@@ -36,6 +36,19 @@ def yielded(h, s, give):
             break
     _, rise = laws.pressure_integral(planes / s)
     return planes, 1.0 / (1.0 - give * rise / s)
+
+
+@njit(cache=True, nogil=True)
+def opened(h, yields):
+    """Gap of the mean planes where summits press a shell open, and its derivative by `h`.
+
+    `yields` are what the shell gives, roughness and height of the summits; see `yielded`.
+    """
+    give, s, summits = yields
+    if give == 0.0:
+        return h, 1.0
+    planes, share = yielded(h - summits, s, give)
+    return planes + summits, share
 
 
 @njit(cache=True, nogil=True)

@@ -189,13 +189,13 @@ class YieldingNodeLoad(NodeLoad):
 
     def at(self, position: Array) -> Touch:
         """What they carry with the shaft at `position` (m,), clearances."""
-        return self._touch(self._gaps(position), self._shell.rough.give, _NOT_ASKED)
+        return self._touch(self._gaps(position), self._shell.rough.yields[0], _NOT_ASKED)
 
     def by_growth(self, position: Array) -> Array:
         """Derivative of the load by the growth of the cells, (m, nx, nz), N per clearance."""
         gaps, modes = self._gaps(position), self._modes
         relief = np.zeros(gaps.shape)
-        self._touch(gaps, self._shell.rough.give, relief)
+        self._touch(gaps, self._shell.rough.yields[0], relief)
         parts = self._unit * relief * modes.reach[:, :, None] * modes.lengths[:, None, :]
         shape = self._shell.mesh.shape
         return np.array([self._between.back(part, shape) for part in parts])

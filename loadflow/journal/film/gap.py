@@ -20,7 +20,7 @@ from loadflow.numerics.convergence import EPS
 
 Array = NDArray[np.float64]
 
-Surfaces = tuple[float, Array, Array, float, float]
+Surfaces = tuple[float, Array, Array, float, tuple[float, float, float]]
 """Roughness as the kernels take it: its size, flow factors along and across, slip, and what a shell
 yields to asperities."""
 

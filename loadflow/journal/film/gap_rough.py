@@ -35,7 +35,8 @@ class Roughness:
         tips = contact.asperities
         overlap = (_DEEPEST * tips.roughness - tips.summit_height) / clearance
         self.deepest = min(max(overlap, 0.0), _FARTHEST)
-        self.give = compliance * contact.asperities.scale / clearance
+        give = compliance * tips.scale / clearance
+        self.yields = give, tips.roughness / clearance, tips.summit_height / clearance
         pattern, none = contact.pattern, np.empty((0, 16))
         self._along = none if pattern is None else laws.flow_rows(pattern)
         self._across = none if pattern is None else laws.flow_rows(1.0 / pattern)
@@ -44,11 +45,11 @@ class Roughness:
     @property
     def numbers(self) -> Surfaces:
         """What the kernels take."""
-        return self.roughness, self._along, self._across, self._slip, self.give
+        return self.roughness, self._along, self._across, self._slip, self.yields
 
     def planes(self, gap: float) -> float:
         """Gap of the mean planes where it is `gap` without what asperities press a shell open."""
-        return float(kernel.yielded(gap, self.roughness, self.give)[0])
+        return float(kernel.opened(gap, self.yields)[0])
 
     def mean(self, gap: float) -> float:
         """Mean gap at one of the mean planes, clearances; 0 where the law of contact ends."""
