@@ -13,6 +13,7 @@ from loadflow.rolling import (
     RingBeam,
     RingProfile,
     RingSection,
+    RollerBearing,
     SlewingBearing,
     SolidRing,
     Support,
@@ -241,3 +242,12 @@ def test_balls_unequally_spaced_are_refused():
     points = dataclasses.replace(POINTS, azimuth=POINTS.azimuth + 0.1 * (POINTS.azimuth > 3))
     with pytest.raises(InputError, match="equally spaced"):
         ring("bottom").flexibility(points)
+
+
+def test_a_ring_with_grooves_for_balls_refuses_rollers():
+    rollers = RollerBearing(
+        rollers=12, roller_diameter=0.015, roller_length=0.02, pitch_diameter=0.25,
+        contact_angle=0.3,
+    )  # fmt: skip
+    with pytest.raises(InputError, match="no raceway at radius"):
+        rollers.equilibrium((1e3, 0, 1e3), rings=FlexibleRings(outer=ring("bottom")))
