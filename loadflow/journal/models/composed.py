@@ -227,7 +227,7 @@ def _path(
     values |= {"x": rows[:, at.X], "y": rows[:, at.Y]}
     if options.contact is not None:
         values["contact_share"] = _share(values["contact_force"], force)
-    return cooled(warmth, states, values), model.unresolved_across(rows)
+    return cooled(warmth, states, values), model.unresolved_on_path(rows, force)
 
 
 def _starts(

@@ -144,6 +144,17 @@ class ComposedFilm:
         """
         return rows[:, at.HIGHEST] > _UNRESOLVED
 
+    def unresolved_on_path(self, rows: Array, force: Array) -> NDArray[np.bool_]:
+        """The same of the samples of a path under `force` (n, 2), N.
+
+        What hardly loads the film, between samples that do, needs no more points: the share that
+        is missed there counts against the mean pressure of the path.
+        """
+        specific = np.hypot(*force.T) / (self.bearing.width * self.bearing.diameter)
+        pressure = np.maximum(rows[:, at.PEAK] - self.film.ring.p_edge, specific)
+        share = pressure / np.maximum(pressure, pressure.mean())
+        return rows[:, at.HIGHEST] * share > _UNRESOLVED
+
     def results(self, rows: Array, speed: Array) -> dict[str, Any]:
         """Rows of the compiled loops, in SI units and named as in `Equilibrium`."""
         share = 0.5 if self.whole else 1.0  # the units are those of half of the width
