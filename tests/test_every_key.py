@@ -95,7 +95,8 @@ BASES = {
         "rolling": {"bearing": "N2", "geometry": {
             "kind": "roller", "rollers": 44, "roller_diameter": 0.07, "roller_length": 0.12,
             "pitch_diameter": 1.2, "rows": 2, "row_spacing": 0.25, "contact_angle": 0.35,
-            "clearance": -5e-5}},
+            "clearance": -5e-5}, "rings": "flexible", "outer_ring": {
+            "section": {"width": 0.1, "height": 0.3}, "radius": 0.7}},
         "friction": {"conductance": 50.0},
     },
     "thrust collar": {
@@ -236,7 +237,13 @@ OTHERS = {
     "rolling.geometry.kind": ["ball", "roller"],
     "rolling.further": [[{"bearing": "N", "geometry": BALLS}]],
     "rolling.bearing": ["N2", "N"],
-    "rolling.inner_ring": [{"section": {"width": 0.1, "height": 0.15}, "radius": 0.9}],
+    "rolling.inner_ring": [
+        {"section": {"width": 0.1, "height": 0.15}, "radius": 0.9},
+        {"section": {"width": 0.1, "height": 0.3}, "radius": 0.5},
+    ],
+    "rolling.outer_ring.supports": [
+        [{"radius": 0.7, "height": -0.15, "thickness": 0.05, "length": 0.3}],
+    ],
     "rolling.outer_ring": [{"section": {"width": 0.1, "height": 0.15}, "radius": 1.1}],
 }
 """Values that no rule finds: names, files, tables."""
@@ -492,9 +499,22 @@ def before(place, base, section):
     return _BEFORE[key]
 
 
-ALONE = {"heat.kind", "contact", "shell"}
-"""Keys of which no other value goes with the scene: a kind says which other keys a table has, and
-asperities on a shell that gives way have no model, which `why_not` says by name."""
+ALONE = {"heat.kind", "contact", "shell"} | {
+    f"bearings.{key}"
+    for key in (
+        "N2.kind",
+        "N2.geometry.profile",
+        "M.kind",
+        *(
+            f"M.geometry.{side}.{key}"
+            for side in ("left", "right")
+            for key in ("profile.kind", "pivot")
+        ),
+    )
+}
+"""Keys of which no other value goes with the scene: a kind says which other keys a table has,
+asperities on a shell that gives way have no model on the rung, and pads with lands neither tilt nor
+have a second profile."""
 
 WALKS = [(name, section) for name, sections in READERS.items() for section in sections]
 

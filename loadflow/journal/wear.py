@@ -202,6 +202,19 @@ class WornBearing:
     converged, residual, iterations
         Whether the whole life was followed, what is left of the load of the asperities, and the
         films that were solved.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.journal import Contact, Cycle, Film, JournalBearing, Lubricant, Reynolds
+    >>> from loadflow.journal import Wear, wear_bearing
+    >>> from loadflow.tribology import Archard, AsperityContact
+    >>> rough = AsperityContact(roughness=0.5e-6, contact_modulus=115e9, factor=1e-3)
+    >>> film = Film(Lubricant(0.03), Reynolds(), grid=(60, 8), contact=Contact(rough))
+    >>> turn = Cycle([0.0, 1.0], [(4e4, 0.0)] * 2, [0.5, 0.5], 1e3, in_motion=False)
+    >>> worn = wear_bearing(JournalBearing(0.2, 0.1, 1e-3), [turn], film, Wear(Archard(1e-17)))
+    >>> worn.converged, worn.depth.shape[0] == worn.angle.size
+    (True, True)
     """
 
     bearing: JournalBearing

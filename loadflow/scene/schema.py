@@ -7,6 +7,7 @@ from typing import Any
 from loadflow.rolling import KINDS
 from loadflow.scene.places import FOUR_POINT, JOURNAL
 from loadflow.scene.scene import Scene
+from loadflow.scene.thrust import ConePair, ThrustCollar
 from loadflow.scene.written import SCENE
 
 
@@ -31,7 +32,11 @@ def json_schema() -> dict[str, Any]:
     rolling = {FOUR_POINT: rolling["slewing"]} | rolling
     for kind, geometry in rolling.items():
         parts[_name(kind)] = _place(parts["FurtherBearing"], {kind: geometry}, drop=("bearing",))
-    kinds = ["JournalPlace", *map(_name, rolling)]
+    axial = {cls.model_fields["kind"].default: cls.__name__ for cls in (ThrustCollar, ConePair)}
+    for kind, section in axial.items():
+        parts[_name(kind)] = _place(parts[section], {kind: None}, drop=("kind",))
+        parts[_name(kind)]["required"] = ["kind", "geometry"]
+    kinds = ["JournalPlace", *map(_name, (*rolling, *axial))]
     like = {
         "type": "object",
         "required": ["like"],

@@ -9,6 +9,7 @@ from loadflow.journal import Heat
 from loadflow.journal.rungs import RUNGS
 from loadflow.rolling import RollerBearing, SphericalRollerBearing
 from loadflow.rolling.friction import Churning
+from loadflow.scene.bearings import FurtherBearing
 from loadflow.scene.loads import Loads
 from loadflow.scene.scene import Scene, make_scene
 from loadflow.scene.section import Section
@@ -294,17 +295,34 @@ def _of_rolling(scene: Scene) -> Iterator[tuple[str, str]]:
         for key in ("inner_ring", "outer_ring"):
             if getattr(scene.rolling, key) is not None:
                 yield key, f"a {geometry.kind} bearing has rigid rings only"
+    elif scene.rolling.rings == "rigid" and (
+        not scene.asks or "rings" in scene.rolling.model_fields_set
+    ):
+        for key in ("inner_ring", "outer_ring"):
+            if getattr(scene.rolling, key) is not None:
+                yield key, 'rings = "rigid"'
+
+
+_OF_LIFE = ("lubricant", "temperature", "cleanliness", "conductance", "ambient_temperature")
+"""Keys of friction that the modified life reads, too."""
+
+
+def _balances(part: FurtherBearing) -> bool:
+    return part.geometry.friction_model is not None and part.oscillation is None
 
 
 def _of_friction(scene: Scene) -> Iterator[tuple[str, str]]:
     friction, bearings = scene.friction, scene.rolling.geometries.values()
     if "rolling.friction" not in scene.results:
         for key in type(friction).model_fields:
-            if key not in ("lubricant", "temperature", "cleanliness"):
+            if key not in _OF_LIFE:
                 yield key, "the result rolling.friction is not wanted"
-        return
     if friction.conductance is None:
         yield "ambient_temperature", "no friction.conductance"
+    elif all(_balances(part) for part in scene.rolling.bearings.values()):
+        yield "temperature", "with a conductance each bearing has that of its heat balance"
+    if "rolling.friction" not in scene.results:
+        return
     rollers = [b for b in bearings if isinstance(b, RollerBearing | SphericalRollerBearing)]
     ribs = ("rib_height", "rib_radius", "rib_friction")
     if not rollers:

@@ -229,7 +229,7 @@ def starved():
 @hard(
     "journal",
     "a shaft so tilted that its edge meets the shell",
-    why="the gap is negative at one rim only",
+    why="the gap is negative at one bearing end only",
     what="a named error with gap, angle and place along the axis",
 )
 def edge_contact():
@@ -238,7 +238,7 @@ def edge_contact():
 
 @hard(
     "journal",
-    "tilt that leaves a twentieth of the clearance at one rim",
+    "tilt that leaves a twentieth of the clearance at one bearing end",
     why="pressure crowds at one edge; half the width no longer mirrors the other",
     what="the full width is solved; the moment of the film comes with it",
 )
@@ -269,8 +269,8 @@ def soft_shell():
 
 @hard(
     "journal",
-    "a shell so soft that its rims meet the shaft",
-    why="a shell that gives way locally keeps its rims, where the pressure ends",
+    "a shell so soft that its ends meet the shaft",
+    why="a shell that gives way locally keeps its ends, where the pressure ends",
     what="a named error with gap, angle and place",
 )
 def soft_rims():

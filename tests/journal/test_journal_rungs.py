@@ -50,6 +50,7 @@ ASKING = {
     "slow_heat": ({"lubricant": None, "heat": Heat(capacity=1e5)}, {}, {}),
     "film_heat": ({"lubricant": None, "heat": FilmHeat()}, {"shape": Lobes(2)}, {}),
     "contact": ({"contact": ROUGH}, {}, {}),
+    "contact_on_shell": ({"contact": ROUGH, "shell": LocalShell(1e-12)}, {}, {}),
     "step": ({}, {}, {"step": "adaptive"}),
     "periodic": ({}, {}, {"periodic": True}),
 }

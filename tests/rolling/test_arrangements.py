@@ -124,7 +124,7 @@ def test_scenes_take_a_list_of_bearings():
         ({"geometry": {"kind": "plain"}}, "kind must be one of"),
         ({"geometry": {"kind": "roller", "balls": 3}}, "balls: unknown key; known here: .*rollers"),
         ({"further": [{"bearing": "M", "geometry": {}}]}, "rolling.further.0.geometry.balls"),
-        ({"arrangement": "tapered-pair", "rings": "flexible"}, "slewing bearings"),
+        ({"arrangement": "tapered-pair", "rings": "flexible"}, "give inner_ring or outer_ring"),
         ({"bearing": "X"}, "the shaft has the bearings"),
     ],
 )
