@@ -10,6 +10,7 @@ import asyncio
 import logging
 import os
 import signal
+import threading
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import (
     CancelledError,
@@ -172,11 +173,24 @@ class _Processes:
         self._starter = ThreadPoolExecutor(1)
         pool, self._pool = self._pool, None
         if pool is not None:
+            _ignore_errors_of(getattr(pool, "_executor_manager_thread", None))
             # public only from Python 3.14 on (kill_workers)
             processes = [*(getattr(pool, "_processes", None) or {}).values()]
             for process in processes:
                 process.kill()
             pool.shutdown(wait=False, cancel_futures=True)
+
+
+def _ignore_errors_of(thread: Thread | None) -> None:
+    """Let the thread that looks after a pool trip over processes that are killed, in silence."""
+    known = threading.excepthook
+
+    def told(found: threading.ExceptHookArgs) -> None:
+        if found.thread is None or found.thread is not thread:
+            known(found)
+
+    if thread is not None:
+        threading.excepthook = told
 
 
 def _start_worker() -> None:
