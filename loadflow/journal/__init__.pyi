@@ -60,5 +60,5 @@ from .thrust import RectangularThrustBearing as RectangularThrustBearing
 from .thrust import ThrustBearing as ThrustBearing
 from .wear import Cycle as Cycle
 from .wear import Wear as Wear
-from .wear import WornBearing as WornBearing
 from .wear import wear_bearing as wear_bearing
+from .worn_bearing import WornBearing as WornBearing

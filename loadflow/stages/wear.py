@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from loadflow.journal.wear import TOUCHING, Cycle, WornBearing, wear_bearing
+from loadflow.journal.wear import TOUCHING, Cycle, wear_bearing
+from loadflow.journal.worn_bearing import WornBearing
 from loadflow.scene.cases import Case
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
