@@ -12,6 +12,7 @@ from loadflow.errors import InputError
 from loadflow.journal.film.discretise import operating_points
 from loadflow.journal.film_model import Film, Keywords, film_and_control
 from loadflow.journal.geometry import JournalGeometry
+from loadflow.journal.grid_bounds import warn_if_unresolved
 from loadflow.journal.heat import FilmHeat, Heat
 from loadflow.journal.heat_results import FilmHeatEquilibrium, FilmHeatField
 from loadflow.journal.line import Line
@@ -130,11 +131,13 @@ class JournalBearing(JournalGeometry):
             require(weights is None, "weights", weights, "None without heat")
             warn_if_turbulent(self, speeds, film.liquid)
             answer = model.equilibrium(self, film, loads, speeds, line, limits)
+            warn_if_unresolved(answer)
             return Equilibrium(**shaped(answer, shape))
         if film.heat.over_area:
             require(weights is None, "weights", weights, "None with heat over the area")
             answer = model.equilibrium(self, film, loads, speeds, line, limits)
             warn_if_turbulent(self, speeds, _hottest(film.heat, answer["maximum_temperature"]))
+            warn_if_unresolved(answer)
             return FilmHeatEquilibrium(**shaped(answer, shape))
 
         cold, each = film.isothermal(), replace(limits, strict=False)
@@ -148,6 +151,7 @@ class JournalBearing(JournalGeometry):
         share, at_rest = shares(weights, shape), in_grown_bearings(solve, self, film.heat)
         answer = warm_film(at_rest, loads, speeds, film, share, strict=limits.strict)
         warn_if_turbulent(self, speeds, _hottest(film.heat, answer["temperature"]))
+        warn_if_unresolved(answer)
         return WarmEquilibrium(**shaped(answer, shape))
 
     def pressure(
@@ -202,6 +206,7 @@ class JournalBearing(JournalGeometry):
         line = Line.of(shape, tilt=tilt, bend=bend)
         model = model_of("at_position", film, self, line)
         found, z = model.pressure(self, film, places, velocities, speeds, line, limits)
+        warn_if_unresolved(found)
         kind = FilmField if film.heat is None else FilmHeatField
         return kind(z=z, **shaped(found, shape))
 
