@@ -72,6 +72,8 @@ def relative_errors(
     outward, sideways, closer = np.abs(ways[:, moves] @ response) @ unbalanced
     if far > 0.0:
         out[1], out[2] = outward / far, _TURN * np.hypot(outward, sideways) / far
+    if gap.open_share is not None:  # rough surfaces keep a gap between them as their planes close
+        closer *= float(gap.open_share.min())
     pressed = _LOAD * share * growth  # what an elastic shell opens with the pressure
     out[3], out[4] = (closer + pressed) / narrow, peak
     out[5] = _SHEAR * share + _DRAG * out[3]
