@@ -114,11 +114,17 @@ FILM: dict[str, Quantity] = {
 GRID_ERROR = "_grid_error"
 """Ending of the name of the bound of what the cells do to a quantity."""
 
+
+def _short(name: str) -> str:
+    """Meaning of a quantity in few words."""
+    return "force" if name == "force" else FILM[name].meaning.split(",")[0]
+
+
 FILM |= {
     name + GRID_ERROR: Quantity(
         f"Δ{FILM[name].symbol}",
         FILM[name].units,
-        f"bound of what the cells do to the {FILM[name].meaning.split(',')[0]}",
+        f"bound of what the cells do to the {_short(name)}",
     )
     for name in (
         "force", "eccentricity_ratio", "attitude_angle", "minimum_film", "maximum_pressure",

@@ -73,6 +73,28 @@ class FieldError:
     side_flow: Array
 
 
+@dataclass(frozen=True)
+class PadError:
+    """Bounds of the errors of the fields of results of pads of the same names, in their units.
+
+    That of the force is one for all its components, 0 of a force that was given.
+
+    Examples
+    --------
+    >>> from loadflow.journal import Film, Guembel, Lubricant, ThrustBearing
+    >>> bearing = ThrustBearing(6, 0.5, 1.0, pad_angle=0.785, taper=1e-4, wedge=0.75)
+    >>> film = Film(Lubricant(0.05), Guembel(), grid=(20, 10))
+    >>> found = bearing.equilibrium(force=1e6, speed=10.0, film=film)
+    >>> bool(0.0 < found.grid_error.minimum_film < 0.05 * found.minimum_film)
+    True
+    """
+
+    force: float
+    minimum_film: float
+    maximum_pressure: float
+    friction_power: float
+
+
 def resolved(relative: Array, converged: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """Whether bounds (…, 7) say that the cells resolve the gap, or the load at a given one."""
     worst = np.asarray(relative)[..., _MATTER].max(axis=-1)

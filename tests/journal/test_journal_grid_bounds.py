@@ -8,6 +8,8 @@ import pytest
 from benchmarks.robustness.grid_bounds import run
 from loadflow.errors import ValidityWarning
 from loadflow.journal import (
+    ConicalBearing,
+    ConicalPair,
     Film,
     GasMixture,
     Groove,
@@ -16,8 +18,10 @@ from loadflow.journal import (
     Lobes,
     LocalShell,
     Lubricant,
+    Pivot,
     Reynolds,
     Supply,
+    ThrustBearing,
 )
 
 OIL = Lubricant(0.03)
@@ -70,6 +74,36 @@ def test_cells_that_do_not_resolve_the_gap_are_told():
         coarse = lobes.equilibrium([LOAD, heavy], 100.0, Film(OIL, grid=(40, 4)))
     assert coarse.resolved.tolist() == [True, False]
     assert "1 not resolved" in repr(coarse)
+
+
+PADS = {
+    "lands": ThrustBearing(6, 0.5, 1.0, pad_angle=0.785, taper=1e-4, wedge=0.75),
+    "tilting pads": ThrustBearing(6, 0.5, 1.0, pad_angle=0.785, pivot=Pivot(0.58)),
+}
+
+
+@pytest.mark.parametrize("kind", PADS)
+def test_films_of_pads_bound_the_error_of_their_cells(kind):
+    films = (Film(OIL, Guembel(), 1e5, grid=size) for size in ((20, 10), (60, 30)))
+    own, fine = (PADS[kind].equilibrium(force=1e6, speed=10.0, film=film) for film in films)
+    for name, bound in vars(own.grid_error).items():
+        assert abs(getattr(own, name) - getattr(fine, name)) <= max(bound, 1e-9 * 1e6), name
+    assert own.grid_error.force == 0.0  # given
+    assert own.grid_error.minimum_film < 0.2 * own.minimum_film
+    assert float(own.to_dataset().minimum_film_grid_error) == own.grid_error.minimum_film
+    assert own.resolved
+
+
+def test_two_cones_bound_the_error_of_their_cells():
+    cone = ConicalBearing(half_angle=0.5, slant=(1.0, 1.3), clearance=2e-4)
+    pair = ConicalPair(cone, cone, distance=1.0, clearance=2e-4)
+    films = (
+        Film(Lubricant(0.1), Guembel(), inlet=None, grid=size) for size in ((60, 10), (120, 20))
+    )
+    own, fine = (pair.equilibrium((1e5, 0.0, 5e4), (0.0, 0.0), 1.0, film) for film in films)
+    assert abs(own.minimum_film - fine.minimum_film) < own.grid_error.minimum_film
+    assert abs(own.friction_power - fine.friction_power) < own.grid_error.friction_power
+    assert fine.grid_error.minimum_film < 0.4 * own.grid_error.minimum_film
 
 
 def test_rungs_without_cells_give_no_bounds():

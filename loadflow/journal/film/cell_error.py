@@ -16,13 +16,16 @@ from loadflow.journal.cavitation import LOAD
 from loadflow.journal.film import _error_kernels as kernel
 from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.gap import BoreGap
+from loadflow.journal.film.surface_film import SurfaceFilm
 
 Array = NDArray[np.float64]
 
 _LOAD = 1.0 / 6.0  # of the load, of all second differences
-_PEAK, _AT_PEAK = 1.0 / 3.0, 1.0 / 12.0  # of the peak, of all of them and of those next to it
+_PEAK, _AT_PEAK = 0.4, 0.1  # of the peak, of all of them and of those next to it
 _TURN = 2.5  # of the attitude, of the way of the shaft: it turns more readily than it moves
 _SHEAR, _DRAG = 1.0 / 30.0, 0.3  # of friction, of all of them and of the change of the gap
+# where the unknowns lie on nodes and the film ends on the edges; the whole gap may close there
+_NODES, _CLOSES = 1.25, 1.5
 _FLOW, _OPEN = 1.0 / 3.0, 2.0  # of the side flow, of all of them and of what moves and opens
 
 
@@ -49,7 +52,8 @@ def relative_errors(
     load : array (m,)
         What the film carries, N.
     """
-    share, missing, peak = pressure_error(film, np.hypot(gap.around[0], gap.around[1]), 1.0)
+    width = np.hypot(gap.around[0], gap.around[1])
+    share, missing, peak, _ = pressure_error(film, width, film.mesh.dz, 1.0)
     out = np.zeros(7)
     if stiffness is None:
         size = float(np.hypot(*load[:2]))
@@ -81,19 +85,59 @@ def relative_errors(
     return out
 
 
-def pressure_error(film: DiscreteFilm, width: Array, on_edges: float) -> tuple[float, float, float]:
+def pressure_error(
+    film: DiscreteFilm, width: Array, across: Array, on_edges: float
+) -> tuple[float, float, float, Array]:
     """Second differences over the pressure, what they leave of the load, N, and of the peak.
 
-    `width` (nx,) is that of the cells around, `on_edges` as in `_error_kernels`.
+    `width` (nx,) and `across` (nz,) are those of the cells, `on_edges` is as in `_error_kernels`.
+    The differences of the cells (nx, nz) come last, times the share that counts, Pa.
     """
-    mesh = film.mesh
+    mesh, fields = film.mesh, np.empty((2, *film.mesh.shape))
     whole, bent, highest, beside = kernel.differences(
-        film.state[LOAD], width, mesh.dz, mesh.closed, mesh.half, film.p_line, film.p_edge,
-        on_edges, *np.empty((2, *mesh.shape)),
+        film.state[LOAD], width, across, mesh.closed, mesh.half, film.p_line, film.p_edge,
+        on_edges, *fields,
     )  # fmt: skip
     share = bent / whole if whole > 0.0 else 0.0
     peak = _PEAK * share + (_AT_PEAK * beside / highest if highest > 0.0 else 0.0)
-    return share, _LOAD * film.mirrors * film.radius**2 * bent, peak
+    return (
+        share,
+        _LOAD * film.mirrors * film.radius**2 * bent,
+        peak,
+        _LOAD * (fields[0] + fields[1]),
+    )
+
+
+class SurfaceError:
+    """What the cells leave out of a film on a cone, a plane ring or a straight pad.
+
+    Parameters
+    ----------
+    film : SurfaceFilm
+        A film last placed where it was solved.
+
+    Attributes
+    ----------
+    peak, shear : float
+        Of the largest pressure, and of the friction at a given position, over them.
+    """
+
+    def __init__(self, film: SurfaceFilm) -> None:
+        gap, mesh = film.gap, film.gap.mesh
+        share, _, self.peak, left = pressure_error(film, mesh.weights[0], mesh.carrying, 0.0)
+        self.shear = 2.0 * _NODES * _SHEAR * share
+        self._left = _NODES * film.radius**2 * left
+        self._around, self._across = gap.pressed, gap.across * mesh.carrying
+
+    def missing(self, rows: Array) -> Array:
+        """Bounds (l,) of what combinations `rows` (l, m) of the loads on the film lack, N."""
+        modes = np.einsum("lj,ji,jk->lik", rows, self._around, self._across)
+        return np.asarray(np.einsum("ik,lik->l", self._left, np.abs(modes)))
+
+
+def drag_error(shear: float, gap: float) -> float:
+    """Relative bound of the friction of pads from that at a given position and that of the gap."""
+    return shear + _CLOSES * gap
 
 
 def _inverse(stiffness: Array) -> Array:
