@@ -62,6 +62,14 @@ def test_journal_bearings_may_differ_but_for_how_they_are_modelled():
     assert [scene.journal.at(p).geometry.diameter for p in ("N", "N2")] == [1.2, 0.8]
     with pytest.raises(InputError, match="motion"):
         scene_with(N=journal(1.2), N2=journal(0.8, motion="transient"))
+    moving = scene_with(N=journal(1.2, motion="transient", rung="reduced"), N2=journal(0.8))
+    assert moving.journal.at("N2").in_motion
+    written = tomllib.loads(moving.to_toml())
+    assert "motion" not in written["bearings"]["N2"]
+    assert make_scene(written) == moving
+    thick = {"kind": "thick", "outer_diameter": 1.2, "modulus": 1e11}
+    with pytest.raises(InputError, match="reduced"):
+        scene_with(N=journal(1.2, rung="reduced"), N2=journal(0.8, shell=thick))
 
 
 def test_the_two_forms_give_the_same_scene():
