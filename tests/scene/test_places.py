@@ -134,6 +134,19 @@ def test_an_older_scene_is_read_and_its_owner_told_how_to_write_it(tmp_path):
     assert old.journal.boundary_friction == 0.1
 
 
+@pytest.mark.parametrize("version", [{}, {"schema": 2}])
+def test_supports_were_seats_and_are_still_read_as_such(version):
+    beam = {"supports": [{"radial": 1e9}, {}]}
+    today = make_scene({"shaft": {"two_point": {"beam": beam}}})
+    former = {"shaft": {"two_point": {"beam": {"seats": beam["supports"]}}}}
+    with pytest.warns(
+        FormerVersionWarning, match=r"shaft\.two_point\.beam\.seats is supports today"
+    ):
+        assert make_scene(version | former) == today
+    with pytest.raises(InputError, match="seats"):
+        make_scene({"schema": SCENE.version} | former)
+
+
 @pytest.mark.parametrize(
     ("places", "told"),
     [
