@@ -185,7 +185,8 @@ class Journal(Section, BaseModel):
     def _a_model_that_knows_the_film(self) -> Self:
         verb: Verb = "in_motion" if self.in_motion else "at_rest"
         line = Line(moment=np.zeros((1, 2))) if self.tilt else Line()
-        for journal in (self, *(self.at(place) for place in self.own)):
+        journals: list[Journal] = [self, *(self.at(place) for place in self.own)]
+        for journal in journals:
             why = why_not(verb, journal.film_model, journal.geometry, line)
             if why is not None:
                 raise ValueError(why)
