@@ -14,7 +14,8 @@
 `results`        what comes back; `rows`: how solved films become results
 `heat`           oil and cooling: `Heat`, `FilmHeat`; `heat_results` what comes back
 `thermal`        heat balance; `energy`: losses against the power of the shaft
-`validity`       limits of the model: turbulence; `grid_error`: error of the cells
+`turbulence`     turbulent flow in the film
+`validity`       limits of the model: laminar flow; `grid_error`: error of the cells
 `dimensionless`  a bearing in numbers without dimension
 `film`           the discrete film: mesh, gap, balance, grooves, elastic shells, kernels
 `models`         the rungs: charts, mobility map, few unknowns across the width

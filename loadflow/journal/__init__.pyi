@@ -58,6 +58,7 @@ from .surfaces import Step as Step
 from .surfaces import Taper as Taper
 from .thrust import RectangularThrustBearing as RectangularThrustBearing
 from .thrust import ThrustBearing as ThrustBearing
+from .turbulence import Turbulence as Turbulence
 from .wear import Cycle as Cycle
 from .wear import Wear as Wear
 from .wear import wear_bearing as wear_bearing
