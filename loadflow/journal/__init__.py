@@ -9,6 +9,7 @@
 `surfaces`       cone, plane ring, straight pad, profiles
 `shapes`         shapes of the bore and their relief
 `shells`         elastic shells; `contact`: asperities; `stribeck`: friction over speed
+`crowning`       best crown for a spectrum of loads
 `wear`           wear of a bore over a lifetime of starts and stops; `worn_surface`: its points
 `supply`         grooves, pockets, restrictors, pump
 `results`        what comes back; `rows`: how solved films become results

@@ -11,6 +11,8 @@ from .coefficients import rotor_coefficients as rotor_coefficients
 from .cone import ConicalBearing as ConicalBearing
 from .conical_pair import ConicalPair as ConicalPair
 from .contact import Contact as Contact
+from .crowning import BestCrown as BestCrown
+from .crowning import best_crown as best_crown
 from .dimensionless import UnitBearing as UnitBearing
 from .double_thrust import DoubleThrustBearing as DoubleThrustBearing
 from .double_thrust import DoubleThrustResult as DoubleThrustResult
