@@ -15,6 +15,8 @@ from loadflow.journal.film import _kernels as kernel
 from loadflow.journal.film.asperity_load import AsperityLoad
 from loadflow.journal.film.gap import Gap, turning_frame
 from loadflow.journal.film.groove_pressure import Pockets
+from loadflow.journal.lubricant import Lubricant
+from loadflow.journal.turbulence import Regime, Turbulence
 
 Array = NDArray[np.float64]
 
@@ -98,6 +100,7 @@ class DiscreteFilm:
         self.fixed = self.grooved = pockets.fixed  # cells held, and those of them without drag
         self.given = pockets.given(edge_pressure)
         self.lifts = pockets.lifts(edge_pressure)  # whether the supply may carry a load at rest
+        self.regime: Regime | None = None  # of a flow that may be turbulent
         self.set_scale(0.0)
         self.set_speed(0.0)
 
@@ -114,6 +117,14 @@ class DiscreteFilm:
         """Set the speed of the shaft, rad/s."""
         self.speed = speed
         self.wedge = 0.5 * self.slope * speed
+        if self.regime is not None:
+            self.gap.regime = self.regime.at(speed)
+
+    def let_turn_turbulent(self, turbulence: Turbulence, lubricant: Lubricant) -> None:
+        """Let the flow be turbulent where its Reynolds number is large enough."""
+        lengths = self.radius, self.relative_clearance
+        self.regime = turbulence.regime(*lengths, lubricant)
+        self.set_speed(self.speed)
 
     def set_scale(self, rate: float) -> None:
         """Set the scale of pressure and unknowns, Pa, from the largest speed or squeeze, 1/s."""

@@ -164,6 +164,7 @@ def _asked(
         "local_shell" if film.shell is not None and film.shell.local else "shell": film.shell,
         "contact": film.contact,
         "contact_on_shell": None if film.shell is None else film.contact,
+        "turbulence": film.turbulence,
         "step": None if steps.step == "given" else steps.step,
         "periodic": steps.periodic or None,
     }
@@ -199,6 +200,10 @@ def _pairs(
     yield "contact", film.contact, spreads, "None with a shell that is pressed open around, too"
     yield "contact", film.contact, pads, "None for pads that tilt"
     yield "contact", film.contact, over_area, "None with heat over the area"
+    stored = _kind_of_heat(film, verb) == "slow_heat"
+    yield "turbulence", film.turbulence, over_area, "None with heat over the area"
+    allowed = 'None with heat that is stored, but on rung = "reduced"'
+    yield "turbulence", film.turbulence, stored and film.rung != "reduced", allowed
 
 
 def _kind_of_heat(film: Film, verb: Verb) -> str:

@@ -59,7 +59,9 @@ class Ring(NamedTuple):
 
 def units_of(bearing: JournalGeometry, options: Film, speed: Array) -> DiscreteFilm:
     """The grid's film without effects on cells fixed to the shell: its units, law and cells."""
-    bare = replace(options, grading="uniform", inlet=None, contact=None, shell=None)
+    bare = replace(
+        options, grading="uniform", inlet=None, contact=None, shell=None, turbulence=None
+    )
     film = build_film(bearing.diameter, bearing.width, bearing.relative_clearance, bare)
     film.set_scale(float(np.abs(speed).max()))
     return film
