@@ -31,8 +31,8 @@ def with_fitting_beams(shaft: Any, journal: Any) -> Any:
     Examples
     --------
     >>> from loadflow.scene.fitting_shaft import with_fitting_beams
-    >>> with_fitting_beams({"two_point": {"beam": {}}}, {"geometry": {"diameter": 1.4}})
-    {'two_point': {'beam': {'sections': [{'outer_diameter': 1.4, 'inner_diameter': 0.7}]}}}
+    >>> with_fitting_beams({"two_point": {"beam": {}}}, {"bearings": ["N", "N2"]})
+    {'two_point': {'beam': {'sections': [{'outer_diameter': 3.0, 'inner_diameter': 1.5}]}}}
     """
     if not isinstance(shaft, dict):
         return shaft
