@@ -68,7 +68,7 @@ def fitting_unit(units: str, largest: float) -> tuple[float, str]:
 
     Examples
     --------
-    >>> fitting_unit("N m", 160.0), fitting_unit("N m", 2e6)
+    >>> fitting_unit("N m", 16.0), fitting_unit("N m", 2e6)
     ((1.0, 'N m'), (1e-06, 'MN m'))
     """
     usual = READABLE.get(units, (1.0, units))

@@ -34,7 +34,8 @@ def film_series(samples: xr.Dataset) -> Figure:
     for axis, (name, unit) in zip(axes, panels):
         values, shown = readable(samples[name], unit)
         axis.plot(samples["time"], values, lw=0.7)
-        axis.set_ylabel(f"{samples[name].attrs['long_name']},\n{shown}")
+        said = samples[name].attrs["long_name"]
+        axis.set_ylabel(said if shown == "–" else f"{said},\n{shown}")
     reduced = samples.attrs.get("motion") == "quasi-static"
     axes[2].set_xlabel("time, s (reduced series)" if reduced else "time, s")
     return drawing

@@ -138,7 +138,7 @@ def thinned(x: ArrayLike, y: ArrayLike, samples: int) -> tuple[np.ndarray, np.nd
     --------
     >>> x, y = thinned(range(8), [0, 5, 1, 0, 0, 0, -3, 0], 4)
     >>> x.tolist(), y.tolist()
-    ([0.0, 2.0, 4.0, 6.0], [5.0, 0.0, 0.0, -3.0])
+    ([0.0, 2.0, 4.0, 6.0], [0.0, 5.0, 0.0, -3.0])
     """
     x, y = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
     if y.size <= samples:

@@ -36,12 +36,12 @@
       ...(data.points ? { paths: () => null, points: { show: true, size: 5, fill: COLOURS[i % COLOURS.length] } } : { points: { show: false } }),
     }));
     return {
-      width: width(box, many), height: data.points ? 230 : 150 + (last ? 25 : 0),
+      width: width(box, many), height: data.points ? 230 : 158 + (last ? 17 : 0),
       title: wide ? panel.label : undefined,
       cursor: { sync: data.points ? undefined : { key: box.dataset.key, scales: ["x", null] }, drag: { x: true, y: false } },
       scales: { x: { time: false, ...(data.points ? { range: (_, a, b) => [a - 0.04 * (b - a || 1), b + 0.04 * (b - a || 1)] } : {}) }, y: { distr: panel.log ? 3 : 1, ...(panel.level != null ? { range: (_, a, b) => reach(a, b, panel) } : {}) } },
       axes: [
-        { show: true, label: last ? data.label : undefined, labelSize: 18, size: last ? 30 : 22, font: "11px system-ui, sans-serif", labelFont: "11px system-ui, sans-serif", grid: { stroke: "#e6eaef", width: 1 } },
+        { show: true, label: last ? data.label : undefined, labelSize: 18, size: 30, font: "11px system-ui, sans-serif", labelFont: "11px system-ui, sans-serif", grid: { stroke: "#e6eaef", width: 1 } },
         { label: wide ? undefined : panel.label, labelSize: 18, size: 54, font: "11px system-ui, sans-serif", labelFont: "11px system-ui, sans-serif", grid: { stroke: "#e6eaef", width: 1 }, ...(panel.log ? {} : { values: (_, ticks) => ticks.map(rounded) }) },
       ],
       series: [{ label: data.points ? "of" : data.label, value: (_, v, __, i) => (data.names && i != null ? data.names[i] : rounded(v)) }, ...series],
