@@ -211,6 +211,7 @@ OTHERS = {
     "journal.supply.pump": [{"flow": [0.0, 0.01], "pressure": [8e5, 2e5]}],
     "dynamics.speed_range": [[0.8, 1.6]],
     "wear.running_in.initial_roughness": [1.0000001e-6],
+    "thrust.rung": ["curve"],
     "thrust.bearings.N2.geometry.profile": [{"kind": "step", "height": 1e-4}],
     "thrust.bearings.N2.geometry.pivot": [{"share": 0.6}],
     "thrust.bearings.N2.geometry.first_pad": [0.1],

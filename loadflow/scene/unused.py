@@ -339,6 +339,8 @@ def _of_friction(scene: Scene) -> Iterator[tuple[str, str]]:
 def _of_thrust(scene: Scene) -> Iterator[tuple[str, str]]:
     simulated = scene.loads.source == "simulate"
     starts = any(map(_starts, scene.loads.dlcs))
+    if not scene.thrust.collars:
+        yield "thrust.rung", "no bearing of this scene is a thrust collar"
     for place, one in scene.thrust.bearings.items():
         if simulated and not starts and one.limits.start_time is not None:
             where = f"thrust.bearings.{place}.limits.start_time"
