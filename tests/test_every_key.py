@@ -89,6 +89,7 @@ BASES = {
         "reduction": {"size": 0.5}, "results": ["journal.film", "journal.wear"],
         "wear": {"law": {"coefficient": 1e-13}, "samples": 12, "around": 90, "running_in": {
             "initial_roughness": 1e-6, "final_roughness": 9e-7, "depth": 1e-6}},
+        "loads": {"dlc": ["1.2", "3.1"]}, "lifetime": {"per_year": {"3.1": 1e3}},
     },
     "tapered rollers": {
         "shaft": {"two_point": {}},
@@ -144,7 +145,7 @@ READERS = {
     "rotor dynamics": ("dynamics",),
     "rotor dynamics, rigid": ("dynamics",),
     "rigid and tilted": ("journal",),
-    "worn bores": ("wear",),
+    "worn bores": ("wear", "lifetime"),
     "tapered rollers": ("rolling", "friction"),
     "thrust collar": ("thrust",),
     "pair of cones": ("thrust",),
@@ -362,6 +363,7 @@ def _inputs(scene):
 
 class _One:
     dlc, wind_speed, seed, weight, name = "1.1", 8.0, 1, 1.0, "dlc1.1_v8_s1"
+    duration = 600.0
 
 
 ONE = _One()
@@ -453,7 +455,7 @@ def _seeds(scene, add):
 FOUND = {
     "loads": _loads, "turbine": _loads, "shaft": lambda s, add: _shaft(s, add) and None,
     "seeds": _seeds, "reduction": _reduction, "journal": _journal, "rolling": _rolling,
-    "friction": _friction, "dynamics": _dynamics, "wear": _wear,
+    "friction": _friction, "dynamics": _dynamics, "wear": _wear, "lifetime": _wear,
     "thrust": _thrust,
     "environment": _environment,
 }  # fmt: skip

@@ -293,9 +293,10 @@ def _collars(scene: Scene, case: Case, parts: Parts) -> Iterator[Difference]:
         if not film["converged"].any():
             continue
         some = _spread(film["minimum_film"].values)
-        samples = samples_of(scene, case, bearing, place, parts).isel(sample=some)
-        theirs = solved(bearing, place, samples)
         ours = {name: film[name].values[some] for name in ("minimum_film", "maximum_pressure")}
+        samples = samples_of(scene, case, bearing, place, parts).isel(sample=some)
+        found = solved(bearing, place, samples)
+        theirs = {name: found[name].values for name in ours}
         where, against = f"{case.name}, {place}", "the collar on the grid"
         yield from _rows("thrust", "thrust.film", where, against, ours, theirs)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -62,7 +63,7 @@ def films(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
 
 
 def samples_of(
-    scene: Scene, case: Case, bearing: AnyAxial, place: str, inputs: dict[str, Any]
+    scene: Scene, case: Case, bearing: AnyAxial, place: str, inputs: Mapping[str, Any]
 ) -> xr.Dataset:
     """Samples of one case: `time`, `speed`, `weight` (sample), `force` and `moment` (sample, axis).
 
@@ -118,7 +119,8 @@ def solved(bearing: AnyAxial, place: str, samples: xr.Dataset, rung: str = "grid
     speed = samples["speed"].values.astype(float)
     found = {name: np.full(speed.size, np.nan) for name in (*KEPT, "friction_torque")}
     found |= {"converged": np.zeros(speed.size, bool), "iterations": np.zeros(speed.size, int)}
-    touching, why, open_, about = np.zeros(speed.size, bool), "", [*range(speed.size)], {}
+    touching, why, open_ = np.zeros(speed.size, bool), "", [*range(speed.size)]
+    about: dict[str, Any] = {}
     curve = _by_curve(bearing, force, speed) if rung == "curve" else None
     if curve is not None:
         touching = curve.touching | (curve.minimum_film < bearing.contact_film)
