@@ -29,6 +29,7 @@ from loadflow.scene.environment import Environment, surrounded
 from loadflow.scene.fitting_shaft import fitted, with_fitting_beams
 from loadflow.scene.friction import Friction
 from loadflow.scene.journal import Journal
+from loadflow.scene.lifetime import Lifetime, check_per_year
 from loadflow.scene.loads import Loads, check_simulation
 from loadflow.scene.messages import message
 from loadflow.scene.own_shaft import taken
@@ -107,6 +108,7 @@ class Scene(Section, BaseModel):
     journal: Journal = Journal()
     dynamics: Dynamics = Dynamics()
     wear: Wear = Wear()
+    lifetime: Lifetime = Lifetime()
     rolling: Rolling = Rolling()
     thrust: Thrust = Thrust()
     friction: Friction = Friction()
@@ -187,6 +189,12 @@ class Scene(Section, BaseModel):
                         'reduction.method = "periodic": a closed orbit does not know the tilt of a '
                         "shaft with a beam; leave out journal.tilt or the beam"
                     )
+        return self
+
+    @model_validator(mode="after")
+    def _events_are_there(self) -> Self:
+        if self.loads.source == "simulate":
+            check_per_year(self.lifetime, self.loads.dlcs, "rayleigh")
         return self
 
     @model_validator(mode="after")
