@@ -9,6 +9,7 @@ import h5py
 import numpy as np
 
 from loadflow.errors import InputError
+from loadflow.storage import check_content
 
 PACKED = 1100
 """Largest ratio of values to stored bytes: deflate does not pack more densely than 1032 : 1."""
@@ -35,6 +36,7 @@ def check_hdf5(path: Path) -> None:
     size = path.stat().st_size
     if size == 0:
         raise InputError(f"{path}: cannot be read as HDF5; the file is empty")
+    check_content(path)
     try:
         with h5py.File(path, "r") as file:
             found = [*_attributes("/", file)]
