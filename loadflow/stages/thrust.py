@@ -17,6 +17,7 @@ from loadflow.stages.film_summary import summary
 from loadflow.stages.frames import to_rolling
 from loadflow.stages.labelling import label, of_samples
 from loadflow.stages.reduction import kept_share
+from loadflow.stages.running_time import with_running
 from loadflow.stages.stage import Link, Links, Measured, Stage, always, load_links, steps_of
 
 KEPT = table(
@@ -46,7 +47,8 @@ def films(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
     """
     found = {}
     for place, bearing in scene.thrust.bearings.items():
-        found[place] = solved(bearing, place, samples_of(scene, case, bearing, place, inputs))
+        samples = samples_of(scene, case, bearing, place, inputs)
+        found[place] = with_running(scene, solved(bearing, place, samples))
     return xr.DataTree.from_dict(found)
 
 
