@@ -29,7 +29,7 @@ FLOORS = (
     ("wind", "rotor", "shaft", "seeds", "reduction", "readers"),
     ("cube", "turbines", "tribology"),
     ("numerics", "plots"),
-    ("storage", "schemas", "verdict", "quantities"),
+    ("storage", "schemas", "former_names", "verdict", "quantities"),
     ("errors", "data"),
 )
 """Rooms from top to bottom. Those of one floor may use each other, if none does in a circle."""

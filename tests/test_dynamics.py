@@ -121,14 +121,14 @@ HUB = case(8.0, 1, steps=60)
 def test_rolling_bearings_and_given_stiffness_stand_beside_films():
     balls = {"kind": "ball", "balls": 30, "ball_diameter": 0.15, "pitch_diameter": 2.0,
              "groove_radius": 0.078}  # fmt: skip
-    seats = {"given": {"radial": 4e9}, "rolling": {"stiffness": "rolling"}, "rigid": {}}
+    supports = {"given": {"radial": 4e9}, "rolling": {"stiffness": "rolling"}, "rigid": {}}
     lowest = {}
-    for name, seat in seats.items():
+    for name, support in supports.items():
         scene = make_scene(
             {
                 "name": "mixed",
                 "results": ["journal.dynamics"],
-                "shaft": {"two_point": {"beam": {"seats": [{}, seat]}}},
+                "shaft": {"two_point": {"beam": {"supports": [{}, support]}}},
                 "journal": {"bearings": ["N"], "grid": [24, 8]},
                 "rolling": {"bearing": "N2", "geometry": balls},
             }

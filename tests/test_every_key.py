@@ -200,7 +200,7 @@ OTHERS = {
     "rolling.oscillation": [{"amplitude": 0.1, "frequency": 0.1}],
     "rolling.oscillation.mounting": ["pitch", "yaw, four-leg tower"],
     "shaft.two_point.beam": [{}],
-    "shaft.two_point.beam.seats": [[{"radial": 1e9}, {}]],
+    "shaft.two_point.beam.supports": [[{"radial": 1e9}, {}]],
     "shaft.three_point.beam": [{}],
     "shaft.integrated.beam": [{}],
     "shaft.direct_drive.beam": [{}],

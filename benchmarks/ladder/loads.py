@@ -191,7 +191,7 @@ def measure_shaft(bench: Bench) -> Rungs:
 
     found = {name: entry(section) for name, section in rungs.items()}
     seat = BearingSupport(radial=5e9, takes_moment=True, tilt=TILTING)
-    tough = loaded(Shaft(two_point=replace(two, beam=Beam(seats=(seat, seat)))))
+    tough = loaded(Shaft(two_point=replace(two, beam=Beam(supports=(seat, seat)))))
     loads = {"rigid": loaded(rungs["two_point"]), "tough": tough}
     peaks = {
         kind: {n: np.hypot(*_across(data["force"].sel(bearing=n))).max() for n in ("N", "N2")}

@@ -50,17 +50,17 @@ EXACT = 300
 
 
 def scene_of(
-    bench: Bench, seats: list[dict[str, Any]], concept: str = "two_point", rings: str = "rigid"
+    bench: Bench, supports: list[dict[str, Any]], concept: str = "two_point", rings: str = "rigid"
 ) -> Scene:
-    """The scene of the benchmark with a beam on `seats`; its ball bearing stands where it may."""
+    """The scene of the benchmark, a beam on `supports`; its ball bearing stands where it may."""
     whole = bench.scene.model_dump()
     names = {"two_point": ("N", "N2"), "three_point": ("N", "G")}[concept]
-    place = next((n for n, s in zip(names, seats) if s.get("stiffness") == "rolling"), names[0])
+    place = next((n for n, s in zip(names, supports) if s.get("stiffness") == "rolling"), names[0])
     return make_scene(
         {
-            "name": "seats",
+            "name": "supports",
             "results": ["loads.statistics"],
-            "shaft": {concept: {"beam": {"sections": [SECTION], "seats": seats}}},
+            "shaft": {concept: {"beam": {"sections": [SECTION], "supports": supports}}},
             "journal": whole["journal"] | {"tilt": True, "bearings": list(names)},
             "rolling": {"bearing": place, "rings": rings, "geometry": whole["rolling"]["geometry"]},
         }
@@ -69,11 +69,11 @@ def scene_of(
 
 def models(scene: Scene, name: str, speed: np.ndarray, thrust: np.ndarray) -> Any:
     """The bearing's own model."""
-    seat = scene.shaft.coupled[name]
-    if seat.stiffness == "journal":
-        return film_seat.film_model(scene.journal, speed, tilting=seat.takes_moment)
+    support = scene.shaft.coupled[name]
+    if support.stiffness == "journal":
+        return film_seat.film_model(scene.journal, speed, tilting=support.takes_moment)
     part = scene.rolling.bearings[name]
-    return rolling_seat.rolling_model(part, thrust, tilting=seat.takes_moment)
+    return rolling_seat.rolling_model(part, thrust, tilting=support.takes_moment)
 
 
 def solved(scene: Scene, loads: xr.Dataset, found: xr.Dataset, some: np.ndarray) -> xr.Dataset:
@@ -109,8 +109,8 @@ def measure_supports(bench: Bench) -> Rungs:
         [OWN["journal"], OWN["rolling"]],
     ]
     rungs: Rungs = {}
-    for seats in pairs:
-        scene = scene_of(bench, seats)
+    for supports in pairs:
+        scene = scene_of(bench, supports)
         seconds = seconds_of(lambda s=scene: shaft.bearing_loads(s, case, parts), 1)  # type: ignore[misc]
         rungs[rung_key(scene, "shaft")] = _entry(scene, case, parts, seconds)
     return rungs
@@ -128,7 +128,7 @@ def _entry(scene: Scene, case: Case, parts: dict[str, xr.Dataset], seconds: floa
         where = f"{label(case)}, t = {found['time'].values[some[worst]]:.0f} s"
         errors.add(quantity, where, ours[..., worst], theirs[..., worst], abs(theirs).max())
     summary = errors.summary()
-    with_film = any(seat.stiffness == "journal" for seat in scene.shaft.coupled.values())
+    with_film = any(support.stiffness == "journal" for support in scene.shaft.coupled.values())
     film = {"film": rung_key(scene, "journal")} if with_film else {}
     return {
         **film,
@@ -152,10 +152,10 @@ def compare(bench: Bench, case: Case, loads: xr.Dataset) -> Iterator[str]:
         "three points, ball bearing N": ("three_point", [OWN["rolling"], ARMS]),
         "three points, film N": ("three_point", [OWN["journal, tilting"], {}]),
     }
-    for name, (concept, seats) in suspensions.items():
-        scene = scene_of(bench, seats, concept)
+    for name, (concept, supports) in suspensions.items():
+        scene = scene_of(bench, supports, concept)
         found = shaft.bearing_loads(scene, case, {"loads": loads})
-        plain = [{k: v for k, v in s.items() if k != "stiffness"} for s in seats]
+        plain = [{k: v for k, v in s.items() if k != "stiffness"} for s in supports]
         fixed = [s | numbers(scene, loads, found, n) for s, n in zip(plain, scene.shaft.bearings)]
         rows = {
             "rigid shaft, no moment": {concept: {}},
@@ -169,8 +169,8 @@ def compare(bench: Bench, case: Case, loads: xr.Dataset) -> Iterator[str]:
         yield f"| {name} | beam, iterated | {_peaks(found)} |"
 
 
-def _beam(concept: str, seats: list[dict[str, Any]]) -> dict[str, Any]:
-    return {concept: {"beam": {"sections": [SECTION], "seats": seats}}}
+def _beam(concept: str, supports: list[dict[str, Any]]) -> dict[str, Any]:
+    return {concept: {"beam": {"sections": [SECTION], "supports": supports}}}
 
 
 def numbers(scene: Scene, loads: xr.Dataset, found: xr.Dataset, name: str) -> dict[str, float]:

@@ -5,6 +5,7 @@ from .build import select as select
 from .checks import check_case as check_case
 from .checks import check_cube as check_cube
 from .checks import regular_time as regular_time
+from .checks import time_step as time_step
 from .export import EXPORTS as EXPORTS
 from .export import export_cube as export_cube
 from .files import open_cube as open_cube

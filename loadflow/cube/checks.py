@@ -135,6 +135,23 @@ def regular_time(stamps: ArrayLike, where: str = "time") -> tuple[float, NDArray
     return step, t[0] + step * np.arange(t.size)
 
 
+def time_step(series: xr.Dataset | xr.DataArray) -> float:
+    """Step, s, of a series with an equidistant coordinate ``time``, s, of two samples or more.
+
+    Rounded to a nanosecond, so that series of one nominal step agree.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import xarray as xr
+    >>> from loadflow.cube import time_step
+    >>> time_step(xr.DataArray(np.zeros(3), coords={"time": [0.1, 0.2, 0.3]}, dims="time"))
+    0.1
+    """
+    time = series["time"].values
+    return round(float(time[1] - time[0]), 9)
+
+
 def _regular_step(t: NDArray[np.float64]) -> float | None:
     """Shortest decimal number that is the step of all stamps, so that equal nominal steps agree.
 

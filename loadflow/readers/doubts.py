@@ -14,7 +14,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from loadflow.cube import standing, standing_share
+from loadflow.cube import standing, standing_share, time_step
 from loadflow.readers.frames import turning_order
 
 GRAVITY = 9.80665
@@ -140,10 +140,9 @@ def _weight(case: xr.Dataset, turbine: Any) -> Iterator[str]:
 
 def _frame(case: xr.Dataset) -> Iterator[str]:
     """Tell of a lateral force that turns with the rotor."""
-    time = case["time"].values
     force = case["hub_force"].astype(float)
     lateral = force.sel(axis="y").values + 1j * force.sel(axis="z").values
-    found = turning_order(lateral, case["speed"].values.astype(float), float(time[1] - time[0]))
+    found = turning_order(lateral, case["speed"].values.astype(float), time_step(case))
     if found is None:
         return
     order, size, mean = found
@@ -190,8 +189,7 @@ def _speed(case: xr.Dataset, turbine: Any, rated_speed: float) -> Iterator[str]:
 
 def _step(case: xr.Dataset, turbine: Any, rated_speed: float) -> Iterator[str]:
     """Tell of a step that does not resolve the passing of the blades."""
-    time = case["time"].values
-    step = float(time[1] - time[0])
+    step = time_step(case)
     mean = abs(float(case["speed"].astype(float).mean()))
     frequency = turbine.rotor.blades * min(mean, SPEED_FACTOR * rated_speed) / (2 * math.pi)
     if frequency * step * SAMPLES_PER_3P > 1:

@@ -84,7 +84,8 @@ class Run:
 def collect(plan: Plan, folder: Path, where: Executor) -> xr.DataTree:
     """Join what the stages found, reduced to what a reader wants of each case."""
     found, missing = summaries(plan, folder, where)
-    found |= {step.name: open_cube(part_file(folder, step.name)) for step in plan.of_scope("run")}
+    whole = {step.name: part_file(folder, step.name) for step in plan.of_scope("run")}
+    found |= {name: open_cube(part) for name, part in whole.items() if part.exists()}
     groups = {step.name: found[step.name] for step in plan.steps if step.name in found}
     groups |= _judged(plan.scene, groups, missing)
     return xr.DataTree.from_dict(

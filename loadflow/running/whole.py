@@ -16,7 +16,7 @@ from loadflow.errors import LoadflowError
 from loadflow.planning.plan import Plan, Step
 from loadflow.running.cases import OpenedLate, is_ready, open_inputs
 from loadflow.running.compiling import Compiling
-from loadflow.running.executor import Executor, Lost
+from loadflow.running.executor import Executor, Lost, Outcome
 from loadflow.running.folder import part_file
 from loadflow.running.parts import save_part
 from loadflow.scene.cases import Case
@@ -58,6 +58,8 @@ def finish_stages(
 ) -> Iterator[Finished]:
     """Do what is missing of the stages over all cases, and yield each that is finished.
 
+    A stage that no case is ready for is not done, and leaves no part.
+
     Parameters
     ----------
     seen : sequence of str
@@ -76,16 +78,14 @@ def finish_stages(
             continue
         cases = _looked_at(step, plan.cases, folder, seen)
         own = [Piece(step, k, tuple(c)) for k, c in enumerate(step.stage.pieces(plan.scene, cases))]
+        if not own:
+            continue
         left[step.name] = dict.fromkeys(range(len(own)))
         say(step.name, 0, len(own))
         pieces += own
     work = partial(_do_piece, scene=plan.scene, folder=folder)
-    for piece, outcome in where.outcomes(work, pieces):
+    for piece, outcome in _done(where, work, pieces):
         step = piece.step
-        if isinstance(outcome, Lost):
-            raise LoadflowError(
-                f"{step.name}: {outcome.reason}; started again, the run goes on where it was"
-            )
         left[step.name][piece.number] = outcome
         found = [one for one in left[step.name].values() if one is not None]
         say(step.name, len(found), len(left[step.name]))
@@ -105,24 +105,35 @@ def summaries(
 ) -> tuple[dict[str, Summary], dict[str, list[str]]]:
     """Return what the stages of a load case gave, summed up by stage, and the cases they lack."""
     steps = [step for step in plan.steps if step.stage.scope == "case" and step.stage.summarise]
-    there = {
-        step.name: [case for case in plan.cases if part_file(folder, step.name, case).exists()]
-        for step in steps
-    }
-    missing = {
-        step.name: [case.name for case in plan.cases if case not in set(there[step.name])]
-        for step in steps
-    }
-    tasks = [Piece(step, 0, tuple(there[step.name])) for step in steps if there[step.name]]
-    found: dict[str, Summary] = {}
-    for task, outcome in where.outcomes(partial(_summary, folder=folder), tasks):
+    missing: dict[str, list[str]] = {}
+    pieces = []
+    for step in steps:
+        is_there = {case: part_file(folder, step.name, case).exists() for case in plan.cases}
+        missing[step.name] = [case.name for case, there in is_there.items() if not there]
+        there = tuple(case for case, there in is_there.items() if there)
+        if there:
+            pieces.append(Piece(step, 0, there))
+    done = _done(where, partial(_summary, folder=folder), pieces)
+    found = {piece.step.name: outcome for piece, outcome in done if outcome is not None}
+    return found, missing
+
+
+def _done(
+    where: Executor, work: Callable[[Piece], Outcome], pieces: Sequence[Piece]
+) -> Iterator[tuple[Piece, Outcome]]:
+    """Yield each piece with what was made of it, as they are done.
+
+    Raises
+    ------
+    loadflow.errors.LoadflowError
+        The worker of a piece was killed.
+    """
+    for piece, outcome in where.outcomes(work, pieces):
         if isinstance(outcome, Lost):
             raise LoadflowError(
-                f"{task.step.name}: {outcome.reason}; started again, the run goes on where it was"
+                f"{piece.step.name}: {outcome.reason}; started again, the run goes on where it was"
             )
-        if outcome is not None:
-            found[task.step.name] = outcome
-    return found, missing
+        yield piece, outcome
 
 
 def _summary(piece: Piece, folder: Path) -> Summary | None:

@@ -28,6 +28,7 @@ from loadflow.journal.thermal import grown_by
 from loadflow.scene.films import HeatTable, Law, RungName
 from loadflow.scene.limits import JournalLimits
 from loadflow.scene.messages import message
+from loadflow.scene.places import SHARED
 from loadflow.scene.section import Section
 
 Positive = Annotated[float, Field(gt=0)]
@@ -104,24 +105,19 @@ class Journal(Section, BaseModel):
     @model_validator(mode="after")
     def _one_model_for_all(self) -> Self:
         for place, other in self.own.items():
-            for name in other.model_fields_set.intersection(_OF_ALL):
+            for name in other.model_fields_set.intersection(SHARED):
                 if getattr(other, name) != getattr(self, name):
                     raise ValueError(
                         f"{name}: all journal bearings of a scene have one, but {place} has "
                         f"{getattr(other, name)!r} beside {getattr(self, name)!r}"
                     )
-            stated = other.model_fields_set.copy()
-            alike = other.model_copy(update={name: getattr(self, name) for name in _OF_ALL})
-            # what it did not state stays open, so that the plan may change it for all of them
-            alike.__pydantic_fields_set__ = stated
-            self.own[place] = alike
         return self
 
     def at(self, place: str) -> Journal:
         """The data of one of the bearings."""
         if place not in self.own:
             return self
-        return self.own[place].model_copy(update={name: getattr(self, name) for name in _OF_ALL})
+        return self.own[place].model_copy(update={name: getattr(self, name) for name in SHARED})
 
     @model_validator(mode="after")
     def _smoother_than_the_gap(self) -> Self:
@@ -187,17 +183,14 @@ class Journal(Section, BaseModel):
 
     @model_validator(mode="after")
     def _a_model_that_knows_the_film(self) -> Self:
-        film = self.film_model
         verb: Verb = "in_motion" if self.in_motion else "at_rest"
         line = Line(moment=np.zeros((1, 2))) if self.tilt else Line()
-        why = why_not(verb, film, self.geometry, line)
-        if why is not None:
-            raise ValueError(why)
+        journals: list[Journal] = [self, *(self.at(place) for place in self.own)]
+        for journal in journals:
+            why = why_not(verb, journal.film_model, journal.geometry, line)
+            if why is not None:
+                raise ValueError(why)
         return self
-
-
-_OF_ALL = ("motion", "step", "tilt", "rung", "grid", "grading")
-"""What all journal bearings of a scene share: how the film is modelled."""
 
 
 def make_journal(data: dict[str, Any], source: str = "journal") -> Journal:

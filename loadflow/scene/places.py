@@ -26,6 +26,9 @@ _WRITTEN = {registered: written for written, registered in _REGISTERED.items()}
 PLACE_KINDS = (JOURNAL, *AXIAL, *(_WRITTEN.get(kind, kind) for kind in KINDS))
 """What `kind` a bearing of a scene may have."""
 
+SHARED = ("motion", "step", "tilt", "rung", "grid", "grading")
+"""Keys that all journal bearings of a scene share: how the film is modelled."""
+
 Location = tuple[int | str, ...]
 
 
@@ -105,9 +108,8 @@ def places_of(
         for place in journal["bearings"]:
             alike = place not in own and place != first
             stated: Mapping[str, Any] = {"like": first} if alike else own.get(place, common)
-            data = {
-                name: value for name, value in stated.items() if name not in ("bearings", "own")
-            }
+            unwritten = ("bearings", "own", *(SHARED if place in own else ()))
+            data = {name: value for name, value in stated.items() if name not in unwritten}
             found.setdefault(place, []).append(data if alike else {"kind": JOURNAL} | data)
     if rolling is not None:
         for part in ({k: v for k, v in rolling.items() if k != "further"}, *rolling["further"]):

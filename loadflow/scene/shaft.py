@@ -71,7 +71,8 @@ class Shaft(Section, BaseModel):
         return {
             name: support
             for concept in self.concepts
-            for name, support in zip(concept.bearings, concept.beam.seats if concept.beam else ())
+            if concept.beam is not None
+            for name, support in zip(concept.bearings, concept.beam.supports)
             if support.stiffness != "given"
         }
 

@@ -22,9 +22,27 @@ def _with_places(data: dict[str, Any]) -> tuple[dict[str, Any], list[str]]:
     ]
 
 
-SCENE = Schema("scene", "schema", (_with_places,))
-"""Form of scenes. 2: ``[bearings.PLACE]`` and ``[candidates.NAME]``; 1: ``[journal]`` and
-``[rolling]``. A scene that does not say its version may be written either way."""
+def _with_supports(data: dict[str, Any]) -> tuple[dict[str, Any], list[str]]:
+    """Version 2 calls the supports of a beam its seats."""
+    shaft = data.get("shaft")
+    if not isinstance(shaft, dict):
+        return data, []
+    renamed, told = dict(shaft), []
+    for concept, suspension in shaft.items():
+        beam = suspension.get("beam") if isinstance(suspension, dict) else None
+        if isinstance(beam, dict) and "seats" in beam and "supports" not in beam:
+            new = {"supports" if key == "seats" else key: value for key, value in beam.items()}
+            renamed[concept] = suspension | {"beam": new}
+            told.append(f"shaft.{concept}.beam.seats is supports today")
+    return data | {"shaft": renamed}, told
+
+
+SCENE = Schema("scene", "schema", (_with_places, _with_supports))
+"""Form of scenes. 3: a beam has ``supports``; 2: it has ``seats``; 1: ``[journal]`` and
+``[rolling]`` in place of ``[bearings.PLACE]`` and ``[candidates.NAME]``."""
+
+UNSTATED = 2
+"""Version that a scene without one is read as: both ways to write bearings are valid there."""
 
 
 def in_sections(data: dict[str, Any], results: Sequence[str]) -> dict[str, Any]:
@@ -47,7 +65,7 @@ def in_sections(data: dict[str, Any], results: Sequence[str]) -> dict[str, Any]:
         Places that are no bearings.
     """
     read = dict(data)
-    read = SCENE.upgrade(read, read.pop(SCENE.key, SCENE.version))
+    read = SCENE.upgrade(read, read.pop(SCENE.key, UNSTATED))
     turbine = _turbine_of(read)
     if (shaft := own_shaft(turbine, read.get("shaft"))) is not None:
         read["shaft"] = shaft

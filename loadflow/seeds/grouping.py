@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
+from loadflow.cube import time_step
 from loadflow.errors import InputError
 from loadflow.seeds._samples import as_samples
 from loadflow.seeds.joint import JointEquality
@@ -271,7 +272,7 @@ def _unpack(x: Any, dt: float | None) -> tuple[Any, Callable[[np.ndarray], Any] 
     if dt is None:
         if "time" not in x.coords or x.sizes["time"] < 2:
             raise InputError("dt is needed: x has no time coordinate")
-        dt = float(x["time"][1] - x["time"][0])
+        dt = time_step(x)
     x = x.transpose("case", "time")
     template = x.isel(time=0, drop=True)
 

@@ -9,6 +9,7 @@ from typing import Annotated, Literal
 from annotated_types import Ge, Gt, Lt, MinLen
 
 from loadflow.errors import InputError
+from loadflow.former_names import renamed
 
 
 @dataclass(frozen=True)
@@ -111,6 +112,7 @@ class BearingSupport:
             )
 
 
+@renamed(seats="supports")
 @dataclass(frozen=True)
 class Beam:
     """Elastic shaft from the hub centre on, and the supports that it rests on.
@@ -121,7 +123,7 @@ class Beam:
     ----------
     sections : tuple of ShaftSection
         From the hub centre downwind.
-    seats : tuple of BearingSupport
+    supports : tuple of BearingSupport
         Bearing supports, one for each bearing; none: rigid, and free to tilt where there are two
         bearings.
     youngs_modulus : float
@@ -140,7 +142,7 @@ class Beam:
     """
 
     sections: Annotated[tuple[ShaftSection, ...], MinLen(1)] = (ShaftSection(1.04, 0.52),)
-    seats: tuple[BearingSupport, ...] = ()
+    supports: tuple[BearingSupport, ...] = ()
     youngs_modulus: Annotated[float, Gt(0)] = 2.1e11
     poisson: Annotated[float, Ge(0), Lt(0.5)] = 0.3
     shear: bool = True
@@ -165,16 +167,20 @@ class Beam:
         loadflow.errors.InputError
             Another number of supports than of bearings; a single bearing that takes no moment.
         """
-        supports = self.seats or (BearingSupport(takes_moment=bearings == 1),) * bearings
+        supports = self.supports or (BearingSupport(takes_moment=bearings == 1),) * bearings
         if len(supports) != bearings:
-            raise InputError(f"seats: {len(supports)} are given, the shaft has {bearings} bearings")
+            raise InputError(
+                f"supports: {len(supports)} are given, the shaft has {bearings} bearings"
+            )
         if bearings == 1 and not supports[0].takes_moment:
-            raise InputError("seats[0].takes_moment = False: a single bearing must take the moment")
+            raise InputError(
+                "supports[0].takes_moment = False: a single bearing must take the moment"
+            )
         return supports
 
     def on_rigid_bearings(self) -> Beam:
         """The beam with rigid bearings in place of those that are solved, in their housings."""
-        return replace(self, seats=tuple(replace(s, stiffness="given") for s in self.seats))
+        return replace(self, supports=tuple(replace(s, stiffness="given") for s in self.supports))
 
     def stretches(self, end: float) -> list[tuple[float, float, ShaftSection]]:
         """Start, end (m from the hub centre) and section of each stretch up to `end`.

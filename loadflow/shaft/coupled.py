@@ -18,6 +18,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from loadflow.errors import InputError
+from loadflow.former_names import renamed
 from loadflow.shaft.elastic import BearingModel
 from loadflow.shaft.options import Concept
 from loadflow.shaft.reactions import bearing_loads
@@ -38,6 +39,7 @@ _LOST = 0.5  # share that must converge for more to be worth solving
 _KEPT = ("force", "moment", "displacement", "tilt", "curvature")
 
 
+@renamed(quick="cheap")
 @dataclass(frozen=True)
 class CoupledBearing:
     """A bearing that the shaft rests on, over a series of n samples.
@@ -50,7 +52,7 @@ class CoupledBearing:
         What the bearing depends on beside its load across the shaft, such as the speed.
     idle : ndarray of bool, shape (n,)
         Samples in which it is not asked, as it can have no answer.
-    quick : bool
+    cheap : bool
         Whether the model takes microseconds, so that all loads can be solved.
 
     Examples
@@ -70,7 +72,7 @@ class CoupledBearing:
     model: Callable[[Rows], BearingModel]
     state: Floats
     idle: Flags
-    quick: bool = False
+    cheap: bool = False
 
 
 def coupled_loads(
@@ -128,7 +130,7 @@ def coupled_loads(
     >>> shaft = TwoPoint(beam=Beam((ShaftSection(1.0, 0.4),), supports))
     >>> force = np.array([[5e5, 5e5], [0.0, 0.0], [-1.0e6, -1.1e6]])
     >>> found = coupled_loads(shaft, force, np.zeros((3, 2)), {"N": bearing})
-    >>> bool(found["settled"].all()), found["force"].sizes["bearing"]
+    >>> bool(found["converged"].all()), found["force"].sizes["bearing"]
     (True, 2)
     """
     if concept.beam is None:
@@ -137,19 +139,19 @@ def coupled_loads(
     rigid = bearing_loads(on_rigid, hub_force, hub_moment, tilt=tilt)
     series = _Series(concept, hub_force, hub_moment, tilt, bearings)
     asked = np.flatnonzero(~np.any([bearing.idle for bearing in bearings.values()], axis=0))
-    values, settled = _arrays(rigid), np.zeros(hub_force.shape[1], dtype=bool)
+    values, converged = _arrays(rigid), np.zeros(hub_force.shape[1], dtype=bool)
     attrs = rigid.attrs | {"solved": 0, "interpolation_error": 0.0}
     if asked.size:
         found, solved, error = series.carried(asked, accuracy)
         attrs = found.attrs | {"solved": solved, "interpolation_error": error}
-        settled[asked] = found.settled
-        values[settled] = found.values[found.settled]
-    flags = np.broadcast_to(settled, (rigid.sizes["bearing"], settled.size)).copy()
+        converged[asked] = found.converged
+        values[converged] = found.values[found.converged]
+    flags = np.broadcast_to(converged, (rigid.sizes["bearing"], converged.size)).copy()
     meaning = {"units": "1", "long_name": "whether shaft and bearings agree"}
     columns = zip(_KEPT, np.moveaxis(values, 0, -1))
     return rigid.assign(
         {name: rigid[name].copy(data=column) for name, column in columns}
-        | {"settled": (("bearing", "time"), flags, meaning)}
+        | {"converged": (("bearing", "time"), flags, meaning)}
     ).assign_attrs(attrs)
 
 
@@ -161,16 +163,16 @@ class _Solved:
     ----------
     values : ndarray, shape (k, 5, bearing, axis)
         What `_KEPT` names.
-    settled : ndarray of bool, shape (k,)
+    converged : ndarray of bool, shape (k,)
         Whether shaft and bearings agree.
     attrs : dict
         How the iteration went at its worst.
     tangents : dict
-        Load, motion and compliance of expensive bearings, (k, m), by name; NaN where not settled.
+        Load, motion and compliance of expensive bearings, (k, m), by name; NaN where not converged.
     """
 
     values: Floats
-    settled: Flags
+    converged: Flags
     attrs: dict[str, float]
     tangents: dict[str, Floats] = field(default_factory=dict)
 
@@ -181,14 +183,14 @@ class _Solved:
         tangents = [name for name in self.tangents if name in more.tangents]
         return _Solved(
             np.concatenate([self.values, more.values]),
-            np.concatenate([self.settled, more.settled]),
+            np.concatenate([self.converged, more.converged]),
             worst,
             {n: np.concatenate([self.tangents[n], more.tangents[n]]) for n in tangents},
         )
 
     def off(self, truth: _Solved) -> float:
         """Largest error across the shaft of what both have, over the largest true value."""
-        both = self.settled & truth.settled
+        both = self.converged & truth.converged
         if not both.any():
             return np.inf
         ours, theirs = (part.values[both][:, :4, :, 1:] for part in (self, truth))
@@ -208,17 +210,17 @@ class _Series:
 
     def carried(self, rows: Rows, accuracy: float) -> tuple[_Solved, int, float]:
         """Result of `rows`, number of them solved exactly, error of the others."""
-        costly = any(not bearing.quick for bearing in self.bearings.values())
+        costly = any(not bearing.cheap for bearing in self.bearings.values())
         if not costly or rows.size <= FIRST + MORE:
             return self.solve(rows, self.exact), rows.size, 0.0
         places = self.places(rows)
         order = farthest(places, MOST)
         count = min(FIRST, order.size)
         known, error = self.with_tangents(rows[order[:count]]), np.inf
-        while count < order.size and error > accuracy and known.settled.mean() > _LOST:
+        while count < order.size and error > accuracy and known.converged.mean() > _LOST:
             batch = order[count : count + MORE]
             more = self.with_tangents(rows[batch])
-            if known.settled.sum() > 2 * places.shape[1]:
+            if known.converged.sum() > 2 * places.shape[1]:
                 tangents = self.between(rows, places, order[:count], known)
                 error = self.solve(rows[batch], tangents).off(more)
             known, count = known.joined(more), count + batch.size
@@ -226,15 +228,15 @@ class _Series:
 
     def filled(self, rows: Rows, places: Floats, chosen: Rows, known: _Solved) -> _Solved:
         """Result of `rows`, of which the `chosen` are known."""
-        settled = known.settled[nearest(places, places[chosen])]
+        converged = known.converged[nearest(places, places[chosen])]
         values = np.zeros((rows.size, *known.values.shape[1:]))
         attrs = known.attrs
-        if settled.any() and known.settled.sum() > 2 * places.shape[1]:
-            rest = self.solve(rows[settled], self.between(rows, places, chosen, known))
-            values[settled], attrs = rest.values, known.joined(rest).attrs
-            settled[settled] = rest.settled
-        values[chosen], settled[chosen] = known.values, known.settled
-        return _Solved(values, settled, attrs)
+        if converged.any() and known.converged.sum() > 2 * places.shape[1]:
+            rest = self.solve(rows[converged], self.between(rows, places, chosen, known))
+            values[converged], attrs = rest.values, known.joined(rest).attrs
+            converged[converged] = rest.converged
+        values[chosen], converged[chosen] = known.values, known.converged
+        return _Solved(values, converged, attrs)
 
     def places(self, rows: Rows) -> Floats:
         """Loads of the hub and states of the bearings, as far as they vary, (k, d)."""
@@ -255,12 +257,12 @@ class _Series:
             tangents={
                 name: self._tangents(name, rows, found)
                 for name, bearing in self.bearings.items()
-                if not bearing.quick
+                if not bearing.cheap
             },
         )
 
     def _tangents(self, name: str, rows: Rows, found: _Solved) -> Floats:
-        good, place = np.flatnonzero(found.settled), self.concept.bearings.index(name)
+        good, place = np.flatnonzero(found.converged), self.concept.bearings.index(name)
         force, moment = found.values[good, :2, place].swapaxes(0, 1)
         motion, stiffness = self.bearings[name].model(rows[good])(force, moment)
         soft = np.linalg.inv(stiffness).reshape(good.size, stiffness.shape[-1] ** 2)
@@ -273,7 +275,7 @@ class _Series:
         self, rows: Rows, places: Floats, chosen: Rows, known: _Solved
     ) -> Callable[[Rows], dict[str, BearingModel]]:
         """Models for samples between the `chosen` ones: tangents of the expensive bearings."""
-        good = known.settled
+        good = known.converged
         found = {
             name: interpolation(places[chosen[good]], table[good])
             for name, table in known.tangents.items()
@@ -300,8 +302,8 @@ class _Series:
             tolerance=_AGREED,
             strict=False,
         )
-        settled = found["settled"].values.astype(bool).all(axis=0)
-        return _Solved(_arrays(found), np.asarray(settled), found.attrs)
+        converged = found["converged"].values.astype(bool).all(axis=0)
+        return _Solved(_arrays(found), np.asarray(converged), found.attrs)
 
 
 def _tangent(table: Floats) -> BearingModel:

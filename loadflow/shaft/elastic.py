@@ -51,7 +51,7 @@ class ShaftMotion:
     convergence : Convergence
         Of the iteration with the bearings' own models; the residual is the largest change of a
         reaction, relative to the largest reaction.
-    settled : ndarray of bool, shape (n,)
+    converged : ndarray of bool, shape (n,)
         Of which loads shaft and bearings agree.
     """
 
@@ -61,7 +61,7 @@ class ShaftMotion:
     tilt: Floats
     curvature: Floats
     convergence: Convergence
-    settled: NDArray[np.bool_]
+    converged: NDArray[np.bool_]
 
 
 @dataclass(frozen=True)
@@ -143,7 +143,7 @@ def elastic_reactions(
         bent=np.where(plane[:, None] == plane, flexible[np.ix_(station, station)], 0.0),
         free=np.einsum("rk,rkn->rn", flexible[station], loads[plane]),
     )
-    reaction, base, convergence, settled = redundant.solve(supports, models, iteration)
+    reaction, base, convergence, converged = redundant.solve(supports, models, iteration)
 
     loads[plane, station] -= reaction
     moved = flexible @ loads + rigid @ base.reshape(2, 2, -1)
@@ -153,7 +153,9 @@ def elastic_reactions(
     motion = np.concatenate([moved[:, at], moved[:, at + bearings]]).swapaxes(0, 1)
     bow = curvature(beam, line, loads, np.array(positions), end).swapaxes(0, 1)
     bow = np.concatenate([bow, np.zeros_like(bow)], axis=1)
-    return ShaftMotion(*_across(reactions), *_across(motion), _across(bow)[0], convergence, settled)
+    return ShaftMotion(
+        *_across(reactions), *_across(motion), _across(bow)[0], convergence, converged
+    )
 
 
 def _across(full: Floats) -> tuple[Floats, Floats]:
@@ -207,15 +209,15 @@ class _Redundant:
         first = own + np.where(asked, _FREE * np.diag(self.bent), 0.0)
         compliance, offset = np.diag(housing + first)[None], np.zeros_like(self.free)
         reaction = self._balance(compliance, offset)
-        settled, convergence = np.ones(self.free.shape[1], dtype=bool), Convergence(True, 0.0, 0)
+        converged, convergence = np.ones(self.free.shape[1], dtype=bool), Convergence(True, 0.0, 0)
         if models:
-            reaction, compliance, offset, settled, convergence = self._iterated(
+            reaction, compliance, offset, converged, convergence = self._iterated(
                 bearings, reaction, iteration
             )
         deflected = np.einsum("nrs,sn->rn", compliance, reaction) + offset
         rest = deflected - self.free + self.bent @ reaction
         base = np.linalg.lstsq(self.arms, rest, rcond=None)[0]
-        return reaction, base, convergence, settled
+        return reaction, base, convergence, converged
 
     def _iterated(
         self, bearings: _Bearings, reaction: Floats, iteration: Iteration
@@ -229,8 +231,8 @@ class _Redundant:
             change = (abs(target - reaction) / self.unit[:, None]).max(axis=0) / size
             answered = np.isfinite(offset).all(axis=0)
             level = self._rounding(compliance, offset, reaction)
-            settled = answered & ((change < iteration.tolerance) | (gape <= level))
-            moving = answered & ~settled & (step > _STUCK)
+            converged = answered & ((change < iteration.tolerance) | (gape <= level))
+            moving = answered & ~converged & (step > _STUCK)
             if not moving.any():
                 break
             trial = np.where(moving, reaction + step * (target - reaction), reaction)
@@ -242,15 +244,15 @@ class _Redundant:
             offset, gape = np.where(nearer, moved, offset), np.where(nearer, left, gape)
             step = np.where(moving, np.where(nearer, np.minimum(2 * step, 1.0), step / 2), step)
         worst = float(np.nan_to_num(change, nan=np.inf).max())
-        if iteration.strict and not settled.all():
-            first = int(np.argmin(settled))
+        if iteration.strict and not converged.all():
+            first = int(np.argmin(converged))
             raise SolverError(
                 f"shaft and bearings do not converge: after {iterations} iterations the reactions "
                 f"still change by {worst:.1e}; load {first} is the first, where they gape by "
                 f"{gape[first]:.3g} m and rounding allows {level[first]:.3g} m"
             )
-        convergence = Convergence(bool(settled.all()), worst, iterations)
-        return np.where(settled, target, reaction), compliance, offset, settled, convergence
+        convergence = Convergence(bool(converged.all()), worst, iterations)
+        return np.where(converged, target, reaction), compliance, offset, converged, convergence
 
     def _open(self, compliance: Floats, offset: Floats, reaction: Floats) -> Floats:
         """How far shaft and supports gape (n,), m."""

@@ -132,7 +132,7 @@ def _numbered(concept: Concept, models: Mapping[str, BearingModel]) -> dict[int,
             raise InputError(f"models: no bearing {name!r}; there are {concept.bearings}")
     if models and concept.beam is None:
         raise InputError("models: a rigid shaft does not feel its bearings; give it a beam")
-    supports = concept.beam.seats if concept.beam else ()
+    supports = concept.beam.supports if concept.beam else ()
     for name, support in zip(concept.bearings, supports):
         if support.stiffness != "given" and name not in models:
             raise InputError(
@@ -213,9 +213,9 @@ def _dataset(
     )
     if modelled and motion:
         meaning = "whether shaft and bearings agree"
-        flags = np.broadcast_to(motion.settled, (len(concept.bearings), motion.settled.size))
+        flags = np.broadcast_to(motion.converged, (len(concept.bearings), motion.converged.size))
         labels = {"units": "1", "long_name": meaning}
-        dataset["settled"] = ("bearing", "time"), flags.copy(), labels
+        dataset["converged"] = ("bearing", "time"), flags.copy(), labels
     if time is None:
         return dataset
     return dataset.assign_coords(time=("time", np.asarray(time, dtype=float), {"units": "s"}))

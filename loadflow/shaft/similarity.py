@@ -54,7 +54,7 @@ def _beam(beam: Beam, factor: float) -> Beam:
     return replace(
         beam,
         sections=tuple(_section(section, factor) for section in beam.sections),
-        seats=tuple(_support(one, factor) for one in beam.seats),
+        supports=tuple(_support(one, factor) for one in beam.supports),
     )
 
 

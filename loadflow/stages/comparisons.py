@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from loadflow.cube import time_step
 from loadflow.errors import SolverError
 from loadflow.reduction import damage_equivalent_load
 from loadflow.scene.cases import Case
@@ -19,7 +20,7 @@ from loadflow.stages.effects.rolling import RINGS
 from loadflow.stages.film_of_bearing import equilibria, follow, shaft_line
 from loadflow.stages.frames import to_film
 from loadflow.stages.journal import FILM as FILM_MODEL
-from loadflow.stages.journal import fast_film, series_step
+from loadflow.stages.journal import fast_film
 from loadflow.stages.loads import ROTOR, hub_loads
 from loadflow.stages.reduction import moment_governs
 from loadflow.stages.rolling import life_of, solve_bearing
@@ -212,7 +213,7 @@ def _orbits(
     """A stretch of the orbit around its largest eccentricity, from the place where it begins."""
     for bearing, better in options.items():
         film = parts["journal"][bearing].to_dataset().load()
-        step = series_step(parts["loads"])
+        step = time_step(parts["loads"])
         taken, finer = scene.journal.every(step), better.every(step)
         worst = int(np.nanargmax(film["eccentricity_ratio"].values))
         formed = int(np.argmax(np.isfinite(film["eccentricity"].values[:, 0])))

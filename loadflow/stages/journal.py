@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from loadflow.cube import time_step
 from loadflow.errors import SolverError
 from loadflow.journal.line import Line
 from loadflow.journal.models.model import why_not
@@ -164,7 +165,7 @@ def _take_path(found: dict[str, np.ndarray], path: xr.Dataset, places: slice) ->
 
 def _moving(options: Journal, bearing: str, loads: xr.Dataset, reactions: xr.Dataset) -> xr.Dataset:
     """Film along the series, from the first sample on in which the surfaces need not touch."""
-    every = slice(None, None, options.every(series_step(loads)))
+    every = slice(None, None, options.every(time_step(loads)))
     loads, reactions = loads.isel(time=every), reactions.isel(time=every)
     vectors = reactions["force"].transpose("time", "axis").values.astype(float)
     time, speed = (loads[name].values.astype(float) for name in ("time", "speed"))
@@ -197,11 +198,6 @@ def _moving(options: Journal, bearing: str, loads: xr.Dataset, reactions: xr.Dat
     )
     labels = of_samples(found, kept) | _loaded(vectors, touching) | _lying(options, found)
     return _placed(options, samples.assign(labels), found["eccentricity"])
-
-
-def series_step(loads: xr.Dataset) -> float:
-    """Step of a series, s."""
-    return float(loads["time"][1] - loads["time"][0])
 
 
 def _lift_off(

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from loadflow.cube import time_step
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
 from loadflow.seeds import Method, equality, group_seeds_jointly, holm
@@ -87,10 +88,6 @@ def _together(scene: Scene, group: list[Case], series: Components, step: float) 
     return grouping.in_words([str(case.seed) for case in group])
 
 
-def _step(loads: xr.Dataset) -> float:
-    return round(float(loads["time"][1] - loads["time"][0]), 9)
-
-
 def _may_merge(found: xr.Dataset, method: Method, alpha: float) -> xr.DataArray:
     """Whether the seeds of each group may be merged, all components taken together."""
     if method == "calibrated":
@@ -158,7 +155,7 @@ def series_of(scene: Scene, parts: dict[str, Any]) -> tuple[float, Series]:
         for axis in ("y", "z"):
             component = load.sel(bearing=bearing, axis=axis)
             found[f"{bearing} {name}{axis}"] = component.values.astype(float)
-    return _step(loads), found
+    return time_step(loads), found
 
 
 def seeds_key(scene: Scene) -> str:

@@ -31,8 +31,8 @@ def bearing_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Datase
 
     Where a shaft is a beam, also its `displacement`, `tilt` and `curvature` in each bearing; they
     are NaN in bearings of a rigid shaft beside it. `tilt` is that against the housing. Where the
-    stiffness of supports comes from the scene's bearings, `settled` tells in which samples it does;
-    in the others, such as of a film at standstill, these bearings are rigid.
+    stiffness of supports comes from the scene's bearings, `converged` tells in which samples it
+    does; in the others, such as of a film at standstill, these bearings are rigid.
     """
     from loadflow.turbines import load_turbine
 
@@ -98,28 +98,28 @@ def _rolling(scene: Scene, name: str, thrust: Floats, tilting: bool) -> CoupledB
         lambda rows: rolling_model(part, thrust[rows], tilting=tilting, strict=False),
         state=thrust,
         idle=np.zeros(thrust.size, dtype=bool),
-        quick=part.rings == "rigid",
+        cheap=part.rings == "rigid",
     )
 
 
 def _against_housings(concept: Concept, found: xr.Dataset) -> xr.Dataset:
     """`found`, with the tilt of the shaft in each bearing less that of its housing."""
-    if concept.beam is None or not concept.beam.seats:
+    if concept.beam is None or not concept.beam.supports:
         return found
-    soft = np.array([1 / (support.housing_tilt or np.inf) for support in concept.beam.seats])
+    soft = np.array([1 / (support.housing_tilt or np.inf) for support in concept.beam.supports])
     turned = found["moment"] * xr.DataArray(soft, dims="bearing")
     return found.assign(tilt=(found["tilt"] - turned).assign_attrs(found["tilt"].attrs))
 
 
 def summary(parts: Mapping[Case, xr.Dataset]) -> xr.Dataset | None:
     """How shaft and bearings agree in each case; None where no bearing is iterated with."""
-    if not all("settled" in part for part in parts.values()):
+    if not all("converged" in part for part in parts.values()):
         return None
     return over_cases({case: _agreement(part) for case, part in parts.items()})
 
 
 def _agreement(part: xr.Dataset) -> xr.Dataset:
-    rigid = (part["settled"] == 0).any("bearing").sum("time")  # NaN where nothing is iterated
+    rigid = (part["converged"] == 0).any("bearing").sum("time")  # NaN where nothing is iterated
     found = {"not_converged": (rigid, "1", "samples with rigid bearings: these have no answer")}
     for name, meaning in _TOLD.items():
         found[name] = xr.DataArray(float(part.attrs[name])), "1", meaning

@@ -34,7 +34,7 @@ def describe(series: xr.Dataset) -> xr.Dataset:
     out are the azimuth, an angle that only runs round, the supervisory state and flags.
     """
     over_time = (name for name in series.data_vars if "time" in series[name].dims)
-    wanted = [name for name in over_time if name not in ("azimuth", "state", "settled")]
+    wanted = [name for name in over_time if name not in ("azimuth", "state", "converged")]
     time = series["time"].values
     duration = float(time[-1] - time[0])
     found = {name: _describe(series[name], duration) for name in wanted}

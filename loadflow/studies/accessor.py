@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import xarray as xr
 
-from loadflow.cube import iter_cases
+from loadflow.cube import iter_cases, time_step
 from loadflow.reduction import damage_equivalent_load
 from loadflow.stages.statistics import STATISTICS, describe
 from loadflow.studies.channels import channel, choose_channels
@@ -105,7 +105,7 @@ class LoadflowAccessor:
 
         def found(series: xr.DataArray) -> np.ndarray:
             time = series["time"].values
-            duration = time[-1] - time[0] + (time[1] - time[0])
+            duration = time[-1] - time[0] + time_step(series)
             return np.asarray(
                 damage_equivalent_load(series.values, exponents.tolist(), duration, f_eq)
             )
@@ -126,7 +126,7 @@ class LoadflowAccessor:
 
         time = self._cube["time"].values
         length = max(2, 2 * time.size // (SEGMENTS + 1))
-        step = float(time[1] - time[0])
+        step = time_step(self._cube)
 
         def density(series: xr.DataArray) -> np.ndarray:
             values = series.values.astype(float)

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from loadflow.cube import Cube, iter_cases
+from loadflow.cube import Cube, iter_cases, time_step
 from loadflow.errors import InputError
 from loadflow.reduction import damage_equivalent_load
 from loadflow.seeds import (
@@ -180,8 +180,7 @@ def seed_groups(cube: Cube) -> dict[tuple[str, float, float], Group]:
     """Cases of one load case, wind speed (m/s) and time step (s), in order."""
     groups: dict[tuple[str, float, float], Group] = {}
     for _, case in iter_cases(cube):
-        step = round(float(case["time"][1] - case["time"][0]), 9)
-        key = str(case["dlc"].item()), float(case["wind_speed"]), step
+        key = str(case["dlc"].item()), float(case["wind_speed"]), time_step(case)
         groups.setdefault(key, []).append(case)
     if not groups:
         raise InputError("the load cube is empty, it holds no case")

@@ -8,6 +8,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from loadflow.cube import time_step
+
 Array = NDArray[np.float64]
 
 BANDS = {"0 … 0.1 Hz": (0.0, 0.1), "0.1 … 0.5 Hz": (0.1, 0.5), "3p": (2.7, 3.3)}
@@ -64,7 +66,7 @@ def each(series: Iterable[xr.Dataset], tilt: float) -> dict[str, dict[str, Array
     """Measures of each of the series, by channel and measure."""
     rows = []
     for one in series:
-        step = float(one["time"][1] - one["time"][0])
+        step = time_step(one)
         speed = float(one["speed"].mean())
         rows.append({n: measures(x, step, speed) for n, x in channels(one, tilt).items()})
     return {

@@ -402,6 +402,22 @@ def test_what_no_solver_named_fails_one_case_and_is_in_the_log(finished, tmp_pat
     assert "in broken" in (tmp_path / "small/run.log").read_text()
 
 
+def test_a_run_whose_bearings_fail_in_every_case_ends_with_their_reasons(
+    finished, tmp_path, monkeypatch
+):
+    from loadflow.stages.registry import STAGES
+
+    def broken(scene, case, inputs):
+        raise ZeroDivisionError("at the root of it")
+
+    monkeypatch.setitem(STAGES, "shaft", replace(STAGES["shaft"], run=broken))
+    found = run(small_scene(finished), out=tmp_path, report=True)
+    assert set(found.failures.values()) == {"ZeroDivisionError: at the root of it"}
+    assert len(found.failures) == 2
+    assert "shaft" not in found.tree.children
+    assert found.report.exists()
+
+
 def kill_points(folder, first, step):
     done = subprocess.run(
         [sys.executable, HERE / "kill_points.py", folder, str(first), str(step)],

@@ -62,6 +62,14 @@ def test_journal_bearings_may_differ_but_for_how_they_are_modelled():
     assert [scene.journal.at(p).geometry.diameter for p in ("N", "N2")] == [1.2, 0.8]
     with pytest.raises(InputError, match="motion"):
         scene_with(N=journal(1.2), N2=journal(0.8, motion="transient"))
+    moving = scene_with(N=journal(1.2, motion="transient", rung="reduced"), N2=journal(0.8))
+    assert moving.journal.at("N2").in_motion
+    written = tomllib.loads(moving.to_toml())
+    assert "motion" not in written["bearings"]["N2"]
+    assert make_scene(written) == moving
+    thick = {"kind": "thick", "outer_diameter": 1.2, "modulus": 1e11}
+    with pytest.raises(InputError, match="reduced"):
+        scene_with(N=journal(1.2, rung="reduced"), N2=journal(0.8, shell=thick))
 
 
 def test_the_two_forms_give_the_same_scene():
@@ -124,6 +132,19 @@ def test_an_older_scene_is_read_and_its_owner_told_how_to_write_it(tmp_path):
         warnings.simplefilter("error", FormerVersionWarning)
         assert read_scene(path) == old
     assert old.journal.boundary_friction == 0.1
+
+
+@pytest.mark.parametrize("version", [{}, {"schema": 2}])
+def test_supports_were_seats_and_are_still_read_as_such(version):
+    beam = {"supports": [{"radial": 1e9}, {}]}
+    today = make_scene({"shaft": {"two_point": {"beam": beam}}})
+    former = {"shaft": {"two_point": {"beam": {"seats": beam["supports"]}}}}
+    with pytest.warns(
+        FormerVersionWarning, match=r"shaft\.two_point\.beam\.seats is supports today"
+    ):
+        assert make_scene(version | former) == today
+    with pytest.raises(InputError, match="seats"):
+        make_scene({"schema": SCENE.version} | former)
 
 
 @pytest.mark.parametrize(

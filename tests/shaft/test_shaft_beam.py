@@ -11,6 +11,7 @@ from loadflow.errors import InputError, SolverError
 from loadflow.shaft import (
     Beam,
     BearingSupport,
+    CoupledBearing,
     DirectDrive,
     Integrated,
     MomentBearing,
@@ -40,11 +41,11 @@ def plain(beam, **changes):
     "concept",
     [
         TwoPoint(beam=SLIM),
-        TwoPoint(beam=Beam(seats=(FREE, BearingSupport())), torque_arm=1.5, shaft_mass=2e4),
-        ThreePoint(beam=Beam(seats=(FREE, BearingSupport(radial=1e8)))),
+        TwoPoint(beam=Beam(supports=(FREE, BearingSupport())), torque_arm=1.5, shaft_mass=2e4),
+        ThreePoint(beam=Beam(supports=(FREE, BearingSupport(radial=1e8)))),
         Integrated(beam=Beam(), shaft_mass=1e4),
         DirectDrive(beam=Beam(), generator_mass=1e5),
-        MomentBearing(beam=Beam(seats=(STIFF,)), shaft_mass=1e4),
+        MomentBearing(beam=Beam(supports=(STIFF,)), shaft_mass=1e4),
     ],
     ids=lambda c: type(c).__name__,
 )
@@ -62,11 +63,11 @@ def test_a_determinate_suspension_does_not_feel_stiffness(concept):
 @settings(max_examples=40, deadline=None)
 @given(VECTOR, VECTOR, st.floats(1e6, 1e12), st.floats(1e4, 1e11))
 def test_forces_and_moments_balance_whatever_the_stiffness(force, moment, radial, tilt):
-    seats = (
+    supports = (
         BearingSupport(radial, takes_moment=True, tilt=tilt),
         BearingSupport(None, None, 1e8, True),
     )
-    concept = TwoPoint(beam=Beam(seats=seats), shaft_mass=2e4, torque_arm=1.2)
+    concept = TwoPoint(beam=Beam(supports=supports), shaft_mass=2e4, torque_arm=1.2)
     found = bearing_loads(concept, force, moment, tilt=0.1)
     rigid = bearing_loads(replace(concept, beam=None), force, moment, tilt=0.1)
 
@@ -94,8 +95,8 @@ def test_overhang_bends_as_the_textbook_says():
     assert float(abs(found["displacement"]).max()) < 1e-18
 
 
-def test_clamped_seats_share_the_moment_as_a_fixed_beam():
-    """Both seats clamp: a moment on the overhang is taken by the first seat alone."""
+def test_clamped_supports_share_the_moment_as_a_fixed_beam():
+    """Both supports clamp: a moment on the overhang is taken by the first support alone."""
     clamp = BearingSupport(takes_moment=True)
     beam = Beam((SOLID,), (clamp, clamp))
     found = bearing_loads(plain(beam), [0.0, 4e5, 1e6], [0.0, 7e5, -3e5])
@@ -134,11 +135,11 @@ def test_loads_superpose_and_shear_only_adds():
 
 def test_stiffness_tends_to_the_rigid_limit():
     errors = []
-    clamped = Beam(seats=(BearingSupport(takes_moment=True),) * 2)
+    clamped = Beam(supports=(BearingSupport(takes_moment=True),) * 2)
     limit = bearing_loads(plain(clamped), [0, 0, 1e6], [0, 1e6, 0])
     for stiffness in (1e12, 1e13, 1e14):
-        seat = BearingSupport(stiffness, takes_moment=True, tilt=stiffness)
-        found = bearing_loads(plain(Beam(seats=(seat, seat))), [0, 0, 1e6], [0, 1e6, 0])
+        support = BearingSupport(stiffness, takes_moment=True, tilt=stiffness)
+        found = bearing_loads(plain(Beam(supports=(support, support))), [0, 0, 1e6], [0, 1e6, 0])
         errors.append(float(abs(found["moment"] - limit["moment"]).max()))
     assert errors[0] / errors[1] == pytest.approx(10, rel=0.1)
     assert errors[1] / errors[2] == pytest.approx(10, rel=0.1)
@@ -152,7 +153,7 @@ def test_sections_cut_in_two_bend_alike():
         assert cut[name].values == pytest.approx(one[name].values, rel=1e-10, abs=1e-15)
 
 
-def test_models_of_constant_stiffness_give_what_the_seats_give():
+def test_models_of_constant_stiffness_give_what_the_supports_give():
     def spring(force, moment):
         n = len(force)
         stiffness = np.broadcast_to(np.diag([3e9, 3e9, 2e8, 2e8]), (n, 4, 4))
@@ -160,8 +161,8 @@ def test_models_of_constant_stiffness_give_what_the_seats_give():
 
     rng = np.random.default_rng(3)
     force, moment = 1e6 * rng.standard_normal((2, 3, 20))
-    own = bearing_loads(plain(Beam(seats=(STIFF, FREE))), force, moment)
-    asked = bearing_loads(plain(Beam(seats=(STIFF, FREE))), force, moment, models={"N": spring})
+    own = bearing_loads(plain(Beam(supports=(STIFF, FREE))), force, moment)
+    asked = bearing_loads(plain(Beam(supports=(STIFF, FREE))), force, moment, models={"N": spring})
     for name in own:
         assert asked[name].values == pytest.approx(own[name].values, rel=1e-9, abs=1e-12)
     assert asked.attrs["converged"] == 1
@@ -188,7 +189,7 @@ def test_hardening_bearings_settle_on_their_curve():
 
     rng = np.random.default_rng(4)
     force, moment = 1e6 * rng.standard_normal((2, 3, 30))
-    concept = plain(Beam(seats=(BearingSupport(takes_moment=True, tilt=1e8),) * 2))
+    concept = plain(Beam(supports=(BearingSupport(takes_moment=True, tilt=1e8),) * 2))
     found = bearing_loads(concept, force, moment, models={"N": hardening, "N2": hardening})
     for bearing in ("N", "N2"):
         one = found.sel(bearing=bearing)
@@ -202,8 +203,8 @@ def test_hardening_bearings_settle_on_their_curve():
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda: TwoPoint(beam=Beam(seats=(STIFF,))), "1 are given, the shaft has 2"),
-        (lambda: MomentBearing(beam=Beam(seats=(FREE,))), "must take the moment"),
+        (lambda: TwoPoint(beam=Beam(supports=(STIFF,))), "1 are given, the shaft has 2"),
+        (lambda: MomentBearing(beam=Beam(supports=(FREE,))), "must take the moment"),
         (lambda: Beam(()), "at least one"),
         (lambda: Beam((SOLID, SOLID)), r"sections\[0\].length"),
         (lambda: ShaftSection(0.5, 0.5), "inner < outer"),
@@ -235,3 +236,15 @@ def test_a_bearing_without_stiffness_is_refused():
 
     with pytest.raises(SolverError, match="singular"):
         bearing_loads(plain(SLIM), [0, 1, 2], [0, 0, 0], models={"N": loose})
+
+
+def test_the_former_names_still_work_and_say_so():
+    with pytest.warns(DeprecationWarning, match="Beam: seats is now supports"):
+        beam = Beam(seats=(STIFF, FREE))
+    assert beam == Beam(supports=(STIFF, FREE))
+    with pytest.warns(DeprecationWarning, match="Beam: seats is now supports"):
+        assert beam.seats == (STIFF, FREE)
+    state = np.zeros(1)
+    with pytest.warns(DeprecationWarning, match="CoupledBearing: quick is now cheap"):
+        bearing = CoupledBearing(lambda rows: None, state, state.astype(bool), quick=True)
+    assert bearing.cheap

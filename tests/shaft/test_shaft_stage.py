@@ -89,7 +89,7 @@ def test_every_concept_is_an_option_of_a_scene(concept, bearings):
     ("sections", "message"),
     [
         ({"shaft": {"two_point": {}, "three_point": {}}}, "two_point and three_point all have"),
-        ({"shaft": {"two_point": {"beam": {"seats": [{}]}}}}, "1 are given, the shaft has 2"),
+        ({"shaft": {"two_point": {"beam": {"supports": [{}]}}}}, "1 are given, the shaft has 2"),
         (
             {"shaft": {"two_point": {"beam": {"sections": [{"outer_diameter": -1.0}]}}}},
             "outer_diameter",

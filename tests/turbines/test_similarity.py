@@ -71,9 +71,9 @@ def test_a_factor_that_is_none_is_refused(factor):
 
 
 def test_loads_of_a_larger_suspension_grow_with_forces_and_masses():
-    seats = (BearingSupport(radial=2e9, housing_vertical=5e9),
+    supports = (BearingSupport(radial=2e9, housing_vertical=5e9),
              BearingSupport(takes_moment=True, radial=3e9, tilt=4e8))  # fmt: skip
-    beam = Beam((ShaftSection(1.0, 0.4, 3.0), ShaftSection(0.9, 0.3)), seats)
+    beam = Beam((ShaftSection(1.0, 0.4, 3.0), ShaftSection(0.9, 0.3)), supports)
     known = TwoPoint(gearbox_mass=0.0, beam=beam)
     force, moment = np.array([5e5, 1e5, -1e6]), np.array([4e6, 1e6, 3e5])
     one = bearing_loads(known, force, moment)

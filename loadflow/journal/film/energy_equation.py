@@ -16,11 +16,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csc_matrix
-from scipy.sparse.linalg import splu
 
 from loadflow.errors import SolverError
 from loadflow.journal.cavitation import FILL
@@ -29,6 +28,9 @@ from loadflow.journal.film import _kernels as coefficient
 from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.gap_warm import WarmGap
 from loadflow.journal.heat import HOTTEST, FilmHeat
+
+if TYPE_CHECKING:
+    from scipy.sparse import csc_matrix
 
 Array = NDArray[np.float64]
 Numbers = NDArray[np.int64]
@@ -162,7 +164,7 @@ class EnergyEquation:
             missing = matrix @ t - rhs - source
             size = max(float(np.abs(source).max()), 1e-300)
             residual = float(np.abs(missing[: self.size]).max()) / size
-            step = _solved(matrix + csc_matrix((by_own, (diagonal, diagonal))), missing)
+            step = _solved(matrix + _sparse(by_own, (diagonal, diagonal)), missing)
             # nothing is colder than what is given; from there Newton rises without overshooting
             step = t - np.maximum(t - step, heat.coldest)
             t = t - step
@@ -294,7 +296,7 @@ class EnergyEquation:
         every = np.arange(count)
         entries = np.concatenate([*values, diagonal])
         where = np.concatenate([*rows, every]), np.concatenate([*columns, every])
-        return csc_matrix((entries, where), (count, count)), rhs
+        return _sparse(entries, where), rhs
 
     def _told(
         self,
@@ -348,6 +350,13 @@ def _grooves(film: DiscreteFilm) -> Numbers:
     return np.where(own, run[:, None], labels)
 
 
+def _sparse(entries: Array, where: tuple[Numbers, Numbers]) -> csc_matrix:
+    """Square matrix of entries at (rows, columns), the diagonal among them."""
+    from scipy.sparse import csc_matrix  # a film without heat starts sooner
+
+    return csc_matrix((entries, where))
+
+
 def _solved(matrix: csc_matrix, rhs: Array) -> Array:
     """Solution of a sparse system.
 
@@ -356,6 +365,8 @@ def _solved(matrix: csc_matrix, rhs: Array) -> Array:
     loadflow.errors.SolverError
         The system has none: nothing takes the heat of some cell.
     """
+    from scipy.sparse.linalg import splu
+
     try:
         found = splu(matrix).solve(rhs)
     except RuntimeError as error:

@@ -64,6 +64,6 @@ STIFFNESS = Effect(
     switched=_given,
     indicator=_determinate,
     out="no support of the shaft takes its stiffness from a bearing",
-    needs='supports (`seats`) of the beam with stiffness = "journal" or "rolling"',
+    needs='`supports` of the beam with stiffness = "journal" or "rolling"',
     concerns=lambda scene: any(concept.beam is not None for concept in scene.shaft.concepts),
 )

@@ -46,8 +46,8 @@ class _Case:
     name, file, dlc, wind_speed, seed, weight = "dlc1.1_v12_s1", "", "1.1", 12.0, 1, 1.0
 
 
-def scene_of(seats, **sections):
-    shaft = {"two_point": {"beam": SHAFT | {"seats": seats}}}
+def scene_of(supports, **sections):
+    shaft = {"two_point": {"beam": SHAFT | {"supports": supports}}}
     return make_scene({"name": "x", "results": ["loads.statistics"], "shaft": shaft} | sections)
 
 
@@ -100,12 +100,12 @@ def test_a_bearing_that_aligns_itself_has_a_stiffness_across():
 
 def test_a_film_at_one_end_and_rollers_at_the_other():
     """What comes out lies on both bearings' own curves, in the frame of the cube."""
-    seats = [
+    supports = [
         {"stiffness": "journal"},
         {"stiffness": "rolling", "takes_moment": True, "housing_tilt": 2e10},
     ]
     rolling = {"bearing": "N2", "geometry": SLEWING}
-    scene = scene_of(seats, rolling=rolling, journal={"bearings": ["N"], "grid": [36, 8]})
+    scene = scene_of(supports, rolling=rolling, journal={"bearings": ["N"], "grid": [36, 8]})
     loads = synthetic_case(12.0, 1, steps=60)
     found = bearing_loads(scene, _Case, {"loads": loads})
     one = found.sel(bearing="N")
@@ -129,8 +129,8 @@ def test_a_film_at_one_end_and_rollers_at_the_other():
 
 def test_the_moment_of_a_film_goes_back_to_the_shaft():
     """It takes a little of it; the film that is solved later has that moment and that tilt."""
-    seats = [{}, {"stiffness": "journal", "takes_moment": True}]
-    scene = scene_of(seats, journal={"tilt": True, "grid": [36, 8]})
+    supports = [{}, {"stiffness": "journal", "takes_moment": True}]
+    scene = scene_of(supports, journal={"tilt": True, "grid": [36, 8]})
     loads = synthetic_case(12.0, 1, steps=40)
     found = bearing_loads(scene, _Case, {"loads": loads})
     force, moment = (found[n].values[1].T.astype(float) for n in ("force", "moment"))
@@ -157,19 +157,19 @@ def test_a_film_at_standstill_is_flagged_and_counted():
     loads = synthetic_case(12.0, 1, steps=30)
     loads["speed"][:7] = 1e-5
     found = bearing_loads(scene, _Case, {"loads": loads})
-    assert not found["settled"].values[:, :7].any()
-    assert found["settled"].values[:, 7:].all()
+    assert not found["converged"].values[:, :7].any()
+    assert found["converged"].values[:, 7:].all()
     assert summary({_Case: found})["not_converged"].item() == 7
     assert np.isfinite(found["displacement"]).all()
     loads["speed"][:] = 0.0
-    assert not bearing_loads(scene, _Case, {"loads": loads})["settled"].any()
+    assert not bearing_loads(scene, _Case, {"loads": loads})["converged"].any()
 
 
 def test_the_plan_names_the_choice_and_feels_the_bearings():
-    seats = [{"stiffness": "journal"}, {"stiffness": "rolling", "takes_moment": True}]
+    supports = [{"stiffness": "journal"}, {"stiffness": "rolling", "takes_moment": True}]
     rolling = {"bearing": "N2", "geometry": SLEWING}
     one, other = (
-        scene_of(seats, rolling=rolling, journal={"lubricant": {"viscosity": v}})
+        scene_of(supports, rolling=rolling, journal={"lubricant": {"viscosity": v}})
         for v in (0.05, 0.06)
     )
     assert rung_of(one, "shaft") == "two_point, beam, iterated with N journal, N2 rolling"
@@ -191,7 +191,7 @@ def test_the_plan_names_the_choice_and_feels_the_bearings():
 
 
 @pytest.mark.parametrize(
-    ("seats", "sections", "message"),
+    ("supports", "sections", "message"),
     [
         ([{"stiffness": "rolling"}, {}], {}, "rolling bearings at M only"),
         ([{}, {"stiffness": "journal"}], {"journal": {"bearings": ["N"]}}, "at N only"),
@@ -204,9 +204,9 @@ def test_the_plan_names_the_choice_and_feels_the_bearings():
         ([{"stiffness": "film"}, {}], {}, "stiffness"),
     ],
 )
-def test_a_seat_without_such_a_bearing_is_refused(seats, sections, message):
+def test_a_support_without_such_a_bearing_is_refused(supports, sections, message):
     with pytest.raises(InputError, match=message):
-        scene_of(seats, **sections)
+        scene_of(supports, **sections)
 
 
 def test_a_moment_that_presses_the_shaft_onto_the_rim_has_no_film():
