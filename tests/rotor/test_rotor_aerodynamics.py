@@ -89,3 +89,19 @@ def test_box_turns_clockwise_seen_from_upwind():
     inflow = steady_inflow(10.0, 5, 0.2, box=field)
     assert turbulence(inflow, 1.0, -60.0, 0.0)[0] == pytest.approx(1.0)
     assert turbulence(inflow, 1.0, 60.0, 0.0)[0] == pytest.approx(0.0)
+
+
+def test_a_table_is_kept_for_the_same_aerodynamics_and_for_no_other():
+    by_section = ("radius", "chord", "twist", "lift", "drag")
+    short = RIGID._replace(**{name: getattr(RIGID, name)[-3:-2] for name in by_section})
+    known = with_table(short).table
+    # neither is asked for the induction of a section
+    assert with_table(short._replace(tilt=0.3, modal_mass=2 * RIGID.modal_mass)).table is known
+    for name in by_section:
+        changed = short._replace(**{name: getattr(short, name) * 1.001})
+        assert with_table(changed).table is not known, name
+    for name, value in (("blades", 2), ("tip_radius", 70.0), ("drag_in_induction", True)):
+        assert not np.array_equal(with_table(short._replace(**{name: value})).table, known), name
+    again = with_table(short).table
+    assert again is not known  # the latest eight are kept
+    assert np.array_equal(again, known)
