@@ -37,6 +37,7 @@ from loadflow.scene.series import Reduction, Seeds
 from loadflow.scene.shaft import Shaft
 from loadflow.scene.thrust import Thrust, check_thrust
 from loadflow.scene.turbine import Turbine
+from loadflow.scene.usual_bearings import usual_bearings
 from loadflow.scene.wear import Wear, check_wear
 from loadflow.scene.written import SCENE, anchored, in_sections, origins
 from loadflow.shaft.options import MomentBearing, TwoPoint
@@ -241,7 +242,13 @@ class Scene(Section, BaseModel):
     @property
     def taken(self) -> list[str]:
         """What neither scene nor turbine state, and what is taken instead."""
-        return taken(self.turbine.name, self.shaft.model_dump(mode="json", exclude_none=True))
+        shaft = self.shaft.model_dump(mode="json", exclude_none=True)
+        rooms = ("journal", "rolling")
+        journal, rolling = (getattr(self, room) if self.wants(room) else None for room in rooms)
+        return [
+            *taken(self.turbine.name, shaft),
+            *usual_bearings(self.turbine.name, journal, rolling),
+        ]
 
     def wants(self, room: str) -> bool:
         """Whether a result of `room` is wanted."""
