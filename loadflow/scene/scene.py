@@ -39,6 +39,7 @@ from loadflow.scene.series import Reduction, Seeds
 from loadflow.scene.shaft import Shaft
 from loadflow.scene.thrust import Thrust, check_thrust
 from loadflow.scene.turbine import Turbine
+from loadflow.scene.usual_bearings import usual_bearings
 from loadflow.scene.wear import Wear, check_wear
 from loadflow.scene.written import SCENE, anchored, in_sections, origins
 from loadflow.shaft.options import MomentBearing, TwoPoint
@@ -254,8 +255,14 @@ class Scene(Section, BaseModel):
     def taken(self) -> list[str]:
         """What neither scene nor turbine state, and what is taken instead."""
         shaft = self.shaft.model_dump(mode="json", exclude_none=True)
-        beams = fitted(shaft, self.journal) if self.wants("journal") else ()
-        return [*taken(self.turbine.name, shaft), *beams]
+        rooms = ("journal", "rolling")
+        journal, rolling = (getattr(self, room) if self.wants(room) else None for room in rooms)
+        beams = fitted(shaft, journal) if journal is not None else ()
+        return [
+            *taken(self.turbine.name, shaft),
+            *beams,
+            *usual_bearings(self.turbine.name, journal, rolling),
+        ]
 
     def wants(self, room: str) -> bool:
         """Whether a result of `room` is wanted."""

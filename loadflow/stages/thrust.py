@@ -19,6 +19,7 @@ from loadflow.stages.film_summary import summary
 from loadflow.stages.frames import to_rolling
 from loadflow.stages.labelling import label, of_samples
 from loadflow.stages.reduction import kept_share
+from loadflow.stages.running_time import with_running
 from loadflow.stages.stage import (
     Link,
     Links,
@@ -58,7 +59,7 @@ def films(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
     found = {}
     for place, bearing in scene.thrust.bearings.items():
         samples = samples_of(scene, case, bearing, place, inputs)
-        found[place] = solved(bearing, place, samples, scene.thrust.rung)
+        found[place] = with_running(scene, solved(bearing, place, samples, scene.thrust.rung))
     return xr.DataTree.from_dict(found)
 
 

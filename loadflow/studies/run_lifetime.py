@@ -107,7 +107,7 @@ def _share_of(table: xr.Dataset, share: np.ndarray) -> xr.DataArray:
 
 
 def _film_energy(scene: Scene, table: xr.Dataset, share: np.ndarray) -> dict[str, xr.DataArray]:
-    power = table["mean_friction_power"] + table["mean_supply_power"]
+    power = table["lost_power"] + table["mean_supply_power"]
     energy = energy_per_year(scene, table, power.fillna(0.0), share)
     about = label("J", "friction and supply of the journal bearing, a year")
     bearings = {"journal": table["bearing"].values}
@@ -118,7 +118,7 @@ def _film_energy(scene: Scene, table: xr.Dataset, share: np.ndarray) -> dict[str
 
 
 def _pad_energy(scene: Scene, table: xr.Dataset, share: np.ndarray) -> dict[str, xr.DataArray]:
-    energy = energy_per_year(scene, table, table["mean_friction_power"].fillna(0.0), share)
+    energy = energy_per_year(scene, table, table["lost_power"].fillna(0.0), share)
     about = label("J", "friction of the thrust bearing or pair of cones, a year")
     bearings = {"thrust": table["bearing"].values}
     return {
@@ -128,7 +128,7 @@ def _pad_energy(scene: Scene, table: xr.Dataset, share: np.ndarray) -> dict[str,
 
 
 def _energy(scene: Scene, table: xr.Dataset, share: np.ndarray) -> dict[str, xr.DataArray]:
-    energy = energy_per_year(scene, table, table["mean_friction_power"], share)
+    energy = energy_per_year(scene, table, table["lost_power"], share)
     about = label("J", "friction of the rolling bearing, a year")
     bearings = {"rolling": table["bearing"].values}
     return {

@@ -102,6 +102,13 @@ def answered(scene):
     return rolling.load_distribution(scene, One(), found), found
 
 
+def test_a_bearing_that_swings_counts_as_running_while_the_rotor_idles():
+    scene, hub = scene_of(), HUB.assign(speed=0.0 * HUB["speed"])
+    reactions = shaft.bearing_loads(scene, None, {"loads": hub})
+    found = friction.losses(scene, One(), {"loads": hub, "shaft": reactions})
+    assert bool(found["running"].sel(bearing="Y").all())
+
+
 def test_a_scene_rates_a_yaw_bearing_by_its_oscillation():
     scene = scene_of()
     part, inputs = answered(scene)
