@@ -225,9 +225,7 @@ class Scene(Section, BaseModel):
             for place in candidate.places:
                 if place not in self.shaft.bearings:
                     have = ", ".join(self.shaft.bearings) or "none"
-                    raise ValueError(
-                        f"candidates.{name}.{place}: the shaft has the bearings {have}"
-                    )
+                    raise ValueError(f"candidates.{name}.{place}: the shaft has only {have}")
         return self
 
     @model_validator(mode="after")
@@ -255,14 +253,11 @@ class Scene(Section, BaseModel):
     def taken(self) -> list[str]:
         """What neither scene nor turbine state, and what is taken instead."""
         shaft = self.shaft.model_dump(mode="json", exclude_none=True)
-        rooms = ("journal", "rolling")
-        journal, rolling = (getattr(self, room) if self.wants(room) else None for room in rooms)
-        beams = fitted(shaft, journal) if journal is not None else ()
-        return [
-            *taken(self.turbine.name, shaft),
-            *beams,
-            *usual_bearings(self.turbine.name, journal, rolling),
-        ]
+        name = self.turbine.name
+        films = self.journal if self.wants("journal") else None
+        rolling = self.rolling if self.wants("rolling") else None
+        beams = fitted(shaft, films) if films is not None else ()
+        return [*taken(name, shaft), *beams, *usual_bearings(name, films, rolling)]
 
     def wants(self, room: str) -> bool:
         """Whether a result of `room` is wanted."""
