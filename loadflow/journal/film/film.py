@@ -15,6 +15,7 @@ from loadflow.journal.film import _kernels as kernel
 from loadflow.journal.film.asperity_load import AsperityLoad
 from loadflow.journal.film.gap import Gap, turning_frame
 from loadflow.journal.film.groove_pressure import Pockets
+from loadflow.journal.turbulence import Regime
 
 Array = NDArray[np.float64]
 
@@ -98,6 +99,7 @@ class DiscreteFilm:
         self.fixed = self.grooved = pockets.fixed  # cells held, and those of them without drag
         self.given = pockets.given(edge_pressure)
         self.lifts = pockets.lifts(edge_pressure)  # whether the supply may carry a load at rest
+        self.regime: Regime | None = None  # of a flow that may be turbulent
         self.set_scale(0.0)
         self.set_speed(0.0)
 
@@ -114,6 +116,8 @@ class DiscreteFilm:
         """Set the speed of the shaft, rad/s."""
         self.speed = speed
         self.wedge = 0.5 * self.slope * speed
+        if self.regime is not None:
+            self.gap.regime = self.regime.at(speed)
 
     def set_scale(self, rate: float) -> None:
         """Set the scale of pressure and unknowns, Pa, from the largest speed or squeeze, 1/s."""

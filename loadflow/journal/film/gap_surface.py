@@ -169,6 +169,7 @@ class SurfaceGap:
 
     roughness: float = 0.0
     open_share: Array | None = None
+    regime = None
 
     def __init__(
         self, mesh: SurfaceMesh, profile: Profile, clearance: float, base: float = 1.0
