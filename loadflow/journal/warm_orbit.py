@@ -12,7 +12,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,7 +23,7 @@ from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.heat import HOTTEST, Heat
 from loadflow.journal.line import Line
 from loadflow.journal.models.model import Model, Steps
-from loadflow.journal.thermal import check_scalable, grown_by, in_grown_bearings, warm_film
+from loadflow.journal.thermal import at_temperatures, check_scalable, grown_by, warm_film
 from loadflow.numerics.convergence import Limits
 from loadflow.quantities import FILM
 
@@ -69,8 +69,7 @@ def warm_orbit(
     loadflow.errors.SolverError
         No heat balance of the series, a film that gets too hot, or what the model raises.
     """
-    heat = film.heat
-    assert isinstance(heat, Heat)
+    heat = cast("Heat", film.heat)  # the other kind is refused in motion
     check_scalable(film)
     start = heat.start_temperature
     if start is None or heat.capacity is None:
@@ -107,8 +106,6 @@ def series_temperature(
     loadflow.errors.ValidityWarning
         More than `LEFT_OUT` of the samples have no film at rest; names the largest load that does.
     """
-    heat = film.heat
-    assert isinstance(heat, Heat)
     some = np.unique(np.linspace(0, speed.size - 1, SAMPLES).round().astype(int))
     limits = Limits(1e-10, 60, strict=False, refine=False)
     found = _of_mean(model, bearing, film, force[some], speed[some], line.at(some), limits)
@@ -146,15 +143,17 @@ def _of_mean(
     limits: Limits,
 ) -> dict[str, Any]:
     """Films at the temperature of their mean friction and flow."""
-    cold, heat = film.isothermal(), film.heat
-    assert isinstance(heat, Heat)
 
     def solve(
-        grown: JournalGeometry, forces: Array, speeds: Array, places: NDArray[np.int64]
+        grown: JournalGeometry,
+        cold: Film,
+        forces: Array,
+        speeds: Array,
+        places: NDArray[np.int64],
     ) -> dict[str, Any]:
         return model.equilibrium(grown, cold, forces, speeds, line.at(places), limits)
 
-    at_rest, shares = in_grown_bearings(solve, bearing, heat), np.full(speed.size, 1 / speed.size)
+    at_rest, shares = at_temperatures(solve, bearing, film), np.full(speed.size, 1 / speed.size)
     return warm_film(at_rest, force, speed, film, shares, strict=False)
 
 
