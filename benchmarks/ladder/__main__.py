@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-from benchmarks.common import ROOT, arguments
+from benchmarks.common import ROOT, arguments, taken_from
 from benchmarks.ladder.bearings import (
     measure_gains,
     measure_journal,
@@ -33,6 +33,7 @@ from benchmarks.ladder.wind import measure_wind
 LADDER = ROOT / "loadflow" / "data" / "ladder.json"
 GAINS = LADDER.with_name("gains.json")
 DOC = ROOT / "docs" / "speed-vs-error.md"
+WHOLE_RUNS = "<!-- whole runs -->", "<!-- end of whole runs -->"
 
 STAGES: dict[str, Callable[[Bench], Rungs]] = {
     "wind": measure_wind,
@@ -86,7 +87,8 @@ def page(ladder: dict[str, Rungs], gains: dict[str, dict[str, float]]) -> str:
         for room, found in gains.items()
         for answer, gain in found.items()
     ]
-    return "\n".join([HEAD, *sections, GAINS_HEAD, *rows, ""])
+    whole = taken_from(DOC, *WHOLE_RUNS)  # another benchmark's
+    return "\n".join([HEAD, whole, "", *sections, GAINS_HEAD, *rows, ""])
 
 
 def _section(stage: str, rungs: Rungs) -> Iterator[str]:
