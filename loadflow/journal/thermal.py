@@ -13,7 +13,7 @@ in one call.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any, cast
 
 import numpy as np
@@ -125,6 +125,11 @@ class _Balance:
     speed: Array
     heat: Heat
     share: Array | None
+    refused: Array = field(init=False)
+    """Temperatures from which on a load has no film, K, (n,): warmer oil is thinner."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "refused", np.full(self.speed.size, np.inf))
 
     def film(self, temperature: Array, places: NDArray[np.int64]) -> Columns:
         """Films of the loads at `places` (m,) at these temperatures (m,)."""
@@ -192,9 +197,13 @@ class _Balance:
             state = self.film(temperature, active)
             power, flow = state["friction_power"], state["side_flow"]
         else:
-            every = np.arange(self.speed.size)
-            state = self.film(np.full(every.size, temperature[0]), every)
-            share = np.where(state["converged"], self.share, 0.0)
+            asked = np.flatnonzero(self.refused > temperature[0])
+            if asked.size == 0:
+                return np.array([np.nan])
+            state = self.film(np.full(asked.size, temperature[0]), asked)
+            share = np.where(state["converged"], self.share[asked], 0.0)
+            if self.heat.growth is None:  # a bearing that grows may carry more when it is warm
+                self.refused[asked[~state["converged"]]] = temperature[0]
             if not share.any():
                 return np.array([np.nan])
             columns = np.nan_to_num([state["friction_power"], state["side_flow"]])
@@ -254,34 +263,44 @@ def grown_by(bearing: JournalGeometry, heat: Heat, temperature: float) -> Journa
     return replace(bearing, relative_clearance=clearance / bearing.radius)
 
 
-def in_grown_bearings(
-    solve: Callable[[JournalGeometry, Array, Array, NDArray[np.int64]], Columns],
+def at_temperatures(
+    solve: Callable[[JournalGeometry, Film, Array, Array, NDArray[np.int64]], Columns],
     bearing: JournalGeometry,
-    heat: Heat,
+    film: Film,
 ) -> AtRest:
-    """Equilibria in a bearing of the clearance that goes with each temperature.
+    """Equilibria of the oil as it enters, in what of bearing and flow goes with each temperature.
+
+    That is the clearance of a bearing that grows, and the Reynolds number of turbulent flow: at a
+    speed times η/η₀ the film of η₀ has it with a density times ρ/ρ₀ (η₀/η)².
 
     Parameters
     ----------
     solve : callable
-        Equilibria in a bearing, as `AtRest` without temperatures.
+        Equilibria in a bearing and of an isothermal film, as `AtRest` without temperatures.
     bearing : JournalGeometry
         As it is made.
-    heat : Heat
-        With its growth, or none.
+    film : Film
+        With heat.
     """
+    heat, cold = cast("Heat", film.heat), film.isothermal()
+    enters = cold.liquid
 
     def at_rest(
         force: Array, speed: Array, places: NDArray[np.int64], temperature: Array
     ) -> Columns:
-        if heat.growth is None:
-            return solve(bearing, force, speed, places)
+        if heat.growth is None and film.turbulence is None:
+            return solve(bearing, cold, force, speed, places)
         joined: Columns = {}
         for one in np.unique(temperature):
             some = temperature == one
-            now = grown_by(bearing, heat, float(one))
-            found = solve(now, force[some], speed[some], places[some])
-            found = found | {"clearance": np.full(int(some.sum()), now.clearance)}
+            oil, now = heat.lubricant(float(one)), grown_by(bearing, heat, float(one))
+            heavier = oil.density * (enters.viscosity / oil.viscosity) ** 2
+            own = replace(cold, lubricant=replace(enters, density=heavier))
+            found = solve(now, own, force[some], speed[some], places[some])
+            reynolds = found["reynolds_number"] * enters.density / heavier
+            found = found | {"reynolds_number": reynolds}
+            if heat.growth is not None:
+                found = found | {"clearance": np.full(int(some.sum()), now.clearance)}
             for name, values in found.items():
                 if values is None:
                     joined[name] = None

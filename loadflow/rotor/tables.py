@@ -2,56 +2,50 @@
 
 At given geometry the induction of a section depends on the ratio of the two wind components and on
 the pitch alone, so a table over both replaces the solver; what is left is the error of linear
-interpolation. Outside the table the section is solved.
+interpolation. Outside the table the section is solved. It is the same for all machines that differ
+in what moves or lags alone, and is filled once for these.
 """
 
 from __future__ import annotations
 
-import hashlib
+from collections import OrderedDict
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .machine import Machine
 
 _ANGLES = np.radians(np.arange(-20.0, 80.25, 0.5))
 _PITCHES = np.radians(np.arange(-6.0, 34.5, 1.0))
 
+GOVERNED_BY = (
+    "blades", "tip_radius", "hub_radius", "radius", "chord", "twist", "lift", "drag",
+    "drag_in_induction",
+)  # fmt: skip
+"""All that the induction of a section reads of a machine."""
 
-_ON = ("radius", "chord", "twist", "lift", "drag")
-_AND = ("blades", "tip_radius", "hub_radius", "drag_in_induction")
-"""What the induction of a section is a function of, beside the flow."""
-
-_KEPT = 8
-_tables: dict[bytes, np.ndarray] = {}  # the latest ones: a run asks for the same rotor many times
+_KEPT = 4
+_filled: OrderedDict[tuple[bytes, ...], NDArray[np.float64]] = OrderedDict()
 
 
 def with_table(m: Machine) -> Machine:
-    """The machine with its table filled; the tables of the latest rotors are kept."""
-    key = _fingerprint(m)
-    table = _tables.pop(key, None)
-    if table is None:
-        table = _filled(m)
-    _tables[key] = table
-    for old in list(_tables)[:-_KEPT]:
-        _tables.pop(old, None)
+    """The machine with its table filled; the table is shared, and read only."""
+    key = tuple(np.asarray(getattr(m, name)).tobytes() for name in GOVERNED_BY)
+    if key not in _filled:
+        _filled[key] = _table(m)
+        if len(_filled) > _KEPT:
+            _filled.popitem(last=False)
+    _filled.move_to_end(key)
     return m._replace(
-        table=table,
+        table=_filled[key],
         table_angle=(float(_ANGLES[0]), float(_ANGLES[1] - _ANGLES[0])),
         table_pitch=(float(_PITCHES[0]), float(_PITCHES[1] - _PITCHES[0])),
     )
 
 
-def _filled(m: Machine) -> np.ndarray:
+def _table(m: Machine) -> NDArray[np.float64]:
     from ._kernels import fill_table
 
     table = np.zeros((m.radius.size, _ANGLES.size, _PITCHES.size, 2))
     fill_table(m, _ANGLES, _PITCHES, table)
     return table
-
-
-def _fingerprint(m: Machine) -> bytes:
-    found = hashlib.sha256(repr([getattr(m, name) for name in _AND]).encode())
-    for name in _ON:
-        values = np.ascontiguousarray(getattr(m, name))
-        found.update(repr(values.shape).encode() + values.tobytes())
-    return found.digest()

@@ -26,6 +26,7 @@ from loadflow.scene.candidates import ABOUT, machine
 from loadflow.scene.design import Design
 from loadflow.scene.dynamics import Dynamics
 from loadflow.scene.environment import Environment, surrounded
+from loadflow.scene.fitting_shaft import fitted, with_fitting_beams
 from loadflow.scene.friction import Friction
 from loadflow.scene.journal import Journal
 from loadflow.scene.loads import Loads, check_simulation
@@ -134,6 +135,9 @@ class Scene(Section, BaseModel):
             data = data | {"results": list(OF_PLACES)}
         if not own_shaft:
             data = _with_scaled_shaft(data)
+        if "shaft" in data and _has_films(data):
+            fitting = with_fitting_beams(data["shaft"], data.get("journal", {}))
+            data = data | {"shaft": fitting}
         return _results_that_the_shaft_can_give(data, stated)
 
     @model_validator(mode="after")
@@ -245,10 +249,9 @@ class Scene(Section, BaseModel):
         shaft = self.shaft.model_dump(mode="json", exclude_none=True)
         rooms = ("journal", "rolling")
         journal, rolling = (getattr(self, room) if self.wants(room) else None for room in rooms)
-        return [
-            *taken(self.turbine.name, shaft),
-            *usual_bearings(self.turbine.name, journal, rolling),
-        ]
+        beams = () if journal is None else fitted(shaft, journal)
+        usual = usual_bearings(self.turbine.name, journal, rolling)
+        return [*taken(self.turbine.name, shaft), *usual, *beams]
 
     def wants(self, room: str) -> bool:
         """Whether a result of `room` is wanted."""
@@ -416,6 +419,14 @@ def _with_scaled_shaft(data: dict[str, Any]) -> dict[str, Any]:
     stated = machine(base).get("shaft")
     usual = Shaft.model_validate(stated) if stated else Scene.model_fields["shaft"].default
     return data | {"shaft": usual.scaled(factor_of_power(power, known.rated_power))}
+
+
+def _has_films(data: dict[str, Any]) -> bool:
+    """Whether data of a scene, in sections, want a result of journal bearings."""
+    results = data.get("results", USUAL)
+    return isinstance(results, (list, tuple)) and any(
+        isinstance(name, str) and name.startswith("journal.") for name in results
+    )
 
 
 def _results_that_the_shaft_can_give(data: dict[str, Any], stated: set[str]) -> dict[str, Any]:
