@@ -16,7 +16,8 @@
 `heat`           oil and cooling: `Heat`, `FilmHeat`; `heat_results` what comes back
 `thermal`        heat balance; `energy`: losses against the power of the shaft
 `turbulence`     turbulent flow in the film
-`validity`       limits of the model: laminar flow; `grid_error`: error of the cells
+`validity`       limits of the model: laminar flow
+`grid_bounds`    bounds of the error of the cells; `grid_error`: from coarser grids
 `dimensionless`  a bearing in numbers without dimension
 `film`           the discrete film: mesh, gap, balance, grooves, elastic shells, kernels
 `models`         the rungs: charts, mobility map, few unknowns across the width

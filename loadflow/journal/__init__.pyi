@@ -21,7 +21,9 @@ from .energy import energy_balance as energy_balance
 from .film_model import Control as Control
 from .film_model import Film as Film
 from .geometry import JournalGeometry as JournalGeometry
-from .grid_error import GridError as GridError
+from .grid_bounds import FieldError as FieldError
+from .grid_bounds import GridError as GridError
+from .grid_bounds import PadError as PadError
 from .grid_error import grid_error as grid_error
 from .heat import FilmHeat as FilmHeat
 from .heat import Growth as Growth

@@ -12,6 +12,7 @@ from loadflow.errors import InputError
 from loadflow.journal.film.discretise import operating_points
 from loadflow.journal.film_model import Film, Keywords, film_and_control
 from loadflow.journal.geometry import JournalGeometry
+from loadflow.journal.grid_bounds import warn_if_unresolved
 from loadflow.journal.heat import FilmHeat, Heat
 from loadflow.journal.heat_results import FilmHeatEquilibrium, FilmHeatField
 from loadflow.journal.line import Line
@@ -130,12 +131,14 @@ class JournalBearing(JournalGeometry):
             require(weights is None, "weights", weights, "None without heat")
             warn_if_turbulent(self, speeds, film.liquid, film.turbulence)
             answer = model.equilibrium(self, film, loads, speeds, line, limits)
+            warn_if_unresolved(answer)
             return Equilibrium(**shaped(answer, shape))
         if film.heat.over_area:
             require(weights is None, "weights", weights, "None with heat over the area")
             answer = model.equilibrium(self, film, loads, speeds, line, limits)
             thinnest = _hottest(film.heat, answer["maximum_temperature"])
             warn_if_turbulent(self, speeds, thinnest, film.turbulence)
+            warn_if_unresolved(answer)
             return FilmHeatEquilibrium(**shaped(answer, shape))
 
         each = replace(limits, strict=False)
@@ -153,6 +156,7 @@ class JournalBearing(JournalGeometry):
         answer = warm_film(at_rest, loads, speeds, film, share, strict=limits.strict)
         thinnest = _hottest(film.heat, answer["temperature"])
         warn_if_turbulent(self, speeds, thinnest, film.turbulence)
+        warn_if_unresolved(answer)
         return WarmEquilibrium(**shaped(answer, shape))
 
     def pressure(
@@ -207,6 +211,7 @@ class JournalBearing(JournalGeometry):
         line = Line.of(shape, tilt=tilt, bend=bend)
         model = model_of("at_position", film, self, line)
         found, z = model.pressure(self, film, places, velocities, speeds, line, limits)
+        warn_if_unresolved(found)
         kind = FilmField if film.heat is None else FilmHeatField
         return kind(z=z, **shaped(found, shape))
 

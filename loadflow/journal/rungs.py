@@ -14,7 +14,7 @@ from loadflow.errors import InputError
 _FULL_WIDTH = "a shaped bore, an elastic shell or a shaft that tilts or bends"
 
 FEATURES = {
-    "shape": _FULL_WIDTH,
+    "shape": "a shaped bore",
     "relief": _FULL_WIDTH,
     "moment": _FULL_WIDTH,
     "tilt": _FULL_WIDTH,
@@ -37,7 +37,7 @@ FEATURES = {
 _LINE = {"moment", "tilt", "bend"}
 _SHELLS = {"shell", "local_shell"}
 _BORES = _LINE | _SHELLS | {"shape", "relief", "supply", "inlet", "grading"}
-_REDUCED = frozenset(_LINE | {"local_shell", "contact", "heat", "turbulence"})
+_REDUCED = frozenset(_LINE | {"shape", "local_shell", "contact", "heat", "turbulence"})
 
 
 @dataclass(frozen=True)

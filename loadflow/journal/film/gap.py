@@ -173,7 +173,7 @@ class CylindricalGap(FlowBetween):
         self.coef = np.zeros(shape)
         self.across = np.ones((2, 1))
         self.dof_scale = np.ones(2)
-        self._shifted = (np.zeros(shape), np.zeros(shape))
+        self._spare = np.zeros(shape)
 
     @property
     def around(self) -> Array:
@@ -207,13 +207,17 @@ class CylindricalGap(FlowBetween):
         if self.mesh.polar:
             turns = turns[:1]
             ex, ey = ratio, 0.0
-        plus, minus = self._shifted
+        stretch = self.mesh.stretch if self.mesh.polar else _unstretched
         slopes = []
         for tx, ty in turns:
-            for out, h in ((plus, step), (minus, -step)):
-                self._evaluate(out, ex + h * tx, ey + h * ty)
-            slope = (plus - minus) / (2 * step)
-            slopes.append((slope, _around(slope)))
+            slope, around = np.zeros_like(self.coef), np.empty((2, self.mesh.angle.size))
+            ways = tuple((ex + h * tx, ey + h * ty) for h in (step, -step))
+            stretches = (stretch(ways[0][0]), stretch(ways[1][0]))
+            kernel.gap_slope(
+                *self.mesh.trigonometry, stretches, ways, step, self.surfaces, self._spare,
+                slope, around, self.open_share,
+            )  # fmt: skip
+            slopes.append((slope, around))
         return slopes
 
     def advance(self, position: Array, step: Array) -> Array:
@@ -278,6 +282,11 @@ class CylindricalGap(FlowBetween):
     def widest(self, position: Array, free: slice | NDArray[np.int64]) -> Array:
         """The centre."""
         return np.zeros(2)
+
+
+def _unstretched(ratio: float) -> float:
+    """No Sommerfeld map."""
+    return 0.0
 
 
 def _around(coef: Array) -> Array:

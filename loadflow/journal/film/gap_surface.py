@@ -272,6 +272,12 @@ class SurfaceGap:
             least = min(least, float((self._gap_of(angle[inside]) - closing).min()))
         return least
 
+    def facing(self, position: Array) -> Array:
+        """By how much each degree of freedom closes the narrowest of the sampled places, (m,)."""
+        gaps = self.gaps(position)
+        i, k = np.unravel_index(gaps.argmin(), gaps.shape)
+        return np.asarray((self._factors @ self._spots_basis[:, i]) * self._spots_across[:, k])
+
     def shear(self, position: Array) -> float:
         """∫ (r/R)² / H dA over the whole surface, in units of R² per clearance."""
         mesh, surface = self.mesh, self.mesh.surface
