@@ -366,7 +366,8 @@ Time against error of whole runs, pilot and check at the end included: the scene
 Processor time over that of the last run, kernels compiled; differences of its answers. The grid of
 the wind is part of the accuracy, and on another grid a seed is another wind, the same at the hub
 alone, so that the extremes of these four short cases differ by scatter as well as by models: read
-friction and times from the table rather than single extremes. Written by `python -m benchmarks.ladder.physics runs`."""
+friction and times from the table rather than single extremes. Written by `python -m
+benchmarks.ladder.physics runs`."""
 
 
 def kept_so_far() -> dict[str, Any]:
