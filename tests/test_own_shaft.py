@@ -38,6 +38,18 @@ def test_another_turbine_has_scaled_distances_and_says_so(larger, shaft):
     assert "scaled to NREL 5 MW" in told
 
 
+def test_another_turbine_is_told_whose_bearings_it_stands_on(larger):
+    data = {"turbine": {"file": str(larger)}, "results": ["journal.film", "rolling.life"]}
+    told = "\n".join(make_scene(data).taken)
+    assert "bearings N, N2: 3 m × 2.25 m, made for nrel-5mw" in told
+    assert "bearings M: a slewing bearing of 1.9 m, made for nrel-5mw" in told
+    only = make_scene(data | {"results": ["rolling.life"]}).taken
+    assert not any("bearings N" in said for said in only)  # nothing wanted is of them
+    own = {"diameter": 4.0, "width": 3.0, "relative_clearance": 5e-4}
+    stated = make_scene(data | {"journal": {"geometry": own}}).taken
+    assert not any("bearings N" in said for said in stated)
+
+
 def test_distances_in_the_file_of_the_turbine_are_its_own(larger):
     text = larger.read_text()
     line = "[drivetrain]\nhub_to_bearing = 2.5\nbearing_span = 4.0"

@@ -27,6 +27,7 @@ from benchmarks.ladder.life import measure_life
 from benchmarks.ladder.loads import measure_loads, measure_seeds, measure_shaft, measure_statistics
 from benchmarks.ladder.measuring import QUICK, Bench, Entry, Rungs, Setting, percent
 from benchmarks.ladder.orbit import measure_orbit
+from benchmarks.ladder.thrust import measure_thrust
 from benchmarks.ladder.wind import measure_wind
 
 LADDER = ROOT / "loadflow" / "data" / "ladder.json"
@@ -43,13 +44,14 @@ STAGES: dict[str, Callable[[Bench], Rungs]] = {
     "reduction": measure_reduction,
     "journal": measure_journal,
     "journal, transient": measure_orbit,
+    "thrust": measure_thrust,
     "rolling": measure_rolling,
     "life": measure_life,
     "friction": measure_friction,
 }
 
-GAINING = {"journal", "rolling", "friction"}
-"""Stages whose answers have gains: these are measured with any of them."""
+GAINING = {"journal": "journal", "thrust": "thrust", "rolling": "rolling", "friction": "rolling"}
+"""Stages whose answers have gains, and the bearing whose gains are measured with them."""
 
 HEAD = """# Speed against error
 
@@ -153,7 +155,8 @@ def main() -> None:
         print(f"{name}: {time.perf_counter() - start:.0f} s")
         for rung, entry in measured[name].items():
             print(f"  {rung}: {entry['relative_time']:.3g} × top, {entry['error']}")
-    gains = measure_gains(bench) if GAINING & {*chosen.only} else _read(GAINS)
+    rooms = {GAINING[name] for name in chosen.only if name in GAINING}
+    gains = _read(GAINS) | measure_gains(bench, rooms)
     if chosen.quick:
         return
     found = _read(LADDER) | measured
