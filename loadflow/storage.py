@@ -67,6 +67,35 @@ def target_of(name: str) -> str | None:
     return match["name"] if match else None
 
 
+_POINTER = b"version https://git-lfs.github.com/spec/"
+
+
+def check_content(path: Path) -> None:
+    r"""Refuse what Git LFS leaves in place of a large file that was not fetched.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        The file is such a pointer.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> path = Path(tempfile.mkdtemp()) / "run.outb"
+    >>> _ = path.write_text("version https://git-lfs.github.com/spec/v1\noid sha256:12\nsize 9\n")
+    >>> try:
+    ...     check_content(path)
+    ... except InputError as error:
+    ...     print(str(error).removeprefix(str(path)))
+    : a pointer of Git LFS, not the file itself; `git lfs pull` fetches it
+    """
+    with path.open("rb") as stream:
+        if stream.read(len(_POINTER)) == _POINTER:
+            raise InputError(
+                f"{path}: a pointer of Git LFS, not the file itself; `git lfs pull` fetches it"
+            )
+
+
 def check_name(name: str, what: str = "name") -> str:
     """Return a name that may become a file or a folder, on every system and nowhere else.
 

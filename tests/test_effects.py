@@ -11,7 +11,7 @@ import loadflow as lf
 from loadflow.cli import main
 from loadflow.errors import InputError
 from loadflow.planning.effects import EffectVerdict, switched
-from loadflow.planning.pilot import hardest, pilot
+from loadflow.planning.pilot import EFFORTS, effort_for, hardest, pilot
 from loadflow.planning.plan import make_plan, needed_stages
 from loadflow.scene.cases import list_cases
 from loadflow.scene.scene import make_scene
@@ -19,6 +19,7 @@ from loadflow.stages import registry, statistics
 from loadflow.stages.effects import film
 from loadflow.stages.effects import registry as effects
 from loadflow.stages.effects.effect import Effect
+from loadflow.stages.effects.registry import EFFECTS
 from loadflow.stages.effects.situation import situation
 from loadflow.stages.probes import PROBES, Probe
 from loadflow.stages.stage import Rungs, Stage, always, with_settings
@@ -220,6 +221,20 @@ def test_the_pilot_looks_where_steady_load_per_speed_and_largest_load_are():
     cases = hardest(scene, tuple(list_cases(scene)))
     assert [case.wind_speed for case in cases] == [4.0, 24.0]
     assert all(case.seed == 1 for case in cases)
+
+
+def test_a_short_run_has_a_short_pilot():
+    """What it may take follows from the ladder, so that no clock decides what a run finds."""
+    speeds = [8.0, 12.0, 18.0]
+    lengths = [(2, 60.0), (2, 600.0), (20, 600.0)]
+    found = []
+    for seeds, duration in lengths:
+        loads = {"wind_speeds": speeds, "seeds": seeds, "duration": duration}
+        scene = make_scene({"name": "look", "results": ["journal.film"], "loads": loads})
+        cases = tuple(list_cases(scene))
+        rotor = [effect for effect in EFFECTS if effect.model == "loads"]
+        found.append(effort_for(scene, rotor, cases))
+    assert found == [*reversed(EFFORTS)]
 
 
 def test_a_run_remembers_its_pilot_and_gives_the_same_on_two_processes(cube, tmp_path):

@@ -37,6 +37,7 @@ WIND = {"wind_speeds": [12.0, 14.0], "duration": 3.0, "step": 0.1}
 BALLS = {"balls": 60, "rows": 1, "ball_diameter": 0.06, "pitch_diameter": 2.0,
          "groove_radius": 0.0312, "contact_angle": 0.8, "shoulder_angle": 1.2}  # fmt: skip
 FILM = {"grid": [24, 8], "bearings": ["N"]}
+FEW = {"size": 0.03, "classes": 2}  # samples; some touch, some have a film
 
 BASES = {
     "turbulence": {"loads": WIND | {"seeds": 1, "rung": "flap"}},
@@ -53,23 +54,25 @@ BASES = {
         "shaft": {"two_point": {}, "moment": {}},
         "journal": FILM | {"supply": {"grooves": [{"angle": 1.57, "arc": 0.2, "length": 1.5,
                                                    "pressure": 6e5}]}},
-        "rolling": {"bearing": "M", "geometry": BALLS},
+        "rolling": {"bearing": "M", "geometry": BALLS}, "reduction": FEW,
     },
-    "warm film": {
-        "journal": FILM | {"heat": {"transfer": 100.0}}, "reduction": {"size": 0.03},
-    },
+    "warm film": {"journal": FILM | {"heat": {"transfer": 100.0}}, "reduction": FEW},
     "cold": {
         "loads": WIND | {"seeds": 1, "rung": "tables"}, "environment": {"temperature": 263.15},
-        "journal": FILM | {"heat": {"transfer": 100.0}}, "reduction": {"size": 0.03},
+        "journal": FILM | {"heat": {"transfer": 100.0}}, "reduction": FEW,
         "results": ["journal.film", "rolling.friction"],
     },
     "rough film": {
         "journal": FILM | {"contact": {"pattern": 3.0, "asperities": {
             "roughness": 1e-6, "contact_modulus": 1e11, "factor": 1e-3}}},
-        "reduction": {"size": 0.03},
+        "reduction": FEW,
     },
-    "elastic film": {"journal": FILM | {"shell": {"kind": "local", "compliance": 1e-12}}},
-    "turbulent film": {"journal": FILM | {"turbulence": {"begin": 0.002, "end": 0.1}}},
+    "elastic film": {
+        "journal": FILM | {"shell": {"kind": "local", "compliance": 1e-12}}, "reduction": FEW,
+    },
+    "turbulent film": {
+        "journal": FILM | {"turbulence": {"begin": 0.002, "end": 0.1}}, "reduction": FEW,
+    },
     "film in motion": {
         "journal": FILM | {"motion": "transient", "rung": "reduced"},
         "results": ["journal.film"],
@@ -78,18 +81,23 @@ BASES = {
         "journal": FILM, "reduction": {"method": "periodic", "bounds": [0.05, 0.3]},
     },
     "stationary loads": {"journal": FILM, "reduction": {"method": "stationary"}},
-    "tilted film": {"journal": FILM | {"tilt": True}, "shaft": {"two_point": {"beam": {}}}},
+    "tilted film": {
+        "journal": FILM | {"tilt": True}, "shaft": {"two_point": {"beam": {}}}, "reduction": FEW,
+    },
     "rotor dynamics": {"journal": FILM, "shaft": {"two_point": {"beam": {}}},
                        "dynamics": {"unbalance": 50.0}, "results": ["journal.dynamics"]},
     "rotor dynamics, rigid": {"journal": FILM, "shaft": {"two_point": {}},
                               "results": ["journal.dynamics"]},
-    "rigid and tilted": {"journal": FILM | {"tilt": True}, "shaft": {"two_point": {}}},
+    "rigid and tilted": {
+        "journal": FILM | {"tilt": True}, "shaft": {"two_point": {}}, "reduction": FEW,
+    },
     "worn bores": {
         "journal": FILM | {"contact": {"asperities": {
             "roughness": 1e-6, "contact_modulus": 1e11, "factor": 1e-3}}},
         "reduction": {"size": 0.5}, "results": ["journal.film", "journal.wear"],
         "wear": {"law": {"coefficient": 1e-13}, "samples": 12, "around": 90, "running_in": {
             "initial_roughness": 1e-6, "final_roughness": 9e-7, "depth": 1e-6}},
+        "loads": {"dlc": ["1.2", "3.1"]}, "lifetime": {"per_year": {"3.1": 1e3}},
     },
     "tapered rollers": {
         "shaft": {"two_point": {}},
@@ -112,8 +120,8 @@ BASES = {
         "reduction": {"size": 0.02, "classes": 2},
         "thrust": {"bearings": {"M": {"kind": "conical-pair", "grid": [8, 4],
             "lubricant": {"viscosity": 0.2}, "geometry": {"distance": 3.2, "left": {
-                "half_angle": 0.5, "slant": [1.59, 2.59], "clearance": 2e-4, "pads": 6,
-                "pad_angle": 0.95, "profile": {"kind": "taper", "taper": 8e-5}}}}}},
+                "half_angle": 0.5, "slant": [1.59, 2.59], "clearance": 2e-4, "pads": 3,
+                "pad_angle": 1.9, "profile": {"kind": "taper", "taper": 8e-5}}}}}},
     },
     "three points": {"shaft": {"three_point": {}}, "journal": FILM},
     "integrated": {"shaft": {"integrated": {}}, "journal": FILM},
@@ -146,7 +154,7 @@ READERS = {
     "rotor dynamics": ("dynamics",),
     "rotor dynamics, rigid": ("dynamics",),
     "rigid and tilted": ("journal",),
-    "worn bores": ("wear",),
+    "worn bores": ("wear", "lifetime"),
     "tapered rollers": ("rolling", "friction"),
     "thrust collar": ("thrust",),
     "pair of cones": ("thrust",),
@@ -214,6 +222,7 @@ OTHERS = {
     "journal.supply.pump": [{"flow": [0.0, 0.01], "pressure": [8e5, 2e5]}],
     "dynamics.speed_range": [[0.8, 1.6]],
     "wear.running_in.initial_roughness": [1.0000001e-6],
+    "thrust.rung": ["curve"],
     "thrust.bearings.N2.geometry.profile": [{"kind": "step", "height": 1e-4}],
     "thrust.bearings.N2.geometry.pivot": [{"share": 0.6}],
     "thrust.bearings.N2.geometry.first_pad": [0.1],
@@ -364,6 +373,7 @@ def _inputs(scene):
 
 class _One:
     dlc, wind_speed, seed, weight, name = "1.1", 8.0, 1, 1.0, "dlc1.1_v8_s1"
+    duration = 600.0
 
 
 ONE = _One()
@@ -455,7 +465,7 @@ def _seeds(scene, add):
 FOUND = {
     "loads": _loads, "turbine": _loads, "shaft": lambda s, add: _shaft(s, add) and None,
     "seeds": _seeds, "reduction": _reduction, "journal": _journal, "rolling": _rolling,
-    "friction": _friction, "dynamics": _dynamics, "wear": _wear,
+    "friction": _friction, "dynamics": _dynamics, "wear": _wear, "lifetime": _wear,
     "thrust": _thrust,
     "environment": _environment,
 }  # fmt: skip

@@ -37,6 +37,7 @@ def test_rollers_of_both_bearings_are_followed(tmp_path):
         rolling={"arrangement": "two-spherical"},
         shaft={"two_point": {}},
         results=["journal.film", "rolling.friction"],
+        accuracy="given",  # neither a pilot nor a check is needed
     )
     run = lf.run(scene, out=tmp_path)
     assert run.failures == {}

@@ -38,6 +38,18 @@ def test_another_turbine_has_scaled_distances_and_says_so(larger, shaft):
     assert "scaled to NREL 5 MW" in told
 
 
+def test_another_turbine_is_told_whose_bearings_it_stands_on(larger):
+    data = {"turbine": {"file": str(larger)}, "results": ["journal.film", "rolling.life"]}
+    told = "\n".join(make_scene(data).taken)
+    assert "bearings N, N2: 3 m × 2.25 m, made for nrel-5mw" in told
+    assert "bearings M: a slewing bearing of 1.9 m, made for nrel-5mw" in told
+    only = make_scene(data | {"results": ["rolling.life"]}).taken
+    assert not any("bearings N" in said for said in only)  # nothing wanted is of them
+    own = {"diameter": 4.0, "width": 3.0, "relative_clearance": 5e-4}
+    stated = make_scene(data | {"journal": {"geometry": own}}).taken
+    assert not any("bearings N" in said for said in stated)
+
+
 def test_distances_in_the_file_of_the_turbine_are_its_own(larger):
     text = larger.read_text()
     line = "[drivetrain]\nhub_to_bearing = 2.5\nbearing_span = 4.0"
@@ -75,3 +87,31 @@ def test_a_turbine_file_that_changes_is_another_input(larger):
     before = make_scene(data).digest("turbine")
     larger.write_text(larger.read_text().replace("cut_out = 25.0", "cut_out = 24.0"))
     assert make_scene(data).digest("turbine") != before
+
+
+def _beam_of(**keys):
+    scene = make_scene({"name": "look"} | keys)
+    return scene, scene.shaft.two_point.beam.sections[0]
+
+
+def test_a_beam_without_sections_is_as_wide_as_the_narrowest_journal_bearing():
+    def journal(diameter):
+        sizes = {"diameter": diameter, "width": 1.0, "relative_clearance": 1e-3}
+        return {"kind": "journal", "geometry": sizes}
+
+    bearings = {"N": journal(1.5), "N2": journal(1.4)}
+    scene, section = _beam_of(shaft={"two_point": {"beam": {"shear": False}}}, bearings=bearings)
+    assert (section.outer_diameter, section.inner_diameter) == (1.4, 0.7)
+    assert not scene.shaft.two_point.beam.shear
+    assert any("shaft.two_point.beam: 1.4 m with a bore of 0.7 m" in said for said in scene.taken)
+    stated = {"two_point": {"beam": {"sections": [{"outer_diameter": 1.2}]}}}
+    scene, section = _beam_of(shaft=stated, bearings=bearings)
+    assert section.outer_diameter == 1.2
+    assert not any("beam" in said for said in scene.taken)
+
+
+def test_a_beam_without_films_keeps_the_section_of_the_library():
+    shaft = {"two_point": {"beam": {}}}
+    scene, section = _beam_of(shaft=shaft, results=["loads.statistics"])
+    assert section.outer_diameter == 1.04
+    assert not any("beam" in said for said in scene.taken)

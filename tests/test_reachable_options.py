@@ -21,9 +21,9 @@ ROOMS = (
 )
 
 FOUND = {
-    "journal": "ConicalResult DoubleThrustResult EnergyBalance Equilibrium FilmField "
-    "FilmHeatEquilibrium FilmHeatField GridError PadResult PairResult ThrustResult "
-    "WarmEquilibrium WarmFilm Wear",
+    "journal": "BestCrown ConicalResult DoubleThrustResult EnergyBalance Equilibrium FieldError "
+    "FilmField FilmHeatEquilibrium FilmHeatField GridError PadError PadResult "
+    "PairResult ThrustResult WarmEquilibrium WarmFilm Wear",
     "rolling": "BallBearingResult BearingLife EdgeContact ExpansionResult FlexibleResult "
     "LifeModification LineContact PointContact RollerResult RollingEquilibrium SlewingResult "
     "SpectrumLife SpinningResult ThreeRowResult Transient Verdict",

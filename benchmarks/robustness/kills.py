@@ -2,12 +2,13 @@
 
     python -m benchmarks.robustness.kills [count] [--only PHASE] [--folder FOLDER]
 
-A phase is a function of the runner: the pilot, the load cases with the check after them, the
-collection of the result, the report page. Its calls are counted in a run that is left alone; a run
-is then killed at one of these calls, `count` times in all, spread evenly over the phases and the
-calls of each. Taken up again it must give the bits of the run that was left alone and its page, and
-leave no temporary file. Each run is a process of its own. The kills between the writing of files
-are those of ``tests/running/kill_points.py``.
+A phase is what the run does within some functions: the pilot, the first load case, all that the
+load cases need with what is between them, the writing of parts, the stages over all cases, the
+collection of the result, the writing of its file, the report page. The calls within it are counted
+in a run that is left alone; a run is then killed at one of these calls, `count` times in all,
+spread evenly over the phases and the calls of each. Taken up again it must give the bits of the run
+that was left alone and its page, and leave no temporary file. Each run is a process of its own. The
+kills around the writing of each file are those of ``tests/running/kill_points.py``.
 """
 
 from __future__ import annotations
@@ -18,25 +19,34 @@ import signal
 import subprocess
 import sys
 import tempfile
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from inspect import isgeneratorfunction
 from pathlib import Path
-from types import FrameType
+from types import FrameType, ModuleType
 from typing import Any
 
 import numpy as np
 
 from benchmarks.common import ROOT, arguments, head, row
 from loadflow.cube import make_case, make_cube, open_cube, save_cube
-from loadflow.running import runner
+from loadflow.running import cases, runner, whole
 from loadflow.scene import make_scene
 
-PHASES = {
-    "pilot": "pilot",
-    "load cases": "_carry_out",
-    "result": "collect",
-    "page": "write_report",
+PHASES: dict[str, tuple[tuple[ModuleType, str], ...]] = {
+    "pilot": ((runner, "pilot"),),
+    "first load case": ((runner, "do_case"),),
+    "load cases and between them": ((runner, "_carry_out"),),
+    "writing parts": ((cases, "save_part"), (whole, "save_part")),
+    "stages over all cases": ((runner, "finish_stages"),),
+    "joining the result": ((runner, "collect"),),
+    "writing the result": ((runner, "save_cube"),),
+    "page": ((runner, "write_report"),),
 }
-"""Functions of the runner by what they do."""
+"""Functions that carry a phase out, where they are looked up."""
+
+ONCE = ("first load case",)
+"""Phases of which only the first call of the function counts."""
 
 
 def write_loads(path: Path) -> None:
@@ -55,7 +65,7 @@ def write_loads(path: Path) -> None:
 
 def counted(phase: str, limit: int | None) -> list[int]:
     """Count the calls of a phase from now on; at the one of number `limit` this process ends."""
-    calls, function = [0], getattr(runner, PHASES[phase])
+    calls, begun = [0], [0]
 
     def count(_frame: FrameType, event: str, _arg: object) -> None:
         if event == "call":
@@ -63,14 +73,29 @@ def counted(phase: str, limit: int | None) -> list[int]:
             if calls[0] == limit:
                 os.kill(os.getpid(), signal.SIGKILL)
 
-    def wrapped(*args: Any, **options: Any) -> Any:
-        sys.setprofile(count)
+    @contextmanager
+    def counting() -> Iterator[None]:
+        begun[0] += 1
+        if begun[0] == 1 or phase not in ONCE:
+            sys.setprofile(count)
         try:
-            return function(*args, **options)
+            yield
         finally:
             sys.setprofile(None)
 
-    setattr(runner, PHASES[phase], wrapped)
+    def wrapped(function: Callable[..., Any]) -> Callable[..., Any]:
+        def whole(*args: Any, **options: Any) -> Any:
+            with counting():
+                return function(*args, **options)
+
+        def piecewise(*args: Any, **options: Any) -> Iterator[Any]:
+            with counting():
+                yield from function(*args, **options)
+
+        return piecewise if isgeneratorfunction(function) else whole
+
+    for module, name in PHASES[phase]:
+        setattr(module, name, wrapped(getattr(module, name)))
     return calls
 
 

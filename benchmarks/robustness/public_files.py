@@ -23,10 +23,13 @@ COMMITS = {
     "OpenFAST/openfast_toolbox": "d34b283c1aa1ab2360634a51a6ea95f3fbbdefeb",
     "ebranlard/welib": "6c8f155c1b7f4fb3fb7da6273f3b9509f177995e",
     "DTUWindEnergy/WindEnergyToolbox": "0accfb1c8ef2e8957e7f04ce19d79c6210fa488b",
+    "mathieupelle/HAWC2": "283590fc7b0a057e0056dccba65a8f032a574209",
 }
-PCRUNCH, TOOLBOX, WELIB, WETB = COMMITS
+PCRUNCH, TOOLBOX, WELIB, WETB, PELLE = COMMITS
 EXAMPLES = "openfast_toolbox/io/tests/example_files/"
 RUNS = "pCrunch/test/data/"
+HAWC2 = "wetb/hawc2/tests/test_files/"
+SPAR = "welib/yams/papers/2022-symbolic-framework/"
 GAUGE = {"gauge_distance": 1.912}
 """ShftGagL of the NREL 5 MW turbine, of which these files are."""
 
@@ -68,13 +71,18 @@ FILES = (
     File(TOOLBOX, f"{EXAMPLES}Bladed_out_binary_case2.%23", "channel 'Rotor speed'"),
     File(TOOLBOX, f"{EXAMPLES}Bladed_out_ascii.%04", "7 channels are missing"),
     File(TOOLBOX, f"{EXAMPLES}Bladed_out_binary.%04", "7 channels are missing"),
+    File(TOOLBOX, f"{EXAMPLES}Bladed_out_ascii.%41", "7 channels are missing"),
+    File(TOOLBOX, f"{EXAMPLES}Bladed_out_binary.%41", "7 channels are missing"),
     File(TOOLBOX, f"{EXAMPLES}Bladed_out_binary_case2_fail.%55", "no group over time"),
     File(TOOLBOX, f"{EXAMPLES}HAWC2_out_ascii.sel", "7 channels are missing"),
     File(TOOLBOX, f"{EXAMPLES}HAWC2_out_bin.sel", "7 channels are missing"),
     File(TOOLBOX, f"{EXAMPLES}BHAWC_out_ascii.sel", "no list of HAWC2 channels"),
+    File(TOOLBOX, f"{EXAMPLES}BHAWC_out_ascii1.sel", "no list of HAWC2 channels"),
     File(WELIB, "data/example_files/fastout_allnodes.outb"),
     File(WELIB, "data/example_files/ad_driver_yaw.1.outb", "6 channels are missing"),
     File(WELIB, "data/Spar/Main_Spar_ED_HydroExample.outb", "4 channels are missing"),
+    File(WELIB, f"{SPAR}F0T2N0S1/Main_Spar_ED.outb", "7 channels are missing"),
+    File(WELIB, f"{SPAR}F2T1RNA_SmallAngle/Main_Spar_ED.outb", "7 channels are missing"),
     *(
         File(WETB, f"wetb/fast/tests/test_files/5MW_Land_BD_DLL_WTurb_fid0{i}.outb",
              "5 channels are missing")
@@ -88,9 +96,27 @@ FILES = (
     File(WETB, "wetb/hawc2/tests/test_files/hawc2io/Hawc2bin.sel", "7 channels are missing"),
     File(WETB, "wetb/hawc2/tests/test_files/cmp_test_cases/ref/test1.sel",
          "6 channels are missing"),
+    *(File(WETB, f"wetb/dlc/tests/test_files/res/{name}.sel", "a HAWC2 run needs .sel and .dat")
+      for name in ("dlc12_iec61400-1ed3/dlc12_wsp04_wdir350_s3001",
+                   "dlc12_iec61400-1ed3/dlc12_wsp04_wdir350_s4001",
+                   "dlc31_iec61400-1ed3/dlc31_wsp25_wdir000_s0000")),
+    File(WETB, "wetb/fast/tests/test_files/FASTOut_Hydro.out", "7 channels are missing"),
+    File(WETB, "wetb/hawc2/ascii2bin/tests/test_files/Hawc2ascii.sel", "7 channels are missing"),
+    File(WETB, "wetb/hawc2/ascii2bin/tests/test_files/Hawc2bin.sel", "7 channels are missing"),
+    File(WETB, f"{HAWC2}cmp_test_cases/ref/test3.sel", "6 channels are missing"),
+    File(WETB, f"{HAWC2}cmp_test_cases/test1/test1.sel", "6 channels are missing"),
+    File(WETB, f"{HAWC2}cmp_test_cases/test1/test3.sel", "6 channels are missing"),
+    *(File(WETB, f"{HAWC2}hawc2io/{name}.sel", "a HAWC2 run needs .sel and .dat")
+      for name in ("hawc2ascii_chantest_1", "hawc2bin_chantest_2", "hawc2bin_chantest_3")),
     File(WETB, "wetb/gtsdf/tests/test_files/test.hdf5", "6 channels are missing"),
     File(WETB, "wetb/signal/tests/test_files/azi.hdf5", "7 channels are missing"),
     File(WETB, "wetb/wind/tests/test_files/shear.hdf5", "7 channels are missing"),
+    File(WETB, "wetb/wind/tests/test_files/shear_noturb.hdf5", "7 channels are missing"),
+    File(WETB, "wetb/wind/tests/test_files/wind3.hdf5", "7 channels are missing"),
+    File(WETB, "wetb/utils/tests/test_files/SonicDataset.hdf5", "7 channels are missing"),
+    File(PELLE, "V1/results/hawc2/airfoil/dtu_10mw_rwt_05.0_21716.sel", "a pointer of Git LFS"),
+    File(PELLE, "V2/results/hawc2/airfoil/v2_turb_08.0_15536.sel", "a pointer of Git LFS"),
+    File(PELLE, "V2/results/hawc2/control/f0.05_eta0.7.sel", "a pointer of Git LFS"),
 )  # fmt: skip
 
 

@@ -11,6 +11,7 @@ import numpy as np
 import xarray as xr
 
 from loadflow.errors import InputError
+from loadflow.storage import check_content
 
 PACKED = 1100
 """Largest ratio of values to stored bytes: deflate does not pack more densely than 1032 : 1."""
@@ -37,6 +38,7 @@ def check_hdf5(path: Path) -> None:
     size = path.stat().st_size
     if size == 0:
         raise InputError(f"{path}: cannot be read as HDF5; the file is empty")
+    check_content(path)
     try:
         with h5py.File(path, "r") as file:
             found = [*_attributes("/", file)]

@@ -13,7 +13,7 @@ in one call.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any, cast
 
 import numpy as np
@@ -125,6 +125,11 @@ class _Balance:
     speed: Array
     heat: Heat
     share: Array | None
+    refused: Array = field(init=False)
+    """Temperatures from which on a load has no film, K, (n,): warmer oil is thinner."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "refused", np.full(self.speed.size, np.inf))
 
     def film(self, temperature: Array, places: NDArray[np.int64]) -> Columns:
         """Films of the loads at `places` (m,) at these temperatures (m,)."""
@@ -192,9 +197,13 @@ class _Balance:
             state = self.film(temperature, active)
             power, flow = state["friction_power"], state["side_flow"]
         else:
-            every = np.arange(self.speed.size)
-            state = self.film(np.full(every.size, temperature[0]), every)
-            share = np.where(state["converged"], self.share, 0.0)
+            asked = np.flatnonzero(self.refused > temperature[0])
+            if asked.size == 0:
+                return np.array([np.nan])
+            state = self.film(np.full(asked.size, temperature[0]), asked)
+            share = np.where(state["converged"], self.share[asked], 0.0)
+            if self.heat.growth is None:  # a bearing that grows may carry more when it is warm
+                self.refused[asked[~state["converged"]]] = temperature[0]
             if not share.any():
                 return np.array([np.nan])
             columns = np.nan_to_num([state["friction_power"], state["side_flow"]])

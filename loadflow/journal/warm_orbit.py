@@ -9,6 +9,7 @@ model follows a temperature over time; path and temperature are taken in turns u
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, cast
@@ -16,7 +17,7 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.errors import SolverError
+from loadflow.errors import SolverError, ValidityWarning
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.heat import HOTTEST, Heat
@@ -33,6 +34,12 @@ Array = NDArray[np.float64]
 
 SAMPLES = 64
 """Samples of a series whose mean friction and flow give the temperature of a film in motion."""
+
+MILDEST = 4
+"""Loads of a series that go on to a more expensive model where the own one has a film for none."""
+
+LEFT_OUT = 0.1
+"""Share of the samples without a film at rest above which their mean is warned of."""
 
 TOLERANCE, ROUNDS = 1e-3, 30
 """Change of the temperature from one path to the next, K, and paths that are tried."""
@@ -86,13 +93,56 @@ def series_temperature(
 ) -> float:
     """Temperature, K, of the mean friction and flow of equilibria spread over a series.
 
+    Loads without a film at rest are left out of the mean: squeeze may carry them in motion. They
+    are not passed on to a more expensive model, unless none has a film; then only the `MILDEST`.
+
     Raises
     ------
     loadflow.errors.SolverError
         No heat balance below the largest temperature.
+
+    Warns
+    -----
+    loadflow.errors.ValidityWarning
+        More than `LEFT_OUT` of the samples have no film at rest; names the largest load that does.
     """
     some = np.unique(np.linspace(0, speed.size - 1, SAMPLES).round().astype(int))
-    limits, own = Limits(1e-10, 60, strict=False), line.at(some)
+    limits = Limits(1e-10, 60, strict=False, refine=False)
+    found = _of_mean(model, bearing, film, force[some], speed[some], line.at(some), limits)
+    if not found["converged"].any():
+        severity = np.hypot(*force[some].T) / np.maximum(np.abs(speed[some]), 1e-300)
+        some = np.sort(some[np.argsort(severity, kind="stable")[:MILDEST]])
+        limits = replace(limits, refine=True)
+        found = _of_mean(model, bearing, film, force[some], speed[some], line.at(some), limits)
+    converged = found["converged"]
+    if not converged.any():
+        least = np.hypot(*force[some].T).min()
+        raise SolverError(
+            "orbit cannot start: no heat balance of its mean friction and flow; at rest no film "
+            f"carries its mildest loads, from {least:.4g} N on"
+        )
+    if np.mean(converged) < 1.0 - LEFT_OUT:
+        largest = np.hypot(*force[some][converged].T).max()
+        warnings.warn(
+            f"temperature of the film: at rest {converged.size - converged.sum()} of "
+            f"{converged.size} loads of the series have none; it is that of the others, up to "
+            f"{largest:.4g} N",
+            ValidityWarning,
+            stacklevel=5,
+        )
+    return float(np.nanmax(found["temperature"]))
+
+
+def _of_mean(
+    model: Model,
+    bearing: JournalGeometry,
+    film: Film,
+    force: Array,
+    speed: Array,
+    line: Line,
+    limits: Limits,
+) -> dict[str, Any]:
+    """Films at the temperature of their mean friction and flow."""
 
     def solve(
         grown: JournalGeometry,
@@ -101,14 +151,10 @@ def series_temperature(
         speeds: Array,
         places: NDArray[np.int64],
     ) -> dict[str, Any]:
-        return model.equilibrium(grown, cold, forces, speeds, own.at(places), limits)
+        return model.equilibrium(grown, cold, forces, speeds, line.at(places), limits)
 
-    at_rest = at_temperatures(solve, bearing, film)
-    shares = np.full(some.size, 1.0 / some.size)
-    found = warm_film(at_rest, force[some], speed[some], film, shares, strict=False)
-    if not np.any(found["converged"]):
-        raise SolverError("orbit cannot start: no heat balance of its mean friction and flow")
-    return float(np.nanmax(found["temperature"]))
+    at_rest, shares = at_temperatures(solve, bearing, film), np.full(speed.size, 1 / speed.size)
+    return warm_film(at_rest, force, speed, film, shares, strict=False)
 
 
 def _in_turns(

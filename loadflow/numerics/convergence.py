@@ -79,7 +79,7 @@ class Control:
     Examples
     --------
     >>> Control(strict=False).limits(tolerance=1e-10, max_iterations=60)
-    Limits(tolerance=1e-10, max_iterations=60, strict=False)
+    Limits(tolerance=1e-10, max_iterations=60, strict=False, refine=True)
     """
 
     tolerance: float | None = None
@@ -104,11 +104,15 @@ class Control:
 
 @dataclass(frozen=True)
 class Limits:
-    """A `Control` with its defaults filled in."""
+    """A `Control` with its defaults filled in.
+
+    `refine` says whether a load that a model does not solve goes on to a more expensive one.
+    """
 
     tolerance: float
     max_iterations: int
     strict: bool = True
+    refine: bool = True
 
 
 def rounding_level(terms: Level) -> Level:

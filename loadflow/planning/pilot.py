@@ -18,6 +18,7 @@ from threadpoolctl import threadpool_limits
 
 from loadflow.errors import LoadflowError, SolverError
 from loadflow.planning.effects import EffectVerdict, concerned, estimates, switched
+from loadflow.planning.ladder import expected_seconds
 from loadflow.planning.plan import chosen_models, needed_stages
 from loadflow.scene.cases import Case, list_cases
 from loadflow.scene.scene import Scene
@@ -28,14 +29,39 @@ from loadflow.stages.probes import PROBES, Answers
 from loadflow.stages.registry import STAGES
 from loadflow.stages.stage import with_settings
 
-CASES = 2
-"""Load cases that a pilot looks at, at most."""
+SHARE = 0.05
+"""Processor time of a pilot over that of its run, at most, where the ladder knows both; a pilot of
+one case is then within a tenth of the time of two processes."""
 
-DURATION = 100.0
-"""Length of a simulated case of a pilot, s, where the case itself is longer."""
+SOLVED = 1.0
+"""Processor time of the films and contacts of a case of a pilot, s; the main job's."""
 
 WORTH = 0.1
 """Share of the smallest error allowed, below which an indicator needs no measurement."""
+
+
+@dataclass(frozen=True)
+class Effort:
+    """How much a pilot measures.
+
+    Attributes
+    ----------
+    cases : int
+        Load cases that it looks at, at most.
+    duration : float
+        Length of a simulated case, s, where the case itself is longer.
+    simulates : bool
+        Whether the case is simulated with each effect of the rotor in and out; else these are
+        decided by their indicators.
+    """
+
+    cases: int
+    duration: float
+    simulates: bool = True
+
+
+EFFORTS = (Effort(2, 100.0), Effort(1, 60.0), Effort(1, 60.0, simulates=False))
+"""From the most on. The least is taken where even that is more than its `SHARE`."""
 
 Report = Callable[[str, int, int], None]
 Item = TypeVar("Item")
@@ -56,6 +82,7 @@ def pilot(
     scene: Scene,
     say: Report = lambda stage, done, total: None,
     outcomes: Outcomes = in_turn,
+    effort: Effort | None = None,
 ) -> EffectVerdict | None:
     """Measure the effects of a scene.
 
@@ -68,6 +95,8 @@ def pilot(
     outcomes : callable
         Maps the measurement over cases, in other processes if it likes, and yields each case with
         what came of it, in any order. A case that came to nothing is left out of the verdict.
+    effort : Effort, optional
+        How much is measured; None: what goes with the expected time of the run.
 
     Returns
     -------
@@ -84,13 +113,15 @@ def pilot(
         return None
     cases = tuple(list_cases(scene))
     chosen = chosen_models(scene, cases).scene
-    effects = [effect.name for effect in _worth_measuring(scene, chosen, cases)]
+    worth = list(_worth_measuring(scene, chosen, cases))
+    effort = effort or effort_for(chosen, worth, cases)
+    effects = [one.name for one in worth if effort.simulates or one.model != "loads"]
     if not effects:
         return None
-    looked_at = hardest(scene, cases)
+    looked_at = hardest(scene, cases)[: effort.cases]
     say("pilot", 0, len(looked_at))
     measured: dict[Case, _Found] = {}
-    work = partial(_measure, chosen, tuple(effects))
+    work = partial(_measure, chosen, tuple(effects), effort.duration)
     for done, (case, outcome) in enumerate(outcomes(work, looked_at), 1):
         if isinstance(outcome, _Found):
             measured[case] = outcome
@@ -128,7 +159,29 @@ def hardest(scene: Scene, cases: tuple[Case, ...]) -> list[Case]:
         steady = np.max([one.radial for one in bearings], axis=0) / at.speed
         largest = np.max([one.radial + one.swing + one.turn for one in bearings], axis=0)
         places = [int(np.argmax(steady)), int(np.argmax(largest))]
-    return [first[speeds[place]] for place in dict.fromkeys(places)][:CASES]
+    return [first[speeds[place]] for place in dict.fromkeys(places)]
+
+
+def effort_for(scene: Scene, effects: Iterable[Effect], cases: tuple[Case, ...]) -> Effort:
+    """Return the largest effort within `SHARE` of the time of the run, both by the ladder.
+
+    Parameters
+    ----------
+    scene : Scene
+        With the models of the run.
+    effects : iterable of Effect
+        What shall be measured.
+    cases : tuple of Case
+        All of the run.
+    """
+    run = sum(expected_seconds(scene, name, cases) or 0.0 for name in needed_stages(scene))
+    simulated = 1 + sum(effect.model == "loads" for effect in effects)
+    for effort in EFFORTS[:-1]:
+        shorter, case = _short(scene, cases[0], effort.duration)
+        each = expected_seconds(shorter, "loads", (case,)) or 0.0
+        if effort.cases * ((1 + simulated) * each + SOLVED) <= SHARE * run:
+            return effort
+    return EFFORTS[-1]
 
 
 def _worth_measuring(scene: Scene, chosen: Scene, cases: tuple[Case, ...]) -> Iterator[Effect]:
@@ -154,12 +207,12 @@ class _Found:
 
 
 @threadpool_limits.wrap(limits=1)
-def _measure(chosen: Scene, names: tuple[str, ...], case: Case) -> _Found:
+def _measure(chosen: Scene, names: tuple[str, ...], duration: float, case: Case) -> _Found:
     """Switch the effects of these names on one case; a process of its own knows them by name."""
     started = time.process_time()
     by_name = {effect.name: effect for effect in EFFECTS}
     effects = [by_name[name] for name in names]
-    scene, case = _short(chosen, case)
+    scene, case = _short(chosen, case, duration)
     sizes: dict[str, Sizes] = {}
     refused: dict[str, str] = {}
     inputs: dict[str, Any] = {}
@@ -197,14 +250,14 @@ def _measure(chosen: Scene, names: tuple[str, ...], case: Case) -> _Found:
     return _Found(sizes, refused, time.process_time() - started)
 
 
-def _short(scene: Scene, case: Case) -> tuple[Scene, Case]:
-    """The case, no longer than `DURATION` where it is simulated."""
-    if case.file or case.wind or case.steps * scene.loads.step <= DURATION:
+def _short(scene: Scene, case: Case, duration: float) -> tuple[Scene, Case]:
+    """The case, no longer than `duration`, s, where it is simulated."""
+    if case.file or case.wind or case.steps * scene.loads.step <= duration:
         return scene, case
-    shorter = with_settings(scene, "loads", {"duration": DURATION})
+    shorter = with_settings(scene, "loads", {"duration": duration})
     if shorter is None:
         return scene, case
-    return shorter, replace(case, steps=round(DURATION / scene.loads.step))
+    return shorter, replace(case, steps=round(duration / scene.loads.step))
 
 
 def _all_on(

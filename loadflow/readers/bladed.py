@@ -9,6 +9,7 @@ from __future__ import annotations
 import os
 import re
 from dataclasses import dataclass
+from glob import escape
 from pathlib import Path
 
 import numpy as np
@@ -29,6 +30,7 @@ from loadflow.readers.aliases import (
 from loadflow.readers.series import to_series
 from loadflow.readers.table import Table
 from loadflow.readers.text import read_text
+from loadflow.storage import check_content
 
 UNITS = {"F": "N", "FL": "N m", "A": "rad", "A/T": "rad/s", "L/T": "m/s", "T": "s", "P": "W"}
 """Bladed writes SI units, as dimensions: F force, L length, A angle, T time."""
@@ -116,7 +118,7 @@ def read_bladed(
     """
     run = Path(path).with_suffix("")
     known = aliases("bladed")
-    headers = sorted(p for p in run.parent.glob("*.%*") if p.with_suffix("") == run)
+    headers = sorted(p for p in run.parent.glob(f"{escape(run.name)}.%*") if p.stem == run.name)
     if not headers:
         raise InputError(f"{run}: no header (.%01, …) of a group of series")
     wanted = _wanted(known, channels or {})
@@ -233,4 +235,5 @@ def _read_values(path: Path, access: str, form: str) -> NDArray[np.float64]:
             raise InputError(f"{path}: {error}") from None
     if form not in TYPES:
         raise InputError(f"{path}: format {form!r} is not known; known are {list(TYPES)}")
+    check_content(path)
     return np.fromfile(path, dtype=TYPES[form]).astype(float)

@@ -74,13 +74,12 @@ def with_doubts(case: xr.Dataset, turbine: str, simulated: bool = False) -> xr.D
     from loadflow.turbines import load_turbine
 
     machine = load_turbine(turbine)
-    rated_speed = machine.control.reference_speed / machine.drivetrain.gear_ratio
     before = str(case.coords["doubts"].item()) if "doubts" in case.coords else ""
     new = [] if simulated else find_doubts(case, machine)
     said = list(dict.fromkeys([*filter(None, before.split("\n")), *new]))
     return case.assign_coords(
         doubts=((), "\n".join(said), {"long_name": "what is doubtful about the series"}),
-        standing_share=standing_share(case, rated_speed),
+        standing_share=standing_share(case, machine.rated_speed),
     )
 
 
@@ -113,7 +112,7 @@ def find_doubts(case: xr.Dataset, turbine: Any) -> list[str]:
     """
     if not {"speed", "hub_force", "hub_moment"} <= set(case.data_vars):
         return []
-    rated_speed = turbine.control.reference_speed / turbine.drivetrain.gear_ratio
+    rated_speed = turbine.rated_speed
     return [
         *_weight(case, turbine),
         *_frame(case),

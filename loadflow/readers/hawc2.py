@@ -20,6 +20,7 @@ from loadflow.readers.aliases import Channels, Frame, aliases
 from loadflow.readers.series import to_series
 from loadflow.readers.table import Table
 from loadflow.readers.text import number_rows, read_text
+from loadflow.storage import check_content
 
 
 @dataclass(frozen=True)
@@ -99,8 +100,8 @@ def read_hawc2(
     >>> series["hub_force"].isel(time=0).values.tolist(), series["hub_force"].units
     ([600000.0, 0.0, -700000.0], 'N')
     """
-    stem = Path(path).with_suffix("")
-    listing, data = stem.with_suffix(".sel"), stem.with_suffix(".dat")
+    path = Path(path)
+    listing, data = path.with_suffix(".sel"), path.with_suffix(".dat")
     for file in (listing, data):
         if not file.is_file():
             raise InputError(f"{file}: no such file; a HAWC2 run needs .sel and .dat")
@@ -150,6 +151,7 @@ def _scales(lines: list[str]) -> list[float]:
 
 def _read_binary(path: Path, header: Header) -> NDArray[np.float64]:
     """Read 16-bit integers, one channel after the other."""
+    check_content(path)
     count = len(header.names)
     expected = 2 * count * header.scans
     if (size := path.stat().st_size) != expected:

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import InputError
+from loadflow.storage import check_content
 
 
 def read_text(path: Path) -> str:
@@ -16,9 +17,10 @@ def read_text(path: Path) -> str:
     Raises
     ------
     loadflow.errors.InputError
-        The file cannot be read, or holds bytes that no text has.
+        The file cannot be read, is a pointer of Git LFS, or holds bytes that no text has.
     """
     try:
+        check_content(path)
         data = path.read_bytes()
     except OSError as error:
         raise InputError(f"{path}: cannot be read: {error.strerror}") from None

@@ -111,7 +111,7 @@ class _Rotor:
         )
         self.controller: Controller = controller(replace(turbine, control=stated))
         self.machine: Machine = with_table(machine(turbine, _RIGID)._replace(tilt=0.0))
-        self.rated_speed = turbine.control.reference_speed / turbine.drivetrain.gear_ratio
+        self.rated_speed = turbine.rated_speed
 
     def loads(self, wind: float, speed: float, pitch: float) -> tuple[float, float]:
         """Torque, N m, and thrust, N."""

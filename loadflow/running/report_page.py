@@ -14,6 +14,7 @@ import xarray as xr
 import loadflow
 from loadflow.cube import open_cube
 from loadflow.errors import InputError
+from loadflow.planning.budget import Answer, answers, more_seeds
 from loadflow.planning.verification import WARN
 from loadflow.plots.journal import orbit
 from loadflow.plots.style import readable
@@ -193,7 +194,8 @@ def _overview(scene: Scene, tables: dict[str, xr.Dataset], manifest: dict[str, A
     caption = "Every load case over wind speed."
     pictures: list[Shown] = [_shaft_sketch(scene)]
     pictures += over_wind_speed(tables.get("journal"), tables.get("rolling"), caption)
-    notes = [*_verdict_table(tables), *_lifetime_table(tables)]
+    found = answers(scene, tables, manifest.get("expected_errors", {}), manifest.get("effects", []))
+    notes = [*_answer_table(found), *_verdict_table(tables), *_lifetime_table(tables)]
     if failures:
         without = [[part, why] for part, why in failures.items()]
         notes.append(Table("Without an answer", ["part", "why"], without))
@@ -202,7 +204,33 @@ def _overview(scene: Scene, tables: dict[str, xr.Dataset], manifest: dict[str, A
     if unused := unused_keys(scene):
         rows = [[key, why] for key, why in unused.items()]
         notes.append(Table("Keys without effect", ["key", "why"], rows))
-    return Section("Overview", tables=notes, pictures=pictures)
+    said = more_seeds(found, lambda result: min(scene.allowed(result), WARN))
+    return Section("Overview", said, tables=notes, pictures=pictures)
+
+
+def _answer_table(found: list[Answer]) -> Iterator[Table]:
+    """Each answer with its interval by seeds, its error by models and what is left out."""
+    if not found:
+        return
+    heads = ["answer", "bearing", "value", "95 % interval by seeds", "error by models"]
+    yield Table("Answers", [*heads, "governed by", "left out"], [_answer_row(one) for one in found])
+
+
+def _answer_row(one: Answer) -> list[str]:
+    factor, unit = (1e6, "µm") if one.unit == "m" else (1.0, one.unit)
+    low, value, high = (f"{factor * number:.4g}" for number in (one.low, one.value, one.high))
+    missing = ", ".join(
+        f"{name} {100 * share:.2g} %" for name, share in (one.left_out or {}).items()
+    )
+    return [
+        one.quantity,
+        one.bearing,
+        f"{value} {unit}".removesuffix(" 1"),
+        "one seed" if np.isnan(one.low) else f"{low} … {high}",
+        "not measured" if one.error is None else f"≤ {100 * one.error:.2g} %",
+        one.governed_by,
+        missing or "-",
+    ]
 
 
 def _verdict_table(tables: dict[str, xr.Dataset]) -> Iterator[Table]:

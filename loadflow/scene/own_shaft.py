@@ -150,5 +150,5 @@ def _scaled(
 
 
 def _rated_torque(turbine: Turbine) -> float:
-    speed = turbine.control.reference_speed / turbine.drivetrain.gear_ratio
+    speed = turbine.rated_speed
     return turbine.control.rated_mechanical_power / speed

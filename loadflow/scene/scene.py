@@ -26,8 +26,10 @@ from loadflow.scene.candidates import ABOUT, machine
 from loadflow.scene.design import Design
 from loadflow.scene.dynamics import Dynamics
 from loadflow.scene.environment import Environment, surrounded
+from loadflow.scene.fitting_shaft import fitted, with_fitting_beams
 from loadflow.scene.friction import Friction
 from loadflow.scene.journal import Journal
+from loadflow.scene.lifetime import Lifetime, check_per_year
 from loadflow.scene.loads import Loads, check_simulation
 from loadflow.scene.messages import message
 from loadflow.scene.own_shaft import taken
@@ -37,6 +39,7 @@ from loadflow.scene.series import Reduction, Seeds
 from loadflow.scene.shaft import Shaft
 from loadflow.scene.thrust import Thrust, check_thrust
 from loadflow.scene.turbine import Turbine
+from loadflow.scene.usual_bearings import usual_bearings
 from loadflow.scene.wear import Wear, check_wear
 from loadflow.scene.written import SCENE, anchored, in_sections, origins
 from loadflow.shaft.options import MomentBearing, TwoPoint
@@ -106,6 +109,7 @@ class Scene(Section, BaseModel):
     journal: Journal = Journal()
     dynamics: Dynamics = Dynamics()
     wear: Wear = Wear()
+    lifetime: Lifetime = Lifetime()
     rolling: Rolling = Rolling()
     thrust: Thrust = Thrust()
     friction: Friction = Friction()
@@ -133,6 +137,9 @@ class Scene(Section, BaseModel):
             data = data | {"results": list(OF_PLACES)}
         if not own_shaft:
             data = _with_scaled_shaft(data)
+        if "shaft" in data and _has_films(data):
+            fitting = with_fitting_beams(data["shaft"], data.get("journal", {}))
+            data = data | {"shaft": fitting}
         return _results_that_the_shaft_can_give(data, stated)
 
     @model_validator(mode="after")
@@ -186,6 +193,12 @@ class Scene(Section, BaseModel):
         return self
 
     @model_validator(mode="after")
+    def _events_are_there(self) -> Self:
+        if self.loads.source == "simulate":
+            check_per_year(self.lifetime, self.loads.dlcs, "rayleigh")
+        return self
+
+    @model_validator(mode="after")
     def _can_wear(self) -> Self:
         if "journal.wear" in self.results:
             check_wear(self.wear, self.journal, self.shaft)
@@ -212,9 +225,7 @@ class Scene(Section, BaseModel):
             for place in candidate.places:
                 if place not in self.shaft.bearings:
                     have = ", ".join(self.shaft.bearings) or "none"
-                    raise ValueError(
-                        f"candidates.{name}.{place}: the shaft has the bearings {have}"
-                    )
+                    raise ValueError(f"candidates.{name}.{place}: the shaft has only {have}")
         return self
 
     @model_validator(mode="after")
@@ -241,7 +252,12 @@ class Scene(Section, BaseModel):
     @property
     def taken(self) -> list[str]:
         """What neither scene nor turbine state, and what is taken instead."""
-        return taken(self.turbine.name, self.shaft.model_dump(mode="json", exclude_none=True))
+        shaft = self.shaft.model_dump(mode="json", exclude_none=True)
+        name = self.turbine.name
+        films = self.journal if self.wants("journal") else None
+        rolling = self.rolling if self.wants("rolling") else None
+        beams = fitted(shaft, films) if films is not None else ()
+        return [*taken(name, shaft), *beams, *usual_bearings(name, films, rolling)]
 
     def wants(self, room: str) -> bool:
         """Whether a result of `room` is wanted."""
@@ -409,6 +425,14 @@ def _with_scaled_shaft(data: dict[str, Any]) -> dict[str, Any]:
     stated = machine(base).get("shaft")
     usual = Shaft.model_validate(stated) if stated else Scene.model_fields["shaft"].default
     return data | {"shaft": usual.scaled(factor_of_power(power, known.rated_power))}
+
+
+def _has_films(data: dict[str, Any]) -> bool:
+    """Whether data of a scene, in sections, want a result of journal bearings."""
+    results = data.get("results", USUAL)
+    return isinstance(results, (list, tuple)) and any(
+        isinstance(name, str) and name.startswith("journal.") for name in results
+    )
 
 
 def _results_that_the_shaft_can_give(data: dict[str, Any], stated: set[str]) -> dict[str, Any]:

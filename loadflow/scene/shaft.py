@@ -25,9 +25,10 @@ class Shaft(Section, BaseModel):
     ``two_point``, ``integrated`` and ``direct_drive`` have the bearings N (floating) and N2
     (locating), ``three_point`` the bearing N and the gearbox's torque arms G; one of these at most.
     ``moment`` has the bearing M, ``yaw`` the yaw bearing Y under the nacelle, a rolling bearing
-    that swings. With a ``beam`` in its table the shaft bends, and tilts in its bearings; an empty
-    one takes the defaults. A support of the beam with ``stiffness = "journal"`` or
-    ``"rolling"`` gives under each load as the bearing of that kind that the scene has there.
+    that swings. With a ``beam`` in its table the shaft bends, and tilts in its bearings; without
+    ``sections`` it is as wide as the journal bearings. A support of the beam with ``stiffness =
+    "journal"`` or ``"rolling"`` gives under each load as the bearing of that kind that the scene
+    has there.
     """
 
     two_point: TwoPoint | None = None

@@ -10,6 +10,7 @@ import xarray as xr
 
 from loadflow.scene.cases import Case
 from loadflow.stages.labelling import labelled
+from loadflow.stages.running_time import counted, time_shares
 from loadflow.stages.summary import over_cases
 
 
@@ -43,16 +44,21 @@ MEANS = {
     "mean_sommerfeld_number": ("sommerfeld_number", "1", "mean So"),
     "mean_friction_power": ("friction_power", "W", "mean friction power"),
     "mean_side_flow": ("side_flow", "m^3/s", "mean side flow"),
+}
+"""Means over samples that run and have a film, each with its weight: of what, units, meaning."""
+
+SUPPLY = {
     "mean_supply_flow": ("supply_flow", "m^3/s", "mean flow of the grooves"),
     "mean_supply_power": ("supply_power", "W", "mean supply power"),
 }
-"""Means over the samples that have a film, each with its weight: of what, units and meaning."""
+"""Means over all samples that have a film: the pump does not stop with the rotor."""
 
 
 def extremes(samples: xr.Dataset) -> xr.Dataset:
     """Reduce the film of a series of weighted loads to extremes and means.
 
-    Samples in contact or without an answer have no values; they are counted.
+    Samples in contact or without an answer have no values; they are counted. Means leave out those
+    in which the rotor stands or idles, where ``running`` says so.
     """
     weight, found = samples["weight"], {}
     for name, (of, which, units, meaning) in EXTREMES.items():
@@ -65,10 +71,11 @@ def extremes(samples: xr.Dataset) -> xr.Dataset:
         if time is not None:
             when = float(time.values[at]) if there else np.nan
             found[f"{name}_time"] = xr.DataArray(when), "s", f"time of the {meaning}"
-    for name, (of, units, meaning) in MEANS.items():
-        if of not in samples:
-            continue
-        found[name] = samples[of].weighted(weight).mean(), units, meaning
+    for means, count in ((MEANS, counted(samples)), (SUPPLY, True)):
+        for name, (of, units, meaning) in means.items():
+            if of in samples:
+                found[name] = samples[of].where(count).weighted(weight).mean(), units, meaning
+    found |= time_shares(samples, samples["friction_power"])
     answered = samples["converged"].astype(bool)
     touching = samples["in_contact"].astype(bool) if "in_contact" in samples else ~answered & False
     residual = samples["residual"].where(~touching, 0.0)

@@ -17,6 +17,7 @@ from loadflow.scene.friction import Friction
 from loadflow.scene.scene import Scene
 from loadflow.stages.frames import to_rolling
 from loadflow.stages.labelling import label, labelled
+from loadflow.stages.running_time import counted, time_shares, with_running
 from loadflow.stages.stage import Link, Links, Rungs, Stage, always, load_links
 from loadflow.stages.summary import over_cases
 from loadflow.tribology import lubricant
@@ -77,7 +78,7 @@ def losses(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
         name: (("bearing", "sample"), np.stack([part[name] for part in found]), label(*about))
         for name, about in KEPT.items()
     }
-    return xr.Dataset(
+    samples = xr.Dataset(
         kept
         | {
             "speed": ("sample", speed, label("rad/s", "speed")),
@@ -85,6 +86,10 @@ def losses(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
         },
         {"sample": time, "bearing": list(scene.rolling.geometries)},
     )
+    samples, parts = with_running(scene, samples), scene.rolling.bearings.values()
+    if any(swinging := [part.oscillation is not None for part in parts]):  # whatever the rotor does
+        samples["running"] = samples["running"] | xr.DataArray(swinging, dims="bearing")
+    return samples
 
 
 TAPERED_RIB = 0.04
@@ -228,14 +233,15 @@ def summary(parts: Mapping[Case, xr.Dataset]) -> xr.Dataset:
 
 
 def _extremes(samples: xr.Dataset) -> xr.Dataset:
-    mean, largest = samples.mean("sample"), samples.max("sample")
-    least = samples["film_parameter"].median("sample")
+    largest, runs = samples.max("sample"), samples.where(counted(samples))
+    mean, least = runs.mean("sample"), runs["film_parameter"].median("sample")
     return labelled(
         {
             "mean_friction_power": (mean["friction_power"], "W", "mean friction power"),
             "mean_friction_torque": (mean["friction_torque"], "N m", "mean friction torque"),
             "mean_slip_power": (mean["slip_power"], "W", "mean power lost in slip"),
             "median_film_parameter": (least, "1", "median of the least Λ"),
+            **time_shares(samples, samples["friction_power"]),
             "mean_slip": (mean["slip"], "1", "mean slip of the slower row"),
             "temperature": (samples["temperature"], "K", "temperature of the bearing"),
             "largest_slip_power_density": (

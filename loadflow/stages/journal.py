@@ -25,6 +25,7 @@ from loadflow.stages.film_temperature import mean_temperature
 from loadflow.stages.frames import to_film
 from loadflow.stages.labelling import label, of_samples
 from loadflow.stages.reduction import kept_share
+from loadflow.stages.running_time import with_running
 from loadflow.stages.stage import Link, Links, Measured, Rungs, Stage, load_links, steps_of
 
 _TRIES = 200  # samples of a start that are asked for the first film
@@ -47,7 +48,7 @@ def film(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
     found = {}
     for name in scene.journal.bearings:
         reduced = inputs["reduction"][name].to_dataset()
-        found[name] = driven(scene.journal.at(name), name, reduced)
+        found[name] = with_running(scene, driven(scene.journal.at(name), name, reduced))
     return xr.DataTree.from_dict(found)
 
 
@@ -74,7 +75,10 @@ def orbit(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
     loads, shaft = inputs["loads"].load(), inputs["shaft"].load()
     return xr.DataTree.from_dict(
         {
-            bearing: _moving(scene.journal.at(bearing), bearing, loads, shaft.sel(bearing=bearing))
+            bearing: with_running(
+                scene,
+                _moving(scene.journal.at(bearing), bearing, loads, shaft.sel(bearing=bearing)),
+            )
             for bearing in scene.journal.bearings
         }
     )

@@ -169,7 +169,7 @@ def _of_journal(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[st
     yield "wear", wear(run.scene, _bores(run), table, groups)
     if "rolling" not in run.tables:
         yield from _without(_OF_ROLLING, "no rolling elements")
-    yield from _lost(run, table, table["mean_friction_power"], "")
+    yield from _lost(run, table, table["lost_power"], "")
 
 
 def _of_pads(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[str, Number]]:
@@ -192,7 +192,7 @@ def _of_pads(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[str, 
     yield "mixed_time", _mixed_time(run, table, share, groups)
     yield from _without(_OF_ROLLING, "no rolling elements")
     yield "wear", Number(math.nan, "µm", note="not computed for films of pads")
-    yield from _lost(run, table, table["mean_friction_power"], "")
+    yield from _lost(run, table, table["lost_power"], "")
 
 
 _OF_ROLLING = ("row_share", "row_overload", "viscosity_ratio", "minimum_load", "standstill")
@@ -298,7 +298,7 @@ def _lost(
         return
     share, groups = _shares(run, table), Groups.of(table)
     if "thrust" in run.tables and table is not run.tables["thrust"]:
-        beside = run.tables["thrust"]["mean_friction_power"].drop_vars(("dlc",), errors="ignore")
+        beside = run.tables["thrust"]["lost_power"].drop_vars(("dlc",), errors="ignore")
         names = [f"{name}, thrust" for name in beside["bearing"].values.tolist()]
         power = xr.concat(
             [power, beside.assign_coords(bearing=names)],

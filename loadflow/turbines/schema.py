@@ -165,6 +165,11 @@ class Turbine:
         )
 
     @property
+    def rated_speed(self) -> float:
+        """Speed of the rotor that its controller holds above rated wind, rad/s."""
+        return self.control.reference_speed / self.drivetrain.gear_ratio
+
+    @property
     def rotor_mass(self) -> float:
         """Hub and blades, kg."""
         return self.rotor.hub_mass + self.rotor.blades * self.blade.mass

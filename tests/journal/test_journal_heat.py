@@ -1,5 +1,6 @@
 """The heat balance of the film: temperature and viscosity that its own friction leaves."""
 
+import warnings
 from dataclasses import fields
 
 import numpy as np
@@ -8,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import brentq
 
-from loadflow.errors import InputError, SolverError
+from loadflow.errors import InputError, SolverError, ValidityWarning
 from loadflow.journal import (
     Capillary,
     Film,
@@ -22,7 +23,9 @@ from loadflow.journal import (
     Supply,
     warm_equilibrium,
 )
+from loadflow.journal.line import Line
 from loadflow.journal.thermal import warm_film
+from loadflow.journal.warm_orbit import series_temperature
 
 BEARING = JournalBearing(diameter=3.0, width=2.25, relative_clearance=0.5e-3)
 FILM = {"cavitation": GasMixture(0.05e6), "edge_pressure": 0.5e6, "grid": (36, 12)}
@@ -201,6 +204,57 @@ def test_a_balance_that_steps_over_zero_where_a_mesh_changes_is_told(jump, answe
     assert found["heat_residual"][0] > 1e-6
     if answered:
         assert found["temperature"][0] == pytest.approx(320.0, abs=1e-3)
+
+
+class _CarriesUpTo:
+    """A film whose friction is known, and that carries no load above `most`; it counts its asks."""
+
+    def __init__(self, most: float, refined: float = 0.0) -> None:
+        self.most, self.refined, self.asked = most, refined, []
+
+    def equilibrium(self, bearing, film, force, speed, line, limits):
+        self.asked.append((np.hypot(*force.T), limits.refine))
+        count, most = speed.size, self.refined if limits.refine else self.most
+        return {
+            "friction_power": 2e3 * speed**2, "side_flow": 1e-4 * speed,
+            "supply_flow": np.zeros(count), "supply_power": np.zeros(count),
+            "groove_flow": np.zeros((count, 0)), "damping": np.zeros((count, 2, 2)),
+            "reynolds_number": np.ones(count), "critical_reynolds_number": np.full(count, 2.0),
+            "residual": np.zeros(count), "converged": np.hypot(*force.T) <= most,
+            "force": force, "speed": speed,
+        }  # fmt: skip
+
+
+def _series_temperature(model, most=1e6, count=64):
+    force = np.column_stack([np.linspace(1e3, most, count), np.zeros(count)])
+    film = Film(heat=Heat(inlet_temperature=315.0), cavitation=Sommerfeld())
+    speed = np.linspace(2.0, 1.0, count)
+    return series_temperature(model, BEARING, film, force, speed, Line())
+
+
+def test_a_series_is_as_warm_as_those_of_its_loads_that_have_a_film():
+    """Those without are asked once, by the own model alone, and once at the end."""
+    model = _CarriesUpTo(0.5e6)
+    with pytest.warns(ValidityWarning, match="32 of 64 .* up to 4.9"):
+        warm = _series_temperature(model)
+    heavy = [np.count_nonzero(force > 0.5e6) for force, _ in model.asked]
+    assert heavy == [32, *[0] * (len(heavy) - 2), 32]
+    assert len(heavy) > 3
+    assert not any(refine for _, refine in model.asked)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        all_of_them = _series_temperature(_CarriesUpTo(1e6))
+    assert warm > all_of_them > 315.0  # the mild loads turn faster
+
+
+def test_where_no_load_has_a_film_the_mildest_are_asked_of_a_finer_model():
+    model = _CarriesUpTo(0.0, refined=4e4)
+    with pytest.warns(ValidityWarning, match="1 of 4"):
+        _series_temperature(model)
+    assert {force.size for force, refine in model.asked if refine} <= {1, 3, 4}
+    assert max(force.size for force, refine in model.asked if refine) == 4
+    with pytest.raises(SolverError, match="no film carries its mildest loads, from 1000 N on"):
+        _series_temperature(_CarriesUpTo(0.0))
 
 
 SMALL = JournalBearing(diameter=0.2, width=0.1, relative_clearance=1e-3)

@@ -277,3 +277,27 @@ def test_a_folder_may_hold_other_files_which_are_told(tmp_path):
     assert (
         "3 files are no load series, and left out: deck_ElastoDyn.dat, dlc11_v12_s1.out, " in said
     )
+
+
+POINTER = "version https://git-lfs.github.com/spec/v1\noid sha256:b15a5653\nsize 54810000\n"
+
+
+@pytest.mark.parametrize(
+    "kind", ["outb", "out", "csv", "dat of numbers", "dat of text", "$23", "h5"]
+)
+def test_a_pointer_of_git_lfs_is_called_so(tmp_path, kind):
+    if kind.startswith("dat"):
+        write_hawc2(tmp_path / "run", binary=kind == "dat of numbers")
+    if kind == "$23":
+        write_run(tmp_path / "run")
+    path = tmp_path / f"run.{kind.split()[0]}"
+    path.write_text(POINTER)
+    with pytest.raises(InputError, match="a pointer of Git LFS, not the file itself; `git lfs"):
+        open_cube(path) if kind == "h5" else read_loads(path, channels=CHANNELS)
+
+
+def test_one_bladed_run_beside_another_of_a_longer_name(tmp_path):
+    values = write_run(tmp_path / "run[1]")
+    write_run(tmp_path / "run[1].1")
+    series = read_bladed(tmp_path / "run[1].%23")
+    np.testing.assert_allclose(series.hub_force, values[:, 3:].T, rtol=1e-6)

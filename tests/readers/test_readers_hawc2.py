@@ -84,6 +84,17 @@ def test_list_of_cases_may_name_either_file_of_a_run(tmp_path):
         assert cube.case.values.tolist() == ["dlc1.2_v10_s3"]
 
 
+def test_a_name_may_hold_further_dots(tmp_path):
+    write(tmp_path / "run", binary=True)
+    expected = read_hawc2(tmp_path / "run.sel", channels=CHANNELS)
+    for suffix in (".sel", ".dat"):
+        (tmp_path / f"run{suffix}").rename(tmp_path / f"turb_wsp08.0_s15536{suffix}")
+    for suffix in (".sel", ".dat"):
+        cube = read_loads(tmp_path / f"turb_wsp08.0_s15536{suffix}", channels=CHANNELS)
+        np.testing.assert_array_equal(cube.hub_force.isel(case=0), expected.hub_force)
+    assert cube.case.values.tolist() == ["unknown_v8_s15536"]
+
+
 def test_loads_must_be_named(tmp_path):
     write(tmp_path / "run", binary=True)
     with pytest.raises(

@@ -24,6 +24,7 @@ GRAVITY = 9.80665
 
 class One:
     dlc, wind_speed, seed, weight, name = "1.1", 8.0, 1, 1.0, "dlc1.1_v8_s1"
+    duration = 600.0
 
 
 def test_a_full_turn_there_and_back_is_two_revolutions():
@@ -99,6 +100,13 @@ def answered(scene):
     found = {"loads": HUB, "shaft": shaft.bearing_loads(scene, None, {"loads": HUB})}
     found["reduction"] = reduction.reduced_loads(scene, One(), found)
     return rolling.load_distribution(scene, One(), found), found
+
+
+def test_a_bearing_that_swings_counts_as_running_while_the_rotor_idles():
+    scene, hub = scene_of(), HUB.assign(speed=0.0 * HUB["speed"])
+    reactions = shaft.bearing_loads(scene, None, {"loads": hub})
+    found = friction.losses(scene, One(), {"loads": hub, "shaft": reactions})
+    assert bool(found["running"].sel(bearing="Y").all())
 
 
 def test_a_scene_rates_a_yaw_bearing_by_its_oscillation():

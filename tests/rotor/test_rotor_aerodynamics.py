@@ -1,10 +1,13 @@
 """Blade-element momentum: the section solver balances, the table stands for it."""
 
+from collections import OrderedDict
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from loadflow.rotor import tables
 from loadflow.rotor._kernels import tabulated_induction, turbulence
 from loadflow.rotor.aero._airfoil_kernels import SECTION_STATES
 from loadflow.rotor.aero._kernels import induction, section_force, solve
@@ -89,3 +92,24 @@ def test_box_turns_clockwise_seen_from_upwind():
     inflow = steady_inflow(10.0, 5, 0.2, box=field)
     assert turbulence(inflow, 1.0, -60.0, 0.0)[0] == pytest.approx(1.0)
     assert turbulence(inflow, 1.0, 60.0, 0.0)[0] == pytest.approx(0.0)
+
+
+def test_machines_that_differ_in_what_lags_alone_share_their_table(monkeypatch):
+    """Filled anew, the table of the other machine is the same to the last bit."""
+    turbine = load_turbine("nrel-5mw")
+    lean = RotorOptions(bend_twist=0.0, air_density=1.1, dynamic_stall=False, skew_factor=0.0)
+    full = RotorOptions(dynamic_inflow=True, dynamic_stall=True, bend_twist=0.5)
+    one, other = (
+        machine(turbine, options)._replace(radius=machine(turbine, options).radius[8:10])
+        for options in (lean, full)
+    )
+    monkeypatch.setattr(tables, "_filled", OrderedDict())
+    first = tables.with_table(one).table
+    assert tables.with_table(other).table is first
+    monkeypatch.setattr(tables, "_filled", OrderedDict())
+    again = tables.with_table(other).table
+    assert again is not first
+    np.testing.assert_array_equal(again, first)
+    with_drag = machine(turbine, RotorOptions(drag_in_induction=not lean.drag_in_induction))
+    changed = tables.with_table(with_drag._replace(radius=one.radius)).table
+    assert not np.array_equal(changed, first)

@@ -67,8 +67,7 @@ def cylindrical_film(
     film = DiscreteFilm(gap, *_oil(mesh, options, ratio, relative_clearance, radius, around))
     if contact is not None:
         film.contact = CylinderLoad(contact, radius, width, clearance)
-    if options.turbulence is not None:
-        film.let_turn_turbulent(options.turbulence, options.liquid)
+    _choose_regime(film, options)
     return gap, film
 
 
@@ -119,9 +118,16 @@ def shaped_film(
         else:
             between = cast("RoughElasticGap", gap)
             film.contact = YieldingNodeLoad(contact, between, radius, mirrors, grooved)
-    if options.turbulence is not None:
-        film.let_turn_turbulent(options.turbulence, options.liquid)
+    _choose_regime(film, options)
     return gap, film
+
+
+def _choose_regime(film: DiscreteFilm, options: Film) -> None:
+    """Let the flow be turbulent, where that is asked for and its Reynolds number large enough."""
+    if options.turbulence is not None:
+        lengths = film.radius, film.relative_clearance
+        film.regime = options.turbulence.regime(*lengths, options.liquid)
+        film.set_speed(film.speed)
 
 
 def _oil(

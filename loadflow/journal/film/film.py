@@ -15,8 +15,7 @@ from loadflow.journal.film import _kernels as kernel
 from loadflow.journal.film.asperity_load import AsperityLoad
 from loadflow.journal.film.gap import Gap, turning_frame
 from loadflow.journal.film.groove_pressure import Pockets
-from loadflow.journal.lubricant import Lubricant
-from loadflow.journal.turbulence import Regime, Turbulence
+from loadflow.journal.turbulence import Regime
 
 Array = NDArray[np.float64]
 
@@ -119,12 +118,6 @@ class DiscreteFilm:
         self.wedge = 0.5 * self.slope * speed
         if self.regime is not None:
             self.gap.regime = self.regime.at(speed)
-
-    def let_turn_turbulent(self, turbulence: Turbulence, lubricant: Lubricant) -> None:
-        """Let the flow be turbulent where its Reynolds number is large enough."""
-        lengths = self.radius, self.relative_clearance
-        self.regime = turbulence.regime(*lengths, lubricant)
-        self.set_speed(self.speed)
 
     def set_scale(self, rate: float) -> None:
         """Set the scale of pressure and unknowns, Pa, from the largest speed or squeeze, 1/s."""

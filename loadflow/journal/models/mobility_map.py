@@ -132,7 +132,7 @@ def equilibrium(
         "converged": covered,
         "residual": residual,
     }
-    for index in np.flatnonzero(~covered):
+    for index in np.flatnonzero(~covered) if control.refine else ():
         solve_on_grid(bearing, film.options, int(index), line, answer, control)
     return answer
 

@@ -100,7 +100,9 @@ def equilibrium(
 def _with_the_grid(
     bearing: JournalGeometry, options: Film, line: Line, answer: dict[str, Any], control: Limits
 ) -> dict[str, Any]:
-    """The answer, its loads that have not converged solved on the grid."""
+    """The answer, its loads that have not converged solved on the grid, if they may be."""
+    if not control.refine:
+        return answer
     for index in np.flatnonzero(~answer["converged"]):
         solve_on_grid(bearing, options, int(index), line, answer, control)
     return answer

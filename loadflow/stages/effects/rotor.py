@@ -117,7 +117,7 @@ def _torsion(at: Situation) -> Sizes:
     still = np.array([np.interp(0.1, f.angle, f.moment) if f.moment.size else 0 for f in foils])
     span = blade.radius - turbine.rotor.hub_radius
     ahead = np.interp(span, blade.torsion_span, blade.centre_ahead)
-    speed = turbine.control.reference_speed / turbine.drivetrain.gear_ratio * blade.radius
+    speed = turbine.rated_speed * blade.radius
     couple = 0.5 * AIR_DENSITY * speed**2 * blade.chord * (still * blade.chord + ahead)
     torque = np.cumsum((couple * np.gradient(span))[::-1])[::-1]
     rigidity = np.interp(span, blade.torsion_span, blade.torsion_stiffness)

@@ -1,0 +1,215 @@
+"""Error budget of a finished run: what seeds, models and effects left out do to each answer."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from loadflow.planning.accuracy import contributions
+from loadflow.planning.effects import Estimates
+from loadflow.scene.scene import Scene
+from loadflow.stages.registry import giving
+from loadflow.studies.seed_intervals import Groups, Picks, interval
+
+Floats = NDArray[np.float64]
+Statistic = Callable[[xr.Dataset, Floats, Picks], float]
+
+
+def _largest(table: xr.Dataset, values: Floats, some: Picks) -> float:
+    return float(np.nanmax(values[some], initial=-np.inf))
+
+
+def _smallest(table: xr.Dataset, values: Floats, some: Picks) -> float:
+    return float(np.nanmin(values[some], initial=np.inf))
+
+
+def _mean(table: xr.Dataset, values: Floats, some: Picks) -> float:
+    weight = np.where(np.isnan(values[some]), 0.0, _weights(table)[some])
+    return float(np.sum(weight * np.nan_to_num(values[some])) / weight.sum())
+
+
+def _life(table: xr.Dataset, values: Floats, some: Picks) -> float:
+    turns = (_weights(table) * np.abs(table["mean_speed"].values))[some]
+    turns = np.where(np.isnan(values[some]), 0.0, turns)
+    return float(turns.sum() / np.nansum(turns / values[some]))
+
+
+def _weights(table: xr.Dataset) -> Floats:
+    """Share of the lifetime of each case; alike where the table does not know it."""
+    weight = table["weight"].values.astype(float) if "weight" in table.coords else np.array(np.nan)
+    known = np.isfinite(weight).all() and np.sum(weight) > 0
+    return weight if known else np.ones(table.sizes["case"])
+
+
+@dataclass(frozen=True)
+class _Source:
+    """Where an answer stands in the tables of a run, and how it is read of all cases."""
+
+    result: str
+    quantity: str
+    stage: str
+    variable: str
+    read: Statistic
+
+
+_SOURCES = (
+    _Source("journal.film", "minimum film", "journal", "smallest_film", _smallest),
+    _Source(
+        "journal.film", "eccentricity ratio", "journal", "largest_eccentricity_ratio", _largest
+    ),
+    _Source("journal.film", "maximum pressure", "journal", "largest_pressure", _largest),
+    _Source("journal.film", "friction power", "journal", "mean_friction_power", _mean),
+    _Source("rolling.loads", "maximum force", "rolling", "bearing_force", _largest),
+    _Source("rolling.loads", "maximum pressure", "rolling", "bearing_pressure", _largest),
+    _Source("rolling.life", "life", "rolling", "bearing_life", _life),
+)
+
+
+@dataclass(frozen=True)
+class Answer:
+    """An answer of a run, and how far off it may be.
+
+    Attributes
+    ----------
+    result, quantity, bearing, unit : str
+        What it is.
+    value : float
+        Of all load cases: the extreme, the mean over the lifetime, or the life.
+    low, high : float
+        95 % interval by a bootstrap over the seeds; NaN with one seed of each wind speed.
+    error : float or None
+        Relative error by models, what is left out counted; None where it was not measured.
+    left_out : dict
+        Effects that are left out, and the share by which each moves the answer.
+
+    Examples
+    --------
+    >>> answer = Answer("rolling.life", "life", "M", "h", 10.0, 9.0, 12.0, 0.05)
+    >>> round(answer.by_seeds, 3), answer.governed_by
+    (0.2, 'seeds')
+    """
+
+    result: str
+    quantity: str
+    bearing: str
+    unit: str
+    value: float
+    low: float
+    high: float
+    error: float | None
+    left_out: Mapping[str, float] | None = None
+
+    @property
+    def by_seeds(self) -> float:
+        """Largest distance of the interval from the value, over the value; NaN without one."""
+        if self.value == 0:
+            return float("nan")
+        return float(max(self.high - self.value, self.value - self.low) / abs(self.value))
+
+    @property
+    def governed_by(self) -> str:
+        """``"seeds"``, ``"models"``, or what of both is not known."""
+        if self.error is None:
+            return "models: not measured"
+        if np.isnan(self.by_seeds):
+            return "seeds: one of each wind speed"
+        return "seeds" if self.by_seeds > self.error else "models"
+
+
+def answers(
+    scene: Scene,
+    tables: Mapping[str, xr.Dataset],
+    errors: Mapping[str, Mapping[str, Any]],
+    effects: Iterable[Mapping[str, Any]],
+) -> list[Answer]:
+    """Return the answers of a run with their error budget.
+
+    Parameters
+    ----------
+    scene : Scene
+        As it ran.
+    tables : mapping
+        Tables of the run over ``case``, by stage.
+    errors : mapping
+        Expected error by result and quantity; what is no number was not measured.
+    effects : iterable of mapping
+        All effects of the plan, with `name`, `size` and `indicator`.
+
+    Returns
+    -------
+    list of Answer
+        One for each result, quantity and bearing.
+    """
+    sizes = {one["name"]: one["size"] or one["indicator"] or {} for one in effects}
+    return [
+        answer
+        for source in _SOURCES
+        if source.result in scene.results and source.variable in tables.get(source.stage, ())
+        for answer in _of(source, scene, tables[source.stage], errors, Estimates(sizes))
+    ]
+
+
+def _of(
+    source: _Source,
+    scene: Scene,
+    table: xr.Dataset,
+    errors: Mapping[str, Mapping[str, Any]],
+    known: Estimates,
+) -> Iterator[Answer]:
+    groups = Groups.of(table)
+    found = table[source.variable].transpose("bearing", "case")
+    error = errors.get(source.result, {}).get(source.quantity)
+    missing = _left_out(source, scene, known)
+    for bearing in found["bearing"].values:
+        values = found.sel(bearing=bearing).values.astype(float)
+        if np.isnan(values).all():
+            continue
+        read = partial(source.read, table, values)
+        low, high = interval(groups, read)
+        yield Answer(
+            source.result,
+            source.quantity,
+            str(bearing),
+            str(found.attrs.get("units", "1")),
+            read(np.arange(values.size)),
+            low,
+            high,
+            float(error) if isinstance(error, (int, float)) else None,
+            missing,
+        )
+
+
+def _left_out(source: _Source, scene: Scene, known: Estimates) -> dict[str, float]:
+    """Effects that are left out, and by how much each moves the answer."""
+    links = giving(source.result).results[source.result](scene).get(source.quantity, ())
+    found: dict[str, float] = {}
+    for part in contributions(scene, source.result, source.quantity, links, known):
+        if part.effect is not None and part.share is not None:
+            found[part.effect.name] = found.get(part.effect.name, 0.0) + part.share
+    return found
+
+
+def more_seeds(found: Iterable[Answer], allowed: Callable[[str], float]) -> str:
+    """Say of which answers more seeds would tell more than better models; empty if of none.
+
+    Parameters
+    ----------
+    found : iterable of Answer
+        Of a run.
+    allowed : callable
+        From a result to the accuracy that is asked for; seeds below it are enough.
+    """
+    worst: dict[str, float] = {}
+    for one in found:
+        if one.governed_by == "seeds" and one.by_seeds > allowed(one.result):
+            worst[one.quantity] = max(worst.get(one.quantity, 0.0), one.by_seeds)
+    if not worst:
+        return ""
+    told = ", ".join(f"{name} (±{100 * share:.2g} %)" for name, share in worst.items())
+    return f"More seeds would tell more than better models of: {told}."

@@ -1,0 +1,59 @@
+"""Which samples of a case count in its means: those in which the rotor runs."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import xarray as xr
+
+from loadflow.cube import standing
+from loadflow.scene.scene import Scene
+from loadflow.stages.labelling import label
+
+
+def with_running(scene: Scene, samples: xr.Dataset) -> xr.Dataset:
+    """Add ``running``: whether the rotor neither stands nor idles, by its rated speed.
+
+    Parameters
+    ----------
+    scene : Scene
+        With the turbine.
+    samples : xarray.Dataset
+        ``speed``, rad/s, over ``sample``.
+    """
+    from loadflow.turbines import load_turbine
+
+    runs = ~standing(samples, load_turbine(scene.turbine.name).rated_speed)
+    return samples.assign(running=runs.assign_attrs(label("1", "whether the rotor runs")))
+
+
+def counted(samples: xr.Dataset) -> xr.DataArray | bool:
+    """Whether samples count in means: those that run; all where none does, or nobody knows.
+
+    A shut-down that idles for half of its time has the mean film and friction of the half in which
+    it ran; a case that stands throughout has those of its standing.
+    """
+    if "running" not in samples:
+        return True
+    running = samples["running"].astype(bool)
+    return running | ~running.any("sample")
+
+
+def time_shares(samples: xr.Dataset, power: xr.DataArray) -> dict[str, tuple[Any, str, str]]:
+    """Share of the time that runs, and the mean power with the time of standing in it, W.
+
+    Parameters
+    ----------
+    samples : xarray.Dataset
+        With ``running``, and ``weight`` where samples stand for several steps.
+    power : xarray.DataArray
+        Friction power over ``sample``, W.
+    """
+    weight = samples.get("weight", xr.ones_like(samples["sample"], dtype=float))
+    running = samples.get("running", xr.ones_like(weight)).astype(float).broadcast_like(power)
+    return {
+        "running_share": (running.weighted(weight).mean("sample"), "1", "share of time running"),
+        "lost_power": (
+            power.weighted(weight).mean("sample"), "W", "mean friction power, standing included",
+        ),
+    }  # fmt: skip

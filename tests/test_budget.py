@@ -1,0 +1,91 @@
+"""The error budget of a run: value, interval by seeds, error by models, and what governs."""
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from loadflow.planning.budget import Answer, answers, more_seeds
+from loadflow.scene.scene import make_scene
+
+CASES = ["a_s1", "a_s2", "b_s1", "b_s2"]
+SCENE = make_scene(
+    {"name": "look", "results": ["journal.film", "rolling.life"], "accuracy": "given"}
+    | {"rolling": {"arrangement": "tapered-pair"}}
+)
+
+
+def _over_cases(**columns):
+    data = {name: (("bearing", "case"), np.array([values])) for name, values in columns.items()}
+    coords = {
+        "case": CASES, "bearing": ["N"], "dlc": ("case", ["1.1"] * 4),
+        "wind_speed": ("case", [8.0, 8.0, 16.0, 16.0]), "weight": ("case", [0.3, 0.3, 0.2, 0.2]),
+    }  # fmt: skip
+    return xr.Dataset(data, coords)
+
+
+TABLES = {
+    "journal": _over_cases(
+        smallest_film=[5e-5, 4e-5, 3e-5, 3.2e-5], mean_friction_power=[1e3, 1e3, 2e3, 2e3]
+    ),
+    "rolling": _over_cases(bearing_life=[100.0, 100.0, 10.0, 30.0]).assign(
+        mean_speed=("case", [1.0, 1.0, 1.5, 1.5])
+    ),
+}
+
+
+def _found(errors=None, effects=()):
+    found = answers(SCENE, TABLES, errors or {}, effects)
+    return {one.quantity: one for one in found}
+
+
+def test_answers_are_those_of_the_whole_run():
+    """The extreme, the mean over the lifetime, and revolutions over the sum of their damage."""
+    found = _found()
+    assert found["minimum film"].value == 3e-5
+    assert found["friction power"].value == pytest.approx(0.6 * 1e3 + 0.4 * 2e3)
+    turns, lives = np.array([0.3, 0.3, 0.3, 0.3]), np.array([100.0, 100.0, 10.0, 30.0])
+    assert found["life"].value == pytest.approx(turns.sum() / (turns / lives).sum())
+
+
+def test_intervals_come_from_seeds_of_one_wind_speed_alone():
+    found = _found()
+    power, film = found["friction power"], found["minimum film"]
+    assert power.low == power.value == power.high  # speeds differ, seeds do not
+    assert (film.low, film.high) == (3e-5, 3.2e-5)
+    # by hand: both seeds of 16 m/s the one, or both the other
+    assert found["life"].low == pytest.approx(1.2 / (0.6 / 100 + 0.6 / 10))
+    assert found["life"].high == pytest.approx(1.2 / (0.6 / 100 + 0.6 / 30))
+
+
+def test_what_governs_is_the_larger_of_both_and_unknown_errors_are_said():
+    errors = {"journal.film": {"minimum film": 0.03, "friction power": 0.03}}
+    found = _found(errors | {"rolling.life": {"life": "not measured"}})
+    assert found["minimum film"].governed_by == "seeds"
+    assert found["friction power"].governed_by == "models"
+    assert found["life"].governed_by == "models: not measured"
+    said = more_seeds(found.values(), lambda result: 0.05)
+    assert "minimum film (±6.7 %)" in said
+    assert "friction" not in said
+    assert more_seeds(found.values(), lambda result: 0.1) == ""
+
+
+def test_one_seed_of_each_speed_has_no_interval():
+    some = {name: table.isel(case=[0, 2]) for name, table in TABLES.items()}
+    errors = {"journal.film": {"minimum film": 0.03}}
+    [film, *_] = answers(SCENE, some, errors, ())
+    assert np.isnan(film.low)
+    assert film.governed_by == "seeds: one of each wind speed"
+
+
+def test_what_is_left_out_is_named_with_its_share_of_the_answer():
+    """An effect of the film counts as it is, one of the load with the gain of the answer."""
+    own = SCENE.model_copy(
+        update={"journal": SCENE.journal.model_copy(update={"motion": "quasi-static"})}
+    )
+    effects = [
+        {"name": "motion of the film", "size": {"minimum film": 0.2}, "indicator": {}},
+        {"name": "heat of the film", "size": None, "indicator": {"minimum film": 0.1}},
+    ]
+    film = next(one for one in answers(own, TABLES, {}, effects) if one.quantity == "minimum film")
+    assert film.left_out == {"motion of the film": 0.2, "heat of the film": 0.1}
+    assert isinstance(film, Answer)
