@@ -159,7 +159,7 @@ def _sections(
             pictures=[*_reductions(folder, shown)],
         )
     if "journal" in tables:
-        pictures = [*_films(folder, shown), *_orbits(folder, shown[:1])]
+        pictures: list[Shown] = [*_films(folder, shown), *_orbits(folder, shown[:1])]
         films = tables["journal"]
         listed = [*start_tables(films), _case_table(films)]
         yield Section("Journal bearing", tables=listed, pictures=pictures)
