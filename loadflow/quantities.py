@@ -102,6 +102,7 @@ FILM: dict[str, Quantity] = {
     "gap": Quantity("h", "m", "mean gap of each cell"),
     "angle": Quantity("θ", "rad", "angle of the cell centres from the first axis"),
     "z": Quantity("z", "m", "axial place of the cell centres from mid-plane"),
+    "resolved": Quantity("", "1", "whether the cells resolve the film"),
     "converged": Quantity("", "1", "whether the equilibrium was found"),
     "residual": Quantity("", "1", "scaled residual of film and load"),
     "iterations": Quantity("", "1", "iterations"),
@@ -109,6 +110,27 @@ FILM: dict[str, Quantity] = {
     "in_range": Quantity("", "1", "whether the model covers position and load"),
 }
 """Of a film, at rest, at a position and in time."""
+
+GRID_ERROR = "_grid_error"
+"""Ending of the name of the bound of what the cells do to a quantity."""
+
+
+def _short(name: str) -> str:
+    """Meaning of a quantity in few words."""
+    return "force" if name == "force" else FILM[name].meaning.split(",")[0]
+
+
+FILM |= {
+    name + GRID_ERROR: Quantity(
+        f"Δ{FILM[name].symbol}",
+        FILM[name].units,
+        f"bound of what the cells do to the {_short(name)}",
+    )
+    for name in (
+        "force", "eccentricity_ratio", "attitude_angle", "minimum_film", "maximum_pressure",
+        "friction_power", "side_flow",
+    )
+}  # fmt: skip
 
 ROLLING: dict[str, Quantity] = {
     "force": Quantity("F", "N", "force on the inner ring"),

@@ -69,6 +69,7 @@ BASES = {
         "reduction": {"size": 0.03},
     },
     "elastic film": {"journal": FILM | {"shell": {"kind": "local", "compliance": 1e-12}}},
+    "turbulent film": {"journal": FILM | {"turbulence": {"begin": 0.002, "end": 0.1}}},
     "film in motion": {
         "journal": FILM | {"motion": "transient", "rung": "reduced"},
         "results": ["journal.film"],
@@ -138,6 +139,7 @@ READERS = {
     "cold": ("environment",),
     "rough film": ("journal",),
     "elastic film": ("journal",),
+    "turbulent film": ("journal",),
     "film in motion": ("journal", "reduction"),
     "periodic loads": ("reduction",),
     "stationary loads": ("reduction",),
@@ -189,6 +191,7 @@ OTHERS = {
         {"asperities": {"roughness": 1e-6, "contact_modulus": 1e11, "factor": 1e-3}}
     ],
     "journal.contact.friction": [0.3, "bronze"],
+    "journal.turbulence": [{"begin": 0.0, "end": 0.0}],
     "journal.shell": [{"kind": "local", "compliance": 1e-12}],
     "journal.limits.sommerfeld_range": [[0.5, 5.0]],
     "journal.limits.material": [[[400.0, 5e6]]],

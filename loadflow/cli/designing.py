@@ -34,6 +34,12 @@ def design(
     margin: Annotated[
         float | None, typer.Option(help="Factor by which the loads must be able to grow.")
     ] = None,
+    crown: Annotated[
+        bool,
+        typer.Option(
+            "--crown", help="Search the crown of journal bearings alone, as [design.crown] says."
+        ),
+    ] = False,
     out_folder: Annotated[Path, typer.Option("--out", help="Folder for runs.")] = Path("runs"),
     name: Annotated[str | None, typer.Option(help="Name of the run; default: the scene's.")] = None,
     workers: Annotated[int, typer.Option(min=0, help="Processes; 0: one for each core.")] = 0,
@@ -46,15 +52,17 @@ def design(
     from loadflow.running.executor import usable_cores
 
     asked = _with_options(read(scene, loads, name), candidate, key, margin)
+    means: dict[str, Any] = {
+        "out": out_folder,
+        "workers": workers or usable_cores(),
+        "scheduler": scheduler,
+        "overwrite": overwrite,
+    }
+    if crown or asked.design.crown is not None:
+        _crown(asked, means, as_json)
+        return
     with progress(quiet=as_json) as show:
-        found = carry_out(
-            asked,
-            out=out_folder,
-            workers=workers or usable_cores(),
-            scheduler=scheduler,
-            overwrite=overwrite,
-            progress=show,
-        )
+        found = carry_out(asked, progress=show, **means)
     designs = found.designs
     if as_json:
         told = designs.as_dict()
@@ -66,6 +74,21 @@ def design(
     out.print(f"page   {found.page}\ntable  {found.table}", soft_wrap=True)
     if designs.best is not None:
         out.print(f"scene  {found.scene}", soft_wrap=True)
+
+
+def _crown(asked: Scene, means: dict[str, Any], as_json: bool) -> None:
+    """Search the crowns, and print them."""
+    from loadflow.running.crowning import crown as carry_out
+    from loadflow.studies.crowning import HEADS
+
+    with progress(quiet=as_json) as show:
+        found = carry_out(asked, progress=show, **means)
+    if as_json:
+        told = [one.as_dict() for one in found.crowns]
+        print_json({"table": str(found.table), "scene": str(found.scene), "crowns": told})
+        return
+    print_rows(HEADS, [one.row for one in found.crowns])
+    out.print(f"table  {found.table}\nscene  {found.scene}", soft_wrap=True)
 
 
 def _with_options(

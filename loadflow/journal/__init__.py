@@ -9,12 +9,15 @@
 `surfaces`       cone, plane ring, straight pad, profiles
 `shapes`         shapes of the bore and their relief
 `shells`         elastic shells; `contact`: asperities; `stribeck`: friction over speed
+`crowning`       best crown for a spectrum of loads
 `wear`           wear of a bore over a lifetime of starts and stops; `worn_surface`: its points
 `supply`         grooves, pockets, restrictors, pump
 `results`        what comes back; `rows`: how solved films become results
 `heat`           oil and cooling: `Heat`, `FilmHeat`; `heat_results` what comes back
 `thermal`        heat balance; `energy`: losses against the power of the shaft
-`validity`       limits of the model: turbulence; `grid_error`: error of the cells
+`turbulence`     turbulent flow in the film
+`validity`       limits of the model: laminar flow
+`grid_bounds`    bounds of the error of the cells; `grid_error`: from coarser grids
 `dimensionless`  a bearing in numbers without dimension
 `film`           the discrete film: mesh, gap, balance, grooves, elastic shells, kernels
 `models`         the rungs: charts, mobility map, few unknowns across the width

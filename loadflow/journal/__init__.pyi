@@ -11,6 +11,8 @@ from .coefficients import rotor_coefficients as rotor_coefficients
 from .cone import ConicalBearing as ConicalBearing
 from .conical_pair import ConicalPair as ConicalPair
 from .contact import Contact as Contact
+from .crowning import BestCrown as BestCrown
+from .crowning import best_crown as best_crown
 from .dimensionless import UnitBearing as UnitBearing
 from .double_thrust import DoubleThrustBearing as DoubleThrustBearing
 from .double_thrust import DoubleThrustResult as DoubleThrustResult
@@ -19,7 +21,9 @@ from .energy import energy_balance as energy_balance
 from .film_model import Control as Control
 from .film_model import Film as Film
 from .geometry import JournalGeometry as JournalGeometry
-from .grid_error import GridError as GridError
+from .grid_bounds import FieldError as FieldError
+from .grid_bounds import GridError as GridError
+from .grid_bounds import PadError as PadError
 from .grid_error import grid_error as grid_error
 from .heat import FilmHeat as FilmHeat
 from .heat import Growth as Growth
@@ -58,6 +62,7 @@ from .surfaces import Step as Step
 from .surfaces import Taper as Taper
 from .thrust import RectangularThrustBearing as RectangularThrustBearing
 from .thrust import ThrustBearing as ThrustBearing
+from .turbulence import Turbulence as Turbulence
 from .wear import Cycle as Cycle
 from .wear import Wear as Wear
 from .wear import wear_bearing as wear_bearing

@@ -12,6 +12,7 @@ from loadflow.errors import InputError
 from loadflow.journal.film.discretise import operating_points
 from loadflow.journal.film_model import Film, Keywords, film_and_control
 from loadflow.journal.geometry import JournalGeometry
+from loadflow.journal.grid_bounds import warn_if_unresolved
 from loadflow.journal.heat import FilmHeat, Heat
 from loadflow.journal.heat_results import FilmHeatEquilibrium, FilmHeatField
 from loadflow.journal.line import Line
@@ -19,7 +20,7 @@ from loadflow.journal.lubricant import Lubricant
 from loadflow.journal.models.model import Steps, model_of
 from loadflow.journal.results import Equilibrium, FilmField, WarmEquilibrium
 from loadflow.journal.rows import shaped
-from loadflow.journal.thermal import in_grown_bearings, shares, warm_film
+from loadflow.journal.thermal import at_temperatures, shares, warm_film
 from loadflow.journal.validity import warn_if_turbulent
 from loadflow.journal.warm_orbit import warm_orbit
 from loadflow.numerics.convergence import Control
@@ -128,26 +129,34 @@ class JournalBearing(JournalGeometry):
         model = model_of("at_rest", film, self, line)
         if film.heat is None:
             require(weights is None, "weights", weights, "None without heat")
-            warn_if_turbulent(self, speeds, film.liquid)
+            warn_if_turbulent(self, speeds, film.liquid, film.turbulence)
             answer = model.equilibrium(self, film, loads, speeds, line, limits)
+            warn_if_unresolved(answer)
             return Equilibrium(**shaped(answer, shape))
         if film.heat.over_area:
             require(weights is None, "weights", weights, "None with heat over the area")
             answer = model.equilibrium(self, film, loads, speeds, line, limits)
-            warn_if_turbulent(self, speeds, _hottest(film.heat, answer["maximum_temperature"]))
+            thinnest = _hottest(film.heat, answer["maximum_temperature"])
+            warn_if_turbulent(self, speeds, thinnest, film.turbulence)
+            warn_if_unresolved(answer)
             return FilmHeatEquilibrium(**shaped(answer, shape))
 
-        cold, each = film.isothermal(), replace(limits, strict=False)
+        each = replace(limits, strict=False)
 
         def solve(
-            grown: JournalGeometry, force: Array, speed: Array, places: NDArray[np.int64]
+            grown: JournalGeometry,
+            cold: Film,
+            force: Array,
+            speed: Array,
+            places: NDArray[np.int64],
         ) -> dict[str, Any]:
             return model.equilibrium(grown, cold, force, speed, line.at(places), each)
 
-        assert isinstance(film.heat, Heat)  # the other kind is over the area
-        share, at_rest = shares(weights, shape), in_grown_bearings(solve, self, film.heat)
+        share, at_rest = shares(weights, shape), at_temperatures(solve, self, film)
         answer = warm_film(at_rest, loads, speeds, film, share, strict=limits.strict)
-        warn_if_turbulent(self, speeds, _hottest(film.heat, answer["temperature"]))
+        thinnest = _hottest(film.heat, answer["temperature"])
+        warn_if_turbulent(self, speeds, thinnest, film.turbulence)
+        warn_if_unresolved(answer)
         return WarmEquilibrium(**shaped(answer, shape))
 
     def pressure(
@@ -202,6 +211,7 @@ class JournalBearing(JournalGeometry):
         line = Line.of(shape, tilt=tilt, bend=bend)
         model = model_of("at_position", film, self, line)
         found, z = model.pressure(self, film, places, velocities, speeds, line, limits)
+        warn_if_unresolved(found)
         kind = FilmField if film.heat is None else FilmHeatField
         return kind(z=z, **shaped(found, shape))
 
@@ -293,7 +303,7 @@ class JournalBearing(JournalGeometry):
         film, control = film_and_control(film, more, control, keywords)
         limits = control.limits(tolerance=1e-8, max_iterations=30)
         loads, speeds, shape = operating_points(force, speed, "force")
-        warn_if_turbulent(self, speeds, film.liquid)
+        warn_if_turbulent(self, speeds, film.liquid, film.turbulence)
         times = np.asarray(time, dtype=float)
         if times.shape != shape:
             raise InputError(f"time {times.shape} and force, speed {shape} differ in shape")

@@ -28,6 +28,7 @@ from loadflow.journal.pad_bearing import (
 from loadflow.journal.pad_results import ConicalResult, common
 from loadflow.journal.pads import Pads, Pivot, even_pads, finite
 from loadflow.journal.solvers.assembly import BODY, Assembly, AssemblyState, Member
+from loadflow.journal.solvers.assembly_error import relative_errors
 from loadflow.journal.surfaces import FLAT, Cone, Cut
 from loadflow.numerics.convergence import Limits
 from loadflow.numerics.fields import require
@@ -271,6 +272,7 @@ class ConicalBearing(PadBearing, ConicalFilms[ConicalResult]):
     ) -> dict[str, Any]:
         """Fields of a `ConicalResult` of the `members` of this cone at a `position` of its own."""
         found = self.row.describe(assembly, members, state)
+        found["relative_grid_error"] = relative_errors(assembly, members, state)
         loads = found["loads"]
         total = loads.sum(axis=0)
         stiffness, damping = assembly.coefficients(state, members)

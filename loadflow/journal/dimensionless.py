@@ -71,6 +71,7 @@ class UnitBearing:
         InputError, SolverError
             As `JournalBearing.equilibrium`.
         """
+        _check_laminar(film)
         force = self.width_ratio * np.asarray(sommerfeld, dtype=float)
         return self.bearing.equilibrium(force, **self._film, **film)
 
@@ -104,6 +105,7 @@ class UnitBearing:
         self, eccentricity_ratio: ArrayLike, rate: ArrayLike = (0.0, 0.0), **film: Any
     ) -> FilmField:
         """The whole film at a position, pressures as Π; arguments as of `sommerfeld`."""
+        _check_laminar(film)
         clearance = self.bearing.clearance
         return self.bearing.pressure(
             clearance * np.asarray(eccentricity_ratio, dtype=float),
@@ -111,3 +113,9 @@ class UnitBearing:
             **self._film,
             **film,
         )
+
+
+def _check_laminar(film: dict[str, Any]) -> None:
+    """Refuse turbulent flow, which no number without dimension stands for."""
+    value = film.get("turbulence")
+    require(value is None, "turbulence", value, "None for a bearing without dimension")

@@ -7,10 +7,19 @@ from dataclasses import dataclass, replace
 from typing import Any, ClassVar, Unpack
 
 from loadflow.errors import SolverError
+from loadflow.journal.film.cell_error import drag_error
 from loadflow.journal.film_model import Control, Film, Keywords
+from loadflow.journal.grid_bounds import UNRESOLVED, PadError
 from loadflow.journal.lubricant import Lubricant
 from loadflow.journal.pad_bearing import AT_REST, asked, limits_of
-from loadflow.journal.pad_results import AXIAL_BOTH, PadResult, Shows, Table, ThrustResult
+from loadflow.journal.pad_results import (
+    AXIAL_BOTH,
+    PadResult,
+    Shows,
+    Table,
+    ThrustResult,
+    of_both,
+)
 from loadflow.journal.pads import finite
 from loadflow.journal.thrust import ThrustBearing
 from loadflow.numerics.fields import require
@@ -65,6 +74,20 @@ class DoubleThrustResult(Shows):
     iterations: int
 
     _table: ClassVar[Table] = AXIAL_BOTH
+
+    @property
+    def grid_error(self) -> PadError:
+        """Bounds of what the cells do to the results: to the film as the collar would move."""
+        error = of_both(self.front, self.back)
+        moved = error.force / self.stiffness if self.stiffness > 0.0 else math.inf
+        thinner = drag_error(0.0, moved / self.minimum_film) * self.friction_power
+        return replace(error, minimum_film=moved, friction_power=error.friction_power + thinner)
+
+    @property
+    def resolved(self) -> bool:
+        """Whether the cells resolve both films."""
+        thin = self.grid_error.minimum_film < UNRESOLVED * self.minimum_film
+        return thin and self.front.resolved and self.back.resolved
 
     to_dataset = PadResult.to_dataset
     __repr__ = PadResult.__repr__

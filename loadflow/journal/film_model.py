@@ -19,6 +19,7 @@ from loadflow.journal.lubricant import Lubricant
 from loadflow.journal.rungs import check_rung
 from loadflow.journal.shells import Shell
 from loadflow.journal.supply import Supply
+from loadflow.journal.turbulence import Turbulence
 from loadflow.numerics.convergence import Control as Control
 from loadflow.numerics.fields import require
 
@@ -43,6 +44,7 @@ class FilmKeywords(TypedDict, total=False):
     heat: Heat | FilmHeat | None
     contact: Contact | None
     rung: str
+    turbulence: Turbulence | None
 
 
 class ControlKeywords(TypedDict, total=False):
@@ -92,6 +94,9 @@ class Film:
         Model: finite volumes; few unknowns across the width; the mobility map; closed forms and
         tables of ISO 7902, which leave total_fill, stiffness and damping None; the historical
         superpositions.
+    turbulence : Turbulence, optional
+        Turbulent flow where the Reynolds number is beyond its critical value; laminar by default,
+        with a `loadflow.errors.ValidityWarning` where that does not hold.
 
     Raises
     ------
@@ -119,6 +124,7 @@ class Film:
     heat: Heat | FilmHeat | None = None
     contact: Contact | None = None
     rung: str = "grid"
+    turbulence: Turbulence | None = None
 
     def __post_init__(self) -> None:
         if self.lubricant is None and self.heat is None:
@@ -127,6 +133,8 @@ class Film:
             raise InputError("lubricant: not given with heat, as it follows from heat.oil")
         known = self.contact is None or isinstance(self.contact, Contact)
         require(known, "contact", self.contact, "a Contact, or None")
+        known = self.turbulence is None or isinstance(self.turbulence, Turbulence)
+        require(known, "turbulence", self.turbulence, "a Turbulence, or None")
         check_rung(self.rung)
         require(self.inlet in ("auto", "widest gap", None), "inlet", self.inlet, _INLETS)
         require(self.grading in _GRADINGS, "grading", self.grading, " or ".join(_GRADINGS))

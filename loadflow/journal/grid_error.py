@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields, replace
+from dataclasses import replace
 from typing import Unpack
 
 import numpy as np
@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from loadflow.journal.bearing import JournalBearing
 from loadflow.journal.film_model import Film, Keywords, film_and_control
+from loadflow.journal.grid_bounds import BOUNDED, GridError
 from loadflow.journal.lubricant import Lubricant
 from loadflow.numerics.fields import require
 
@@ -17,29 +18,6 @@ Array = NDArray[np.float64]
 
 _SAFETY = 3.0  # error allowed for over a difference from half as many cells [Roache 1994]
 _COUPLED = 0.1  # of the largest of all relative errors, that each quantity is given at least
-
-
-@dataclass(frozen=True)
-class GridError:
-    """Bounds of the errors of the fields of `Equilibrium` of the same names, in their units.
-
-    Infinite where a coarser grid has no answer.
-
-    Examples
-    --------
-    >>> from loadflow.journal import JournalBearing, Lubricant, grid_error
-    >>> bearing = JournalBearing(diameter=0.2, width=0.1, relative_clearance=1e-3)
-    >>> error = grid_error(bearing, (1e4, 0.0), 100.0, Lubricant(0.02))
-    >>> bool(0.0 < error.maximum_pressure < 3e5)  # Pa
-    True
-    """
-
-    eccentricity_ratio: Array
-    attitude_angle: Array
-    minimum_film: Array
-    maximum_pressure: Array
-    friction_power: Array
-    side_flow: Array
 
 
 def grid_error(
@@ -54,7 +32,8 @@ def grid_error(
     The differences from half as many cells around, and from half as many across, added up as they
     may have opposite signs, and three times that: the factor of [Roache 1994] for two grids, which
     holds errors of the first order, too. One quantity may agree by chance, so that each is given a
-    tenth of the largest relative difference of all. It costs about as much as the solution itself.
+    tenth of the largest relative difference of all. It costs about as much as the solution itself,
+    and asks other grids, where ``Equilibrium.grid_error`` judges from the one solution alone.
 
     Parameters
     ----------
@@ -91,7 +70,7 @@ def grid_error(
         for cells in ((around // 2, across), (around, 2 * (across // 4)))
     ]
     found = np.logical_and.reduce([solved.converged, *(state.converged for state in coarser)])
-    names = [part.name for part in fields(GridError)]
+    names = BOUNDED[1:]
     scales = {name: _scale(name, getattr(solved, name)) for name in names}
     shares = {
         name: sum(_apart(name, getattr(solved, name), getattr(state, name)) for state in coarser)

@@ -23,6 +23,7 @@ from loadflow.journal.models.model import Steps, Verb, why_not
 from loadflow.journal.shapes import Arc, Crown, Lobes, TiltingPads
 from loadflow.journal.shells import LocalShell, ThickShell
 from loadflow.journal.supply import Groove, Supply
+from loadflow.journal.turbulence import Turbulence
 from loadflow.tribology.asperities import AsperityContact
 
 
@@ -78,6 +79,7 @@ PARTS: dict[str, Part] = _LAWS | {
     "heat, stored": Part("heat", {"lubricant": None, "heat": Heat("iso-vg-68", capacity=1e5)}),
     "heat over the area": Part("heat", {"lubricant": None, "heat": FilmHeat("iso-vg-68")}),
     "contact": Part("contact", {"contact": _ROUGH}),
+    "turbulence": Part("flow", {"turbulence": Turbulence(begin=0.0, end=0.0)}),
 }
 """Every part by its name."""
 

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from loadflow.journal.grid_bounds import UNRESOLVED, PadError
 from loadflow.numerics.shown import Shown
-from loadflow.quantities import FILM, Quantity
+from loadflow.quantities import FILM, GRID_ERROR, Quantity
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -47,6 +48,7 @@ _PADS: Table = {
     "converged": ((), "1", "whether the residual fell below the tolerance"),
     "residual": ((), "1", "largest imbalance of cells, pads and shaft, scaled"),
     "iterations": ((), "1", "Newton steps"),
+    "resolved": ((), "1", "whether the cells resolve the films"),
 }
 
 
@@ -110,6 +112,9 @@ class PadResult(Shows):
         Largest imbalance of cells, pads and shaft, over their scales.
     iterations : int
         Newton steps.
+    relative_grid_error : array (4,)
+        Bounds of what the cells do to the force, the smallest film, the largest pressure and the
+        friction power, over their values.
 
     Examples
     --------
@@ -141,19 +146,33 @@ class PadResult(Shows):
     converged: bool
     residual: float
     iterations: int
+    relative_grid_error: Array
 
     _table: ClassVar[Table] = _PADS
+
+    @property
+    def grid_error(self) -> PadError:
+        """Bounds of what the cells do to the results, told from the solved films alone."""
+        sizes = np.linalg.norm(np.atleast_1d(getattr(self, "force", 0.0))), self.minimum_film
+        sizes += self.maximum_pressure, self.friction_power
+        return PadError(*(float(x) for x in np.array(sizes) * self.relative_grid_error))
+
+    @property
+    def resolved(self) -> bool:
+        """Whether the cells resolve the films: force and smallest film to 25 %."""
+        return bool(self.converged and self.relative_grid_error[:2].max() < UNRESOLVED)
 
     def to_dataset(self) -> xr.Dataset:
         """The result as a Dataset; every variable has `units` and `long_name`."""
         import xarray as xr
 
-        return xr.Dataset(
-            {
-                name: (dims, getattr(self, name), {"units": units, "long_name": text})
-                for name, (dims, units, text) in self._table.items()
-            }
-        )
+        data = {
+            name: (dims, getattr(self, name), {"units": units, "long_name": text})
+            for name, (dims, units, text) in self._table.items()
+        }
+        bounds = vars(self.grid_error).items()
+        data |= {n + GRID_ERROR: ((), x, FILM[n + GRID_ERROR].attributes) for n, x in bounds}
+        return xr.Dataset(data)
 
     def __repr__(self) -> str:
         """The numbers on a line each; arrays of more than five by their shape."""
@@ -337,12 +356,33 @@ class PairResult(Shows):
         name: _PADS[name]
         for name in (
             "minimum_film", "maximum_pressure", "friction_torque", "friction_power", "speed",
-            "converged", "residual", "iterations",
+            "converged", "residual", "iterations", "resolved",
         )
     }  # fmt: skip
 
+    @property
+    def grid_error(self) -> PadError:
+        """Bounds of what the cells do to the results, of both cones together."""
+        return of_both(self.left, self.right)
+
+    @property
+    def resolved(self) -> bool:
+        """Whether the cells resolve both films."""
+        return self.left.resolved and self.right.resolved
+
     to_dataset = PadResult.to_dataset
     __repr__ = PadResult.__repr__
+
+
+def of_both(one: PadResult, other: PadResult) -> PadError:
+    """Bounds of two bearings together: forces and friction add up, the worse film counts."""
+    a, b = one.grid_error, other.grid_error
+    return PadError(
+        a.force + b.force,
+        max(a.minimum_film, b.minimum_film),
+        max(a.maximum_pressure, b.maximum_pressure),
+        a.friction_power + b.friction_power,
+    )
 
 
 AXIAL_BOTH: Table = {
@@ -354,7 +394,7 @@ AXIAL_BOTH: Table = {
     name: _PADS[name]
     for name in (
         "minimum_film", "maximum_pressure", "friction_torque", "friction_power", "speed",
-        "converged", "residual", "iterations",
+        "converged", "residual", "iterations", "resolved",
     )
 }  # fmt: skip
 """What two rows of pads on both sides of a collar answer."""

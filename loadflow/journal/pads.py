@@ -301,7 +301,7 @@ def check_film(film: Film) -> Film:
     loadflow.errors.InputError
         Names what they do not know; pressures at which no oil enters.
     """
-    for name in ("supply", "shell", "heat", "contact"):
+    for name in ("supply", "shell", "heat", "contact", "turbulence"):
         value = getattr(film, name)
         require(value is None, name, value, "None for pads and cones")
     require(film.rung == "grid", "rung", film.rung, '"grid" for pads and cones')

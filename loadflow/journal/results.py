@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, fields
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from loadflow.journal.grid_bounds import BOUNDED, FieldError, GridError, resolved
 from loadflow.numerics.shown import Shown
-from loadflow.quantities import FILM, Quantity
+from loadflow.quantities import FILM, GRID_ERROR, Quantity
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -33,6 +34,11 @@ _INNER = {
     "z": ("across",),
 }
 """Dimensions of a result beside those of the loads."""
+
+
+def _of(kind: type, bounds: dict[str, Array]) -> dict[str, Array]:
+    """Those of `bounds` that a `kind` of them has."""
+    return {part.name: bounds[part.name] for part in fields(kind)}
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -64,6 +70,31 @@ class FilmState(Shown):
     contact_area: Array | None = None
     contact_power: Array | None = None
     contact_share: Array | None = None
+    relative_grid_error: Array | None = None
+
+    def _bounds(self) -> dict[str, Array] | None:
+        """Bounds of what the cells do to the results, in their units, by name."""
+        relative = self.relative_grid_error
+        if relative is None:
+            return None
+        values = {name: np.abs(getattr(self, name, 1.0)) for name in BOUNDED}
+        values["attitude_angle"] = np.ones(self._shape)
+        values["force"] = np.linalg.norm(np.atleast_1d(values["force"]), axis=-1)
+        return {name: values[name] * relative[..., k] for k, name in enumerate(BOUNDED)}
+
+    @property
+    def resolved(self) -> NDArray[np.bool_] | None:
+        """Whether the cells resolve the narrowest gap, or the load at a given one, to 25 %.
+
+        None on rungs other than the grid.
+        """
+        bounds = self.relative_grid_error
+        return None if bounds is None else resolved(bounds, self.converged)
+
+    @property
+    def grid_error(self) -> GridError | FieldError | None:
+        """Bounds of what the cells do to the results; None on rungs other than the grid."""
+        return None
 
     def shown_quantities(self) -> Mapping[str, Quantity]:
         """Quantities of a film."""
@@ -97,20 +128,29 @@ class FilmState(Shown):
 
         lead, cases = len(self._shape), math.prod(self._shape)
         found: dict[str, Any] = {}
-        for part in fields(self):
-            if getattr(self, part.name) is None:
-                continue
-            values, dims = np.asarray(getattr(self, part.name)), _INNER.get(part.name, ())
+        for name, said in self._told():
+            values, dims = np.asarray(said), _INNER.get(name, ())
             if values.ndim > len(dims):
                 values = values.reshape(cases, *values.shape[lead:])
                 dims = ("case", *dims)
-            found[part.name] = dims, values, FILM[part.name].attributes
+            found[name] = dims, values, FILM[name].attributes
         names = ["e_x", "e_y", "tilt_x", "tilt_y"]
         coords: dict[str, Any] = {"axis": list("xy")}
         if "stiffness" in found:
             size = found["stiffness"][1].shape[-1]
             coords |= {"dof": names[:size], "along": names[:size]}
         return xr.Dataset(found, coords)
+
+    def _told(self) -> Iterator[tuple[str, Any]]:
+        """Names and values of all that is known."""
+        for part in fields(self):
+            value = getattr(self, part.name)
+            if value is not None and part.name in FILM:
+                yield part.name, value
+        if self.relative_grid_error is not None:
+            yield "resolved", self.resolved
+            for name, bound in vars(self.grid_error).items():
+                yield name + GRID_ERROR, bound
 
     def __repr__(self) -> str:
         """The state in short; of many loads their number and the extremes."""
@@ -122,13 +162,25 @@ class FilmState(Shown):
         name = type(self).__name__
         if not found.any():
             return f"<{name}: {found.size} loads, none converged>"
+        lowest, highest = int(np.nanargmin(films)), int(np.nanargmax(peak))
         said = (
-            f"ε = {np.nanmax(ratio):.4g}, h_min = {np.nanmin(films) * 1e6:.4g} µm, "
-            f"p_max = {np.nanmax(peak) / 1e6:.4g} MPa"
+            f"ε = {np.nanmax(ratio):.4g}, h_min = {films[lowest] * 1e6:.4g} µm"
+            f"{self._give_or_take('minimum_film', lowest)}, "
+            f"p_max = {peak[highest] / 1e6:.4g} MPa"
+            f"{self._give_or_take('maximum_pressure', highest)}"
         )
+        if self.resolved is not None and (missed := int((found & ~np.ravel(self.resolved)).sum())):
+            said += ", not resolved" if found.size == 1 else f", {missed} not resolved"
         if found.size == 1:
             return f"<{name}: {said}, {np.ravel(self.iterations)[0]} iterations>"
         return f"<{name}: {found.size} loads, {found.sum()} converged; extremes {said}>"
+
+    def _give_or_take(self, name: str, case: int) -> str:
+        """Bound of what the cells do to a quantity of one load, in words."""
+        if self.relative_grid_error is None:
+            return ""
+        bound = self.relative_grid_error[..., BOUNDED.index(name)]
+        return f" ± {100 * np.ravel(bound)[case]:.2g} %" if np.any(bound) else ""
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -207,6 +259,10 @@ class Equilibrium(FilmState):
         Power of boundary friction μ ∬p_a dA R |ω|, W.
     contact_share : array (…), optional
         Part of `contact_force` along `force`, over its size.
+    relative_grid_error : array (…, 7), optional
+        Bounds of what the cells do to force, eccentricity ratio, attitude angle (rad), smallest
+        film, largest pressure, friction power and side flow, over their values; None on rungs other
+        than the grid. `grid_error` has them in units, `resolved` says whether they are small.
 
     Examples
     --------
@@ -226,6 +282,16 @@ class Equilibrium(FilmState):
     critical_reynolds_number: Array
     laminar: NDArray[np.bool_]
     temperature: Array | None = None
+
+    @property
+    def grid_error(self) -> GridError | None:
+        """Bounds of what the cells do to the results; None on rungs other than the grid.
+
+        They follow from the solved film alone: from how far its pressure bends within a cell, and
+        its stiffness.
+        """
+        bounds = self._bounds()
+        return None if bounds is None else GridError(**_of(GridError, bounds))
 
     def plot(self) -> Figure:
         """Draw K and C over the speeds, or the shaft centre in the clearance circle.
@@ -313,7 +379,7 @@ class FilmField(FilmState):
     eccentricity_ratio, minimum_film, maximum_pressure, friction_power, side_flow, supply_flow, \
 supply_power, groove_flow, groove_pressure, starved, total_fill, stiffness, damping, converged, \
 iterations, residual, moment, tilt, pad_tilt, shell_deformation, contact_force, contact_pressure, \
-contact_area, contact_power, contact_share
+contact_area, contact_power, contact_share, relative_grid_error
         As in `Equilibrium`.
     deformation : array (…, nx, nz)
         Growth of the gap of the cells by the elastic shell, m.
@@ -339,6 +405,12 @@ contact_area, contact_power, contact_share
     gap: Array
     angle: Array
     z: Array
+
+    @property
+    def grid_error(self) -> FieldError | None:
+        """Bounds of what the cells do to the results; None on rungs other than the grid."""
+        bounds = self._bounds()
+        return None if bounds is None else FieldError(**_of(FieldError, bounds))
 
     def plot(self, case: int = 0) -> Figure:
         """Draw the pressure unwrapped and around the shaft, and the gap.

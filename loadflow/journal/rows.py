@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.journal.film._kernels import HM
+from loadflow.journal.film.cell_error import relative_errors
 from loadflow.journal.film.groove_pressure import UNSUPPLIED
 from loadflow.journal.film.integrals import summary
 from loadflow.journal.geometry import JournalGeometry
@@ -38,6 +39,7 @@ def shaped(columns: dict[str, Any], shape: tuple[int, ...]) -> dict[str, Any]:
 def static_row(
     bearing: JournalGeometry,
     film: DiscreteFilm,
+    gap: BoreGap,
     load: Array,
     lubricant: Lubricant,
     solution: Solution,
@@ -47,7 +49,7 @@ def static_row(
     position = solution.position[:2] if solution.converged else np.full(2, np.nan)
     return {
         **operating_columns(bearing, load, film.speed, lubricant, position),
-        **_common_row(film, solution, whirl),
+        **_common_row(film, gap, solution, solution.linear.stiffness, whirl),
     }
 
 
@@ -96,7 +98,7 @@ def field_row(film: DiscreteFilm, gap: BoreGap, solution: Solution) -> dict[str,
         "deformation": deformation,
         "gap": heights,
         "angle": angle,
-        **_common_row(film, solution),
+        **_common_row(film, gap, solution, None),
     }
 
 
@@ -107,9 +109,19 @@ def _mean_gap(film: DiscreteFilm, arcs: Array) -> Array:
     return np.broadcast_to(heights * film.relative_clearance * film.radius, film.mesh.shape)
 
 
-def _common_row(film: DiscreteFilm, solution: Solution, whirl: float = 0.0) -> dict[str, Any]:
+def _common_row(
+    film: DiscreteFilm,
+    gap: BoreGap,
+    solution: Solution,
+    balanced: Array | None,
+    whirl: float = 0.0,
+) -> dict[str, Any]:
+    """What both have; `balanced` is the stiffness that held the shaft, None at a given position."""
     clearance = film.relative_clearance * film.radius
     row: dict[str, Any] = summary(film, solution.u, solution.position)
+    row["relative_grid_error"] = relative_errors(
+        film, gap, solution.position, balanced, solution.free, solution.linear.load
+    )
     shaft, lengths = film.gap.shaft, np.ones(film.gap.shaft)
     lengths[2:] = film.radius  # of the degrees of freedom: those of tilts are arms
     rows = np.arange(film.gap.size)[solution.free]

@@ -14,7 +14,7 @@ from loadflow.errors import InputError
 _FULL_WIDTH = "a shaped bore, an elastic shell or a shaft that tilts or bends"
 
 FEATURES = {
-    "shape": _FULL_WIDTH,
+    "shape": "a shaped bore",
     "relief": _FULL_WIDTH,
     "moment": _FULL_WIDTH,
     "tilt": _FULL_WIDTH,
@@ -29,6 +29,7 @@ FEATURES = {
     "film_heat": "an energy equation over the area of the film",
     "contact": "contact of asperities",
     "contact_on_shell": "contact of asperities on a shell that gives way",
+    "turbulence": "turbulent flow",
     "step": "adaptive steps",
     "periodic": "a closed orbit",
 }
@@ -38,7 +39,7 @@ _LINE = {"moment", "tilt", "bend"}
 _SHELLS = {"shell", "local_shell"}
 _BORES = _LINE | _SHELLS | {"shape", "relief", "supply", "inlet", "grading"}
 _TOUCH = {"contact", "contact_on_shell"}
-_REDUCED = frozenset(_LINE | {"local_shell", "contact", "heat"})
+_REDUCED = frozenset(_LINE | {"shape", "local_shell", "contact", "heat", "turbulence"})
 
 
 @dataclass(frozen=True)
@@ -127,9 +128,9 @@ RUNGS: dict[str, Rung] = {
         Rung(
             "grid",
             f"{_MODELS}.grid",
-            frozenset(_BORES | _TOUCH | {"heat", "film_heat"}),
-            _WARMING | _BORES | _TOUCH | {"step", "periodic"},
-            frozenset(_BORES | _TOUCH | {"film_heat"}),
+            frozenset(_BORES | _TOUCH | {"turbulence", "heat", "film_heat"}),
+            _WARMING | _BORES | _TOUCH | {"turbulence", "step", "periodic"},
+            frozenset(_BORES | _TOUCH | {"turbulence", "film_heat"}),
         ),
     )
 }

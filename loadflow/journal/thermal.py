@@ -254,34 +254,44 @@ def grown_by(bearing: JournalGeometry, heat: Heat, temperature: float) -> Journa
     return replace(bearing, relative_clearance=clearance / bearing.radius)
 
 
-def in_grown_bearings(
-    solve: Callable[[JournalGeometry, Array, Array, NDArray[np.int64]], Columns],
+def at_temperatures(
+    solve: Callable[[JournalGeometry, Film, Array, Array, NDArray[np.int64]], Columns],
     bearing: JournalGeometry,
-    heat: Heat,
+    film: Film,
 ) -> AtRest:
-    """Equilibria in a bearing of the clearance that goes with each temperature.
+    """Equilibria of the oil as it enters, in what of bearing and flow goes with each temperature.
+
+    That is the clearance of a bearing that grows, and the Reynolds number of turbulent flow: at a
+    speed times η/η₀ the film of η₀ has it with a density times ρ/ρ₀ (η₀/η)².
 
     Parameters
     ----------
     solve : callable
-        Equilibria in a bearing, as `AtRest` without temperatures.
+        Equilibria in a bearing and of an isothermal film, as `AtRest` without temperatures.
     bearing : JournalGeometry
         As it is made.
-    heat : Heat
-        With its growth, or none.
+    film : Film
+        With heat.
     """
+    heat, cold = cast("Heat", film.heat), film.isothermal()
+    enters = cold.liquid
 
     def at_rest(
         force: Array, speed: Array, places: NDArray[np.int64], temperature: Array
     ) -> Columns:
-        if heat.growth is None:
-            return solve(bearing, force, speed, places)
+        if heat.growth is None and film.turbulence is None:
+            return solve(bearing, cold, force, speed, places)
         joined: Columns = {}
         for one in np.unique(temperature):
             some = temperature == one
-            now = grown_by(bearing, heat, float(one))
-            found = solve(now, force[some], speed[some], places[some])
-            found = found | {"clearance": np.full(int(some.sum()), now.clearance)}
+            oil, now = heat.lubricant(float(one)), grown_by(bearing, heat, float(one))
+            heavier = oil.density * (enters.viscosity / oil.viscosity) ** 2
+            own = replace(cold, lubricant=replace(enters, density=heavier))
+            found = solve(now, own, force[some], speed[some], places[some])
+            reynolds = found["reynolds_number"] * enters.density / heavier
+            found = found | {"reynolds_number": reynolds}
+            if heat.growth is not None:
+                found = found | {"clearance": np.full(int(some.sum()), now.clearance)}
             for name, values in found.items():
                 if values is None:
                     joined[name] = None

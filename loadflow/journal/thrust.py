@@ -25,6 +25,7 @@ from loadflow.journal.pad_bearing import (
 from loadflow.journal.pad_results import ThrustResult, common
 from loadflow.journal.pads import LIFTS, Pads, Pivot, even_pads, finite
 from loadflow.journal.solvers.assembly import BODY, Assembly, AssemblyState
+from loadflow.journal.solvers.assembly_error import relative_errors
 from loadflow.journal.surfaces import Cone, Cut, Strip, Surface, Taper
 from loadflow.numerics.convergence import Limits
 from loadflow.numerics.fields import require
@@ -272,6 +273,7 @@ class _PadThrust(PadBearing):
         self, assembly: Assembly, state: AssemblyState, base: float, speed: float
     ) -> ThrustResult:
         found = self.row.describe(assembly, slice(None), state)
+        found["relative_grid_error"] = relative_errors(assembly, slice(None), state)
         axes = slice(2, BODY)
         stiffness, damping = (m[axes, axes] for m in assembly.coefficients(state))
         loads = found["loads"]

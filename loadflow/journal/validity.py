@@ -1,4 +1,4 @@
-"""Whether the flow in the gap is laminar, as every film here supposes."""
+"""Whether the flow in the gap is laminar, as every film without `Turbulence` supposes."""
 
 from __future__ import annotations
 
@@ -34,20 +34,25 @@ def critical_reynolds_number(relative_clearance: float) -> float:
     return float(41.3 * relative_clearance**-0.5)
 
 
-def warn_if_turbulent(bearing: JournalGeometry, speed: ArrayLike, lubricant: Lubricant) -> None:
-    """Warn of speeds at which the flow is not laminar.
+def warn_if_turbulent(
+    bearing: JournalGeometry, speed: ArrayLike, lubricant: Lubricant, turbulence: object | None
+) -> None:
+    """Warn of speeds at which the flow is not laminar, unless the film knows its `turbulence`.
 
     Warns
     -----
     loadflow.errors.ValidityWarning
         Re reaches Re_cr; names both.
     """
+    if turbulence is not None:
+        return
     largest = float(np.max(reynolds_number(bearing, speed, lubricant)))
     critical = critical_reynolds_number(bearing.relative_clearance)
     if largest >= critical:
         warnings.warn(
             f"Re = {largest:.4g} reaches Re_cr = {critical:.4g} (3.14) at ω = "
-            f"{np.max(np.abs(speed)):.4g} rad/s: the laminar film underestimates friction and load",
+            f"{np.max(np.abs(speed)):.4g} rad/s: the laminar film underestimates friction and "
+            "load; a film with turbulence = Turbulence(), in a scene turbulence = {}, does not",
             ValidityWarning,
             stacklevel=3,
         )

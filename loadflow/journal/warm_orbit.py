@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,7 +22,7 @@ from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.heat import HOTTEST, Heat
 from loadflow.journal.line import Line
 from loadflow.journal.models.model import Model, Steps
-from loadflow.journal.thermal import check_scalable, grown_by, in_grown_bearings, warm_film
+from loadflow.journal.thermal import at_temperatures, check_scalable, grown_by, warm_film
 from loadflow.numerics.convergence import Limits
 from loadflow.quantities import FILM
 
@@ -62,8 +62,7 @@ def warm_orbit(
     loadflow.errors.SolverError
         No heat balance of the series, a film that gets too hot, or what the model raises.
     """
-    heat = film.heat
-    assert isinstance(heat, Heat)
+    heat = cast("Heat", film.heat)  # the other kind is refused in motion
     check_scalable(film)
     start = heat.start_temperature
     if start is None or heat.capacity is None:
@@ -93,16 +92,18 @@ def series_temperature(
         No heat balance below the largest temperature.
     """
     some = np.unique(np.linspace(0, speed.size - 1, SAMPLES).round().astype(int))
-    cold, limits, own = film.isothermal(), Limits(1e-10, 60, strict=False), line.at(some)
+    limits, own = Limits(1e-10, 60, strict=False), line.at(some)
 
     def solve(
-        grown: JournalGeometry, forces: Array, speeds: Array, places: NDArray[np.int64]
+        grown: JournalGeometry,
+        cold: Film,
+        forces: Array,
+        speeds: Array,
+        places: NDArray[np.int64],
     ) -> dict[str, Any]:
         return model.equilibrium(grown, cold, forces, speeds, own.at(places), limits)
 
-    heat = film.heat
-    assert isinstance(heat, Heat)
-    at_rest = in_grown_bearings(solve, bearing, heat)
+    at_rest = at_temperatures(solve, bearing, film)
     shares = np.full(some.size, 1.0 / some.size)
     found = warm_film(at_rest, force[some], speed[some], film, shares, strict=False)
     if not np.any(found["converged"]):

@@ -169,18 +169,26 @@ def chosen_candidate(scene: Scene) -> tuple[str, Candidate]:
 def _problem(
     loads: SharedLoads, space: Space, candidate: Candidate, options: Design, folder: Path
 ) -> Problem:
-    """The spectrum of the loads, made or read, with what is asked of it."""
+    """The spectrum of the loads, with what is asked of it."""
+    tree, digest = spectrum_of(loads, candidate, options.classes, folder)
+    told = [digest, candidate.model_dump_json(), repr(space)]
+    return Problem(space, tree, hashlib.sha256("\n".join(told).encode()).hexdigest())
+
+
+def spectrum_of(
+    loads: SharedLoads, candidate: Candidate, classes: int, folder: Path
+) -> tuple[Any, str]:
+    """Spectrum of the loads of a candidate, made or read from `folder`, and its digest."""
     places, file = candidate.places, folder / "spectrum.h5"
     steps = {step.name: step.digest for step in loads.plan.steps}
-    told = [__version__, steps["loads"], steps["shaft"], *places, str(options.classes)]
+    told = [__version__, steps["loads"], steps["shaft"], *places, str(classes)]
     told += [loads.scene.digest("loads", "shaft", "turbine")]
     digest = hashlib.sha256("\n".join(told).encode()).hexdigest()
     if not file.exists() or digest_of(file) != digest or not is_sound(file):
-        made = load_spectrum(loads.scene, _cases(loads), places, options.classes)
+        made = load_spectrum(loads.scene, _cases(loads), places, classes)
         save_part(made, file, digest)
     tree: Any = open_cube(file)
-    told = [digest, candidate.model_dump_json(), repr(space)]
-    return Problem(space, tree.load(), hashlib.sha256("\n".join(told).encode()).hexdigest())
+    return tree.load(), digest
 
 
 def _cases(loads: SharedLoads) -> Iterator[tuple[str, xr.Dataset, xr.Dataset]]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Annotated, Any, Self
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import BaseModel, Field, field_validator, model_validator
 
@@ -49,6 +49,24 @@ class Variation(Section, BaseModel):
         return self
 
 
+class Crowning(Section, BaseModel):
+    """A search for the best crown of journal bearings alone, in place of that of all keys.
+
+    Attributes
+    ----------
+    aim : {"minimum_film", "maximum_pressure"}
+        What is to be largest, or least, of the worst load.
+    largest_height : float, optional
+        m; the radial clearance if left out.
+    exponent : float
+        2 is a parabola, 1 a cone.
+    """
+
+    aim: Literal["minimum_film", "maximum_pressure"] = "minimum_film"
+    largest_height: Annotated[float, Field(gt=0)] | None = None
+    exponent: Annotated[float, Field(ge=1)] = 2.0
+
+
 class Design(Section, BaseModel):
     """A search for the best bearing of a candidate: what may vary, and how long to look.
 
@@ -79,6 +97,8 @@ class Design(Section, BaseModel):
         Designs that are at most run with the models that a plan would take, until one holds.
     seed : int
         Of the spread and of the optimiser.
+    crown : Crowning, optional
+        Search the crown of the journal bearings alone; of the rest `candidate` and `classes` count.
     """
 
     candidate: str | None = None
@@ -93,6 +113,7 @@ class Design(Section, BaseModel):
     classes: Annotated[int, Field(ge=2, le=20)] = 5
     checks: Annotated[int, Field(ge=1, le=8)] = 3
     seed: Annotated[int, Field(ge=0)] = 0
+    crown: Crowning | None = None
 
     @field_validator("keys", mode="before")
     @classmethod

@@ -20,6 +20,7 @@ from loadflow.journal import (
     MatrixShell,
     Supply,
     ThickShell,
+    Turbulence,
 )
 from loadflow.journal.heat import Heat
 from loadflow.journal.line import Line
@@ -62,6 +63,9 @@ class Journal(Section, BaseModel):
     A ``shell`` makes the bore elastic; its key ``kind`` says how: local, lined, thick, or matrix
     with a ``matrix`` of influence coefficients, or the name of a file that holds it.
 
+    With a table ``turbulence``, which may be empty, the flow is turbulent where its Reynolds number
+    is beyond the critical one; without, it is laminar, and a run warns where it would not be.
+
     ``shaft_roughness`` and ``shell_roughness`` are R_z, m, about 6.3 R_a of the 0.2 and 0.4 µm that
     Autodesk Inventor's plain bearing calculator recommends. Where the film would be thinner than
     both together the surfaces touch: such samples are counted as ``in_contact``. With ``contact``,
@@ -97,6 +101,7 @@ class Journal(Section, BaseModel):
     tilt: bool = False
     shell: LocalShell | LinedShell | ThickShell | MatrixShell | None = None
     contact: Contact | None = None
+    turbulence: Turbulence | None = None
     shaft_roughness: Positive = 1.3e-6
     shell_roughness: Positive = 2.5e-6
     boundary_friction: Annotated[float, Field(gt=0, le=1)] = 0.15
@@ -162,7 +167,8 @@ class Journal(Section, BaseModel):
     def film(self) -> dict[str, Any]:
         """The film at the temperature of its lubricant, as keywords of the verbs."""
         mesh = ("grid", "grading", "rung")
-        names = ("lubricant", "cavitation", "edge_pressure", "supply", *mesh, "shell", "contact")
+        effects = ("supply", "shell", "contact", "turbulence")
+        names = ("lubricant", "cavitation", "edge_pressure", *mesh, *effects)
         inlet = None if self.inlet == "none" else self.inlet
         return {name: getattr(self, name) for name in names} | {"inlet": inlet}
 

@@ -32,10 +32,15 @@ ELASTIC = table("shell_deformation")
 CONTACT = table("contact_pressure", "contact_area", "contact_power", "contact_share")
 """What is kept too of asperities."""
 
+RESOLVED = table("minimum_film_grid_error", "maximum_pressure_grid_error", "resolved")
+"""What is kept too of films at rest on the grid: bounds of what its cells do."""
 
-def kept_of(options: Journal) -> dict[str, tuple[str, str]]:
-    """What is kept of every sample of a scene's bearing."""
+
+def kept_of(options: Journal, at_rest: bool = False) -> dict[str, tuple[str, str]]:
+    """What is kept of every sample of a scene's bearing, in time or `at_rest`."""
     more = ELASTIC if options.shell is not None else {}
     more = more | (CONTACT if options.contact is not None else {})
     more = more | (GROWN if getattr(options.heat, "growth", None) is not None else {})
+    if at_rest and options.film_model.rung == "grid":
+        more = more | RESOLVED
     return KEPT | more | (WARM if options.heat is not None else {})

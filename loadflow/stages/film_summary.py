@@ -77,6 +77,9 @@ def extremes(samples: xr.Dataset) -> xr.Dataset:
         "not_converged": ((~answered & ~touching).sum(), "1", "samples without an answer"),
         "in_contact": (touching.sum(), "1", "samples in which shaft and shell touch"),
     }
+    if "resolved" in samples:
+        missed = (answered & ~touching & ~samples["resolved"].astype(bool)).sum()
+        found["not_resolved"] = missed, "1", "samples whose film the cells do not resolve"
     return labelled(found)
 
 

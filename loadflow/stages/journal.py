@@ -13,6 +13,7 @@ from loadflow.errors import SolverError
 from loadflow.journal.line import Line
 from loadflow.journal.models.model import why_not
 from loadflow.journal.validity import critical_reynolds_number, reynolds_number
+from loadflow.quantities import GRID_ERROR
 from loadflow.scene.cases import Case
 from loadflow.scene.journal import Journal
 from loadflow.scene.loads import Loads
@@ -81,14 +82,15 @@ def orbit(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
 
 def _resting(options: Journal, bearing: str, reduced: xr.Dataset) -> xr.Dataset:
     speed, force = reduced["speed"].values, reduced["force"].values
-    line, kept = shaft_line(options, reduced), kept_of(options)
+    line, kept = shaft_line(options, reduced), kept_of(options, at_rest=True)
     touching = surely_touching(options, force, speed)
-    found = _nothing(options, speed.size)
+    found = _nothing(options, speed.size, at_rest=True)
     if np.any(asked := ~touching):
         some = {name: vectors[asked] for name, vectors in line.items()}
         answer = equilibria(options, force[asked], speed[asked], **some)
         for name, values in found.items():
-            values[asked] = getattr(answer, name)
+            bounds = answer.grid_error if name.endswith(GRID_ERROR) else answer
+            values[asked] = getattr(bounds, name.removesuffix(GRID_ERROR))
     _drop_contact(options, found, touching)
     if not np.any(found["converged"] | touching):
         raise SolverError(
@@ -213,9 +215,11 @@ def _lift_off(
     return speed.size, None
 
 
-def _nothing(options: Journal, count: int) -> dict[str, np.ndarray]:
+def _nothing(options: Journal, count: int, at_rest: bool = False) -> dict[str, np.ndarray]:
     """What is kept of `count` samples, and where the shaft lies, before anything is known."""
-    none = {name: np.full(count, np.nan) for name in kept_of(options)}
+    none = {name: np.full(count, np.nan) for name in kept_of(options, at_rest)}
+    if "resolved" in none:
+        none["resolved"] = np.zeros(count, dtype=bool)
     none |= {"converged": np.zeros(count, dtype=bool), "iterations": np.zeros(count, dtype=int)}
     none["eccentricity"] = np.full((count, 2), np.nan)
     return none | ({"tilt": np.full((count, 2), np.nan)} if options.tilt else {})
@@ -228,7 +232,7 @@ def _drop_contact(options: Journal, found: dict[str, np.ndarray], touching: np.n
     if options.contact is not None:
         return
     for name, values in found.items():
-        if name in ("converged", "iterations"):
+        if name in ("converged", "iterations", "resolved"):
             values[touching] = 0
         else:
             values[touching] = np.nan

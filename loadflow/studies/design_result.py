@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -304,12 +304,20 @@ def scene_of_best(scene: Scene, designs: Designs) -> str:
     """The scene with the best design as its bearings, as TOML, ready to run."""
     assert designs.best is not None
     places, friction = designs.space.data(designs.best.tolist())
+    name = f"{scene.name}-{designs.candidate}"
+    return scene_with_bearings(scene, name, places, friction, designs.conclusion)
+
+
+def scene_with_bearings(
+    scene: Scene, name: str, places: Mapping[str, Any], friction: Mapping[str, Any], words: str
+) -> str:
+    """The scene with other bearings, as TOML that begins with `words`."""
     data = scene.model_dump(mode="json", exclude_unset=True, exclude_none=True)
-    for name in ("candidates", "design", "journal", "rolling", "results"):
-        data.pop(name, None)
-    data["name"] = f"{scene.name}-{designs.candidate}"
+    for part in ("candidates", "design", "journal", "rolling", "results"):
+        data.pop(part, None)
+    data["name"] = name
     if friction:
-        data["friction"] = friction
+        data["friction"] = dict(friction)
     data["shaft"] = scene.shaft.model_dump(mode="json", exclude_none=True)
-    data["bearings"] = places
-    return f"# {designs.conclusion}\n{tomli_w.dumps(data)}"
+    data["bearings"] = dict(places)
+    return f"# {words}\n{tomli_w.dumps(data)}"

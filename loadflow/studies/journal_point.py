@@ -13,7 +13,7 @@ import xarray as xr
 
 from loadflow.errors import InputError, SolverError
 from loadflow.journal.rungs import RUNGS
-from loadflow.quantities import table
+from loadflow.quantities import GRID_ERROR, table
 
 if TYPE_CHECKING:
     from loadflow.journal import Film, JournalBearing
@@ -99,6 +99,13 @@ def journal_point(force: Load, speed: float, bearing: JournalBearing, film: Film
         for name, (units, meaning) in names.items()
         if getattr(s, name) is not None
     }
+    if s.grid_error is not None:
+        bounds = {name + GRID_ERROR: bound for name, bound in vars(s.grid_error).items()}
+        about = table("resolved", *bounds)
+        rows |= {
+            name: (value, *about[name])
+            for name, value in ({"resolved": s.resolved} | bounds).items()
+        }
     return quantities(rows, model=_model(film))
 
 
@@ -124,7 +131,10 @@ def journal_series(path: Path, bearing: JournalBearing, film: Film) -> xr.Datase
     if not np.any(answer.converged):
         raise SolverError(f"{path}: no film carries any of the {reduced.weight.size} samples")
     kept = KEPT | WARM if film.heat is not None else KEPT
-    samples = xr.Dataset({**of_samples(vars(answer), kept), "weight": ("sample", reduced.weight)})
+    said = vars(answer)
+    if answer.resolved is not None:
+        said, kept = said | {"resolved": answer.resolved}, kept | table("resolved")
+    samples = xr.Dataset({**of_samples(said, kept), "weight": ("sample", reduced.weight)})
     return extremes(samples).assign_attrs(
         series=f"{path}: {reduced.source}, {reduced.weight.size} of {reduced.total} samples",
         model=_model(film),

@@ -11,6 +11,7 @@ import xarray as xr
 from pydantic import TypeAdapter, ValidationError
 
 from loadflow.errors import InputError
+from loadflow.quantities import GRID_ERROR, table
 from loadflow.scene.messages import message
 from loadflow.scene.scene import read_scene
 from loadflow.scene.thrust import AnyAxial
@@ -76,4 +77,7 @@ def thrust_point(bearing: AnyAxial, force: Load, moment: Load, speed: float) -> 
         "pressure_limit": (limit, "Pa", "largest film pressure that the material carries"),
         "pressure_holds": (bool(answer.maximum_pressure <= limit), "1", "whether it does"),
     }
+    bounds = {name + GRID_ERROR: bound for name, bound in vars(answer.grid_error).items()}
+    about = table(*bounds)
+    solver |= {name: (bound, *about[name]) for name, bound in bounds.items()}
     return quantities(rows | solver, model=f"{bearing.words}; {bearing.measures}")

@@ -350,7 +350,7 @@ def test_orbits_of_shaped_bores_follow_slow_loads(shape):
 def test_what_is_not_modelled_is_refused():
     lobes = JournalBearing(**SIZE, shape=Lobes(2))
     for call in (
-        lambda: lobes.equilibrium(LOAD, 10.0, OIL, rung="reduced"),
+        lambda: lobes.equilibrium(LOAD, 10.0, OIL, rung="map"),
         lambda: lobes.orbit(TIME, PATH, 10.0, OIL, rung="map"),
         lambda: PLAIN.equilibrium(LOAD, 10.0, OIL, moment=(0.0, 0.0), rung="map"),
     ):

@@ -2,9 +2,10 @@
 
 Between two cell centres the flux is taken constant, so that conductance and effective gap are
 G = 1/∫H⁻³, E = G ∫H⁻²; this stays right across steps of the gap. One source serves smooth and
-rough surfaces: `rough` is None, or roughness, flow factors along and across the motion, slip, and
-what the shell yields to asperities, as `_rough_kernels` takes them; what is not asked for is not
-compiled.
+rough surfaces, laminar and turbulent flow: `surfaces` is None, or a pair of which each may be None.
+The first is roughness, flow factors along and across the motion, slip, and what the shell yields to
+asperities, as `_rough_kernels` takes them; the second the Reynolds numbers of
+`_turbulence_kernels`. What is not asked for is not compiled.
 """
 
 from __future__ import annotations
@@ -20,44 +21,89 @@ from loadflow.journal.film._rough_kernels import (
     opened,
     sheared,
 )
+from loadflow.journal.film._turbulence_kernels import ACROSS, ALONG, SHEAR, factor
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def resistance(h, w, rough):
+def resistance(h, w, surfaces):
     """Terms w·H⁻² and w·H⁻³ of a node of a face, and their derivatives by h."""
-    if rough is None:
+    if surfaces is None:
         r = 1.0 / h
         w2 = w * r * r
         w3 = w2 * r
         return w2, w3, -2.0 * w3, -3.0 * w3 * r
-    s, along, _, slip, yields = rough
-    h, opens = opened(h, yields)
-    flow, rise = conductance(h, s, along)
-    drag, drag_rise = dragged(h, s, along, slip)
+    return _resistance(h, w, surfaces[0], surfaces[1])
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _resistance(h, w, rough, regime):
+    """`resistance` of rough surfaces, of turbulent flow, or of both."""
+    opens = 1.0
+    if rough is None:
+        flow, rise, drag, drag_rise = h * h * h, 3.0 * h * h, h, 1.0
+    else:
+        s, along, _, slip, yields = rough
+        h, opens = opened(h, yields)
+        flow, rise = conductance(h, s, along)
+        drag, drag_rise = dragged(h, s, along, slip)
+    if regime is not None:
+        flow, rise = _slowed(flow, rise, h, regime, ALONG)
     w3 = w / flow
     d3 = -w3 * rise * opens / flow
     return w3 * drag, w3, d3 * drag + w3 * drag_rise * opens, d3
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def cell_terms(h, w, rough):
+def _slowed(flow, rise, h, regime, way):
+    """Conductance of turbulent flow and its derivative, of those of laminar flow."""
+    more, more_rise = factor(h, regime, way)
+    return flow / more, (rise - flow * more_rise / more) / more
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def cell_terms(h, w, surfaces):
     """Of a node of a cell w·H³ and its derivative, w·H and its derivative, w/H; share of open gap.
 
     The last is the derivative of the mean gap by that of the mean planes.
     """
-    if rough is None:
+    if surfaces is None:
         return w * h * h * h, 3.0 * w * h * h, w * h, w, w / h, 1.0
-    s, along, across, _, yields = rough
-    h, opens = opened(h, yields)
-    flow, rise = conductance(h, s, across)
-    mean, share = mean_film(h, s)
-    share *= opens
-    return w * flow, w * rise * opens, w * mean, w * share, w * sheared(h, s, along), share
+    return _cell_terms(h, w, surfaces[0], surfaces[1])
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _cell_terms(h, w, rough, regime):
+    """`cell_terms` of rough surfaces, of turbulent flow, or of both."""
+    opens = 1.0
+    if rough is None:
+        flow, rise, mean, share, inverse = h * h * h, 3.0 * h * h, h, 1.0, 1.0 / h
+    else:
+        s, along, across, _, yields = rough
+        h, opens = opened(h, yields)
+        flow, rise = conductance(h, s, across)
+        mean, share = mean_film(h, s)
+        share *= opens
+        inverse = sheared(h, s, along)
+    if regime is not None:
+        flow, rise = _slowed(flow, rise, h, regime, ACROSS)
+        inverse *= factor(h, regime, SHEAR)[0]
+    return w * flow, w * rise * opens, w * mean, w * share, w * inverse, share
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def gap_coefficients(
-    cos_face, sin_face, w_face, cos_cell, sin_cell, w_cell, stretch, ex, ey, rough, out, open_share
+    cos_face,
+    sin_face,
+    w_face,
+    cos_cell,
+    sin_cell,
+    w_cell,
+    stretch,
+    ex,
+    ey,
+    surfaces,
+    out,
+    open_share,
 ):
     """Coefficients of the gap H = 1 − ex cos θ − ey sin θ, `out` (8, nx + 1, 1).
 
@@ -73,7 +119,7 @@ def gap_coefficients(
             d = 1.0 / (1.0 + stretch * cos_face[i, q])
             c = (stretch + cos_face[i, q]) * d
             s = root * sin_face[i, q] * d
-            w2, w3, _, _ = resistance(1.0 - ex * c - ey * s, w_face[i, q] * root * d, rough)
+            w2, w3, _, _ = resistance(1.0 - ex * c - ey * s, w_face[i, q] * root * d, surfaces)
             i2 += w2
             i3 += w3
         out[G, i, 0] = 1.0 / i3
@@ -87,7 +133,7 @@ def gap_coefficients(
             c = (stretch + cos_cell[i, q]) * d
             s = root * sin_cell[i, q] * d
             w = w_cell[i, q] * root * d
-            cubed, _, mean, w_open, inverse, _ = cell_terms(1.0 - ex * c - ey * s, w, rough)
+            cubed, _, mean, w_open, inverse, _ = cell_terms(1.0 - ex * c - ey * s, w, surfaces)
             out[H3, i, 0] += cubed
             out[HM, i, 0] += mean
             out[COS, i, 0] += w * c
@@ -100,8 +146,31 @@ def gap_coefficients(
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
+def gap_slope(
+    cos_face, sin_face, w_face, cos_cell, sin_cell, w_cell, stretches, ways, step, rough, spare,
+    out, around, open_share,
+):  # fmt: skip
+    """Central difference of `gap_coefficients` from the second to the first of `ways` (2, 2).
+
+    `out` (8, nx + 1, 1) gets the slope and `around` (2, nx) its rows of the modes; `spare` is one
+    more array like `out`, `stretches` (2,) those of the map at both places.
+    """
+    for way in range(2):
+        gap_coefficients(
+            cos_face, sin_face, w_face, cos_cell, sin_cell, w_cell, stretches[way],
+            ways[way][0], ways[way][1], rough, out if way == 0 else spare, open_share,
+        )  # fmt: skip
+    rows, nx = out.shape[0], out.shape[1]
+    for row in range(rows):
+        for i in range(nx):
+            out[row, i, 0] = (out[row, i, 0] - spare[row, i, 0]) / (2 * step)
+    for i in range(nx - 1):
+        around[0, i], around[1, i] = out[COS, i, 0], out[SIN, i, 0]
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
 def shaped_coefficients(
-    face, face_gap, cell, cell_gap, ex, ey, rough, coef, by_x, by_y, open_share
+    face, face_gap, cell, cell_gap, ex, ey, surfaces, coef, by_x, by_y, open_share
 ):
     """Coefficients of the gap H = H_0 − ex cos θ − ey sin θ and their derivatives by ex and ey.
 
@@ -118,7 +187,7 @@ def shaped_coefficients(
             for q in range(2):
                 c, s = face[0, i, q], face[1, i, q]
                 h = face_gap[i, q, k] - ex[j, k] * c - ey[j, k] * s
-                w2, w3, d2, d3 = resistance(h, face[2, i, q], rough)
+                w2, w3, d2, d3 = resistance(h, face[2, i, q], surfaces)
                 # h falls by c and s
                 i2 += w2
                 i3 += w3
@@ -135,7 +204,7 @@ def shaped_coefficients(
         coef[COS, i, 0], coef[SIN, i, 0] = w * c, w * s
         for k in range(rows):
             h = cell_gap[i, k] - ex[i, k] * c - ey[i, k] * s
-            cubed, rise, mean, w_open, inverse, share = cell_terms(h, w, rough)
+            cubed, rise, mean, w_open, inverse, share = cell_terms(h, w, surfaces)
             coef[CELL3, i, k], by_x[CELL3, i, k], by_y[CELL3, i, k] = cubed, -rise * c, -rise * s
             coef[HM, i, k], by_x[HM, i, k], by_y[HM, i, k] = mean, -w_open * c, -w_open * s
             coef[HINV, i, k] = inverse

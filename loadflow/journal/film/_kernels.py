@@ -99,6 +99,67 @@ def balance(state, coef, dz, area, gz, closed, wedge, p_edge, p_line, f_line, ma
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
+def stored(coef, around, across, velocity, slope, rate, open_share, out):
+    """Growth of the gap volume of each cell, `out` (nx, rows), Pa.
+
+    The modes `around` (m, nx) · `across` (m, rows) move with `velocity` (m,); at `rate`, 1/s, the
+    gap itself is stored.
+    """
+    nx, rows = out.shape
+    for i in range(nx):
+        for k in range(rows):
+            moving = 0.0
+            for j in range(velocity.size):
+                moving += around[j, i] * velocity[j] * across[j, k]
+            if open_share is not None:
+                moving *= open_share[i, k]
+            out[i, k] = slope * (rate * coef[HM, i, k] - moving)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def largest(column, load):
+    """Largest magnitude of a `column` (n,) and largest `load` (nx, nz)."""
+    most, peak = 0.0, load[0, 0]
+    for value in column:
+        most = max(most, abs(value))
+    for i in range(load.shape[0]):
+        for k in range(load.shape[1]):
+            peak = max(peak, load[i, k])
+    return most, peak
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def squeezed(fill, around, across, slope, area, open_share, out):
+    """Derivatives of the balance by the velocity of each mode, `out` (m, nx, nz)."""
+    size, nx, nz = out.shape
+    row = 1 if across.shape[1] > 1 else 0
+    for j in range(size):
+        for i in range(nx):
+            for k in range(nz):
+                value = -slope * fill[i, k] * area[k] * around[j, i] * across[j, row * k]
+                if open_share is not None:
+                    value *= open_share[i, row * k]
+                out[j, i, k] = value
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def gather_free(fields, slack, groove, order, columns):
+    """Write `fields` (l, nx, nz) into `columns` (l, n) in solver order; grooves have no balance.
+
+    The first is the balance itself, to which the `slack` belongs.
+    """
+    count, nx, nz = fields.shape
+    for c in range(count):
+        for i in range(nx):
+            base = order[i] * nz
+            for k in range(nz):
+                value = fields[c, i, k]
+                if c == 0:
+                    value += slack[i, k]
+                columns[c, base + k] = 0.0 if groove[i, k] else value
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
 def largest_terms(state, coef, dz, area, gz, closed, wedge, p_edge, p_line, mass, groove):
     """Largest sum of the magnitudes of the terms of `balance` in a cell; grooves have none."""
     _, nx, nz = state.shape
@@ -133,9 +194,9 @@ def jacobian(state, coef, dz, area, gz, closed, wedge, mass, order, fixed, ab):
     """Band matrix ∂(balance + slack)/∂u in LAPACK's layout, `ab` (n, 3 kl + 1), column by row."""
     _, nx, nz = state.shape
     row = 1 if coef.shape[2] > 1 else 0
-    ab[:] = 0.0
     kl = (ab.shape[1] - 1) // 3
     mid = 2 * kl
+    ab[:, kl:] = 0.0  # what lies above is LAPACK's, for pivots
     dp = state[DP]
     df = state[DFILL]
     for i in range(nx + 1):

@@ -17,14 +17,14 @@ ITSELF, BEFORE, AFTER, INNER, OUTER = range(5)
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def gap_stencil(
-    state, coef, face, face_gap, cell, cell_gap, rough, dz, gz, closed, wedge, ends, storing,
+    state, coef, face, face_gap, cell, cell_gap, surfaces, dz, gz, closed, wedge, ends, storing,
     groove, out,
 ):  # fmt: skip
     """Fill `out` (5, nx, nz) at the state and gap last placed.
 
-    `face`, `cell`, their gaps and `rough` are those of `_gap_kernels.shaped_coefficients`, the gaps
-    in place and deformed; `ends` are edge pressure, pressure and fill of an inlet line; `storing`
-    (Pa) is the squeeze pressure of a growth of the gap in one implicit step.
+    `face`, `cell`, their gaps and `surfaces` are those of `_gap_kernels.shaped_coefficients`, the
+    gaps in place and deformed; `ends` are edge pressure, pressure and fill of an inlet line;
+    `storing` (Pa) is the squeeze pressure of a growth of the gap in one implicit step.
     """
     _, nx, nz = state.shape
     p_edge, p_line, f_line = ends
@@ -44,7 +44,8 @@ def gap_stencil(
             for side in range(2):
                 if not (has_left if side == 0 else has_right):
                     continue
-                _, _, by_2, by_3 = resistance(face_gap[i, side, k], face[2, i, side], rough)
+                h, w = face_gap[i, side, k], face[2, i, side]
+                _, _, by_2, by_3 = resistance(h, w, surfaces)
                 by_g, by_e = -g * g * by_3, g * (by_2 - e * by_3)
                 flow = dz[k] * (drag * by_e - by_g * (p_right - p_left))
                 if side == 0:
@@ -57,7 +58,7 @@ def gap_stencil(
                         out[BEFORE, right, k] += flow
     for i in range(nx):
         for k in range(nz):
-            _, cubed, _, wider, _, _ = cell_terms(cell_gap[i, k], cell[2, i], rough)
+            _, cubed, _, wider, _, _ = cell_terms(cell_gap[i, k], cell[2, i], surfaces)
             out[ITSELF, i, k] += fill[i, k] * storing * wider * dz[k]
             if k == 0 and not groove[i, 0]:
                 out[ITSELF, i, 0] += cubed * gz[0] * (p[i, 0] - p_edge)
@@ -71,7 +72,7 @@ def gap_stencil(
             here = flow * dz[k] * cubed / coef[CELL3, i, k] ** 2
             out[ITSELF, i, k] += here
             out[OUTER, i, k] -= here
-            _, cubed, _, _, _, _ = cell_terms(cell_gap[i, k + 1], cell[2, i], rough)
+            _, cubed, _, _, _, _ = cell_terms(cell_gap[i, k + 1], cell[2, i], surfaces)
             there = flow * dz[k + 1] * cubed / coef[CELL3, i, k + 1] ** 2
             out[INNER, i, k + 1] += there
             out[ITSELF, i, k + 1] -= there

@@ -67,6 +67,8 @@ def cylindrical_film(
     film = DiscreteFilm(gap, *_oil(mesh, options, ratio, relative_clearance, radius, around))
     if contact is not None:
         film.contact = CylinderLoad(contact, radius, width, clearance)
+    if options.turbulence is not None:
+        film.let_turn_turbulent(options.turbulence, options.liquid)
     return gap, film
 
 
@@ -117,6 +119,8 @@ def shaped_film(
         else:
             between = cast("RoughElasticGap", gap)
             film.contact = YieldingNodeLoad(contact, between, radius, mirrors, grooved)
+    if options.turbulence is not None:
+        film.let_turn_turbulent(options.turbulence, options.liquid)
     return gap, film
 
 

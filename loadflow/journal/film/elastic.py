@@ -109,9 +109,15 @@ class ElasticFilm(DiscreteFilm):
             share *= 0.5
         return share
 
-    def balance(self, coef: Array, mass: Array, change: Array | None = None) -> Array:
+    def balance(
+        self,
+        coef: Array,
+        mass: Array,
+        change: Array | None = None,
+        out: Array | None = None,
+    ) -> Array:
         """Outflow of every cell (nx, nz) at the state last placed, or by a `change` of it."""
-        field = super().balance(coef, mass, change)
+        field = super().balance(coef, mass, change, out)
         if change is not None:
             self._spread(self.compliance.growth(change[LOAD])[None], field[None])
         return field

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +15,8 @@ from loadflow.journal.film import _kernels as kernel
 from loadflow.journal.film.asperity_load import AsperityLoad
 from loadflow.journal.film.gap import Gap, turning_frame
 from loadflow.journal.film.groove_pressure import Pockets
+from loadflow.journal.lubricant import Lubricant
+from loadflow.journal.turbulence import Regime, Turbulence
 
 Array = NDArray[np.float64]
 
@@ -29,8 +31,7 @@ class SingularFilm(SolverError):
     """A Newton matrix that cannot be solved, as states far from any film have."""
 
 
-@dataclass(frozen=True)
-class Linear:
+class Linear(NamedTuple):
     """The film linearised at one state.
 
     Attributes
@@ -99,6 +100,7 @@ class DiscreteFilm:
         self.fixed = self.grooved = pockets.fixed  # cells held, and those of them without drag
         self.given = pockets.given(edge_pressure)
         self.lifts = pockets.lifts(edge_pressure)  # whether the supply may carry a load at rest
+        self.regime: Regime | None = None  # of a flow that may be turbulent
         self.set_scale(0.0)
         self.set_speed(0.0)
 
@@ -115,6 +117,14 @@ class DiscreteFilm:
         """Set the speed of the shaft, rad/s."""
         self.speed = speed
         self.wedge = 0.5 * self.slope * speed
+        if self.regime is not None:
+            self.gap.regime = self.regime.at(speed)
+
+    def let_turn_turbulent(self, turbulence: Turbulence, lubricant: Lubricant) -> None:
+        """Let the flow be turbulent where its Reynolds number is large enough."""
+        lengths = self.radius, self.relative_clearance
+        self.regime = turbulence.regime(*lengths, lubricant)
+        self.set_speed(self.speed)
 
     def set_scale(self, rate: float) -> None:
         """Set the scale of pressure and unknowns, Pa, from the largest speed or squeeze, 1/s."""
@@ -166,16 +176,24 @@ class DiscreteFilm:
     # --- balance ---------------------------------------------------------------------------------
     def storage(self, coef: Array, around: Array, velocity: Array, rate: float) -> Array:
         """Growth of the gap volume of each cell, (nx, rows), Pa."""
-        across = self.gap.across
-        moving = (around.T * velocity) @ across
-        if self.gap.open_share is not None:
-            moving = moving * self.gap.open_share
-        return self.slope * (rate * coef[kernel.HM, :-1, : across.shape[1]] - moving)
+        gap = self.gap
+        mass = np.empty((around.shape[1], gap.across.shape[1]))
+        kernel.stored(coef, around, gap.across, velocity, self.slope, rate, gap.open_share, mass)
+        return mass
 
-    def balance(self, coef: Array, mass: Array, change: Array | None = None) -> Array:
-        """Outflow of every cell (nx, nz) at the state last placed, or by a `change` of it."""
+    def balance(
+        self,
+        coef: Array,
+        mass: Array,
+        change: Array | None = None,
+        out: Array | None = None,
+    ) -> Array:
+        """Outflow of every cell (nx, nz) at the state last placed, or by a `change` of it.
+
+        It is added to `out`, zeros by default.
+        """
         mesh = self.mesh
-        field = np.zeros(mesh.shape)
+        field = np.zeros(mesh.shape) if out is None else out
         state, edge, line, full = self.state, self.p_edge, self.p_line, self.line_fill
         if change is not None:
             state, edge, line, full = change, 0.0, 0.0, 0.0
@@ -198,6 +216,7 @@ class DiscreteFilm:
         velocity: Array,
         rate: float = 0.0,
         old: Array | float = 0.0,
+        damped: bool = True,
     ) -> Linear:
         """Newton matrix of the film at `u`, factorised, and what follows from it.
 
@@ -211,6 +230,9 @@ class DiscreteFilm:
             1/s; with `old` it makes the storage ``rate · F H − old`` of an implicit step.
         old : array (nx, nz)
             Storage of earlier times.
+        damped : bool
+            Whether the derivatives by velocity are asked, which a step at rest does not need; else
+            `damping` is 0 and `columns` have none.
         """
         mesh = self.mesh
         frame = self.place(u, position)
@@ -224,30 +246,32 @@ class DiscreteFilm:
         if info:
             raise SingularFilm(f"film matrix is singular in row {info} at eccentricity {position}")
 
-        outflow = self.balance(gap.coef, mass) - old
-        fields = [self.residual(outflow)]
-        fields += [self.balance(c, self.storage(c, a, local, rate)) for c, a in slopes]
-        squeeze = -self.slope * self.state[FILL] * mesh.area
-        if gap.open_share is not None:
-            squeeze = squeeze * gap.open_share
-        fields += [squeeze * np.outer(a, b) for a, b in zip(around, across)]
-        free = self.pockets.free
-        flows = [self.pockets.flows(f)[free] for f in (outflow, *fields[1:])] if free.size else []
-        for field in fields:
-            field[self.fixed] = 0.0
-        fields += [np.where(self.pockets.numbers == number, 1.0, 0.0) for number in free]
-        columns = np.empty((len(fields), mesh.angle.size * mesh.z.size))
-        for column, field in zip(columns, fields):
-            kernel.gather(field, mesh.order, column)
+        free, moves = self.pockets.free, 1 + len(slopes)
+        fields = np.zeros((moves + (gap.size if damped else 0), *mesh.shape))
+        self.balance(gap.coef, mass, out=fields[0])
+        fields[0] -= old
+        for field, (coef, changed) in zip(fields[1:], slopes):
+            self.balance(coef, self.storage(coef, changed, local, rate), out=field)
+        if damped:
+            kernel.squeezed(
+                self.state[FILL], around, across, self.slope, mesh.area, gap.open_share,
+                fields[moves:],
+            )  # fmt: skip
+        flows = [self.pockets.flows(field)[free] for field in fields] if free.size else []
+        columns = np.empty((len(fields) + free.size, mesh.angle.size * mesh.z.size))
+        kernel.gather_free(fields, self.state[SLACK], self.fixed, mesh.order, columns)
+        for column, number in zip(columns[len(fields) :], free):
+            kernel.gather(1.0 * (self.pockets.numbers == number), mesh.order, column)
         self._solve((lu, pivots), columns)
-        self._add_shell_squeeze((lu, pivots), columns, gap.size)
+        if damped:
+            self._add_shell_squeeze((lu, pivots), columns, gap.size)
         if free.size:
             columns = self._freed(columns, np.array(flows), mass)
 
         carried = self.mirrors * self.radius**2 * self._carried(columns)
         load = self._load(around) - carried[0]
         by_gap = [self._load(a) + self.ambient for _, a in slopes]
-        damping = -carried[-gap.size :].T
+        damping = -carried[moves:].T if damped else np.zeros((gap.size, gap.size))
         direct = [d - c for d, c in zip(by_gap, carried[1:])]
         if mesh.polar:
             ratio = float(np.hypot(*position))
@@ -255,7 +279,7 @@ class DiscreteFilm:
                 direct.append(_TURN @ direct[0])
             else:
                 direct.append(_TURN @ load / ratio - damping @ (_TURN @ local) / ratio)
-        if not np.isfinite(load).all():
+        if not math.isfinite(float(load.sum())):
             raise SingularFilm(f"film matrix has no solution at eccentricity {position}")
         load, stiffness = frame @ load, frame @ np.array(direct).T @ frame.T
         if self.contact is not None:
@@ -328,6 +352,11 @@ class DiscreteFilm:
         return load if self.contact is None else load + self.contact.at(position).load
 
     # --- what Newton needs -----------------------------------------------------------------------
+    @property
+    def moves(self) -> int:
+        """Number of `Linear.columns` that are derivatives by the position."""
+        return 1 if self.mesh.polar else self.gap.size
+
     def weights(self, position: Array, velocity: Array, target: Array, speed: Array) -> Array:
         """Weights of `Linear.columns` in a step to position `target` and velocity `speed`."""
         if not self.mesh.polar:
@@ -338,8 +367,8 @@ class DiscreteFilm:
 
     def size(self, column: Array) -> float:
         """Largest entry of a change of the unknowns over the pressure of the film."""
-        peak = float(self.state[LOAD].max())
-        return float(np.abs(column).max()) / max(self.scale, peak)
+        change, peak = kernel.largest(column, self.state[LOAD])
+        return float(change / max(self.scale, peak))
 
     def correct(self, u: Array, columns: Array, weights: Array) -> float:
         """Apply a Newton step to `u`; returns its largest change over the scale of pressure."""

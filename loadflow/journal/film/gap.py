@@ -16,13 +16,17 @@ from numpy.typing import NDArray
 from loadflow.journal.film import _gap_kernels as kernel
 from loadflow.journal.film._kernels import COS, SIN
 from loadflow.journal.film.mesh import Mesh
+from loadflow.journal.turbulence import RegimeNumbers
 from loadflow.numerics.convergence import EPS
 
 Array = NDArray[np.float64]
 
-Surfaces = tuple[float, Array, Array, float, tuple[float, float, float]]
+RoughNumbers = tuple[float, Array, Array, float, tuple[float, float, float]]
 """Roughness as the kernels take it: its size, flow factors along and across, slip, and what a shell
 yields to asperities."""
+
+Surfaces = tuple[RoughNumbers | None, RegimeNumbers | None]
+"""What the kernels take beside the gap: roughness, and the Reynolds numbers of turbulent flow."""
 
 _SHELL = np.eye(2)
 KEPT = 0.3  # share of the narrowest gap that a step of the shaft leaves
@@ -45,6 +49,8 @@ class Gap(Protocol):
         Of both surfaces, clearances; 0 where they are smooth.
     open_share : array (nx, rows) or None
         Derivative of the mean gap of the cells by that of the mean planes; None: smooth, 1.
+    regime : tuple, optional
+        Reynolds numbers where the flow may be turbulent, at the speed of the shaft.
     """
 
     size: int
@@ -54,6 +60,7 @@ class Gap(Protocol):
     across: Array
     roughness: float
     open_share: Array | None
+    regime: RegimeNumbers | None
 
     @property
     def mesh(self) -> Mesh:
@@ -129,14 +136,34 @@ def turning_frame(position: Array) -> Array:
     return np.array([[cos, -sin], [sin, cos]])
 
 
-class CylindricalGap:
+class FlowBetween:
+    """What a gap holds beside its shape: how rough its surfaces are, and how the oil flows.
+
+    Attributes
+    ----------
+    rough_numbers : tuple, optional
+        Where the surfaces are rough.
+    regime : tuple, optional
+        Where the flow may be turbulent, at the speed of the shaft.
+    """
+
+    rough_numbers: RoughNumbers | None = None
+    regime: RegimeNumbers | None = None
+
+    @property
+    def surfaces(self) -> Surfaces | None:
+        """What the kernels take; None of smooth surfaces in laminar flow."""
+        pair = self.rough_numbers, self.regime
+        return None if pair[0] is None and pair[1] is None else pair
+
+
+class CylindricalGap(FlowBetween):
     """Gap of a cylinder around an aligned shaft; its mesh may turn with the eccentricity."""
 
     size = shaft = 2
     axisymmetric, tilts = True, False
     pads: NDArray[np.int64] = np.arange(0)
     first_gap = 0.0  # that of the closed form, which is its own
-    surfaces: Surfaces | None = None  # where they are rough
     roughness: float = 0.0
     open_share: Array | None = None
 
@@ -146,7 +173,7 @@ class CylindricalGap:
         self.coef = np.zeros(shape)
         self.across = np.ones((2, 1))
         self.dof_scale = np.ones(2)
-        self._shifted = (np.zeros(shape), np.zeros(shape))
+        self._spare = np.zeros(shape)
 
     @property
     def around(self) -> Array:
@@ -180,13 +207,17 @@ class CylindricalGap:
         if self.mesh.polar:
             turns = turns[:1]
             ex, ey = ratio, 0.0
-        plus, minus = self._shifted
+        stretch = self.mesh.stretch if self.mesh.polar else _unstretched
         slopes = []
         for tx, ty in turns:
-            for out, h in ((plus, step), (minus, -step)):
-                self._evaluate(out, ex + h * tx, ey + h * ty)
-            slope = (plus - minus) / (2 * step)
-            slopes.append((slope, _around(slope)))
+            slope, around = np.zeros_like(self.coef), np.empty((2, self.mesh.angle.size))
+            ways = tuple((ex + h * tx, ey + h * ty) for h in (step, -step))
+            stretches = (stretch(ways[0][0]), stretch(ways[1][0]))
+            kernel.gap_slope(
+                *self.mesh.trigonometry, stretches, ways, step, self.surfaces, self._spare,
+                slope, around, self.open_share,
+            )  # fmt: skip
+            slopes.append((slope, around))
         return slopes
 
     def advance(self, position: Array, step: Array) -> Array:
@@ -251,6 +282,11 @@ class CylindricalGap:
     def widest(self, position: Array, free: slice | NDArray[np.int64]) -> Array:
         """The centre."""
         return np.zeros(2)
+
+
+def _unstretched(ratio: float) -> float:
+    """No Sommerfeld map."""
+    return 0.0
 
 
 def _around(coef: Array) -> Array:

@@ -16,7 +16,7 @@ from loadflow.journal.shapes import Relief, Segment
 Array = NDArray[np.float64]
 _TURN = 2 * np.pi
 _SLIVER = 1e-7  # share of a groove in its outermost cells, so that its pressure acts at its edge
-_FEWEST = 4  # cells around of a segment
+FEWEST = 4  # cells around of a segment
 _CLOSEST = 0.004  # width of the narrowest cells where they crowd, rad
 _GROWTH = 0.25  # width of the others there over their distance
 
@@ -180,7 +180,7 @@ def _around_segments(
             edges.append(inner)
             segment += [number - 1, number - 1, number]
             groove += [True] * 3
-        wanted = max(_FEWEST, round(cells * (part.end - part.start) / total))
+        wanted = max(FEWEST, round(cells * (part.end - part.start) / total))
         own = _between(part.start, part.end, turns, wanted)
         edges.append(own[1:])
         segment += [number] * (own.size - 1)

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from loadflow.journal.contact import Contact
 from loadflow.journal.film import _rough_kernels as kernel
-from loadflow.journal.film.gap import KEPT, CylindricalGap, Surfaces
+from loadflow.journal.film.gap import KEPT, CylindricalGap, RoughNumbers
 from loadflow.journal.film.gap_elastic import ElasticGap
 from loadflow.journal.film.gap_mesh import ShapedMesh
 from loadflow.journal.film.gap_shaped import Bore, ShapedGap
@@ -43,7 +43,7 @@ class Roughness:
         self._slip = 2.0 * contact.shaft_share - 1.0  # Φ_s of the shaft less that of the shell
 
     @property
-    def numbers(self) -> Surfaces:
+    def numbers(self) -> RoughNumbers:
         """What the kernels take."""
         return self.roughness, self._along, self._across, self._slip, self.yields
 
@@ -77,7 +77,7 @@ class RoughGap(CylindricalGap):
     def __init__(self, mesh: Mesh, contact: Contact, clearance: float) -> None:
         super().__init__(mesh)
         self.rough = Roughness(contact, clearance)
-        self.roughness, self.surfaces = self.rough.roughness, self.rough.numbers
+        self.roughness, self.rough_numbers = self.rough.roughness, self.rough.numbers
         self.open_share = np.ones((mesh.angle.size, 1))
 
     def slopes(self, position: Array) -> list[tuple[Array, Array]]:
@@ -111,7 +111,7 @@ class RoughShapedGap(ShapedGap):
     def __init__(self, mesh: ShapedMesh, bore: Bore, contact: Contact) -> None:
         super().__init__(mesh, bore)
         self.rough = Roughness(contact, bore.clearance)
-        self.roughness, self.surfaces = self.rough.roughness, self.rough.numbers
+        self.roughness, self.rough_numbers = self.rough.roughness, self.rough.numbers
         self.open_share = np.ones_like(self._cell_gap)
 
     def advance(self, position: Array, step: Array) -> Array:
@@ -150,7 +150,7 @@ class RoughElasticGap(ElasticGap):
     def __init__(self, mesh: ShapedMesh, bore: Bore, contact: Contact, compliance: float) -> None:
         super().__init__(mesh, bore, ends_deform=False)
         self.rough = Roughness(contact, bore.clearance, compliance)
-        self.roughness, self.surfaces = self.rough.roughness, self.rough.numbers
+        self.roughness, self.rough_numbers = self.rough.roughness, self.rough.numbers
         self.open_share = np.ones_like(self._cell_gap)
 
     def narrowest(self, position: Array) -> float:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.journal.film import _gap_kernels as kernel
-from loadflow.journal.film.gap import KEPT, Surfaces
+from loadflow.journal.film.gap import KEPT, FlowBetween
 from loadflow.journal.film.gap_mesh import ShapedMesh
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.shapes import Relief, Segment
@@ -86,7 +86,7 @@ class Places:
         return np.asarray(self.base - moved - bent)
 
 
-class ShapedGap:
+class ShapedGap(FlowBetween):
     """Gap ``H = H_0(θ, z) − Σ q_j N_j(θ, z)`` on a mesh fixed to the shell.
 
     The degrees of freedom q are the eccentricity (x, y); on a mesh of the full width also the
@@ -105,7 +105,6 @@ class ShapedGap:
 
     roughness: float = 0.0
     open_share: Array | None = None
-    surfaces: Surfaces | None = None  # where they are rough
     axisymmetric = False
     first_gap = 0.02
 

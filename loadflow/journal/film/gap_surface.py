@@ -169,6 +169,7 @@ class SurfaceGap:
 
     roughness: float = 0.0
     open_share: Array | None = None
+    regime = None
 
     def __init__(
         self, mesh: SurfaceMesh, profile: Profile, clearance: float, base: float = 1.0
@@ -270,6 +271,12 @@ class SurfaceGap:
             closing = np.einsum("bi,bi->i", basis, moved[:, inside])
             least = min(least, float((self._gap_of(angle[inside]) - closing).min()))
         return least
+
+    def facing(self, position: Array) -> Array:
+        """By how much each degree of freedom closes the narrowest of the sampled places, (m,)."""
+        gaps = self.gaps(position)
+        i, k = np.unravel_index(gaps.argmin(), gaps.shape)
+        return np.asarray((self._factors @ self._spots_basis[:, i]) * self._spots_across[:, k])
 
     def shear(self, position: Array) -> float:
         """∫ (r/R)² / H dA over the whole surface, in units of R² per clearance."""

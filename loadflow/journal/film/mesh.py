@@ -105,10 +105,7 @@ class Mesh:
     @cached_property
     def order(self) -> NDArray[np.int64]:
         """Place of each column of cells in the band; a closed film is folded (0, N−1, 1, …)."""
-        turn = np.arange(self.angle.size)
-        if not self.closed:
-            return turn
-        return np.where(2 * turn < turn.size, 2 * turn, 2 * (turn.size - turn) - 1)
+        return folded(self.angle.size) if self.closed else np.arange(self.angle.size)
 
     @property
     def bandwidth(self) -> int:
@@ -122,6 +119,12 @@ class Mesh:
         ends = (a[-1] - 2 * np.pi, a[0] + 2 * np.pi) if self.closed else self.edges[[0, -1]]
         between = np.concatenate([[ends[0]], a, [ends[1]]])
         return (*_gauss(between, self.nodes), *_gauss(self.edges, self.nodes))
+
+
+def folded(count: int) -> NDArray[np.int64]:
+    """Places in the band of columns of cells that run round: 0, N − 1, 1, N − 2 and so on."""
+    turn = np.arange(count)
+    return np.where(2 * turn < count, 2 * turn, 2 * (count - turn) - 1)
 
 
 def _gauss(edges: Array, nodes: int) -> tuple[Array, Array, Array]:

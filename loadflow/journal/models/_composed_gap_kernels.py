@@ -12,6 +12,7 @@ from numba import njit
 from loadflow.journal.cavitation import LOAD
 from loadflow.journal.film._kernels import apply_law
 from loadflow.journal.film._rough_kernels import conductance, dragged, mean_film
+from loadflow.journal.film._turbulence_kernels import ACROSS, ALONG, SHEAR, factor
 
 PLANES, MEAN, OPEN, CUBE = range(4)  # of `work.gap`
 FLOW, DRAG, FLOW_SLOPE, DRAG_SLOPE, FACE_PLANES = range(5)  # of `work.face`
@@ -44,18 +45,53 @@ def place(film, work, q):
                 face[FACE_PLANES, i, k] += give * (0.5 * (p[i, k] + p[right, k]) - film.ring.p_edge)
     if film.rough.size > 0.0:
         _rough_gap(film.rough, work)
-        return
+    else:
+        for i in range(nx):
+            for k in range(points):
+                h = gap[PLANES, i, k]
+                gap[MEAN, i, k] = h
+                gap[CUBE, i, k] = h * h * h
+                work.gap_slope[i, k] = 3.0 * h * h
+            for k in range(m):
+                h = face[FACE_PLANES, i, k]
+                face[FLOW, i, k] = h * h * h
+                face[FLOW_SLOPE, i, k] = 3.0 * h * h
+                face[DRAG, i, k] = h
+    if film.regime.on:
+        _turbulent_gap(film, work)
+
+
+@njit(cache=True, nogil=True)
+def turn(film, work, speed, lighter):
+    """Set the Reynolds numbers at a speed, rad/s; `lighter`: 1/ν over that of the film."""
+    work.numbers[0] = film.regime.reynolds * abs(speed) * lighter
+    work.numbers[1] = film.regime.onset * abs(speed) * lighter
+
+
+@njit(cache=True, nogil=True)
+def _turbulent_gap(film, work):
+    """Conductances of turbulent flow, from those of laminar flow."""
+    nx, m = work.u.shape
+    gap, face = work.gap, work.face
+    numbers = (work.numbers[0], work.numbers[1], film.regime.begin, film.regime.end)
     for i in range(nx):
-        for k in range(points):
-            h = gap[PLANES, i, k]
-            gap[MEAN, i, k] = h
-            gap[CUBE, i, k] = h * h * h
-            work.gap_slope[i, k] = 3.0 * h * h
+        for k in range(gap.shape[2]):
+            more, rise = factor(gap[PLANES, i, k], numbers, ACROSS)
+            gap[CUBE, i, k] /= more
+            work.gap_slope[i, k] = (work.gap_slope[i, k] - gap[CUBE, i, k] * rise) / more
         for k in range(m):
-            h = face[FACE_PLANES, i, k]
-            face[FLOW, i, k] = h * h * h
-            face[FLOW_SLOPE, i, k] = 3.0 * h * h
-            face[DRAG, i, k] = h
+            more, rise = factor(face[FACE_PLANES, i, k], numbers, ALONG)
+            face[FLOW, i, k] /= more
+            face[FLOW_SLOPE, i, k] = (face[FLOW_SLOPE, i, k] - face[FLOW, i, k] * rise) / more
+
+
+@njit(cache=True, nogil=True)
+def drag_factor(film, work, h):
+    """Shear by the moving surface at a gap over that of laminar flow."""
+    if not film.regime.on:
+        return 1.0
+    numbers = (work.numbers[0], work.numbers[1], film.regime.begin, film.regime.end)
+    return factor(h, numbers, SHEAR)[0]
 
 
 @njit(cache=True, nogil=True)

@@ -22,6 +22,7 @@ from loadflow.journal.models._composed_gap_kernels import (
     MEAN,
     OPEN,
     PLANES,
+    drag_factor,
     narrowest,
     smooth_beyond,
     touch,
@@ -317,10 +318,9 @@ def summarise(film, work, q, row):
             held = weights[k] * step * gap[MEAN, i, k]
             liquid += held * inside
             volume += held
-            if gap[PLANES, i, k] <= far:
-                shear += weights[k] * step * sheared(gap[PLANES, i, k], rough.size, rough.along)
-            else:
-                shear += weights[k] * step / gap[PLANES, i, k]
+            h = gap[PLANES, i, k]
+            inverse = sheared(h, rough.size, rough.along) if h <= far else 1.0 / h
+            shear += weights[k] * step * inverse * drag_factor(film, work, h)
         fx += load * film.ring.cos[i]
         fy += load * film.ring.sin[i]
         mx -= turn * film.ring.sin[i]

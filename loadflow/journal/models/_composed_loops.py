@@ -11,7 +11,7 @@ from numba import njit
 
 from loadflow.journal.cavitation import DLOAD, FILL, LOAD
 from loadflow.journal.models import composed_film as at
-from loadflow.journal.models._composed_gap_kernels import MEAN, OPEN, narrowest, place, touch
+from loadflow.journal.models._composed_gap_kernels import MEAN, OPEN, narrowest, place, touch, turn
 from loadflow.journal.models._composed_kernels import (
     balance,
     carry,
@@ -32,7 +32,7 @@ from loadflow.journal.models._reduced_loops import (
     shift,
     two_steps,
 )
-from loadflow.journal.models.slow_heat import slow_heat
+from loadflow.journal.models.slow_heat import lighter, slow_heat
 
 _KEPT = 0.3  # share of the narrowest gap that a step of the shaft leaves
 _ROOM = 1.0 / 2**20  # share of a step below which an elastic shell has no room for it
@@ -298,11 +298,12 @@ def march(
     place(film, work, q)
     keep(work)
     before, new, given = q.copy(), q.copy(), np.zeros(4)
-    step_before, thin = 0.0, 1.0
+    step_before, thin, light = 0.0, 1.0, 1.0
     for n in range(1, time.size):
         whole = time[n] - time[n - 1]
         if warmth.on:
             thin = slow_heat(warmth, states, n, whole, speed, rows, at.DISSIPATION, at.NORMAL)
+            light = lighter(warmth, states, n)
         share, done, spent = 1.0, 0.0, 0
         while done < 1.0:
             to = min(1.0, done + share)
@@ -325,7 +326,9 @@ def march(
             predict(work, ratio, ahead, thin * weight, thin * weight_before)
             for a in range(4):
                 given[a] = load[n - 1, a] + to * (load[n, a] - load[n - 1, a])
-            omega = thin * (speed[n - 1] + to * (speed[n] - speed[n - 1]))
+            turning = speed[n - 1] + to * (speed[n] - speed[n - 1])
+            turn(film, work, turning, light / thin)
+            omega = thin * turning
             residual, iterations, converged, rounding = newton(
                 film, work, new, given, size, omega, thin * rate, tolerance, max_iterations
             )

@@ -15,7 +15,16 @@ from numba import njit
 
 from loadflow.journal.cavitation import DFILL, DLOAD, DP, DSLACK, FILL, LOAD, SLACK, P
 from loadflow.journal.film._kernels import apply_law
-from loadflow.journal.models.reduced_film import DISSIPATION, FILLED, OUTFLOW, PEAK, SHEAR, X, Y
+from loadflow.journal.models.reduced_film import (
+    DISSIPATION,
+    FED,
+    FILLED,
+    OUTFLOW,
+    PEAK,
+    SHEAR,
+    X,
+    Y,
+)
 
 
 @njit(cache=True, nogil=True)
@@ -23,8 +32,9 @@ def place(film, work, x, y):
     """Evaluate law and gap at the unknowns and the position (x, y)."""
     apply_law(film.ring.law, film.ring.numbers, film.ring.scale, work.u, work.state)
     for i in range(film.ring.cos.size):
-        work.gap[i] = 1.0 - x * film.ring.cos[i] - y * film.ring.sin[i]
-        work.gap_face[i] = 1.0 - x * film.ring.cos_face[i] - y * film.ring.sin_face[i]
+        work.gap[i] = film.ring.base[i] - x * film.ring.cos[i] - y * film.ring.sin[i]
+        face = x * film.ring.cos_face[i] + y * film.ring.sin_face[i]
+        work.gap_face[i] = film.ring.base_face[i] - face
 
 
 @njit(cache=True, nogil=True)
@@ -34,12 +44,10 @@ def balance(film, work, wedge, rate):
     Returns the largest residual and the load ∫ p (cos θ, sin θ) dA, N.
     """
     nx, m = work.u.shape[0], len(film.lanes)
-    step = 2.0 * np.pi / nx
     axial = film.axial
     p = work.state[P]
     fill = work.state[FILL]
     columns = work.columns
-    squeeze = film.ring.slope * step
     fx = 0.0
     fy = 0.0
     for i in range(nx):
@@ -47,6 +55,8 @@ def balance(film, work, wedge, rate):
         c = film.ring.cos[i]
         s = film.ring.sin[i]
         h = work.gap[i]
+        step = film.ring.width[i]
+        squeeze = film.ring.slope * step
         h3 = step * h * h * h
         slope3 = -3.0 * step * h * h
         load = 0.0
@@ -64,13 +74,14 @@ def balance(film, work, wedge, rate):
             columns[base + k, 1] = c * by_gap
             columns[base + k, 2] = s * by_gap
             load += axial.weights[k] * work.state[LOAD, i, k]
-        fx += load * c
-        fy += load * s
+        fx += load * film.ring.load_x[i]
+        fy += load * film.ring.load_y[i]
     for i in range(nx):  # face between cell i and the next one
         right = i + 1 if i + 1 < nx else 0
         base = film.ring.order[i] * m
         base_r = film.ring.order[right] * m
         h = work.gap_face[i]
+        step = film.ring.apart[i]
         g = h * h * h / step
         by_g = 3.0 * h * h / step
         upwind = i if wedge > 0 else right
@@ -88,10 +99,15 @@ def balance(film, work, wedge, rate):
             columns[base_r + k, 0] -= q
             columns[base_r + k, 1] -= dx
             columns[base_r + k, 2] -= dy
+    if film.ring.shaped:
+        for i in range(nx):
+            if film.ring.groove[i]:  # its pressure stays
+                base = film.ring.order[i] * m
+                columns[base : base + m] = 0.0
     largest = 0.0
     for row in range(columns.shape[0]):
         largest = max(largest, abs(columns[row, 0]))
-    return largest, film.ring.area * step * fx, film.ring.area * step * fy
+    return largest, film.ring.area * fx, film.ring.area * fy
 
 
 @njit(cache=True, nogil=True)
@@ -101,7 +117,6 @@ def magnitudes(film, work, wedge, rate):
     A narrow gap is a difference of numbers near 1, so that what follows from it has fewer digits.
     """
     nx, m = work.u.shape[0], len(film.lanes)
-    step = 2.0 * np.pi / nx
     axial = film.axial
     p = work.state[P]
     fill = work.state[FILL]
@@ -111,7 +126,10 @@ def magnitudes(film, work, wedge, rate):
         right = i + 1 if i + 1 < nx else 0
         h, h_l, h_r = work.gap[i], work.gap_face[left], work.gap_face[i]
         narrow = min(narrow, h, h_r)
-        around = h_l * h_l * h_l / step + h_r * h_r * h_r / step
+        step = film.ring.width[i]
+        around = h_l * h_l * h_l / film.ring.apart[left] + h_r * h_r * h_r / film.ring.apart[i]
+        if film.ring.groove[i]:
+            continue
         for k in range(m):
             total = film.ring.slope * step * axial.weights[k] * rate * fill[i, k] * h
             total += axial.weights[k] * (
@@ -131,17 +149,17 @@ def magnitudes(film, work, wedge, rate):
 def matrix(film, work, wedge, rate):
     """Band matrix of the derivatives of the residual by the unknowns."""
     nx, m = work.u.shape[0], len(film.lanes)
-    step = 2.0 * np.pi / nx
     axial = film.axial
     band = work.band
     mid = 2 * m
     dp = work.state[DP]
     df = work.state[DFILL]
-    squeeze = film.ring.slope * step * rate
     band[:] = 0.0
     for i in range(nx):
         base = film.ring.order[i] * m
         h = work.gap[i]
+        step = film.ring.width[i]
+        squeeze = film.ring.slope * step * rate
         h3 = step * h * h * h
         for k in range(m):
             for j in range(m):
@@ -154,7 +172,7 @@ def matrix(film, work, wedge, rate):
         base_r = film.ring.order[right] * m
         shift = base_r - base
         h = work.gap_face[i]
-        g = h * h * h / step
+        g = h * h * h / film.ring.apart[i]
         e_l = wedge * h if wedge > 0 else 0.0
         e_r = wedge * h if wedge <= 0 else 0.0
         for k in range(m):
@@ -165,6 +183,12 @@ def matrix(film, work, wedge, rate):
             band[base + k, mid + shift] += by_r
             band[base_r + k, mid] -= by_r
             band[base_r + k, mid - shift] -= by_l
+    if film.ring.shaped:
+        for i in range(nx):
+            if film.ring.groove[i]:
+                base = film.ring.order[i] * m
+                band[base : base + m] = 0.0
+                band[base : base + m, mid] = 1.0
 
 
 @njit(cache=True, nogil=True)
@@ -237,32 +261,32 @@ def carried(film, work):
             a0 += w * work.columns[base + k, 0]
             a1 += w * work.columns[base + k, 1]
             a2 += w * work.columns[base + k, 2]
-        c = film.ring.cos[i]
-        s = film.ring.sin[i]
+        c = film.ring.load_x[i]
+        s = film.ring.load_y[i]
         fx0 += a0 * c
         fx1 += a1 * c
         fx2 += a2 * c
         fy0 += a0 * s
         fy1 += a1 * s
         fy2 += a2 * s
-    f = film.ring.area * 2.0 * np.pi / nx
+    f = film.ring.area
     return (f * fx0, f * fy0), (f * fx1, f * fy1), (f * fx2, f * fy2)
 
 
 @njit(cache=True, nogil=True)
-def summarise(film, work, x, y, row):
+def summarise(film, work, x, y, wedge, row):
     """Integrals over the half film into `row`, after `place` at (x, y); units of this module."""
     nx, m = work.u.shape[0], len(film.lanes)
-    step = 2.0 * np.pi / nx
     axial = film.axial
     p = work.state[LOAD]
-    peak, dissipation, shear, outflow, liquid = -np.inf, 0.0, 0.0, 0.0, 0.0
+    peak, dissipation, shear, outflow, liquid, volume = -np.inf, 0.0, 0.0, 0.0, 0.0, 0.0
     half_width = axial.weights.sum() + axial.end_weight
     for i in range(nx):
         right = i + 1 if i + 1 < nx else 0
         h = work.gap[i]
+        step = film.ring.width[i]
         h3 = step * h * h * h
-        g = work.gap_face[i] ** 3 / step
+        g = work.gap_face[i] ** 3 / film.ring.apart[i]
         middle, leak, inside = 0.0, 0.0, film.ring.edge_fill * axial.end_weight
         for k in range(m):
             q = p[i, k] - film.ring.p_edge
@@ -270,12 +294,17 @@ def summarise(film, work, x, y, row):
             leak += axial.leak[k] * q
             inside += axial.weights[k] * work.state[FILL, i, k]
             dissipation += g * axial.weights[k] * (p[right, k] - p[i, k]) ** 2
+            peak = max(peak, p[i, k])
+        if film.ring.groove[i]:
+            continue
+        liquid += step * h * inside
+        volume += step * h * half_width
+        for k in range(m):
+            q = p[i, k] - film.ring.p_edge
             for j in range(m):
                 dissipation += h3 * q * axial.stiffness[k, j] * (p[i, j] - film.ring.p_edge)
-            peak = max(peak, p[i, k])
         peak = max(peak, middle + film.ring.p_edge)
         outflow += max(h3 * leak, 0.0)
-        liquid += step * h * inside
         shear += step * half_width / h
     row[X] = x
     row[Y] = y
@@ -283,4 +312,41 @@ def summarise(film, work, x, y, row):
     row[DISSIPATION] = dissipation
     row[SHEAR] = shear
     row[OUTFLOW] = outflow
-    row[FILLED] = liquid / (2.0 * np.pi * half_width)
+    row[FILLED] = liquid / volume
+    row[FED] = fed(film, work, wedge) if film.ring.shaped else 0.0
+
+
+@njit(cache=True, nogil=True)
+def fed(film, work, wedge):
+    """Flow from the grooves into the half film, less what flows back, after `place`."""
+    nx, m = work.u.shape[0], len(film.lanes)
+    p = work.state[P]
+    fill = work.state[FILL]
+    total = 0.0
+    for i in range(nx):
+        right = i + 1 if i + 1 < nx else 0
+        if film.ring.groove[i] == film.ring.groove[right]:
+            continue
+        h = work.gap_face[i]
+        g = h * h * h / film.ring.apart[i]
+        upwind = i if wedge > 0 else right
+        flow = film.axial.end_weight * film.ring.edge_fill * wedge * h
+        for k in range(m):
+            rise = p[right, k] - p[i, k]
+            flow += film.axial.weights[k] * (wedge * fill[upwind, k] * h - g * rise)
+        total += flow if film.ring.groove[i] else -flow
+    return total
+
+
+@njit(cache=True, nogil=True)
+def narrowest(film, x, y):
+    """Narrowest gap around a shaft at (x, y), in clearances; at cells and faces, if shaped."""
+    if not film.ring.shaped:
+        return 1.0 - np.hypot(x, y)
+    ring = film.ring
+    least = np.inf
+    for i in range(ring.cos.size):
+        if not ring.groove[i]:
+            least = min(least, ring.base[i] - x * ring.cos[i] - y * ring.sin[i])
+        least = min(least, ring.base_face[i] - x * ring.cos_face[i] - y * ring.sin_face[i])
+    return least

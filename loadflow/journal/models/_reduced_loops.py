@@ -16,6 +16,7 @@ from loadflow.journal.models._reduced_kernels import (
     factorise,
     magnitudes,
     matrix,
+    narrowest,
     place,
     substitute,
     summarise,
@@ -80,7 +81,25 @@ def shaft_step(film, work, x, y, gx, gy):
             peak = max(peak, work.state[LOAD, i, k])
     excess = max(1.0, change / (peak * STEP_LIMIT))
     scale = -1.0 / (det * excess)
-    return limited(x, y, scale * (ayy * gx - axy * gy), scale * (axx * gy - ayx * gx))
+    dx, dy = scale * (ayy * gx - axy * gy), scale * (axx * gy - ayx * gx)
+    if film.ring.shaped:
+        share = clear(film.ring, work, dx, dy)
+        return x + share * dx, y + share * dy
+    return limited(x, y, dx, dy)
+
+
+@njit(cache=True, nogil=True)
+def clear(ring, work, dx, dy):
+    """Share of a step, of which every gap keeps at least a third of its height."""
+    share = 1.0
+    for i in range(ring.cos.size):
+        closes = dx * ring.cos[i] + dy * ring.sin[i]
+        if not ring.groove[i] and share * closes > 0.7 * work.gap[i]:
+            share = 0.7 * work.gap[i] / closes
+        closes = dx * ring.cos_face[i] + dy * ring.sin_face[i]
+        if share * closes > 0.7 * work.gap_face[i]:
+            share = 0.7 * work.gap_face[i] / closes
+    return share
 
 
 @njit(cache=True, nogil=True)
@@ -138,16 +157,16 @@ def finish(film, work, x, y, speed, row, stiffness, damping):
     """
     nx, m = work.u.shape
     place(film, work, x, y)
-    summarise(film, work, x, y, row)
     wedge = 0.5 * film.ring.slope * speed
+    summarise(film, work, x, y, wedge, row)
     balance(film, work, wedge, 0.0)
     matrix(film, work, wedge, 0.0)
     factorise(film.lanes, work.band, work.columns.shape[0])
     substitute(film.lanes, work.band, work.columns)
     _, by_x, by_y = carried(film, work)
-    squeeze = film.ring.slope * 2.0 * np.pi / nx
     for i in range(nx):
         base = film.ring.order[i] * m
+        squeeze = 0.0 if film.ring.groove[i] else film.ring.slope * film.ring.width[i]
         for k in range(m):
             held = -squeeze * film.axial.weights[k] * work.state[FILL, i, k]
             work.columns[base + k, 0] = 0.0
@@ -234,7 +253,7 @@ def march(film, work, x, y, time, force, speed, tolerance, max_iterations, rows,
             if step_before > 0.0:
                 x_ahead = x + ratio * (x - x_before)
                 y_ahead = y + ratio * (y - y_before)
-                ahead = np.hypot(x_ahead, y_ahead) < 0.5 + 0.5 * np.hypot(x, y)
+                ahead = narrowest(film, x_ahead, y_ahead) > 0.5 * narrowest(film, x, y)
                 if ahead:
                     x_new, y_new = x_ahead, y_ahead
             predict(work, ratio, ahead, thin * weight, thin * weight_before)
@@ -268,5 +287,5 @@ def march(film, work, x, y, time, force, speed, tolerance, max_iterations, rows,
         if not converged:
             rows[n, X], rows[n, Y] = x_new, y_new
             return n + 1
-        summarise(film, work, x, y, rows[n])
+        summarise(film, work, x, y, 0.5 * film.ring.slope * thin * speed[n], rows[n])
     return time.size

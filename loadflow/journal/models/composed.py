@@ -1,4 +1,4 @@
-"""The rung "reduced" with effects: a shaft that tilts and bends, asperities, a local shell.
+"""The rung "reduced" with effects: tilt and bend, asperities, a local shell, turbulent flow.
 
 What `loadflow.journal.models.reduced` says of cells and points holds here, but that the gap changes
 across the width: a shaft that tilts or bends takes polynomials over the whole of it.
@@ -19,12 +19,13 @@ from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
 from loadflow.journal.models import composed_film as at
+from loadflow.journal.models._composed_gap_kernels import turn
 from loadflow.journal.models._composed_kernels import summarise
 from loadflow.journal.models._composed_loops import finish, march, newton
 from loadflow.journal.models.composed_model import LEVELS, ComposedFilm, build
 from loadflow.journal.models.model import Steps
 from loadflow.journal.models.ring import no_start, stopped
-from loadflow.journal.models.slow_heat import THIN, cooled, slow_states
+from loadflow.journal.models.slow_heat import THIN, cooled, lighter, slow_states
 from loadflow.journal.rows import operating_columns
 from loadflow.journal.solvers.estimate import NEAR
 from loadflow.numerics.convergence import Limits
@@ -33,8 +34,9 @@ Array = NDArray[np.float64]
 
 
 def composes(film: Film, line: Line) -> bool:
-    """Whether a film has more than the aligned cylinder with smooth, rigid surfaces."""
-    return film.contact is not None or film.shell is not None or not line.straight
+    """Whether a film has more than laminar flow in an aligned, smooth, rigid cylinder."""
+    effects = film.contact, film.shell, film.turbulence
+    return any(effect is not None for effect in effects) or not line.straight
 
 
 def equilibrium(
@@ -94,6 +96,7 @@ def _equilibria(
         spent, converged, residual, rounding = 0, False, np.inf, 0.0
         work.bend[:] = lines[n, 2:]
         work.liquid[:] = 0.0
+        turn(film, work, speed[n], 1.0)
         if speed[n] == 0.0 and options.contact is None and loads[n].any():
             rows[n, at.RESIDUAL] = np.inf
             continue  # no film without rotation and squeeze
@@ -197,7 +200,9 @@ def _path(
     share = 0.5 if model.whole else 1.0
     warmth, states = slow_states(options, model.units, share, rub, steps.temperature, time.size)
     limits = control.tolerance, 2 * control.max_iterations
-    turning = speed[0] * states[0, THIN]
+    thin, light = float(states[0, THIN]), lighter(warmth, states, 0) if warmth.on else 1.0
+    turning = speed[0] * thin
+    turn(film, work, speed[0], light / thin)
     first = place.copy()
     residual, iterations, converged, rounding = newton(
         film, work, first, loads[0], size, turning, 0.0, *limits

@@ -60,6 +60,29 @@ class Rough(NamedTuple):
     weights: Array
 
 
+class Regime(NamedTuple):
+    """Whether the flow may be turbulent, and where it is.
+
+    Attributes
+    ----------
+    on : bool
+        Whether it may.
+    reynolds, onset : float
+        Reynolds number of a gap of the clearance at 1 rad/s, the same over its critical value; s.
+    begin, end : float
+        Multiples of the critical value where turbulence begins, and is full.
+    """
+
+    on: bool
+    reynolds: float
+    onset: float
+    begin: float
+    end: float
+
+
+LAMINAR = Regime(False, 0.0, 0.0, 0.0, 0.0)
+
+
 class Composed(NamedTuple):
     """Constants of a film with effects.
 
@@ -75,6 +98,8 @@ class Composed(NamedTuple):
         Growth of the gap over pressure, clearances per Pa; 0: a rigid shell.
     rough : Rough
         Asperities.
+    regime : Regime
+        Whether the flow may be turbulent.
     """
 
     ring: Ring
@@ -83,6 +108,7 @@ class Composed(NamedTuple):
     nodes: Nodes
     give: float
     rough: Rough
+    regime: Regime
 
 
 class ComposedWork(NamedTuple):
@@ -120,6 +146,8 @@ class ComposedWork(NamedTuple):
         Load that each of the columns carries.
     system : array (4, 5)
         Linear system of a step of the shaft.
+    numbers : array (2,)
+        Reynolds number of a gap of the clearance, and over its critical value.
     """
 
     u: Array
@@ -140,6 +168,7 @@ class ComposedWork(NamedTuple):
     touch: Array
     carried: Array
     system: Array
+    numbers: Array
 
 
 def make_work(around: int, nodes: Nodes) -> ComposedWork:
@@ -165,4 +194,5 @@ def make_work(around: int, nodes: Nodes) -> ComposedWork:
         touch=np.zeros((5, 4)),
         carried=np.zeros((5, 4)),
         system=np.zeros((4, 5)),
+        numbers=np.zeros(2),
     )

@@ -19,7 +19,14 @@ from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
 from loadflow.journal.models import composed_film as at
-from loadflow.journal.models.composed_film import Composed, ComposedWork, Rough, make_work
+from loadflow.journal.models.composed_film import (
+    LAMINAR,
+    Composed,
+    ComposedWork,
+    Regime,
+    Rough,
+    make_work,
+)
 from loadflow.journal.models.ring import estimates, ring_of, units_of
 from loadflow.journal.models.width_modes import half_width_nodes, whole_width
 from loadflow.journal.rows import without_supply
@@ -216,6 +223,7 @@ def build(
     film = Composed(
         ring_of(units, 1.0 if whole else 2.0), (0,) * nodes.slopes.shape[1], (0,) * nodes.z.size,
         nodes, _give(bearing, options), _rough(bearing, options.contact, whole, units),
+        _regime(bearing, options),
     )  # fmt: skip
     return ComposedFilm(bearing, options, line, units, film, make_work(units.mesh.shape[0], nodes))
 
@@ -227,6 +235,15 @@ def _give(bearing: JournalGeometry, options: Film) -> float:
         return 0.0
     shell.check_local(bearing.width)
     return cast("LocalShell | LinedShell", shell).compliance / bearing.clearance
+
+
+def _regime(bearing: JournalGeometry, options: Film) -> Regime:
+    """Whether the flow may be turbulent."""
+    if options.turbulence is None:
+        return LAMINAR
+    lengths = bearing.radius, bearing.relative_clearance
+    at_one = options.turbulence.regime(*lengths, options.liquid).at(1.0)
+    return Regime(True, *at_one)
 
 
 def _rough_gap(contact: Contact, units: DiscreteFilm, clearance: float) -> RoughGap:

@@ -122,7 +122,7 @@ def why_not(
                 f"rung = {rung.name!r} is not allowed: {_having(verb, name)} for "
                 f"{FEATURES[name]}; {name} = {value!r}"
             )
-    for name, value, apart, allowed in _pairs(verb, film, bearing, steps or Steps()):
+    for name, value, apart, allowed in _pairs(verb, film, bearing, line, steps or Steps()):
         if value is not None and apart:
             return f"{name} = {value!r} is not allowed: {allowed}"
     if film.heat is not None and film.heat.over_area and not film.law.keeps_mass:
@@ -164,11 +164,12 @@ def _asked(
         "local_shell" if film.shell is not None and film.shell.local else "shell": film.shell,
         "contact": film.contact,
         "contact_on_shell": None if film.shell is None else film.contact,
+        "turbulence": film.turbulence,
         "step": None if steps.step == "given" else steps.step,
         "periodic": steps.periodic or None,
     }
     asked = {name: value for name, value in wanted.items() if value is not None}
-    if film.inlet_line and not own:
+    if film.inlet_line and not own and (film.inlet != "auto" or not bearing.shape.segments):
         asked["inlet"] = film.inlet
     if film.grading == "graded" and not own:
         asked["grading"] = film.grading
@@ -176,10 +177,18 @@ def _asked(
 
 
 def _pairs(
-    verb: Verb, film: Film, bearing: JournalGeometry, steps: Steps
+    verb: Verb, film: Film, bearing: JournalGeometry, line: Line, steps: Steps
 ) -> Iterator[tuple[str, Any, bool, str]]:
-    """What does not go with another part on any rung: name, value, whether that is there, words."""
+    """What does not go with another part: name, value, whether that is there, words."""
     pads = any(part.tilting for part in bearing.shape.segments)
+    if film.rung == "reduced" and bearing.shape.segments:
+        yield "shape", bearing.shape.kind, pads, 'a fixed bore on rung = "reduced"'
+        pressure = bearing.shape.groove_pressure
+        at_ends = 'that of the bearing ends on rung = "reduced"'
+        yield "groove_pressure", pressure, pressure != film.edge_pressure, at_ends
+        alone = 'None in a shaped bore on rung = "reduced"'
+        for name in ("contact", "shell", "turbulence", "moment", "tilt", "bend"):
+            yield name, getattr(film if hasattr(film, name) else line, name), True, alone
     over_area = film.heat is not None and film.heat.over_area
     if verb == "in_motion":
         yield "shape", bearing.shape.kind, pads, "a fixed bore for an orbit"
@@ -199,6 +208,10 @@ def _pairs(
     yield "contact", film.contact, spreads, "None with a shell that is pressed open around, too"
     yield "contact", film.contact, pads, "None for pads that tilt"
     yield "contact", film.contact, over_area, "None with heat over the area"
+    stored = _kind_of_heat(film, verb) == "slow_heat"
+    yield "turbulence", film.turbulence, over_area, "None with heat over the area"
+    allowed = 'None with heat that is stored, but on rung = "reduced"'
+    yield "turbulence", film.turbulence, stored and film.rung != "reduced", allowed
 
 
 def _kind_of_heat(film: Film, verb: Verb) -> str:

@@ -2,8 +2,9 @@
 
 Across the width the pressure is an even polynomial through `POINTS` Gauss–Lobatto points; around,
 the cells are those of the rung "grid", and so are law, time steps and scales. Cells are fixed to
-the shell: there is no inlet line, and no groove. A film with a shaft that tilts or
-bends, asperities or a shell that gives way is one of `loadflow.journal.models.composed`.
+the shell: there is no inlet line, and no groove but those between fixed lobes. A film with a shaft
+that tilts or bends, asperities or a shell that gives way is one of
+`loadflow.journal.models.composed`.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.journal.film.film import DiscreteFilm
+from loadflow.journal.film.gap_shaped import ShapedGap
 from loadflow.journal.film.integrals import Integrals, in_units
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
@@ -27,11 +29,18 @@ from loadflow.journal.models._reduced_loops import finish, march, newton
 from loadflow.journal.models.grid import solve_on_grid
 from loadflow.journal.models.model import Steps
 from loadflow.journal.models.reduced_film import Reduced, Work, make_work
-from loadflow.journal.models.ring import estimates, no_start, ring_of, stopped, units_of
+from loadflow.journal.models.ring import (
+    estimates,
+    lobed,
+    no_start,
+    ring_of,
+    stopped,
+    units_of,
+)
 from loadflow.journal.models.slow_heat import THIN, cooled, slow_states
 from loadflow.journal.models.width_modes import lobatto
 from loadflow.journal.rows import operating_columns, without_supply
-from loadflow.journal.solvers.estimate import NEAR
+from loadflow.journal.solvers.estimate import NEAR, SHARES
 from loadflow.journal.solvers.transient import orbit_dataset
 from loadflow.numerics.convergence import Limits
 
@@ -55,11 +64,11 @@ def equilibrium(
         answer, found = composed.equilibrium(bearing, options, force, speed, line, control)
         return _with_the_grid(bearing, options, line, answer | {"converged": found}, control)
     film = units_of(bearing, options, speed)
-    reduced, work = _discrete(film)
+    reduced, work = _discrete(bearing, options, film)
     count = speed.size
     rows = np.zeros((count, at.RESULTS))
     stiffness, damping = np.zeros((count, 2, 2)), np.zeros((count, 2, 2))
-    starts = _Starts(film, work, estimates(bearing, film, force, speed))
+    starts = _Starts(bearing, film, reduced, work, estimates(bearing, film, force, speed))
     for n in range(count):
         spent, converged = 0, False
         for x, y in starts.of(n):
@@ -69,7 +78,8 @@ def equilibrium(
             )  # fmt: skip
             spent += iterations
             if converged and options.may_grade:
-                converged = film.resolves(np.array([x, y]))
+                narrow = float(_narrowest(bearing, np.array([[x, y]]))[0])
+                converged = film.resolves(np.array([1.0 - narrow, 0.0]))
             if converged:
                 finish(reduced, work, x, y, speed[n], rows[n], stiffness[n], damping[n])
                 starts.keep(n, (x, y))
@@ -78,7 +88,7 @@ def equilibrium(
     position = rows[:, [at.X, at.Y]]
     answer = {
         **operating_columns(bearing, force, speed, options.liquid, position),
-        **_results(film, rows, speed),
+        **_results(bearing, film, rows, speed),
         "eccentricity_ratio": np.hypot(*position.T),
         "stiffness": stiffness / bearing.clearance,
         "damping": damping / bearing.clearance,
@@ -114,29 +124,31 @@ def orbit(
         No equilibrium to start from, or a step that fails even when cut to 1/256.
     """
     time, force, speed = (np.array(values) for values in (time, force, speed))
+
+    def first_position() -> Array:
+        """First position (4,) by the grid."""
+        first = grid.equilibrium(
+            bearing, options.isothermal(), force[:1], speed[:1], line.at(np.array([0])),
+            replace(control, strict=True),
+        )  # fmt: skip
+        unit = bearing.radius / bearing.clearance
+        place = np.append(first["eccentricity"][0] / bearing.clearance, np.zeros(2))
+        place[2:] = first["tilt"][0] * unit if not line.straight else 0.0
+        return place
+
     if composed.composes(options, line):
-
-        def first_position() -> Array:
-            """First position (4,) by the grid."""
-            first = grid.equilibrium(
-                bearing, options.isothermal(), force[:1], speed[:1], line.at(np.array([0])),
-                replace(control, strict=True),
-            )  # fmt: skip
-            unit = bearing.radius / bearing.clearance
-            place = np.append(first["eccentricity"][0] / bearing.clearance, np.zeros(2))
-            place[2:] = first["tilt"][0] * unit if not line.straight else 0.0
-            return place
-
         values = composed.orbit(
             bearing, options, time, force, speed, line, control, steps, first_position
         )
         return orbit_dataset(values, time, force, speed, bearing.clearance)
     film = units_of(bearing, options, speed)
     film.raise_scale(float(np.hypot(*force.T).max()) / (bearing.width * bearing.diameter))
-    reduced, work = _discrete(film)
-    work.u[:] = film.unknown_of(np.full(work.u.shape, film.p_edge))
+    reduced, work = _discrete(bearing, options, film)
+    work.u[:] = _cold(film, reduced)
     start = steps.start
     first = estimates(bearing, film, force[:1], speed[:1])[0] if start is None else start
+    if reduced.ring.shaped and start is None:
+        first = first_position()[:2]
     rows = np.zeros((time.size, at.RESULTS))
     warmth, states = slow_states(options, film, 1.0, 0.0, steps.temperature, time.size)
     begin = reduced._replace(free=start is None)
@@ -147,7 +159,8 @@ def orbit(
     if not converged:
         found = residual, rounding, iterations
         raise no_start(force[0], speed[0], float(np.hypot(x, y)), found)
-    summarise(reduced, work, x, y, rows[0])
+    turning = 0.5 * reduced.ring.slope * speed[0] * states[0, THIN]
+    summarise(reduced, work, x, y, turning, rows[0])
     rows[0, at.RESIDUAL :] = residual, iterations, converged, rounding
     solved = march(
         reduced, work, x, y, time, force, speed, control.tolerance, control.max_iterations, rows,
@@ -158,7 +171,7 @@ def orbit(
         found = tuple(rows[last, [at.RESIDUAL, at.ROUNDING, at.ITERATIONS]])
         ratio = float(np.hypot(rows[last, at.X], rows[last, at.Y]))
         raise stopped(time[last], force[last], speed[last], ratio, found)
-    values = _results(film, rows, speed * states[:, THIN])
+    values = _results(bearing, film, rows, speed * states[:, THIN])
     values = cooled(warmth, states, values) | {"x": rows[:, at.X], "y": rows[:, at.Y]}
     return orbit_dataset(values, time, force, speed, bearing.clearance)
 
@@ -166,10 +179,18 @@ def orbit(
 class _Starts:
     """Where Newton may start: from the last film if the closed form has moved little."""
 
-    def __init__(self, film: DiscreteFilm, work: Work, estimate: Array) -> None:
+    def __init__(
+        self,
+        bearing: JournalGeometry,
+        film: DiscreteFilm,
+        reduced: Reduced,
+        work: Work,
+        estimate: Array,
+    ) -> None:
+        self.bearing = bearing
         self.work = work
         self.estimate = estimate
-        self.cold = film.unknown_of(np.full(work.u.shape, film.p_edge))
+        self.cold = _cold(film, reduced)
         self.last: tuple[int, tuple[float, float]] | None = None
 
     def of(self, n: int) -> Iterator[tuple[float, float]]:
@@ -177,11 +198,16 @@ class _Starts:
         if self.last is not None:
             before, position = self.last
             moved = np.hypot(*(self.estimate[n] - self.estimate[before]))
-            if moved < NEAR * (1.0 - np.hypot(*position)):
+            if moved < NEAR * _narrowest(self.bearing, np.array([position]))[0]:
                 self.work.u[:] = self.work.last
                 yield position
         self.work.u[:] = self.cold
-        yield self.estimate[n, 0], self.estimate[n, 1]
+        x, y = self.estimate[n]
+        if self.bearing.shape.segments:
+            tries = np.outer(SHARES, self.estimate[n])
+            free = _narrowest(self.bearing, tries) > ShapedGap.first_gap
+            x, y = tries[np.argmax(free)] if free.any() else (0.0, 0.0)
+        yield x, y
 
     def keep(self, n: int, position: tuple[float, float]) -> None:
         """Remember the solved film of load `n`."""
@@ -189,14 +215,39 @@ class _Starts:
         self.last = n, position
 
 
-def _discrete(film: DiscreteFilm) -> tuple[Reduced, Work]:
+def _discrete(bearing: JournalGeometry, options: Film, film: DiscreteFilm) -> tuple[Reduced, Work]:
     """Constants and work arrays of the compiled loops."""
-    axial = lobatto(float(film.mesh.z_edges[-1]), POINTS)
-    reduced = Reduced(ring_of(film, 2.0), (0,) * POINTS, axial, True)
-    return reduced, make_work(film.mesh.angle.size, POINTS)
+    axial, ring = lobatto(float(film.mesh.z_edges[-1]), POINTS), ring_of(film, 2.0)
+    if bearing.shape.segments:
+        ring = lobed(ring, bearing, options.cells[0])
+    reduced = Reduced(ring, (0,) * POINTS, axial, True)
+    return reduced, make_work(ring.width.size, POINTS)
 
 
-def _results(film: DiscreteFilm, rows: Array, speed: Array) -> dict[str, Any]:
+def _cold(film: DiscreteFilm, reduced: Reduced) -> Array:
+    """Unknowns (nx, m) of a film at the pressure of its ends."""
+    return film.unknown_of(np.full((reduced.ring.width.size, POINTS), film.p_edge))
+
+
+def _narrowest(bearing: JournalGeometry, position: Array) -> Array:
+    """Narrowest gap around shafts at positions (n, 2), both in clearances, (n,)."""
+    if not bearing.shape.segments:
+        return np.asarray(1.0 - np.hypot(*position.T))
+    least = np.full(len(position), np.inf)
+    for part in bearing.shape.segments:
+        shift = part.preload * np.array([np.cos(part.narrowest), np.sin(part.narrowest)])
+        x, y = (position + shift / (1.0 - part.preload)).T
+        # H = 1/(1 − m) − |(x, y)| cos(θ − its angle): least there, or at an end of the segment
+        away = (np.arctan2(y, x) - part.start) % (2 * np.pi)
+        ends = [x * np.cos(end) + y * np.sin(end) for end in (part.start, part.end)]
+        reach = np.where(away <= part.end - part.start, np.hypot(x, y), np.maximum(*ends))
+        least = np.minimum(least, 1.0 / (1.0 - part.preload) - reach)
+    return least
+
+
+def _results(
+    bearing: JournalGeometry, film: DiscreteFilm, rows: Array, speed: Array
+) -> dict[str, Any]:
     found = Integrals(
         peak=rows[:, at.PEAK],
         dissipation=rows[:, at.DISSIPATION],
@@ -204,9 +255,10 @@ def _results(film: DiscreteFilm, rows: Array, speed: Array) -> dict[str, Any]:
         outflow=rows[:, at.OUTFLOW],
         fill=rows[:, at.FILLED],
     )
-    values = in_units(film, found, speed, 1.0 - np.hypot(rows[:, at.X], rows[:, at.Y]))
+    values = in_units(film, found, speed, _narrowest(bearing, rows[:, [at.X, at.Y]]))
     return values | {
         "residual": rows[:, at.RESIDUAL],
         "iterations": rows[:, at.ITERATIONS].astype(int),
         **without_supply(len(rows)),
+        "supply_flow": film.pockets.flow_unit * rows[:, at.FED],
     }

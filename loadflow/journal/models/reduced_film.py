@@ -13,14 +13,13 @@ from loadflow.journal.models.width_modes import Axial
 Array = NDArray[np.float64]
 
 # columns of a row of results
-X, Y, PEAK, DISSIPATION, SHEAR, OUTFLOW, FILLED, RESIDUAL, ITERATIONS, CONVERGED, ROUNDING = range(
-    11
-)
-RESULTS = 11
+RESULTS = 12
+X, Y, PEAK, DISSIPATION, SHEAR, OUTFLOW, FED, FILLED = range(8)
+RESIDUAL, ITERATIONS, CONVERGED, ROUNDING = range(8, RESULTS)
 
 
 class Reduced(NamedTuple):
-    """Constants of an aligned film with smooth, rigid surfaces.
+    """Constants of an aligned film with smooth, rigid surfaces, in a cylinder or around lobes.
 
     Attributes
     ----------

@@ -11,6 +11,9 @@ from numpy.typing import NDArray
 from loadflow.errors import SolverError
 from loadflow.journal.film.discretise import build_film
 from loadflow.journal.film.film import DiscreteFilm
+from loadflow.journal.film.gap_mesh import FEWEST
+from loadflow.journal.film.gap_shaped import Bore
+from loadflow.journal.film.mesh import folded
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.solvers.estimate import closed_form_position
@@ -27,6 +30,17 @@ class Ring(NamedTuple):
     ----------
     cos, sin, cos_face, sin_face : array (nx,)
         Of the cell centres, and of the faces behind them.
+    load_x, load_y : array (nx,)
+        ∫ cos θ dθ and ∫ sin θ dθ over the cells.
+    base, base_face : array (nx,)
+        H of the centred shaft at cell centres and faces.
+    width, apart : array (nx,)
+        Δθ of the cells, and from the centre of each to that of the next one; to the edge of a
+        groove.
+    groove : array of bool (nx,)
+        Columns that are axial grooves; their pressure is that of the bearing ends.
+    shaped : bool
+        Whether the bore is no cylinder.
     order : array (nx,)
         Place of each column of cells in the folded band.
     law : int
@@ -47,6 +61,14 @@ class Ring(NamedTuple):
     sin: Array
     cos_face: Array
     sin_face: Array
+    load_x: Array
+    load_y: Array
+    base: Array
+    base_face: Array
+    width: Array
+    apart: Array
+    groove: NDArray[np.bool_]
+    shaped: bool
     order: NDArray[np.int64]
     law: int
     numbers: Array
@@ -59,7 +81,9 @@ class Ring(NamedTuple):
 
 def units_of(bearing: JournalGeometry, options: Film, speed: Array) -> DiscreteFilm:
     """The grid's film without effects on cells fixed to the shell: its units, law and cells."""
-    bare = replace(options, grading="uniform", inlet=None, contact=None, shell=None)
+    bare = replace(
+        options, grading="uniform", inlet=None, contact=None, shell=None, turbulence=None
+    )
     film = build_film(bearing.diameter, bearing.width, bearing.relative_clearance, bare)
     film.set_scale(float(np.abs(speed).max()))
     return film
@@ -68,11 +92,40 @@ def units_of(bearing: JournalGeometry, options: Film, speed: Array) -> DiscreteF
 def ring_of(film: DiscreteFilm, share: float) -> Ring:
     """Cells of the grid's `film`; the points across are those of 1/`share` of the width."""
     angle = film.mesh.angle
-    face = angle + np.pi / angle.size
+    count, step = angle.size, 2.0 * np.pi / angle.size
+    face, even = angle + 0.5 * step, np.full(count, step)
     return Ring(
-        np.cos(angle), np.sin(angle), np.cos(face), np.sin(face), film.mesh.order,
+        np.cos(angle), np.sin(angle), np.cos(face), np.sin(face),
+        step * np.cos(angle), step * np.sin(angle), np.ones(count), np.ones(count), even, even,
+        np.zeros(count, dtype=bool), False, film.mesh.order,
         film.law.address, np.array(film.law.numbers), film.law.fill_at(film.p_edge),
         film.scale, film.p_edge, film.slope, share * film.radius**2,
+    )  # fmt: skip
+
+
+def lobed(ring: Ring, bearing: JournalGeometry, around: int) -> Ring:
+    """The same around the segments of a shaped bore: cells on them, one in each groove between."""
+    shape, bore = bearing.shape, Bore.of(bearing)
+    segments = shape.segments
+    total = sum(part.end - part.start for part in segments)
+    starts = [part.start for part in segments] + [segments[0].start + 2 * np.pi]
+    edges, number, groove = [np.array(starts[:1])], [], []
+    for k, part in enumerate(segments):
+        cells = max(FEWEST, round(around * (part.end - part.start) / total))
+        edges += [np.linspace(part.start, part.end, cells + 1)[1:], np.array(starts[k + 1 : k + 2])]
+        number += [k] * (cells + 1)
+        groove += [False] * cells + [True]
+    edge, segment, gap = np.concatenate(edges), np.array(number), np.array(groove)
+    width, angle, face = np.diff(edge), 0.5 * (edge[1:] + edge[:-1]), edge[1:]
+    half = np.where(gap, 0.0, 0.5 * width)
+    owner = np.where(gap, np.roll(segment, -1), segment)  # of the face behind each cell
+    centre, middle = np.array([0.0]), np.sinc(0.5 * width / np.pi)
+    return ring._replace(
+        cos=np.cos(angle), sin=np.sin(angle), cos_face=np.cos(face), sin_face=np.sin(face),
+        load_x=width * middle * np.cos(angle), load_y=width * middle * np.sin(angle),
+        base=bore.gap(angle, segment, centre)[:, 0], base_face=bore.gap(face, owner, centre)[:, 0],
+        width=width, apart=half + np.roll(half, -1), groove=gap, shaped=True,
+        order=folded(width.size),
     )  # fmt: skip
 
 

@@ -8,7 +8,7 @@ time through η ω and η/dt: one of viscosity η is that of η₀ at the speed 
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 from numba import njit
@@ -46,6 +46,8 @@ class Warmth(NamedTuple):
     flow, drag, rub : float
         Of a film without warmth: power and flow over the sums of `summarise`, the second over ω²,
         too; power over ∫ p_a and |ω|, m.
+    light : float
+        1/(2 ρ c_p) of the film as it is computed, m³ K/J.
     """
 
     on: bool
@@ -58,6 +60,7 @@ class Warmth(NamedTuple):
     flow: float
     drag: float
     rub: float
+    light: float
 
 
 def slow_states(
@@ -82,9 +85,9 @@ def slow_states(
     """
     states = np.zeros((count, STATES))
     states[:, THIN] = 1.0
-    heat = options.heat
-    if not isinstance(heat, Heat) or heat.capacity is None:
-        return Warmth(False, 0.0, np.ones((2, 2)), 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0), states
+    heat = cast("Heat | None", options.heat)  # the other kind is refused in motion
+    if heat is None or heat.capacity is None:
+        return Warmth(False, 0.0, np.ones((2, 2)), 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0), states
     states[0, TEMPERATURE] = start
     states[0, THIN] = float(heat.liquid.viscosity(start)) / film.viscosity
     clearance = film.relative_clearance * film.radius
@@ -121,6 +124,7 @@ def _warmth_of(heat: Heat, viscosity: float, flow: float, drag: float, rub: floa
     low = heat.coldest - 10.0 * _TABLE
     temperature = np.arange(low, HOTTEST + 20.0 * _TABLE, _TABLE)
     oil = heat.liquid
+    light = 0.5 / (float(oil.density(heat.inlet_temperature)) * heat.heat_capacity)
     table = np.stack(
         [
             np.asarray(oil.viscosity(temperature)) / viscosity,
@@ -129,7 +133,7 @@ def _warmth_of(heat: Heat, viscosity: float, flow: float, drag: float, rub: floa
     )
     return Warmth(
         True, low, table, heat.inlet_temperature, heat.ambient_temperature, heat.transfer,
-        heat.capacity, flow, drag, rub,
+        heat.capacity, flow, drag, rub, light,
     )  # fmt: skip
 
 
@@ -165,6 +169,12 @@ def slow_heat(warmth, states, n, step, speed, rows, first, normal):
     states[n, TEMPERATURE] = warm
     states[n, THIN] = _at(warmth, 0, warm)
     return states[n, THIN]
+
+
+@njit(cache=True, nogil=True)
+def lighter(warmth, states, n):
+    """Density of the oil at time `n` over that of the film."""
+    return warmth.light * _at(warmth, 1, states[n, TEMPERATURE])
 
 
 @njit(cache=True, nogil=True)

@@ -98,7 +98,8 @@ class MemberState:
 class AssemblyState:
     """Shaft and films: position (m, rad), velocity, states of the films, convergence.
 
-    With a `rate`, 1/s, the films store ``rate · F h`` less `MemberState.old`: an implicit step.
+    With a `rate`, 1/s, the films store ``rate · F h`` less `MemberState.old`: an implicit step. Of
+    the shaft, `free` is in balance.
     """
 
     position: Array
@@ -108,6 +109,7 @@ class AssemblyState:
     iterations: int = 0
     residual: float = math.inf
     rate: float = 0.0
+    free: NDArray[np.int64] = field(default_factory=lambda: np.arange(0))
 
 
 @dataclass(frozen=True)
@@ -138,9 +140,8 @@ class Assembly:
     scale: Array = field(init=False)
 
     def __post_init__(self) -> None:
-        unit = min(member.unit for member in self.members)
         arms = np.array([1.0, 1.0, 1.0, self.length, self.length])
-        object.__setattr__(self, "scale", unit / arms)
+        object.__setattr__(self, "scale", min(member.unit for member in self.members) / arms)
 
     def start(self, position: Array, pads: Sequence[Array] | None = None) -> AssemblyState:
         """Films at edge pressure around a shaft at `position`."""
@@ -220,9 +221,8 @@ class Assembly:
 
         Of all films, or of those `members` alone.
         """
-        some = self.members[members]
-        parts = [self._condensed(m, s) for m, s in zip(some, state.members[members])]
-        return _sums(some, parts)[1:]
+        parts = [self._condensed(m, s) for m, s in zip(self.members, state.members)][members]
+        return _sums(self.members[members], parts)[1:]
 
     def loads(self, state: AssemblyState) -> list[list[Array]]:
         """What the shaft applies to every pad of every film at a solved state, N, N m."""
@@ -255,7 +255,7 @@ class Assembly:
             Tolerance on the scaled residual, Newton steps.
         """
         most = max(m.film.newton_steps(limits.max_iterations) for m in self.members)
-        residual = math.inf
+        residual, state = math.inf, replace(state, free=free)
         for iteration in range(1, most + 1):
             try:
                 state = self._linearised(state)

@@ -22,7 +22,7 @@ Array = NDArray[np.float64]
 
 NEAR = 0.3  # share of the narrowest gap that the estimate may move for a warm start
 
-_SHARES = (1.0, 0.7, 0.4, 0.1)  # of the closed form, at which the bore is tried
+SHARES = (1.0, 0.7, 0.4, 0.1)  # of the closed form, at which the bore is tried
 _RATIOS = np.concatenate([np.linspace(0.0, 0.9, 91)[1:], 1.0 - np.geomspace(0.099, 1e-4, 60)])
 
 
@@ -83,7 +83,7 @@ def first_position(
         position[:2] = math.hypot(*position[:2]) / max(size, 1e-300) * load
     if film.contact is not None and load.any():
         return closer_of(film, load, position)
-    for share in _SHARES:
+    for share in SHARES:
         start = gap.lifted(np.append(share * position[:2], position[2:]), film.speed)
         if gap.narrowest(start) > gap.first_gap:
             return start

@@ -16,6 +16,7 @@ Array = NDArray[np.float64]
 
 _QUADRATIC = 1e-7  # a step this small leaves an error near its square: the last factors are exact
 _STEP_LIMIT = 0.5  # change of the film, over its pressure, beyond which a step is shortened
+_NEARLY = 1e-3  # a step this small is followed by the last ones, whose damping is kept
 _LATE = 8  # Newton steps after which longer steps are asked whether rounding makes them
 _PRESSED = 1e-13  # narrowest gap, in clearances, that is none
 _STUCK = 1e-3  # share of a Newton step that must be left by an elastic shell
@@ -58,6 +59,11 @@ class Motion:
     offset: Array | float = 0.0
     volume_rate: float = 0.0
     volume: Array | float = 0.0
+
+    @property
+    def moves(self) -> bool:
+        """Whether this is a step in time."""
+        return self.rate != 0.0 or bool(np.any(self.offset))
 
     def velocity(self, position: Array) -> Array:
         """Velocity of the shaft, clearances per second."""
@@ -109,8 +115,10 @@ class _Check:
 
     def _finest(self, u: Array, position: Array, linear: Linear) -> float:
         """Step of film and shaft that the last digits of unknowns and gap make."""
-        moves = len(linear.columns) - linear.load.size
-        terms = np.abs(linear.columns[1:moves]).sum(axis=0).max(initial=0.0) + np.abs(u).max()
+        terms = (
+            np.abs(linear.columns[1 : 1 + self.film.moves]).sum(axis=0).max(initial=0.0)
+            + np.abs(u).max()
+        )
         narrow = max(self.film.gap.narrowest(position), _PRESSED)
         return rounding_level(float(terms) / self.film.scale + 1.0 / narrow)
 
@@ -174,11 +182,12 @@ def solve_equilibrium(
     u = u.copy()
     scale, gap = film.gap.dof_scale[free], film.gap.narrowest(position)
     old = (motion.volume_rate, motion.volume)
-    check = _Check(film, tolerance, motion, force, free)
+    check, change, moving = _Check(film, tolerance, motion, force, free), math.inf, motion.moves
     for iteration in range(1, max_iterations + 1):
         velocity = motion.velocity(position)
+        damped = moving or change < _NEARLY
         try:
-            linear = film.linearise(u, position, velocity, *old)
+            linear = film.linearise(u, position, velocity, *old, damped=damped)
         except SingularFilm:
             if iteration == 1:
                 return no_film(film)
@@ -189,7 +198,7 @@ def solve_equilibrium(
         missing = (force - linear.load)[free]
         step[free] = _solve(slope[free][:, free], missing, scale) / max(excess, 1.0)
         target, weights, share = _moved(film, u, linear, position, step, motion)
-        if share < _STUCK or not np.isfinite(target).all():
+        if share < _STUCK or not math.isfinite(float(target.sum())):
             break
         change = film.correct(u, linear.columns, weights)
         change = max(change, math.hypot(*(target - position)) / max(gap, _PRESSED))
@@ -197,6 +206,8 @@ def solve_equilibrium(
         if not gap > _PRESSED and not film.elastic:
             break
         if check.after(iteration, change, u, position, linear):
+            if not damped:
+                linear = film.linearise(u, position, velocity, *old)
             return check.solution(u, position, linear, True, iteration)
     return check.unanswered(u, position, linear, iteration)
 
@@ -220,7 +231,7 @@ def _solve(matrix: Array, rhs: Array, scale: Array) -> Array:
     The second is a shaft on one single pad, free to go sideways while the pad follows. What is not
     finite gives NaN.
     """
-    if not (np.isfinite(matrix).all() and np.isfinite(rhs).all()):
+    if not math.isfinite(float(matrix.sum() + rhs.sum())):
         return np.full(rhs.size, np.nan)
     if rhs.size != 2:
         return scale * np.asarray(np.linalg.lstsq(matrix * scale, rhs, rcond=1e-10)[0])

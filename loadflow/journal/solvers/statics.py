@@ -79,7 +79,9 @@ def equilibrium_rows(
         if not solution.converged and control.strict:
             raise SolverError(f"load {index}: {used.message(solution, load)}")
         last = solution if solution.converged and used is statics else last
-        rows.append(static_row(bearing, used.film, load, options.liquid, solution, line.whirl))
+        rows.append(
+            static_row(bearing, used.film, used.gap, load, options.liquid, solution, line.whirl)
+        )
     return rows
 
 

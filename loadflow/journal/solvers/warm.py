@@ -89,7 +89,7 @@ def warm_rows(
             raise SolverError(f"load {index}: {why}")
         if found.converged and found.warmth is not None:
             last = found.solution, found.warmth.cells
-        rows.append(_row(bearing, equation, load, found, line.whirl))
+        rows.append(_row(bearing, statics, equation, load, found, line.whirl))
     return rows
 
 
@@ -198,12 +198,17 @@ def _flagged(found: _Warm) -> Solution:
 
 
 def _row(
-    bearing: JournalGeometry, equation: EnergyEquation, load: Array, found: _Warm, whirl: float
+    bearing: JournalGeometry,
+    statics: Statics,
+    equation: EnergyEquation,
+    load: Array,
+    found: _Warm,
+    whirl: float,
 ) -> dict[str, Any]:
     """One row of `FilmHeatEquilibrium`."""
     heat, film = equation.heat, equation.film
     mean = heat.inlet_temperature if found.warmth is None else found.warmth.mean
-    row = static_row(bearing, film, load, heat.lubricant(mean), _flagged(found), whirl)
+    row = static_row(bearing, film, statics.gap, load, heat.lubricant(mean), _flagged(found), whirl)
     angle, z = film.mesh.angle, film.mesh.z * bearing.radius
     both = z if z[0] < 0 else np.concatenate([-z[::-1], z])
     return row | _heat_columns(equation, found) | {"angle": angle, "z": both}

@@ -10,7 +10,7 @@ from pydantic import ValidationError
 
 from loadflow.data import gains
 from loadflow.errors import InputError
-from loadflow.journal import Heat
+from loadflow.journal import Heat, Turbulence
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.shaft.beam import ShaftSection
@@ -179,7 +179,7 @@ HEAT = Effect(
 )
 
 
-# --- tilt, shell, contact, supply ------------------------------------------------------------
+# --- tilt, shell, contact, turbulence, supply ------------------------------------------------
 
 
 def _tilt(at: Situation) -> Sizes:
@@ -299,6 +299,42 @@ CONTACT = Effect(
     indicator=_contact,
     out="the film alone carries; asperities would take load below a film parameter of 4",
     needs="a table journal.contact with the asperities of both surfaces",
+    rungs=("grid", "reduced"),
+)
+
+
+def _turbulence(at: Situation) -> Sizes:
+    """What turbulent flow adds at the largest speed: k_x/12 and C_f of [Ng and Pan 1965].
+
+    Nothing up to Re_cr. In gaps of the clearance; the film feels load over k_x, and its friction
+    grows with C_f.
+    """
+    fastest, found = float(np.abs(at.speed).max()), []
+    for name, film in at.films.items():
+        journal = at.scene.journal.at(name)
+        held = journal.at_temperature(journal.heat.inlet_temperature) if journal.heat else journal
+        factors = Turbulence().factors(held.geometry, fastest, held.lubricant, 1.0)
+        thicker, _, shear = (float(factor) for factor in factors)
+        eccentricity = thicker ** gains()["journal"]["eccentricity ratio"] - 1.0
+        changes = np.full_like(film.eccentricity_ratio, eccentricity)
+        found.append(_worst(film, changes, 0.3 * changes, 1.0 - 1.0 / shear))
+    return _largest(found)
+
+
+TURBULENCE = Effect(
+    "turbulent flow",
+    model="journal",
+    keys=("journal.turbulence",),
+    is_on=lambda scene: scene.journal.turbulence is not None,
+    switched=lambda scene, on: with_settings(
+        scene,
+        "journal",
+        {"turbulence": (scene.journal.turbulence or Turbulence()) if on else None},
+    ),
+    indicator=_turbulence,
+    out="no journal.turbulence: the flow is laminar; the run warns where Re reaches Re_cr",
+    needs="a table journal.turbulence, which may be empty",
+    cost=lambda scene: 2.0,
     rungs=("grid", "reduced"),
 )
 

@@ -19,6 +19,7 @@ EFFECTS: list[Effect] = [
     film.TILT,
     film.SHELL,
     film.CONTACT,
+    film.TURBULENCE,
     film.SUPPLY,
     rolling.RINGS,
     rolling.CENTRIFUGAL,

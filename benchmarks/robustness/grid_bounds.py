@@ -1,0 +1,96 @@
+"""Whether bounds of the grid error hold: draws of every family against twice the cells each way.
+
+python -m benchmarks.robustness.grid_bounds [--draws N] [--first I] [--json FILE] [FAMILY …]
+
+The draws are those of `benchmarks.robustness.families`. The error is 4/3 of the difference from
+twice as many cells each way, as of the second order. For each family: draws with both answers, the
+share of them in which `Equilibrium.grid_error` holds the error of each quantity, the median of
+bound over error, and of h_min how many are more than 25 % off with and without `resolved`.
+"""
+
+from __future__ import annotations
+
+import json
+import warnings
+from typing import Any
+
+import numpy as np
+
+from benchmarks.common import arguments
+from benchmarks.robustness.families import FAMILIES, SEEDS, draw_point
+from loadflow.errors import LoadflowError
+from loadflow.journal.grid_bounds import BOUNDED, UNRESOLVED
+
+QUANTITIES = BOUNDED[1:]
+_RICHARDSON = 4.0 / 3.0
+
+
+def apart(name: str, one: float, other: float) -> float:
+    """Difference of two values; of angles, rad, the lesser way round."""
+    way = abs(one - other)
+    return min(way, 2.0 * np.pi - way) if name == "attitude_angle" else way
+
+
+def compare(family: str, number: int) -> dict[str, Any] | None:
+    """Bounds and errors of one draw; None where either grid has no answer."""
+    point = draw_point(np.random.default_rng([SEEDS[family], number]))
+    work = FAMILIES[family](point)
+    try:
+        state = work()
+        around, across = point.film["grid"]
+        point.film["grid"] = (2 * around, 2 * across)
+        finer = work()
+    except LoadflowError:
+        return None
+    row = {
+        name: (
+            float(getattr(state.grid_error, name)),
+            _RICHARDSON * apart(name, float(getattr(state, name)), float(getattr(finer, name))),
+        )
+        for name in QUANTITIES
+    }
+    off = apart("", float(state.minimum_film), float(finer.minimum_film))
+    return row | {"resolved": bool(state.resolved), "off": off / float(finer.minimum_film)}
+
+
+def run(family: str, numbers: range) -> dict[str, Any]:
+    """Shares of one family."""
+    rows = [row for number in numbers if (row := compare(family, number)) is not None]
+    row: dict[str, Any] = {"draws": len(rows)}
+    for name in QUANTITIES:
+        bound, error = np.array([one[name] for one in rows]).T
+        known = error > 1e-12 * np.abs(bound)
+        row[name] = {
+            "held": round(float(np.mean(bound >= error)), 4),
+            "median": round(float(np.median((bound / np.where(known, error, 1.0))[known])), 1),
+        }
+    far = np.array([one["off"] for one in rows]) > UNRESOLVED
+    told = ~np.array([one["resolved"] for one in rows])
+    return row | {
+        "unresolved": int(told.sum()),
+        "far_off": int(far.sum()),
+        "far_off_untold": int((far & ~told).sum()),
+    }
+
+
+def main() -> None:
+    """Draw and print the shares."""
+    parser = arguments(__doc__)
+    every = [name for name in FAMILIES if name != "orbit"]
+    parser.add_argument("families", nargs="*", default=every, metavar="FAMILY")
+    parser.add_argument("--draws", type=int, default=200)
+    parser.add_argument("--first", type=int, default=0)
+    parser.add_argument("--json", metavar="FILE", help="write the shares there")
+    asked = parser.parse_args()
+    warnings.simplefilter("ignore")
+    rows = {}
+    for family in asked.families:
+        rows[family] = run(family, range(asked.first, asked.first + asked.draws))
+        print(f"{family}: {rows[family]}", flush=True)
+        if asked.json:
+            with open(asked.json, "w", encoding="utf-8") as file:
+                json.dump(rows, file, indent=1)
+
+
+if __name__ == "__main__":
+    main()

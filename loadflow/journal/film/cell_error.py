@@ -1,0 +1,147 @@
+"""How far the cells may leave a solved film from that of ever finer ones, told by that film alone.
+
+A pressure bends within a cell by its second differences from cell to cell. All that the cells leave
+out, be it the pressure between their centres, the flow through their faces or the place of rupture,
+is of that size; the stiffness of the film tells how far the shaft then moves. The shares below are
+such that the bounds hold the error in 97 % of draws of each family of bearings
+(``benchmarks/robustness/grid_bounds.py``); the midpoint rule alone leaves 1/24 of the differences.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from loadflow.journal.cavitation import LOAD
+from loadflow.journal.film import _error_kernels as kernel
+from loadflow.journal.film.film import DiscreteFilm
+from loadflow.journal.film.gap import BoreGap
+from loadflow.journal.film.surface_film import SurfaceFilm
+
+Array = NDArray[np.float64]
+
+_LOAD = 1.0 / 6.0  # of the load, of all second differences
+_PEAK, _AT_PEAK = 0.4, 0.1  # of the peak, of all of them and of those next to it
+_TURN = 2.5  # of the attitude, of the way of the shaft: it turns more readily than it moves
+_SHEAR, _DRAG = 1.0 / 30.0, 0.3  # of friction, of all of them and of the change of the gap
+# where the unknowns lie on nodes and the film ends on the edges; the whole gap may close there
+_NODES, _CLOSES = 1.25, 1.5
+_FLOW, _OPEN = 1.0 / 3.0, 2.0  # of the side flow, of all of them and of what moves and opens
+
+
+def relative_errors(
+    film: DiscreteFilm,
+    gap: BoreGap,
+    position: Array,
+    stiffness: Array | None,
+    free: slice | NDArray[np.int64],
+    load: Array,
+) -> Array:
+    """Relative bounds of a film last placed where it was solved, in the order of `BOUNDED`.
+
+    Parameters
+    ----------
+    film, gap
+        The film and its gap.
+    position : array (m,)
+        Where the shaft is, clearances.
+    stiffness : array (m, m) or None
+        Derivative of the load by the position, N per clearance; None where the position was given.
+    free : slice or array of int
+        Degrees of freedom in balance.
+    load : array (m,)
+        What the film carries, N.
+    """
+    width = np.hypot(gap.around[0], gap.around[1])
+    share, missing, peak, _ = pressure_error(film, width, film.mesh.dz, 1.0)
+    out = np.zeros(7)
+    if stiffness is None:
+        size = float(np.hypot(*load[:2]))
+        out[0] = missing / size if size > 0.0 else 0.0
+        out[4], out[5], out[6] = peak, _SHEAR * share, _FLOW * share
+        return out
+    moves = np.arange(gap.size)[free]
+    response = _inverse(stiffness[np.ix_(moves, moves)])
+    unbalanced = np.where(moves < gap.shaft, missing, 0.0)
+    unbalanced[(moves >= 2) & (moves < gap.shaft)] *= 0.5 * film.mesh.z_edges[-1]
+    _, angle, z = gap.closest(position)
+    growth = float(film.deformation.max()) / (film.relative_clearance * film.radius)
+    narrow = max(gap.narrowest(position), np.finfo(float).tiny)
+    far = float(np.hypot(*position[:2]))
+    along = position[:2] / far if far > 0.0 else np.array([1.0, 0.0])
+    facing = np.array([np.cos(angle), np.sin(angle), -z * np.sin(angle), z * np.cos(angle)])
+    ways = np.zeros((3, gap.size))
+    ways[0, :2], ways[1, :2] = along, (-along[1], along[0])
+    ways[2, : min(gap.shaft, 4)] = facing[: gap.shaft]
+    outward, sideways, closer = np.abs(ways[:, moves] @ response) @ unbalanced
+    if far > 0.0:
+        out[1], out[2] = outward / far, _TURN * np.hypot(outward, sideways) / far
+    if gap.open_share is not None:  # rough surfaces keep a gap between them as their planes close
+        closer *= float(gap.open_share.min())
+    pressed = _LOAD * share * growth  # what an elastic shell opens with the pressure
+    out[3], out[4] = (closer + pressed) / narrow, peak
+    out[5] = _SHEAR * share + _DRAG * out[3]
+    out[6] = _FLOW * share + _OPEN * (out[1] + out[3])
+    return out
+
+
+def pressure_error(
+    film: DiscreteFilm, width: Array, across: Array, on_edges: float
+) -> tuple[float, float, float, Array]:
+    """Second differences over the pressure, what they leave of the load, N, and of the peak.
+
+    `width` (nx,) and `across` (nz,) are those of the cells, `on_edges` is as in `_error_kernels`.
+    The differences of the cells (nx, nz) come last, times the share that counts, Pa.
+    """
+    mesh, fields = film.mesh, np.empty((2, *film.mesh.shape))
+    whole, bent, highest, beside = kernel.differences(
+        film.state[LOAD], width, across, mesh.closed, mesh.half, film.p_line, film.p_edge,
+        on_edges, *fields,
+    )  # fmt: skip
+    share = bent / whole if whole > 0.0 else 0.0
+    peak = _PEAK * share + (_AT_PEAK * beside / highest if highest > 0.0 else 0.0)
+    return (
+        share,
+        _LOAD * film.mirrors * film.radius**2 * bent,
+        peak,
+        _LOAD * (fields[0] + fields[1]),
+    )
+
+
+class SurfaceError:
+    """What the cells leave out of a film on a cone, a plane ring or a straight pad.
+
+    Parameters
+    ----------
+    film : SurfaceFilm
+        A film last placed where it was solved.
+
+    Attributes
+    ----------
+    peak, shear : float
+        Of the largest pressure, and of the friction at a given position, over them.
+    """
+
+    def __init__(self, film: SurfaceFilm) -> None:
+        gap, mesh = film.gap, film.gap.mesh
+        share, _, self.peak, left = pressure_error(film, mesh.weights[0], mesh.carrying, 0.0)
+        self.shear = 2.0 * _NODES * _SHEAR * share
+        self._left = _NODES * film.radius**2 * left
+        self._around, self._across = gap.pressed, gap.across * mesh.carrying
+
+    def missing(self, rows: Array) -> Array:
+        """Bounds (l,) of what combinations `rows` (l, m) of the loads on the film lack, N."""
+        modes = np.einsum("lj,ji,jk->lik", rows, self._around, self._across)
+        return np.asarray(np.einsum("ik,lik->l", self._left, np.abs(modes)))
+
+
+def drag_error(shear: float, gap: float) -> float:
+    """Relative bound of the friction of pads from that at a given position and that of the gap."""
+    return shear + _CLOSES * gap
+
+
+def _inverse(stiffness: Array) -> Array:
+    """How far the shaft moves under a load; of a stiffness that is none the least."""
+    if not np.isfinite(stiffness).all():
+        return np.full(stiffness.shape, np.nan)
+    return np.asarray(np.linalg.pinv(stiffness))

@@ -1,0 +1,125 @@
+"""The rung "reduced" around fixed lobes and arcs, against the grid and itself."""
+
+import numpy as np
+import pytest
+
+from loadflow.errors import InputError
+from loadflow.journal import (
+    Arc,
+    Contact,
+    GasMixture,
+    Guembel,
+    JournalBearing,
+    Lobes,
+    Lubricant,
+    MassConserving,
+    Sommerfeld,
+    TiltingPads,
+)
+from loadflow.tribology import AsperityContact
+
+OIL = Lubricant(viscosity=0.1)
+SPEED = 1.2
+FORCE = np.array([[1.5e6, 1e5], [4e5, -3e5], [3e6, 0.0]])
+LEMON = Lobes(count=2, preload=0.3, groove=0.35)
+SHAPES = {
+    "lemon": LEMON,
+    "three lobes": Lobes(count=3, preload=0.5, groove=0.3, angle=0.3),
+    "offset halves": Lobes(count=2, preload=0.4, groove=0.35, offset=0.8),
+    "arc": Arc(angle=0.0, span=2.6),
+}
+ROUGH = Contact(AsperityContact(roughness=0.5e-6, contact_modulus=115e9, factor=1e-3), friction=0.1)
+LAWS = {
+    "gas mixture": GasMixture(5e4),
+    "guembel": Guembel(1e5),
+    "mass conserving": MassConserving(5e4),
+}
+
+
+def bearing(shape):
+    return JournalBearing(diameter=1.4, width=1.3, relative_clearance=0.85e-3, shape=shape)
+
+
+def at_rest(shape, law, grid=(120, 40), force=FORCE, **film):
+    return bearing(shape).equilibrium(
+        force, SPEED, OIL, cavitation=law, edge_pressure=1e5, grid=grid, **film
+    )
+
+
+@pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
+@pytest.mark.parametrize("shape", SHAPES.values(), ids=SHAPES)
+def test_it_is_the_grid_of_as_many_cells(shape, law):
+    ours, theirs = at_rest(shape, law, rung="reduced"), at_rest(shape, law)
+    assert ours.converged.all()
+    for name, share in (("minimum_film", 0.01), ("maximum_pressure", 0.02),
+                        ("friction_power", 0.005), ("side_flow", 0.012),
+                        ("total_fill", 0.01)):  # fmt: skip
+        np.testing.assert_allclose(
+            getattr(ours, name), getattr(theirs, name), rtol=share, err_msg=name
+        )
+    away = np.abs(ours.supply_flow - theirs.supply_flow) / theirs.side_flow
+    assert away.max() < 0.04
+    clearance = bearing(shape).clearance
+    assert np.abs(ours.eccentricity - theirs.eccentricity).max() < 0.003 * clearance
+
+
+def test_cells_converge_with_second_order():
+    def film(cells):
+        return at_rest(LEMON, Sommerfeld(), (cells, 20), FORCE[:1], rung="reduced").minimum_film[0]
+
+    coarse, middle, fine = (film(cells) for cells in (40, 80, 160))
+    assert 3.5 < (middle - coarse) / (fine - middle) < 4.6
+
+
+def test_stiffness_is_the_slope_of_the_load():
+    first = at_rest(LEMON, GasMixture(5e4), rung="reduced")
+    for more in ([1e3, 0.0], [0.0, 1e3]):
+        ahead, behind = (
+            at_rest(LEMON, GasMixture(5e4), force=FORCE + side * np.array(more), rung="reduced")
+            for side in (0.5, -0.5)
+        )
+        change = ahead.eccentricity - behind.eccentricity
+        carried = np.einsum("nij,nj->ni", first.stiffness, change)
+        np.testing.assert_allclose(carried, np.tile(more, (3, 1)), atol=0.1)
+
+
+def test_the_film_and_its_narrowest_gap_are_those_of_the_bore():
+    found = at_rest(LEMON, GasMixture(5e4), rung="reduced")
+    theirs = bearing(LEMON).pressure(
+        found.eccentricity, SPEED, OIL, cavitation=GasMixture(5e4), edge_pressure=1e5,
+        grid=(120, 40),
+    )  # fmt: skip
+    np.testing.assert_allclose(found.minimum_film, theirs.minimum_film, rtol=1e-3)
+    np.testing.assert_allclose(-theirs.film_force, FORCE, atol=0.02 * 3e6)
+
+
+def test_an_orbit_is_that_of_the_grid():
+    time = np.arange(160) * 0.05
+    force = np.stack([1.2e6 + 4e5 * np.sin(3 * time), 3e5 * np.cos(2.3 * time)], axis=1)
+    given = {"cavitation": GasMixture(5e4), "edge_pressure": 1e5, "grid": (60, 20)}
+    ours, theirs = (
+        bearing(LEMON).orbit(time, force, SPEED, OIL, rung=rung, **given)
+        for rung in ("reduced", "grid")
+    )
+    assert float(ours["minimum_film"].min() / theirs["minimum_film"].min()) == pytest.approx(
+        1, abs=0.01
+    )
+    for name, share in (("maximum_pressure", 0.02), ("friction_power", 0.005)):
+        np.testing.assert_allclose(ours[name], theirs[name], rtol=share, err_msg=name)
+    place = np.abs(ours["eccentricity"] - theirs["eccentricity"]).max()
+    assert float(place) < 0.01 * bearing(LEMON).clearance
+
+
+@pytest.mark.parametrize(
+    ("shape", "given", "name"),
+    [
+        (TiltingPads(count=4, arc=1.2), {}, "shape"),
+        (Lobes(count=2, groove_pressure=3e5), {}, "groove_pressure"),
+        (LEMON, {"contact": ROUGH}, "contact"),
+        (LEMON, {"tilt": (1e-5, 0.0)}, "tilt"),
+        (LEMON, {"inlet": "widest gap"}, "inlet"),
+    ],
+)
+def test_what_it_does_not_know_is_refused_by_name(shape, given, name):
+    with pytest.raises(InputError, match=f"{name}.*is not allowed|{name} ="):
+        at_rest(shape, GasMixture(5e4), rung="reduced", **given)
