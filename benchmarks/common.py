@@ -72,6 +72,12 @@ def show(rows: Iterable[dict[str, Any]], as_json: bool) -> None:
                 print(f"  {name:32s} {value:.6g}")
 
 
+def taken_from(page: Path, begin: str, end: str) -> str:
+    """What stands between two marks of a page, with the marks."""
+    text = page.read_text(encoding="utf-8")
+    return begin + text.partition(begin)[2].partition(end)[0] + end
+
+
 def put(page: Path, begin: str, end: str, text: str) -> None:
     """Put `text` between two marks of a page."""
     before, _, rest = page.read_text(encoding="utf-8").partition(begin)

@@ -46,6 +46,40 @@ READABLE = {
 }
 """Factor and unit in which an engineer reads each SI unit that the data hold."""
 
+_SMALLER = {
+    "N": ((1.0, "N"),),
+    "N m": ((1e-3, "kN m"), (1.0, "N m")),
+    "Pa": ((1e-3, "kPa"), (1.0, "Pa")),
+    "W": ((1.0, "W"),),
+    "m": ((1e3, "mm"), (1e6, "µm")),
+}
+"""Smaller units than those of `READABLE`, in order."""
+
+
+def fitting_unit(units: str, largest: float) -> tuple[float, str]:
+    """Return factor and unit in which a number of some size is read without leading zeros.
+
+    Parameters
+    ----------
+    units : str
+        SI unit of the number.
+    largest : float
+        Its magnitude, or the largest of several.
+
+    Examples
+    --------
+    >>> fitting_unit("N m", 16.0), fitting_unit("N m", 2e6)
+    ((1.0, 'N m'), (1e-06, 'MN m'))
+    """
+    usual = READABLE.get(units, (1.0, units))
+    for factor, unit in (usual, *_SMALLER.get(units, ())):
+        if factor * largest >= _LEAST:
+            return factor, unit
+    return usual if largest == 0 or not _SMALLER.get(units) else _SMALLER[units][-1]
+
+
+_LEAST = 0.1
+
 FILM: dict[str, Quantity] = {
     "force": Quantity("F", "N", "what the shaft applies to the bearing"),
     "film_force": Quantity("−F", "N", "force of the film on the shaft"),

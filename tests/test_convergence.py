@@ -1,10 +1,12 @@
 """One rule of convergence: where rounding ends decides no answer."""
 
 import math
+import time
 
 import numpy as np
 import pytest
 
+from benchmarks.robustness.families import FAMILIES, SEEDS, draw_point
 from loadflow.errors import SolverError
 from loadflow.journal import (
     GasMixture,
@@ -46,6 +48,25 @@ def test_loads_of_any_size_have_an_answer_wherever_rounding_ends(law):
 def test_a_load_beyond_what_numbers_resolve_says_what_it_reached_and_what_rounding_allows():
     with pytest.raises(SolverError, match=r"residual \S+ after \d+ steps, where rounding allows"):
         BEARING.equilibrium((1e14, 0.0), 0.1, OIL, edge_pressure=1e5)
+
+
+def test_a_shaft_that_touches_the_ends_under_tilt_is_refused_at_once_with_what_is_missing():
+    tilted = {"tilt": (0.7 * BEARING.clearance / (0.5 * BEARING.width), 0.0)}
+    options = {"cavitation": Reynolds(), "edge_pressure": 1e5, "grid": (60, 20)}
+    assert BEARING.equilibrium((1e5, 0.0), 1.2, OIL, **options, **tilted).converged  # compiled
+    begin = time.process_time()
+    with pytest.raises(SolverError, match=r"touches the bore.* the last 9\d\.\d % of the load"):
+        BEARING.equilibrium((5e7, 0.0), 1.2, OIL, **options, **tilted)
+    assert time.process_time() - begin < 2.0
+
+
+def test_lobes_whose_first_position_leads_nowhere_are_reached_from_another_load():
+    # number 415 of the family "shaped" of benchmarks.robustness.families
+    rng = np.random.default_rng([SEEDS["shaped"], 415])
+    point = draw_point(rng)
+    state = FAMILIES["shaped"](point)()
+    assert state.converged
+    assert np.allclose(state.force, point.force)
 
 
 @pytest.mark.parametrize("count", [3, 4, 5])

@@ -97,6 +97,7 @@ BASES = {
         "reduction": {"size": 0.5}, "results": ["journal.film", "journal.wear"],
         "wear": {"law": {"coefficient": 1e-13}, "samples": 12, "around": 90, "running_in": {
             "initial_roughness": 1e-6, "final_roughness": 9e-7, "depth": 1e-6}},
+        "loads": {"dlc": ["1.2", "3.1"]}, "lifetime": {"per_year": {"3.1": 1e3}},
     },
     "tapered rollers": {
         "shaft": {"two_point": {}},
@@ -153,7 +154,7 @@ READERS = {
     "rotor dynamics": ("dynamics",),
     "rotor dynamics, rigid": ("dynamics",),
     "rigid and tilted": ("journal",),
-    "worn bores": ("wear",),
+    "worn bores": ("wear", "lifetime"),
     "tapered rollers": ("rolling", "friction"),
     "thrust collar": ("thrust",),
     "pair of cones": ("thrust",),
@@ -221,6 +222,7 @@ OTHERS = {
     "journal.supply.pump": [{"flow": [0.0, 0.01], "pressure": [8e5, 2e5]}],
     "dynamics.speed_range": [[0.8, 1.6]],
     "wear.running_in.initial_roughness": [1.0000001e-6],
+    "thrust.rung": ["curve"],
     "thrust.bearings.N2.geometry.profile": [{"kind": "step", "height": 1e-4}],
     "thrust.bearings.N2.geometry.pivot": [{"share": 0.6}],
     "thrust.bearings.N2.geometry.first_pad": [0.1],
@@ -371,6 +373,7 @@ def _inputs(scene):
 
 class _One:
     dlc, wind_speed, seed, weight, name = "1.1", 8.0, 1, 1.0, "dlc1.1_v8_s1"
+    duration = 600.0
 
 
 ONE = _One()
@@ -462,7 +465,7 @@ def _seeds(scene, add):
 FOUND = {
     "loads": _loads, "turbine": _loads, "shaft": lambda s, add: _shaft(s, add) and None,
     "seeds": _seeds, "reduction": _reduction, "journal": _journal, "rolling": _rolling,
-    "friction": _friction, "dynamics": _dynamics, "wear": _wear,
+    "friction": _friction, "dynamics": _dynamics, "wear": _wear, "lifetime": _wear,
     "thrust": _thrust,
     "environment": _environment,
 }  # fmt: skip

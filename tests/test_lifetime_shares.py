@@ -4,12 +4,16 @@ import math
 
 import numpy as np
 import pytest
+import xarray as xr
 
 from loadflow.errors import InputError
+from loadflow.scene.scene import make_scene
+from loadflow.stages import wear
 from loadflow.studies.bearing_series import BearingSeries
 from loadflow.studies.lifetime import LifetimeOptions, lifetimes
 from loadflow.studies.lifetime_page import share_warnings
 from loadflow.studies.lifetime_shares import YEAR, lifetime_shares, without_share
+from loadflow.studies.run_lifetime import case_shares, energy_per_year, run_lifetime
 from loadflow.wind import Machine, conditions
 
 NREL_5MW = Machine(cut_in=3.0, rated=11.4, cut_out=25.0, rotor_diameter=126.0, hub_height=90.0)
@@ -136,3 +140,65 @@ def test_given_weights_are_taken_as_they_are_but_not_without_a_word():
     assert "sum to 2 lifetimes" in share_warnings([life])[0]
     with pytest.raises(InputError, match="share of 0"):
         list(lifetimes([series("1.2", 8.0, 1e5, 0.0)], LifetimeOptions(weights="given")))
+
+
+def rolling_table(dlcs, lengths, power=0.0):
+    """Summary of bearings with equal damage per hour in all cases."""
+    count = len(dlcs)
+    ones, speed = np.ones((1, count)), np.full(count, 1.2)
+    each = ("bearing", "case")
+    return xr.Dataset(
+        {
+            "bearing_life": (each, 1e3 * ones), "bearing_modified_life": (each, 2e3 * ones),
+            "mean_speed": ("case", speed), "mean_friction_power": (each, power * ones),
+        },
+        {
+            "bearing": ["M"], "case": [f"c{k}" for k in range(count)], "dlc": ("case", dlcs),
+            "wind_speed": ("case", np.full(count, 10.0)), "length": ("case", lengths),
+            "weight": ("case", np.ones(count)),
+        },
+        {"weibull_slope": 1.5},
+    )  # fmt: skip
+
+
+def events_scene(**lifetime):
+    return make_scene({"name": "e", "loads": {"dlc": ["1.2", "3.1"]}, "lifetime": lifetime})
+
+
+def test_events_of_a_scene_take_their_time_damage_and_energy():
+    table = rolling_table(["1.2", "3.1"], [600.0, 300.0], power=2e3)
+    table["bearing_life"][:, 1] = 10.0  # a start hurts as a hundred times its length
+    without, counted = events_scene(), events_scene(per_year={"3.1": 2000})
+    start = 2000 * 300 / YEAR
+    np.testing.assert_allclose(case_shares(without, table), [1.0, 0.0])
+    np.testing.assert_allclose(case_shares(counted, table), [1 - start, start])
+    lives = [
+        float(run_lifetime(one, {"rolling": table})["life_hours"][0]) for one in (without, counted)
+    ]
+    assert lives[0] / lives[1] == pytest.approx(1 + 99 * start)
+    energies = [
+        float(energy_per_year(one, table, table["mean_friction_power"], case_shares(one, table))[0])
+        for one in (without, counted)
+    ]
+    year = 8766 * 3600 * 2e3
+    assert energies[0] == pytest.approx(year * RUNNING)
+    assert energies[1] == pytest.approx(year * (RUNNING * (1 - start) + start))
+
+
+def test_events_that_are_not_there_or_take_more_than_a_year_are_refused():
+    with pytest.raises(InputError, match=r"lifetime\.per_year: no load case '4\.1'"):
+        events_scene(per_year={"4.1": 10})
+    table = rolling_table(["1.2", "3.1"], [600.0, 300.0])
+    with pytest.raises(InputError, match="years of each year"):
+        case_shares(events_scene(per_year={"3.1": 2e5}), table)
+
+
+def test_wear_takes_the_events_of_the_lifetime_where_it_has_no_count_of_its_own():
+    scene = events_scene(per_year={"3.1": 500}, years=25.0)
+    assert wear.count_of(scene, "3.1") == 12_500.0
+    assert wear.count_of(scene, "4.1") == scene.wear.events
+    own = make_scene(
+        {"name": "w", "loads": {"dlc": ["1.2", "3.1"]}, "wear": {"counts": {"3.1": 7}},
+         "lifetime": {"per_year": {"3.1": 500}}}
+    )  # fmt: skip
+    assert wear.count_of(own, "3.1") == 7.0

@@ -21,13 +21,19 @@ from loadflow.journal import (
     Taper,
     ThrustBearing,
 )
+from loadflow.planning.choice import choose, finer
 from loadflow.running.runner import run
 from loadflow.scene.candidates import candidates_of
+from loadflow.scene.cases import list_cases
 from loadflow.scene.scene import make_scene
 from loadflow.scene.unused import unused_keys
 
 FILM = Film(Lubricant(0.2), Guembel(), inlet=None, grid=(20, 10), edge_pressure=1e5)
 LANDS = {"pads": 10, "inner_radius": 0.75, "outer_radius": 1.05, "pad_angle": 0.56, "taper": 6e-5}
+SOFT = {
+    "pads": 10, "inner_radius": 0.75, "outer_radius": 1.05, "pad_angle": 0.56,
+    "pivot": {"stiffness": 1e9},
+}  # fmt: skip
 CONE = {
     "half_angle": 0.5, "slant": [1.59, 2.59], "clearance": 2e-4, "pads": 10, "pad_angle": 0.58,
     "profile": {"kind": "taper", "taper": 8e-5},
@@ -70,6 +76,36 @@ def test_a_small_scene_runs_through_and_says_what_carries_the_thrust(done):
     energy = done.tree["lifetime"]["thrust_energy"].values
     assert energy.shape == (2,)
     assert (energy > 0).all()
+
+
+def test_the_curve_of_a_collar_gives_a_scene_the_films_of_its_grid(done, tmp_path):
+    cube = cube_file(tmp_path / "loads.h5", steps=200)
+    scene = make_scene(
+        {
+            "name": "curve", "accuracy": "given", "loads": {"files": [str(cube)]}, "shaft": SHAFT,
+            "bearings": {"N2": COLLAR | {"rung": "curve"}}, "results": ["thrust.film"],
+            "reduction": {"size": 0.02, "classes": 3},
+        }
+    )  # fmt: skip
+    assert make_scene(tomllib.loads(scene.to_toml())) == scene
+    table = run(scene, out=tmp_path / "runs", report=False).tree["thrust"].to_dataset()
+    solved = done.tree["thrust"].to_dataset().sel(bearing=["N2"])
+    for name in ("smallest_film", "largest_pressure", "mean_friction_power"):
+        np.testing.assert_allclose(table[name].values, solved[name].values, rtol=3e-3)
+
+
+def test_a_plan_takes_the_curve_and_counts_its_error(tmp_path):
+    cube = cube_file(tmp_path / "loads.h5", steps=200)
+    scene = make_scene(
+        {
+            "name": "planned", "loads": {"files": [str(cube)]}, "shaft": SHAFT,
+            "bearings": {"N2": COLLAR}, "results": ["thrust.film"],
+        }
+    )  # fmt: skip
+    chosen = choose(scene, ["loads", "shaft", "thrust"], tuple(list_cases(scene)))
+    assert chosen.scene.thrust.rung == "curve"
+    assert 0 < chosen.errors["thrust.film"]["minimum film"] < 0.2
+    assert finer(chosen.scene, "thrust").thrust.rung == "grid"
 
 
 def test_every_sample_is_one_equilibrium(done):
@@ -147,6 +183,12 @@ def test_scenes_are_written_and_read_alike():
         ({"M": COLLAR}, "neither radial forces nor moments"),
         ({"N2": COLLAR | {"play": 1e-6}}, "twice the roughness"),
         ({"N2": [COLLAR, COLLAR]}, "a second bearing of its kind"),
+        ({"N": COLLAR | {"rung": "grid"}, "N2": COLLAR | {"rung": "curve"}}, "share one rung"),
+        ({"M": PAIR | {"rung": "curve"}}, "rung: films of pads"),
+        (
+            {"N2": COLLAR | {"rung": "curve", "geometry": SOFT}},
+            r"bearings\.N2.*pads on springs have no curve",
+        ),
         ({"N2": COLLAR | {"geometry": LANDS | {"pad_angle": 1.0}}}, "pad_angle"),
         ({"G": COLLAR}, "the shaft has the bearings"),
     ],

@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-from benchmarks.common import ROOT, arguments
+from benchmarks.common import ROOT, arguments, taken_from
 from benchmarks.ladder.bearings import (
     measure_gains,
     measure_journal,
@@ -27,11 +27,13 @@ from benchmarks.ladder.life import measure_life
 from benchmarks.ladder.loads import measure_loads, measure_seeds, measure_shaft, measure_statistics
 from benchmarks.ladder.measuring import QUICK, Bench, Entry, Rungs, Setting, percent
 from benchmarks.ladder.orbit import measure_orbit
+from benchmarks.ladder.thrust import measure_thrust
 from benchmarks.ladder.wind import measure_wind
 
 LADDER = ROOT / "loadflow" / "data" / "ladder.json"
 GAINS = LADDER.with_name("gains.json")
 DOC = ROOT / "docs" / "speed-vs-error.md"
+WHOLE_RUNS = "<!-- whole runs -->", "<!-- end of whole runs -->"
 
 STAGES: dict[str, Callable[[Bench], Rungs]] = {
     "wind": measure_wind,
@@ -42,13 +44,14 @@ STAGES: dict[str, Callable[[Bench], Rungs]] = {
     "reduction": measure_reduction,
     "journal": measure_journal,
     "journal, transient": measure_orbit,
+    "thrust": measure_thrust,
     "rolling": measure_rolling,
     "life": measure_life,
     "friction": measure_friction,
 }
 
-GAINING = {"journal", "rolling", "friction"}
-"""Stages whose answers have gains: these are measured with any of them."""
+GAINING = {"journal": "journal", "thrust": "thrust", "rolling": "rolling", "friction": "rolling"}
+"""Stages whose answers have gains, and the bearing whose gains are measured with them."""
 
 HEAD = """# Speed against error
 
@@ -84,7 +87,8 @@ def page(ladder: dict[str, Rungs], gains: dict[str, dict[str, float]]) -> str:
         for room, found in gains.items()
         for answer, gain in found.items()
     ]
-    return "\n".join([HEAD, *sections, GAINS_HEAD, *rows, ""])
+    whole = taken_from(DOC, *WHOLE_RUNS)  # another benchmark's
+    return "\n".join([HEAD, whole, "", *sections, GAINS_HEAD, *rows, ""])
 
 
 def _section(stage: str, rungs: Rungs) -> Iterator[str]:
@@ -151,7 +155,8 @@ def main() -> None:
         print(f"{name}: {time.perf_counter() - start:.0f} s")
         for rung, entry in measured[name].items():
             print(f"  {rung}: {entry['relative_time']:.3g} × top, {entry['error']}")
-    gains = measure_gains(bench) if GAINING & {*chosen.only} else _read(GAINS)
+    rooms = {GAINING[name] for name in chosen.only if name in GAINING}
+    gains = _read(GAINS) | measure_gains(bench, rooms)
     if chosen.quick:
         return
     found = _read(LADDER) | measured

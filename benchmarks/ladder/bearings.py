@@ -27,6 +27,7 @@ from benchmarks.ladder.measuring import (
     with_dominated,
     with_ratios,
 )
+from benchmarks.ladder.thrust import thrust_gains
 from loadflow.scene.cases import Case
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Rolling, Scene
@@ -347,10 +348,14 @@ def _evened(stiffness: np.ndarray, bearing: Any) -> np.ndarray:
     return stiffness * np.outer(lever, lever)
 
 
-def measure_gains(bench: Bench) -> dict[str, dict[str, float]]:
-    """Largest |d ln(answer)/d ln(load)| of what users read of each kind of bearing."""
-    rolling = _contact_gains(bench) | friction_gains(bench, STEP)
-    return {"journal": _film_gains(bench), "rolling": rolling}
+def measure_gains(bench: Bench, rooms: set[str]) -> dict[str, dict[str, float]]:
+    """Largest |d ln(answer)/d ln(load)| of what users read of each kind of bearing in `rooms`."""
+    of = {
+        "journal": lambda: _film_gains(bench),
+        "thrust": lambda: thrust_gains(bench, STEP),
+        "rolling": lambda: _contact_gains(bench) | friction_gains(bench, STEP),
+    }
+    return {room: gains() for room, gains in of.items() if room in rooms}
 
 
 STEP = 1.02  # ratio of the loads that a gain compares

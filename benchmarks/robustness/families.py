@@ -18,6 +18,9 @@ viscosity 1e-3 … 1 Pa s, speed ± 0.1 … 300 rad/s, So 1e-3 … 300, all five
 - supply: 1 … 3 grooves or pockets under pressure or behind restrictors, or fed by a pump.
 - line: tilt of up to 0.8 c at the bearing's ends, moment of up to F B/5, bend of up to 0.5 c.
 - shell: elastic shells whose growth under the mean pressure is 1e-3 … 3 clearances.
+- contact: roughness of 1e-4 … 3e-2 c, half of them tilted, bent or under a moment.
+- thrust: 3 … 8 tapered lands or tilting pads on 20 × 10 cells, under 1e-3 … 1e-1 η ω R⁴/h².
+- cone: rings and segments of half angles 11 … 52°, under the force of a film at some place.
 - orbit: 24 steps under a load that turns and pulsates, the fifth part closed; 1 in 3 "reduced".
 """
 
@@ -39,9 +42,12 @@ from loadflow.errors import InputError, LoadflowError
 from loadflow.journal import (
     Arc,
     Capillary,
+    ConicalBearing,
     ConstantFlow,
+    Contact,
     Contour,
     Crown,
+    Film,
     GasMixture,
     Groove,
     Guembel,
@@ -51,19 +57,24 @@ from loadflow.journal import (
     Lubricant,
     MassConserving,
     Orifice,
+    Pivot,
     Pump,
     Recess,
     Reynolds,
     Sommerfeld,
     Supply,
     ThickShell,
+    ThrustBearing,
     TiltingPads,
 )
+from loadflow.tribology import AsperityContact
 
 SLOW = 2.0  # s
 GRIDS = ((48, 8), (60, 12), (60, 20), (96, 16))
 REASONS = ("touches", "carries no load", "starved", "carries no more", "half-speed whirl")
+REASONS += ("find no tilt", "a cone presses the shaft away")
 SEEDS = {"cylinder": 1, "shaped": 2, "supply": 3, "line": 4, "shell": 5, "orbit": 6}
+SEEDS |= {"contact": 7, "thrust": 8, "cone": 9}
 
 
 @dataclass
@@ -220,6 +231,50 @@ def shell(point: Point) -> Callable[[], Any]:
     return point.solve
 
 
+def contact(point: Point) -> Callable[[], Any]:
+    """Rough surfaces that touch, half of them around a shaft that tilts."""
+    rng = point.rng
+    size = powers(rng, 1e-4, 3e-2) * point.gap
+    rough = AsperityContact(roughness=size, contact_modulus=115e9, factor=powers(rng, 1e-4, 1e-2))
+    point.film["contact"] = Contact(rough)
+    return line(point) if rng.random() < 0.5 else point.solve
+
+
+def thrust(point: Point) -> Callable[[], Any]:
+    """Rings of 3 … 8 lands or tilting pads under what they carry at some film."""
+    rng, count, outer = point.rng, int(point.rng.integers(3, 9)), 0.5 * point.diameter
+    gap = powers(rng, 1e-5, 3e-4) * outer
+    size = (count, outer * rng.uniform(0.3, 0.7), outer)
+    arc = rng.uniform(0.6, 0.95) * 2 * np.pi / count
+    if rng.random() < 2 / 3:
+        cut = {"taper": gap * rng.uniform(0.3, 4.0), "wedge": rng.uniform(0.5, 1.0)}
+        bearing = ThrustBearing(*size, pad_angle=arc, **cut)
+    else:
+        bearing = ThrustBearing(*size, pad_angle=arc, pivot=Pivot(rng.uniform(0.55, 0.65)))
+    film = Film(Lubricant(point.viscosity), **(point.film | {"grid": (20, 10)}))
+    force = point.viscosity * abs(point.speed) * outer**4 / gap**2 * powers(rng, 1e-3, 1e-1)
+    return lambda: bearing.equilibrium(force=force, speed=point.speed, film=film)
+
+
+def cone(point: Point) -> Callable[[], Any]:
+    """Whole rings and segments of cones under the force of a film at some place."""
+    rng, start, half = point.rng, 0.5 * point.diameter, point.rng.uniform(0.2, 0.9)
+    gap = powers(rng, 5e-5, 5e-4) * start
+    pads = {} if rng.random() < 0.5 else {"pads": int(rng.integers(4, 10)), "pad_angle": 0.5}
+    slant = (start, start * rng.uniform(1.2, 1.6))
+    bearing = ConicalBearing(half_angle=half, slant=slant, clearance=gap, **pads)
+    grid = (24, 8) if pads else (60, 10)
+    film = Film(Lubricant(point.viscosity), **(point.film | {"grid": grid, "inlet": None}))
+    aside = rng.uniform(0.1, 0.85) * gap / np.cos(half)
+    place = (aside * np.cos(point.angle), aside * np.sin(point.angle), -0.1 * gap)
+
+    def work() -> Any:
+        force = bearing.pressure(eccentricity=place, speed=point.speed, film=film).force
+        return bearing.equilibrium(force=force, speed=point.speed, film=film)
+
+    return work
+
+
 def orbit(point: Point) -> Callable[[], Any]:
     """24 steps of a load that turns and pulsates."""
     rng = point.rng
@@ -245,6 +300,9 @@ FAMILIES: dict[str, Callable[[Point], Callable[[], Any]]] = {
     "supply": supply,
     "line": line,
     "shell": shell,
+    "contact": contact,
+    "thrust": thrust,
+    "cone": cone,
     "orbit": orbit,
 }
 

@@ -276,11 +276,20 @@ def show_scene(
 
 
 @app.command()
-def report(run_folder: Annotated[Path, typer.Argument(help="Folder of a run.")]) -> None:
-    """Write the report page of a run again."""
-    from loadflow.running.report_page import write_report
+def report(
+    run_folder: Annotated[Path, typer.Argument(help="Folder of a run.")],
+    overwrite: Annotated[
+        bool, typer.Option("--overwrite", help="Write it though nothing has changed.")
+    ] = False,
+) -> None:
+    """Write the report page of a run again, if its results have changed."""
+    from loadflow.running.report_page import report_is_current, write_report
 
-    out.print(str(write_report(run_folder)), soft_wrap=True)
+    finished = (run_folder / "result.h5").exists()
+    current = finished and not overwrite and report_is_current(run_folder)
+    out.print(str(write_report(run_folder, overwrite)), soft_wrap=True)
+    if current:
+        err.print("nothing has changed since it was written; --overwrite writes it again")
 
 
 @app.command()

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from pathlib import Path
+from typing import Any
 
 import h5py
 import numpy as np
+import xarray as xr
 
 from loadflow.errors import InputError
 from loadflow.storage import check_content
@@ -51,6 +53,97 @@ def check_hdf5(path: Path) -> None:
                 f"{path}, {name}: says it holds {declared / 1e6:.4g} MB, but the file of "
                 f"{size / 1e6:.4g} MB has room for {min(room, PACKED * size) / 1e6:.4g} MB of it"
             )
+
+
+def read_variables(path: Path, names: Collection[str], group: str = "") -> xr.Dataset:
+    """Read some variables of a file and nothing else: a tenth of the time that opening it takes.
+
+    Parameters
+    ----------
+    path : pathlib.Path
+        File as `loadflow.cube.save_cube` or a run writes it.
+    names : collection of str
+        Of the variables; those that the file lacks are passed over.
+    group : str, optional
+        Group that holds them.
+
+    Returns
+    -------
+    xarray.Dataset
+        In memory, with the coordinates of their dimensions and the attributes of the group.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        No such group, or no file that HDF5 can read.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from loadflow.cube import make_case, make_cube, save_cube
+    >>> case = make_case([0.0, 0.1], {"speed": [1.2, 1.3]}, dlc="1.1", wind_speed=8.0, seed=1)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = save_cube(make_cube([case]), Path(folder) / "loads.h5")
+    ...     read_variables(path, ["speed"])["speed"].dims
+    ('case', 'time')
+    """
+    try:
+        with h5py.File(path, "r") as file:
+            inside = file[group or "/"]
+            found = {name: _variable(inside[name]) for name in names if name in inside}
+            wanted = {dim for variable in found.values() for dim in variable.dims}
+            coords = {
+                dim: _variable(inside[dim])
+                for dim in wanted
+                if dim in inside and not _is_bare(inside[dim])
+            }
+            told = {key: _told(value) for key, value in inside.attrs.items() if key[0] != "_"}
+    except (OSError, KeyError, RuntimeError, ValueError) as error:
+        raise InputError(f"{path}: cannot be read as HDF5 ({error})") from error
+    return xr.Dataset({**coords, **found}, attrs=told).set_coords([*coords])
+
+
+def groups_of(path: Path) -> list[str]:
+    """Names of the groups of a file, in order of creation where it is kept.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        No file that HDF5 can read.
+    """
+    try:
+        with h5py.File(path, "r") as file:
+            return [name for name, part in file.items() if isinstance(part, h5py.Group)]
+    except (OSError, RuntimeError) as error:
+        raise InputError(f"{path}: cannot be read as HDF5 ({error})") from error
+
+
+_INTERNAL = {"DIMENSION_LIST", "CLASS", "NAME", "REFERENCE_LIST", "_FillValue"}
+
+
+def _variable(part: h5py.Dataset) -> xr.Variable:
+    dims = [part.name] if part.is_scale else [scales[0].name for scales in part.dims]
+    dims = [dim.rsplit("/", 1)[-1] for dim in dims]
+    values = part.asstr()[()] if h5py.check_string_dtype(part.dtype) else part[()]
+    attrs = {
+        key: _told(value)
+        for key, value in part.attrs.items()
+        if key not in _INTERNAL and not key.startswith("_Netcdf4")
+    }
+    return xr.Variable(dims, values, attrs)
+
+
+def _is_bare(part: h5py.Dataset) -> bool:
+    """Whether a dimension has no values of its own."""
+    return b"not a netCDF variable" in np.bytes_(part.attrs.get("NAME", b""))
+
+
+def _told(value: Any) -> Any:
+    """An attribute as xarray gives it."""
+    if isinstance(value, bytes):
+        return value.decode()
+    return value.item() if isinstance(value, np.ndarray | np.generic) and value.size == 1 else value
 
 
 Part = tuple[str, int, int]

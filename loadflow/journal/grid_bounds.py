@@ -113,7 +113,7 @@ def warn_if_unresolved(columns: dict[str, Array]) -> None:
     """
     if "relative_grid_error" not in columns:
         return
-    found, bounds = columns["converged"], columns["relative_grid_error"]
+    found, bounds = columns["converged"].astype(bool), columns["relative_grid_error"]
     missed = found & ~resolved(bounds, found)
     if not missed.any():
         return

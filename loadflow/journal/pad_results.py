@@ -153,8 +153,8 @@ class PadResult(Shows):
     @property
     def grid_error(self) -> PadError:
         """Bounds of what the cells do to the results, told from the solved films alone."""
-        sizes = np.linalg.norm(np.atleast_1d(getattr(self, "force", 0.0))), self.minimum_film
-        sizes += self.maximum_pressure, self.friction_power
+        force = np.linalg.norm(np.atleast_1d(getattr(self, "force", 0.0)))
+        sizes = force, self.minimum_film, self.maximum_pressure, self.friction_power
         return PadError(*(float(x) for x in np.array(sizes) * self.relative_grid_error))
 
     @property

@@ -28,7 +28,6 @@ FEATURES = {
     "slow_heat": "heat that is stored",
     "film_heat": "an energy equation over the area of the film",
     "contact": "contact of asperities",
-    "contact_on_shell": "contact of asperities on a shell that gives way",
     "turbulence": "turbulent flow",
     "step": "adaptive steps",
     "periodic": "a closed orbit",
@@ -38,7 +37,6 @@ FEATURES = {
 _LINE = {"moment", "tilt", "bend"}
 _SHELLS = {"shell", "local_shell"}
 _BORES = _LINE | _SHELLS | {"shape", "relief", "supply", "inlet", "grading"}
-_TOUCH = {"contact", "contact_on_shell"}
 _REDUCED = frozenset(_LINE | {"shape", "local_shell", "contact", "heat", "turbulence"})
 
 
@@ -128,9 +126,9 @@ RUNGS: dict[str, Rung] = {
         Rung(
             "grid",
             f"{_MODELS}.grid",
-            frozenset(_BORES | _TOUCH | {"turbulence", "heat", "film_heat"}),
-            _WARMING | _BORES | _TOUCH | {"turbulence", "step", "periodic"},
-            frozenset(_BORES | _TOUCH | {"turbulence", "film_heat"}),
+            frozenset(_BORES | {"contact", "turbulence", "heat", "film_heat"}),
+            _WARMING | _BORES | {"contact", "turbulence", "step", "periodic"},
+            frozenset(_BORES | {"contact", "turbulence", "film_heat"}),
         ),
     )
 }

@@ -34,7 +34,8 @@ def film_series(samples: xr.Dataset) -> Figure:
     for axis, (name, unit) in zip(axes, panels):
         values, shown = readable(samples[name], unit)
         axis.plot(samples["time"], values, lw=0.7)
-        axis.set_ylabel(f"{samples[name].attrs['long_name']},\n{shown}")
+        said = samples[name].attrs["long_name"]
+        axis.set_ylabel(said if shown == "–" else f"{said},\n{shown}")
     reduced = samples.attrs.get("motion") == "quasi-static"
     axes[2].set_xlabel("time, s (reduced series)" if reduced else "time, s")
     return drawing
@@ -88,11 +89,12 @@ def clearance_circle(place: ArrayLike, film: ArrayLike | None = None) -> Figure:
     drawing, axis = figure(height=4.2)
     circle = np.linspace(0, 2 * np.pi, 181)
     axis.plot(np.cos(circle), np.sin(circle), color="black", lw=1.0, label="contact")
+    many = down.size > 500  # then dots, as one picture within the drawing
     size = 3 if down.size > 50 else 18
     if film is None:
-        axis.scatter(left, -down, s=size)
+        axis.scatter(left, -down, s=size, rasterized=many)
     else:
-        points = axis.scatter(left, -down, s=size, c=film, cmap="plasma_r")
+        points = axis.scatter(left, -down, s=size, c=film, cmap="plasma_r", rasterized=many)
         drawing.colorbar(points, ax=axis, label="smallest film, µm")
     axis.set(aspect="equal", xlabel="lateral / clearance", ylabel="vertical / clearance")
     axis.set_title("shaft centre, seen downwind (left is right of the page)")

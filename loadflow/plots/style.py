@@ -13,7 +13,7 @@ from cycler import cycler
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from loadflow.quantities import READABLE
+from loadflow.quantities import fitting_unit
 
 STYLE: Any = {
     "figure.constrained_layout.use": True,
@@ -44,10 +44,12 @@ def readable(data: xr.DataArray, units: str | None = None) -> tuple[np.ndarray, 
     >>> values.tolist(), unit
     ([100.0, 200.0], 'kN')
     """
-    factor, unit = READABLE.get(data.attrs.get("units", ""), (1.0, data.attrs.get("units", "–")))
+    values = np.asarray(data.values, dtype=float)
+    known = np.abs(values[np.isfinite(values)])
+    factor, unit = fitting_unit(data.attrs.get("units", "–"), float(known.max(initial=0.0)))
     if units == "µm":
         factor, unit = 1e6, "µm"
-    return np.asarray(data.values, dtype=float) * factor, unit
+    return values * factor, unit
 
 
 def figure(rows: int = 1, columns: int = 1, height: float = 2.1, **keys: Any) -> tuple[Figure, Any]:
@@ -105,6 +107,6 @@ def to_svg(drawing: Figure) -> str:
     """
     buffer = io.StringIO()
     with mpl.rc_context({**STYLE, "svg.fonttype": "none", "svg.hashsalt": "loadflow"}):
-        drawing.savefig(buffer, format="svg", metadata={"Date": None, "Creator": None})
+        drawing.savefig(buffer, format="svg", dpi=110, metadata={"Date": None, "Creator": None})
     text = buffer.getvalue()
     return text[text.index("<svg") :]

@@ -8,41 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter
 
 from loadflow.plots.rolling import element_forces
-from loadflow.plots.style import envelope, figure, readable
-
-
-def load_series(loads: xr.Dataset, bearings: xr.Dataset) -> Figure:
-    """Draw speed and pitch, hub moments and the radial force of each bearing over time.
-
-    Parameters
-    ----------
-    loads : xarray.Dataset
-        Case of a load cube: `speed`, `hub_moment`, and `pitch` if it is there, over time.
-    bearings : xarray.Dataset
-        `force` (bearing, axis, time) of the same case.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-    """
-    drawing, axes = figure(3, sharex=True)
-    time = loads["time"].values
-    for name in (key for key in ("speed", "pitch") if key in loads):
-        values, unit = readable(loads[name])
-        envelope(axes[0], time, values, f"{loads[name].attrs['long_name']}, {unit}")
-    for name, axis in (("tilt", "y"), ("yaw", "z")):
-        values, unit = readable(loads["hub_moment"].sel(axis=axis))
-        envelope(axes[1], time, values, f"{name} moment")
-        axes[1].set_ylabel(f"hub moment, {unit}")
-    for bearing in bearings["bearing"].values:
-        for axis in ("y", "z"):
-            values, unit = readable(bearings["force"].sel(bearing=bearing, axis=axis))
-            envelope(axes[2], time, values, f"{bearing}, {axis}")
-        axes[2].set_ylabel(f"bearing force, {unit}")
-    axes[2].set_xlabel("time, s")
-    for axis in axes:
-        axis.legend(ncols=6, loc="upper right")
-    return drawing
+from loadflow.plots.style import figure, readable
 
 
 def seed_boxes(samples: dict[str, dict[str, np.ndarray]], units: dict[str, str]) -> Figure:
@@ -69,6 +35,52 @@ def seed_boxes(samples: dict[str, dict[str, np.ndarray]], units: dict[str, str])
         axis.set_xlabel("seed")
     drawing.supxlabel("box: quartiles; whiskers: 1 % and 99 %", fontsize="small")
     return drawing
+
+
+def seed_spread(quantiles: dict[str, xr.DataArray]) -> Figure:
+    """Draw the spread of every seed beside the others of its wind speed, one frame a component.
+
+    Parameters
+    ----------
+    quantiles : dict
+        For each component, its values (case, quantile) at five shares of the samples, with the
+        coordinates `group` and `seed` (case).
+    """
+    columns = min(2, len(quantiles))
+    rows = -(-len(quantiles) // columns)
+    drawing, axes = figure(rows, columns, height=1.9, squeeze=False, sharex=True)
+    for axis, (component, data) in zip(axes.ravel(), quantiles.items()):
+        names, group = np.unique(data["group"].values, return_inverse=True)
+        names, group = _in_given_order(names, group)
+        place = group + _beside(group)
+        values, unit = readable(data.transpose("quantile", "case"))
+        axis.vlines(place, values[0], values[4], lw=0.8, color="#8794a3")
+        axis.vlines(place, values[1], values[3], lw=3.0, color="#1f5a94")
+        axis.plot(place, values[2], "o", ms=2.2, color="#d1612b")
+        axis.set(title=component, ylabel=unit)
+        shown = np.arange(0, names.size, -(-names.size // 12))
+        turn = 45 if max(map(len, names)) * shown.size > 60 else 0
+        axis.set_xticks(shown, names[shown], rotation=turn)
+    drawing.supxlabel(
+        "thin: 1 … 99 % of the samples, thick: quartiles, dot: median", fontsize="small"
+    )
+    return drawing
+
+
+def _in_given_order(names: np.ndarray, group: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Names of groups and the group of each case, in the order in which the cases come."""
+    _, first = np.unique(group, return_index=True)
+    order = np.argsort(first)
+    return names[order], np.argsort(order)[group]
+
+
+def _beside(group: np.ndarray) -> np.ndarray:
+    """Shift of each case from the middle of its group."""
+    shift = np.zeros(group.size)
+    for one in np.unique(group):
+        own = np.flatnonzero(group == one)
+        shift[own] = 0.7 * (np.arange(own.size) - 0.5 * (own.size - 1)) / max(own.size, 1)
+    return shift
 
 
 def seed_spectra(spectra: dict[str, xr.DataArray], band: float) -> Figure:
@@ -101,21 +113,6 @@ def seed_spectra(spectra: dict[str, xr.DataArray], band: float) -> Figure:
     return drawing
 
 
-def seed_verdicts(seeds: xr.Dataset, method: str) -> Figure:
-    """Draw p values of location and spread and the spectral difference over wind speed."""
-    part = seeds.sel(variant=method)
-    drawing, axes = figure(1, 3, height=2.4)
-    for axis, test in zip(axes, ("location", "spread", "spectrum")):
-        for component in part["component"].values:
-            p = part["pvalue"].sel(test=test, component=component)
-            axis.plot(part["wind_speed"], np.maximum(p, 1e-12), "o-", ms=3, label=str(component))
-        axis.axhline(seeds.attrs["alpha"], color="black", lw=0.8, ls="--")
-        axis.set(yscale="log", ylim=(1e-12, 2), title=test, xlabel="wind speed, m/s")
-    axes[0].set_ylabel("p value (below the line: not equal)")
-    axes[0].legend()
-    return drawing
-
-
 def histograms(reduced: xr.Dataset) -> Figure:
     """Draw the bivariate histogram of speed and load before and after the reduction."""
     drawing, axes = figure(1, 2, height=2.8, sharey=True)
@@ -123,7 +120,8 @@ def histograms(reduced: xr.Dataset) -> Figure:
     load, load_unit = readable(reduced["load_edges"])
     for axis, name in zip(axes, ("counts_full", "counts_reduced")):
         counts = reduced[name].values.astype(float)
-        mesh = axis.pcolormesh(speed, load, np.where(counts > 0, counts, np.nan).T, cmap="viridis")
+        shown = np.where(counts > 0, counts, np.nan).T
+        mesh = axis.pcolormesh(speed, load, shown, cmap="viridis", rasterized=True)
         axis.set_title(f"{reduced[name].attrs['long_name']}: {counts.sum():.0f} samples")
         axis.set_xlabel(f"speed, {speed_unit}")
         drawing.colorbar(mesh, ax=axis, label="samples in the class")
@@ -138,30 +136,3 @@ def ball_ring(worst: xr.Dataset) -> Figure:
     names = [f"diagonal {k % diagonals + 1}" for k in range(rows * diagonals)]
     groups = forces.reshape(rows * diagonals, -1)
     return element_forces(worst["ball_angle"].values, groups, names, rows)
-
-
-def over_wind_speed(journal: xr.Dataset | None, rolling: xr.Dataset | None) -> Figure | None:
-    """Draw what matters of each load case over wind speed: every seed a point."""
-    panels = [
-        (data, name)
-        for data, names in (
-            (journal, ("largest_eccentricity_ratio", "smallest_film", "largest_pressure")),
-            (rolling, ("largest_ball_force", "smallest_static_safety")),
-        )
-        if data is not None
-        for name in names
-    ]
-    if not panels:
-        return None
-    drawing, axes = figure(1, len(panels), height=2.4, squeeze=False)
-    for axis, (data, name) in zip(axes[0], panels):
-        values, unit = readable(data[name], "µm" if name == "smallest_film" else None)
-        lines = values if values.ndim == 2 else values[None]
-        labels = data["bearing"].values if "bearing" in data[name].dims else [None]
-        for line, label in zip(lines, labels):
-            axis.plot(data["wind_speed"], line, "o", ms=3, alpha=0.7, label=label)
-        axis.set_title(f"{data[name].attrs['long_name']}, {unit}", fontsize="small")
-        axis.set_xlabel("wind speed, m/s")
-        if labels[0] is not None:
-            axis.legend()
-    return drawing

@@ -2,20 +2,31 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Sequence
 from dataclasses import dataclass, field
+from html import escape
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 from jinja2 import Environment, PackageLoader, select_autoescape
 from matplotlib.figure import Figure
 
-from loadflow.plots.style import to_png
+from loadflow.plots.style import to_png, to_svg
 from loadflow.storage import write_text
+
+ASSETS = Path(__file__).parent / "assets"
+"""The script of the page, and uPlot with its licence, which draws the charts."""
+
+LARGEST_SVG = 200_000
+"""Characters of a figure that is not yet dense; a denser one becomes a picture of points."""
 
 
 @dataclass(frozen=True)
 class Table:
     """A table: a title, column heads and rows of text; `bad` holds the numbers of rows to mark.
+
+    `fold` hides it until its title is clicked.
 
     Examples
     --------
@@ -29,6 +40,51 @@ class Table:
     heads: list[str]
     rows: list[list[str]]
     bad: frozenset[int] = frozenset()
+    fold: bool = False
+
+    @property
+    def words(self) -> frozenset[int]:
+        """Numbers of the columns that hold words, not numbers."""
+        return frozenset(
+            k
+            for k in range(len(self.heads))
+            if any(len(row[k]) > _LONG or row[k][:1].isalpha() for row in self.rows)
+        )
+
+
+_LONG = 24  # characters of a number with its unit
+
+
+class Shown(Protocol):
+    """What stands in a section as a figure: a `Picture`, or a `Chart` that the browser draws."""
+
+    @property
+    def caption(self) -> str:
+        """What it shows."""
+
+    @property
+    def fold(self) -> bool:
+        """Whether it is hidden until it is clicked."""
+
+    @property
+    def markup(self) -> str:
+        """Its element of the page."""
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """An ``<svg>`` element with its caption.
+
+    Examples
+    --------
+    >>> from loadflow.report import Drawing
+    >>> Drawing("<svg></svg>", "an empty sketch").markup
+    '<svg></svg>'
+    """
+
+    markup: str
+    caption: str
+    fold: bool = False
 
 
 @dataclass(frozen=True)
@@ -48,9 +104,12 @@ class Picture:
     fold: bool = False
 
     @property
-    def source(self) -> str:
-        """The figure as a ``data:`` address."""
-        return to_png(self.figure)
+    def markup(self) -> str:
+        """The figure as an ``<svg>`` element, or as a picture of points where it is dense."""
+        drawn = to_svg(self.figure)
+        if len(drawn) <= LARGEST_SVG:
+            return drawn.replace("<svg", f'<svg role="img" aria-label="{escape(self.caption)}"', 1)
+        return f'<img src="{to_png(self.figure)}" alt="{escape(self.caption)}">'
 
 
 @dataclass(frozen=True)
@@ -66,8 +125,8 @@ class Section:
 
     title: str
     text: str = ""
-    tables: list[Table] = field(default_factory=list)
-    pictures: list[Picture] = field(default_factory=list)
+    tables: Sequence[Table] = field(default_factory=list)
+    pictures: Sequence[Shown] = field(default_factory=list)
 
     @property
     def anchor(self) -> str:
@@ -75,7 +134,9 @@ class Section:
         return self.title.lower().replace(" ", "-")
 
 
-def write_page(path: Path, title: str, facts: dict[str, str], sections: list[Section]) -> Path:
+def write_page(
+    path: Path, title: str, facts: dict[str, str], sections: list[Section], mark: str = ""
+) -> Path:
     """Write the page, whole or not at all.
 
     Parameters
@@ -88,6 +149,8 @@ def write_page(path: Path, title: str, facts: dict[str, str], sections: list[Sec
         Short facts shown under the heading.
     sections : list of Section
         The content.
+    mark : str, optional
+        Kept in the page, for `mark_of`: what it was made of.
 
     Returns
     -------
@@ -106,7 +169,43 @@ def write_page(path: Path, title: str, facts: dict[str, str], sections: list[Sec
     >>> "NREL 5 MW" in text and "h_min" in text
     True
     """
-    return write_filled(path, "page.html", title=title, facts=facts, sections=sections)
+    return write_filled(
+        path,
+        "page.html",
+        title=title,
+        facts=facts,
+        sections=sections,
+        mark=mark,
+        asset=_asset,
+    )
+
+
+def mark_of(path: Path) -> str | None:
+    """Return the mark that a page was written with; None without a page or a mark.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from loadflow.report import mark_of, write_page
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     mark_of(write_page(Path(folder) / "page.html", "Look", {}, [], mark="4711"))
+    '4711'
+    """
+    if not path.is_file():
+        return None
+    with path.open(encoding="utf-8", errors="replace") as stream:
+        found = _MARK.search(stream.read(_HEAD))
+    return found[1] if found else None
+
+
+_HEAD = 1000  # characters in which the mark is found
+_MARK = re.compile(r'<meta name="made-of" content="([^"]+)">')
+
+
+def _asset(name: str) -> str:
+    """Text of a file that the page brings along."""
+    return (ASSETS / name).read_text(encoding="utf-8")
 
 
 def write_filled(path: Path, template: str, **values: Any) -> Path:

@@ -20,6 +20,7 @@ from loadflow.scene.candidates import candidates_of
 from loadflow.scene.design import Design
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Candidate, Scene, make_scene, read_scene
+from loadflow.scene.wear import check_wear
 from loadflow.storage import write_text
 from loadflow.studies.compare import Finished, compared
 from loadflow.studies.compare_result import Comparison
@@ -278,6 +279,8 @@ def candidate_scene(base: Scene, name: str, candidate: Candidate, steps: int) ->
     fewer: dict[str, Any] = {"size": ROLLING_SHARE}
     if candidate.journal is not None:
         results.append("journal.film")
+        if _wears(base, candidate.journal):
+            results.append("journal.wear")
         update["journal"] = journal = _modelled(candidate.journal)
         if not journal.in_motion:
             share = min(1.0, SHAPED_CLASSES**2 / steps)
@@ -292,6 +295,15 @@ def candidate_scene(base: Scene, name: str, candidate: Candidate, steps: int) ->
     if not base.reduction.changed:
         update["reduction"] = base.reduction.model_copy(update=fewer)
     return base.model_copy(update=update | {"results": results})
+
+
+def _wears(base: Scene, journal: Journal) -> bool:
+    """Whether the scene says how bores wear, and these can."""
+    try:
+        check_wear(base.wear, journal, base.shaft)
+    except ValueError:
+        return False
+    return True
 
 
 def _modelled(journal: Journal) -> Journal:

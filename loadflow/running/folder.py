@@ -5,13 +5,16 @@ from __future__ import annotations
 import json
 import logging
 import platform
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from importlib import metadata
 from pathlib import Path
 from typing import Any
 
+import xarray as xr
+
 import loadflow
 from loadflow.cube import open_cube
+from loadflow.cube.hdf5 import groups_of, read_variables
 from loadflow.errors import InputError, NewerVersionError
 from loadflow.planning.effects import EffectVerdict
 from loadflow.planning.plan import Plan
@@ -70,6 +73,12 @@ def part_files(folder: Path, stage: Stage, cases: Iterable[Case]) -> list[Path]:
 def open_part(folder: Path, stage: str, case: str) -> Any:
     """Open what a stage found of the case of a name."""
     return open_cube(folder / stage / f"{case}.h5")
+
+
+def read_part(folder: Path, stage: str, case: str, names: Collection[str]) -> dict[str, xr.Dataset]:
+    """Read some variables of what a stage found of a case, by bearing where it keeps them so."""
+    path = folder / stage / f"{case}.h5"
+    return {group: read_variables(path, names, group) for group in groups_of(path) or [""]}
 
 
 def answered(folder: Path, stage: str, cases: Iterable[str]) -> list[str]:

@@ -9,8 +9,10 @@ import numpy as np
 import xarray as xr
 
 from loadflow.plots.style import readable
-from loadflow.report import Picture, Section, Table, figures
-from loadflow.running.folder import answered, open_part
+from loadflow.report import Chart, Section, Table
+from loadflow.report.charts import CLOSE, SAMPLES
+from loadflow.report.run_charts import load_chart
+from loadflow.running.folder import answered, read_part
 from loadflow.stages.loads import doubts, trips, when_tripped
 from loadflow.stages.statistics import SLOPE
 from loadflow.studies.extreme_loads import safety_factor
@@ -28,7 +30,7 @@ def loads_section(folder: Path, tables: dict[str, xr.Dataset], shown: list[str])
     return Section(
         "Loads",
         tables=[*_trip_table(tables), *_doubt_table(tables), *_load_tables(tables)],
-        pictures=[*_load_pictures(folder, shown)],
+        pictures=[*_load_charts(folder, shown)],
     )
 
 
@@ -58,6 +60,8 @@ def _load_tables(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
             continue
         for label, part in _parts(data[name], title):
             values, unit = readable(part.assign_attrs(data[name].attrs))
+            if not values.any():
+                continue  # a moment bearing's own moment elsewhere, say
             table = dict(zip(part["statistic"].values, np.moveaxis(values, _axis(part), 0)))
             rows.append(
                 [
@@ -106,9 +110,9 @@ def _parts(data: xr.DataArray, title: str) -> Iterator[tuple[str, xr.DataArray]]
         yield f"{title} {' '.join(map(str, names))}", part.squeeze("part", drop=True)
 
 
-def _load_pictures(folder: Path, shown: list[str]) -> Iterator[Picture]:
+def _load_charts(folder: Path, shown: list[str]) -> Iterator[Chart]:
     for k, name in enumerate(answered(folder, "shaft", shown)):
-        drawing = figures.load_series(
-            open_part(folder, "loads", name).load(), open_part(folder, "shaft", name).load()
-        )
-        yield Picture(drawing, name if k else f"{name}, worst case", fold=k > 0)
+        (loads,) = read_part(folder, "loads", name, ("speed", "pitch", "hub_moment")).values()
+        (bearings,) = read_part(folder, "shaft", name, ("force",)).values()
+        said = name if k else f"{name}, worst case, every sample"
+        yield load_chart(loads, bearings, said, k > 0, SAMPLES if k else CLOSE)

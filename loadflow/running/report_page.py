@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import hashlib
+import json
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -9,26 +11,50 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+import loadflow
 from loadflow.cube import open_cube
 from loadflow.errors import InputError
 from loadflow.planning.budget import Answer, answers, more_seeds
 from loadflow.planning.verification import WARN
-from loadflow.plots.journal import film_series, orbit
+from loadflow.plots.journal import orbit
 from loadflow.plots.style import readable
-from loadflow.report import Picture, Section, Table, figures, write_page
+from loadflow.quantities import fitting_unit
+from loadflow.report import Chart, Drawing, Picture, Section, Table, figures, mark_of, write_page
+from loadflow.report.charts import CLOSE, SAMPLES
+from loadflow.report.page import Shown
+from loadflow.report.run_charts import film_chart, over_wind_speed, reduction_chart, ring_chart
+from loadflow.report.sketch import sketch
 from loadflow.running.dynamics_page import dynamics_section
-from loadflow.running.folder import answered, open_part, read_manifest
+from loadflow.running.folder import answered, read_manifest, read_part
 from loadflow.running.loads_page import loads_section
 from loadflow.running.seeds_page import seed_section
 from loadflow.running.start_page import start_tables
 from loadflow.running.wear_page import wear_section
 from loadflow.scene.scene import Scene, read_scene
 from loadflow.scene.unused import friction_note, scaling_note, unused_keys
+from loadflow.studies.compare_words import drawn
 from loadflow.verdict import Verdict, from_dataset
 
 
-def write_report(folder: Path) -> Path:
-    """Write ``report.html`` into the folder of a run.
+def report_is_current(folder: Path) -> bool:
+    """Whether the report of a run is there, and was made of the results that are there now."""
+    return mark_of(folder / "report.html") == _made_of(folder)
+
+
+def write_report(folder: Path, again: bool = False) -> Path:
+    """Write ``report.html`` into the folder of a run, unless it is there and nothing has changed.
+
+    Parameters
+    ----------
+    folder : Path
+        Of a finished run.
+    again : bool
+        Write it in any case.
+
+    Returns
+    -------
+    Path
+        The page.
 
     Raises
     ------
@@ -37,15 +63,43 @@ def write_report(folder: Path) -> Path:
     """
     if not (folder / "result.h5").exists():
         raise InputError(f"{folder}: no finished run here (result.h5 is missing)")
+    made_of = _made_of(folder)
+    if not again and mark_of(folder / "report.html") == made_of:
+        return folder / "report.html"
     scene = read_scene(folder / "scene.toml")
     manifest = read_manifest(folder)
     results = open_cube(folder / "result.h5")
     groups = results.children if isinstance(results, xr.DataTree) else {}
-    tables = {name: node.to_dataset() for name, node in groups.items()}
+    tables = {name: node.to_dataset().load() for name, node in groups.items()}
     sections = [*_sections(folder, scene, manifest, tables)]
-    return write_page(
-        folder / "report.html", f"loadflow: {scene.name}", _facts(scene, manifest), sections
-    )
+    facts, title = _facts(scene, manifest), f"loadflow: {scene.name}"
+    return write_page(folder / "report.html", title, facts, sections, made_of)
+
+
+_WRITTEN_BY = ("report", "plots", "running")
+"""Rooms whose files decide what the page looks like."""
+
+_OF_CLOCK = ("seconds", "wall_seconds", "workers")
+"""Keys of the manifest that another start changes, and no result."""
+
+
+def _made_of(folder: Path) -> str:
+    """Fingerprint of results, scene and manifest of a run, and of the code that shows them."""
+    found = hashlib.sha256()
+    manifest = read_manifest(folder)
+    kept = {key: value for key, value in manifest.items() if key not in _OF_CLOCK}
+    found.update(json.dumps(kept, sort_keys=True).encode())
+    package = Path(loadflow.__file__).parent
+    code = [
+        path
+        for room in _WRITTEN_BY
+        for path in sorted((package / room).rglob("*"))
+        if path.suffix in {".py", ".html", ".js", ".css"}
+    ]
+    for path in (folder / "result.h5", folder / "scene.toml", *code):
+        if path.is_file():
+            found.update(path.read_bytes())
+    return found.hexdigest()
 
 
 def _facts(scene: Scene, manifest: dict[str, Any]) -> dict[str, str]:
@@ -102,13 +156,10 @@ def _sections(
         yield Section(
             "Reduction",
             "Bivariate histogram of speed and load before and after the quasi-static reduction.",
-            pictures=[*_per_bearing(folder, "reduction", shown, figures.histograms)],
+            pictures=[*_reductions(folder, shown)],
         )
     if "journal" in tables:
-        pictures = [
-            *_per_bearing(folder, "journal", shown, film_series),
-            *_per_bearing(folder, "journal", shown[:1], orbit),
-        ]
+        pictures: list[Shown] = [*_films(folder, shown), *_orbits(folder, shown[:1])]
         films = tables["journal"]
         listed = [*start_tables(films), _case_table(films)]
         yield Section("Journal bearing", tables=listed, pictures=pictures)
@@ -123,11 +174,7 @@ def _sections(
             "Rolling bearing",
             "Rings as the scene says; flexible rings share the load differently from rigid ones.",
             tables=_rolling_tables(tables["rolling"]),
-            pictures=[
-                Picture(figures.ball_ring(case), name, k > 0)
-                for k, name in enumerate(answered(folder, "rolling", shown))
-                if "ball_forces" in (case := open_part(folder, "rolling", name))
-            ],
+            pictures=[*_rings(folder, shown)],
         )
     if "friction" in tables:
         yield Section(
@@ -144,8 +191,9 @@ def _sections(
 
 def _overview(scene: Scene, tables: dict[str, xr.Dataset], manifest: dict[str, Any]) -> Section:
     failures = manifest.get("failures", {})
-    drawing = figures.over_wind_speed(tables.get("journal"), tables.get("rolling"))
-    pictures = [Picture(drawing, "Every load case over wind speed.")] if drawing else []
+    caption = "Every load case over wind speed."
+    pictures: list[Shown] = [_shaft_sketch(scene)]
+    pictures += over_wind_speed(tables.get("journal"), tables.get("rolling"), caption)
     found = answers(scene, tables, manifest.get("expected_errors", {}), manifest.get("effects", []))
     notes = [*_answer_table(found), *_verdict_table(tables), *_lifetime_table(tables)]
     if failures:
@@ -198,16 +246,21 @@ def _verdict_table(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
 
 def _verdict_row(verdict: Verdict) -> list[str]:
     limit, at = "", verdict.case
+    factor, unit = fitting_unit(verdict.unit, _largest(verdict.value, verdict.limit))
     if np.isfinite(verdict.limit):
-        limit = f"{'≤' if verdict.sense == 'at most' else '≥'} {verdict.limit:.4g} {verdict.unit}"
+        limit = f"{'≤' if verdict.sense == 'at most' else '≥'} {factor * verdict.limit:.4g} {unit}"
     if np.isfinite(verdict.time):
         at += f", {verdict.time:.1f} s"
     value, margin = (
-        "-" if np.isnan(number) else f"{number:.4g} {verdict.unit}"
+        "-" if np.isnan(number) else f"{factor * number:.4g} {unit}"
         for number in (verdict.value, verdict.margin)
     )
     said = (limit, margin, verdict.answer, at, verdict.source, verdict.note)
     return [verdict.subject, verdict.quantity, value, *said]
+
+
+def _largest(*numbers: float) -> float:
+    return max((abs(number) for number in numbers if np.isfinite(number)), default=0.0)
 
 
 def _lifetime_table(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
@@ -243,10 +296,61 @@ def _shown_cases(tables: dict[str, xr.Dataset], manifest: dict[str, Any]) -> lis
     return [first, *(n for k, n in by_speed.items() if k != first.rsplit("_s", 1)[0])][:16]
 
 
-def _per_bearing(folder: Path, stage: str, shown: list[str], draw: Any) -> Iterator[Picture]:
-    for k, name in enumerate(answered(folder, stage, shown)):
-        for bearing, node in open_part(folder, stage, name).children.items():
-            yield Picture(draw(node.to_dataset().load()), f"{name}, bearing {bearing}", k > 0)
+def _shaft_sketch(scene: Scene) -> Drawing:
+    caption = (
+        "To scale along the shaft. x points downwind along the shaft, z up, y to the left looking "
+        "downwind, into the page; orange: masses on the shaft. N floats and N2 locates where there "
+        "are two bearings; M takes force and tilting moment alone."
+    )
+    return Drawing(sketch(drawn(scene)), caption)
+
+
+_FILM = ("time", "eccentricity_ratio", "minimum_film", "maximum_pressure")
+_PLACE = ("eccentricity", "eccentricity_ratio", "minimum_film")
+_HISTOGRAM = ("counts_full", "counts_reduced", "speed_edges", "load_edges")
+
+
+def _films(folder: Path, shown: list[str]) -> Iterator[Chart]:
+    for k, name in enumerate(answered(folder, "journal", shown)):
+        for bearing, data in read_part(folder, "journal", name, _FILM).items():
+            critical = data.attrs.get("critical_eccentricity_ratio")
+            level = None if critical is None else float(critical)
+            said, count = f"{name}, bearing {bearing}", SAMPLES if k else CLOSE
+            yield film_chart(data, said, k > 0, count, level)
+
+
+def _orbits(folder: Path, shown: list[str]) -> Iterator[Picture]:
+    for name in answered(folder, "journal", shown):
+        for bearing, data in read_part(folder, "journal", name, _PLACE).items():
+            yield Picture(orbit(_spread(data)), f"{name}, bearing {bearing}")
+
+
+def _spread(data: xr.Dataset, count: int = 3000) -> xr.Dataset:
+    """Some samples of all eccentricities, the largest among them, in order."""
+    size = data.sizes["sample"]
+    if size <= count:
+        return data
+    order = np.argsort(data["eccentricity_ratio"].values)
+    return data.isel(sample=np.sort(order[np.linspace(size - 1, 0, count).astype(int)]))
+
+
+def _reductions(folder: Path, shown: list[str]) -> Iterator[Shown]:
+    """Histograms of the worst case, and how the loads of the others are distributed."""
+    for k, name in enumerate(answered(folder, "reduction", shown)):
+        for bearing, data in read_part(folder, "reduction", name, _HISTOGRAM).items():
+            said = f"{name}, bearing {bearing}"
+            if k == 0:
+                yield Picture(figures.histograms(data), said)
+            else:
+                yield reduction_chart(data, said, True)
+
+
+def _rings(folder: Path, shown: list[str]) -> Iterator[Shown]:
+    """Forces of the balls: the worst case around the ring, the others unrolled."""
+    for k, name in enumerate(answered(folder, "rolling", shown)):
+        (data,) = read_part(folder, "rolling", name, ("ball_forces", "ball_angle")).values()
+        if "ball_forces" in data:
+            yield ring_chart(data, name, True) if k else Picture(figures.ball_ring(data), name)
 
 
 def _rolling_tables(data: xr.Dataset) -> list[Table]:
@@ -258,27 +362,39 @@ def _rolling_tables(data: xr.Dataset) -> list[Table]:
     return [first, _case_table(data[each])]
 
 
-def _case_table(data: xr.Dataset) -> Table:
-    """One row for each case (and bearing), one column for each number."""
+def _case_table(data: xr.Dataset, title: str = "") -> Table:
+    """One row for each case (and bearing), one column for each number that is ever not zero."""
     names = [str(n) for n in data.data_vars if set(data[n].dims) <= {"case", "bearing"}]
     names = [n for n in names if not (n.endswith("_time") and n.removesuffix("_time") in names)]
-    shown = {n: readable(data[n], "µm" if "film" in n else None) for n in names}
-    heads = ["case"] + [f"{data[n].attrs['long_name']}, {unit}" for n, (_, unit) in shown.items()]
-    bearings = data["bearing"].values if "bearing" in data.dims else [""]
-    rows: list[list[str]] = []
-    bad: set[int] = set()
-    for k, case in enumerate(data["case"].values):
-        for b, bearing in enumerate(bearings):
-            if "not_converged" in data:
-                count = np.atleast_2d(data["not_converged"].values)[b, k]
-                bad |= {len(rows)} if count > 0 else set()
-            rows.append(
-                [
-                    f"{case} {bearing}",
-                    *(f"{np.atleast_2d(values)[b, k]:.4g}" for values, _ in shown.values()),
-                ]
-            )
-    return Table("", heads, rows, frozenset(bad))
+    empty = [n for n in names if not np.nan_to_num(data[n].values.astype(float)).any()]
+    dims = [dim for dim in ("bearing", "case") if dim in data.dims]
+    shown = {
+        n: readable(data[n], "µm" if data[n].attrs.get("units") == "m" and "film" in n else None)
+        for n in names
+        if n not in empty
+    }
+    values = {
+        n: np.broadcast_to(
+            each if "bearing" in data[n].dims else each[None] if "bearing" in dims else each,
+            [data.sizes[dim] for dim in dims],
+        ).reshape(-1, data.sizes["case"])
+        for n, (each, _) in shown.items()
+    }
+    heads = [f"{data[n].attrs['long_name']}, {unit}" for n, (_, unit) in shown.items()]
+    bearings = data["bearing"].values if "bearing" in dims else [""]
+    counts = np.zeros((len(bearings), data.sizes["case"]))
+    if "not_converged" in data:
+        counts = counts + data["not_converged"].transpose(*dims).values.reshape(-1, counts.shape[1])
+    rows = [
+        [f"{case} {bearing}".strip(), *(f"{values[n][b, k]:.4g}" for n in values)]
+        for k, case in enumerate(data["case"].values)
+        for b, bearing in enumerate(bearings)
+    ]
+    bad = frozenset(map(int, np.flatnonzero(counts.T.ravel() > 0)))
+    if empty:
+        zero = ", ".join(str(data[n].attrs["long_name"]) for n in empty)
+        title = f"{title} Zero in all cases: {zero}.".strip()
+    return Table(title, ["case", *heads], rows, bad)
 
 
 def _check_section(check: xr.Dataset) -> Section:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -9,15 +10,18 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from loadflow.plots.style import readable
-from loadflow.report import Picture, Section, Table, figures
-from loadflow.running.folder import answered, open_part
+from loadflow.report import Chart, Picture, Section, Table, figures
+from loadflow.report.run_charts import seed_verdicts
+from loadflow.running.folder import answered, read_part
+
+QUANTILES = (1, 25, 50, 75, 99)
+"""Shares of the samples, %, at which the spread of a seed is drawn."""
 
 
 def seed_section(folder: Path, seeds: xr.Dataset, manifest: dict[str, Any]) -> Section:
     """Tabulate the tests of the seeds, and draw their spread."""
     tables: list[Table] = [_merge_table(seeds)]
-    pictures: list[Picture] = []
+    pictures: list[Picture | Chart] = []
     for method in seeds["variant"].values:
         part = seeds.sel(variant=method)
         rows = [
@@ -33,15 +37,27 @@ def seed_section(folder: Path, seeds: xr.Dataset, manifest: dict[str, Any]) -> S
         ]
         heads = ["DLC", "wind, m/s", "seeds", "component"]
         heads += [f"p {test}" for test in part["test"].values] + ["verdict"]
-        tables.append(Table(f"Equality of seeds, {method}", heads, rows))
-        pictures.append(Picture(figures.seed_verdicts(seeds, method), f"Tests, {method}."))
-    pictures += _seed_boxes(folder, manifest)
+        tables.append(Table(f"Equality of seeds, {method}", heads, rows, fold=True))
+        caption = f"Tests, {method}: a point below the dashed line is not equal."
+        pictures.append(seed_verdicts(seeds, str(method), caption))
+    pictures += _spread(folder, manifest)
     text = (
+        f"{_answer(seeds)} "
         "Series of one wind speed may be merged only if location, spread and spectrum agree. The "
         "printed tests take every sample as independent, which samples of a record are not: they "
         "reject nearly always. The calibrated ones hold their level."
     )
     return Section("Seeds", text, tables, pictures)
+
+
+def _answer(seeds: xr.Dataset) -> str:
+    """The verdict of each variant of the tests in a sentence."""
+    count = seeds.sizes["group"]
+    said = "; ".join(
+        f"{method}: {int((seeds['may_merge'].sel(variant=method) > 0).sum())} of {count}"
+        for method in seeds["variant"].values
+    )
+    return f"Wind speeds whose seeds may be merged, by tests {said}."
 
 
 def _merge_table(seeds: xr.Dataset) -> Table:
@@ -71,24 +87,26 @@ def _p(value: float) -> str:
     return "-" if np.isnan(value) else f"{value:.2g}"
 
 
-def _seed_boxes(folder: Path, manifest: dict[str, Any]) -> list[Picture]:
+def _spread(folder: Path, manifest: dict[str, Any]) -> Iterator[Picture]:
     """Draw the spread of the seeds of every wind speed that has more than one."""
     groups: dict[str, list[str]] = {}
     for name in answered(folder, "shaft", manifest["cases"]):
         groups.setdefault(name.rsplit("_s", 1)[0], []).append(name)
-    pictures: list[Picture] = []
-    for group, names in groups.items():
-        if len(names) < 2:
-            continue
-        samples: dict[str, dict[str, np.ndarray]] = {}
-        units: dict[str, str] = {}
-        for name in names:
-            seed = name.rsplit("_s", 1)[1]
-            force = open_part(folder, "shaft", name)["force"]
-            for bearing in force["bearing"].values[:2]:
-                for axis in ("y", "z"):
-                    label = f"{bearing} F{axis}"
-                    values, units[label] = readable(force.sel(bearing=bearing, axis=axis))
-                    samples.setdefault(label, {})[seed] = values
-        pictures.append(Picture(figures.seed_boxes(samples, units), f"{group}", bool(pictures)))
-    return pictures
+    several = {group: names for group, names in groups.items() if len(names) > 1}
+    found: dict[str, list[np.ndarray]] = {}
+    attrs: dict[str, Any] = {}
+    for name in itertools.chain(*several.values()):
+        (data,) = read_part(folder, "shaft", name, ("force",)).values()
+        force = data["force"].isel(bearing=slice(2)).sel(axis=["y", "z"])
+        attrs = force.attrs
+        values = np.nanpercentile(force.transpose(..., "time").values, QUANTILES, axis=-1)
+        for b, bearing in enumerate(force["bearing"].values):
+            for a, axis in enumerate("yz"):
+                found.setdefault(f"{bearing} F{axis}", []).append(values[:, b, a])
+    of = [group for group, names in several.items() for _ in names]
+    quantiles = {
+        component: xr.DataArray(rows, {"group": ("case", of)}, ("case", "quantile"), attrs=attrs)
+        for component, rows in found.items()
+    }
+    if quantiles:
+        yield Picture(figures.seed_spread(quantiles), "Forces of every seed, wind speed by speed.")

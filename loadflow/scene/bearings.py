@@ -3,15 +3,11 @@
 from __future__ import annotations
 
 import math
-from functools import reduce
-from operator import or_
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
 from pydantic import (
     BaseModel,
     BeforeValidator,
-    Discriminator,
-    Tag,
     WrapSerializer,
     model_validator,
 )
@@ -30,14 +26,7 @@ from loadflow.rolling import (
     main_bearings,
 )
 from loadflow.scene.limits import RollingLimits
-from loadflow.scene.section import SECTION
-
-
-def _kind(value: Any) -> str | None:
-    """Kind of a geometry: as stated, or of an object; a slewing bearing where nothing is said."""
-    if isinstance(value, dict):
-        return value.get("kind", "slewing")
-    return getattr(value, "kind", None)
+from loadflow.scene.section import SECTION, told_apart
 
 
 def _without_kind(value: Any) -> Any:
@@ -47,7 +36,7 @@ def _without_kind(value: Any) -> Any:
 
 
 def _with_kind(value: Any, handler: Any) -> Any:
-    return {"kind": _kind(value)} | handler(value)
+    return {"kind": value.kind} | handler(value)
 
 
 _PLAIN, _TOLD = BeforeValidator(_without_kind), WrapSerializer(_with_kind)
@@ -55,14 +44,9 @@ _PLAIN, _TOLD = BeforeValidator(_without_kind), WrapSerializer(_with_kind)
 if TYPE_CHECKING:
     Geometry = RollingBearing
 else:
-    Geometry = Annotated[
-        reduce(or_, (Annotated[cls, _PLAIN, _TOLD, Tag(kind)] for kind, cls in KINDS.items())),
-        Discriminator(
-            _kind,
-            custom_error_type="kind",
-            custom_error_message="kind must be one of " + ", ".join(KINDS),
-        ),
-    ]
+    Geometry = told_apart(
+        {kind: Annotated[cls, _PLAIN, _TOLD] for kind, cls in KINDS.items()}, usual="slewing"
+    )
 """Geometry of a rolling bearing; ``kind`` says which, slewing if nothing is said."""
 
 

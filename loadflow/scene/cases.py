@@ -18,6 +18,7 @@ from loadflow.errors import InputError
 from loadflow.readers import list_names, read_loads
 from loadflow.readers.loads import find_files
 from loadflow.scene.given_winds import wind_files
+from loadflow.scene.lifetime import check_per_year
 from loadflow.scene.loads import Loads
 from loadflow.scene.scene import Scene
 from loadflow.storage import check_name
@@ -53,6 +54,8 @@ class Case:
         Hash of the content of the file; empty without one (the scene says it all).
     steps : int
         Length of the series.
+    duration : float
+        The same in s.
     variant : str
         End of the name where load case, wind speed and seed do not tell it apart.
     numbered : bool
@@ -75,6 +78,7 @@ class Case:
     wind: str = ""
     fingerprint: str = ""
     steps: int = 0
+    duration: float = 0.0
     variant: str = ""
     numbered: bool = False
 
@@ -110,6 +114,10 @@ def list_cases(scene: Scene) -> list[Case]:
     files = [path for pattern in loads.files for path in _matching(pattern)]
     cases = [case for path in files for case in _cases_of(path, loads)]
     distinct = _distinct(cases)
+    try:
+        check_per_year(scene.lifetime, (case.dlc for case in distinct), loads.weights)
+    except ValueError as error:
+        raise InputError(str(error)) from error
     return distinct if loads.weights == "given" else weighted(distinct, wind_class(scene))
 
 
@@ -123,7 +131,8 @@ def wind_class(scene: Scene) -> iec.WindClass:
 def simulated_case(scene: Scene, dlc: str, wind_speed: float, index: int) -> Case:
     """Return a case to simulate, with the length that the scene or the load case gives it."""
     wind = wind_of(scene, Case(dlc, wind_speed, index))
-    return Case(dlc, wind_speed, index, steps=round(wind.duration / scene.loads.step))
+    steps = round(wind.duration / scene.loads.step)
+    return Case(dlc, wind_speed, index, steps=steps, duration=wind.duration)
 
 
 def wind_of(scene: Scene, case: Case) -> Condition:
@@ -218,6 +227,7 @@ def _cases_of(path: Path, loads: Loads) -> Iterator[Case]:
             entry=name,
             fingerprint=fingerprint,
             steps=series.sizes["time"],
+            duration=float(series["time"][-1] - series["time"][0]),
         )
 
 

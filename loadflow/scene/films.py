@@ -5,12 +5,13 @@ from __future__ import annotations
 from dataclasses import MISSING, asdict, fields
 from typing import TYPE_CHECKING, Annotated, Any
 
-from pydantic import AfterValidator, Discriminator, PlainSerializer, PlainValidator, Tag
+from pydantic import AfterValidator, PlainSerializer, PlainValidator
 
 from loadflow.errors import InputError
 from loadflow.journal.cavitation import LAWS, CavitationLaw, GasMixture
 from loadflow.journal.heat import FilmHeat, Heat
 from loadflow.journal.rungs import check_rung
+from loadflow.scene.section import told_apart
 
 
 def law_of(value: Any) -> CavitationLaw:
@@ -62,20 +63,8 @@ HEATS = {"balance": Heat, "film": FilmHeat}
 """Models of the heat of a film by their ``kind``."""
 
 
-def _kind_of_heat(value: Any) -> Any:
-    """``kind`` of a table of heat; the balance if nothing is said; None of what is no heat."""
-    return value.get("kind", "balance") if isinstance(value, dict) else getattr(value, "kind", None)
-
-
 if TYPE_CHECKING:
     HeatTable = Heat | FilmHeat
 else:
-    HeatTable = Annotated[
-        Annotated[Heat, Tag("balance")] | Annotated[FilmHeat, Tag("film")],
-        Discriminator(
-            _kind_of_heat,
-            custom_error_type="kind",
-            custom_error_message="kind must be one of " + ", ".join(HEATS),
-        ),
-    ]
-"""Heat of a film; ``kind`` says which."""
+    HeatTable = told_apart(HEATS, usual="balance")
+"""Heat of a film; ``kind`` says which, the balance if nothing is said."""

@@ -16,7 +16,8 @@ from loadflow.rolling import KINDS
 JOURNAL = "journal"
 """The kind of all journal bearings; the others are kinds of rolling bearings."""
 
-AXIAL = ("thrust", "conical-pair")
+COLLAR = "thrust"
+AXIAL = (COLLAR, "conical-pair")
 """Kinds of film bearings that carry the force along the shaft."""
 
 FOUR_POINT = "four-point"
@@ -118,8 +119,11 @@ def places_of(
             kind = geometry.pop("kind")
             told = {"kind": _WRITTEN.get(kind, kind), "geometry": geometry} | data
             found.setdefault(part["bearing"], []).append(told)
-    for place, part in (thrust or {"bearings": {}})["bearings"].items():
-        found.setdefault(place, []).append({**part})
+    axial = thrust or {"bearings": {}}
+    of_collars = {"rung": axial["rung"]} if "rung" in axial else {}
+    for place, part in axial["bearings"].items():
+        more = of_collars if part["kind"] == COLLAR else {}
+        found.setdefault(place, []).append({**part, **more})
     several = {place for place, parts in found.items() if len(parts) > 1}
     if several:  # "like" means a place with one bearing
         for parts in found.values():
@@ -168,9 +172,14 @@ def _add_journal(found: Sections, place: str, location: Location, data: dict[str
 
 def _add_axial(found: Sections, place: str, location: Location, data: dict[str, Any]) -> None:
     found.thrust = found.thrust or {"bearings": {}}
+    told = ".".join(map(str, location))
     if place in found.thrust["bearings"]:
-        told = ".".join(map(str, location))
         raise ValueError(f"{told}: a second bearing of its kind; write it under [candidates.NAME]")
+    if data["kind"] == COLLAR and "rung" in data:  # one of all collars
+        rung = data.pop("rung")
+        if found.thrust.setdefault("rung", rung) != rung:
+            raise ValueError(f"{told}.rung = {rung!r}: collars share one rung; keep one")
+        found.origins["thrust", "rung"] = (*location, "rung")
     found.thrust["bearings"][place] = data
     found.origins["thrust", "bearings", place] = location
 

@@ -29,6 +29,7 @@ from loadflow.scene.environment import Environment, surrounded
 from loadflow.scene.fitting_shaft import fitted, with_fitting_beams
 from loadflow.scene.friction import Friction
 from loadflow.scene.journal import Journal
+from loadflow.scene.lifetime import Lifetime, check_per_year
 from loadflow.scene.loads import Loads, check_simulation
 from loadflow.scene.messages import message
 from loadflow.scene.own_shaft import taken
@@ -108,6 +109,7 @@ class Scene(Section, BaseModel):
     journal: Journal = Journal()
     dynamics: Dynamics = Dynamics()
     wear: Wear = Wear()
+    lifetime: Lifetime = Lifetime()
     rolling: Rolling = Rolling()
     thrust: Thrust = Thrust()
     friction: Friction = Friction()
@@ -191,6 +193,12 @@ class Scene(Section, BaseModel):
         return self
 
     @model_validator(mode="after")
+    def _events_are_there(self) -> Self:
+        if self.loads.source == "simulate":
+            check_per_year(self.lifetime, self.loads.dlcs, "rayleigh")
+        return self
+
+    @model_validator(mode="after")
     def _can_wear(self) -> Self:
         if "journal.wear" in self.results:
             check_wear(self.wear, self.journal, self.shaft)
@@ -217,9 +225,7 @@ class Scene(Section, BaseModel):
             for place in candidate.places:
                 if place not in self.shaft.bearings:
                     have = ", ".join(self.shaft.bearings) or "none"
-                    raise ValueError(
-                        f"candidates.{name}.{place}: the shaft has the bearings {have}"
-                    )
+                    raise ValueError(f"candidates.{name}.{place}: the shaft has only {have}")
         return self
 
     @model_validator(mode="after")
@@ -247,11 +253,11 @@ class Scene(Section, BaseModel):
     def taken(self) -> list[str]:
         """What neither scene nor turbine state, and what is taken instead."""
         shaft = self.shaft.model_dump(mode="json", exclude_none=True)
-        rooms = ("journal", "rolling")
-        journal, rolling = (getattr(self, room) if self.wants(room) else None for room in rooms)
-        beams = () if journal is None else fitted(shaft, journal)
-        usual = usual_bearings(self.turbine.name, journal, rolling)
-        return [*taken(self.turbine.name, shaft), *usual, *beams]
+        name = self.turbine.name
+        films = self.journal if self.wants("journal") else None
+        rolling = self.rolling if self.wants("rolling") else None
+        beams = fitted(shaft, films) if films is not None else ()
+        return [*taken(name, shaft), *beams, *usual_bearings(name, films, rolling)]
 
     def wants(self, room: str) -> bool:
         """Whether a result of `room` is wanted."""

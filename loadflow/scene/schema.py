@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from loadflow.rolling import KINDS
-from loadflow.scene.places import FOUR_POINT, JOURNAL
+from loadflow.scene.places import COLLAR, FOUR_POINT, JOURNAL
 from loadflow.scene.scene import Scene
 from loadflow.scene.thrust import ConePair, ThrustCollar
 from loadflow.scene.written import SCENE
@@ -36,6 +36,7 @@ def json_schema() -> dict[str, Any]:
     for kind, section in axial.items():
         parts[_name(kind)] = _place(parts[section], {kind: None}, drop=("kind",))
         parts[_name(kind)]["required"] = ["kind", "geometry"]
+    parts[_name(COLLAR)]["properties"]["rung"] = parts["Thrust"]["properties"]["rung"]
     kinds = ["JournalPlace", *map(_name, (*rolling, *axial))]
     like = {
         "type": "object",

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Any
+from collections.abc import Iterator, Mapping
+from functools import reduce
+from operator import or_
+from typing import Annotated, Any
 
-from pydantic import BaseModel, ConfigDict
+from pydantic import BaseModel, ConfigDict, Discriminator, Tag
 
 from loadflow.numerics.fields import LARGEST_INTEGER
 
@@ -23,6 +25,24 @@ class Section(BaseModel):
         """Keys whose value is not the default, also of a scene written with all its defaults."""
         known = type(self).model_fields
         return {name for name in known if getattr(self, name) != known[name].default}
+
+
+def kind_of(value: Any, usual: str | None = None) -> str | None:
+    """The ``kind`` of a table or of what was read of it; `usual` where a table says nothing."""
+    found = value.get("kind", usual) if isinstance(value, dict) else getattr(value, "kind", None)
+    return found if isinstance(found, str) else None
+
+
+def told_apart(kinds: Mapping[str, Any], usual: str | None = None) -> Any:
+    """Type of a table whose ``kind`` says which of several it is, `usual` if it says nothing."""
+    return Annotated[
+        reduce(or_, (Annotated[cls, Tag(name)] for name, cls in kinds.items())),
+        Discriminator(
+            lambda value: kind_of(value, usual),
+            custom_error_type="kind",
+            custom_error_message="kind must be one of " + ", ".join(kinds),
+        ),
+    ]
 
 
 def too_large(data: Any, key: str = "") -> Iterator[tuple[str, int]]:

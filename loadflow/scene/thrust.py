@@ -12,9 +12,7 @@ from numpy.typing import NDArray
 from pydantic import (
     BaseModel,
     BeforeValidator,
-    Discriminator,
     Field,
-    Tag,
     WrapSerializer,
     model_validator,
 )
@@ -29,9 +27,10 @@ from loadflow.journal import (
     PairResult,
     ThrustBearing,
 )
+from loadflow.journal.thrust_curves import CollarCurves, CollarFilms, gives_way
 from loadflow.scene.films import Law
 from loadflow.scene.limits import FilmLimits
-from loadflow.scene.section import Section
+from loadflow.scene.section import Section, told_apart
 
 Positive = Annotated[float, Field(gt=0)]
 Array = NDArray[np.float64]
@@ -147,6 +146,10 @@ class AxialBearing(Section, BaseModel):
             No film carries it.
         """
 
+    def by_curve(self, force: Array, speed: Array) -> CollarFilms | None:
+        """Films under forces (n, 3) by interpolation in a table of them; None where none is."""
+        return None
+
     @abstractmethod
     def touches(self, force: Array, speed: float) -> bool:
         """Whether surfaces touch for certain under a load that no film was found to carry."""
@@ -199,6 +202,12 @@ class ThrustCollar(AxialBearing):
     def solve(self, force: Array, moment: Array, speed: float) -> DoubleThrustResult:
         """Place of the collar under the force along the shaft."""
         return self.bearing.equilibrium(float(force[2]), speed, self.film_model)
+
+    def by_curve(self, force: Array, speed: Array) -> CollarFilms:
+        """Places of the collar, of films tabulated down to half the sum of their R_z."""
+        return CollarCurves(self.bearing, self.film_model, 0.5 * self.contact_film).equilibrium(
+            force[:, 2], speed
+        )
 
     def touches(self, force: Array, speed: float) -> bool:
         """At standstill, or where a film as thin as the roughness carries less."""
@@ -266,25 +275,17 @@ class ConePair(AxialBearing):
         return speed == 0.0
 
 
-def _kind(value: Any) -> str | None:
-    return value.get("kind") if isinstance(value, dict) else getattr(value, "kind", None)
-
-
 if TYPE_CHECKING:
     AnyAxial = ThrustCollar | ConePair
 else:
-    AnyAxial = Annotated[
-        Annotated[ThrustCollar, Tag("thrust")] | Annotated[ConePair, Tag("conical-pair")],
-        Discriminator(
-            _kind,
-            custom_error_type="kind",
-            custom_error_message="kind must be one of thrust, conical-pair",
-        ),
-    ]
+    AnyAxial = told_apart({"thrust": ThrustCollar, "conical-pair": ConePair})
 
 
 class Thrust(Section, BaseModel):
     """The bearings of pads on the shaft, by place.
+
+    ``rung`` is how films of thrust collars are solved: each sample on the grid, or by a curve over
+    the gap that is tabulated once (docs/thrust.md).
 
     Examples
     --------
@@ -300,6 +301,22 @@ class Thrust(Section, BaseModel):
     """
 
     bearings: dict[str, AnyAxial] = {}
+    rung: Literal["grid", "curve"] = "grid"
+
+    @property
+    def collars(self) -> dict[str, ThrustCollar]:
+        """Those of its bearings whose films have rungs."""
+        return {name: one for name, one in self.bearings.items() if one.kind == "thrust"}
+
+    @model_validator(mode="after")
+    def _curves_need_rigid_pads(self) -> Self:
+        for place, one in self.collars.items() if self.rung == "curve" else ():
+            if any(map(gives_way, (one.geometry, one.back or one.geometry))):
+                raise ValueError(
+                    f"bearings.{place}: pads on springs have no curve over the gap; set "
+                    'rung = "grid"'
+                )
+        return self
 
 
 def check_thrust(thrust: Thrust, method: str) -> None:

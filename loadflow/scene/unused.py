@@ -33,6 +33,7 @@ _RESULTS = {
     "thrust": ("thrust",),
     "dynamics": ("journal.dynamics",),
     "wear": ("journal.wear",),
+    "lifetime": ("journal.film", "journal.wear", "thrust", "rolling.life", "rolling.friction"),
     "rolling": ("rolling",),
     "friction": ("rolling",),
 }
@@ -87,6 +88,7 @@ def _all(scene: Scene) -> Iterator[tuple[str, str]]:
         ("rolling", _of_rolling),
         ("friction", _of_friction),
         ("dynamics", _of_dynamics),
+        ("lifetime", _of_lifetime),
     ):
         for key, reason in rules(scene) if section not in unread else ():
             if _differs(scene, section, key):
@@ -339,6 +341,8 @@ def _of_friction(scene: Scene) -> Iterator[tuple[str, str]]:
 def _of_thrust(scene: Scene) -> Iterator[tuple[str, str]]:
     simulated = scene.loads.source == "simulate"
     starts = any(map(_starts, scene.loads.dlcs))
+    if scene.thrust.rung != "grid" and not scene.thrust.collars:
+        yield "thrust.rung", "no bearing of this scene is a thrust collar"
     for place, one in scene.thrust.bearings.items():
         if simulated and not starts and one.limits.start_time is not None:
             where = f"thrust.bearings.{place}.limits.start_time"
@@ -348,6 +352,12 @@ def _of_thrust(scene: Scene) -> Iterator[tuple[str, str]]:
             if row is not None and row.first_pad:
                 where = f"thrust.bearings.{place}.{key}.first_pad"
                 yield where, "the collar stays aligned, so that all pads carry alike"
+
+
+def _of_lifetime(scene: Scene) -> Iterator[tuple[str, str]]:
+    counted = {*scene.lifetime.per_year} - {*scene.wear.counts}
+    if "journal.wear" not in scene.results or not counted:
+        yield "years", "no wear follows from lifetime.per_year"
 
 
 def _of_dynamics(scene: Scene) -> Iterator[tuple[str, str]]:

@@ -26,6 +26,7 @@ from loadflow.stages.reduction import moment_governs
 from loadflow.stages.rolling import life_of, solve_bearing
 from loadflow.stages.shaft import bearing_loads
 from loadflow.stages.statistics import SLOPE
+from loadflow.stages.thrust import samples_of, solved
 
 Parts = Mapping[str, Any]
 """What each stage gave for a case, by the name of the stage."""
@@ -283,6 +284,23 @@ def _contacts(scene: Scene, case: Case, parts: Parts) -> Iterator[Difference]:
     yield from _rows(RINGS.name, "rolling.life", where, against, *lives)
 
 
+def _collars(scene: Scene, case: Case, parts: Parts) -> Iterator[Difference]:
+    """Films of a few samples of each collar, on the grid, where they are those of a curve."""
+    if scene.thrust.rung != "curve":
+        return
+    for place, bearing in scene.thrust.collars.items():
+        film = parts["thrust"][place].to_dataset().load()
+        if not film["converged"].any():
+            continue
+        some = _spread(film["minimum_film"].values)
+        ours = {name: film[name].values[some] for name in ("minimum_film", "maximum_pressure")}
+        samples = samples_of(scene, case, bearing, place, parts).isel(sample=some)
+        found = solved(bearing, place, samples)
+        theirs = {name: found[name].values for name in ours}
+        where, against = f"{case.name}, {place}", "the collar on the grid"
+        yield from _rows("thrust", "thrust.film", where, against, ours, theirs)
+
+
 def _rows(
     stage: str,
     result: str,
@@ -319,12 +337,13 @@ COMPARISONS: dict[str, Callable[[Scene, Case, Parts], Iterator[Difference]]] = {
     "loads": _loads,
     "reduction": _reduction,
     "journal": _film,
+    "thrust": _collars,
     "rolling": _contacts,
 }
 """For each stage that has better models, how it is compared with them."""
 
-READ = ("loads", "shaft", "reduction", "journal", "rolling")
+READ = ("loads", "shaft", "reduction", "journal", "thrust", "rolling")
 """Stages that comparisons read."""
 
-OCCASIONS = ("reduction", "journal", "rolling")
+OCCASIONS = ("reduction", "journal", "thrust", "rolling")
 """Stages without which nothing is compared: a better load matters where a bearing reads it."""

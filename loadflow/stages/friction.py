@@ -87,8 +87,8 @@ def losses(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
         {"sample": time, "bearing": list(scene.rolling.geometries)},
     )
     samples, parts = with_running(scene, samples), scene.rolling.bearings.values()
-    if any(swings := [part.oscillation is not None for part in parts]):  # whatever the rotor does
-        samples["running"] = samples["running"] | xr.DataArray(swings, dims="bearing")
+    if any(swinging := [part.oscillation is not None for part in parts]):  # whatever the rotor does
+        samples["running"] = samples["running"] | xr.DataArray(swinging, dims="bearing")
     return samples
 
 

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from loadflow.errors import SolverError
+from loadflow.journal.thrust_curves import CollarFilms
 from loadflow.quantities import table
 from loadflow.reduction import histogram
 from loadflow.scene.cases import Case
@@ -18,7 +20,16 @@ from loadflow.stages.frames import to_rolling
 from loadflow.stages.labelling import label, of_samples
 from loadflow.stages.reduction import kept_share
 from loadflow.stages.running_time import with_running
-from loadflow.stages.stage import Link, Links, Measured, Stage, always, load_links, steps_of
+from loadflow.stages.stage import (
+    Link,
+    Links,
+    Measured,
+    Rungs,
+    Stage,
+    always,
+    load_links,
+    steps_of,
+)
 
 KEPT = table(
     "minimum_film", "maximum_pressure", "friction_power", "converged", "residual", "iterations"
@@ -48,12 +59,12 @@ def films(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
     found = {}
     for place, bearing in scene.thrust.bearings.items():
         samples = samples_of(scene, case, bearing, place, inputs)
-        found[place] = with_running(scene, solved(bearing, place, samples))
+        found[place] = with_running(scene, solved(bearing, place, samples, scene.thrust.rung))
     return xr.DataTree.from_dict(found)
 
 
 def samples_of(
-    scene: Scene, case: Case, bearing: AnyAxial, place: str, inputs: dict[str, Any]
+    scene: Scene, case: Case, bearing: AnyAxial, place: str, inputs: Mapping[str, Any]
 ) -> xr.Dataset:
     """Samples of one case: `time`, `speed`, `weight` (sample), `force` and `moment` (sample, axis).
 
@@ -90,9 +101,10 @@ def samples_of(
     )
 
 
-def solved(bearing: AnyAxial, place: str, samples: xr.Dataset) -> xr.Dataset:
+def solved(bearing: AnyAxial, place: str, samples: xr.Dataset, rung: str = "grid") -> xr.Dataset:
     """Films of one bearing under samples of loads.
 
+    By its curve, where it has one and the rung says so; what that does not answer, on the grid.
     Where the film is thinner than both surfaces are rough they are ``in_contact``, and the sample
     has no film. A sample that the solver did not answer has none either, and ``converged`` 0.
 
@@ -108,8 +120,17 @@ def solved(bearing: AnyAxial, place: str, samples: xr.Dataset) -> xr.Dataset:
     speed = samples["speed"].values.astype(float)
     found = {name: np.full(speed.size, np.nan) for name in (*KEPT, "friction_torque")}
     found |= {"converged": np.zeros(speed.size, bool), "iterations": np.zeros(speed.size, int)}
-    touching, why = np.zeros(speed.size, bool), ""
-    for k in range(speed.size):
+    touching, why, open_ = np.zeros(speed.size, bool), "", [*range(speed.size)]
+    about: dict[str, Any] = {}
+    curve = _by_curve(bearing, force, speed) if rung == "curve" else None
+    if curve is not None:
+        touching = curve.touching | (curve.minimum_film < bearing.contact_film)
+        there = curve.converged & ~touching
+        for name, values in found.items():
+            values[there] = getattr(curve, name)[there]
+        open_ = np.flatnonzero(~there & ~touching).tolist()
+        about["interpolation_error"] = curve.interpolation_error
+    for k in open_:
         try:
             answer = bearing.solve(force[k], moment[k], float(speed[k]))
         except SolverError as error:
@@ -132,7 +153,7 @@ def solved(bearing: AnyAxial, place: str, samples: xr.Dataset) -> xr.Dataset:
     thickest = float(np.nanmax(found["minimum_film"], initial=0.0))
     oil = bearing.lubricant
     fastest = float(np.abs(speed).max()) * bearing.radius
-    about = {
+    about |= {
         "motion": "quasi-static",
         "largest_reynolds_number": oil.density * fastest * thickest / oil.viscosity,
         "radius": bearing.radius,
@@ -143,10 +164,47 @@ def solved(bearing: AnyAxial, place: str, samples: xr.Dataset) -> xr.Dataset:
     ).assign_attrs(about)  # fmt: skip
 
 
+def _by_curve(bearing: AnyAxial, force: np.ndarray, speed: np.ndarray) -> CollarFilms | None:
+    """Films by the bearing's curve; None where it has none, as pads that find no tilt."""
+    try:
+        return bearing.by_curve(force, speed)
+    except SolverError:
+        return None
+
+
 def _links(scene: Scene) -> Links:
-    """The loads; how films of pads err by their grid is not in the ladder."""
+    """The loads, and the films themselves."""
     through = (*load_links("bearing load max"), Link("reduction", "largest load", of_load=True))
-    return dict.fromkeys(("minimum film", "maximum pressure", "friction power"), through)
+    names = ("minimum film", "maximum pressure", "friction power")
+    return {name: (*through, Link("thrust", name)) for name in names}
+
+
+GRIDS = ((20, 10), (40, 20), (80, 40))
+"""Grids of a pad whose error is in the ladder."""
+
+
+def rung_key(scene: Scene) -> str:
+    """Rung of the collars and their grid: the finest of `GRIDS` that none of them is coarser than.
+
+    Pairs of cones beside them, or alone, have no rung in the ladder.
+    """
+    parts = scene.thrust.bearings
+    if len(scene.thrust.collars) < len(parts):
+        return "pair of cones"
+    around, across = (
+        min((one.grid[k] for one in parts.values()), default=GRIDS[0][k]) for k in (0, 1)
+    )
+    held = [grid for grid in GRIDS if grid[0] <= around and grid[1] <= across]
+    around, across = held[-1] if held else (around, across)
+    return f"{scene.thrust.rung}, {around}x{across}"
+
+
+RUNGS = Rungs(
+    "thrust",
+    section="thrust",
+    key=rung_key,
+    better=lambda scene: {"rung": "grid"} if scene.thrust.rung == "curve" else {},
+)
 
 
 def _left_out(scene: Scene) -> dict[str, str]:
@@ -172,8 +230,8 @@ STAGE = Stage(
         ("loads", "shaft") if scene.reduction.method == "histogram" else ("reduction",)
     ),
     sections=always("thrust", "reduction"),
+    models=(RUNGS,),
     summarise=summary,
     work=_work,
-    more_seconds=lambda scene, measured: None,
     left_out=_left_out,
 )

@@ -94,11 +94,17 @@ def _cycle(
         when,
         _between(when, time, force),
         np.interp(when, time, speed),
-        count=scene.wear.count(case.dlc) * case.weight,
+        count=count_of(scene, case.dlc) * case.weight,
         in_motion=options.in_motion,
         name=case.name,
         **{key: _between(when, time, values) for key, values in line.items()},
     )
+
+
+def count_of(scene: Scene, dlc: str) -> float:
+    """How often a load case happens in the life."""
+    told = scene.lifetime.count(dlc)
+    return scene.wear.count(dlc) if told is None or dlc in scene.wear.counts else told
 
 
 def _between(when: np.ndarray, time: np.ndarray, values: np.ndarray) -> np.ndarray:
@@ -131,7 +137,7 @@ STAGE = Stage(
     results={"journal.wear": lambda scene: {}},
     needs=always("loads", "shaft", "journal"),
     scope="run",
-    sections=always("journal", "wear"),
+    sections=always("journal", "wear", "lifetime"),
     work=lambda scene, cases, measured: None,
     left_out=lambda scene: {
         "wear in power production": "only load cases that start, stop or stand wear the bore"

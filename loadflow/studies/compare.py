@@ -12,6 +12,7 @@ from typing import Any, Literal
 import numpy as np
 import xarray as xr
 
+from loadflow.cube import open_cube
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.scene.thrust import AnyAxial
@@ -165,7 +166,7 @@ def _of_journal(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[st
         whole = table[name].fillna(0.0).sum("bearing").values * scale
         yield key, _mean(run, whole, share, groups, unit)
     yield "mixed_time", _mixed_time(run, table, share, groups)
-    yield "wear", wear(run.scene, table, share)
+    yield "wear", wear(run.scene, _bores(run), table, groups)
     if "rolling" not in run.tables:
         yield from _without(_OF_ROLLING, "no rolling elements")
     yield from _lost(run, table, table["lost_power"], "")
@@ -202,6 +203,14 @@ def _without(keys: Sequence[str], why: str) -> Iterator[tuple[str, Number]]:
     """Rows that make no sense for a kind of bearing, with the reason."""
     for key in keys:
         yield key, Number(math.nan, QUANTITIES[key][1], note=f"n/a: {why}")
+
+
+def _bores(run: Finished) -> dict[str, xr.Dataset]:
+    """Worn bores by bearing; none where the run followed no wear."""
+    if "wear" not in run.tables:
+        return {}
+    found = open_cube(run.folder / "result.h5")["wear"]
+    return {name: node.to_dataset().load() for name, node in found.children.items()}
 
 
 def _over_roughness(film: Number, surfaces: Journal | AnyAxial) -> Number:

@@ -157,7 +157,7 @@ QUANTITIES: dict[str, tuple[str, str]] = {
     "oil_flow": ("oil that leaves the film", "l/min"),
     "pump": ("power to supply the oil", "kW"),
     "mixed_time": ("time in mixed friction a year", "h"),
-    "wear": ("wear of the shell in 20 years, at most", "µm"),
+    "wear": ("wear of the shell by starts, stops and faults of the life", "µm"),
 }
 """What is compared: its name and unit, in the order of the table."""
 

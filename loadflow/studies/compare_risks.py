@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -11,24 +11,13 @@ import numpy as np
 import xarray as xr
 
 from loadflow.cube import open_cube
-from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
+from loadflow.scene.wear import check_wear
 from loadflow.stages.film_summary import STANDING
 from loadflow.stages.frames import to_rolling
 from loadflow.stages.rolling import rest
 from loadflow.studies.compare_result import Number
-from loadflow.tribology import Archard
-
-WEAR = Archard(1e-16)
-"""Wear of white metal on steel in boundary friction, m²/N; assumed, coefficients of one pair of
-materials differ by 2 … 5 from batch to batch."""
-
-YEARS = 20.0
-_SECONDS = YEARS * 8766.0 * 3600.0
-
-STARTS = 20_000
-"""Starts in the life of a turbine, and stops: the design count of test benches
-of segmented conical bearings, as the trade press tells; assumed."""
+from loadflow.studies.seed_intervals import Groups, interval
 
 WORN_SHARE = 0.1
 """Of the radial clearance that may wear off; assumed."""
@@ -41,80 +30,83 @@ THINNEST = 0.1
 """Smallest viscosity ratio κ that ISO 281 covers."""
 
 
-def wear(scene: Scene, table: xr.Dataset, share: np.ndarray) -> Number:
-    """Depth that shells wear in 20 years while turning in mixed friction, an upper bound, µm.
+def wear(
+    scene: Scene, bores: Mapping[str, xr.Dataset], table: xr.Dataset, groups: Groups
+) -> Number:
+    """Deepest wear of the shells over the life, of the result ``journal.wear``, µm.
 
-    The whole load is taken to be carried by asperities, on the projected area, over the way that
-    each load case turns above E_krit or in contact; the largest load of the case stands for all.
-    Load cases of starts and stops count `STARTS` times, the others by their share of the lifetime.
+    Its interval takes the depth as proportional to what asperities rub off in all load cases
+    together, their friction energy, of which other seeds have more or less.
+
+    Parameters
+    ----------
+    scene : Scene
+        What was run; ``[wear]`` says by which law, and how often a start happens.
+    bores : mapping
+        Of the stage ``wear``, by bearing; empty where the run has none.
+    table : xarray.Dataset
+        Films of the run over ``case``.
+    groups : Groups
+        Cases that differ by their seed alone.
     """
-    worst: tuple[float, str, str, float] = (-1.0, "", "", math.nan)
-    for place in table["bearing"].values.tolist():
-        one, own = scene.journal.at(place), table.sel(bearing=place)
-        deep = _worn(one, own) * np.where(_of_kind(own, "34"), 0.0, share) + _of_events(one, own)
-        depth = float(deep.sum())
-        if depth > worst[0]:
-            case = str(own["case"].values[int(np.argmax(deep))]) if depth > 0 else ""
-            worst = depth, place, case, WORN_SHARE * one.geometry.clearance
-    depth, place, case, limit = worst
-    touching = table["in_contact"].sum("bearing") > 0
-    note = f"k = {WEAR.coefficient:g} m²/N; limit: a tenth of the radial clearance, both assumed"
-    if bool(touching.any()):
-        note += f"; surfaces touch in {int(touching.sum())} load cases"
-    starts = _of_kind(table, "34").any()
-    note += f"; {STARTS} starts or stops" if starts else "; no start or stop in this run"
+    if not bores:
+        return Number(math.nan, "µm", note=f"n/a: {_unworn(scene)}")
+    place = max(bores, key=lambda name: _depth(bores[name]) / _worn_limit(scene, name))
+    data, limit = bores[place], _worn_limit(scene, place)
+    depth = _depth(data)
+    law = scene.wear.law
+    note = f"{law}; limit: a tenth of the radial clearance, assumed"
+    if depth == 0:
+        note += "; no start, stop or fault of this run touches while it turns"
+        return Number(0.0, "µm", limit=1e6 * limit, holds=True, place=place, note=note)
+    energy = (data["contact_energy"] * data["count"]).mean("renewal")
+    rubbed = np.zeros(table.sizes["case"])
+    rubbed[[*map(table["case"].values.tolist().index, data["cycle"].values.tolist())]] = energy
+    low, high = interval(groups, lambda some: 1e6 * depth * rubbed[some].sum() / rubbed.sum())
     return Number(
-        1e6 * depth, "µm", limit=1e6 * limit, holds=bool(depth <= limit), case=case, place=place,
-        note=note,
+        1e6 * depth, "µm", low, high, limit=1e6 * limit, holds=bool(depth <= limit),
+        case=str(data["cycle"].values[int(np.argmax(energy.values))]), place=place, note=note,
     )  # fmt: skip
 
 
-def _worn(one: Journal, table: xr.Dataset) -> np.ndarray:
-    """Depth (case,) in 20 years if each load case lasted that long, m."""
-    return _depth(one, table) * _SECONDS / table["duration"].values
+def _depth(bore: xr.Dataset) -> float:
+    return float(bore["depth_of_bore"].max()) if bore.attrs["cycles"] else 0.0
 
 
-def _depth(one: Journal, table: xr.Dataset) -> np.ndarray:
-    """Depth (case,) that each load case wears, m."""
-    size, turns = one.geometry, table["mixed_friction_revolutions"].values
-    pressure = table["largest_load"].fillna(0.0).values / (size.diameter * size.width)
-    return WEAR.depth(pressure, np.pi * size.diameter * turns)
+def _worn_limit(scene: Scene, place: str) -> float:
+    return WORN_SHARE * scene.journal.at(place).geometry.clearance
 
 
-def _of_events(one: Journal, table: xr.Dataset) -> np.ndarray:
-    """Part (case,) of the depth that `STARTS` starts and as many stops wear, m."""
-    depth = _depth(one, table)
-    found = np.zeros_like(depth)
-    for kind in ("3", "4"):
-        own = _of_kind(table, kind)
-        if own.any():
-            found[own] += STARTS * depth[own] / own.sum()
-    return found
-
-
-def _of_kind(table: xr.Dataset, kinds: str) -> np.ndarray:
-    """Which load cases are starts (3) or stops (4)."""
-    return np.array([dlc[:1] in kinds for dlc in table["dlc"].values.tolist()], bool)
+def _unworn(scene: Scene) -> str:
+    """Why a run has no worn bores."""
+    try:
+        check_wear(scene.wear, scene.journal, scene.shaft)
+    except ValueError as error:
+        return str(error)
+    return "the run was not asked for journal.wear"
 
 
 def rolling_risks(
     scene: Scene, folder: Path, table: xr.Dataset, share: np.ndarray
 ) -> Iterator[tuple[str, Number]]:
     """Yield smallest load, smallest viscosity ratio, and standstill of rolling bearings."""
-    yield "minimum_load", _lightest(scene, folder)
+    groups = Groups.of(table)
+    yield "minimum_load", _lightest(scene, folder, table["case"].values.tolist(), groups)
     ratio = table["bearing_viscosity_ratio"].transpose("case", "bearing").values.astype(float)
     if np.isfinite(ratio).any():
         k, b = np.unravel_index(int(np.nanargmin(ratio)), ratio.shape)
+        low, high = interval(groups, lambda some: float(np.nanmin(ratio[some])))
         yield "viscosity_ratio", Number(
-            float(ratio[k, b]), "–", limit=THINNEST, holds=bool(ratio[k, b] >= THINNEST),
+            float(ratio[k, b]), "–", low, high, limit=THINNEST, holds=bool(ratio[k, b] >= THINNEST),
             case=str(table["case"].values[k]), place=str(table["bearing"].values[b]),
             note="κ of what turns; ISO 281 ends at 0.1, full films begin at 1",
         )  # fmt: skip
     yield "standstill", _standing(scene, folder, table, share)
 
 
-def _lightest(scene: Scene, folder: Path) -> Number:
+def _lightest(scene: Scene, folder: Path, cases: list[str], groups: Groups) -> Number:
     """Smallest equivalent load over the capacity while the shaft turns."""
+    own = dict.fromkeys(cases, math.inf)  # over its limit, the least of each case
     least, light, total = (math.inf, "", "", math.nan, 0.0), 0.0, 0.0
     for place, case, some in _samples(scene, folder):
         bearing = scene.rolling.geometries[place]
@@ -125,13 +117,17 @@ def _lightest(scene: Scene, folder: Path) -> Number:
         total += float(weight[turning].sum())
         light += float(weight[turning & (load < limit)].sum())
         k = int(np.argmin(load))
+        own[case] = min(own[case], float(load[k] / limit))
         if load[k] / limit < least[0]:
             least = float(load[k] / limit), place, case, float(some["time"].values[k]), limit
     if not math.isfinite(least[0]):
         return Number(math.nan, "%", note="the shaft does not turn")
     ratio, place, case, time, limit = least
+    each = np.array([100 * limit * own[case] for case in cases])
+    low, high = interval(groups, lambda some: float(each[some].min()))
     return Number(
-        100 * ratio * limit, "%", limit=100 * limit, holds=ratio >= 1, case=case, time=time,
+        100 * ratio * limit, "%", low, high,
+        limit=100 * limit, holds=ratio >= 1, case=case, time=time,
         place=place, note=f"of C; below the limit in {100 * light / total:.2g} % of the samples",
     )  # fmt: skip
 
@@ -153,8 +149,19 @@ def _standing(scene: Scene, folder: Path, table: xr.Dataset, share: np.ndarray) 
     told = f"largest contact pressure meanwhile {1e-6 * pressure:.0f} MPa" if case else ""
     if not stands.any():
         told = "no load case of this run stands: marks of standing are not judged"
+    low, high = interval(
+        Groups.of(table),
+        lambda some: 100 * float((stands[some] * share[some]).sum() / share[some].sum()),
+    )
     return Number(
-        100 * float((stands * share).sum()), "%", case=case, time=time, place=place, note=told
+        100 * float((stands * share).sum()),
+        "%",
+        low,
+        high,
+        case=case,
+        time=time,
+        place=place,
+        note=told,
     )
 
 

@@ -92,6 +92,8 @@ def _table(rows: Sequence[tuple[str, xr.Dataset, xr.Dataset]]) -> xr.Dataset:
         name: ("case", [loads[name].item() for _, loads, _ in rows])
         for name in ("dlc", "wind_speed", "weight")
     }
+    lengths = [float(loads["time"][-1] - loads["time"][0]) for _, loads, _ in rows]
+    columns["length"] = ("case", lengths)
     return xr.Dataset(coords={"case": [name for name, *_ in rows], **columns})
 
 

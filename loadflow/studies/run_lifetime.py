@@ -24,7 +24,8 @@ def run_lifetime(scene: Scene, tables: Tables) -> xr.Dataset | None:
     """Life of the rolling bearings and energy per year of all bearings, over all load cases.
 
     Each load case counts with its share of the lifetime (`lifetime_shares`, or the shares that its
-    files give); events without a number per year have none. None where no load case has a share.
+    files give); events to which ``lifetime.per_year`` gives no number have none. None where no load
+    case has a share.
 
     Parameters
     ----------
@@ -61,15 +62,22 @@ def case_shares(scene: Scene, table: xr.Dataset) -> np.ndarray | None:
     if scene.loads.weights == "given" and scene.loads.source == "files":
         given = table["weight"].values.astype(float)
         return given / given.sum() if given.sum() > 0 else None
+    per_year = {
+        dlc: number for dlc, number in scene.lifetime.per_year.items() if dlc in table["dlc"].values
+    }
+    lengths = table["length"].values if per_year else np.ones(table.sizes["case"])
     try:
         return lifetime_shares(
             table["dlc"].values.tolist(),
             table["wind_speed"].values.tolist(),
-            np.ones(table.sizes["case"]).tolist(),
+            lengths.tolist(),
             wind_class=wind_class(scene),
             operating=_operating(scene),
+            per_year=per_year,
         )
     except InputError:
+        if per_year:
+            raise
         return None
 
 
@@ -132,7 +140,7 @@ def _energy(scene: Scene, table: xr.Dataset, share: np.ndarray) -> dict[str, xr.
 def energy_per_year(
     scene: Scene, table: xr.Dataset, power: xr.DataArray, share: np.ndarray
 ) -> np.ndarray:
-    """Energy (bearing,) a year, J; outside the operating winds only that of idling cases.
+    """Energy (bearing,) a year, J; outside the operating winds only that of idling and of events.
 
     Parameters
     ----------
@@ -145,11 +153,11 @@ def energy_per_year(
     share : ndarray, shape (case,)
         Share of the lifetime of each case.
     """
-    seconds = HOURS_PER_YEAR * 3600
+    seconds = np.full(table.sizes["case"], HOURS_PER_YEAR * 3600)
     dlcs = set(table["dlc"].values.tolist())
     by_wind = scene.loads.weights == "rayleigh" or scene.loads.source == "simulate"
     if by_wind and dlcs & {*PRODUCTION} and not dlcs & {*IDLING}:
         below = iec.weibull_cdf(_operating(scene), iec.class_speeds(wind_class(scene)).v_ave, 2.0)
-        seconds *= float(below[1] - below[0])
-    weighted = power * xr.DataArray(share, dims="case")
-    return np.asarray(seconds * weighted.sum("case").values)
+        produces = ~np.isin(table["dlc"].values, [*scene.lifetime.per_year])
+        seconds[produces] *= float(below[1] - below[0])
+    return np.asarray((power * xr.DataArray(share * seconds, dims="case")).sum("case").values)

@@ -29,6 +29,7 @@ from loadflow.running.comparison import (
     compare,
     shared_loads,
 )
+from loadflow.scene.candidate import Candidate
 from loadflow.scene.scene import make_scene
 from loadflow.studies.compare_margins import rolling_losses
 from loadflow.studies.compare_result import QUANTITIES
@@ -105,37 +106,56 @@ def test_rolling_bearings_have_skidding_films_and_standstill_journal_bearings_a_
     assert rolling["viscosity_ratio"].value > 0.1
     assert "not judged" in rolling["standstill"].note  # no case of this cube stands
     film = by_name(found)["journal-cylindrical"].numbers
-    assert film["wear"].holds
-    assert film["wear"].limit == pytest.approx(0.1 * 700.0)
-    for key in ("minimum_load", "viscosity_ratio", "standstill", "row_share"):
+    for key in ("minimum_load", "viscosity_ratio"):
+        assert rolling[key].low <= rolling[key].value <= rolling[key].high
+    assert rolling["viscosity_ratio"].value == rolling["viscosity_ratio"].low  # none is smaller
+    for key in ("minimum_load", "viscosity_ratio", "standstill", "row_share", "wear"):
         assert math.isnan(film[key].value), key
         assert film[key].note.startswith("n/a"), key
 
 
-def test_wear_is_the_way_in_mixed_friction_times_the_mean_pressure():
-    """k p s: 1e-16 m²/N, 1 MPa on D × B, π D for each revolution, 20 years."""
-    size = {"diameter": 1.0, "width": 1.0, "relative_clearance": 1e-3}
+def test_wear_is_that_of_the_followed_contour_with_an_interval_by_what_each_start_rubs():
+    rough = {"roughness": 0.5e-6, "contact_modulus": 115e9, "factor": 1e-3}
     scene = make_scene(
-        {"name": "worn", "shaft": {"two_point": {}},
-         "journal": {"bearings": ["N"], "geometry": size}}
+        {"name": "worn", "shaft": {"two_point": {}}, "wear": {"law": {"coefficient": 1e-17}},
+         "journal": {"bearings": ["N"], "contact": {"asperities": rough}, "geometry": {
+             "diameter": 1.0, "width": 1.0, "relative_clearance": 1e-3}}}
     )  # fmt: skip
-    shape = ("bearing", "case")
+    cases = ["smooth", "a", "b"]
     table = xr.Dataset(
+        coords={"case": cases, "dlc": ("case", ["1.1", "3.1", "3.1"]),
+                "wind_speed": ("case", [12.0, 4.0, 4.0])}
+    )  # fmt: skip
+    bore = xr.Dataset(
         {
-            "largest_load": (shape, [[1e6, 1e6]]),
-            "mixed_friction_revolutions": (shape, [[6.0, 0.0]]),
-            "duration": (shape, [[600.0, 600.0]]),
-            "in_contact": (shape, [[3, 0]]),
+            "depth_of_bore": (("angle", "z"), [[0.0], [20e-6]]),
+            "contact_energy": (("renewal", "cycle"), [[4.0, 1.0], [2.0, 1.0]]),
+            "count": ("cycle", [100.0, 100.0]),
         },
-        {"bearing": ["N"], "case": ["rough", "smooth"], "dlc": ("case", ["1.1", "1.1"])},
+        {"cycle": ["a", "b"]},
+        {"cycles": 2},
     )
-    found = wear(scene, table, np.array([0.25, 0.75]))
-    way = np.pi * 1.0 * 6.0 / 600.0 * 20 * 8766 * 3600
-    assert found.value == pytest.approx(0.25 * 1e-16 * 1e6 * way * 1e6)
-    assert (found.case, found.place) == ("rough", "N")
-    assert found.holds == (found.value <= 50.0)
-    started = wear(scene, table.assign_coords(dlc=("case", ["3.1", "1.1"])), np.array([0.0, 1.0]))
-    assert started.value == pytest.approx(20_000 * 1e-16 * 1e6 * np.pi * 6.0 * 1e6)
+    groups = Groups.of(table)
+    found = wear(scene, {"N": bore}, table, groups)
+    assert (found.value, found.limit) == (pytest.approx(20.0), pytest.approx(50.0))
+    assert (found.case, found.place, found.holds) == ("a", "N", True)
+    # a alone rubs 300 of 400 J, twice of it are 600, twice of b 200
+    assert (found.low, found.high) == (pytest.approx(10.0), pytest.approx(30.0))
+    untouched = wear(scene, {"N": xr.Dataset(attrs={"cycles": 0})}, table, groups)
+    assert (untouched.value, untouched.holds) == (0.0, True)
+    lawless = make_scene({"name": "none", "journal": {"bearings": ["N"]}})
+    assert "needs a law of wear" in wear(lawless, {}, table, groups).note
+
+
+def test_candidates_that_can_wear_are_asked_for_it_where_the_scene_has_a_law():
+    rough = {"roughness": 0.5e-6, "contact_modulus": 115e9, "factor": 1e-3}
+    geometry = {"diameter": 1.0, "width": 1.0, "relative_clearance": 1e-3}
+    body = {"name": "worn", "wear": {"law": {"coefficient": 1e-17}}}
+    for contact, asked in (({"contact": {"asperities": rough}}, True), ({}, False)):
+        journal = {"bearings": ["N"], "geometry": geometry, **contact}
+        scene = make_scene({**body, "journal": journal})
+        one = candidate_scene(scene, "own", Candidate(journal=scene.journal), 24_000)
+        assert ("journal.wear" in one.results) is asked
 
 
 def test_a_spherical_pair_has_its_thrust_on_one_row(found):

@@ -24,6 +24,7 @@ from loadflow.journal import (
     Sommerfeld,
     Supply,
     ThickShell,
+    Turbulence,
 )
 from loadflow.journal.rungs import FEATURES, RUNGS
 from loadflow.tribology import AsperityContact
@@ -50,16 +51,10 @@ ASKING = {
     "slow_heat": ({"lubricant": None, "heat": Heat(capacity=1e5)}, {}, {}),
     "film_heat": ({"lubricant": None, "heat": FilmHeat()}, {"shape": Lobes(2)}, {}),
     "contact": ({"contact": ROUGH}, {}, {}),
-    "contact_on_shell": ({"contact": ROUGH, "shell": LocalShell(1e-12)}, {}, {}),
+    "turbulence": ({"turbulence": Turbulence()}, {}, {}),
     "step": ({}, {}, {"step": "adaptive"}),
     "periodic": ({}, {}, {"periodic": True}),
 }
-
-
-def refused(rung, feature):
-    """The feature that a rung names: asperities on a shell bring the shell with them."""
-    shell = feature == "contact_on_shell" and "local_shell" not in RUNGS[rung].at_rest
-    return "local_shell" if shell else feature
 
 
 AT_REST = [name for name in FEATURES if name not in ("step", "periodic", "slow_heat")]
@@ -86,7 +81,7 @@ def test_at_rest_a_rung_answers_or_refuses_by_name(rung, feature):
         if rung != "map":  # whose tables have tests of their own
             assert bearing.equilibrium(LOAD, 100.0, described, **more).converged
         return
-    named = rung if RUNGS[rung].law else f"rung = '{rung}' .* {refused(rung, feature)} = "
+    named = rung if RUNGS[rung].law else f"rung = '{rung}' .* {feature} = "
     with pytest.raises(InputError, match=named):
         bearing.equilibrium(LOAD, 100.0, described, **more)
 
@@ -97,7 +92,7 @@ def test_in_motion_a_rung_refuses_by_name_what_it_does_not_know(rung, feature):
     film, size, more = ASKING[feature]
     if feature in RUNGS[rung].in_motion or (RUNGS[rung].law and feature in ("inlet", "grading")):
         return
-    first = refused(rung, feature)
+    first = feature
     with pytest.raises(InputError, match=rf"rung = '{rung}' .* {FEATURES[first]}; {first} = "):
         JournalBearing(**SIZE | size).orbit(
             TIME, np.tile(LOAD, (3, 1)), 100.0, film_for(rung, **film), **more

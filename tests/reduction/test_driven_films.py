@@ -20,6 +20,7 @@ HUB = case(8.0, 1, steps=400)
 
 class One:
     dlc, wind_speed, seed, weight, name = "1.1", 8.0, 1, 1.0, "dlc1.1_v8_s1"
+    duration = 600.0
 
 
 def scene_of(**keys):

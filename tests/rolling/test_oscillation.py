@@ -24,6 +24,7 @@ GRAVITY = 9.80665
 
 class One:
     dlc, wind_speed, seed, weight, name = "1.1", 8.0, 1, 1.0, "dlc1.1_v8_s1"
+    duration = 600.0
 
 
 def test_a_full_turn_there_and_back_is_two_revolutions():

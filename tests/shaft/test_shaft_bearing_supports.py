@@ -44,6 +44,7 @@ MOMENT = np.array([[0.0, 3e4, -2e4], [0.0, -1e4, 5e4]])
 
 class _Case:
     name, file, dlc, wind_speed, seed, weight = "dlc1.1_v12_s1", "", "1.1", 12.0, 1, 1.0
+    duration = 600.0
 
 
 def scene_of(supports, **sections):

@@ -13,6 +13,7 @@ from loadflow.journal.film.gap import KEPT
 from loadflow.journal.film.gap_mesh import even_cells
 from loadflow.journal.film.mesh import Mesh
 from loadflow.journal.surfaces import Profile, Surface
+from loadflow.journal.turbulence import RegimeNumbers
 from loadflow.numerics.fields import require
 
 Array = NDArray[np.float64]
@@ -169,7 +170,7 @@ class SurfaceGap:
 
     roughness: float = 0.0
     open_share: Array | None = None
-    regime = None
+    regime: RegimeNumbers | None = None
 
     def __init__(
         self, mesh: SurfaceMesh, profile: Profile, clearance: float, base: float = 1.0

@@ -44,7 +44,7 @@ def place(film, work, q):
                 gap[PLANES, i, k] += give * (p[i, k] - film.ring.p_edge)
                 face[FACE_PLANES, i, k] += give * (0.5 * (p[i, k] + p[right, k]) - film.ring.p_edge)
     if film.rough.size > 0.0:
-        _rough_gap(film.rough, work)
+        _rough_gap(film, work)
     else:
         for i in range(nx):
             for k in range(points):
@@ -101,11 +101,33 @@ def smooth_beyond(rough):
 
 
 @njit(cache=True, nogil=True)
-def _rough_gap(rough, work):
+def opened(yielding, h):
+    """Gap where asperities press the shell open, and its derivative by the gap `h` without that."""
+    if not yielding.on or h >= yielding.first + yielding.step * (yielding.table.shape[1] - 1):
+        return h, 1.0
+    return _of_table(yielding, 0, h)
+
+
+@njit(cache=True, nogil=True)
+def _of_table(yielding, row, h):
+    """A value of the table and its derivative; straight on before its first."""
+    place_in = (h - yielding.first) / yielding.step
+    if place_in <= 0.0:
+        slope = yielding.table[row + 1, 0]
+        return yielding.table[row, 0] + (h - yielding.first) * slope, slope
+    i = min(int(place_in), yielding.table.shape[1] - 2)
+    return _between(yielding.table[row], yielding.table[row + 1], i, place_in - i, yielding.step)
+
+
+@njit(cache=True, nogil=True)
+def _rough_gap(film, work):
     """Mean gap and conductances between rough surfaces."""
     nx, m = work.u.shape
+    rough, yielding = film.rough, film.yielding
     gap, face, s = work.gap, work.face, rough.size
     far = smooth_beyond(rough)
+    if yielding.on:
+        far = max(far, yielding.first + yielding.step * (yielding.table.shape[1] - 1))
     for i in range(nx):
         for k in range(gap.shape[2]):
             h = gap[PLANES, i, k]
@@ -113,16 +135,22 @@ def _rough_gap(rough, work):
                 gap[MEAN, i, k], gap[OPEN, i, k] = h, 1.0
                 gap[CUBE, i, k], work.gap_slope[i, k] = h * h * h, 3.0 * h * h
             else:
+                h, opens = opened(yielding, h)
                 gap[MEAN, i, k], gap[OPEN, i, k] = mean_film(h, s)
                 gap[CUBE, i, k], work.gap_slope[i, k] = conductance(h, s, rough.across)
+                gap[OPEN, i, k] *= opens
+                work.gap_slope[i, k] *= opens
         for k in range(m):
             h = face[FACE_PLANES, i, k]
             if h > far:
                 face[FLOW, i, k], face[FLOW_SLOPE, i, k] = h * h * h, 3.0 * h * h
                 face[DRAG, i, k], face[DRAG_SLOPE, i, k] = h, 1.0
             else:
+                h, opens = opened(yielding, h)
                 face[FLOW, i, k], face[FLOW_SLOPE, i, k] = conductance(h, s, rough.along)
                 face[DRAG, i, k], face[DRAG_SLOPE, i, k] = dragged(h, s, rough.along, rough.slip)
+                face[FLOW_SLOPE, i, k] *= opens
+                face[DRAG_SLOPE, i, k] *= opens
 
 
 @njit(cache=True, nogil=True)
@@ -142,16 +170,18 @@ def narrowest(film, work):
             least = min(least, work.gap[PLANES, i, k])
         for k in range(m):
             least = min(least, work.face[FACE_PLANES, i, k])
-    return least
+    return opened(film.yielding, least)[0]
 
 
 @njit(cache=True, nogil=True)
-def touch(rough, work, q):
+def touch(film, work, q):
     """Load of the asperities and its derivative by the position into `work.touch`; ∫ p_a, N."""
     work.touch[:] = 0.0
-    normal = 0.0
+    normal, rough = 0.0, film.rough
     if rough.size == 0.0:
         return normal
+    if film.yielding.on:
+        return _touch_shell(film, work, q)
     last = rough.table.shape[1] - 2
     load, stiffness = work.touch[0], work.touch[1:]
     for g in range(rough.z.size):
@@ -189,6 +219,72 @@ def touch(rough, work, q):
     for a in range(4):
         for b in range(a):
             stiffness[a, b] = stiffness[b, a]
+    return normal
+
+
+@njit(cache=True, nogil=True)
+def _touch_shell(film, work, q):
+    """`touch` on a shell that film and asperities press open; fills `work.pressed`, too.
+
+    Between two cell centres the pressure of the film, and so the gap by it, runs straight.
+    """
+    nx, m = work.u.shape[0], len(film.lanes)
+    yielding, ring = film.yielding, film.ring
+    p, pressed, load, stiffness = work.state[LOAD], work.pressed, work.touch[0], work.touch[1:]
+    pressed[:] = 0.0
+    beyond = yielding.first + yielding.step * (yielding.table.shape[1] - 1)
+    step = 2.0 * np.pi / nx
+    dip = 0.125 * step * step  # of a gap between two places, at most
+    part, normal = step / yielding.around, 0.0
+    mode = np.empty(4)
+    low, high = np.empty(4), np.empty(4)
+    for g in range(yielding.z.size):
+        z = yielding.z[g]
+        ex = q[0] + q[3] * z + 0.5 * work.bend[0] * z * z
+        ey = q[1] - q[2] * z + 0.5 * work.bend[1] * z * z
+        if 1.0 - np.hypot(ex, ey) >= beyond:
+            continue
+        weight = yielding.weights[g] * part * yielding.unit
+        for i in range(nx):
+            right = i + 1 if i + 1 < nx else 0
+            here, there = 0.0, 0.0
+            for k in range(m):
+                here += yielding.values[g, k] * (p[i, k] - ring.p_edge)
+                there += yielding.values[g, k] * (p[right, k] - ring.p_edge)
+            here, there = film.give * here, film.give * there
+            edge = 1.0 - ex * ring.cos[i] - ey * ring.sin[i] + here
+            other = 1.0 - ex * ring.cos[right] - ey * ring.sin[right] + there
+            if min(edge, other) - dip * np.hypot(ex, ey) >= beyond:
+                continue
+            low[:] = 0.0
+            high[:] = 0.0
+            for n in range(yielding.around):
+                share = (n + 0.5) / yielding.around
+                turn = (share - 0.5) * step
+                ct, st = np.cos(turn), np.sin(turn)
+                c = ring.cos_face[i] * ct - ring.sin_face[i] * st
+                s = ring.sin_face[i] * ct + ring.cos_face[i] * st
+                h = 1.0 - ex * c - ey * s + (1.0 - share) * here + share * there
+                if h >= beyond:
+                    continue
+                value, rise = _of_table(yielding, 2, h)
+                value, rise = weight * value, weight * rise
+                normal += value
+                mode[0], mode[1], mode[2], mode[3] = c, s, -z * s, z * c
+                for a in range(4):
+                    load[a] += value * mode[a]
+                    low[a] += (1.0 - share) * rise * mode[a]
+                    high[a] += share * rise * mode[a]
+                    for b in range(a + 1):
+                        stiffness[a, b] -= rise * mode[a] * mode[b]
+            for a in range(4):
+                for k in range(m):
+                    by_pressure = film.give * yielding.values[g, k]
+                    pressed[a, i, k] += by_pressure * low[a]
+                    pressed[a, right, k] += by_pressure * high[a]
+    for a in range(4):
+        for b in range(a):
+            stiffness[b, a] = stiffness[a, b]
     return normal
 
 

@@ -24,6 +24,7 @@ from loadflow.journal.models._composed_gap_kernels import (
     PLANES,
     drag_factor,
     narrowest,
+    opened,
     smooth_beyond,
     touch,
 )
@@ -267,6 +268,8 @@ def carry(film, work, size):
             fy0, fy1, fy2 = fy0 + a * s, fy1 + b * s, fy2 + d * s
         carried[0, 0], carried[1, 0], carried[2, 0] = fx0, fx1, fx2
         carried[0, 1], carried[1, 1], carried[2, 1] = fy0, fy1, fy2
+        if film.yielding.on:
+            _carry_touch(film, work, size)
         return
     for i in range(nx):
         base = film.ring.order[i] * m
@@ -281,6 +284,22 @@ def carry(film, work, size):
             carried[column, 1] += load * s
             carried[column, 2] -= turn * s
             carried[column, 3] += turn * c
+    if film.yielding.on:
+        _carry_touch(film, work, size)
+
+
+@njit(cache=True, nogil=True)
+def _carry_touch(film, work, size):
+    """Add what asperities carry more by way of the shell, which the film presses open."""
+    nx, m = work.u.shape[0], len(film.lanes)
+    for i in range(nx):
+        base = film.ring.order[i] * m
+        for k in range(m):
+            slope = work.state[DLOAD, i, k]
+            for column in range(1 + size):
+                change = slope * work.columns[base + k, column]
+                for a in range(size):
+                    work.carried[column, a] += work.pressed[a, i, k] * change
 
 
 @njit(cache=True, nogil=True)
@@ -293,7 +312,7 @@ def summarise(film, work, q, row):
     p, gap, rough = work.state[LOAD], work.gap, film.rough
     far = -1.0 if rough.size == 0.0 else smooth_beyond(rough)
     peak, dissipation, shear, outflow = -np.inf, 0.0, 0.0, 0.0
-    liquid, volume, highest = 0.0, 0.0, 0
+    liquid, volume, highest, grown = 0.0, 0.0, 0, 0.0
     fx, fy, mx, my = 0.0, 0.0, 0.0, 0.0
     for i in range(nx):
         right = i + 1 if i + 1 < nx else 0
@@ -318,7 +337,10 @@ def summarise(film, work, q, row):
             held = weights[k] * step * gap[MEAN, i, k]
             liquid += held * inside
             volume += held
-            h = gap[PLANES, i, k]
+            h = opened(film.yielding, gap[PLANES, i, k])[0]
+            if k < m:
+                lifted = h - gap[PLANES, i, k]
+                grown = max(grown, film.give * (p[i, k] - film.ring.p_edge) + lifted)
             inverse = sheared(h, rough.size, rough.along) if h <= far else 1.0 / h
             shear += weights[k] * step * inverse * drag_factor(film, work, h)
         fx += load * film.ring.cos[i]
@@ -345,8 +367,8 @@ def summarise(film, work, q, row):
     row[at.OUTFLOW] = outflow
     row[at.FILLED] = liquid / volume
     row[at.LEAST] = narrowest(film, work)
-    row[at.GROWTH] = film.give * (peak - film.ring.p_edge)
-    row[at.NORMAL] = touch(rough, work, q)
+    row[at.GROWTH] = max(grown, film.give * (peak - film.ring.p_edge))
+    row[at.NORMAL] = touch(film, work, q)
     unit = film.ring.area * step
     row[at.MOMENT_X] = unit * mx + work.touch[0, 2]
     row[at.MOMENT_Y] = unit * my + work.touch[0, 3]

@@ -152,7 +152,8 @@ def _advance(film, work, q, step, size):
             q[a] += step[a]
         place(film, work, q)
         return
-    least, share, done = _KEPT * narrowest(film, work), 1.0, 0.0
+    gap, share, done = narrowest(film, work), 1.0, 0.0
+    least = max(gap - (1.0 - _KEPT) * max(gap, film.rough.size), -film.rough.deepest)
     while True:
         _correct(film, work, step, size, share)
         for a in range(4):
@@ -183,12 +184,12 @@ def newton(film, work, q, load, size, speed, rate, tolerance, max_iterations):
     place(film, work, q)
     while True:
         residual = balance(film, work, wedge, rate, size) / flux
-        touch(film.rough, work, q)
+        touch(film, work, q)
         missing = 0.0
         for a in range(size):
             missing += (load[a] - work.load[a] - work.touch[0, a]) ** 2
         residual = max(residual, np.sqrt(missing) / force_scale)
-        if film.give > 0.0 and not narrowest(film, work) > 0.0:
+        if film.give > 0.0 and not narrowest(film, work) + film.rough.deepest > 0.0:
             residual = np.inf
         done = residual < tolerance or spent == max_iterations or not residual < np.inf
         rounding = 0.0

@@ -60,6 +60,43 @@ class Rough(NamedTuple):
     weights: Array
 
 
+class Yielding(NamedTuple):
+    """Asperities on a shell that gives way where these press it, too.
+
+    Attributes
+    ----------
+    on : bool
+        Whether there are any.
+    first, step : float
+        Gaps without that yield, clearances, of the table: first one, and distance.
+    table : array (4, n)
+        Gap with it, its derivative, asperity pressure over K E*, its derivative.
+    values : array (g, m)
+        Pressure at places across from that at the points.
+    z, weights : array (g,)
+        These places, shaft radii, and their share of the whole width, shaft radii.
+    around : int
+        Places in a cell around.
+    unit : float
+        Load, N, over ∫∫ of asperity pressure over K E*, in shaft radii.
+    """
+
+    on: bool
+    first: float
+    step: float
+    table: Array
+    values: Array
+    z: Array
+    weights: Array
+    around: int
+    unit: float
+
+
+RIGID = Yielding(
+    False, 0.0, 1.0, np.zeros((4, 2)), np.zeros((1, 1)), np.zeros(1), np.zeros(1), 1, 0.0
+)
+
+
 class Regime(NamedTuple):
     """Whether the flow may be turbulent, and where it is.
 
@@ -98,6 +135,8 @@ class Composed(NamedTuple):
         Growth of the gap over pressure, clearances per Pa; 0: a rigid shell.
     rough : Rough
         Asperities.
+    yielding : Yielding
+        What these are on a shell that gives way.
     regime : Regime
         Whether the flow may be turbulent.
     """
@@ -108,6 +147,7 @@ class Composed(NamedTuple):
     nodes: Nodes
     give: float
     rough: Rough
+    yielding: Yielding
     regime: Regime
 
 
@@ -146,6 +186,8 @@ class ComposedWork(NamedTuple):
         Load that each of the columns carries.
     system : array (4, 5)
         Linear system of a step of the shaft.
+    pressed : array (4, nx, m)
+        Derivative of `touch` by the pressure at the points, N/Pa, on a shell that gives way.
     numbers : array (2,)
         Reynolds number of a gap of the clearance, and over its critical value.
     """
@@ -168,6 +210,7 @@ class ComposedWork(NamedTuple):
     touch: Array
     carried: Array
     system: Array
+    pressed: Array
     numbers: Array
 
 
@@ -194,5 +237,6 @@ def make_work(around: int, nodes: Nodes) -> ComposedWork:
         touch=np.zeros((5, 4)),
         carried=np.zeros((5, 4)),
         system=np.zeros((4, 5)),
+        pressed=np.zeros((4, *shape)),
         numbers=np.zeros(2),
     )

@@ -8,12 +8,13 @@ from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.interpolate import CubicHermiteSpline
 
 from loadflow.journal.contact import Contact
 from loadflow.journal.film._rough_kernels import NO_CONTACT
 from loadflow.journal.film.asperity_load import CylinderLoad
 from loadflow.journal.film.film import DiscreteFilm
-from loadflow.journal.film.gap_rough import RoughGap
+from loadflow.journal.film.gap_rough import RoughGap, Roughness
 from loadflow.journal.film.integrals import Integrals, in_units
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
@@ -21,16 +22,19 @@ from loadflow.journal.line import Line
 from loadflow.journal.models import composed_film as at
 from loadflow.journal.models.composed_film import (
     LAMINAR,
+    RIGID,
     Composed,
     ComposedWork,
     Regime,
     Rough,
+    Yielding,
     make_work,
 )
 from loadflow.journal.models.ring import estimates, ring_of, units_of
-from loadflow.journal.models.width_modes import half_width_nodes, whole_width
+from loadflow.journal.models.width_modes import at_places, half_width_nodes, whole_width
 from loadflow.journal.rows import without_supply
 from loadflow.journal.shells import LinedShell, LocalShell
+from loadflow.tribology.kernels import pressure_integral
 
 Array = NDArray[np.float64]
 
@@ -39,6 +43,8 @@ POINTS = (6, 14)  # across the whole width: as many even polynomials as odd ones
 LEVELS = range(2)
 _LINES = 32  # across, on which the asperities of a shaft that tilts are asked
 _PER_SIZE = 0.05  # distance of the eccentricities of the table of contact, over the roughness
+_AROUND = np.radians(0.75)  # largest distance of places at which asperities on a shell are asked
+_LONGEST = 20000  # entries of a table of these
 _ROOM = 0.02  # gap, in clearances, that the first position of a smooth shaft must leave
 _UNRESOLVED = 0.08  # highest polynomials over the largest pressure: beyond, there are too few
 
@@ -223,7 +229,7 @@ def build(
     film = Composed(
         ring_of(units, 1.0 if whole else 2.0), (0,) * nodes.slopes.shape[1], (0,) * nodes.z.size,
         nodes, _give(bearing, options), _rough(bearing, options.contact, whole, units),
-        _regime(bearing, options),
+        _yielding(bearing, options, whole, nodes.slopes.shape[1]), _regime(bearing, options),
     )  # fmt: skip
     return ComposedFilm(bearing, options, line, units, film, make_work(units.mesh.shape[0], nodes))
 
@@ -235,6 +241,43 @@ def _give(bearing: JournalGeometry, options: Film) -> float:
         return 0.0
     shell.check_local(bearing.width)
     return cast("LocalShell | LinedShell", shell).compliance / bearing.clearance
+
+
+def _yielding(bearing: JournalGeometry, options: Film, whole: bool, points: int) -> Yielding:
+    """Asperities on a shell that gives way; `points` across carry the pressure."""
+    contact, give = options.contact, _give(bearing, options)
+    if contact is None or give == 0.0:
+        return RIGID
+    half = bearing.width / bearing.diameter
+    x, w = np.polynomial.legendre.leggauss(_LINES if whole else _LINES // 2)
+    if not whole:
+        x, w = 0.5 * (1.0 + x), w  # both halves are alike
+    first, step, table = _yielding_gap(contact, bearing.clearance, give)
+    around = 2.0 * np.pi / options.cells[0]
+    return Yielding(
+        True, first, step, table, at_places(points, whole, x), half * x, half * w,
+        int(np.ceil(around / _AROUND)), contact.asperities.scale * bearing.radius**2,
+    )  # fmt: skip
+
+
+@lru_cache(maxsize=8)
+def _yielding_gap(contact: Contact, clearance: float, give: float) -> tuple[float, float, Array]:
+    """Table of `Yielding` on a shell that gives way by `give`, clearances per Pa."""
+    rough = Roughness(contact, clearance, give * clearance)
+    lifted, size, summits = rough.yields
+    lowest = min(-rough.deepest, summits)
+    planes = np.arange(lowest, summits + (NO_CONTACT + 1.0) * size, 0.2 * _PER_SIZE * size)
+    pairs = np.array([pressure_integral(h) for h in ((planes - summits) / size).tolist()])
+    value, slope = pairs[:, 0], pairs[:, 1] / size
+    share = 1.0 / (1.0 - lifted * slope)
+    gap = planes - lifted * value
+    step = max(_PER_SIZE * size, (summits + NO_CONTACT * size - gap[0]) / _LONGEST)
+    wanted = np.arange(gap[0], summits + NO_CONTACT * size, step)
+    opens = CubicHermiteSpline(gap, planes, share)(wanted)
+    at = np.array([pressure_integral(h) for h in ((opens - summits) / size).tolist()])
+    rise = at[:, 1] / size
+    opened = 1.0 / (1.0 - lifted * rise)
+    return float(wanted[0]), step, np.stack([opens, opened, at[:, 0], rise * opened])
 
 
 def _regime(bearing: JournalGeometry, options: Film) -> Regime:

@@ -20,7 +20,8 @@ from loadflow.journal.solvers.periodic import (
     check_period,
     close_orbit,
 )
-from loadflow.journal.solvers.statics import equilibrium_rows, field_rows, orbit_start
+from loadflow.journal.solvers.static_rows import equilibrium_rows, field_rows
+from loadflow.journal.solvers.statics import orbit_start
 from loadflow.journal.solvers.transient import (
     Marcher,
     march,

@@ -163,7 +163,6 @@ def _asked(
         "supply": film.supply,
         "local_shell" if film.shell is not None and film.shell.local else "shell": film.shell,
         "contact": film.contact,
-        "contact_on_shell": None if film.shell is None else film.contact,
         "turbulence": film.turbulence,
         "step": None if steps.step == "given" else steps.step,
         "periodic": steps.periodic or None,

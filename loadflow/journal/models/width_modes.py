@@ -144,6 +144,20 @@ def half_width_nodes(half_width: float, points: int) -> Nodes:
     )
 
 
+def at_places(points: int, whole: bool, places: Array) -> Array:
+    """Values at `places`, −1 … 1 (0 … 1 of a half), from those at the points, (places, m).
+
+    Of `whole_width`, or of the even polynomials of `half_width_nodes`.
+    """
+    if whole:
+        zeta, _ = _lobatto_rule(points + 1)
+        return np.ascontiguousarray(_interpolation(zeta, places)[:, 1 : points + 1])
+    zeta, _ = _lobatto_rule(2 * points + 1)
+    inner = np.arange(points + 1, 2 * points + 1)
+    values = _interpolation(zeta, places)
+    return np.ascontiguousarray(values[:, inner] + values[:, 2 * points + 1 - inner])
+
+
 def _shares(zeta: Array, degrees: NDArray[np.int64]) -> Array:
     """Shares of L_{n+1} − L_{n−1} of the `degrees` n in what has given values at the points."""
     unit = np.eye(int(degrees[-1]) + 2)

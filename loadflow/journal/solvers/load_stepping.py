@@ -29,7 +29,14 @@ _BACK = 0.7  # share of a step, or of the way, that is tried next
 _NEAREST = 0.01  # share of the way to a position from which it is approached at least
 _APPROACHES = 30  # steps of that
 TOUCHING = 1e-4  # gap, in clearances, below which a shaft has met a rigid bore
+_NO_FILM = 1e-9  # gap, in clearances, below which there is none to carry more: less than an atom
 APART = 1e-6  # gap, in clearances, below which an elastic shell has met the shaft
+
+
+def has_touched(film: DiscreteFilm, solution: Solution) -> bool:
+    """Whether the steps of the load have ended at a rigid bore."""
+    smooth = film.contact is None and not film.elastic
+    return smooth and film.gap.narrowest(solution.position) < TOUCHING
 
 
 def solve_in_load_steps(
@@ -96,6 +103,8 @@ def solve_from_held(
         else:
             state, share = trial, at
             stride *= 2.0 if trial.iterations < _FEW else 1.0
+            if film.gap.narrowest(state.position) < _NO_FILM:
+                break
     missing = (1.0 - share) * math.hypot(*(force - first)[free]) / film.load_scale(force)
     if film.gap.narrowest(trial.position) < TOUCHING:  # what the steps have come to
         state = replace(state, position=trial.position)

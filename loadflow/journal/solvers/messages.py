@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.journal.geometry import JournalGeometry
-from loadflow.journal.solvers.load_stepping import APART, TOUCHING
+from loadflow.journal.solvers.load_stepping import APART, has_touched
 from loadflow.journal.solvers.newton import Solution, solve_film
 from loadflow.numerics.convergence import unresolved
 
@@ -70,8 +70,7 @@ def why_unsolved(
             return head + AT_REST
         if load.any() and not gap.pads.size and not film.dry(solution.u):
             return head + _most(film, gap, load)
-    rigid = film.contact is None and not film.elastic and not gap.axisymmetric
-    if rigid and gap.narrowest(solution.position) < TOUCHING:
+    if has_touched(film, solution) and not gap.axisymmetric:
         left = 100 * min(solution.residual, 1.0)
         return (
             f"{head}the shaft touches the bore, {narrowest_place(bearing, gap, solution.position)},"

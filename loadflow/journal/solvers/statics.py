@@ -12,7 +12,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import cached_property
-from typing import Any, cast
+from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,21 +25,17 @@ from loadflow.journal.film.gap_shaped import ShapedGap
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
-from loadflow.journal.rows import field_row, static_row
 from loadflow.journal.solvers.estimate import NEAR, first_position
 from loadflow.journal.solvers.load_stepping import (
     APART,
+    has_touched,
     solve_by_approach,
     solve_from_held,
     solve_in_load_steps,
 )
 from loadflow.journal.solvers.messages import narrowest_place, why_unsolved
-from loadflow.journal.solvers.newton import (
-    Solution,
-    no_film,
-    solve_equilibrium,
-    solve_film,
-)
+from loadflow.journal.solvers.newton import Solution, no_film, solve_equilibrium, solve_film
+from loadflow.journal.solvers.other_loads import solve_from_other_loads
 from loadflow.journal.solvers.pads import film_on_pads, solve_with_pads, unload_other_pads
 from loadflow.numerics.convergence import Limits
 from loadflow.numerics.fields import require
@@ -50,71 +46,9 @@ Rows = NDArray[np.int64]
 _PAD_ROUNDS = 8  # solutions in which pads may come under load, or lose theirs
 _CROWDED = 2  # meshes that are tried beside the one asked for
 _SAME = 0.02  # angle, rad, by which the place of the narrowest gap must have moved for another
+_HOPELESS = 0.8  # of the load, missing as the shaft touches: on no mesh the film carries it
 _NARROW = 0.2  # narrowest gap, in clearances, above which no mesh but that is tried
 _FLOATING = 0.5  # share of the way to the bore at which a shaft is sought that its supply carries
-
-
-def equilibrium_rows(
-    bearing: JournalGeometry,
-    options: Film,
-    loads: Array,
-    speeds: Array,
-    line: Line,
-    control: Limits,
-) -> list[dict[str, Any]]:
-    """Rows of `Equilibrium` for `loads` (n, 2), N, and `speeds` (n,), rad/s.
-
-    Raises
-    ------
-    loadflow.errors.SolverError
-        If ``control.strict``, the first load without an answer.
-    """
-    statics = Statics(bearing, options, line, float(np.abs(speeds).max()))
-    if statics.film.pockets.free.size:  # the supply must raise the pressure that carries the load
-        statics.raise_scale(loads)
-    rows = []
-    last: Solution | None = None
-    for index, (load, omega) in enumerate(zip(loads, speeds.tolist())):
-        used, solution = statics.resolve(index, load, omega, last, control)
-        if not solution.converged and control.strict:
-            raise SolverError(f"load {index}: {used.message(solution, load)}")
-        last = solution if solution.converged and used is statics else last
-        rows.append(
-            static_row(bearing, used.film, used.gap, load, options.liquid, solution, line.whirl)
-        )
-    return rows
-
-
-def field_rows(
-    bearing: JournalGeometry,
-    options: Film,
-    places: Array,
-    velocities: Array,
-    speeds: Array,
-    line: Line,
-    control: Limits,
-) -> tuple[list[dict[str, Any]], Array]:
-    """Rows of `FilmField` and axial places of the cells, m.
-
-    `places` (n, 2) are in clearances, `velocities` (n, 2) in clearances per second.
-
-    Raises
-    ------
-    loadflow.errors.InputError
-        The first position at which the shaft touches the bore.
-    loadflow.errors.SolverError
-        If ``control.strict``, the first film without an answer.
-    """
-    require(line.moment is None, "moment", "given", "tilt is given where the position is")
-    fastest = np.abs(speeds) + np.hypot(velocities[:, 0], velocities[:, 1])
-    statics = Statics(bearing, options, line, float(fastest.max()))
-    rows = []
-    for index, (place, moving, omega) in enumerate(zip(places, velocities, speeds.tolist())):
-        solution = statics.hold(index, place, moving, omega, control)
-        if not solution.converged and control.strict:
-            raise SolverError(f"film {index}: {statics.message(solution)}")
-        rows.append(field_row(statics.film, statics.gap, solution))
-    return rows, statics.film.mesh.z * bearing.radius
 
 
 def orbit_start(
@@ -247,6 +181,8 @@ class Statics:
             return self._on(self.options, ()) if fed and self.film.speed != 0.0 else None
         if self.film.elastic or not np.isfinite(solution.position).all():
             return None
+        if has_touched(self.film, solution) and solution.residual > _HOPELESS:
+            return None
         crowd, before = self.gap.closing(solution.position, _NARROW), self.crowd or ()
         same = len(crowd) == len(before) and np.allclose(crowd, before, atol=_SAME)
         return None if same else self._on(self.options, crowd)
@@ -279,6 +215,9 @@ class Statics:
         solution, estimate, pads = self._by_newton(force, estimate, last, limits)
         if not solution.converged and in_steps:
             solution = self._in_steps(force, estimate, pads, limits)
+            fixed = not (film.elastic or gap.pads.size)
+            if fixed and not (solution.converged or has_touched(film, solution)):
+                solution = self._by_other_loads(force, estimate, limits) or solution
         return self._checked(replace(solution, estimate=estimate))
 
     def hold(
@@ -425,6 +364,18 @@ class Statics:
         if gap.narrowest(position) > 0.0:
             state = solve_film(film, film.start(), position, np.zeros(gap.size), 1e-6, 30)
             yield state.u, position
+
+    def _by_other_loads(
+        self, force: Array, estimate: Array, limits: tuple[float, int]
+    ) -> Solution | None:
+        """Equilibrium by way of other sizes of the load."""
+
+        def newton(share: float, last: Solution | None) -> Solution:
+            place = estimate if last is None else last.position
+            before = None if last is None else replace(last, estimate=place)
+            return self._by_newton(share * force, place, before, limits)[0]
+
+        return solve_from_other_loads(newton, limits[1])
 
     def _in_steps(
         self, force: Array, estimate: Array, pads: Rows, limits: tuple[float, int]

@@ -1,0 +1,125 @@
+"""Ladder of the films of thrust collars: tabulated or not, over grids of their pads."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from benchmarks.common import seconds_of
+from benchmarks.ladder.measuring import (
+    Bench,
+    Entry,
+    Errors,
+    Rungs,
+    rounded,
+    sentence,
+    with_ratios,
+)
+from loadflow.journal.thrust_curves import CollarCurves, CollarFilms
+from loadflow.scene.scene import Scene
+from loadflow.scene.thrust import ThrustCollar
+from loadflow.stages import thrust
+
+FILM = ("minimum_film", "maximum_pressure", "friction_power")
+FORCES = (1e5, 3e5, 6e5, 9e5, 1.2e6)  # N, from little wind to the largest thrust
+FINEST = (160, 80)
+TABULATED = {
+    "curve": "tabulated over gap and speed, interpolated",
+    "grid": "each sample on the grid",
+}
+
+
+def measure_thrust(bench: Bench) -> Rungs:
+    """The collar of the pipeline at loads and speeds from cut-in to rated."""
+    scene, speeds = bench.scene, bench.setting.speeds
+    finest = bench.setting.finest if bench.setting.finest < FINEST else FINEST
+    reference = films(scene, "grid", finest, speeds)
+    rungs: Rungs = {}
+    for rung in TABULATED:
+        for grid in thrust.GRIDS:
+            chosen = at_grid(scene, rung, grid)
+            errors = Errors()
+            answer = films(scene, rung, grid, speeds)
+            for name in FILM:
+                for (force, speed), ours, best in zip(
+                    points(speeds), answer[name], reference[name], strict=True
+                ):
+                    where = f"{force / 1e3:g} kN at {speed:g} rad/s"
+                    errors.add(name.replace("_", " "), where, ours, best)
+            found = errors.summary()
+            entry: Entry = {
+                # the grid is each collar's own: a plan chooses the rung, and keeps it
+                **({"settings": {"rung": rung}} if grid == thrust.GRIDS[0] else {}),
+                "includes": [TABULATED[rung], f"{grid[0]}x{grid[1]} cells for each pad"],
+                "seconds_per_sample": rounded(_seconds(chosen, rung, bench.setting.repeat)),
+                "reference": f"each sample on the grid {finest[0]}x{finest[1]}",
+                "cases": (
+                    f"{', '.join(f'{force / 1e3:g}' for force in FORCES)} kN at "
+                    f"{', '.join(f'{w:g}' for w in speeds)} rad/s; collar of pipelines/dlc_1_1.toml"
+                ),
+                "errors": found,
+                "error": sentence(found, *(name.replace("_", " ") for name in FILM)),
+            }
+            rungs[thrust.rung_key(chosen)] = entry
+    return with_ratios(rungs, thrust.rung_key(at_grid(scene, "grid", thrust.GRIDS[-1])))
+
+
+def points(speeds: tuple[float, ...]) -> list[tuple[float, float]]:
+    return [(force, speed) for force in FORCES for speed in speeds]
+
+
+def collar_of(scene: Scene) -> ThrustCollar:
+    return next(iter(scene.thrust.collars.values()))
+
+
+def at_grid(scene: Scene, rung: str, grid: tuple[int, int]) -> Scene:
+    collars = {
+        name: one.model_copy(update={"grid": grid}) for name, one in scene.thrust.collars.items()
+    }
+    chosen = scene.thrust.model_copy(update={"bearings": collars, "rung": rung})
+    return scene.model_copy(update={"thrust": chosen})
+
+
+def films(
+    scene: Scene, rung: str, grid: tuple[int, int], speeds: tuple[float, ...], load: float = 1.0
+) -> dict[str, np.ndarray]:
+    """Values of `FILM` at all points."""
+    part = collar_of(at_grid(scene, rung, grid))
+    force, speed = load * np.array(points(speeds)).T[0], np.array(points(speeds)).T[1]
+    if rung == "curve":
+        answer = part.by_curve(np.outer(force, (0.0, 0.0, 1.0)), speed)
+        return {name: getattr(answer, name) for name in FILM}
+    none = np.zeros(3)
+    each = [part.solve(np.array([0.0, 0.0, f]), none, w) for f, w in zip(force, speed)]
+    return {name: np.array([getattr(one, name) for one in each]) for name in FILM}
+
+
+def _seconds(scene: Scene, rung: str, repeat: int) -> float:
+    """Seconds of one sample of some hundred; those of a curve with all that is solved for it."""
+    part, rng = collar_of(scene), np.random.default_rng(0)
+    count = 2000 if rung == "curve" else 20
+    force = np.zeros((count, 3))
+    force[:, 2], speed = rng.uniform(1e5, 1e6, count), rng.uniform(0.7, 1.3, count)
+
+    def run() -> CollarFilms | list[object]:
+        if rung == "curve":
+            fresh = replace(part.film_model, edge_pressure=part.edge_pressure + rng.random())
+            return CollarCurves(part.bearing, fresh, 0.5 * part.contact_film).equilibrium(
+                force[:, 2], speed
+            )
+        return [part.solve(f, np.zeros(3), w) for f, w in zip(force, speed.tolist())]
+
+    return seconds_of(run, repeat) / count
+
+
+def thrust_gains(bench: Bench, step: float) -> dict[str, float]:
+    """Largest |d ln(answer)/d ln(load)| of the collar over the points."""
+    speeds, grid = bench.setting.speeds, thrust.GRIDS[1]
+    more, less = (films(bench.scene, "grid", grid, speeds, r) for r in (step**0.5, step**-0.5))
+    return {
+        name.replace("_", " "): rounded(
+            float(np.max(np.abs(np.log(more[name] / less[name]))) / np.log(step))
+        )
+        for name in FILM
+    }

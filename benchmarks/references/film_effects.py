@@ -1,0 +1,110 @@
+"""What effects cost and how far they are right on the rung "reduced", alone and all together.
+
+    python -m benchmarks.references.film_effects [STEPS]
+
+The reference bearing of [Jonuschies 2015] under a load of two periods, 40 steps a second: processor
+time of a step over that without effects, and the largest difference from the rung "grid" with the
+same effects and cells, over the path. "rubbing" is a heavier load on rougher surfaces, of which
+asperities carry the share that is told.
+"""
+
+from __future__ import annotations
+
+import warnings
+from dataclasses import replace
+from functools import partial
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from benchmarks.common import arguments, head, row, timed
+from loadflow.errors import ValidityWarning
+from loadflow.journal import (
+    Contact,
+    Film,
+    GasMixture,
+    Heat,
+    JournalBearing,
+    LocalShell,
+    Lubricant,
+    Turbulence,
+)
+from loadflow.tribology import AsperityContact
+
+BEARING = JournalBearing(diameter=3.0, width=2.25, relative_clearance=0.5e-3)
+FILM = Film(
+    Lubricant(0.05), GasMixture(0.05e6), edge_pressure=0.5e6, grid=(60, 20), rung="reduced",
+    inlet=None, grading="uniform",
+)  # fmt: skip
+SPEED, RATE = 1.267, 40.0
+UNIT = BEARING.clearance / BEARING.radius  # tilt by a clearance at one radius from the middle
+ROUGH = AsperityContact(roughness=2e-6, contact_modulus=115e9, factor=1e-3)
+ROUGHER = replace(ROUGH, roughness=1e-5)
+SHELL = LocalShell(3e-12)
+HEAT: dict[str, Any] = {
+    "lubricant": None,
+    "heat": Heat("iso-vg-68", inlet_temperature=318.15, capacity=5e6, start_temperature=320.15),
+}
+ANSWERS = ("eccentricity_ratio", "minimum_film", "maximum_pressure", "friction_power")
+COMBINED: dict[str, tuple[dict[str, Any], bool, float]] = {
+    "nothing": ({}, False, 1.0),
+    "tilt": ({}, True, 1.0),
+    "contact": ({"contact": Contact(ROUGH)}, False, 1.0),
+    "shell": ({"shell": SHELL}, False, 1.0),
+    "turbulence everywhere": ({"turbulence": Turbulence(0.0, 0.0)}, False, 1.0),
+    "shell, contact": ({"shell": SHELL, "contact": Contact(ROUGH)}, False, 1.0),
+    "shell, contact, tilt": ({"shell": SHELL, "contact": Contact(ROUGH)}, True, 1.0),
+    "shell, contact, tilt, stored heat": (
+        {"shell": SHELL, "contact": Contact(ROUGH), **HEAT},
+        True,
+        1.0,
+    ),
+    "rubbing: shell, contact": ({"shell": SHELL, "contact": Contact(ROUGHER)}, False, 6.0),
+    "rubbing: shell, contact, tilt, stored heat": (
+        {"shell": SHELL, "contact": Contact(ROUGHER), **HEAT},
+        True,
+        6.0,
+    ),
+}
+"""By name: fields of the film, whether the shaft tilts, and the factor on the load."""
+
+
+def path(film: Film, tilts: bool, factor: float, steps: int) -> xr.Dataset:
+    """Path of the shaft with the effects."""
+    time = np.arange(steps + 1) / RATE
+    load = np.stack([2e6 + 5e5 * np.sin(1.5 * time), 4e5 * np.cos(4.0 * time)], axis=-1)
+    tilt = UNIT * np.stack([0.2 * np.sin(1.2 * time), 0.1 * np.cos(2.0 * time)], axis=-1)
+    line = {"tilt": tilt} if tilts else {}
+    return BEARING.orbit(time, factor * load, SPEED, film, **line)
+
+
+def measure(steps: int) -> None:
+    """Print a row for each combination."""
+    names = ("on", "time", *(name.replace("_", " ") for name in ANSWERS), "asperities carry")
+    print(head(*names))
+    plain = 0.0
+    for name, (fields, tilts, factor) in COMBINED.items():
+        film = replace(FILM, **fields)
+        few, seconds = timed(partial(path, film, tilts, factor, steps), 3, warm=True)
+        plain = plain or seconds
+        grid = path(replace(film, rung="grid"), tilts, factor, steps)
+        off = [float(np.abs(few[one] / grid[one] - 1.0).max()) for one in ANSWERS]
+        share = float(few["contact_share"].max()) if "contact_share" in few else 0.0
+        time = (
+            f"{seconds / plain:.2g}" if name != "nothing" else f"1 ({1e3 * plain / steps:.2g} ms)"
+        )
+        print(row(name, time, *(f"{100 * one:.2g} %" for one in off), f"{100 * share:.2g} %"),
+              flush=True)  # fmt: skip
+
+
+def main() -> None:
+    """Measure."""
+    parser = arguments(__doc__)
+    parser.add_argument("steps", type=int, nargs="?", default=200, help="Steps of a path.")
+    warnings.simplefilter("ignore", ValidityWarning)
+    measure(parser.parse_args().steps)
+
+
+if __name__ == "__main__":
+    main()
