@@ -12,7 +12,7 @@ from numba import njit
 from loadflow.journal.cavitation import LOAD
 from loadflow.journal.film._kernels import apply_law
 from loadflow.journal.film._rough_kernels import conductance, dragged, mean_film
-from loadflow.journal.film._turbulence_kernels import ACROSS, ALONG, SHEAR, factor
+from loadflow.journal.film._turbulence_kernels import ACROSS, ALONG, factor
 
 PLANES, MEAN, OPEN, CUBE = range(4)  # of `work.gap`
 FLOW, DRAG, FLOW_SLOPE, DRAG_SLOPE, FACE_PLANES = range(5)  # of `work.face`
@@ -86,15 +86,6 @@ def _turbulent_gap(film, work):
 
 
 @njit(cache=True, nogil=True)
-def drag_factor(film, work, h):
-    """Shear by the moving surface at a gap over that of laminar flow."""
-    if not film.regime.on:
-        return 1.0
-    numbers = (work.numbers[0], work.numbers[1], film.regime.begin, film.regime.end)
-    return factor(h, numbers, SHEAR)[0]
-
-
-@njit(cache=True, nogil=True)
 def smooth_beyond(rough):
     """Gap above which surfaces count as smooth, clearances; none where flow factors reach far."""
     return _FAR * rough.size if rough.along.shape[0] == 0 else np.inf
@@ -135,7 +126,9 @@ def _rough_gap(film, work):
                 gap[MEAN, i, k], gap[OPEN, i, k] = h, 1.0
                 gap[CUBE, i, k], work.gap_slope[i, k] = h * h * h, 3.0 * h * h
             else:
-                h, opens = opened(yielding, h)
+                opens = 1.0
+                if yielding.on:
+                    h, opens = opened(yielding, h)
                 gap[MEAN, i, k], gap[OPEN, i, k] = mean_film(h, s)
                 gap[CUBE, i, k], work.gap_slope[i, k] = conductance(h, s, rough.across)
                 gap[OPEN, i, k] *= opens
@@ -146,7 +139,9 @@ def _rough_gap(film, work):
                 face[FLOW, i, k], face[FLOW_SLOPE, i, k] = h * h * h, 3.0 * h * h
                 face[DRAG, i, k], face[DRAG_SLOPE, i, k] = h, 1.0
             else:
-                h, opens = opened(yielding, h)
+                opens = 1.0
+                if yielding.on:
+                    h, opens = opened(yielding, h)
                 face[FLOW, i, k], face[FLOW_SLOPE, i, k] = conductance(h, s, rough.along)
                 face[DRAG, i, k], face[DRAG_SLOPE, i, k] = dragged(h, s, rough.along, rough.slip)
                 face[FLOW_SLOPE, i, k] *= opens

@@ -12,6 +12,7 @@ from numba import njit
 
 from loadflow.journal.cavitation import DFILL, DLOAD, DP, DSLACK, FILL, LOAD, SLACK, P
 from loadflow.journal.film._rough_kernels import sheared
+from loadflow.journal.film._turbulence_kernels import SHEAR, factor
 from loadflow.journal.models import composed_film as at
 from loadflow.journal.models._composed_gap_kernels import (
     CUBE,
@@ -22,7 +23,6 @@ from loadflow.journal.models._composed_gap_kernels import (
     MEAN,
     OPEN,
     PLANES,
-    drag_factor,
     narrowest,
     opened,
     smooth_beyond,
@@ -311,6 +311,7 @@ def summarise(film, work, q, row):
     weights, slopes, fine = film.nodes.weights, film.nodes.slopes, film.nodes.fine
     p, gap, rough = work.state[LOAD], work.gap, film.rough
     far = -1.0 if rough.size == 0.0 else smooth_beyond(rough)
+    numbers = (work.numbers[0], work.numbers[1], film.regime.begin, film.regime.end)
     peak, dissipation, shear, outflow = -np.inf, 0.0, 0.0, 0.0
     liquid, volume, highest, grown = 0.0, 0.0, 0, 0.0
     fx, fy, mx, my = 0.0, 0.0, 0.0, 0.0
@@ -337,12 +338,16 @@ def summarise(film, work, q, row):
             held = weights[k] * step * gap[MEAN, i, k]
             liquid += held * inside
             volume += held
-            h = opened(film.yielding, gap[PLANES, i, k])[0]
-            if k < m:
-                lifted = h - gap[PLANES, i, k]
-                grown = max(grown, film.give * (p[i, k] - film.ring.p_edge) + lifted)
+            h = gap[PLANES, i, k]
+            if film.yielding.on:
+                h = opened(film.yielding, h)[0]
+                if k < m:
+                    lifted = h - gap[PLANES, i, k]
+                    grown = max(grown, film.give * (p[i, k] - film.ring.p_edge) + lifted)
             inverse = sheared(h, rough.size, rough.along) if h <= far else 1.0 / h
-            shear += weights[k] * step * inverse * drag_factor(film, work, h)
+            if film.regime.on:
+                inverse *= factor(h, numbers, SHEAR)[0]
+            shear += weights[k] * step * inverse
         fx += load * film.ring.cos[i]
         fy += load * film.ring.sin[i]
         mx -= turn * film.ring.sin[i]

@@ -81,9 +81,8 @@ def balance(film, work, wedge, rate):
         base = film.ring.order[i] * m
         base_r = film.ring.order[right] * m
         h = work.gap_face[i]
-        step = film.ring.apart[i]
-        g = h * h * h / step
-        by_g = 3.0 * h * h / step
+        by_g = 3.0 * h * h / film.ring.apart[i]
+        g = by_g * h / 3.0
         upwind = i if wedge > 0 else right
         for k in range(m):
             w = axial.weights[k]
@@ -99,11 +98,6 @@ def balance(film, work, wedge, rate):
             columns[base_r + k, 0] -= q
             columns[base_r + k, 1] -= dx
             columns[base_r + k, 2] -= dy
-    if film.ring.shaped:
-        for i in range(nx):
-            if film.ring.groove[i]:  # its pressure stays
-                base = film.ring.order[i] * m
-                columns[base : base + m] = 0.0
     largest = 0.0
     for row in range(columns.shape[0]):
         largest = max(largest, abs(columns[row, 0]))
@@ -183,12 +177,30 @@ def matrix(film, work, wedge, rate):
             band[base + k, mid + shift] += by_r
             band[base_r + k, mid] -= by_r
             band[base_r + k, mid - shift] -= by_l
-    if film.ring.shaped:
-        for i in range(nx):
+
+
+@njit(cache=True, nogil=True)
+def hold_grooves(film, columns):
+    """Leave the pressure of grooves as it is, after `balance`; returns the largest residual."""
+    m, largest = len(film.lanes), 0.0
+    for i in range(film.ring.groove.size):
+        base = film.ring.order[i] * m
+        for row in range(base, base + m):
             if film.ring.groove[i]:
-                base = film.ring.order[i] * m
-                band[base : base + m] = 0.0
-                band[base : base + m, mid] = 1.0
+                columns[row, :3] = 0.0
+            largest = max(largest, abs(columns[row, 0]))
+    return largest
+
+
+@njit(cache=True, nogil=True)
+def hold_grooves_in(film, band):
+    """The same in the band matrix, after `matrix`."""
+    m = len(film.lanes)
+    for i in range(film.ring.groove.size):
+        if film.ring.groove[i]:
+            base = film.ring.order[i] * m
+            band[base : base + m] = 0.0
+            band[base : base + m, 2 * m] = 1.0
 
 
 @njit(cache=True, nogil=True)

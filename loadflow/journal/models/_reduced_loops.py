@@ -14,6 +14,8 @@ from loadflow.journal.models._reduced_kernels import (
     balance,
     carried,
     factorise,
+    hold_grooves,
+    hold_grooves_in,
     magnitudes,
     matrix,
     narrowest,
@@ -118,6 +120,8 @@ def newton(film, work, x, y, fx, fy, speed, rate, tolerance, max_iterations):
     while True:
         place(film, work, x, y)
         worst, lx, ly = balance(film, work, wedge, rate)
+        if film.ring.shaped:
+            worst = hold_grooves(film, work.columns)
         residual = worst / flux
         if film.free:
             residual = max(residual, np.hypot(fx - lx, fy - ly) / force_scale)
@@ -131,6 +135,8 @@ def newton(film, work, x, y, fx, fy, speed, rate, tolerance, max_iterations):
             return x, y, residual, spent, answered, rounding
         spent += 1
         matrix(film, work, wedge, rate)
+        if film.ring.shaped:
+            hold_grooves_in(film, work.band)
         if not factorise(film.lanes, work.band, work.columns.shape[0]):
             return x, y, residual, spent, False, rounding
         substitute(film.lanes, work.band, work.columns)
@@ -161,6 +167,9 @@ def finish(film, work, x, y, speed, row, stiffness, damping):
     summarise(film, work, x, y, wedge, row)
     balance(film, work, wedge, 0.0)
     matrix(film, work, wedge, 0.0)
+    if film.ring.shaped:
+        hold_grooves(film, work.columns)
+        hold_grooves_in(film, work.band)
     factorise(film.lanes, work.band, work.columns.shape[0])
     substitute(film.lanes, work.band, work.columns)
     _, by_x, by_y = carried(film, work)
