@@ -32,6 +32,16 @@ def test_of_10_000_mutants_none_escapes(kind):
     [
         ("rolling", {"arrangement": ["moment"]}, "arrangement: must be one of two-spherical"),
         ("rolling", {"arrangement": 3}, "arrangement: must be one of two-spherical"),
+        (
+            "rolling",
+            {"inner_ring": {"section": {"width": 0.1, "height": 1e200}, "radius": 0.9}},
+            "height: must be > 0 and at most 1000 m, got 1e\\+200",
+        ),
+        (
+            "rolling",
+            {"inner_ring": {"section": {"width": 0.1, "height": 0.1}, "radius": 1e154}},
+            "radius",
+        ),
         ("loads", {"duration": 1e300}, "loads.duration = 1e\\+300: must be less than or equal"),
         ("loads", {"seeds": 2**80}, "loads.seeds"),
         ("loads", {"first_seed": 2**80}, "loads.first_seed"),

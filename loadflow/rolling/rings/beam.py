@@ -26,7 +26,7 @@ from loadflow.errors import SolverError
 from loadflow.numerics.fields import check_fields
 from loadflow.rolling.contacts import Array
 from loadflow.rolling.rings.patches import PatchPoints
-from loadflow.rolling.rings.section import RingSection, Support
+from loadflow.rolling.rings.section import LARGEST, RingSection, Support
 from loadflow.tribology.hertz import STEEL_MODULUS, STEEL_POISSON
 
 FIELDS = 6  # u, v, w, ψ_r, ψ_θ, ψ_z
@@ -68,7 +68,7 @@ class RingBeam:
     """
 
     section: RingSection
-    radius: Annotated[float, Gt(0)]
+    radius: Annotated[float, Gt(0), Le(LARGEST)]
     height: float = 0.0
     supports: tuple[Support, ...] = ()
     elastic_modulus: Annotated[float, Gt(0)] = STEEL_MODULUS

@@ -12,6 +12,9 @@ from loadflow.errors import InputError
 from loadflow.numerics.fields import check_fields
 from loadflow.tribology.hertz import STEEL_MODULUS, STEEL_POISSON
 
+LARGEST = 1e3
+"""Longest side or radius of a ring, m, whose powers are numbers still."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class RingSection:
@@ -57,7 +60,10 @@ class RingSection:
 
     def __post_init__(self) -> None:
         check_fields(self)
-        if not self.inertia_product**2 < self.inertia_axial * self.inertia_radial:
+        if (
+            not self.inertia_product * self.inertia_product
+            < self.inertia_axial * self.inertia_radial
+        ):
             raise InputError(
                 f"inertia_product: its square must be < inertia_axial · inertia_radial, "
                 f"got {self.inertia_product:g}"
@@ -70,11 +76,11 @@ class RingSection:
         Raises
         ------
         InputError
-            If a side is not positive.
+            If a side is not positive, or longer than `LARGEST`.
         """
         for name, side in (("width", width), ("height", height)):
-            if not (math.isfinite(side) and side > 0):
-                raise InputError(f"{name}: must be > 0, got {side!r}")
+            if not 0 < side <= LARGEST:
+                raise InputError(f"{name}: must be > 0 and at most {LARGEST:g} m, got {side!r}")
         short, long = sorted((width, height))
         ratio = short / long
         # series of St. Venant's solution; its terms fall as 1/n⁵
@@ -158,7 +164,15 @@ class Support:
             Of the wall, m.
         elastic_modulus, poisson_ratio : float
             Pa and 1.
+
+        Raises
+        ------
+        InputError
+            If radius, thickness or length is not positive, or longer than `LARGEST`.
         """
+        for name, size in (("radius", radius), ("thickness", thickness), ("length", length)):
+            if not 0 < size <= LARGEST:
+                raise InputError(f"{name}: must be > 0 and at most {LARGEST:g} m, got {size!r}")
         bending = elastic_modulus * thickness**3 / (12 * (1 - poisson_ratio**2))
         beta = (3 * (1 - poisson_ratio**2)) ** 0.25 / math.sqrt(radius * thickness)
         return cls(
