@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 import subprocess
 import sys
 
@@ -105,8 +106,8 @@ def test_seeds_writes_a_page_that_needs_no_other_file(loadflow, hub_cube, tmp_pa
     text = page.read_text(encoding="utf-8")
     assert code == 0
     assert "hub_moment.y" in out
-    assert text.count('src="data:image/png;base64,') == 4  # boxes and spectra of two wind speeds
-    assert "http" not in text
+    assert text.count("<figure") == 4  # boxes and spectra of two wind speeds
+    assert not re.search(r"""(src|href)=["']https?:""", text)
 
 
 def test_seeds_takes_bearing_forces_and_leaves_out_what_is_zero(loadflow, bearing_cube):
@@ -144,7 +145,7 @@ def test_reduce_writes_a_parameter_file_for_each_case_and_bearing(loadflow, hub_
         assert part["largest_force"]["reduced"] == pytest.approx(largest, rel=1e-12)
         assert largest == part["largest_force"]["full"]  # the default pick keeps the extremes
     page = (tmp_path / "reduced" / "reduction.html").read_text(encoding="utf-8")
-    assert page.count('src="data:image/png;base64,') == 8
+    assert page.count("<figure") == 8
 
 
 def test_reduce_takes_the_forces_of_the_cube_in_the_frame_of_the_film(

@@ -16,6 +16,7 @@ STEPS, RUNNING = 400, 220
 
 class One:
     dlc, wind_speed, seed, weight, name = "4.1", 8.0, 1, 1.0, "dlc4.1_v8_s1"
+    duration = STEPS * 0.25
 
 
 def shut_down(share=RUNNING / STEPS, idling=IDLING):

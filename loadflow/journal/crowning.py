@@ -67,6 +67,17 @@ class BestCrown:
         Spread of the value over the last simplex, over the value.
     iterations : int
         Crowns that were tried.
+
+    Examples
+    --------
+    As `best_crown` answers it:
+
+    >>> from loadflow.journal import BestCrown, Crown, JournalBearing
+    >>> bearing = JournalBearing(1.0, 1.0, 1e-3, relief=(Crown(height=3e-5),))
+    >>> crown, found = bearing.relief[0], (None, None, 0, True, 1e-4, 39)
+    >>> best = BestCrown(crown, bearing, "minimum_film", 4.5e-5, 2.5e-5, *found)
+    >>> round(best.value / best.without, 1)
+    1.8
     """
 
     crown: Crown | None

@@ -104,7 +104,8 @@ def resolved(relative: Array, converged: NDArray[np.bool_]) -> NDArray[np.bool_]
 def warn_if_unresolved(columns: dict[str, Array]) -> None:
     """Warn of converged films, `columns` (n, …) of results, that the cells do not resolve.
 
-    Nothing is known of the cells of other rungs than the grid.
+    Nothing is known of the cells of other rungs than the grid, and too little where asperities
+    carry: the bounds were not held against finer cells there.
 
     Warns
     -----
@@ -114,6 +115,8 @@ def warn_if_unresolved(columns: dict[str, Array]) -> None:
     if "relative_grid_error" not in columns:
         return
     found, bounds = columns["converged"].astype(bool), columns["relative_grid_error"]
+    if columns.get("contact_share") is not None:
+        found = found & ~(np.asarray(columns["contact_share"]) > 0.0)
     missed = found & ~resolved(bounds, found)
     if not missed.any():
         return

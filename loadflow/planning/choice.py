@@ -105,7 +105,7 @@ def sections(
             variants = [
                 changed
                 for one in variants
-                for on in (True, False)
+                for on in (False, True)  # of equals the first is taken
                 if (changed := switched(one, effect, on)) is not None
             ]
         for rungs in (one for one in needed if one.section == section):

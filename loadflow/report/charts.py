@@ -41,6 +41,13 @@ class Panel:
         A dashed line across.
     logarithmic : bool
         Scale of the ordinate.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.report.charts import Panel
+    >>> Panel("film, µm", {"h_min": np.array([30.0, 28.0])}, level=10.0).logarithmic
+    False
     """
 
     label: str
