@@ -354,7 +354,7 @@ PARTS = {"sizes": sizes, "scenes": scenes, "runs": runs}
 """What is measured."""
 
 SIZES = "## Size over wind speed and turbine"
-SCENES = """## Ten scenes, and what the plan keeps of them
+SCENES = """## Scenes, and what the plan keeps of them
 
 Accuracy of 5 % where nothing else is said; DLC 1.1 at 12 m/s, or as named. After each effect that
 the pilot measured: what leaving it out changes most. What a scene has no data for, or what moves
