@@ -380,7 +380,7 @@ def main() -> None:
     asked = parser.parse_args().parts
     for part in asked:
         found: list[dict[str, Any]] = []
-        for one in PARTS[part][0]():
+        for one in PARTS[part]():
             found.append(one)
             KEPT.write_text(json.dumps(kept_so_far() | {part: found}, indent=1), encoding="utf-8")
     kept = kept_so_far()
