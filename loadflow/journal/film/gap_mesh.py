@@ -16,7 +16,7 @@ from loadflow.journal.shapes import Relief, Segment
 Array = NDArray[np.float64]
 _TURN = 2 * np.pi
 _SLIVER = 1e-7  # share of a groove in its outermost cells, so that its pressure acts at its edge
-FEWEST = 4  # cells around of a segment
+_FEWEST = 4  # cells around of a segment
 _CLOSEST = 0.004  # width of the narrowest cells where they crowd, rad
 _GROWTH = 0.25  # width of the others there over their distance
 
@@ -167,11 +167,17 @@ def relief_marks(
     return turns, [z / radius for _, across in steps for z in across]
 
 
+def cells_on(segments: Sequence[Segment], cells: int) -> list[int]:
+    """Share `cells` out among segments by what they span."""
+    spans = [part.end - part.start for part in segments]
+    return [max(_FEWEST, round(cells * span / sum(spans))) for span in spans]
+
+
 def _around_segments(
     segments: tuple[Segment, ...], turns: Array, cells: int
 ) -> tuple[Array, NDArray[np.int64], NDArray[np.bool_]]:
     """Cell edges from the first segment's start to the last one's end; a groove takes 3 cells."""
-    total = sum(s.end - s.start for s in segments)
+    counts = cells_on(segments, cells)
     edges, segment, groove = [np.array([segments[0].start])], [], []
     for number, part in enumerate(segments):
         if number:
@@ -180,8 +186,7 @@ def _around_segments(
             edges.append(inner)
             segment += [number - 1, number - 1, number]
             groove += [True] * 3
-        wanted = max(FEWEST, round(cells * (part.end - part.start) / total))
-        own = _between(part.start, part.end, turns, wanted)
+        own = _between(part.start, part.end, turns, counts[number])
         edges.append(own[1:])
         segment += [number] * (own.size - 1)
         groove += [False] * (own.size - 1)

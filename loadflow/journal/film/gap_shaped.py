@@ -68,6 +68,21 @@ class Bore:
             total += part.added(angle, z * self.radius, self.width) / self.clearance
         return total
 
+    def narrowest(self, position: Array) -> Array:
+        """Narrowest gap (n,) around aligned shafts at positions (n, 2), clearances; no relief."""
+        if not self.segments:
+            return np.asarray(1.0 - np.hypot(*position.T))
+        least = np.full(len(position), np.inf)
+        for part in self.segments:
+            shift = part.preload * np.array([np.cos(part.narrowest), np.sin(part.narrowest)])
+            x, y = (position + shift / (1.0 - part.preload)).T
+            # H = 1/(1 − m) − |(x, y)| cos(θ − its angle): least there, or at an end of the segment
+            away = (np.arctan2(y, x) - part.start) % (2 * np.pi)
+            ends = [x * np.cos(end) + y * np.sin(end) for end in (part.start, part.end)]
+            reach = np.where(away <= part.end - part.start, np.hypot(x, y), np.maximum(*ends))
+            least = np.minimum(least, 1.0 / (1.0 - part.preload) - reach)
+        return least
+
 
 @dataclass(frozen=True)
 class Places:

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.journal.film.film import DiscreteFilm
-from loadflow.journal.film.gap_shaped import ShapedGap
+from loadflow.journal.film.gap_shaped import Bore, ShapedGap
 from loadflow.journal.film.integrals import Integrals, in_units
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
@@ -65,7 +65,7 @@ def equilibrium(
         return _with_the_grid(bearing, options, line, answer | {"converged": found}, control)
     film = units_of(bearing, options, speed)
     reduced, work = _discrete(bearing, options, film)
-    count = speed.size
+    count, bore = speed.size, Bore.of(bearing)
     rows = np.zeros((count, at.RESULTS))
     stiffness, damping = np.zeros((count, 2, 2)), np.zeros((count, 2, 2))
     starts = _Starts(bearing, film, reduced, work, estimates(bearing, film, force, speed))
@@ -78,7 +78,7 @@ def equilibrium(
             )  # fmt: skip
             spent += iterations
             if converged and options.may_grade:
-                narrow = float(_narrowest(bearing, np.array([[x, y]]))[0])
+                narrow = float(bore.narrowest(np.array([[x, y]]))[0])
                 converged = film.resolves(np.array([1.0 - narrow, 0.0]))
             if converged:
                 finish(reduced, work, x, y, speed[n], rows[n], stiffness[n], damping[n])
@@ -189,7 +189,7 @@ class _Starts:
         work: Work,
         estimate: Array,
     ) -> None:
-        self.bearing = bearing
+        self.bore = Bore.of(bearing)
         self.work = work
         self.estimate = estimate
         self.cold = _cold(film, reduced)
@@ -200,14 +200,14 @@ class _Starts:
         if self.last is not None:
             before, position = self.last
             moved = np.hypot(*(self.estimate[n] - self.estimate[before]))
-            if moved < NEAR * _narrowest(self.bearing, np.array([position]))[0]:
+            if moved < NEAR * self.bore.narrowest(np.array([position]))[0]:
                 self.work.u[:] = self.work.last
                 yield position
         self.work.u[:] = self.cold
         x, y = self.estimate[n]
-        if self.bearing.shape.segments:
+        if self.bore.segments:
             tries = np.outer(SHARES, self.estimate[n])
-            free = _narrowest(self.bearing, tries) > ShapedGap.first_gap
+            free = self.bore.narrowest(tries) > ShapedGap.first_gap
             x, y = tries[np.argmax(free)] if free.any() else (0.0, 0.0)
         yield x, y
 
@@ -231,22 +231,6 @@ def _cold(film: DiscreteFilm, reduced: Reduced) -> Array:
     return film.unknown_of(np.full((reduced.ring.width.size, POINTS), film.p_edge))
 
 
-def _narrowest(bearing: JournalGeometry, position: Array) -> Array:
-    """Narrowest gap around shafts at positions (n, 2), both in clearances, (n,)."""
-    if not bearing.shape.segments:
-        return np.asarray(1.0 - np.hypot(*position.T))
-    least = np.full(len(position), np.inf)
-    for part in bearing.shape.segments:
-        shift = part.preload * np.array([np.cos(part.narrowest), np.sin(part.narrowest)])
-        x, y = (position + shift / (1.0 - part.preload)).T
-        # H = 1/(1 − m) − |(x, y)| cos(θ − its angle): least there, or at an end of the segment
-        away = (np.arctan2(y, x) - part.start) % (2 * np.pi)
-        ends = [x * np.cos(end) + y * np.sin(end) for end in (part.start, part.end)]
-        reach = np.where(away <= part.end - part.start, np.hypot(x, y), np.maximum(*ends))
-        least = np.minimum(least, 1.0 / (1.0 - part.preload) - reach)
-    return least
-
-
 def _results(
     bearing: JournalGeometry, film: DiscreteFilm, rows: Array, speed: Array
 ) -> dict[str, Any]:
@@ -257,7 +241,7 @@ def _results(
         outflow=rows[:, at.OUTFLOW],
         fill=rows[:, at.FILLED],
     )
-    values = in_units(film, found, speed, _narrowest(bearing, rows[:, [at.X, at.Y]]))
+    values = in_units(film, found, speed, Bore.of(bearing).narrowest(rows[:, [at.X, at.Y]]))
     return values | {
         "residual": rows[:, at.RESIDUAL],
         "iterations": rows[:, at.ITERATIONS].astype(int),

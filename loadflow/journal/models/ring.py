@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from loadflow.errors import SolverError
 from loadflow.journal.film.discretise import build_film
 from loadflow.journal.film.film import DiscreteFilm
-from loadflow.journal.film.gap_mesh import FEWEST
+from loadflow.journal.film.gap_mesh import cells_on
 from loadflow.journal.film.gap_shaped import Bore
 from loadflow.journal.film.mesh import folded
 from loadflow.journal.film_model import Film
@@ -95,23 +95,23 @@ def ring_of(film: DiscreteFilm, share: float) -> Ring:
     count, step = angle.size, 2.0 * np.pi / angle.size
     face, even = angle + 0.5 * step, np.full(count, step)
     return Ring(
-        np.cos(angle), np.sin(angle), np.cos(face), np.sin(face),
-        step * np.cos(angle), step * np.sin(angle), np.ones(count), np.ones(count), even, even,
-        np.zeros(count, dtype=bool), False, film.mesh.order,
-        film.law.address, np.array(film.law.numbers), film.law.fill_at(film.p_edge),
-        film.scale, film.p_edge, film.slope, share * film.radius**2,
+        cos=np.cos(angle), sin=np.sin(angle), cos_face=np.cos(face), sin_face=np.sin(face),
+        load_x=step * np.cos(angle), load_y=step * np.sin(angle),
+        base=np.ones(count), base_face=np.ones(count), width=even, apart=even,
+        groove=np.zeros(count, dtype=bool), shaped=False, order=film.mesh.order,
+        law=film.law.address, numbers=np.array(film.law.numbers),
+        edge_fill=film.law.fill_at(film.p_edge), scale=film.scale, p_edge=film.p_edge,
+        slope=film.slope, area=share * film.radius**2,
     )  # fmt: skip
 
 
 def lobed(ring: Ring, bearing: JournalGeometry, around: int) -> Ring:
     """The same around the segments of a shaped bore: cells on them, one in each groove between."""
-    shape, bore = bearing.shape, Bore.of(bearing)
-    segments = shape.segments
-    total = sum(part.end - part.start for part in segments)
+    bore = Bore.of(bearing)
+    segments = bore.segments
     starts = [part.start for part in segments] + [segments[0].start + 2 * np.pi]
     edges, number, groove = [np.array(starts[:1])], [], []
-    for k, part in enumerate(segments):
-        cells = max(FEWEST, round(around * (part.end - part.start) / total))
+    for k, (part, cells) in enumerate(zip(segments, cells_on(segments, around))):
         edges += [np.linspace(part.start, part.end, cells + 1)[1:], np.array(starts[k + 1 : k + 2])]
         number += [k] * (cells + 1)
         groove += [False] * cells + [True]
