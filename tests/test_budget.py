@@ -47,6 +47,16 @@ def test_answers_are_those_of_the_whole_run():
     assert found["life"].value == pytest.approx(turns.sum() / (turns / lives).sum())
 
 
+def test_load_cases_weigh_what_the_lifetime_of_the_run_gives_them():
+    """Weights are of 1 within each design load case; one of extreme loads alone has no share."""
+    share = xr.DataArray([0.9, 0.1, 0.0], {"case": CASES[:3]}, "case")
+    found = answers(SCENE, TABLES | {"lifetime": xr.Dataset({"share": share})}, {}, ())
+    values = {one.quantity: one.value for one in found}
+    assert values["friction power"] == pytest.approx(1e3)
+    assert values["life"] == pytest.approx(100.0)
+    assert values["minimum film"] == 3e-5
+
+
 def test_intervals_come_from_seeds_of_one_wind_speed_alone():
     found = _found()
     power, film = found["friction power"], found["minimum film"]

@@ -8,15 +8,18 @@ import time
 
 import numpy as np
 import pytest
+import xarray as xr
 from browser import BROWSER, Browser
 from synthetic import cube_file
 
 import loadflow as lf
+from loadflow.planning.budget import Answer
 from loadflow.plots.style import envelope, figure
 from loadflow.report import Chart, Panel
 from loadflow.report.charts import thinned
 from loadflow.report.page import ASSETS
-from loadflow.running.report_page import report_is_current, write_report
+from loadflow.report.run_charts import over_wind_speed
+from loadflow.running.report_page import _answer_row, _spread, report_is_current, write_report
 from loadflow.scene.scene import make_scene
 
 
@@ -90,6 +93,51 @@ def test_what_a_chart_packs_is_unpacked_within_a_65535th():
     assert codes[7] == 65535
     known = np.isfinite(wave)
     assert np.abs(values - wave)[known].max() <= 0.51 * 6e5 / 65534
+
+
+def test_points_over_wind_speed_stand_at_their_own_case_and_none_is_left_out():
+    """A case may have an answer of one bearing alone; points are not thinned as lines are."""
+    cases = [f"c{k}" for k in range(3000)]
+    speed = np.repeat(np.arange(30.0), 100)
+    table = xr.Dataset(
+        {
+            name: ("case", np.arange(3000.0), {"long_name": name, "units": "1"})
+            for name in (
+                "largest_eccentricity_ratio", "smallest_film", "largest_pressure",
+                "largest_ball_force", "smallest_static_safety",
+            )
+        },
+        {"case": cases, "wind_speed": ("case", speed)},
+    )  # fmt: skip
+    [chart] = over_wind_speed(table.isel(case=slice(1, None)), table, "c")
+    number = [int(name[1:]) for name in chart.names]
+    assert sorted(number) == [*range(3000)]
+    assert np.array_equal(chart.x, speed[number])
+    for panel in chart.panels:
+        [values] = panel.lines.values()
+        known = np.isfinite(values)
+        assert known.sum() >= 2999
+        scale = 1e6 if panel.label.endswith("µm") else 1.0
+        assert np.allclose(values[known], scale * np.array(number)[known], rtol=1e-12)
+    told = json.loads(re.search(r">(\{.*\})<", chart.markup)[1])
+    assert len(base64.b64decode(told["x"]["data"])) == 2 * len(cases)
+
+
+def test_orbits_are_thinned_to_samples_with_an_answer_the_largest_among_them():
+    ratio = np.random.default_rng(1).uniform(0.2, 0.9, 9000)
+    ratio[::2] = np.nan
+    shown = _spread(xr.Dataset({"eccentricity_ratio": ("sample", ratio)}))["eccentricity_ratio"]
+    assert shown.size == 3000
+    assert np.isfinite(shown).all()
+    assert shown.max() == np.nanmax(ratio)
+
+
+def test_answers_have_a_unit_that_fits_on_value_and_interval():
+    kept = {"result": "journal.film", "bearing": "N", "error": 0.03}
+    pressure = Answer(quantity="p", unit="Pa", value=2e7, low=1.9e7, high=2.1e7, **kept)
+    ratio = Answer(quantity="e", unit="1", value=0.8, low=0.7, high=0.81, **kept)
+    assert _answer_row(pressure)[2:4] == ["20 MPa", "19 … 21 MPa"]
+    assert _answer_row(ratio)[2:4] == ["0.8", "0.7 … 0.81"]
 
 
 COUNT = """(() => {

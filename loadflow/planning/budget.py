@@ -15,6 +15,7 @@ from loadflow.planning.accuracy import contributions
 from loadflow.planning.effects import Estimates
 from loadflow.scene.scene import Scene
 from loadflow.stages.registry import giving
+from loadflow.studies.run_lifetime import known_shares
 from loadflow.studies.seed_intervals import Groups, Picks, interval
 
 Floats = NDArray[np.float64]
@@ -151,8 +152,18 @@ def answers(
         answer
         for source in _SOURCES
         if source.result in scene.results and source.variable in tables.get(source.stage, ())
-        for answer in _of(source, scene, tables[source.stage], errors, Estimates(sizes))
+        for answer in _of(source, scene, _shared(tables, source), errors, Estimates(sizes))
     ]
+
+
+def _shared(tables: Mapping[str, xr.Dataset], source: _Source) -> xr.Dataset:
+    """The table of an answer; its cases weigh what the lifetime of the run gave them, if it did.
+
+    The weights of the cases themselves are of 1 within each design load case.
+    """
+    table = tables[source.stage]
+    share = known_shares(tables, table)
+    return table if share is None else table.assign_coords(weight=("case", share))
 
 
 def _of(

@@ -75,7 +75,7 @@ class Chart:
     samples : int
         Values of a line in the page.
     points : bool
-        Points, not lines; `names` says what each is.
+        Points, not lines, and all of them; `names` says what each is.
     names : sequence of str
         Of the points.
 
@@ -102,8 +102,9 @@ class Chart:
     def markup(self) -> str:
         """Element of the page that the script of the page draws."""
         panels = []
+        samples = self.x.size if self.points else self.samples
         for panel in self.panels:
-            drawn = {name: thinned(self.x, y, self.samples) for name, y in panel.lines.items()}
+            drawn = {name: thinned(self.x, y, samples) for name, y in panel.lines.items()}
             panels.append(
                 {
                     "label": panel.label,
@@ -115,7 +116,7 @@ class Chart:
         first = next(iter(self.panels[0].lines.values()))
         data: dict[str, Any] = {
             "label": self.label,
-            "x": _packed(thinned(self.x, first, self.samples)[0]),
+            "x": _packed(thinned(self.x, first, samples)[0]),
             "panels": panels,
         }
         if self.points:

@@ -135,26 +135,29 @@ def over_wind_speed(
     caption : str
         What it shows.
     """
-    panels, cases = [], None
+    speeds = {
+        str(case): float(speed)
+        for data in (journal, rolling)
+        if data is not None
+        for case, speed in zip(data["case"].values, data["wind_speed"].values)
+    }
+    cases, panels = sorted(speeds, key=lambda case: speeds[case]), []
     for data, names in (
         (journal, ("largest_eccentricity_ratio", "smallest_film", "largest_pressure")),
         (rolling, ("largest_ball_force", "smallest_static_safety")),
     ):
         for name in names if data is not None else ():
             assert data is not None
-            order = np.argsort(data["wind_speed"].values, kind="stable")
-            dims = [dim for dim in ("bearing",) if dim in data[name].dims]
+            found = data[name].reindex(case=cases)  # a case may have an answer in one alone
+            dims = [dim for dim in ("bearing",) if dim in found.dims]
             film = "µm" if name == "smallest_film" else None
-            values, unit = readable(data[name].transpose(*dims, "case"), film)
+            values, unit = readable(found.transpose(*dims, "case"), film)
             labels = [str(b) for b in data["bearing"].values] if dims else ["largest"]
-            lines = dict(zip(labels, np.atleast_2d(values)[:, order]))
+            lines = dict(zip(labels, np.atleast_2d(values)))
             panels.append(Panel(_with_unit(data[name].attrs["long_name"], unit), lines))
-            cases = data.isel(case=order)
-    if cases is not None:
-        yield Chart(
-            caption, "wind speed, m/s", cases["wind_speed"].values, panels,
-            points=True, names=[str(name) for name in cases["case"].values],
-        )  # fmt: skip
+    if cases:
+        x = np.array([speeds[case] for case in cases])
+        yield Chart(caption, "wind speed, m/s", x, panels, points=True, names=cases)
 
 
 def seed_verdicts(seeds: xr.Dataset, method: str, caption: str) -> Chart:

@@ -76,8 +76,8 @@ def write_report(folder: Path, again: bool = False) -> Path:
     return write_page(folder / "report.html", title, facts, sections, made_of)
 
 
-_WRITTEN_BY = ("report", "plots", "running")
-"""Rooms whose files decide what the page looks like."""
+_WRITTEN_BY = ("report", "plots", "running", "planning", "studies")
+"""Rooms whose files decide what the page looks like, besides the files that stand in no room."""
 
 _OF_CLOCK = ("seconds", "wall_seconds", "workers")
 """Keys of the manifest that another start changes, and no result."""
@@ -90,12 +90,11 @@ def _made_of(folder: Path) -> str:
     kept = {key: value for key, value in manifest.items() if key not in _OF_CLOCK}
     found.update(json.dumps(kept, sort_keys=True).encode())
     package = Path(loadflow.__file__).parent
-    code = [
-        path
-        for room in _WRITTEN_BY
-        for path in sorted((package / room).rglob("*"))
-        if path.suffix in {".py", ".html", ".js", ".css"}
+    files = [
+        *sorted(package.glob("*")),
+        *(path for room in _WRITTEN_BY for path in sorted((package / room).rglob("*"))),
     ]
+    code = [path for path in files if path.suffix in {".py", ".html", ".js", ".css"}]
     for path in (folder / "result.h5", folder / "scene.toml", *code):
         if path.is_file():
             found.update(path.read_bytes())
@@ -217,16 +216,18 @@ def _answer_table(found: list[Answer]) -> Iterator[Table]:
 
 
 def _answer_row(one: Answer) -> list[str]:
-    factor, unit = (1e6, "µm") if one.unit == "m" else (1.0, one.unit)
+    largest = _largest(one.low, one.value, one.high)
+    factor, unit = (1e6, "µm") if one.unit == "m" else fitting_unit(one.unit, largest)
     low, value, high = (f"{factor * number:.4g}" for number in (one.low, one.value, one.high))
+    unit = "" if unit == "–" else f" {unit}"
     missing = ", ".join(
         f"{name} {100 * share:.2g} %" for name, share in (one.left_out or {}).items()
     )
     return [
         one.quantity,
         one.bearing,
-        f"{value} {unit}".removesuffix(" 1"),
-        "one seed" if np.isnan(one.low) else f"{low} … {high}",
+        value + unit,
+        "one seed" if np.isnan(one.low) else f"{low} … {high}{unit}",
         "not measured" if one.error is None else f"≤ {100 * one.error:.2g} %",
         one.governed_by,
         missing or "-",
@@ -327,11 +328,12 @@ def _orbits(folder: Path, shown: list[str]) -> Iterator[Picture]:
 
 def _spread(data: xr.Dataset, count: int = 3000) -> xr.Dataset:
     """Some samples of all eccentricities, the largest among them, in order."""
-    size = data.sizes["sample"]
-    if size <= count:
+    ratio = data["eccentricity_ratio"].values
+    order = np.argsort(ratio)[: np.count_nonzero(~np.isnan(ratio))]  # without an answer: last
+    if ratio.size <= count or order.size == 0:
         return data
-    order = np.argsort(data["eccentricity_ratio"].values)
-    return data.isel(sample=np.sort(order[np.linspace(size - 1, 0, count).astype(int)]))
+    picks = np.linspace(order.size - 1, 0, min(count, order.size)).astype(int)
+    return data.isel(sample=np.sort(order[picks]))
 
 
 def _reductions(folder: Path, shown: list[str]) -> Iterator[Shown]:

@@ -27,7 +27,7 @@ from loadflow.studies.compare_margins import (
 from loadflow.studies.compare_result import QUANTITIES, Comparison, Judged, Number, plain
 from loadflow.studies.compare_risks import rolling_risks, wear
 from loadflow.studies.compare_words import bearings, conclusion, drawn, facts, kind_of
-from loadflow.studies.run_lifetime import energy_per_year
+from loadflow.studies.run_lifetime import energy_per_year, known_shares
 from loadflow.studies.seed_intervals import Groups, interval, joint_life
 from loadflow.verdict import Verdict, from_dataset
 
@@ -392,12 +392,8 @@ def _error(run: Finished, result: str, quantity: str) -> float:
 
 def _shares(run: Finished, table: xr.Dataset) -> np.ndarray:
     """Share of the lifetime of each case; equal ones where the run could not tell."""
-    lifetime = run.tables.get("lifetime")
-    if lifetime is not None and "share" in lifetime:
-        share = lifetime["share"].reindex(case=table["case"].values).fillna(0.0).values
-        if share.sum() > 0:
-            return np.asarray(share / share.sum())
-    return np.full(table.sizes["case"], 1 / table.sizes["case"])
+    share = known_shares(run.tables, table)
+    return np.full(table.sizes["case"], 1 / table.sizes["case"]) if share is None else share
 
 
 def _checks(tables: Mapping[str, xr.Dataset]) -> list[dict[str, Any]]:

@@ -81,6 +81,29 @@ def case_shares(scene: Scene, table: xr.Dataset) -> np.ndarray | None:
         return None
 
 
+def known_shares(tables: Tables, table: xr.Dataset) -> np.ndarray | None:
+    """Share of the lifetime of the cases of a table, of 1 in all, as the run found it.
+
+    Parameters
+    ----------
+    tables : mapping
+        Results by stage, ``lifetime`` among them.
+    table : xarray.Dataset
+        One of them, over ``case``.
+
+    Returns
+    -------
+    ndarray or None
+        None where the run could not tell.
+    """
+    lifetime = tables.get("lifetime")
+    if lifetime is not None and "share" in lifetime:
+        share = lifetime["share"].reindex(case=table["case"].values).fillna(0.0).values
+        if share.sum() > 0:
+            return np.asarray(share / share.sum())
+    return None
+
+
 def _operating(scene: Scene) -> tuple[float, float]:
     from loadflow.turbines import load_turbine
 
