@@ -8,6 +8,7 @@ import xarray as xr
 
 from loadflow.errors import InputError
 from loadflow.scene.scene import make_scene
+from loadflow.scene.unused import unused_keys
 from loadflow.stages import wear
 from loadflow.studies.bearing_series import BearingSeries
 from loadflow.studies.lifetime import LifetimeOptions, lifetimes
@@ -202,3 +203,27 @@ def test_wear_takes_the_events_of_the_lifetime_where_it_has_no_count_of_its_own(
          "lifetime": {"per_year": {"3.1": 500}}}
     )  # fmt: skip
     assert wear.count_of(own, "3.1") == 7.0
+
+
+def test_a_scene_is_told_which_numbers_of_events_no_wear_takes():
+    base = {
+        "name": "w", "results": ["journal.wear"], "loads": {"dlc": ["1.2", "3.1", "4.1"]},
+        "shaft": {"two_point": {}}, "journal": {"contact": {"asperities": {
+            "roughness": 2e-6, "contact_modulus": 1e11, "factor": 1e-3}}},
+    }  # fmt: skip
+
+    def said(per_year=None, **keys):
+        wear = {"law": {"coefficient": 1e-17}} | keys
+        lifetime = {"per_year": per_year or {}, "years": 25.0}
+        return unused_keys(make_scene(base | {"wear": wear, "lifetime": lifetime}))
+
+    assert "wear.events" not in said({"3.1": 5}, events=7)
+    assert "wear.events" not in said({"3.1": 5, "4.1": 5})  # as it is by default
+    told = said({"3.1": 5, "4.1": 5}, events=7)
+    assert told["wear.events"].startswith("3.1, 4.1, all that wears")
+    told = said({"3.1": 5}, counts={"4.1": 5}, events=7)
+    assert told["wear.events"].endswith("wear.counts and lifetime.per_year")
+    assert "lifetime.years" not in told
+    assert "wear.counts" not in told
+    assert "no load case 2.4" in said(counts={"2.4": 5})["wear.counts"]
+    assert "lifetime.years" in said({"1.2": 5})  # production does not wear

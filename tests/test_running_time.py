@@ -7,7 +7,7 @@ from synthetic import case
 
 from loadflow.scene.scene import make_scene
 from loadflow.stages import friction, journal, reduction, shaft
-from loadflow.stages.running_time import counted
+from loadflow.stages.running_time import counted, time_shares
 from loadflow.turbines import load_turbine
 
 IDLING = -0.05 * np.pi / 30  # rad/s
@@ -83,3 +83,29 @@ def test_a_case_that_never_runs_has_the_means_of_its_standing():
     table = friction.summary({One(): part}).isel(bearing=0, case=0)
     assert table["running_share"].item() == 0.0
     assert table["mean_friction_power"].item() == table["lost_power"].item()
+
+
+def test_a_shaft_at_rest_loses_no_power_though_it_has_no_film():
+    hub = shut_down(idling=0.0)
+    tree = solved(journal.film, hub, journal={"grid": [24, 8], "bearings": ["N"]})
+    samples = tree["N"].to_dataset()
+    rests = samples["speed"].values == 0
+    assert np.isnan(samples["friction_power"].values[rests]).all()
+    table = journal.summary({One(): tree}).isel(bearing=0, case=0)
+    share = 1 - np.average(rests, weights=samples["weight"].values)
+    assert 0.4 < share < 0.7
+    expected = share * table["mean_friction_power"].item()
+    assert table["lost_power"].item() == pytest.approx(expected, rel=1e-9)
+
+
+def test_power_that_nobody_knows_is_not_taken_as_none():
+    samples = xr.Dataset({
+        "running": ("sample", [True, True, False, False]),
+        "speed": ("sample", [1.0, 1.0, 0.01, 0.0]),
+    })  # fmt: skip
+    power = xr.DataArray([8.0, 4.0, np.nan, np.nan], dims="sample")
+    lost, _, _ = time_shares(samples, power)["lost_power"]
+    assert lost.item() == pytest.approx(4.0)
+    swings = samples.assign(running=("sample", [True] * 4))  # a bearing that does not stand
+    lost, _, _ = time_shares(swings, power)["lost_power"]
+    assert lost.item() == pytest.approx(6.0)

@@ -88,6 +88,7 @@ def _all(scene: Scene) -> Iterator[tuple[str, str]]:
         ("rolling", _of_rolling),
         ("friction", _of_friction),
         ("dynamics", _of_dynamics),
+        ("wear", _of_wear),
         ("lifetime", _of_lifetime),
     ):
         for key, reason in rules(scene) if section not in unread else ():
@@ -273,7 +274,7 @@ def _of_journal(scene: Scene) -> Iterator[tuple[str, str]]:
             yield key, "only a film in motion stores heat"
     starts = {dlc for dlc in scene.loads.dlcs if _starts(dlc)}
     if scene.loads.source == "simulate" and not starts:
-        yield "limits.start_time", "no load case of this scene starts, stops or stands"
+        yield "limits.start_time", _NO_START
     if scene.loads.source == "simulate" and len(starts) == len(scene.loads.dlcs):
         for key in ("contact_time", "eccentricity_ratio", "sommerfeld_range", "sommerfeld_peak",
                     "waviness", "margin", "minimum_film"):  # fmt: skip
@@ -283,6 +284,9 @@ def _of_journal(scene: Scene) -> Iterator[tuple[str, str]]:
 def _tilts(scene: Scene, bearing: str) -> bool:
     moment = scene.shaft.moment
     return scene.shaft.bends_at(bearing) or (moment is not None and bearing in moment.bearings)
+
+
+_NO_START = "no load case of this scene starts, stops or stands"
 
 
 def _starts(dlc: str) -> bool:
@@ -346,7 +350,7 @@ def _of_thrust(scene: Scene) -> Iterator[tuple[str, str]]:
     for place, one in scene.thrust.bearings.items():
         if simulated and not starts and one.limits.start_time is not None:
             where = f"thrust.bearings.{place}.limits.start_time"
-            yield where, "no load case of this scene starts, stops or stands"
+            yield where, _NO_START
         rows = (("geometry", one.geometry), ("back", one.back)) if one.kind == "thrust" else ()
         for key, row in rows:
             if row is not None and row.first_pad:
@@ -354,8 +358,24 @@ def _of_thrust(scene: Scene) -> Iterator[tuple[str, str]]:
                 yield where, "the collar stays aligned, so that all pads carry alike"
 
 
+def _of_wear(scene: Scene) -> Iterator[tuple[str, str]]:
+    """Numbers of events that no load case of simulated loads takes."""
+    if scene.loads.source == "files":  # their load cases are known when they are read
+        return
+    starts = set(filter(_starts, scene.loads.dlcs))
+    counted, yearly = {*scene.wear.counts}, {*scene.lifetime.per_year}
+    if not starts:
+        yield "events", _NO_START
+    elif starts <= counted | yearly:
+        told = {"wear.counts": starts & counted, "lifetime.per_year": starts & yearly - counted}
+        by = " and ".join(key for key, cases in told.items() if cases)
+        yield "events", f"{', '.join(sorted(starts))}, all that wears, have their number in {by}"
+    if not starts & counted:
+        yield "counts", f"no load case {', '.join(sorted(counted))} that starts, stops or stands"
+
+
 def _of_lifetime(scene: Scene) -> Iterator[tuple[str, str]]:
-    counted = {*scene.lifetime.per_year} - {*scene.wear.counts}
+    counted = set(filter(_starts, scene.lifetime.per_year)) - {*scene.wear.counts}
     if "journal.wear" not in scene.results or not counted:
         yield "years", "no wear follows from lifetime.per_year"
 

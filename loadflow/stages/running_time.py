@@ -42,15 +42,20 @@ def counted(samples: xr.Dataset) -> xr.DataArray | bool:
 def time_shares(samples: xr.Dataset, power: xr.DataArray) -> dict[str, tuple[Any, str, str]]:
     """Share of the time that runs, and the mean power with the time of standing in it, W.
 
+    A shaft at rest has no film and loses no power. Films that touch while it turns have a power
+    that nobody knows: their time counts as the rest of the case.
+
     Parameters
     ----------
     samples : xarray.Dataset
-        With ``running``, and ``weight`` where samples stand for several steps.
+        With ``running`` and ``speed``, and ``weight`` where samples stand for several steps.
     power : xarray.DataArray
         Friction power over ``sample``, W.
     """
     weight = samples.get("weight", xr.ones_like(samples["sample"], dtype=float))
     running = samples.get("running", xr.ones_like(weight)).astype(float).broadcast_like(power)
+    if "speed" in samples:
+        power = power.where(power.notnull() | (samples["speed"] != 0) | (running > 0), 0.0)
     return {
         "running_share": (running.weighted(weight).mean("sample"), "1", "share of time running"),
         "lost_power": (
