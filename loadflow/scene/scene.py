@@ -38,6 +38,7 @@ from loadflow.scene.section import Section, too_large
 from loadflow.scene.series import Reduction, Seeds
 from loadflow.scene.shaft import Shaft
 from loadflow.scene.thrust import Thrust, check_thrust
+from loadflow.scene.tolerances import Tolerances
 from loadflow.scene.turbine import Turbine
 from loadflow.scene.usual_bearings import usual_bearings
 from loadflow.scene.wear import Wear, check_wear
@@ -115,6 +116,7 @@ class Scene(Section, BaseModel):
     friction: Friction = Friction()
     candidates: dict[str, Candidate] = {}
     design: Design = Design()
+    tolerances: Tolerances = Tolerances()
 
     @field_validator("name")
     @classmethod
@@ -430,9 +432,7 @@ def _with_scaled_shaft(data: dict[str, Any]) -> dict[str, Any]:
 def _has_films(data: dict[str, Any]) -> bool:
     """Whether data of a scene, in sections, want a result of journal bearings."""
     results = data.get("results", USUAL)
-    return isinstance(results, (list, tuple)) and any(
-        isinstance(name, str) and name.startswith("journal.") for name in results
-    )
+    return isinstance(results, list | tuple) and any(str(n).startswith("journal.") for n in results)
 
 
 def _results_that_the_shaft_can_give(data: dict[str, Any], stated: set[str]) -> dict[str, Any]:
