@@ -195,7 +195,7 @@ class Toleranced:
                     except (ValidationError, InputError) as error:
                         raise ValueError(f"{told}: {_first(error)}") from error
         for place in filter(self.is_turned, self.journal.bearings):
-            where = f"bearings.{place}.{ALIGNMENT}"
+            where = f"journal.{ALIGNMENT}, bearing {place}"
             if not shaft.bends_at(place) or method == "periodic":
                 raise ValueError(
                     f"{where}: only a film at rest or along the series, around a shaft with a "
