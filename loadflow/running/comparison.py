@@ -20,6 +20,7 @@ from loadflow.scene.candidates import candidates_of
 from loadflow.scene.design import Design
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Candidate, Scene, make_scene, read_scene
+from loadflow.scene.tolerances import Tolerances
 from loadflow.scene.wear import check_wear
 from loadflow.storage import write_text
 from loadflow.studies.compare import Finished, compared
@@ -232,14 +233,27 @@ def candidates_for(scene: Scene) -> tuple[dict[str, Candidate], list[str]]:
     if "journal" in scene.model_fields_set:
         title = "journal bearings of the scene"
         thrust = scene.thrust if scene.thrust.bearings else None
-        found["own-journal"] = Candidate(title=title, journal=scene.journal, thrust=thrust)
+        found["own-journal"] = Candidate(
+            title=title,
+            journal=scene.journal,
+            thrust=thrust,
+            tolerances=_of_places(scene, [*scene.journal.bearings, *scene.thrust.bearings]),
+        )
     elif scene.thrust.bearings:
         title = "film bearings of the scene"
-        found["own-thrust"] = Candidate(title=title, thrust=scene.thrust)
+        found["own-thrust"] = Candidate(
+            title=title,
+            thrust=scene.thrust,
+            tolerances=_of_places(scene, [*scene.thrust.bearings]),
+        )
     sized = candidates_of(scene.turbine.name)
     if "rolling" in scene.model_fields_set:
         title = "rolling bearings of the scene"
-        found["own-rolling"] = Candidate(title=title, rolling=scene.rolling)
+        found["own-rolling"] = Candidate(
+            title=title,
+            rolling=scene.rolling,
+            tolerances=_of_places(scene, [*scene.rolling.geometries]),
+        )
     shell = {
         "turbine": {"name": scene.turbine.name},
         "results": ["loads.statistics"],
@@ -255,6 +269,10 @@ def candidates_for(scene: Scene) -> tuple[dict[str, Candidate], list[str]]:
             f"{', '.join(places) or 'no place'} the package has none; write [candidates.NAME.PLACE]"
         )
     return usable, [name for name in found if name not in usable]
+
+
+def _of_places(scene: Scene, places: list[str]) -> Tolerances:
+    return {place: found for place, found in scene.tolerances.items() if place in places}
 
 
 def candidate_scene(base: Scene, name: str, candidate: Candidate, steps: int) -> Scene:
@@ -275,7 +293,7 @@ def candidate_scene(base: Scene, name: str, candidate: Candidate, steps: int) ->
         Length of the shortest series.
     """
     results: list[str] = []
-    update: dict[str, Any] = {"name": name, "candidates": {}}
+    update: dict[str, Any] = {"name": name, "candidates": {}, "tolerances": candidate.tolerances}
     fewer: dict[str, Any] = {"size": ROLLING_SHARE}
     if candidate.journal is not None:
         results.append("journal.film")

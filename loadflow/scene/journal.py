@@ -33,6 +33,7 @@ from loadflow.scene.places import SHARED
 from loadflow.scene.section import Section
 
 Positive = Annotated[float, Field(gt=0)]
+Slope = Annotated[float, Field(ge=-0.1, le=0.1)]
 
 
 class Journal(Section, BaseModel):
@@ -55,6 +56,9 @@ class Journal(Section, BaseModel):
     With ``tilt`` the shaft is tilted and bent in them as the beam of its suspension is; if it
     has none, it tilts freely under the moment that the shaft stage gives. The film is then solved
     over its full width.
+
+    ``alignment`` is how far the bore is turned against the shaft that does not bend, rad: about
+    down and about left; only a film with ``tilt`` around a beam knows it.
 
     ``cavitation`` is the law of the ruptured film; its key ``kind`` says which:
     gas-mixture, sommerfeld, guembel, reynolds or mass-conserving. ``inlet`` replaces the oil on a
@@ -99,6 +103,7 @@ class Journal(Section, BaseModel):
     motion: Literal["quasi-static", "transient"] = "quasi-static"
     step: Positive | None = None
     tilt: bool = False
+    alignment: tuple[Slope, Slope] = (0.0, 0.0)
     shell: LocalShell | LinedShell | ThickShell | MatrixShell | None = None
     contact: Contact | None = None
     turbulence: Turbulence | None = None

@@ -14,14 +14,17 @@ import numpy as np
 import xarray as xr
 
 from loadflow.scene.cases import Case
+from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.stages.comparisons import FILM, describe_loads, extremes_of_orbit
+from loadflow.stages.effects.situation import situation
 from loadflow.stages.film_of_bearing import equilibria, follow, shaft_line
-from loadflow.stages.frames import to_film
+from loadflow.stages.frames import to_film, to_rolling
 from loadflow.stages.loads import hub_loads
 from loadflow.stages.reduction import moment_governs
 from loadflow.stages.rolling import life_of, solve_bearing
 from loadflow.stages.shaft import bearing_loads
+from loadflow.stages.thrust import samples_of, solved
 
 Answers = dict[tuple[str, str], float]
 """By bearing and quantity."""
@@ -47,6 +50,24 @@ class Probe:
     answers: Callable[[Scene, Case, Mapping[str, Any]], Answers]
 
 
+def hardest(scene: Scene, cases: tuple[Case, ...]) -> list[Case]:
+    """Return the cases of the largest steady load per speed and of the largest load, estimated.
+
+    Of given series only the wind speed is known: the lowest and the highest are taken.
+    """
+    first = {case.wind_speed: case for case in reversed(cases)}
+    speeds = sorted(first)
+    if scene.loads.source == "files":
+        places = [0, len(speeds) - 1]
+    else:
+        at = situation(scene, cases)
+        bearings = at.bearings.values()
+        steady = np.max([one.radial for one in bearings], axis=0) / at.speed
+        largest = np.max([one.radial + one.swing + one.turn for one in bearings], axis=0)
+        places = [int(np.argmax(steady)), int(np.argmax(largest))]
+    return [first[speeds[place]] for place in dict.fromkeys(places)]
+
+
 def _of_rotor(scene: Scene, case: Case, inputs: Mapping[str, Any]) -> Answers:
     return _of_shaft(scene, case, {"loads": hub_loads(scene, case, {})})
 
@@ -63,9 +84,9 @@ def _of_shaft(scene: Scene, case: Case, inputs: Mapping[str, Any]) -> Answers:
 
 def _of_film(scene: Scene, case: Case, inputs: Mapping[str, Any]) -> Answers:
     """Extremes and mean friction of each film around its largest load per speed."""
-    journal = scene.journal
     found: Answers = {}
-    for bearing in journal.bearings:
+    for bearing in scene.journal.bearings:
+        journal = scene.journal.at(bearing)
         loads, shaft = inputs["loads"], inputs["shaft"].sel(bearing=bearing)
         force = to_film(shaft["force"].transpose("time", "axis").values.astype(float))
         speed = np.abs(loads["speed"].values.astype(float))
@@ -77,7 +98,7 @@ def _of_film(scene: Scene, case: Case, inputs: Mapping[str, Any]) -> Answers:
         if journal.in_motion:
             film = follow(journal, loads, shaft).isel(time=slice(_settled(loads), None))
         else:
-            film = _at_rest(scene, loads, shaft)
+            film = _at_rest(journal, loads, shaft)
         for name, value in extremes_of_orbit(film).items():
             found[bearing, name.replace("_", " ")] = value
     return found
@@ -88,12 +109,12 @@ def _settled(loads: xr.Dataset) -> int:
     return min(SETTLED, loads.sizes["time"] // 2)
 
 
-def _at_rest(scene: Scene, loads: xr.Dataset, shaft: xr.Dataset) -> xr.Dataset:
+def _at_rest(journal: Journal, loads: xr.Dataset, shaft: xr.Dataset) -> xr.Dataset:
     some = slice(_settled(loads), None, EVERY)
     loads, shaft = loads.isel(time=some), shaft.isel(time=some)
     force = shaft["force"].transpose("time", "axis").values.astype(float)
-    line = shaft_line(scene.journal, shaft)
-    film = equilibria(scene.journal, force, loads["speed"].values.astype(float), **line)
+    line = shaft_line(journal, shaft)
+    film = equilibria(journal, force, loads["speed"].values.astype(float), **line)
     return xr.Dataset({name: ("time", np.asarray(getattr(film, name))) for name in FILM})
 
 
@@ -124,10 +145,31 @@ def _of_contacts(scene: Scene, case: Case, inputs: Mapping[str, Any]) -> Answers
     return found
 
 
+def _of_collars(scene: Scene, case: Case, inputs: Mapping[str, Any]) -> Answers:
+    """Extremes and mean friction of a few samples of each bearing of pads, the hardest included."""
+    found: Answers = {}
+    for place, bearing in scene.thrust.bearings.items():
+        samples = samples_of(scene, case, bearing, place, inputs)
+        force, moment = (
+            to_rolling(samples[name].transpose("sample", "axis").values.astype(float))
+            for name in ("force", "moment")
+        )
+        order = np.argsort(bearing.normal_load(force, moment), kind="stable")
+        places = np.unique(order[np.linspace(0, order.size - 1, CONTACTS).round().astype(int)])
+        film = solved(bearing, place, samples.isel(sample=places), scene.thrust.rung)
+        found |= {
+            (place, "minimum film"): float(np.nanmin(film["minimum_film"])),
+            (place, "maximum pressure"): float(np.nanmax(film["maximum_pressure"])),
+            (place, "friction power"): float(np.nanmean(film["friction_power"])),
+        }
+    return found
+
+
 PROBES: dict[str, Probe] = {
     "loads": Probe((), _of_rotor),
     "shaft": Probe(("loads",), _of_shaft),
     "journal": Probe(("loads", "shaft"), _of_film),
+    "thrust": Probe(("loads", "shaft"), _of_collars),
     "rolling": Probe(("loads", "shaft"), _of_contacts),
 }
 """By model; effects of models that have none are told by their indicators alone."""
