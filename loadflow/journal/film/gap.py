@@ -109,10 +109,10 @@ class BoreGap(Gap, Protocol):
     def held(self, tilt: Array | None, bend: Array | None) -> Array:
         """Centred position (m,) of a shaft whose line has the given tilt and curvature."""
 
-    def converging(self, position: Array) -> NDArray[np.int64]:
+    def converging(self, position: Array, speed: float) -> NDArray[np.int64]:
         """Pads whose film can hold them at `position`: those toward which it narrows."""
 
-    def lifted(self, position: Array, sense: float) -> Array:
+    def lifted(self, position: Array, speed: float) -> Array:
         """Position with pads tilted so that their gap converges in the sense of rotation."""
 
     def closest(self, position: Array) -> tuple[float, float, float]:
@@ -255,11 +255,11 @@ class CylindricalGap(FlowBetween):
         """Centred position; the shaft is aligned and straight."""
         return np.zeros(2)
 
-    def converging(self, position: Array) -> NDArray[np.int64]:
+    def converging(self, position: Array, speed: float) -> NDArray[np.int64]:
         """There are no pads."""
         return self.pads
 
-    def lifted(self, position: Array, sense: float) -> Array:
+    def lifted(self, position: Array, speed: float) -> Array:
         """The position itself: there are no pads."""
         return position
 
