@@ -1,7 +1,8 @@
 """What a user states about the elasticity of the shell. Options only, no solver.
 
 The pressure of the film above that of its ends widens the gap. A shell gives way where it is
-pressed (`LocalShell`, `LinedShell`), or all over (`ThickShell`, `MatrixShell`).
+pressed (`LocalShell`, `LinedShell`), or all over (`ThickShell`, `MatrixShell`, and those of
+`loadflow.journal.housings`).
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from annotated_types import Ge, Gt, Lt
 from numpy.typing import NDArray
 
 from loadflow.errors import InputError
+from loadflow.journal.housings import HousedShell, InfluenceShell
 from loadflow.numerics.fields import require
 
 _LOCAL = 0.1  # deviation of a lining from the local law that is let pass
@@ -31,6 +33,8 @@ class _Shell:
 
     local = False
     """Whether it gives way where it is pressed alone, by a `compliance`, m/Pa."""
+    symmetric = True
+    """Whether both halves of the width give way alike."""
 
     def check_local(self, length: float) -> None:
         """Refuse a shell that is not as local as it claims under a pressure over `length`, m."""
@@ -228,4 +232,4 @@ def _read_matrix(path: str | Path) -> NDArray[np.float64]:
         raise InputError(f"matrix = {str(path)!r}: no table of numbers: {error}") from error
 
 
-Shell = LocalShell | LinedShell | ThickShell | MatrixShell
+Shell = LocalShell | LinedShell | ThickShell | MatrixShell | HousedShell | InfluenceShell

@@ -14,17 +14,14 @@ from loadflow.journal import (
     Film,
     GasMixture,
     JournalBearing,
-    LinedShell,
-    LocalShell,
     Lubricant,
-    MatrixShell,
     Supply,
-    ThickShell,
     Turbulence,
 )
 from loadflow.journal.heat import Heat
 from loadflow.journal.line import Line
 from loadflow.journal.models.model import Verb, why_not
+from loadflow.journal.shells import Shell
 from loadflow.journal.thermal import grown_by
 from loadflow.scene.films import HeatTable, Law, RungName
 from loadflow.scene.limits import JournalLimits
@@ -64,8 +61,10 @@ class Journal(Section, BaseModel):
     gas-mixture, sommerfeld, guembel, reynolds or mass-conserving. ``inlet`` replaces the oil on a
     line at the widest gap, or does not; "auto" leaves it to the law.
 
-    A ``shell`` makes the bore elastic; its key ``kind`` says how: local, lined, thick, or matrix
-    with a ``matrix`` of influence coefficients, or the name of a file that holds it.
+    A ``shell`` makes the bore elastic; its key ``kind`` says how: local, lined, thick, matrix with
+    a ``matrix`` of influence coefficients of the cells, or the name of a file that holds it,
+    housed in a housing on feet or a flange, or influence with the ``file`` of a finite-element
+    program.
 
     With a table ``turbulence``, which may be empty, the flow is turbulent where its Reynolds number
     is beyond the critical one; without, it is laminar, and a run warns where it would not be.
@@ -104,7 +103,7 @@ class Journal(Section, BaseModel):
     step: Positive | None = None
     tilt: bool = False
     alignment: tuple[Slope, Slope] = (0.0, 0.0)
-    shell: LocalShell | LinedShell | ThickShell | MatrixShell | None = None
+    shell: Shell | None = None
     contact: Contact | None = None
     turbulence: Turbulence | None = None
     shaft_roughness: Positive = 1.3e-6

@@ -172,9 +172,9 @@ def anchored(data: dict[str, Any], folder: Path) -> dict[str, Any]:
         keys = [key for key in ("cases", "case_list", "channels") if key in loads]
         found["loads"] = loads | several | {key: path(loads[key]) for key in keys}
     if "journal" in data:
-        found["journal"] = _with_matrix(data["journal"], path)
+        found["journal"] = _with_shell(data["journal"], path)
     if isinstance(places := data.get("bearings"), dict):
-        found["bearings"] = {name: _with_matrix(part, path) for name, part in places.items()}
+        found["bearings"] = {name: _with_shell(part, path) for name, part in places.items()}
     turbine = data.get("turbine")
     if isinstance(turbine, dict) and isinstance(name := turbine.get("name"), str):
         file = name if name in turbine_names() or not Path(name).suffix else path(name)
@@ -184,9 +184,10 @@ def anchored(data: dict[str, Any], folder: Path) -> dict[str, Any]:
     return found
 
 
-def _with_matrix(bearing: Any, path: Callable[[Any], Any]) -> Any:
-    """A journal bearing with the path to the matrix of its shell, if it has one."""
+def _with_shell(bearing: Any, path: Callable[[Any], Any]) -> Any:
+    """A journal bearing with the path to the file of its shell, if it has one."""
     shell = bearing.get("shell") if isinstance(bearing, dict) else None
-    if not isinstance(shell, dict) or "matrix" not in shell:
+    keys = [key for key in ("matrix", "file") if isinstance(shell, dict) and key in shell]
+    if not isinstance(shell, dict) or not keys:
         return bearing
-    return bearing | {"shell": shell | {"matrix": path(shell["matrix"])}}
+    return bearing | {"shell": shell | {key: path(shell[key]) for key in keys}}
