@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import atexit
 import json
 import os
 import signal
@@ -12,6 +11,7 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from functools import lru_cache
+from multiprocessing.util import Finalize
 from pathlib import Path
 from threading import Lock, Timer
 from typing import Any
@@ -161,4 +161,6 @@ def _patience(process: subprocess.Popen[str]) -> Iterator[None]:
 
 _EXAMINER = _Examiner()
 _AT_A_TIME = Lock()
-atexit.register(_EXAMINER.close)
+Finalize(
+    None, _EXAMINER.close, exitpriority=0
+)  # also where a worker or a signal ends without atexit
