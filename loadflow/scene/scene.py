@@ -19,7 +19,7 @@ from pydantic import BaseModel, Field, ValidationError, field_validator, model_v
 from loadflow.errors import InputError
 from loadflow.journal.line import Line
 from loadflow.journal.models.model import Steps, why_not
-from loadflow.numerics.fields import LARGEST_INTEGER, shown
+from loadflow.numerics.fields import LARGEST, LARGEST_INTEGER
 from loadflow.scene.bearings import Rolling
 from loadflow.scene.candidate import Candidate as Candidate
 from loadflow.scene.candidates import ABOUT, TOLERANCES, machine
@@ -36,7 +36,7 @@ from loadflow.scene.own_shaft import taken
 from loadflow.scene.places import places_of
 from loadflow.scene.results import BY_NAME as BY_NAME
 from loadflow.scene.results import OF_PLACES, USUAL, Result, has_films, that_the_shaft_can_give
-from loadflow.scene.section import Section, too_large
+from loadflow.scene.section import Section, check_sizes
 from loadflow.scene.series import Reduction, Seeds
 from loadflow.scene.shaft import Shaft
 from loadflow.scene.thrust import Thrust, check_thrust
@@ -350,12 +350,11 @@ def make_scene(data: dict[str, Any], source: str = "scene") -> Scene:
     'nrel-5mw'
     """
     data = {"name": Path(source).stem} | data
-    for key, value in too_large(data):
-        raise InputError(
-            f"{source}: {key} = {shown(value)}: must be within ±{LARGEST_INTEGER} (64 bits)"
-        )
+    check_sizes(data, int, LARGEST_INTEGER, source)
     try:
-        return Scene.model_validate(data)
+        scene = Scene.model_validate(data)
+        check_sizes(data, float, LARGEST, source)  # keys with a range of their own have told it
+        return scene
     except ValidationError as error:
         defaults = Scene(name="defaults").model_dump() | {"bearings": {}}
         raise InputError(message(error, source, origins(data), defaults)) from error
