@@ -20,6 +20,7 @@ from loadflow.errors import InputError
 from loadflow.journal.line import Line
 from loadflow.journal.models.model import Steps, why_not
 from loadflow.numerics.fields import LARGEST, LARGEST_INTEGER
+from loadflow.scene.as_built import AsBuilt
 from loadflow.scene.bearings import Rolling
 from loadflow.scene.candidate import Candidate as Candidate
 from loadflow.scene.candidates import ABOUT, TOLERANCES, machine
@@ -73,6 +74,8 @@ class Scene(Section, BaseModel):
         By place and key of the bearing there, half of the band around a value, in its unit; of
         ``heat.oil`` a share of its viscosity. ``{ value = …, tolerance = … }`` in place of the
         value says the same.
+    as_built : AsBuilt
+        Tolerances of what `tolerances` leaves open, as `loadflow compare` takes them.
 
     Examples
     --------
@@ -101,6 +104,7 @@ class Scene(Section, BaseModel):
     tolerances: Tolerances = {}
     candidates: dict[str, Candidate] = {}
     design: Design = Design()
+    as_built: AsBuilt = AsBuilt()
 
     @field_validator("name")
     @classmethod
