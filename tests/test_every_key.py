@@ -129,6 +129,11 @@ BASES = {
         "rolling": {"bearing": "Y", "geometry": BALLS, "oscillation": {
             "amplitude": 0.5, "frequency": 0.01, "idle_torque": 10.0}},
     },
+    "pitch": {
+        "shaft": {"two_point": {}, "pitch": {}}, "results": ["rolling.life"],
+        "rolling": {"bearing": "P", "geometry": BALLS, "oscillation": {
+            "kind": "pitch", "idle_torque": 10.0}},
+    },
     "direct drive": {"shaft": {"direct_drive": {}}, "journal": FILM},
 }  # fmt: skip
 
@@ -165,6 +170,7 @@ READERS = {
     "three points": ("shaft",),
     "integrated": ("shaft",),
     "yaw": ("shaft", "rolling"),
+    "pitch": ("shaft", "rolling"),
     "direct drive": ("shaft",),
 }
 """Sections that are walked over in each scene; the first five have the loads in every guise."""
@@ -212,6 +218,7 @@ OTHERS = {
     "shaft.direct_drive": [{}],
     "shaft.moment": [{}],
     "shaft.yaw": [{}],
+    "shaft.pitch": [{}],
     "rolling.oscillation": [{"amplitude": 0.1, "frequency": 0.1}],
     "rolling.oscillation.mounting": ["pitch", "yaw, four-leg tower"],
     "shaft.two_point.beam": [{}],

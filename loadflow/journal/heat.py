@@ -162,6 +162,11 @@ class Heat(_Entering):
         return ("inlet_temperature", "ambient_temperature", "start_temperature")
 
     @property
+    def volume_heat(self) -> float:
+        """ρ c_p of the oil as it enters, J/(m³ K)."""
+        return float(self.liquid.density(self.inlet_temperature)) * self.heat_capacity
+
+    @property
     def coldest(self) -> float:
         """Lowest temperature that the film may have, K."""
         taken = [self.ambient_temperature] if self.transfer or self.sump_transfer else []
