@@ -345,8 +345,20 @@ def scene_of(data, place):
     return make_scene({"name": "walk"} | filled(data))
 
 
+def with_blade(hub):
+    """A series with the loads of blade 1 at its root, which is pitched."""
+    turn = np.linspace(0.0, 12.0, hub.sizes["time"])
+    still = np.zeros_like(turn)
+    force = np.stack([6e5 - 1.7e5 * np.cos(turn), 1.5e5 + still, -1.7e5 * np.sin(turn)])
+    moment = np.stack([still, 1.2e6 + 3.5e6 * np.sin(turn), 5e6 + 4e5 * np.cos(turn)])
+    vectors = {"root_force": force, "root_moment": moment}
+    found = {name: (("axis", "time"), values) for name, values in vectors.items()}
+    return hub.assign(found | {"pitch": ("time", 0.0009 * np.sin(2 * turn) + 0.02 * np.sin(turn))})
+
+
 HUB = case(8.0, 1, steps=120)
 HUB["speed"][:20] = np.linspace(0.0, 0.012, 20)  # the surfaces touch at first
+HUB = with_blade(HUB)
 
 
 def numbers(scene, section):
@@ -523,7 +535,7 @@ def before(place, base, section):
     return _BEFORE[key]
 
 
-ALONE = {"heat.kind", "contact", "shell"} | {
+ALONE = {"heat.kind", "oscillation.kind", "contact", "shell"} | {
     f"bearings.{key}"
     for key in (
         "N2.kind",
