@@ -124,7 +124,8 @@ def _of_environment(scene: Scene) -> Iterator[tuple[str, str]]:
     films = [scene.journal.at(place) for place in scene.journal.bearings]
     warm = [film.heat for film in films if film.heat is not None and scene.wants("journal")]
     rolls = scene.wants("rolling")
-    gives = any(heat.gives_off for heat in warm) or (rolls and scene.friction.conductance is not None)
+    sheds = rolls and scene.friction.conductance is not None
+    gives = sheds or any(heat.gives_off for heat in warm)
     if not (gives or scene.environment.cold_start):
         yield "temperature", "no bearing gives heat off to its surroundings, or starts cold"
     if not warm and not rolls:
