@@ -26,6 +26,7 @@ from loadflow.report.run_charts import film_chart, over_wind_speed, reduction_ch
 from loadflow.report.sketch import sketch
 from loadflow.running.answers_page import answer_tables, largest
 from loadflow.running.dynamics_page import dynamics_section
+from loadflow.running.energy_page import energy_table
 from loadflow.running.folder import answered, read_manifest, read_part
 from loadflow.running.loads_page import loads_section
 from loadflow.running.seeds_page import seed_section
@@ -196,6 +197,7 @@ def _overview(scene: Scene, tables: dict[str, xr.Dataset], manifest: dict[str, A
     pictures += over_wind_speed(tables.get("journal"), tables.get("rolling"), caption)
     found = answers(scene, tables, manifest.get("expected_errors", {}), manifest.get("effects", []))
     notes = [*answer_tables(found, tables), *_verdict_table(tables), *_lifetime_table(tables)]
+    notes += energy_table(tables)
     if failures:
         without = [[part, why] for part, why in failures.items()]
         notes.append(Table("Without an answer", ["part", "why"], without))

@@ -32,6 +32,9 @@ from loadflow.scene.section import Section
 Positive = Annotated[float, Field(gt=0)]
 Slope = Annotated[float, Field(ge=-0.1, le=0.1)]
 
+USUAL_HEAT_CAPACITY = 2000.0
+"""c_p of mineral oil, J/(kg K), the default of `Heat`."""
+
 
 class Journal(Section, BaseModel):
     """Journal bearings: which ones of the shaft, and one set of data for all of them.
@@ -175,6 +178,13 @@ class Journal(Section, BaseModel):
         names = ("lubricant", "cavitation", "edge_pressure", *mesh, *effects)
         inlet = None if self.inlet == "none" else self.inlet
         return {name: getattr(self, name) for name in names} | {"inlet": inlet}
+
+    @property
+    def volume_heat(self) -> float:
+        """ρ c_p of the oil, J/(m³ K); c_p of an oil without a heat balance is the usual one."""
+        if self.heat is not None:
+            return self.heat.volume_heat
+        return self.lubricant.density * USUAL_HEAT_CAPACITY
 
     def at_temperature(self, temperature: float) -> Journal:
         """The bearing with its oil held at `temperature`, K."""

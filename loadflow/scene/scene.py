@@ -21,7 +21,7 @@ from loadflow.journal.line import Line
 from loadflow.journal.models.model import Steps, why_not
 from loadflow.numerics.fields import LARGEST, LARGEST_INTEGER
 from loadflow.scene.as_built import AsBuilt
-from loadflow.scene.bearings import Rolling
+from loadflow.scene.bearings import Rolling, check_swinging
 from loadflow.scene.candidate import Candidate as Candidate
 from loadflow.scene.candidates import ABOUT, TOLERANCES, machine
 from loadflow.scene.design import Design
@@ -195,12 +195,8 @@ class Scene(Section, BaseModel):
         return self
 
     @model_validator(mode="after")
-    def _yaw_bearings_swing(self) -> Self:
-        part = self.rolling.bearings.get("Y")
-        if part is not None and part.oscillation is None:
-            raise ValueError("rolling bearing Y: the yaw bearing swings; give its oscillation")
-        if self.wants("journal") and "Y" in self.journal.bearings:
-            raise ValueError("journal.bearings = 'Y': the yaw bearing is a rolling bearing")
+    def _beside_the_shaft_bearings_swing(self) -> Self:
+        check_swinging(self.rolling, self.journal.bearings if self.wants("journal") else ())
         return self
 
     @model_validator(mode="after")
