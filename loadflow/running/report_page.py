@@ -15,6 +15,7 @@ import loadflow
 from loadflow.cube import open_cube
 from loadflow.errors import InputError
 from loadflow.planning.budget import answers, more_seeds
+from loadflow.planning.seeds_wanted import of_run, sentences
 from loadflow.planning.verification import WARN
 from loadflow.plots.journal import orbit
 from loadflow.plots.style import readable
@@ -27,7 +28,7 @@ from loadflow.report.sketch import sketch
 from loadflow.running.answers_page import answer_tables, largest
 from loadflow.running.dynamics_page import dynamics_section
 from loadflow.running.energy_page import energy_table
-from loadflow.running.folder import answered, read_manifest, read_part
+from loadflow.running.folder import answered, read_manifest, read_part, results_of
 from loadflow.running.loads_page import loads_section
 from loadflow.running.seeds_page import seed_section
 from loadflow.running.start_page import start_tables
@@ -70,9 +71,7 @@ def write_report(folder: Path, again: bool = False) -> Path:
         return folder / "report.html"
     scene = read_scene(folder / "scene.toml")
     manifest = read_manifest(folder)
-    results = open_cube(folder / "result.h5")
-    groups = results.children if isinstance(results, xr.DataTree) else {}
-    tables = {name: node.to_dataset().load() for name, node in groups.items()}
+    tables = results_of(folder) or {}
     sections = [*_sections(folder, scene, manifest, tables)]
     facts, title = _facts(scene, manifest), f"loadflow: {scene.name}"
     return write_page(folder / "report.html", title, facts, sections, made_of)
@@ -206,8 +205,10 @@ def _overview(scene: Scene, tables: dict[str, xr.Dataset], manifest: dict[str, A
     if unused := unused_keys(scene):
         rows = [[key, why] for key, why in unused.items()]
         notes.append(Table("Keys without effect", ["key", "why"], rows))
-    said = more_seeds(found, lambda result: min(scene.allowed(result), WARN))
-    return Section("Overview", said, tables=notes, pictures=pictures)
+    said = [more_seeds(found, lambda result: min(scene.allowed(result), WARN))]
+    said += sentences(of_run(scene, tables, manifest.get("expected_errors", {})))[:1]
+    text = " ".join(f"{one[0].upper()}{one[1:].rstrip('.')}." for one in said if one)
+    return Section("Overview", text, tables=notes, pictures=pictures)
 
 
 def _verdict_table(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
