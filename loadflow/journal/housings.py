@@ -139,6 +139,7 @@ class HousedShell:
     kind: Literal["housed"] = "housed"
 
     local = False
+    any_grid = True
 
     def __post_init__(self) -> None:
         require(self.modulus > 0, "modulus", self.modulus, "Pa, > 0")
@@ -225,6 +226,7 @@ class InfluenceShell:
     kind: Literal["influence"] = "influence"
 
     local = False
+    any_grid = True
 
     def __post_init__(self) -> None:
         require(0 < self.accuracy <= 0.1, "accuracy", self.accuracy, "0 < accuracy ≤ 0.1")

@@ -35,6 +35,8 @@ class _Shell:
     """Whether it gives way where it is pressed alone, by a `compliance`, m/Pa."""
     symmetric = True
     """Whether both halves of the width give way alike."""
+    any_grid = True
+    """Whether it is known on every grid of the film."""
 
     def check_local(self, length: float) -> None:
         """Refuse a shell that is not as local as it claims under a pressure over `length`, m."""
@@ -197,6 +199,8 @@ class MatrixShell(_Shell):
 
     matrix: Any
     kind: Literal["matrix"] = "matrix"
+
+    any_grid = False
 
     def __post_init__(self) -> None:
         given = self.matrix
