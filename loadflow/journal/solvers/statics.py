@@ -45,11 +45,8 @@ Array = NDArray[np.float64]
 Rows = NDArray[np.int64]
 
 _PAD_ROUNDS = 8  # solutions in which pads may come under load, or lose theirs
-<<<<<<< HEAD
 _FIRST = 2  # Newton steps of a film on pads before the shaft moves
-=======
 _MOST_AROUND = (120, 240)  # cells, of a shell that gives way all over, and where it is pressed
->>>>>>> film
 _CROWDED = 2  # meshes that are tried beside the one asked for
 _SAME = 0.02  # angle, rad, by which the place of the narrowest gap must have moved for another
 _HOPELESS = 0.8  # of the load, missing as the shaft touches: on no mesh the film carries it
