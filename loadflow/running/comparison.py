@@ -18,6 +18,7 @@ from loadflow.report.compare_page import write_comparison
 from loadflow.running.folder import answered, finished_parts, open_part, read_manifest
 from loadflow.running.parts import digest_of
 from loadflow.running.runner import Report, run
+from loadflow.scene.as_built import AsBuilt
 from loadflow.scene.candidates import candidates_of
 from loadflow.scene.design import Design
 from loadflow.scene.journal import Journal
@@ -114,8 +115,8 @@ def compare(
     loads = shared_loads(scene, out, how)
     finished, failures = run_candidates(loads, chosen, loads.folder / "candidates", how)
     found = compared(loads.scene, finished, loads.folder, failures, without_place)
-    if scene.tolerances.any:
-        found = _banded(found, finished, loads, scene.tolerances, how)
+    if scene.as_built.any:
+        found = _banded(found, finished, loads, scene.as_built, how)
     done = Compared(loads.folder, found, failures)
     write_comparison(done.page, found.as_dict())
     write_text(done.table, found.to_csv())
@@ -127,7 +128,7 @@ def _banded(
     found: Comparison,
     finished: list[Finished],
     loads: SharedLoads,
-    tolerances: Tolerances,
+    given: AsBuilt,
     how: Means,
 ) -> Comparison:
     """The comparison with the bands of its numbers by tolerances."""
@@ -138,7 +139,7 @@ def _banded(
         how.say("tolerances", k, len(found.candidates))
         run = by_name[one.name]
         scene = read_scene(run.folder / "scene.toml")
-        judged.append(with_bands(one, run, scene, spectrum, tolerances))
+        judged.append(with_bands(one, run, scene, spectrum, given))
     how.say("tolerances", len(judged), len(judged))
     return replace(found, candidates=tuple(judged))
 
@@ -267,14 +268,27 @@ def candidates_for(scene: Scene) -> tuple[dict[str, Candidate], list[str]]:
     if "journal" in scene.model_fields_set:
         title = "journal bearings of the scene"
         thrust = scene.thrust if scene.thrust.bearings else None
-        found["own-journal"] = Candidate(title=title, journal=scene.journal, thrust=thrust)
+        found["own-journal"] = Candidate(
+            title=title,
+            journal=scene.journal,
+            thrust=thrust,
+            tolerances=_of_places(scene, [*scene.journal.bearings, *scene.thrust.bearings]),
+        )
     elif scene.thrust.bearings:
         title = "film bearings of the scene"
-        found["own-thrust"] = Candidate(title=title, thrust=scene.thrust)
+        found["own-thrust"] = Candidate(
+            title=title,
+            thrust=scene.thrust,
+            tolerances=_of_places(scene, [*scene.thrust.bearings]),
+        )
     sized = candidates_of(scene.turbine.name)
     if "rolling" in scene.model_fields_set:
         title = "rolling bearings of the scene"
-        found["own-rolling"] = Candidate(title=title, rolling=scene.rolling)
+        found["own-rolling"] = Candidate(
+            title=title,
+            rolling=scene.rolling,
+            tolerances=_of_places(scene, [*scene.rolling.geometries]),
+        )
     shell = {
         "turbine": {"name": scene.turbine.name},
         "results": ["loads.statistics"],
@@ -290,6 +304,10 @@ def candidates_for(scene: Scene) -> tuple[dict[str, Candidate], list[str]]:
             f"{', '.join(places) or 'no place'} the package has none; write [candidates.NAME.PLACE]"
         )
     return usable, [name for name in found if name not in usable]
+
+
+def _of_places(scene: Scene, places: list[str]) -> Tolerances:
+    return {place: found for place, found in scene.tolerances.items() if place in places}
 
 
 def candidate_scene(base: Scene, name: str, candidate: Candidate, steps: int) -> Scene:
@@ -310,7 +328,7 @@ def candidate_scene(base: Scene, name: str, candidate: Candidate, steps: int) ->
         Length of the shortest series.
     """
     results: list[str] = []
-    update: dict[str, Any] = {"name": name, "candidates": {}}
+    update: dict[str, Any] = {"name": name, "candidates": {}, "tolerances": candidate.tolerances}
     fewer: dict[str, Any] = {"size": ROLLING_SHARE}
     if candidate.journal is not None:
         results.append("journal.film")
@@ -367,7 +385,7 @@ def _base(scene: Scene) -> Scene:
     """The scene with the models of its loads named, so that all candidates share them."""
     loads = make_plan(scene).scene.loads if scene.accuracy is not None else scene.loads
     update = {"loads": loads, "results": ["loads.statistics"], "candidates": {}, "design": Design()}
-    update["tolerances"] = Tolerances()
+    update |= {"tolerances": {}, "as_built": AsBuilt()}
     return scene.model_copy(update=update)
 
 

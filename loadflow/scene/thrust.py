@@ -365,7 +365,7 @@ def check_thrust(thrust: Thrust, method: str) -> None:
             '"histogram" or "stationary"'
         )
     for place, one in thrust.bearings.items():
-        if one.kind == "thrust" and place in ("M", "Y"):
+        if one.kind == "thrust" and place in ("M", "Y", "P"):
             raise ValueError(
                 f"bearings.{place}: a thrust bearing takes neither radial forces nor moments; a "
                 '"conical-pair" does'

@@ -11,13 +11,13 @@ import xarray as xr
 
 from loadflow.journal import Equilibrium
 from loadflow.rolling.rating.modified_life import viscosity_ratio
+from loadflow.scene.as_built import AsBuilt
 from loadflow.scene.bearings import FurtherBearing
 from loadflow.scene.candidate import Candidate
 from loadflow.scene.friction import Friction
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.scene.thrust import AnyAxial
-from loadflow.scene.tolerances import Tolerances
 from loadflow.stages.film_of_bearing import equilibria, shaft_line
 from loadflow.stages.frames import to_rolling
 from loadflow.stages.friction import friction_options, least_film_parameter
@@ -28,7 +28,7 @@ from loadflow.studies.compare_margins import load_by_row, lubrication
 from loadflow.studies.compare_result import Judged, Number
 from loadflow.studies.compare_risks import LIGHT
 from loadflow.studies.design_point import fast_journal, judge_design
-from loadflow.studies.tolerances import Built, Tolerance, tolerances_of
+from loadflow.studies.deviations import Built, Tolerance, tolerances_of
 
 CLASSES = 3
 """Classes of speed, and twice as many of load, that stand for the series, beside the hardest."""
@@ -42,7 +42,7 @@ _SAME = 1e-9  # shares of a value below which a tolerance does not move it
 
 
 def with_bands(
-    one: Judged, run: Finished, scene: Scene, spectrum: xr.DataTree, given: Tolerances
+    one: Judged, run: Finished, scene: Scene, spectrum: xr.DataTree, given: AsBuilt
 ) -> Judged:
     """A candidate with the band by tolerances of each of its numbers that they move.
 
@@ -61,7 +61,7 @@ def with_bands(
         Of the run, with the effects that were decided on.
     spectrum : xarray.DataTree
         Of `loadflow.studies.load_spectrum.load_spectrum`, with its places.
-    given : Tolerances
+    given : AsBuilt
         What to take.
 
     Returns

@@ -160,7 +160,7 @@ def _products(basis: Any, radial: bool) -> Array:
     from skfem import BilinearForm
 
     def taken(u: Any, x: Array) -> tuple[Any, ...]:
-        return u.value, u.grad[0], u.value / x if radial else 0.0 * u.value
+        return u, u.grad[0], u / x if radial else 0.0 * u
 
     order = _order(basis)
     found = np.zeros((3, 3, order.size, order.size))
@@ -180,5 +180,5 @@ def _loads(basis: Any) -> Array:
     elements = np.arange(basis.nelems)
     found = np.zeros((basis.nelems, basis.N))
     for (own,), numbers in zip(basis.basis, basis.element_dofs):
-        found[elements, numbers] = (own.value * basis.dx).sum(axis=-1)
+        found[elements, numbers] = (own * basis.dx).sum(axis=-1)
     return found[:, _order(basis)]

@@ -1,18 +1,19 @@
 """Tolerances: what a bearing becomes at their ends, and the bands beside the numbers."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 import xarray as xr
 
 from loadflow.rolling.rating.modified_life import viscosity_ratio
+from loadflow.scene.as_built import AsBuilt, grade_width
 from loadflow.scene.candidate import Candidate
 from loadflow.scene.scene import make_scene
-from loadflow.scene.tolerances import Tolerances, grade_width
 from loadflow.studies.compare_margins import lubrication
+from loadflow.studies.deviations import Built, tolerances_of
 from loadflow.studies.tolerance_bands import cheap_numbers
-from loadflow.studies.tolerances import Built, tolerances_of
 
 NONE = {"clearance": 0.0, "viscosity": 0.0, "temperature": 0.0, "roughness": 0.0, "alignment": 0.0}
 MEASURES = {"diameter": 1.0, "width": 0.8, "relative_clearance": 1e-3}
@@ -65,14 +66,14 @@ def journal(**more):
 
 def only(stated, **given):
     """The one tolerance that is not 0, and what its ends are."""
-    (found,) = tolerances_of(stated, Tolerances(**(NONE | given)))
+    (found,) = tolerances_of(stated, AsBuilt(**(NONE | given)))
     return found
 
 
 def test_a_tolerance_of_0_is_left_out():
-    assert not [*tolerances_of(journal(), Tolerances(**NONE))]
-    assert not Tolerances(**NONE).any
-    assert Tolerances().any
+    assert not [*tolerances_of(journal(), AsBuilt(**NONE))]
+    assert not AsBuilt(**NONE).any
+    assert AsBuilt().any
 
 
 def test_clearance_is_taken_over_the_diameter_to_both_ends():
@@ -153,4 +154,17 @@ def test_preload_is_changed_and_moments_turn_what_cannot_tilt_alone():
     pressure = [cheap_numbers(one)["contact_pressure"] for one in (askew.stated, *askew.ends)]
     assert max(pressure[1:]) > pressure[0]
     free = built(rolling={"arrangement": "two-spherical"})
-    assert not [*tolerances_of(free, Tolerances(**(NONE | {"alignment": 1e-4})))]
+    assert not [*tolerances_of(free, AsBuilt(**(NONE | {"alignment": 1e-4})))]
+
+
+def test_tolerances_of_values_count_in_place_of_those_assumed():
+    stated = journal()
+    own = {"N": {"geometry.relative_clearance": 1e-4}}
+    toleranced = replace(stated, candidate=stated.candidate.model_copy(update={"tolerances": own}))
+    first, *others = tolerances_of(toleranced, AsBuilt(alignment=0.0))
+    assert first.name == "geometry.relative_clearance"
+    ends = [end.candidate.journal.at("N").geometry.relative_clearance for end in first.ends]
+    assert ends == pytest.approx([0.9e-3, 1.1e-3])
+    assert all(end.candidate.journal.at("N2").geometry.relative_clearance == 1e-3
+               for end in first.ends)  # fmt: skip
+    assert [one.name for one in others] == ["oil grade", "oil temperature", "roughness"]
