@@ -66,9 +66,9 @@ def _cached(
     walls = _wall(inner, outer, float(np.diff(rings).min()))
     parts, along = _stiffness(walls, rings, modulus, poisson_ratio)
     nodes = _ACROSS * (walls.size - 1)  # through the wall, without the outside
-    pushed = np.zeros((along.shape[0], along.shape[1], nodes, 3))
-    pushed[:, :, 0, 0] = along  # radially, on the bore
-    pushed = pushed.reshape(along.shape[0], -1)
+    at_nodes = np.zeros((*along.shape, nodes, 3))
+    at_nodes[:, :, 0, 0] = along  # radially, on the bore
+    pushed = at_nodes.reshape(along.shape[0], -1)
     means = pushed / np.diff(rings)[:, None]
     found = []
     for n in orders:
