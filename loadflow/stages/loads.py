@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from loadflow.cube import CASE_COORDS, case_named, iter_cases, open_cube
+from loadflow.cube import CASE_COORDS, Cube, case_named, iter_cases, open_cube
 from loadflow.scene.cases import CUBES, Case, wind_of
 from loadflow.scene.given_winds import RUN_IN, given_field
 from loadflow.scene.loads import Loads
@@ -61,9 +62,15 @@ def _read(scene: Scene, case: Case) -> xr.Dataset:
 
     path = Path(case.file)
     if path.suffix in CUBES:
-        return case_named(open_cube(path), case.entry).load()
+        return case_named(_opened(path, case.fingerprint), case.entry).load()
     cube = read_loads(path, turbine=scene.turbine.name, quiet=True, **scene.loads.reading)
     return next(series for _, series in iter_cases(cube))
+
+
+@lru_cache(maxsize=4)
+def _opened(path: Path, fingerprint: str) -> Cube:
+    """A cube that stays open: each of its load cases is read when its turn comes."""
+    return open_cube(path)
 
 
 def summary(parts: Mapping[Case, xr.Dataset]) -> xr.Dataset | None:
@@ -78,8 +85,11 @@ def summary(parts: Mapping[Case, xr.Dataset]) -> xr.Dataset | None:
         attrs = {key: CASE_COORDS[key].attrs for key in ("standing_share", "doubts")}
         return xr.Dataset(found | {k: ((), part[k].item(), a) for k, a in attrs.items()})
 
-    known = all("tripped" in part.coords for part in parts.values())
-    found = over_cases({case: told(part) for case, part in parts.items()})
+    known, each = True, {}
+    for case, part in parts.items():  # each is read once
+        known = known and "tripped" in part.coords
+        each[case] = told(part)
+    found = over_cases(each)
     tells = (found["standing_share"] > 0) | (found["doubts"] != "")
     return found if known or bool(tells.any()) else None
 
