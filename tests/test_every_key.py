@@ -199,6 +199,7 @@ OTHERS = {
     "friction.lubricant": ["lgwm-2"],
     "friction.cleanliness": ["grease, severe contamination"],
     "journal.bearings": [["N2"], ["N", "N2"]],
+    "journal.alignment": [[2e-5, 0.0]],
     "journal.grid": [[36, 12]],
     "journal.supply": [{"grooves": [{"angle": 1.0, "arc": 0.2, "pressure": 6e5}]}],
     "journal.heat": [{"oil": "mineral-vg-320"}],

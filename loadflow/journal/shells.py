@@ -1,7 +1,8 @@
 """What a user states about the elasticity of the shell. Options only, no solver.
 
 The pressure of the film above that of its ends widens the gap. A shell gives way where it is
-pressed (`LocalShell`, `LinedShell`), or all over (`ThickShell`, `MatrixShell`).
+pressed (`LocalShell`, `LinedShell`), or all over (`ThickShell`, `MatrixShell`, and those of
+`loadflow.journal.housings`).
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ import numpy as np
 from annotated_types import Ge, Gt, Lt
 from numpy.typing import NDArray
 
+from loadflow.journal.housings import HousedShell, InfluenceShell
 from loadflow.numerics.fields import require
 from loadflow.numerics.matrix_file import read_matrix
 
@@ -31,6 +33,10 @@ class _Shell:
 
     local = False
     """Whether it gives way where it is pressed alone, by a `compliance`, m/Pa."""
+    symmetric = True
+    """Whether both halves of the width give way alike."""
+    any_grid = True
+    """Whether it is known on every grid of the film."""
 
     def check_local(self, length: float) -> None:
         """Refuse a shell that is not as local as it claims under a pressure over `length`, m."""
@@ -194,6 +200,8 @@ class MatrixShell(_Shell):
     matrix: Any
     kind: Literal["matrix"] = "matrix"
 
+    any_grid = False
+
     def __post_init__(self) -> None:
         given = self.matrix
         matrix = read_matrix(given) if isinstance(given, str | Path) else np.array(given, float)
@@ -210,4 +218,4 @@ class MatrixShell(_Shell):
         return np.asarray(self.__dict__["_numbers"])
 
 
-Shell = LocalShell | LinedShell | ThickShell | MatrixShell
+Shell = LocalShell | LinedShell | ThickShell | MatrixShell | HousedShell | InfluenceShell

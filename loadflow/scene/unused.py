@@ -274,6 +274,8 @@ def _of_journal(scene: Scene) -> Iterator[tuple[str, str]]:
             "tilt",
             "the shaft is rigid and brings no moment; give its suspension a beam",
         )
+    if not journal.tilt and not scene.asks:
+        yield "alignment", "only a film with tilt knows it; set journal.tilt"
     if "grading" not in RUNGS[journal.rung].at_rest:
         yield "grading", f'rung "{journal.rung}" has no graded mesh'
     if journal.inlet == "none" and journal.cavitation.kind not in ("reynolds", "guembel"):
