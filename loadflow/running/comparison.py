@@ -5,17 +5,20 @@ from __future__ import annotations
 import json
 import os
 import shutil
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
+
+import xarray as xr
 
 from loadflow.errors import InputError, LoadflowError
 from loadflow.planning.plan import Plan, make_plan
 from loadflow.report.compare_page import write_comparison
-from loadflow.running.folder import finished_parts, read_manifest
+from loadflow.running.folder import answered, finished_parts, open_part, read_manifest
 from loadflow.running.parts import digest_of
 from loadflow.running.runner import Report, run
+from loadflow.scene.as_built import AsBuilt
 from loadflow.scene.candidates import candidates_of
 from loadflow.scene.design import Design
 from loadflow.scene.journal import Journal
@@ -25,6 +28,8 @@ from loadflow.scene.wear import check_wear
 from loadflow.storage import write_text
 from loadflow.studies.compare import Finished, compared
 from loadflow.studies.compare_result import Comparison
+from loadflow.studies.load_spectrum import load_spectrum
+from loadflow.studies.tolerance_bands import CLASSES, with_bands
 
 SHARED = ("loads", "shaft")
 """Stages whose parts are the same for all candidates, unless the shaft feels its bearings."""
@@ -110,11 +115,33 @@ def compare(
     loads = shared_loads(scene, out, how)
     finished, failures = run_candidates(loads, chosen, loads.folder / "candidates", how)
     found = compared(loads.scene, finished, loads.folder, failures, without_place)
+    if scene.as_built.any:
+        found = _banded(found, finished, loads, scene.as_built, how)
     done = Compared(loads.folder, found, failures)
     write_comparison(done.page, found.as_dict())
     write_text(done.table, found.to_csv())
     write_text(done.path / "compare.json", json.dumps(found.as_dict(), indent=1))
     return done
+
+
+def _banded(
+    found: Comparison,
+    finished: list[Finished],
+    loads: SharedLoads,
+    given: AsBuilt,
+    how: Means,
+) -> Comparison:
+    """The comparison with the bands of its numbers by tolerances."""
+    by_name, judged = {run.name: run for run in finished}, []
+    places = list(dict.fromkeys(b["place"] for one in found.candidates for b in one.bearings))
+    spectrum = load_spectrum(loads.scene, finished_cases(loads), places, CLASSES)
+    for k, one in enumerate(found.candidates):
+        how.say("tolerances", k, len(found.candidates))
+        run = by_name[one.name]
+        scene = read_scene(run.folder / "scene.toml")
+        judged.append(with_bands(one, run, scene, spectrum, given))
+    how.say("tolerances", len(judged), len(judged))
+    return replace(found, candidates=tuple(judged))
 
 
 @dataclass(frozen=True)
@@ -174,6 +201,14 @@ def shared_loads(scene: Scene, out: str | Path, how: Means) -> SharedLoads:
         )  # fmt: skip
         as_run = _as_run(base, scene, folder) or base
     return SharedLoads(as_run, make_plan(as_run), folder)
+
+
+def finished_cases(loads: SharedLoads) -> Iterator[tuple[str, xr.Dataset, xr.Dataset]]:
+    """Yield name, loads and shaft of each load case that has both."""
+    for case in loads.plan.cases:
+        if all(answered(loads.folder, stage, [case.name]) for stage in SHARED):
+            of_case, shaft = (open_part(loads.folder, stage, case.name) for stage in SHARED)
+            yield case.name, of_case.load(), shaft.load()
 
 
 def run_candidates(
@@ -350,6 +385,7 @@ def _base(scene: Scene) -> Scene:
     """The scene with the models of its loads named, so that all candidates share them."""
     loads = make_plan(scene).scene.loads if scene.accuracy is not None else scene.loads
     update = {"loads": loads, "results": ["loads.statistics"], "candidates": {}, "design": Design()}
+    update |= {"tolerances": {}, "as_built": AsBuilt()}
     return scene.model_copy(update=update)
 
 

@@ -19,8 +19,9 @@ from pydantic import BaseModel, Field, ValidationError, field_validator, model_v
 from loadflow.errors import InputError
 from loadflow.journal.line import Line
 from loadflow.journal.models.model import Steps, why_not
-from loadflow.numerics.fields import LARGEST_INTEGER, shown
-from loadflow.scene.bearings import Rolling
+from loadflow.numerics.fields import LARGEST, LARGEST_INTEGER
+from loadflow.scene.as_built import AsBuilt
+from loadflow.scene.bearings import Rolling, check_swinging
 from loadflow.scene.candidate import Candidate as Candidate
 from loadflow.scene.candidates import ABOUT, TOLERANCES, machine
 from loadflow.scene.design import Design
@@ -36,7 +37,7 @@ from loadflow.scene.own_shaft import taken
 from loadflow.scene.places import places_of
 from loadflow.scene.results import BY_NAME as BY_NAME
 from loadflow.scene.results import OF_PLACES, USUAL, Result, has_films, that_the_shaft_can_give
-from loadflow.scene.section import Section, too_large
+from loadflow.scene.section import Section, check_sizes
 from loadflow.scene.series import Reduction, Seeds
 from loadflow.scene.shaft import Shaft
 from loadflow.scene.thrust import Thrust, check_thrust
@@ -73,6 +74,8 @@ class Scene(Section, BaseModel):
         By place and key of the bearing there, half of the band around a value, in its unit; of
         ``heat.oil`` a share of its viscosity. ``{ value = …, tolerance = … }`` in place of the
         value says the same.
+    as_built : AsBuilt
+        Tolerances of what `tolerances` leaves open, as `loadflow compare` takes them.
 
     Examples
     --------
@@ -101,6 +104,7 @@ class Scene(Section, BaseModel):
     tolerances: Tolerances = {}
     candidates: dict[str, Candidate] = {}
     design: Design = Design()
+    as_built: AsBuilt = AsBuilt()
 
     @field_validator("name")
     @classmethod
@@ -191,12 +195,8 @@ class Scene(Section, BaseModel):
         return self
 
     @model_validator(mode="after")
-    def _yaw_bearings_swing(self) -> Self:
-        part = self.rolling.bearings.get("Y")
-        if part is not None and part.oscillation is None:
-            raise ValueError("rolling bearing Y: the yaw bearing swings; give its oscillation")
-        if self.wants("journal") and "Y" in self.journal.bearings:
-            raise ValueError("journal.bearings = 'Y': the yaw bearing is a rolling bearing")
+    def _beside_the_shaft_bearings_swing(self) -> Self:
+        check_swinging(self.rolling, self.journal.bearings if self.wants("journal") else ())
         return self
 
     @model_validator(mode="after")
@@ -350,12 +350,11 @@ def make_scene(data: dict[str, Any], source: str = "scene") -> Scene:
     'nrel-5mw'
     """
     data = {"name": Path(source).stem} | data
-    for key, value in too_large(data):
-        raise InputError(
-            f"{source}: {key} = {shown(value)}: must be within ±{LARGEST_INTEGER} (64 bits)"
-        )
+    check_sizes(data, int, LARGEST_INTEGER, source)
     try:
-        return Scene.model_validate(data)
+        scene = Scene.model_validate(data)
+        check_sizes(data, float, LARGEST, source)  # keys with a range of their own have told it
+        return scene
     except ValidationError as error:
         defaults = Scene(name="defaults").model_dump() | {"bearings": {}}
         raise InputError(message(error, source, origins(data), defaults)) from error
