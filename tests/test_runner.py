@@ -75,6 +75,7 @@ def test_a_run_answers_all_that_was_asked(finished):
     tree = finished.tree
     assert set(tree.children) == {
         "statistics", "seeds", "journal", "rolling", "friction", "check", "verdicts", "lifetime",
+        "loads", "energy",
     }  # fmt: skip
     journal = tree["journal"].to_dataset()
     assert journal.sizes == {"bearing": 1, "case": 4}
