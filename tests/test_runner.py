@@ -74,8 +74,8 @@ def test_the_shares_of_the_lifetime_add_up(cube):
 def test_a_run_answers_all_that_was_asked(finished):
     tree = finished.tree
     assert set(tree.children) == {
-        "loads", "statistics", "seeds", "journal", "rolling", "friction", "check", "verdicts",
-        "lifetime", "energy",
+        "statistics", "seeds", "journal", "rolling", "friction", "check", "verdicts", "lifetime",
+        "loads", "energy",
     }  # fmt: skip
     assert tree["energy"]["rotor_power"].dims == ("case",)
     assert np.isfinite(tree["energy"]["journal_loss"]).all()
