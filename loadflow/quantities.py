@@ -129,6 +129,9 @@ FILM: dict[str, Quantity] = {
         "T_out", "K", "temperature of the oil that enters each groove"
     ),
     "film_temperature": Quantity("T", "K", "temperature of each cell"),
+    "surface_temperature": Quantity(
+        "T", "K", "temperature of the surface of the shell at each cell"
+    ),
     "film_viscosity": Quantity("η", "Pa s", "viscosity in each cell"),
     "pressure": Quantity("p", "Pa", "film pressure, absolute"),
     "fill": Quantity("F", "1", "share of liquid in each cell"),

@@ -69,6 +69,25 @@ def test_lobes_whose_first_position_leads_nowhere_are_reached_from_another_load(
     assert np.allclose(state.force, point.force)
 
 
+@pytest.mark.parametrize("number", [0, 46, 119, 139, 166, 174, 197, 208, 255, 260])
+def test_cones_carry_the_load_of_a_film_at_any_place(number):
+    """Rings without rupture, whose axial place is free, among them; segments that pull and push."""
+    point = draw_point(np.random.default_rng([SEEDS["cone"], number]))
+    state = FAMILIES["cone"](point)()
+    assert state.converged
+    assert state.residual < 1e-9
+
+
+@pytest.mark.parametrize("number", [85, 94, 266])
+def test_shells_that_give_way_by_more_than_the_clearance_are_reached(number):
+    """From a rigid shell on, or on more cells around."""
+    point = draw_point(np.random.default_rng([SEEDS["shell"], number]))
+    state = FAMILIES["shell"](point)()
+    assert state.converged
+    assert np.allclose(state.force, point.force)
+    assert float(state.shell_deformation) > 0.1 * point.gap
+
+
 @pytest.mark.parametrize("count", [3, 4, 5])
 def test_pads_carry_an_ordinary_load_from_any_side(count):
     pads = TiltingPads(count, 0.8 * 2 * np.pi / count, preload=0.3)

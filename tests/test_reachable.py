@@ -54,6 +54,11 @@ SHELL = {
     "LinedShell": "shell = {kind = 'lined', thickness = 2e-4, modulus = 5e10}",
     "ThickShell": "shell = {kind = 'thick', outer_diameter = 0.3, modulus = 2.1e11}",
     "MatrixShell": "shell = {kind = 'matrix', matrix = 'MATRIX'}",
+    "HousedShell": (
+        "shell = {kind = 'housed', outer_diameter = 0.3, "
+        "support = {kind = 'feet', height = 0.2, width = 0.3}}"
+    ),
+    "InfluenceShell": "shell = {kind = 'influence', file = '/data/housing.nc'}",
 }
 FED = "supply.grooves = [{{angle = 3.0, arc = 0.3, length = 0.05, pressure = 3e5{}}}]"
 SUPPLY = {

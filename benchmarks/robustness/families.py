@@ -1,12 +1,13 @@
 """Draw journal bearings of every family over the documented ranges, and count what comes of them.
 
-python -m benchmarks.robustness.families [--draws N] [--first I] [--show] [FAMILY …]
+python -m benchmarks.robustness.families [--draws N] [--first I] [--cap S] [--show] [FAMILY …]
 
 Each draw follows from its family and number alone, so that `--first I --draws 1 --show` repeats
 one. What is counted: answered (converged and finite), reason (an error that says why there can be
 no answer: contact, starvation, standstill, unfit input), unfound (an error that only says that no
 answer was found, with its residual), raw (any other exception), slow (more than 2 s of processor
-time, whatever came of it).
+time, whatever came of it). With `--cap` a draw ends after so many seconds of processor time and is
+counted as late (but the first of a family, which may compile).
 
 Ranges, even over the decades where they span some: diameter 0.1 … 5 m, B/D 0.1 … 4, ψ 2e-4 … 3e-3,
 viscosity 1e-3 … 1 Pa s, speed ± 0.1 … 300 rad/s, So 1e-3 … 300, all five laws (mixing constant
@@ -27,6 +28,7 @@ viscosity 1e-3 … 1 Pa s, speed ± 0.1 … 300 rad/s, So 1e-3 … 300, all five
 from __future__ import annotations
 
 import json
+import signal
 import sys
 import time
 import warnings
@@ -307,10 +309,25 @@ FAMILIES: dict[str, Callable[[Point], Callable[[], Any]]] = {
 }
 
 
-def outcome(work: Callable[[], Any]) -> tuple[str, str]:
-    """What comes of a draw: its count, and the message of an error."""
+class Late(BaseException):
+    """A draw has taken longer than it may."""
+
+
+def _end(number: int, frame: Any) -> None:
+    raise Late
+
+
+def outcome(work: Callable[[], Any], cap: float = 0.0) -> tuple[str, str]:
+    """What comes of a draw within `cap` seconds (0: any): its count, and the text of an error."""
+    signal.signal(signal.SIGPROF, _end)
     try:
-        answer = work()
+        signal.setitimer(signal.ITIMER_PROF, cap)
+        try:
+            answer = work()
+        finally:
+            signal.setitimer(signal.ITIMER_PROF, 0.0)
+    except Late:
+        return "late", f"ended after {cap:g} s"
     except LoadflowError as error:
         text = str(error)
         told = isinstance(error, InputError) or any(word in text for word in REASONS)
@@ -321,7 +338,7 @@ def outcome(work: Callable[[], Any]) -> tuple[str, str]:
     return ("answered", "") if finite else ("raw", "an answer that is not finite")
 
 
-def run(family: str, numbers: range, show: bool) -> dict[str, Any]:
+def run(family: str, numbers: range, show: bool, cap: float = 0.0) -> dict[str, Any]:
     """Counts of one family."""
     counts: Counter[str] = Counter()
     longest = total = 0.0
@@ -330,7 +347,7 @@ def run(family: str, numbers: range, show: bool) -> dict[str, Any]:
         point = draw_point(rng)
         work = FAMILIES[family](point)
         begin = time.process_time()
-        kind, text = outcome(work)
+        kind, text = outcome(work, cap if number > numbers.start else 0.0)
         spent = time.process_time() - begin
         if number > numbers.start:  # the first one may compile
             longest, total = max(longest, spent), total + spent
@@ -342,7 +359,7 @@ def run(family: str, numbers: range, show: bool) -> dict[str, Any]:
             head = f"{family} {number}: {kind}, So {point.number:.3g}, B/D "
             head += f"{point.width / point.diameter:.2f}, {law}, {point.film['grid']}, {more}"
             print(f"{head}, {spent:.1f} s: {text}", flush=True)
-    names = ("answered", "reason", "unfound", "raw", "slow")
+    names = ("answered", "reason", "unfound", "raw", "late", "slow")
     row: dict[str, Any] = {"draws": len(numbers)} | {name: counts[name] for name in names}
     return row | {"mean": round(total / len(numbers), 3), "longest": round(longest, 2)}
 
@@ -353,6 +370,7 @@ def main() -> None:
     parser.add_argument("families", nargs="*", default=list(FAMILIES), metavar="FAMILY")
     parser.add_argument("--draws", type=int, default=200)
     parser.add_argument("--first", type=int, default=0)
+    parser.add_argument("--cap", type=float, default=0.0, help="seconds of processor time a draw")
     parser.add_argument("--show", action="store_true", help="every draw without an answer")
     parser.add_argument("--json", metavar="FILE", help="write the counts there")
     asked = parser.parse_args()
@@ -362,7 +380,9 @@ def main() -> None:
     warnings.simplefilter("ignore")
     rows = {}
     for family in asked.families:
-        rows[family] = run(family, range(asked.first, asked.first + asked.draws), asked.show)
+        rows[family] = run(
+            family, range(asked.first, asked.first + asked.draws), asked.show, asked.cap
+        )
         print(f"{family}: {rows[family]}", flush=True)
     if asked.json:
         with open(asked.json, "w", encoding="utf-8") as file:

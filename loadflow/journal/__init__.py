@@ -8,7 +8,8 @@
 `pad_bearing`    what these share; `pads`: rows of pads and their supports
 `surfaces`       cone, plane ring, straight pad, profiles
 `shapes`         shapes of the bore and their relief
-`shells`         elastic shells; `contact`: asperities; `stribeck`: friction over speed
+`shells`         elastic shells; `housings`: those in a housing on feet or a flange
+`contact`        asperities; `stribeck`: friction over speed
 `crowning`       best crown for a spectrum of loads
 `wear`           wear of a bore over a lifetime of starts and stops; `worn_surface`: its points
 `supply`         grooves, pockets, restrictors, pump

@@ -18,6 +18,7 @@ from .double_thrust import DoubleThrustBearing as DoubleThrustBearing
 from .double_thrust import DoubleThrustResult as DoubleThrustResult
 from .energy import EnergyBalance as EnergyBalance
 from .energy import energy_balance as energy_balance
+from .film.housing_elements import housing_influence as housing_influence
 from .film_model import Control as Control
 from .film_model import Film as Film
 from .geometry import JournalGeometry as JournalGeometry
@@ -30,6 +31,10 @@ from .heat import Growth as Growth
 from .heat import Heat as Heat
 from .heat_results import FilmHeatEquilibrium as FilmHeatEquilibrium
 from .heat_results import FilmHeatField as FilmHeatField
+from .housings import Feet as Feet
+from .housings import Flange as Flange
+from .housings import HousedShell as HousedShell
+from .housings import InfluenceShell as InfluenceShell
 from .lubricant import Lubricant as Lubricant
 from .pad_results import ConicalResult as ConicalResult
 from .pad_results import PadResult as PadResult

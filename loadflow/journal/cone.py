@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from itertools import chain
 from typing import Any, ClassVar, Unpack
 
 import numpy as np
@@ -29,6 +30,7 @@ from loadflow.journal.pad_results import ConicalResult, common
 from loadflow.journal.pads import Pads, Pivot, even_pads, finite
 from loadflow.journal.solvers.assembly import BODY, Assembly, AssemblyState, Member
 from loadflow.journal.solvers.assembly_error import relative_errors
+from loadflow.journal.solvers.assembly_search import Chart, around, search
 from loadflow.journal.surfaces import FLAT, Cone, Cut
 from loadflow.numerics.convergence import Limits
 from loadflow.numerics.fields import require
@@ -175,11 +177,33 @@ class ConicalBearing(PadBearing, ConicalFilms[ConicalResult]):
             self._started(assembly, np.append(place, turned), speed)
             for place in self._first_places(assembly, wanted, speed, turned)
         ]
-        state = assembly.equilibrium(starts, wanted, free, limits)
+        state = self._balanced(assembly, starts, wanted, free, limits, speed)
         state = answered(head + self._hint(load), assembly, state, limits)
         return self._result(assembly, state, speed)
 
     # --- inside ----------------------------------------------------------------------------------
+    def _balanced(
+        self,
+        assembly: Assembly,
+        starts: list[AssemblyState],
+        wanted: Array,
+        free: Rows,
+        limits: Limits,
+        speed: float,
+    ) -> AssemblyState:
+        """Equilibrium from one of `starts`, or from all around."""
+        if not wanted[:3].any():
+            return assembly.equilibrium(starts, wanted, free, limits)
+        quick = assembly.solve(starts[0], wanted, free, limits)
+        if quick.converged:
+            return quick
+        chart = Chart(self.clearance, self.half_angle, starts[0].position[3:])
+        more = around(assembly, chart, lambda x: self._started(assembly, x, speed), wanted)
+        found = search(assembly, chart, chain(starts, more), wanted, SHIFTS, limits)
+        if found.converged and free.size > SHIFTS.size:
+            return assembly.equilibrium([found, *starts], wanted, free, limits)
+        return found
+
     def _place_of(self, found: ConicalResult) -> Array:
         return found.eccentricity
 

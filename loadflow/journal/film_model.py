@@ -83,7 +83,7 @@ class Film:
         Uniform cells, or cells that crowd at the narrowest gap and the bearing ends. "auto":
         uniform for the gas mixture and with a supply, graded else. A load so heavy that a few
         uniform cells span the narrowest gap is then solved on a graded mesh.
-    shell : LocalShell, LinedShell, ThickShell or MatrixShell, optional
+    shell : LocalShell, LinedShell, ThickShell, MatrixShell, HousedShell or InfluenceShell, optional
         Elastic shell, whose gap follows the pressure above that of the ends; rigid by default.
     heat : Heat or FilmHeat, optional
         Oil and cooling: the film is as warm as its own friction makes it, of one temperature or of

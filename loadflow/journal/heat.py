@@ -162,6 +162,16 @@ class Heat(_Entering):
         return ("inlet_temperature", "ambient_temperature", "start_temperature")
 
     @property
+    def gives_off(self) -> bool:
+        """Whether the temperature of the surroundings acts on the film."""
+        return self.transfer > 0 or self.sump_transfer is not None or self.growth is not None
+
+    @property
+    def volume_heat(self) -> float:
+        """ρ c_p of the oil as it enters, J/(m³ K)."""
+        return float(self.liquid.density(self.inlet_temperature)) * self.heat_capacity
+
+    @property
     def coldest(self) -> float:
         """Lowest temperature that the film may have, K."""
         taken = [self.ambient_temperature] if self.transfer or self.sump_transfer else []
@@ -202,7 +212,7 @@ class Heat(_Entering):
 
 @dataclass(frozen=True)
 class FilmHeat(_Entering):
-    """Oil and cooling of a film whose temperature changes over its area, constant across the gap.
+    """Oil and cooling of a film whose temperature changes over its area, and across the gap.
 
     An energy equation of the film, ρ c_p ∇·(q T) = dissipation − conduction, by upwind finite
     volumes on the cells of the film. The viscosity of each cell is that of the oil at its
@@ -226,6 +236,10 @@ class FilmHeat(_Entering):
     shaft_temperature : float, optional
         K; left out, the one at which as much heat enters the shaft as leaves it: the mean
         temperature of the film.
+    points : {1, 3}
+        1: constant across the gap. 3: on a parabola through both surfaces, with the viscosity at
+        these and midway; the film then conducts to the surfaces by its own conductivity, and
+        `shell_transfer` and `shaft_transfer` are from there on.
 
     Raises
     ------
@@ -248,6 +262,7 @@ class FilmHeat(_Entering):
     shaft_transfer: Annotated[float, Ge(0)] = 0.0
     shell_temperature: Annotated[float, Gt(200)] = 293.15
     shaft_temperature: Annotated[float, Gt(200)] | None = None
+    points: Literal[1, 3] = 1
     kind: Literal["film"] = "film"
 
     over_area: ClassVar[bool] = True
@@ -265,6 +280,11 @@ class FilmHeat(_Entering):
         if self.shaft_transfer and self.shaft_temperature is not None:
             given.append(self.shaft_temperature)
         return min(given)
+
+    @property
+    def gives_off(self) -> bool:
+        """Whether the temperature of the surroundings acts on the film."""
+        return self.shell_transfer > 0
 
     @property
     def volume_heat(self) -> float:

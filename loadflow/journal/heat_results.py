@@ -38,6 +38,7 @@ class _OverArea:
     trailing_temperature: Array = field(default_factory=lambda: np.zeros(0))
     film_temperature: Array = field(default_factory=_no_cells)
     film_viscosity: Array = field(default_factory=_no_cells)
+    surface_temperature: Array = field(default_factory=_no_cells)
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -71,6 +72,8 @@ class FilmHeatEquilibrium(_OverArea, WarmEquilibrium):
         open film. NaN where none flows.
     film_temperature, film_viscosity : array (…, nx, nz)
         Of the cells, full width, K and Pa s; in a groove that of the oil which it gives.
+    surface_temperature : array (…, nx, nz)
+        Of the surface of the shell there, K: that of the film but with three points across it.
     angle, z : array (…, nx), (…, nz)
         Angles of the cell centres, rad, and their axial places from mid-plane, m.
     heat_residual : array (…)

@@ -27,7 +27,9 @@ _INNER = {
     **dict.fromkeys(("stiffness", "damping"), ("dof", "along")),
     **dict.fromkeys(("groove_flow", "groove_pressure"), ("groove",)),
     **dict.fromkeys(("pressure", "fill", "deformation", "gap"), ("around", "across")),
-    **dict.fromkeys(("film_temperature", "film_viscosity"), ("around", "across")),
+    **dict.fromkeys(
+        ("film_temperature", "film_viscosity", "surface_temperature"), ("around", "across")
+    ),
     **dict.fromkeys(("leading_temperature", "trailing_temperature"), ("mixing groove",)),
     "pad_tilt": ("pad",),
     "angle": ("around",),

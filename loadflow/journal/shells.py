@@ -1,7 +1,8 @@
 """What a user states about the elasticity of the shell. Options only, no solver.
 
 The pressure of the film above that of its ends widens the gap. A shell gives way where it is
-pressed (`LocalShell`, `LinedShell`), or all over (`ThickShell`, `MatrixShell`).
+pressed (`LocalShell`, `LinedShell`), or all over (`ThickShell`, `MatrixShell`, and those of
+`loadflow.journal.housings`).
 """
 
 from __future__ import annotations
@@ -15,8 +16,9 @@ import numpy as np
 from annotated_types import Ge, Gt, Lt
 from numpy.typing import NDArray
 
-from loadflow.errors import InputError
+from loadflow.journal.housings import HousedShell, InfluenceShell
 from loadflow.numerics.fields import require
+from loadflow.numerics.matrix_file import read_matrix
 
 _LOCAL = 0.1  # deviation of a lining from the local law that is let pass
 
@@ -31,6 +33,10 @@ class _Shell:
 
     local = False
     """Whether it gives way where it is pressed alone, by a `compliance`, m/Pa."""
+    symmetric = True
+    """Whether both halves of the width give way alike."""
+    any_grid = True
+    """Whether it is known on every grid of the film."""
 
     def check_local(self, length: float) -> None:
         """Refuse a shell that is not as local as it claims under a pressure over `length`, m."""
@@ -194,9 +200,11 @@ class MatrixShell(_Shell):
     matrix: Any
     kind: Literal["matrix"] = "matrix"
 
+    any_grid = False
+
     def __post_init__(self) -> None:
         given = self.matrix
-        matrix = _read_matrix(given) if isinstance(given, str | Path) else np.array(given, float)
+        matrix = read_matrix(given) if isinstance(given, str | Path) else np.array(given, float)
         side = math.isqrt(matrix.size)
         require(side**2 == matrix.size, "matrix", matrix.shape, "as many rows as columns")
         require(bool(np.isfinite(matrix).all()), "matrix", "NaN or infinite", "finite, m/Pa")
@@ -210,22 +218,4 @@ class MatrixShell(_Shell):
         return np.asarray(self.__dict__["_numbers"])
 
 
-def _read_matrix(path: str | Path) -> NDArray[np.float64]:
-    """Read influence coefficients from a file.
-
-    Raises
-    ------
-    loadflow.errors.InputError
-        A file that is missing, or no table of numbers.
-    """
-    try:
-        if Path(path).suffix == ".npy":
-            return np.asarray(np.load(path, allow_pickle=False), dtype=float)
-        return np.loadtxt(path, ndmin=2)
-    except OSError as error:
-        raise InputError(f"matrix = {str(path)!r}: cannot be read: {error}") from error
-    except ValueError as error:
-        raise InputError(f"matrix = {str(path)!r}: no table of numbers: {error}") from error
-
-
-Shell = LocalShell | LinedShell | ThickShell | MatrixShell
+Shell = LocalShell | LinedShell | ThickShell | MatrixShell | HousedShell | InfluenceShell

@@ -45,6 +45,7 @@ from .rating.modified_life import life_modification as life_modification
 from .rating.modified_life import modified_life as modified_life
 from .rating.modified_life import system_life as system_life
 from .rating.oscillation import Oscillation as Oscillation
+from .rating.oscillation import PitchMotion as PitchMotion
 from .rating.static import Verdict as Verdict
 from .rating.static import verdicts as verdicts
 from .rings.beam import RingBeam as RingBeam
@@ -56,6 +57,7 @@ from .rings.expansion import axial_expansion as axial_expansion
 from .rings.finite_element import FiniteElementRing as FiniteElementRing
 from .rings.flexible import FlexibleRings as FlexibleRings
 from .rings.given import CompliantRing as CompliantRing
+from .rings.given import MatrixRing as MatrixRing
 from .rings.given import guyan as guyan
 from .rings.patches import patch_points as patch_points
 from .rings.patches import raceway_points as raceway_points

@@ -9,7 +9,7 @@ from typing import Any
 
 import xarray as xr
 
-from loadflow.cube import open_cube
+from loadflow.cube.hdf5 import read_whole
 from loadflow.planning.plan import Plan
 from loadflow.planning.verification import CHECK
 from loadflow.running.executor import Executor
@@ -85,7 +85,7 @@ def collect(plan: Plan, folder: Path, where: Executor) -> xr.DataTree:
     """Join what the stages found, reduced to what a reader wants of each case."""
     found, missing = summaries(plan, folder, where)
     whole = {step.name: part_file(folder, step.name) for step in plan.of_scope("run")}
-    found |= {name: open_cube(part) for name, part in whole.items() if part.exists()}
+    found |= {name: read_whole(part) for name, part in whole.items() if part.exists()}
     groups = {step.name: found[step.name] for step in plan.steps if step.name in found}
     groups |= _judged(plan.scene, groups, missing)
     return xr.DataTree.from_dict(
@@ -101,13 +101,15 @@ def _judged(
     scene: Scene, groups: Mapping[str, Any], missing: Mapping[str, list[str]]
 ) -> dict[str, xr.Dataset]:
     """Lifetime and verdicts of what was found; nothing where no bearing was solved."""
+    from loadflow.studies.run_energy import run_energy
     from loadflow.studies.run_lifetime import run_lifetime
     from loadflow.studies.verdicts import verdicts
 
     lifetime = run_lifetime(scene, groups)
     found = verdicts(scene, groups, lifetime, missing)
     judged = {"verdicts": to_dataset(found)} if found else {}
-    return judged | ({} if lifetime is None else {"lifetime": lifetime})
+    tables = {"lifetime": lifetime, "energy": run_energy(scene, groups)}
+    return judged | {name: table for name, table in tables.items() if table is not None}
 
 
 def _nodes(data: xr.Dataset | xr.DataTree) -> Iterator[tuple[str, xr.Dataset]]:

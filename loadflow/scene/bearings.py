@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
 from pydantic import (
@@ -17,7 +18,9 @@ from loadflow.rolling import (
     ARRANGEMENTS,
     KINDS,
     FlexibleRings,
+    MatrixRing,
     Oscillation,
+    PitchMotion,
     RingBeam,
     RingSection,
     RollingBearing,
@@ -81,7 +84,9 @@ def standing_ring(
 
 
 def around(
-    bearing: RollingBearing, inner: RingBeam | None, outer: RingBeam | None
+    bearing: RollingBearing,
+    inner: RingBeam | MatrixRing | None,
+    outer: RingBeam | MatrixRing | None,
 ) -> FlexibleRings:
     """Flexible rings of a bearing, one of them at least, on their sides of its balls.
 
@@ -93,9 +98,10 @@ def around(
     pitch = bearing.pitch_diameter / 2
     if inner is None and outer is None:
         raise InputError("give inner_ring or outer_ring, of this geometry")
-    if inner is not None and inner.radius >= pitch:
+    # a matrix is formed at the raceways, and has no centroid
+    if inner is not None and inner.radius is not None and inner.radius >= pitch:
         raise InputError(f"inner_ring: radius must be < {pitch:g} m, got {inner.radius:g}")
-    if outer is not None and outer.radius <= pitch:
+    if outer is not None and outer.radius is not None and outer.radius <= pitch:
         raise InputError(f"outer_ring: radius must be > {pitch:g} m, got {outer.radius:g}")
     return FlexibleRings(inner=inner, outer=outer)
 
@@ -130,9 +136,23 @@ def _by_measures(ring: Any) -> Any:
     return read
 
 
-Ring = Annotated[RingBeam, BeforeValidator(_by_measures)]
+if TYPE_CHECKING:
+    Ring = RingBeam | MatrixRing
+else:
+    Ring = told_apart(
+        {"beam": Annotated[RingBeam, _PLAIN, BeforeValidator(_by_measures)], "matrix": MatrixRing},
+        usual="beam",
+    )
 """A flexible ring; ``section = {width, height}`` is a rectangle, and a support with ``radius``,
-``height``, ``thickness`` and ``length`` a wall."""
+``height``, ``thickness`` and ``length`` a wall. With ``kind = "matrix"`` its ``file`` has the
+compliance, or the stiffness, of ring, bolts and housing together."""
+
+
+if TYPE_CHECKING:
+    Swing = Oscillation | PitchMotion
+else:
+    Swing = told_apart({"stated": Oscillation, "pitch": PitchMotion}, usual="stated")
+"""How a bearing swings; ``kind = "pitch"`` follows the pitch of each series."""
 
 
 class FurtherBearing(BaseModel):
@@ -149,7 +169,7 @@ class FurtherBearing(BaseModel):
     rings: Literal["rigid", "flexible"] = "rigid"
     inner_ring: Ring | None = None
     outer_ring: Ring | None = None
-    oscillation: Oscillation | None = None
+    oscillation: Swing | None = None
     limits: RollingLimits = RollingLimits()
 
     @model_validator(mode="after")
@@ -241,3 +261,30 @@ class Rolling(FurtherBearing):
     def rung(self) -> Literal["rigid", "flexible"]:
         """Model in the ladder: flexible if the rings of any bearing are."""
         return "flexible" if any(b.rings == "flexible" for b in self.bearings.values()) else "rigid"
+
+
+def check_swinging(rolling: Rolling, films: Iterable[str]) -> None:
+    """Raise unless the bearings beside the shaft swing; `films` are the places of films.
+
+    Raises
+    ------
+    ValueError
+        A yaw or pitch bearing that turns with the rotor or is a film, or another one that follows
+        the pitch.
+    """
+    for place, name in (("Y", "yaw"), ("P", "pitch")):
+        part = rolling.bearings.get(place)
+        if part is not None and part.oscillation is None:
+            raise ValueError(
+                f"rolling bearing {place}: the {name} bearing swings; give its oscillation"
+            )
+        if place in films:
+            raise ValueError(
+                f"journal.bearings = {place!r}: the {name} bearing is a rolling bearing"
+            )
+    for place, part in rolling.bearings.items():
+        if part.oscillation is not None and part.oscillation.of_pitch and place != "P":
+            raise ValueError(
+                f'rolling bearing {place}: oscillation.kind = "pitch" is that of the pitch '
+                "bearing P; give amplitude and frequency"
+            )

@@ -14,17 +14,14 @@ from loadflow.journal import (
     Film,
     GasMixture,
     JournalBearing,
-    LinedShell,
-    LocalShell,
     Lubricant,
-    MatrixShell,
     Supply,
-    ThickShell,
     Turbulence,
 )
 from loadflow.journal.heat import Heat
 from loadflow.journal.line import Line
 from loadflow.journal.models.model import Verb, why_not
+from loadflow.journal.shells import Shell
 from loadflow.journal.thermal import grown_by
 from loadflow.scene.films import HeatTable, Law, RungName
 from loadflow.scene.limits import JournalLimits
@@ -33,6 +30,10 @@ from loadflow.scene.places import SHARED
 from loadflow.scene.section import Section
 
 Positive = Annotated[float, Field(gt=0)]
+Slope = Annotated[float, Field(ge=-0.1, le=0.1)]
+
+USUAL_HEAT_CAPACITY = 2000.0
+"""c_p of mineral oil, J/(kg K), the default of `Heat`."""
 
 
 class Journal(Section, BaseModel):
@@ -56,12 +57,17 @@ class Journal(Section, BaseModel):
     has none, it tilts freely under the moment that the shaft stage gives. The film is then solved
     over its full width.
 
+    ``alignment`` is how far the bore is turned against the shaft that does not bend, rad: about
+    down and about left; only a film with ``tilt`` around a beam knows it.
+
     ``cavitation`` is the law of the ruptured film; its key ``kind`` says which:
     gas-mixture, sommerfeld, guembel, reynolds or mass-conserving. ``inlet`` replaces the oil on a
     line at the widest gap, or does not; "auto" leaves it to the law.
 
-    A ``shell`` makes the bore elastic; its key ``kind`` says how: local, lined, thick, or matrix
-    with a ``matrix`` of influence coefficients, or the name of a file that holds it.
+    A ``shell`` makes the bore elastic; its key ``kind`` says how: local, lined, thick, matrix with
+    a ``matrix`` of influence coefficients of the cells, or the name of a file that holds it,
+    housed in a housing on feet or a flange, or influence with the ``file`` of a finite-element
+    program.
 
     With a table ``turbulence``, which may be empty, the flow is turbulent where its Reynolds number
     is beyond the critical one; without, it is laminar, and a run warns where it would not be.
@@ -99,7 +105,8 @@ class Journal(Section, BaseModel):
     motion: Literal["quasi-static", "transient"] = "quasi-static"
     step: Positive | None = None
     tilt: bool = False
-    shell: LocalShell | LinedShell | ThickShell | MatrixShell | None = None
+    alignment: tuple[Slope, Slope] = (0.0, 0.0)
+    shell: Shell | None = None
     contact: Contact | None = None
     turbulence: Turbulence | None = None
     shaft_roughness: Positive = 1.3e-6
@@ -171,6 +178,13 @@ class Journal(Section, BaseModel):
         names = ("lubricant", "cavitation", "edge_pressure", *mesh, *effects)
         inlet = None if self.inlet == "none" else self.inlet
         return {name: getattr(self, name) for name in names} | {"inlet": inlet}
+
+    @property
+    def volume_heat(self) -> float:
+        """ρ c_p of the oil, J/(m³ K); c_p of an oil without a heat balance is the usual one."""
+        if self.heat is not None:
+            return self.heat.volume_heat
+        return self.lubricant.density * USUAL_HEAT_CAPACITY
 
     def at_temperature(self, temperature: float) -> Journal:
         """The bearing with its oil held at `temperature`, K."""

@@ -6,9 +6,10 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
-from loadflow.scene.candidates import ABOUT, candidates_of
+from loadflow.scene.candidates import ABOUT, TOLERANCES, candidates_of
 from loadflow.scene.own_shaft import own_shaft
 from loadflow.scene.places import Location, sections_of
+from loadflow.scene.tolerances import taken_out
 from loadflow.schemas import Schema
 from loadflow.turbines import turbine_names
 
@@ -66,6 +67,7 @@ def in_sections(data: dict[str, Any], results: Sequence[str]) -> dict[str, Any]:
     """
     read = dict(data)
     read = SCENE.upgrade(read, read.pop(SCENE.key, UNSTATED))
+    read = taken_out(read)
     turbine = _turbine_of(read)
     if (shaft := own_shaft(turbine, read.get("shaft"))) is not None:
         read["shaft"] = shaft
@@ -90,7 +92,7 @@ def _candidate(name: str, stated: Any, turbine: str) -> Any:
         return stated
     if {"journal", "rolling", "thrust"} & {k for k, v in stated.items() if not _is_place(v)}:
         return stated  # in sections already
-    places, about = _bare(stated), {key: stated[key] for key in ABOUT if key in stated}
+    places, about = _bare(stated), {key: stated[key] for key in _NO_PLACES if key in stated}
     if not places:
         known = candidates_of(turbine)
         if name not in known:
@@ -108,7 +110,10 @@ def _is_place(value: Any) -> bool:
 
 def _bare(candidate: dict[str, Any]) -> dict[str, Any]:
     """The places of a candidate."""
-    return {key: value for key, value in candidate.items() if key not in ABOUT}
+    return {key: value for key, value in candidate.items() if key not in _NO_PLACES}
+
+
+_NO_PLACES = (*ABOUT, TOLERANCES)
 
 
 def named_by_file(turbine: Any) -> Any:
@@ -166,10 +171,10 @@ def anchored(data: dict[str, Any], folder: Path) -> dict[str, Any]:
         }
         keys = [key for key in ("cases", "case_list", "channels") if key in loads]
         found["loads"] = loads | several | {key: path(loads[key]) for key in keys}
-    if "journal" in data:
-        found["journal"] = _with_matrix(data["journal"], path)
+    for room in {"journal", "rolling"} & {*data}:
+        found[room] = _each(data[room], path)
     if isinstance(places := data.get("bearings"), dict):
-        found["bearings"] = {name: _with_matrix(part, path) for name, part in places.items()}
+        found["bearings"] = {name: _each(part, path) for name, part in places.items()}
     turbine = data.get("turbine")
     if isinstance(turbine, dict) and isinstance(name := turbine.get("name"), str):
         file = name if name in turbine_names() or not Path(name).suffix else path(name)
@@ -179,9 +184,24 @@ def anchored(data: dict[str, Any], folder: Path) -> dict[str, Any]:
     return found
 
 
-def _with_matrix(bearing: Any, path: Callable[[Any], Any]) -> Any:
-    """A journal bearing with the path to the matrix of its shell, if it has one."""
-    shell = bearing.get("shell") if isinstance(bearing, dict) else None
-    if not isinstance(shell, dict) or "matrix" not in shell:
+def _each(bearings: Any, path: Callable[[Any], Any]) -> Any:
+    """A bearing, or each of a list of them, with its paths."""
+    if isinstance(bearings, list):
+        return [_with_files(one, path) for one in bearings]
+    return _with_files(bearings, path)
+
+
+_FILES = (("shell", "matrix"), ("shell", "file"), ("inner_ring", "file"), ("outer_ring", "file"))
+"""Tables of a bearing, and their keys that name files."""
+
+
+def _with_files(bearing: Any, path: Callable[[Any], Any]) -> Any:
+    """A bearing with the paths to the matrices of its shell and rings, if it has some."""
+    if not isinstance(bearing, dict):
         return bearing
-    return bearing | {"shell": shell | {"matrix": path(shell["matrix"])}}
+    found = dict(bearing)
+    for part, key in _FILES:
+        table = found.get(part)
+        if isinstance(table, dict) and key in table:
+            found[part] = table | {key: path(table[key])}
+    return found

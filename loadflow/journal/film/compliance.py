@@ -14,12 +14,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import InputError
+from loadflow.journal.film.bore_modes import BoreModes, modes_of_file
 from loadflow.journal.film.mesh import Mesh
+from loadflow.journal.housings import HousedShell, InfluenceShell
 from loadflow.journal.shells import LinedShell, LocalShell, MatrixShell, Shell, ThickShell
 from loadflow.numerics.fields import require
 
 Array = NDArray[np.float64]
 
+_POINTS = 3  # of Gauss in a cell, each way
 _HARMONICS = 2  # times the cells around; higher ones of a pressure even over a cell are neglected
 
 
@@ -79,7 +82,32 @@ class Harmonic:
         return turns.T @ grown.reshape(waves.shape)
 
 
-Compliance = Local | Numbers | Harmonic
+@dataclass(frozen=True, eq=False)
+class Modal:
+    """Modes of a bore, by their means over the cells.
+
+    Attributes
+    ----------
+    shapes : array (k, nx, nz)
+        Modes at the cells, 1/m; on half of the width their even parts.
+    pressed : array (k, nx, nz)
+        Compliance of each times its pattern of forces, m²/N · m².
+    """
+
+    shapes: Array
+    pressed: Array
+    local: Array
+    spreads: bool = True
+
+    def growth(self, pressure: Array) -> Array:
+        """Growth of the gaps under `pressure`, (…, nx, nz), m."""
+        modes = len(self.shapes)
+        flat = pressure.reshape(*pressure.shape[:-2], -1)
+        parts = flat @ self.pressed.reshape(modes, -1).T
+        return np.asarray((parts @ self.shapes.reshape(modes, -1)).reshape(pressure.shape))
+
+
+Compliance = Local | Numbers | Harmonic | Modal
 
 
 @singledispatch
@@ -139,3 +167,35 @@ def _thick(shell: ThickShell, mesh: Mesh, radius: float) -> Harmonic:
     squares = (turns**2).sum(axis=1) * mesh.dx
     local = np.einsum("hi,hkk->ik", squares, numbers)
     return Harmonic(turns, mesh.dx, numbers, local)
+
+
+@compliance_of.register
+def _housed(shell: HousedShell, mesh: Mesh, radius: float) -> Modal:
+    from loadflow.journal.film.housing_elements import housing_modes
+
+    return _modal(housing_modes(shell, radius, _width(mesh, radius)), mesh, radius)
+
+
+@compliance_of.register
+def _influence(shell: InfluenceShell, mesh: Mesh, radius: float) -> Modal:
+    return _modal(modes_of_file(shell, radius, _width(mesh, radius)), mesh, radius)
+
+
+def _width(mesh: Mesh, radius: float) -> float:
+    """Width of the bearing, m, to as many digits as its cells leave of it."""
+    return float(f"{2 * radius * mesh.z_edges[-1]:.12g}")
+
+
+def _modal(modes: BoreModes, mesh: Mesh, radius: float) -> Modal:
+    """Means of the modes over the cells; on half of the width those that both halves share."""
+    nodes, weights = np.polynomial.legendre.leggauss(_POINTS)
+    angle = (mesh.angle[:, None] + 0.5 * mesh.dx[:, None] * nodes).ravel()
+    axial = (radius * (mesh.z[:, None] + 0.5 * mesh.dz[:, None] * nodes)).ravel()
+    shapes = modes.at(angle, axial)
+    if mesh.half:
+        shapes = 0.5 * (shapes + modes.at(angle, -axial[::-1])[..., ::-1])
+    split = shapes.reshape(-1, mesh.angle.size, _POINTS, mesh.z.size, _POINTS)
+    means = 0.25 * np.einsum("kxazb,a,b->kxz", split, weights, weights)
+    areas = radius**2 * np.outer(mesh.dx, mesh.dz) * (2.0 if mesh.half else 1.0)
+    pressed = modes.compliances[:, None, None] * means * areas
+    return Modal(means, pressed, np.einsum("kxz,kxz->xz", pressed, means))

@@ -1,9 +1,10 @@
-"""Energy equation of a film over its area, its temperature constant across the gap.
+"""Energy equation of a film over its area, of its mean temperature across the gap.
 
     ρ c_p ∇·(q T) = dissipation − α_shell (T − T_shell) − α_shaft (T − T_shaft)
 
 by upwind finite volumes on the cells of the film. What flows over a face has the temperature of the
-cell, groove or surroundings that it comes from. Dissipation is that of shear, by the share of
+cell, groove or surroundings that it comes from. T is that of the surfaces, which with three points
+across differs from the mean (`surface_temperatures`). Dissipation is that of shear, by the share of
 liquid of a cell, and of pressure. The viscosity follows the temperature within the solution; flows
 and gap are given.
 
@@ -26,7 +27,8 @@ from loadflow.journal.cavitation import FILL
 from loadflow.journal.film import _energy_kernels as kernel
 from loadflow.journal.film import _kernels as coefficient
 from loadflow.journal.film.film import DiscreteFilm
-from loadflow.journal.film.gap_warm import WarmGap
+from loadflow.journal.film.gap_warm import AcrossFilm, WarmGap
+from loadflow.journal.film.surface_temperatures import Surfaces
 from loadflow.journal.heat import HOTTEST, FilmHeat
 
 if TYPE_CHECKING:
@@ -49,6 +51,10 @@ class Warmth:
     ----------
     cells : array (nx, nz)
         Temperature of the cells, K; in a groove that of the oil which it gives.
+    shell : array (nx, nz)
+        Temperature of the shell's surface there, K.
+    hottest : float
+        Largest temperature of film and surfaces, K.
     shaft : float
         Temperature of the shaft, K.
     grooves : array (g, 2)
@@ -64,6 +70,8 @@ class Warmth:
     """
 
     cells: Array
+    shell: Array
+    hottest: float
     shaft: float
     grooves: Array
     side: float
@@ -123,10 +131,17 @@ class EnergyEquation:
         self.count = self.size + self.grooves + 1  # the last one is the shaft
         area = film.mirrors * film.radius**2 * np.outer(film.mesh.dx, film.mesh.dz)
         self.area = area[self.wet]
+        self._shaft = heat.inlet_temperature  # of the last solution
+        clearance = film.relative_clearance * film.radius
+        self._surfaces = Surfaces.of(heat, np.full(self.size, clearance))
 
     def thicken(self, temperature: Array) -> None:
         """Give the film the viscosity of its cells at `temperature` (nx, nz), K."""
-        self.gap.thicken(self._ratio(temperature)[0])
+        plain = self.heat.liquid.viscosity(temperature) / self.film.viscosity
+        every = AcrossFilm(plain, plain.copy(), np.ones_like(plain))
+        for all_, wet in zip(every, self._ratio(temperature[self.wet], self._shaft)[0]):
+            all_[self.wet] = wet
+        self.gap.thicken(every)
 
     def solve(self, u: Array, position: Array, guess: Array) -> Warmth:
         """Temperatures of the film at `u` and `position`.
@@ -147,18 +162,20 @@ class EnergyEquation:
         """
         flows, shear, pumped = self._given(u, position)
         heat, film = self.heat, self.film
+        clearance = film.relative_clearance * film.radius
+        self._surfaces = Surfaces.of(heat, clearance * self.gap.films[self.wet])
         fresh = heat.inlet_temperature
         matrix, rhs = self._linear(flows)
         t = np.append(guess[self.wet], np.full(self.grooves + 1, fresh))
         t[-1] = float(np.average(t[: self.size], weights=self.area))
         diagonal = np.arange(self.count)
         drag = film.mirrors * film.viscosity * film.speed**2 * film.radius**4
-        drag /= film.relative_clearance * film.radius
+        drag /= clearance
         residual = np.inf
         for _ in range(_STEPS):
-            ratio, slope = self._ratio(t[: self.size])
+            across, slope = self._ratio(t[: self.size], float(t[-1]))
             source = np.zeros(self.count)
-            source[: self.size] = drag * shear * ratio + pumped
+            source[: self.size] = drag * shear * across.shear + pumped
             by_own = np.zeros(self.count)
             by_own[: self.size] = -drag * shear * slope
             missing = matrix @ t - rhs - source
@@ -176,15 +193,13 @@ class EnergyEquation:
                 break
         else:
             raise SolverError(f"temperatures of the film: change {np.abs(step).max():.3g} K left")
+        self._shaft = float(t[-1])
         return self._told(t, flows, drag * shear, pumped, residual)
 
     # --- inside ----------------------------------------------------------------------------------
-    def _ratio(self, temperature: Array) -> tuple[Array, Array]:
-        """Viscosity over that of the film, and its derivative, 1/K."""
-        oil = self.heat.liquid
-        reference = self.film.viscosity
-        slope = oil.viscosity_slopes(temperature)[0]
-        return oil.viscosity(temperature) / reference, np.asarray(slope) / reference
+    def _ratio(self, mean: Array, shaft: float) -> tuple[AcrossFilm, Array]:
+        """Viscosity of the wet cells at their `mean`, K, and the change of that under shear."""
+        return self._surfaces.viscosity(self.heat, self.film.viscosity, mean, shaft)
 
     def _given(self, u: Array, position: Array) -> tuple[_Flows, Array, Array]:
         """Flows; shear and dissipation by pressure of the wet cells."""
@@ -279,24 +294,52 @@ class EnergyEquation:
         number = flows.sink[strange]
         np.add.at(rhs, number, heavy * fresh * share[number - size] * flows.flow[strange])
 
-        cells = np.arange(size)
-        diagonal[:size] += (heat.shell_transfer + heat.shaft_transfer) * self.area
-        rhs[:size] += heat.shell_transfer * self.area * heat.shell_temperature
-        rows.append(cells)
-        columns.append(np.full(size, shaft))
-        values.append(-heat.shaft_transfer * self.area)
-        total = float(self.area.sum())
-        diagonal[shaft] = total
-        if heat.shaft_temperature is None:
+        every = np.arange(count)
+        where = np.concatenate([*rows, every]), np.concatenate([*columns, every])
+        moving = _sparse(np.concatenate([*values, diagonal]), where)
+        if heat.points > 1:
+            given, carried = self._carried()
+            rhs -= moving @ given
+            moving = moving @ carried
+        matrix, warm = self._conducting()
+        return moving + matrix, rhs + warm
+
+    def _carried(self) -> tuple[Array, csc_matrix]:
+        """Temperatures that flows carry from all volumes, by the means: constant and matrix."""
+        size, count = self.size, self.count
+        oil, every = self._surfaces.carried, np.arange(count)
+        given, mean = np.zeros(count), np.ones(count)
+        given[:size], mean[:size] = oil.given, oil.mean
+        rows, columns = (
+            np.append(every, every[:size]),
+            np.append(every, np.full(size, count - 1)),
+        )
+        return given, _sparse(np.append(mean, oil.shaft), (rows, columns))
+
+    def _conducting(self) -> tuple[csc_matrix, Array]:
+        """Matrix and right-hand side of what passes into shell and shaft."""
+        heat, count, size = self.heat, self.count, self.size
+        shaft, cells = count - 1, np.arange(size)
+        shell, turns = self._surfaces.shell, self._surfaces.shaft
+        out, into = heat.shell_transfer * self.area, heat.shaft_transfer * self.area
+        diagonal, rhs = np.zeros(count), np.zeros(count)
+        diagonal[:size] = out * shell.mean + into * turns.mean
+        rhs[:size] = -out * (shell.given - heat.shell_temperature) - into * turns.given
+        rows, columns = [cells], [np.full(size, shaft)]
+        values = [out * shell.shaft + into * (turns.shaft - 1.0)]
+        if heat.shaft_temperature is not None:
+            diagonal[shaft] = float(self.area.sum())
+            rhs[shaft] = diagonal[shaft] * heat.shaft_temperature
+        else:  # no net heat passes into it; where none passes at all it is as warm as the film
+            conducts = heat.shaft_transfer > 0.0
             rows.append(np.full(size, shaft))
             columns.append(cells)
-            values.append(-self.area)
-        else:
-            rhs[shaft] = total * heat.shaft_temperature
+            values.append(-self.area * (turns.mean if conducts else 1.0))
+            diagonal[shaft] = float((self.area * (1.0 - turns.shaft * conducts)).sum())
+            rhs[shaft] = float((self.area * turns.given).sum()) * conducts
         every = np.arange(count)
-        entries = np.concatenate([*values, diagonal])
         where = np.concatenate([*rows, every]), np.concatenate([*columns, every])
-        return _sparse(entries, where), rhs
+        return _sparse(np.concatenate([*values, diagonal]), where), rhs
 
     def _told(
         self,
@@ -310,13 +353,17 @@ class EnergyEquation:
         heat, size, shaft = self.heat, self.size, self.count - 1
         heavy, fresh = heat.volume_heat, heat.inlet_temperature
         above = np.append(t - fresh, 0.0)  # the last one is fresh oil
+        above[:size] = self._surfaces.carried.at(t[:size], float(t[shaft])) - fresh
         carried = flows.flow * above[flows.source]
         from_cell = (flows.source >= 0) & (flows.source < size)
         leaves = from_cell & ((flows.sink == _FRESH) | (flows.sink >= size))
         given = (flows.source >= size) & (flows.sink >= 0) & (flows.sink < size)
         out = heavy * float(carried[leaves].sum() - carried[given].sum())
-        through = self.area * (t[:size] - heat.shell_temperature) * heat.shell_transfer
-        through += self.area * (t[:size] - t[shaft]) * heat.shaft_transfer
+        surfaces, turning = self._surfaces, float(t[shaft])
+        shell, turns = (one.at(t[:size], turning) for one in (surfaces.shell, surfaces.shaft))
+        through = self.area * (shell - heat.shell_temperature) * heat.shell_transfer
+        through += self.area * (turns - turning) * heat.shaft_transfer
+        middle = 0.25 * (6 * t[:size] - shell - turns)
         ends = from_cell & (flows.sink == _FRESH)
         side = flows.flow[ends].sum()
         grooves = np.full((self.grooves, 2), np.nan)
@@ -329,11 +376,13 @@ class EnergyEquation:
         cells = np.append(t, np.nan)[self._cells]
         return Warmth(
             cells=cells,
+            shell=np.append(np.append(shell, t[size:]), np.nan)[self._cells],
+            hottest=float(np.max([shell, turns, middle])),
             shaft=float(t[shaft]),
             grooves=grooves,
             side=fresh + float(carried[ends].sum() / side) if side > 0.0 else fresh,
             mean=float(np.average(t[:size], weights=self.area)),
-            friction=float((sheared * self._ratio(t[:size])[0] + pumped).sum()),
+            friction=float((sheared * self._ratio(t[:size], turning)[0].shear + pumped).sum()),
             carried=out,
             conducted=float(through.sum()),
             residual=residual,

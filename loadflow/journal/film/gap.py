@@ -207,17 +207,14 @@ class CylindricalGap(FlowBetween):
         if self.mesh.polar:
             turns = turns[:1]
             ex, ey = ratio, 0.0
-        stretch = self.mesh.stretch if self.mesh.polar else _unstretched
         slopes = []
         for tx, ty in turns:
-            slope, around = np.zeros_like(self.coef), np.empty((2, self.mesh.angle.size))
-            ways = tuple((ex + h * tx, ey + h * ty) for h in (step, -step))
-            stretches = (stretch(ways[0][0]), stretch(ways[1][0]))
-            kernel.gap_slope(
-                *self.mesh.trigonometry, stretches, ways, step, self.surfaces, self._spare,
-                slope, around, self.open_share,
-            )  # fmt: skip
-            slopes.append((slope, around))
+            slope = np.zeros_like(self.coef)
+            self._evaluate(slope, ex + step * tx, ey + step * ty)
+            self._evaluate(self._spare, ex - step * tx, ey - step * ty)
+            slope -= self._spare
+            slope /= 2.0 * step
+            slopes.append((slope, _around(slope)))
         return slopes
 
     def advance(self, position: Array, step: Array) -> Array:
@@ -282,11 +279,6 @@ class CylindricalGap(FlowBetween):
     def widest(self, position: Array, free: slice | NDArray[np.int64]) -> Array:
         """The centre."""
         return np.zeros(2)
-
-
-def _unstretched(ratio: float) -> float:
-    """No Sommerfeld map."""
-    return 0.0
 
 
 def _around(coef: Array) -> Array:

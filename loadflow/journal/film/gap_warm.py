@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -11,6 +13,22 @@ from loadflow.journal.film.gap_mesh import ShapedMesh
 from loadflow.journal.film.gap_shaped import Bore, ShapedGap
 
 Array = NDArray[np.float64]
+
+
+class AcrossFilm(NamedTuple):
+    """Viscosity across the film, which may change from surface to surface; arrays (nx, nz).
+
+    Attributes
+    ----------
+    shear, flow : array
+        That under shear, and against flow by pressure, over that of the film.
+    drag : array
+        Flow that the surfaces drag, over that at one viscosity.
+    """
+
+    shear: Array
+    flow: Array
+    drag: Array
 
 
 class WarmGap(ShapedGap):
@@ -31,14 +49,19 @@ class WarmGap(ShapedGap):
         columns = np.arange(mesh.shape[0])
         first, last = (columns[-1], 0) if mesh.closed else (0, columns[-1])
         self._sides = np.append(first, columns), np.append(columns, last)
-        self.thicken(np.ones(mesh.shape))
+        self.thicken(AcrossFilm(*(np.ones(mesh.shape) for _ in range(3))))
 
-    def thicken(self, ratio: Array) -> None:
-        """Set the viscosity of the cells over that of the film, `ratio` (nx, nz)."""
-        self.ratio = ratio
+    def thicken(self, across: AcrossFilm) -> None:
+        """Set the viscosity of the cells (nx, nz)."""
+        self._across = across
+        self._faces = 1.0 / self._over_faces(across.flow)
+        self._dragged = self._over_faces(across.drag)
+
+    def _over_faces(self, values: Array) -> Array:
+        """Mean of `values` of the cells on the ways between their centres."""
         weights = self.mesh.face_angles[1]
-        parts = [weights[:, side, None] * ratio[self._sides[side]] for side in (0, 1)]
-        self._faces = weights.sum(axis=1)[:, None] / (parts[0] + parts[1])
+        parts = [weights[:, side, None] * values[self._sides[side]] for side in (0, 1)]
+        return np.asarray((parts[0] + parts[1]) / weights.sum(axis=1)[:, None])
 
     def place(self, position: Array) -> Array:
         """Evaluate `coef` at `position`; the frame of the mesh is that of the shell."""
@@ -46,13 +69,20 @@ class WarmGap(ShapedGap):
         rows = self.mesh.shape[1]
         for coef in (self.coef, self._by_x, self._by_y):
             coef[row.G, :, :rows] *= self._faces
-            coef[row.CELL3, :-1, :rows] /= self.ratio
-        self.coef[row.HINV, :-1, :rows] *= self.ratio
+            coef[row.E, :, :rows] *= self._dragged
+            coef[row.CELL3, :-1, :rows] /= self._across.flow
+        self.coef[row.HINV, :-1, :rows] *= self._across.shear
         faces_across(self.coef, self.mesh.dz, False, self.coef)
         return frame
+
+    @property
+    def films(self) -> Array:
+        """Mean gap of the cells (nx, nz), in clearances, where the shaft was last placed."""
+        rows = self.mesh.shape[1]
+        return np.asarray(self.coef[row.HM, :-1, :rows] / self.mesh.dx[:, None])
 
     @property
     def shear(self) -> Array:
         """∫ 1/H of the cells (nx, nz) around, where the shaft was last placed."""
         rows = self.mesh.shape[1]
-        return np.asarray(self.coef[row.HINV, :-1, :rows] / self.ratio)
+        return np.asarray(self.coef[row.HINV, :-1, :rows] / self._across.shear)

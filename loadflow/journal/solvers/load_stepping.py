@@ -16,6 +16,8 @@ Array = NDArray[np.float64]
 
 _FIRST_LOAD = 0.2  # share of the load from which it is raised in steps
 _LEAST_LOAD = 1e-3  # share below which a step of the load is given up
+_FIRST_SHARE = 1e-4  # of its compliance, that a shell has first where it is softened in steps
+_LEAST_SHARE = 0.01  # of the share that it has, below which such a step is given up
 _STEPS, _STEPS_EACH = 400, 25  # Newton steps of all of them, and of each
 _STRIDE = 0.25  # first share of the way from the load at the start to the one that is wanted
 _SHORTEST = 1e-3  # of the lesser of both loads, below which such a step is given up
@@ -66,6 +68,40 @@ def solve_in_load_steps(
     film.place(state.u, state.position)
     missing = (1.0 - done) * math.hypot(*force[free]) / film.load_scale(force)
     return replace(state, converged=False, iterations=spent, residual=missing)
+
+
+def solve_by_stiffness(
+    film: DiscreteFilm,
+    force: Array,
+    position: Array,
+    tolerance: float,
+    free: slice | NDArray[np.int64] = EVERY,
+) -> Solution:
+    """As `solve_equilibrium`, from a rigid shell on, whose compliance grows to what it is."""
+    film.relax(share=0.0)
+    state = solve_equilibrium(
+        film, force, film.start(), position, tolerance, 2 * _STEPS_EACH, free=free
+    )
+    share, step, spent = 0.0, _FIRST_SHARE, state.iterations
+    while state.converged and step >= _LEAST_SHARE * max(share, _FIRST_SHARE):
+        at = min(1.0, share + step)
+        film.relax(share=at)
+        start = (state.u, state.position)
+        trial = solve_equilibrium(film, force, *start, tolerance, _STEPS_EACH, free=free)
+        spent += trial.iterations
+        if trial.converged:
+            if at == 1.0:
+                return replace(trial, iterations=spent)
+            state, share = trial, at
+            step *= 2.0 if trial.iterations < _STEPS_EACH // 2 else 1.2
+        else:
+            step *= 0.4
+        if spent > _STEPS:
+            break
+    if state.converged:  # show the gap that is left, in the shell that it was found in
+        film.relax(share=share)
+        film.place(state.u, state.position)
+    return replace(state, converged=False, iterations=spent, residual=1.0 - share)
 
 
 def solve_from_held(

@@ -30,6 +30,7 @@ from loadflow.journal.solvers.load_stepping import (
     APART,
     has_touched,
     solve_by_approach,
+    solve_by_stiffness,
     solve_from_held,
     solve_in_load_steps,
 )
@@ -45,6 +46,7 @@ Rows = NDArray[np.int64]
 
 _PAD_ROUNDS = 8  # solutions in which pads may come under load, or lose theirs
 _FIRST = 2  # Newton steps of a film on pads before the shaft moves
+_MOST_AROUND = (120, 240)  # cells, of a shell that gives way all over, and where it is pressed
 _CROWDED = 2  # meshes that are tried beside the one asked for
 _SAME = 0.02  # angle, rad, by which the place of the narrowest gap must have moved for another
 _HOPELESS = 0.8  # of the load, missing as the shaft touches: on no mesh the film carries it
@@ -180,13 +182,30 @@ class Statics:
         if self.gap.axisymmetric:  # grooves hold the cells in their places
             fed = self.options.supply is not None and not self.film.dry(solution.u)
             return self._on(self.options, ()) if fed and self.film.speed != 0.0 else None
-        if self.film.elastic or not np.isfinite(solution.position).all():
+        if self.film.elastic:
+            return self._on_more_cells(solution)
+        if not np.isfinite(solution.position).all():
             return None
         if has_touched(self.film, solution) and solution.residual > _HOPELESS:
             return None
         crowd, before = self.gap.closing(solution.position, _NARROW), self.crowd or ()
         same = len(crowd) == len(before) and np.allclose(crowd, before, atol=_SAME)
         return None if same else self._on(self.options, crowd)
+
+    def _on_more_cells(self, solution: Solution) -> Statics | None:
+        """The film in an elastic shell on twice the cells around; None where that is no help.
+
+        Where a shell gives way by much on a cell, its gap follows the pressure from cell to cell
+        so fast that the film has no answer on cells as long.
+        """
+        shell, (around, across) = self.options.shell, self.options.cells
+        if shell is None or not shell.any_grid or 2 * around > _MOST_AROUND[shell.local]:
+            return None
+        if self.film.speed == 0.0 or self.film.dry(solution.u):
+            return None
+        if self.film.clearance_left(solution.position) <= APART:
+            return None
+        return self._on(replace(self.options, grid=(2 * around, across)))
 
     def solve(
         self,
@@ -385,7 +404,11 @@ class Statics:
         """Equilibrium where Newton finds none at once."""
         film, free = self.film, self._free(pads)
         if film.elastic:
-            return solve_in_load_steps(film, force, estimate, limits[0], free)
+            by_load = solve_in_load_steps(film, force, estimate, limits[0], free)
+            if by_load.converged or film.clearance_left(by_load.position) <= APART:
+                return by_load
+            by_shell = solve_by_stiffness(film, force, estimate, limits[0], free)
+            return replace(by_shell, iterations=by_load.iterations + by_shell.iterations)
         if pads.size:
             shaft = np.arange(self.gap.size)[self.shaft]
             solution = solve_with_pads(film, self._shaped, force, estimate, shaft, *limits)

@@ -164,7 +164,7 @@ def _coupled(
         if residual < best:
             best, nearest, share = residual, (now, warmth.cells), min(1.0, 2.0 * share)
         if residual <= TOLERANCE:
-            hottest = float(warmth.cells.max())
+            hottest = max(warmth.hottest, float(warmth.cells.max()))
             hot = f"the film gets hotter than {HOTTEST} K: {hottest:.4g} K"
             fine = hottest < HOTTEST
             return _Warm(solution, warmth, residual, iteration, fine, "" if fine else hot)
@@ -221,13 +221,14 @@ def _heat_columns(equation: EnergyEquation, found: _Warm) -> dict[str, Any]:
     said: dict[str, Any]
     if warmth is None:
         field, grooves = np.full(film.mesh.shape, np.nan), np.full((equation.grooves, 2), np.nan)
+        shell = field
         said = dict.fromkeys(_NUMBERS, np.nan)
     else:
-        field, grooves = warmth.cells, warmth.grooves
+        field, grooves, shell = warmth.cells, warmth.grooves, warmth.shell
         said = {
             "friction_power": warmth.friction,
             "temperature": warmth.mean,
-            "maximum_temperature": float(field[equation.wet].max()),
+            "maximum_temperature": max(warmth.hottest, float(field[equation.wet].max())),
             "outlet_temperature": warmth.side,
             "shaft_temperature": warmth.shaft,
             "viscosity": float(oil.viscosity(warmth.mean)),
@@ -236,9 +237,10 @@ def _heat_columns(equation: EnergyEquation, found: _Warm) -> dict[str, Any]:
             "heat_imbalance": warmth.imbalance,
         }
     if film.mesh.half:
-        field = np.concatenate([field[:, ::-1], field], axis=1)
+        field, shell = (np.concatenate([x[:, ::-1], x], axis=1) for x in (field, shell))
     return said | {
         "film_temperature": field,
+        "surface_temperature": shell,
         "film_viscosity": np.asarray(oil.viscosity(field)),
         "trailing_temperature": grooves[:, 0],
         "leading_temperature": grooves[:, 1],

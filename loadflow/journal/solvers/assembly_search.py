@@ -1,0 +1,212 @@
+"""Where a cone carries a load: eccentricity over gap, and size of the gap, by damped steps.
+
+The load of a film goes about with the inverse square of its gap, and its direction with the
+eccentricity over the gap. Sought are a direction and the logarithm of a size, both of films around
+a shaft that is held: they are smooth from light to heavy loads, and every step is a film that is
+there. Where a whole ring without rupture has no axial force at all, its axial position is the
+nearest to where the search began.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from loadflow.journal.solvers.assembly import BODY, Assembly, AssemblyState
+from loadflow.numerics.convergence import Limits
+
+Array = NDArray[np.float64]
+
+_HELD = np.array([], dtype=np.int64)
+_STEPS, _SPENT = 60, 1500  # films of one search, and Newton steps of them all
+_LARGEST = 0.7  # change of an eccentricity over the gap, or of the gap's logarithm, in a step
+_HALVINGS = 12
+_RATIOS, _TURNS, _BEST = (0.4, 0.8), 10, 8  # films all around, and those from which it begins
+_ROUGH = Limits(1e-3, 20)  # of these
+_NEAR = 0.02  # distance to the load below which Newton's method takes over
+_DAMPING = 1e-12  # of what the load does not feel
+_WIDEST, _NARROWEST = math.log(1e3), math.log(1e-4)  # gap over the clearance
+
+
+@dataclass(frozen=True)
+class Chart:
+    """Positions of a shaft in a cone.
+
+    Attributes
+    ----------
+    clearance : float
+        Normal gap around the shaft in its middle, m.
+    half_angle : float
+        rad.
+    tilt : array (2,)
+        Held, rad.
+    """
+
+    clearance: float
+    half_angle: float
+    tilt: Array
+
+    def position(self, x: Array) -> Array:
+        """Position (5,) at an eccentricity over the gap and a logarithm of the gap, (3,)."""
+        gap = self.clearance * math.exp(x[2])
+        aside = gap / math.cos(self.half_angle) * x[:2]
+        axial = (gap - self.clearance) / math.sin(self.half_angle)
+        return np.concatenate([aside, [axial], self.tilt])
+
+    def slope(self, x: Array) -> Array:
+        """Change of the shifts by that of `x`, (3, 3)."""
+        gap = self.clearance * math.exp(x[2])
+        found = np.diag([1.0, 1.0, 0.0]) * gap / math.cos(self.half_angle)
+        found[:2, 2] = gap / math.cos(self.half_angle) * x[:2]
+        found[2, 2] = gap / math.sin(self.half_angle)
+        return found
+
+    def place(self, position: Array) -> Array:
+        """Inverse of `position`."""
+        gap = self.clearance + position[2] * math.sin(self.half_angle)
+        gap = max(gap, math.exp(_NARROWEST) * self.clearance)
+        aside = position[:2] * math.cos(self.half_angle) / gap
+        return np.append(aside, math.log(gap / self.clearance))
+
+
+def around(
+    assembly: Assembly,
+    chart: Chart,
+    started: Callable[[Array], AssemblyState],
+    force: Array,
+) -> Iterator[AssemblyState]:
+    """Films all around a cone, those first whose load has nearly the direction of `force`.
+
+    `started` gives the films around a shaft at a position (5,).
+    """
+    found = []
+    for ratio in _RATIOS:
+        for turn in np.arange(_TURNS) * (2 * math.pi / _TURNS):
+            x = np.array([ratio * math.cos(turn), ratio * math.sin(turn), 0.0])
+            start = started(chart.position(x))
+            if assembly.narrowest(start) <= 0.0:
+                continue
+            film = assembly.solve(start, np.zeros(BODY), _HELD, _ROUGH)
+            if film.converged:
+                distance = _distance(assembly, film, force)[0]
+                found.append((float(np.linalg.norm(distance[1:])), len(found), x, distance[0]))
+    for _, _, x, size in sorted(found)[:_BEST]:
+        x[2] = np.clip(0.5 * size, 0.9 * _NARROWEST, 0.9 * _WIDEST)
+        yield started(chart.position(x))
+
+
+def search(
+    assembly: Assembly,
+    chart: Chart,
+    starts: Iterable[AssemblyState],
+    force: Array,
+    free: NDArray[np.int64],
+    limits: Limits,
+) -> AssemblyState | None:
+    """Equilibrium under `force` (5,), N and N m, at the tilt of `chart`; none if none is found.
+
+    Parameters
+    ----------
+    assembly : Assembly
+        The films.
+    chart : Chart
+        Positions.
+    starts : iterable of AssemblyState
+        Where to begin, one after the other.
+    force : array (5,)
+        The load.
+    free : array of int
+        The three shifts.
+    limits : Limits
+        Tolerance on the scaled residual.
+    """
+    spent, found = 0, None
+    for start in starts:
+        found = _search_from(assembly, chart, start, force, free, limits)
+        spent += found.iterations
+        if found.converged or spent > _SPENT:
+            break
+    return None if found is None else replace(found, iterations=spent)
+
+
+def _search_from(
+    assembly: Assembly,
+    chart: Chart,
+    start: AssemblyState,
+    force: Array,
+    free: NDArray[np.int64],
+    limits: Limits,
+) -> AssemblyState:
+    """Equilibrium from one of the starts."""
+    x = chart.place(start.position)
+    state = _film_at(assembly, replace(start, position=chart.position(x)), limits)
+    spent, polished = state.iterations, math.inf
+    if not state.converged:
+        return state
+    distance, change = _distance(assembly, state, force)
+    for _ in range(_STEPS):
+        size = float(np.linalg.norm(distance))
+        if size < _NEAR and size < 0.1 * polished:
+            polished = size
+            end = assembly.solve(state, force, free, limits)
+            spent += end.iterations
+            if end.converged:
+                return replace(end, iterations=spent)
+        residual = assembly.imbalance(state, force, free)
+        if residual < limits.tolerance:
+            done = replace(state, converged=True, residual=residual, iterations=spent, free=free)
+            return done
+        if spent > _SPENT:
+            break
+        slope = change @ chart.slope(x)
+        step = _damped(slope, -distance)
+        step *= min(1.0, _LARGEST / float(np.abs(step).max()))
+        for _ in range(_HALVINGS):
+            trial_x = x + step
+            good = math.hypot(*trial_x[:2]) < 1.0 and _NARROWEST < trial_x[2] < _WIDEST
+            if good:
+                moved = replace(state, position=chart.position(trial_x))
+                if assembly.narrowest(moved) > 0.0:
+                    trial = _film_at(assembly, moved, limits)
+                    spent += trial.iterations
+                    if trial.converged:
+                        left, after = _distance(assembly, trial, force)
+                        if float(np.linalg.norm(left)) < size * (1.0 - 1e-4):
+                            x, state, distance, change = trial_x, trial, left, after
+                            break
+            step = 0.5 * step
+        else:
+            break
+    return replace(state, converged=False, iterations=spent, residual=float(np.abs(distance).max()))
+
+
+def _damped(slope: Array, wanted: Array) -> Array:
+    """Step of least size that leads to `wanted`."""
+    return np.asarray(np.linalg.lstsq(slope, wanted, rcond=math.sqrt(_DAMPING))[0])
+
+
+def _film_at(assembly: Assembly, state: AssemblyState, limits: Limits) -> AssemblyState:
+    """Films around a shaft that is held, from those of `state` or from none."""
+    nothing = np.zeros(BODY)
+    found = assembly.solve(state, nothing, _HELD, limits)
+    if not found.converged:
+        fresh = assembly.start(state.position, [own.pad for own in state.members])
+        again = assembly.solve(fresh, nothing, _HELD, limits)
+        found = replace(again, iterations=found.iterations + again.iterations)
+    return found
+
+
+def _distance(assembly: Assembly, state: AssemblyState, force: Array) -> tuple[Array, Array]:
+    """Distance of the load to `force`, by size and direction (4,), and its change by shifts."""
+    load = np.sum([part for pads in assembly.loads(state) for part in pads], axis=0)[:3]
+    stiffness = assembly.coefficients(state)[0][:3, :3]
+    size, wanted = float(np.linalg.norm(load)), float(np.linalg.norm(force[:3]))
+    size = max(size, 1e-300)
+    way = load / size
+    distance = np.append(math.log(size / wanted), way - force[:3] / wanted)
+    turn = (np.eye(3) - np.outer(way, way)) @ stiffness / size
+    return distance, np.vstack([way @ stiffness / size, turn])
