@@ -158,7 +158,7 @@ def test_reduce_takes_the_forces_of_the_cube_in_the_frame_of_the_film(
     assert answer["suspension"] == "of the cube"
     assert {part["bearing"] for part in answer["series"]} == {"N2"}
     assert len(answer["series"]) == 3
-    reduced = read_parameter_file(tmp_path / "dlc1.1_v8_s3_N2.txt")
+    reduced = read_parameter_file(tmp_path / "dlc1.1_v8_s3_N2.csv")
     leaf = next(n for n in open_cube(bearing_cube).leaves if "dlc1.1_v8_s3" in n["case"])
     force = leaf.to_dataset()["force"].sel(case="dlc1.1_v8_s3", bearing="N2")
     kept = force.isel(time=reduced.index)
@@ -168,7 +168,7 @@ def test_reduce_takes_the_forces_of_the_cube_in_the_frame_of_the_film(
 
 def test_a_reduced_file_goes_into_the_film_solver(loadflow, hub_cube, tmp_path):
     loadflow("reduce", hub_cube, "-o", tmp_path, "--bearing", "N", "--size", 0.02)
-    file = tmp_path / "dlc1.1_v8_s1_N.txt"
+    file = tmp_path / "dlc1.1_v8_s1_N.csv"
     code, out, _ = loadflow("journal", *JOURNAL, "--grid", 36, 8, "--series", file, "--json")
     answer = json.loads(out)
     reduced = read_parameter_file(file)

@@ -74,8 +74,11 @@ def test_the_shares_of_the_lifetime_add_up(cube):
 def test_a_run_answers_all_that_was_asked(finished):
     tree = finished.tree
     assert set(tree.children) == {
-        "statistics", "seeds", "journal", "rolling", "friction", "check", "verdicts", "lifetime",
+        "loads", "statistics", "seeds", "journal", "rolling", "friction", "check", "verdicts",
+        "lifetime", "energy",
     }  # fmt: skip
+    assert tree["energy"]["rotor_power"].dims == ("case",)
+    assert np.isfinite(tree["energy"]["journal_loss"]).all()
     journal = tree["journal"].to_dataset()
     assert journal.sizes == {"bearing": 1, "case": 4}
     assert (journal["not_converged"] == 0).all()

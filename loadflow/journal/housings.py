@@ -97,7 +97,7 @@ class HousedShell:
     """Shell in a housing on feet or a flange, by finite elements in three dimensions.
 
     The bore gives way by the modes of its influence matrix, which follow once from the elements
-    and hold on every grid of the film. Needs scikit-fem (``loadflow[fem]``).
+    and hold on every grid of the film.
 
     Attributes
     ----------

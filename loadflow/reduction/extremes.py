@@ -138,9 +138,14 @@ def extreme_value(
 
 def gumbel_parameters(x: Floats) -> tuple[Floats, Floats]:
     """Location and scale of a Gumbel distribution by L-moments along the last axis."""
-    ordered = np.sort(x, axis=-1)
-    n = x.shape[-1]
-    first = ordered.mean(axis=-1)
-    second = 2.0 * (ordered @ np.arange(n)) / (n * (n - 1.0)) - first
+    first, second = l_moments(x)
     scale = second / np.log(2.0)
     return first - np.euler_gamma * scale, scale
+
+
+def l_moments(x: Floats) -> tuple[Floats, Floats]:
+    """First and second L-moment along the last axis [Hosking and Wallis 1997]."""
+    from scipy.stats import lmoment
+
+    first, second = lmoment(x, order=[1, 2], axis=-1)
+    return first, second

@@ -1,8 +1,13 @@
-"""The parameter file: a reduced series as text, for a bearing code and for people."""
+"""The parameter file: a reduced series as CSV with attributes, for a bearing code and for people.
+
+Attributes stand above the table, each behind a ``#``: ``pandas.read_csv(file, comment="#")`` reads
+the table. The first form, without commas, is still read.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -11,14 +16,27 @@ from loadflow.errors import InputError
 from loadflow.reduction._series import Floats
 from loadflow.reduction.quasistatic import Reduced, bin_sums
 
-TITLE = "# loadflow parameter file 1"
+
+@dataclass(frozen=True)
+class _Form:
+    """A form of the file: its first line, its attributes in order, what separates columns."""
+
+    title: str
+    keys: tuple[str, ...]
+    separator: str | None
+
+
 COLUMNS = ("index", "time", "speed", "force_x", "force_y", "weight")
 UNITS = ("-", "s", "rad/s", "N", "N", "-")
-KEYS = ("source", "pick", "seed", "speed_edges", "force_edges", "columns", "units")
+_SHARED = ("source", "pick", "seed", "speed_edges", "force_edges")
+FORM = _Form("# loadflow parameter file 2", (*_SHARED, "units"), ",")
+FIRST = _Form("# loadflow parameter file 1", (*_SHARED, "columns", "units"), None)
+HEADER = 8
+"""Lines above the numbers, of both forms: in the second the names of the columns are the last."""
 
 
 def write_parameter_file(path: str | Path, reduced: Reduced) -> None:
-    """Write a reduced series as text; `read_parameter_file` gives back the same numbers exactly.
+    """Write a reduced series as CSV; `read_parameter_file` gives back the same numbers exactly.
 
     Parameters
     ----------
@@ -41,7 +59,7 @@ def write_parameter_file(path: str | Path, reduced: Reduced) -> None:
     >>> load = np.stack([2e6 + 1e5 * np.sin(np.arange(300.0)), np.zeros(300)], axis=-1)
     >>> reduced = histogram(np.linspace(1.1, 1.3, 300), load)
     >>> with tempfile.TemporaryDirectory() as folder:
-    ...     file = Path(folder) / "reduced.txt"
+    ...     file = Path(folder) / "reduced.csv"
     ...     write_parameter_file(file, reduced)
     ...     file.exists()
     True
@@ -52,17 +70,17 @@ def write_parameter_file(path: str | Path, reduced: Reduced) -> None:
 
 
 def _lines(reduced: Reduced) -> Iterator[str]:
-    yield TITLE
+    yield FORM.title
     yield f"# source = {reduced.source}"
     yield f"# pick = {reduced.pick}"
     yield f"# seed = {reduced.seed}"
     for name, edges in zip(("speed_edges", "force_edges"), reduced.edges):
         yield f"# {name} = {' '.join(map(repr, edges.tolist()))}"
-    yield f"# columns = {' '.join(COLUMNS)}"
     yield f"# units = {' '.join(UNITS)}"
+    yield ",".join(COLUMNS)
     columns = (reduced.index, reduced.time, reduced.speed, *reduced.force.T, reduced.weight)
     for row in zip(*(c.tolist() for c in columns)):
-        yield " ".join(map(repr, row))
+        yield ",".join(map(repr, row))
 
 
 def read_parameter_file(path: str | Path) -> Reduced:
@@ -91,7 +109,7 @@ def read_parameter_file(path: str | Path) -> Reduced:
     >>> load = np.stack([2e6 + 1e5 * np.sin(np.arange(300.0)), np.zeros(300)], axis=-1)
     >>> reduced = histogram(np.linspace(1.1, 1.3, 300), load)
     >>> with tempfile.TemporaryDirectory() as folder:
-    ...     file = Path(folder) / "reduced.txt"
+    ...     file = Path(folder) / "reduced.csv"
     ...     write_parameter_file(file, reduced)
     ...     again = read_parameter_file(file)
     >>> bool((again.force == reduced.force).all())
@@ -101,10 +119,11 @@ def read_parameter_file(path: str | Path) -> Reduced:
         lines = Path(path).read_text(encoding="utf-8").splitlines()
     except (OSError, UnicodeDecodeError) as error:
         raise InputError(f"{path}: cannot be read as a parameter file: {error}") from error
-    if not lines or lines[0].strip() != TITLE:
-        raise InputError(f"{path}, line 1: is not {TITLE!r}")
-    header = _header(path, lines)
-    rows = _rows(path, lines, first=len(KEYS) + 1)
+    form = next((one for one in (FORM, FIRST) if lines and lines[0].strip() == one.title), None)
+    if form is None:
+        raise InputError(f"{path}, line 1: is not {FORM.title!r}")
+    header = _header(path, lines, form)
+    rows = _rows(path, lines, form.separator)
     speed_edges = _edges(path, header, "speed_edges")
     force_edges = _edges(path, header, "force_edges")
     index, time, speed, fx, fy, weight = rows.T
@@ -113,7 +132,7 @@ def read_parameter_file(path: str | Path) -> Reduced:
     for values, limits in zip((speed, resultant), edges):
         outside = np.flatnonzero((values < limits[0]) | (values >= limits[-1]))
         if outside.size:
-            line = len(KEYS) + 2 + int(outside[0])
+            line = HEADER + 1 + int(outside[0])
             raise InputError(
                 f"{path}, line {line}: {values[outside[0]]:g} lies outside the class edges "
                 f"[{limits[0]:g}, {limits[-1]:g})"
@@ -121,7 +140,7 @@ def read_parameter_file(path: str | Path) -> Reduced:
     try:
         seed = int(header["seed"])
     except ValueError as error:
-        line = KEYS.index("seed") + 2
+        line = _line_of("seed")
         raise InputError(f"{path}, line {line}: seed = {header['seed']!r} is no integer") from error
     return Reduced(
         index=index.astype(np.int64),
@@ -139,51 +158,60 @@ def read_parameter_file(path: str | Path) -> Reduced:
     )
 
 
-def _header(path: str | Path, lines: list[str]) -> dict[str, str]:
-    """Values of the header's keys, which stand in fixed order from line 2 on."""
+def _line_of(key: str) -> int:
+    """Number of the line of an attribute that both forms have in the same place."""
+    return _SHARED.index(key) + 2
+
+
+def _header(path: str | Path, lines: list[str], form: _Form) -> dict[str, str]:
+    """Attributes, which stand in fixed order from line 2 on, and the names of the columns."""
     header = {}
-    for number, key in enumerate(KEYS, start=2):
+    for number, key in enumerate(form.keys, start=2):
         line = lines[number - 1] if number <= len(lines) else ""
         name, _, value = line.removeprefix("# ").partition(" =")
         if name != key:
             raise InputError(f'{path}, line {number}: "# {key} = …" is needed, found {line!r}')
         header[key] = value.removeprefix(" ")
+    numbers = {key: number for number, key in enumerate(form.keys, start=2)}
+    if form.separator is not None:
+        named = lines[HEADER - 1] if len(lines) >= HEADER else ""
+        header["columns"], numbers["columns"] = named.replace(form.separator, " "), HEADER
     for key, expected in (("columns", COLUMNS), ("units", UNITS)):
         if tuple(header[key].split()) != expected:
-            number = KEYS.index(key) + 2
             raise InputError(
-                f"{path}, line {number}: {key} are {header[key]!r}; needed: {' '.join(expected)!r}"
+                f"{path}, line {numbers[key]}: {key} are {header[key]!r}; needed: "
+                f"{' '.join(expected)!r}"
             )
     return header
 
 
 def _edges(path: str | Path, header: dict[str, str], key: str) -> Floats:
     """Class edges of one header line."""
-    edges = _numbers(path, KEYS.index(key) + 2, header[key])
+    edges = _numbers(path, _line_of(key), header[key])
     if edges.size < 2 or np.any(np.diff(edges) <= 0):
-        raise InputError(f"{path}, line {KEYS.index(key) + 2}: {key} must ascend, at least two")
+        raise InputError(f"{path}, line {_line_of(key)}: {key} must ascend, at least two")
     return edges
 
 
-def _rows(path: str | Path, lines: list[str], first: int) -> Floats:
+def _rows(path: str | Path, lines: list[str], separator: str | None) -> Floats:
     """Table of numbers below the header."""
     rows = []
-    for number, line in enumerate(lines[first:], start=first + 1):
-        row = _numbers(path, number, line)
+    for number, line in enumerate(lines[HEADER:], start=HEADER + 1):
+        row = _numbers(path, number, line, separator)
         if row.size != len(COLUMNS):
             raise InputError(
                 f"{path}, line {number}: {row.size} numbers; {len(COLUMNS)} are needed"
             )
         rows.append(row)
     if not rows:
-        raise InputError(f"{path}, line {first + 1}: the table is empty")
+        raise InputError(f"{path}, line {HEADER + 1}: the table is empty")
     return np.array(rows)
 
 
-def _numbers(path: str | Path, number: int, text: str) -> Floats:
+def _numbers(path: str | Path, number: int, text: str, separator: str | None = None) -> Floats:
     """Finite numbers of one line."""
     try:
-        values = np.array([float(word) for word in text.split()])
+        values = np.array([float(word) for word in text.split(separator)])
     except ValueError as error:
         raise InputError(f"{path}, line {number}: {error}") from error
     if not np.isfinite(values).all():

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -23,51 +23,39 @@ Distribution = Literal["normal", "lognormal", "weibull", "gumbel"]
 
 @dataclass(frozen=True)
 class _Scales:
-    """Scales of one paper: reduced variate of a probability, and whether values are logarithmic."""
+    """Scales of one paper: the standard distribution of its variate, by its name in `scipy.stats`.
 
-    variate: Callable[[Floats], Floats]
-    probability: Callable[[Floats], Floats]
+    And whether values are logarithmic, and the parameters by intercept and slope.
+    """
+
+    standard: str
     logarithmic: bool
     parameters: Callable[[float, float], dict[str, float]]
 
+    def variate(self, p: Floats) -> Floats:
+        """Reduced variate of a probability."""
+        return np.asarray(self._distribution.ppf(p))
 
-def _normal_variate(p: Floats) -> Floats:
-    from scipy.special import ndtri
+    def probability(self, u: Floats) -> Floats:
+        """Probability of a reduced variate."""
+        return np.asarray(self._distribution.cdf(u))
 
-    return ndtri(p)
+    @property
+    def _distribution(self) -> Any:
+        from scipy import stats
 
-
-def _normal_probability(u: Floats) -> Floats:
-    from scipy.special import ndtr
-
-    return ndtr(u)
+        return getattr(stats, self.standard)
 
 
 _PAPERS: dict[str, _Scales] = {
-    "normal": _Scales(
-        _normal_variate,
-        _normal_probability,
-        False,
-        lambda a, b: {"mean": a, "standard_deviation": b},
-    ),
-    "lognormal": _Scales(
-        _normal_variate,
-        _normal_probability,
-        True,
-        lambda a, b: {"log_mean": a, "log_standard_deviation": b},
-    ),
+    "normal": _Scales("norm", False, lambda a, b: {"mean": a, "standard_deviation": b}),
+    "lognormal": _Scales("norm", True, lambda a, b: {"log_mean": a, "log_standard_deviation": b}),
     "weibull": _Scales(
-        lambda p: np.log(-np.log1p(-p)),
-        lambda u: -np.expm1(-np.exp(u)),
+        "gumbel_l",  # of the logarithm
         True,
         lambda a, b: {"scale": float(np.exp(a)), "shape": 1.0 / b if b > 0 else float("inf")},
     ),
-    "gumbel": _Scales(
-        lambda p: -np.log(-np.log(p)),
-        lambda u: np.exp(-np.exp(-u)),
-        False,
-        lambda a, b: {"location": a, "scale": b},
-    ),
+    "gumbel": _Scales("gumbel_r", False, lambda a, b: {"location": a, "scale": b}),
 }
 
 

@@ -247,7 +247,7 @@ def _reduce(
     folder.mkdir(parents=True, exist_ok=True)
     stem = f"{series.case}_{series.bearing}"
     file = folder / (
-        f"{stem}_{phase.replace(' ', '-')}-{places.start}.txt" if phase else f"{stem}.txt"
+        f"{stem}_{phase.replace(' ', '-')}-{places.start}.csv" if phase else f"{stem}.csv"
     )
     write_parameter_file(file, reduced)
     full, kept = np.hypot(*radial.T), np.hypot(*reduced.force.T)

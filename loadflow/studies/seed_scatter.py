@@ -105,7 +105,7 @@ def scatter_of_one_seed(
 def table_of_cases(tables: Mapping[str, xr.Dataset]) -> xr.Dataset | None:
     """A table of a run over all of its load cases; None if it has none."""
     found = [table for table in tables.values() if "case" in table.dims and "dlc" in table.coords]
-    return next((table for table in found if "length" in table.coords), *found[:1] or [None])
+    return next((table for table in found if "length" in table.coords), found[0] if found else None)
 
 
 def _heaviest(rows: Floats, weight: Floats) -> Floats:

@@ -4,8 +4,7 @@ The source's ring sections are lost, so that every row of it (`printed`, shown b
 ``rolling``) assumes sections and supports, which its label states. `SOLID_FOUR`, `SOLID_DRIVE` hold
 answers of rings in three dimensions with the contact resolved (no Hertz, no master points), formed
 by ``python -m benchmarks.references.ring_contact``; `UNCONDENSED` those with every ring mode and
-ball centre an unknown, ``python -m benchmarks.references.ring_reference``. Rows that need
-scikit-fem say so where it is not installed.
+ball centre an unknown, ``python -m benchmarks.references.ring_reference``.
 """
 
 from __future__ import annotations
@@ -13,7 +12,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import replace
-from importlib.util import find_spec
 from typing import Any
 
 import numpy as np
@@ -56,7 +54,6 @@ UNCONDENSED: dict[Load, tuple[float, float]] = {
 TABLE_3_13 = ((5e3, 0.008e-3, 0.007e-3), (15e3, 0.018e-3, 0.016e-3), (20e3, 0.023e-3, 0.020e-3),
               (50e3, 0.045e-3, 0.041e-3), (100e3, 0.073e-3, 0.067e-3))  # fmt: skip
 MASTER_WIDTH = 3e-3  # m, of 3 to 5 quadratic elements across a ring of 21 mm
-ABSENT = "" if find_spec("skfem") else "needs scikit-fem, loadflow[fem]"
 ASSUMED = "assuming rings of 32 × 40 mm clamped at one face"
 
 
@@ -162,13 +159,6 @@ def _solve(bearing: SlewingBearing, load: Load, rings: FlexibleRings) -> tuple[f
     return float(size), float(result.maximum_force)
 
 
-def _solve_elements(
-    bearing: SlewingBearing, load: Load, rings: FlexibleRings
-) -> tuple[float, float]:
-    """The same with rings of finite elements; NaN without scikit-fem."""
-    return (math.nan, math.nan) if ABSENT else _solve(bearing, load, rings)
-
-
 @evidence("consistency")
 def _rigid_limit() -> Iterator[Check]:
     """Rings a million times stiffer are rigid."""
@@ -210,11 +200,11 @@ def _four_ball_printed() -> Iterator[Check]:
     as_source = replace(four_ball_rings(), master_width=MASTER_WIDTH)
     note = "assuming rings that slide on a held face, elements of 3 mm at the master nodes"
     for load, printed, name in ((3e4, 0.134, "tension"), (-3e4, 0.126, "compression")):
-        shift, force = _solve_elements(FOUR_BALL, (0, 0, load, 0, 0), as_source)
+        shift, force = _solve(FOUR_BALL, (0, 0, load, 0, 0), as_source)
         yield Check(f"u_z, four balls, {name}", f"ch. 3.5, {note}", printed, shift * 1e3, 0.15,
-                    unit="mm", absent=ABSENT)  # fmt: skip
+                    unit="mm")  # fmt: skip
     source = f"Table 3.8, {note}"
-    yield Check("F_k, four balls", source, 9500, force, 0.15, unit="N", absent=ABSENT)
+    yield Check("F_k, four balls", source, 9500, force, 0.15, unit="N")
 
 
 @evidence("consistency")
@@ -238,10 +228,9 @@ def _drive_printed() -> Iterator[Check]:
             (as_source, multibody, f"multibody, {masters}"),
             (rings, elements, f"finite elements, {ASSUMED}"),
         ):
-            shift = _solve_elements(DRIVE, (0, 0, thrust, 0, 0), model)[0]
+            shift = _solve(DRIVE, (0, 0, thrust, 0, 0), model)[0]
             yield Check(
                 name, f"Table 3.13, {note}", printed * 1e3, shift * 1e3, 0.15, unit="mm",
-                absent=ABSENT,
             )  # fmt: skip
 
 
@@ -270,9 +259,9 @@ def _beside(
     tolerance: float = 0.05,
 ) -> Iterator[Check]:
     """Displacement and largest ball force beside those of a fuller model."""
-    shift, force = _solve_elements(bearing, load, rings)
+    shift, force = _solve(bearing, load, rings)
     for label, fuller, got, unit in (
         ("|u|", expected[0] * 1e3, shift * 1e3, "mm"),
         ("F_k,max", expected[1], force, "N"),
     ):
-        yield Check(f"{label}, {name}", source, fuller, got, tolerance, unit=unit, absent=ABSENT)
+        yield Check(f"{label}, {name}", source, fuller, got, tolerance, unit=unit)

@@ -23,8 +23,6 @@ from loadflow.journal.film.compliance import compliance_of
 from loadflow.journal.film.gap_mesh import shaped_mesh
 from loadflow.scene import read_scene
 
-pytest.importorskip("skfem")
-
 BEARING = JournalBearing(diameter=3.0, width=2.25, relative_clearance=0.5e-3)
 SIZE = (BEARING.diameter, BEARING.width)
 FILM = {

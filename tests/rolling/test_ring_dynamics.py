@@ -22,8 +22,6 @@ from loadflow.rolling import (
     transient_response,
 )
 
-pytest.importorskip("skfem")
-
 MODULUS, POISSON, DENSITY = 210e9, 0.3, 7850.0
 BEARING = SlewingBearing(
     balls=12, ball_diameter=0.015, pitch_diameter=0.250, groove_radius=0.0078,

@@ -25,8 +25,6 @@ from loadflow.tribology.hertz import STEEL_MODULUS, STEEL_POISSON
 from loadflow.validation._slewing_cases import FOUR_BALL
 from loadflow.validation.rings import four_ball_rings
 
-pytest.importorskip("skfem")
-
 BEARING = SlewingBearing(
     balls=12, ball_diameter=0.015, pitch_diameter=0.250, groove_radius=0.0078,
     contact_angle=math.pi / 4,

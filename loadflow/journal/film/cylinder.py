@@ -8,11 +8,13 @@ u cos nθ (radial), v sin nθ (around), w cos nθ (along), so that (r, z) is all
 from __future__ import annotations
 
 from functools import lru_cache
-from itertools import pairwise
+from itertools import product
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import solveh_banded
+from scipy.sparse import csr_array, diags_array, kron, tril
 
 Array = NDArray[np.float64]
 
@@ -62,14 +64,11 @@ def _cached(
 ) -> Array:
     rings = np.array(z_edges)
     walls = _wall(inner, outer, float(np.diff(rings).min()))
-    parts = _stiffness(walls, rings, modulus, poisson_ratio)
+    parts, along = _stiffness(walls, rings, modulus, poisson_ratio)
     nodes = _ACROSS * (walls.size - 1)  # through the wall, without the outside
-    at_nodes = np.zeros((rings.size - 1, _ALONG * (rings.size - 1) + 1, nodes, 3))
-    _, weights, values, _ = _reference(_ALONG)
-    for number, length in enumerate(np.diff(rings)):
-        first = _ALONG * number
-        at_nodes[number, first : first + _ALONG + 1, 0, 0] = 0.5 * length * (weights @ values)
-    pushed = at_nodes.reshape(rings.size - 1, -1)
+    at_nodes = np.zeros((*along.shape, nodes, 3))
+    at_nodes[:, :, 0, 0] = along  # radially, on the bore
+    pushed = at_nodes.reshape(along.shape[0], -1)
     means = pushed / np.diff(rings)[:, None]
     found = []
     for n in orders:
@@ -87,67 +86,99 @@ def _wall(inner: float, outer: float, first: float) -> Array:
     return inner + (outer - inner) * np.append(0.0, np.cumsum(shares)) / shares.sum()
 
 
-def _reference(degree: int) -> tuple[Array, Array, Array, Array]:
-    """Gauss points on −1 … 1 and weights; shape functions and their slopes (points, nodes)."""
-    points, weights = np.polynomial.legendre.leggauss(degree + 1)
-    nodes = np.linspace(-1.0, 1.0, degree + 1)
-    monomials = np.linalg.inv(np.vander(nodes, increasing=True))
-    values = np.vander(points, degree + 1, increasing=True) @ monomials
-    powers = np.arange(1, degree + 1)
-    slopes = (powers * np.vander(points, degree, increasing=True)) @ monomials[1:]
-    return points, weights, values, slopes
+_U, _V, _W = range(3)
+_VALUE, _SLOPE, _OVER_R = range(3)
+
+_STRAINS = (
+    ((_U, _SLOPE, _VALUE, 0, 1.0),),
+    ((_U, _OVER_R, _VALUE, 0, 1.0), (_V, _OVER_R, _VALUE, 1, 1.0)),
+    ((_W, _VALUE, _SLOPE, 0, 1.0),),
+    ((_V, _SLOPE, _VALUE, 0, 1.0), (_V, _OVER_R, _VALUE, 0, -1.0), (_U, _OVER_R, _VALUE, 1, -1.0)),
+    ((_U, _VALUE, _SLOPE, 0, 1.0), (_W, _SLOPE, _VALUE, 0, 1.0)),
+    ((_V, _VALUE, _SLOPE, 0, 1.0), (_W, _OVER_R, _VALUE, 1, -1.0)),
+)
+"""Strains rr, θθ, zz (cos nθ), rθ (sin), rz (cos), θz (sin): sums of a displacement, what is taken
+of it through the wall and along, the power of n, and a factor."""
 
 
-def _stiffness(walls: Array, rings: Array, modulus: float, poisson_ratio: float) -> Array:
-    """Parts K₀, K₁, K₂ of the stiffness K₀ + n K₁ + n² K₂ over π, lower bands (3, band, size)."""
+def _stiffness(
+    walls: Array, rings: Array, modulus: float, poisson_ratio: float
+) -> tuple[Array, Array]:
+    """Parts K₀, K₁, K₂ of the stiffness K₀ + n K₁ + n² K₂ over π, lower bands (3, band, size).
+
+    The mesh is a product of two lines, and so are the functions: each part is a sum of Kronecker
+    products of matrices along the axis and through the wall. And the integrals of the functions
+    along each ring (ring, node).
+    """
+    from skfem import ElementLineP2, ElementLinePp
+
     shear = 0.5 * modulus / (1.0 + poisson_ratio)
     lame = 2.0 * shear * poisson_ratio / (1.0 - 2.0 * poisson_ratio)
     law = np.diag([2 * shear] * 3 + [shear] * 3)
     law[:3, :3] += lame
-    nodes = _ACROSS * (walls.size - 1)
-    size = 3 * nodes * (_ALONG * (rings.size - 1) + 1)
-    band = 3 * nodes * (_ALONG + 1)
-    parts = np.zeros((3, band, size))
-    local_z, local_r = np.divmod(np.arange((_ALONG + 1) * (_ACROSS + 1)), _ACROSS + 1)
-    for j, (z0, z1) in enumerate(pairwise(rings)):
-        for i, (r0, r1) in enumerate(pairwise(walls)):
-            at_r, at_z = _ACROSS * i + local_r, _ALONG * j + local_z
-            numbers = 3 * (nodes * at_z + at_r)[:, None] + np.arange(3)
-            held = np.repeat((at_r == nodes)[:, None], 3, axis=1)
-            if rings[0] == 0.0:
-                held[:, 2] |= at_z == 0  # the plane of symmetry
-            free = np.flatnonzero(~held.ravel())
-            rows = numbers.ravel()[free]
-            strains, weights = _strains(r0, r1, z0, z1)
-            strains = strains[..., free]
-            own = np.einsum("mqsa,nqsb->mnab", strains, law @ strains * weights, optimize=True)
-            below = rows[:, None] - rows[None, :]
-            a, b = np.nonzero(below >= 0)
-            for part, matrix in zip(parts, (own[0, 0], own[0, 1] + own[1, 0], own[1, 1])):
-                np.add.at(part, (below[a, b], rows[b]), matrix[a, b])
-    parts[0, 0, parts[0, 0] == 0.0] = 1.0  # held degrees of freedom
-    return parts
+    through, along = _line(walls, ElementLinePp(_ACROSS)), _line(rings, ElementLineP2())
+    across = _products(through, radial=True)[:, :, :-1, :-1]  # the outside is held
+    length = _products(along, radial=False)
+    size = 3 * length.shape[-1] * across.shape[-1]
+    parts: list[Any] = [csr_array((size, size)) for _ in range(3)]
+    for s, t in zip(*np.nonzero(law)):
+        for (a, r, z, m, left), (b, p, q, n, right) in product(_STRAINS[s], _STRAINS[t]):
+            pair = csr_array(([law[s, t] * left * right], ([a], [b])), shape=(3, 3))
+            parts[m + n] = parts[m + n] + kron(length[z, q], kron(across[r, p], pair))
+    free = np.ones((length.shape[-1], across.shape[-1], 3))
+    if rings[0] == 0.0:
+        free[0, :, _W] = 0.0  # the plane of symmetry
+    mask = diags_array(free.ravel())
+    kept = [mask @ part @ mask for part in parts]
+    kept[0] = kept[0] + diags_array(1.0 - free.ravel())
+    bands = np.zeros((3, 3 * across.shape[-1] * (_ALONG + 1), size))
+    for band, part in zip(bands, kept):
+        lower = tril(part).tocoo()
+        band[lower.row - lower.col, lower.col] = lower.data
+    return bands, _loads(along)
 
 
-def _strains(r0: float, r1: float, z0: float, z1: float) -> tuple[Array, Array]:
-    """Strains of an element at order 0 and what each order adds, (2, q, 6, dofs); weights.
+def _line(edges: Array, element: Any) -> Any:
+    """Functions on the elements between edges, integrated exactly but for what is over r."""
+    from skfem import Basis, MeshLine
 
-    rr, θθ, zz (cos nθ), rθ (sin), rz (cos), θz (sin) over (u, v, w) of each node.
+    return Basis(MeshLine(edges), element, intorder=2 * element.maxdeg + 1)
+
+
+def _order(basis: Any) -> NDArray[np.int64]:
+    """Numbers of the functions from one end to the other."""
+    inside = [*basis.interior_dofs.T, np.array([], int)]
+    corners = basis.nodal_dofs[0]
+    return np.concatenate([np.append(corner, own) for corner, own in zip(corners, inside)])
+
+
+def _products(basis: Any, radial: bool) -> Array:
+    """Integrals of the products of value, slope and value over r, (3, 3, node, node).
+
+    Through the wall over r dr; along it, where nothing is divided by r, the last are 0.
     """
-    points_r, weights_r, values_r, slopes_r = _reference(_ACROSS)
-    _, weights_z, values_z, slopes_z = _reference(_ALONG)
-    half_r, half_z = 0.5 * (r1 - r0), 0.5 * (z1 - z0)
-    radius = np.tile(r0 + half_r * (1.0 + points_r), weights_z.size)[:, None]
-    shape = np.kron(values_z, values_r)
-    by_r = np.kron(values_z, slopes_r) / half_r
-    by_z = np.kron(slopes_z, values_r) / half_z
-    around = shape / radius
-    strains = np.zeros((2, radius.size, 6, shape.shape[1], 3))
-    still, turning = strains
-    still[:, 0, :, 0], still[:, 1, :, 0], still[:, 2, :, 2] = by_r, around, by_z
-    still[:, 3, :, 1] = by_r - around
-    still[:, 4, :, 0], still[:, 4, :, 2] = by_z, by_r
-    still[:, 5, :, 1] = by_z
-    turning[:, 1, :, 1], turning[:, 3, :, 0], turning[:, 5, :, 2] = around, -around, -around
-    weight = np.kron(weights_z, weights_r)[:, None] * half_r * half_z * radius
-    return strains.reshape(2, radius.size, 6, -1), weight[:, :, None]
+    from skfem import BilinearForm
+
+    def taken(u: Any, x: Array) -> tuple[Any, ...]:
+        return u, u.grad[0], u / x if radial else 0.0 * u
+
+    order = _order(basis)
+    found = np.zeros((3, 3, order.size, order.size))
+    for i, j in product(range(3), repeat=2):
+
+        @BilinearForm
+        def form(u: Any, v: Any, w: Any, i: int = i, j: int = j) -> Any:
+            x = w.x[0]
+            return taken(v, x)[i] * taken(u, x)[j] * (x if radial else 1.0)
+
+        found[i, j] = form.assemble(basis).toarray()[np.ix_(order, order)]
+    return found
+
+
+def _loads(basis: Any) -> Array:
+    """Integral of each function over each element, (element, node)."""
+    elements = np.arange(basis.nelems)
+    found = np.zeros((basis.nelems, basis.N))
+    for (own,), numbers in zip(basis.basis, basis.element_dofs):
+        found[elements, numbers] = (own * basis.dx).sum(axis=-1)
+    return found[:, _order(basis)]

@@ -1,4 +1,4 @@
-"""Finite elements of a housing with its shell; needs scikit-fem (``loadflow[fem]``).
+"""Finite elements of a housing with its shell, by scikit-fem.
 
 Quadratic bricks on a grid around the axis, through the wall and along it. The walls of a base run
 straight from where they touch the round part to the edges of the base, which is held; a flange is
@@ -37,8 +37,6 @@ def housing_modes(shell: HousedShell, radius: float, width: float) -> BoreModes:
     ------
     loadflow.errors.InputError
         A housing that does not enclose the bearing.
-    ImportError
-        Without scikit-fem.
     """
     shell.check_bore(2 * radius, width)
     return _Housing(shell, radius, width).modes()
@@ -64,8 +62,6 @@ def housing_influence(shell: HousedShell, diameter: float, width: float) -> xr.D
     ------
     loadflow.errors.InputError
         A housing that does not enclose the bearing.
-    ImportError
-        Without scikit-fem.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Finite-element rings, condensed to their raceway patches; needs scikit-fem (``loadflow[fem]``).
+"""Finite-element rings, condensed to their raceway patches, by scikit-fem.
 
 `FiniteElementRing` meshes the section and takes the ring in Fourier harmonics; a force on a patch
 is spread evenly over a square of the groove, and its displacement is the mean over the same square,
@@ -62,8 +62,6 @@ class FiniteElementRing(SolidSection):
         ------
         InputError
             If a patch is not on the raceway side of the section, or balls are not equally spaced.
-        ImportError
-            Without scikit-fem.
         """
         kinds, balls = len(points.radius), len(points.azimuth)
         waves = self.waves(SectionSystem(self), points)

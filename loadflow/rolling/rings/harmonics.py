@@ -1,4 +1,4 @@
-"""Finite elements over the section of a ring, harmonics around it; needs scikit-fem.
+"""Finite elements over the section of a ring, harmonics around it, by scikit-fem.
 
 In harmonic n the ring moves by (u cos nθ, v sin nθ, w cos nθ) and by the same turned by a quarter
 wave, u, v, w over the section from quadratic elements. Matrices are per unit of ∫cos² nθ dθ.

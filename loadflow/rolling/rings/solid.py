@@ -57,8 +57,6 @@ class SolidRing(SolidSection):
         ------
         InputError
             If a patch is not on the raceway.
-        ImportError
-            Without scikit-fem.
         """
         from scipy.linalg import block_diag
         from scipy.sparse.linalg import splu
