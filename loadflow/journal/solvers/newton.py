@@ -182,6 +182,7 @@ def solve_equilibrium(
     """
     u = u.copy()
     scale, gap = film.gap.dof_scale[free], film.gap.narrowest(position)
+    pads = film.gap.pads.size > 0
     old = (motion.volume_rate, motion.volume)
     check, change, moving = _Check(film, tolerance, motion, force, free), math.inf, motion.moves
     for iteration in range(1, max_iterations + 1):
@@ -199,7 +200,7 @@ def solve_equilibrium(
         missing = (force - linear.load)[free]
         step[free] = _solve(slope[free][:, free], missing, scale) / max(excess, 1.0)
         target, weights, share = _moved(film, u, linear, position, step, motion)
-        stuck = math.hypot(*(target - position)) < _HELD * math.hypot(*step)
+        stuck = pads and math.hypot(*(target - position)) < _HELD * math.hypot(*step)
         if share < _STUCK or stuck or not math.isfinite(float(target.sum())):
             break
         change = film.correct(u, linear.columns, weights)

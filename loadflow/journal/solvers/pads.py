@@ -96,13 +96,13 @@ def unload_other_pads(film: DiscreteFilm, gap: ShapedGap, pads: Rows) -> None:
     film.unload(gap.columns_of(np.setdiff1d(gap.pads, pads)))
 
 
-def _without(film: DiscreteFilm, gap: ShapedGap, start: Solution, pads: Rows) -> dict[str, Array]:
-    """Unknowns and position of `start` with no film on, and no tilt of, all pads but `pads`."""
+def _without(film: DiscreteFilm, gap: ShapedGap, start: Solution, pads: Rows) -> Solution:
+    """`start` with no film on, and no tilt of, all pads but `pads`."""
     others = np.setdiff1d(gap.pads, pads)
     position = start.position.copy()
     position[others] = 0.0
     u = np.where(gap.columns_of(others)[:, None], film.start(), start.u)
-    return {"u": u, "position": position}
+    return replace(start, u=u, position=position)
 
 
 def film_on_pads(
@@ -157,7 +157,7 @@ def solve_with_pads(
         pads, spent = np.intersect1d(some, gap.converging(start.position, film.speed)), 0
         while True:
             unload_other_pads(film, gap, pads)
-            start = replace(start, **_without(film, gap, start, pads))
+            start = _without(film, gap, start, pads)
             state, held = balance_pads(film, gap, start, pads, tolerance, max_iterations)
             spent += state.iterations
             if held.all() or not state.converged:
