@@ -213,7 +213,8 @@ def kind_of(part):
         return part["$ref"].removeprefix("#/$defs/")
     for several in ("anyOf", "oneOf", "allOf"):
         if several in part:
-            return " | ".join(dict.fromkeys(kind_of(one) for one in part[several]))
+            kinds = dict.fromkeys(kind_of(one) for one in part[several])
+            return " | ".join(kind for kind in kinds if kind != "Toleranced")
     if "enum" in part:
         return " | ".join(repr(one) for one in part["enum"])
     if "const" in part:

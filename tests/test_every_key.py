@@ -129,6 +129,11 @@ BASES = {
         "rolling": {"bearing": "Y", "geometry": BALLS, "oscillation": {
             "amplitude": 0.5, "frequency": 0.01, "idle_torque": 10.0}},
     },
+    "pitch": {
+        "shaft": {"two_point": {}, "pitch": {}}, "results": ["rolling.life"],
+        "rolling": {"bearing": "P", "geometry": BALLS, "oscillation": {
+            "kind": "pitch", "idle_torque": 10.0}},
+    },
     "direct drive": {"shaft": {"direct_drive": {}}, "journal": FILM},
 }  # fmt: skip
 
@@ -165,6 +170,7 @@ READERS = {
     "three points": ("shaft",),
     "integrated": ("shaft",),
     "yaw": ("shaft", "rolling"),
+    "pitch": ("shaft", "rolling"),
     "direct drive": ("shaft",),
 }
 """Sections that are walked over in each scene; the first five have the loads in every guise."""
@@ -193,6 +199,7 @@ OTHERS = {
     "friction.lubricant": ["lgwm-2"],
     "friction.cleanliness": ["grease, severe contamination"],
     "journal.bearings": [["N2"], ["N", "N2"]],
+    "journal.alignment": [[2e-5, 0.0]],
     "journal.grid": [[36, 12]],
     "journal.supply": [{"grooves": [{"angle": 1.0, "arc": 0.2, "pressure": 6e5}]}],
     "journal.heat": [{"oil": "mineral-vg-320"}],
@@ -212,6 +219,7 @@ OTHERS = {
     "shaft.direct_drive": [{}],
     "shaft.moment": [{}],
     "shaft.yaw": [{}],
+    "shaft.pitch": [{}],
     "rolling.oscillation": [{"amplitude": 0.1, "frequency": 0.1}],
     "rolling.oscillation.mounting": ["pitch", "yaw, four-leg tower"],
     "shaft.two_point.beam": [{}],
@@ -338,8 +346,20 @@ def scene_of(data, place):
     return make_scene({"name": "walk"} | filled(data))
 
 
+def with_blade(hub):
+    """A series with the loads of blade 1 at its root, which is pitched."""
+    turn = np.linspace(0.0, 12.0, hub.sizes["time"])
+    still = np.zeros_like(turn)
+    force = np.stack([6e5 - 1.7e5 * np.cos(turn), 1.5e5 + still, -1.7e5 * np.sin(turn)])
+    moment = np.stack([still, 1.2e6 + 3.5e6 * np.sin(turn), 5e6 + 4e5 * np.cos(turn)])
+    vectors = {"root_force": force, "root_moment": moment}
+    found = {name: (("axis", "time"), values) for name, values in vectors.items()}
+    return hub.assign(found | {"pitch": ("time", 0.0009 * np.sin(2 * turn) + 0.02 * np.sin(turn))})
+
+
 HUB = case(8.0, 1, steps=120)
 HUB["speed"][:20] = np.linspace(0.0, 0.012, 20)  # the surfaces touch at first
+HUB = with_blade(HUB)
 
 
 def numbers(scene, section):
@@ -516,7 +536,7 @@ def before(place, base, section):
     return _BEFORE[key]
 
 
-ALONE = {"heat.kind", "contact", "shell"} | {
+ALONE = {"heat.kind", "oscillation.kind", "contact", "shell"} | {
     f"bearings.{key}"
     for key in (
         "N2.kind",

@@ -5,6 +5,7 @@ import base64
 import json
 import re
 import time
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -19,8 +20,10 @@ from loadflow.report import Chart, Panel
 from loadflow.report.charts import thinned
 from loadflow.report.page import ASSETS
 from loadflow.report.run_charts import over_wind_speed
-from loadflow.running.report_page import _answer_row, _spread, report_is_current, write_report
+from loadflow.running.answers_page import answer_row
+from loadflow.running.report_page import _spread, report_is_current, write_report
 from loadflow.scene.scene import make_scene
+from loadflow.studies.tolerances import Band
 
 
 @pytest.fixture(scope="module")
@@ -136,8 +139,14 @@ def test_answers_have_a_unit_that_fits_on_value_and_interval():
     kept = {"result": "journal.film", "bearing": "N", "error": 0.03}
     pressure = Answer(quantity="p", unit="Pa", value=2e7, low=1.9e7, high=2.1e7, **kept)
     ratio = Answer(quantity="e", unit="1", value=0.8, low=0.7, high=0.81, **kept)
-    assert _answer_row(pressure)[2:4] == ["20 MPa", "19 … 21 MPa"]
-    assert _answer_row(ratio)[2:4] == ["0.8", "0.7 … 0.81"]
+    assert answer_row(pressure)[2:4] == ["20 MPa", "19 … 21 MPa"]
+    assert answer_row(ratio)[2:4] == ["0.8", "0.7 … 0.81"]
+    banded = replace(pressure, band=Band(-0.1, 0.2, {"clearance": 0.2}))
+    assert answer_row(banded, banded=True)[4:7] == [
+        "18 … 24 MPa",
+        "≤ 3 %",
+        "tolerance of clearance",
+    ]
 
 
 COUNT = """(() => {

@@ -1,10 +1,11 @@
-"""Scenes and turbine files that are damaged at random: each gives an answer or an `InputError`.
+"""What users give, damaged at random: each mutant is an answer or an `InputError`.
 
-    python -m benchmarks.robustness.mutants [scenes|turbines] [count] [first]
+    python -m benchmarks.robustness.mutants [scenes|turbines|load-files|cubes] [count] [first]
 
 Mutants are numbered, and each number is the same mutant on every machine. A scene is read and
-planned, a turbine read and made ready for the wind. Memory is limited, where the system can, so
-that what is not checked before it is allocated shows up.
+planned, a turbine read and made ready for the wind; load files (``.hdf5``) and cubes (``.h5``) are
+read to their last value, and refused by name. Memory is limited, where the system can, so that what
+is not checked before it is allocated shows up; the most that was taken is printed.
 """
 
 from __future__ import annotations
@@ -19,12 +20,14 @@ import traceback
 import warnings
 from collections import Counter
 from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import tomli_w
 
 from benchmarks.common import ROOT, arguments
+from benchmarks.robustness import hdf5_mutants
 from loadflow.errors import LoadflowError
 from loadflow.planning.plan import make_plan
 from loadflow.rotor.inflow import wind_machine
@@ -158,7 +161,11 @@ def turbine_mutant(number: int, folder: Path) -> Callable[[], Any]:
 KINDS: dict[str, Callable[[int, Path], Callable[[], Any]]] = {
     "scenes": scene_mutant,
     "turbines": turbine_mutant,
+    "load-files": partial(hdf5_mutants.mutant, "hdf5"),
+    "cubes": partial(hdf5_mutants.mutant, "h5"),
 }
+NAMED = {"load-files": "dlc11_v8_s1.hdf5", "cubes": "dlc11_v8_s1.h5"}
+"""Files that a message must name."""
 
 
 def survey(kind: str, numbers: range) -> tuple[Counter[str], list[str]]:
@@ -172,8 +179,11 @@ def survey(kind: str, numbers: range) -> tuple[Counter[str], list[str]]:
             begun = time.process_time()
             try:
                 work()
-            except LoadflowError:
+            except LoadflowError as error:
                 how = "refused"
+                if NAMED.get(kind, "") not in str(error):
+                    how = "refused without its name"
+                    escaped.append(f"{kind} {number}: {error!s:.120}")
             except Exception as error:
                 how = "escaped"
                 frame = traceback.extract_tb(error.__traceback__)[-1]
@@ -197,6 +207,15 @@ def limit_memory() -> None:
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
 
 
+def most_memory() -> float:
+    """Most memory that this process has had, MB; nan where the system does not tell."""
+    try:
+        import resource
+    except ImportError:
+        return float("nan")
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e3
+
+
 def main() -> None:
     parser = arguments(__doc__)
     parser.add_argument("kind", nargs="?", choices=KINDS)
@@ -208,8 +227,10 @@ def main() -> None:
     failed = False
     for kind in kinds:
         met, escaped = survey(kind, range(first, first + count))
-        print(f"{kind}: {count} mutants, " + ", ".join(f"{n} {how}" for how, n in met.items()))
-        print("\n".join(escaped))
+        said = ", ".join(f"{n} {how}" for how, n in met.items())
+        print(f"{kind}: {count} mutants from {first}, {said}; at most {most_memory():.0f} MB")
+        for line in escaped:
+            print(line)
         failed = failed or bool(escaped)
     sys.exit(failed)
 

@@ -40,6 +40,13 @@ class Kind(StrEnum):
     periodic = "periodic"
 
 
+class Grid(StrEnum):
+    """Whose classes a histogram has."""
+
+    each = "each"
+    cube = "cube"
+
+
 class Pick(StrEnum):
     """How the members of a class are picked."""
 
@@ -129,6 +136,13 @@ def reduce_series(
             help="Histogram: only standstill, run-up, operation, run-down or 'part speed'; or each."
         ),
     ] = "",
+    between: Annotated[
+        tuple[float, float] | None,
+        typer.Option(help="Histogram: only the samples of these times, s."),
+    ] = None,
+    grid: Annotated[
+        Grid, typer.Option(help="Histogram: classes of each series, or of the whole cube.")
+    ] = Grid.each,
     seed: Annotated[int, typer.Option(min=0, help="Histogram: of the random pick.")] = 0,
     bounds: Annotated[
         tuple[float, float] | None,
@@ -173,6 +187,7 @@ def reduce_series(
     else:
         histogram: dict[str, Any] = {"size": size, "pick": pick.value, "rounding": rounding.value}
         histogram |= {"classes": classes, "seed": seed}
+        where |= {"between": between, "grid": grid.value}
         asked = {"phase": phase, "journal": _journal(scene) if film or scene else None}
         _histogram(source, output, where | asked, histogram, as_json)
 
@@ -205,7 +220,15 @@ def _histogram(
     page = write_reduction_page(folder / "reduction.html", made, source=Path(where["source"]).name)
     if as_json:
         parts = [part.as_dict() for part in made.parts]
-        print_json({"suspension": made.suspension, "page": str(page), "series": parts})
+        whole = {
+            name: {
+                "full": int(one["counts_full"].sum()),
+                "reduced": int(one["counts_reduced"].sum()),
+            }
+            for name, one in made.whole.items()
+        }
+        told = {"suspension": made.suspension, "page": str(page), "series": parts}
+        print_json(told | ({"whole_cube": whole} if whole else {}))
         return
     out.print(f"bearing forces: {made.suspension}", soft_wrap=True, highlight=False)
     print_rows(HEADS, [as_row(part) for part in made.parts])

@@ -154,7 +154,8 @@ def plan(
     """Show which stages, models and effects a scene needs, their expected time and error."""
     from loadflow.planning.pilot import pilot
     from loadflow.planning.plan import make_plan
-    from loadflow.running.folder import finished_parts, known_verdict, refinements
+    from loadflow.planning.seeds_wanted import seeds_wanted, sentences
+    from loadflow.running.folder import finished_parts, known_verdict, refinements, results_of
     from loadflow.scene.unused import unused_keys, unused_warnings
 
     reading = _reading(cases, pattern, channels, gauge_distance, frame)
@@ -166,6 +167,7 @@ def plan(
             verdict = pilot(wanted, show)
     made = make_plan(wanted, refinements(folder, wanted), verdict)
     there = finished_parts(folder, made)
+    tables = results_of(folder) if all(there[s.name] == s.runs for s in made.steps) else None
     steps = [
         {
             "stage": step.name,
@@ -183,6 +185,7 @@ def plan(
         found = {"steps": steps, "cases": names, "left_out": made.left_out}
         found |= {"unused": unused_keys(wanted), "taken": wanted.taken}
         told = {"errors": made.errors, "accurate": made.accurate, "shortfalls": made.shortfalls}
+        told |= {"seeds": [vars(one) for one in seeds_wanted(made, tables)]}
         print_json(found | told | {"effects": [vars(effect) for effect in made.effects]})
         return
     for said in made.shortfalls:
@@ -199,6 +202,8 @@ def plan(
     out.print(table)
     out.print(f"{len(made.cases)} load cases")
     _print_errors(made)
+    for said in sentences(seeds_wanted(made, tables)):
+        out.print(said, soft_wrap=True)
     _print_effects(made, measured=verdict is not None)
     for stage, why in made.left_out.items():
         out.print(f"left out: {stage} ({why})", soft_wrap=True)

@@ -13,9 +13,9 @@ from typing import Any, Literal
 import xarray as xr
 
 from loadflow.cube.build import make_cube
-from loadflow.cube.hdf5 import check_hdf5
 from loadflow.cube.parts import Cube
 from loadflow.cube.schema import CUBE
+from loadflow.cube.trust import check_hdf5
 from loadflow.errors import InputError
 from loadflow.storage import check_room, written_whole
 

@@ -58,6 +58,8 @@ VARIABLES: Mapping[str, Variable] = MappingProxyType(
         "wind": Variable("m/s", "wind speed along the mean wind at the hub", _SCALAR),
         "hub_force": Variable("N", "force of the rotor on the shaft", _HUB),
         "hub_moment": Variable("N m", "moment of the rotor on the shaft at the rotor apex", _HUB),
+        "root_force": Variable("N", "force of blade 1 on the hub at its root", _HUB),
+        "root_moment": Variable("N m", "moment of blade 1 on the hub at its root", _HUB),
         "force": Variable("N", "force of the shaft on the bearing", _BEARING),
         "moment": Variable("N m", "moment of the shaft on the bearing", _BEARING),
         "tilt": Variable("rad", "rotation of the shaft at the bearing", _BEARING),

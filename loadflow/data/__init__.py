@@ -1,6 +1,7 @@
 """Package data: polars, reference tables, speed and error of the rungs.
 
-``ladder.json`` and ``gains.json`` are written by ``python -m benchmarks.ladder``.
+``ladder.json`` and ``gains.json`` are written by ``python -m benchmarks.ladder``,
+``seed_scatter.json`` by ``python -m benchmarks.references.seed_scatter RUN``.
 """
 
 from __future__ import annotations
@@ -21,6 +22,12 @@ def ladder() -> dict[str, Any]:
 def gains() -> dict[str, dict[str, float]]:
     """Return d ln(answer)/d ln(load) of what users read of each bearing, at its largest."""
     return _read("gains.json")
+
+
+@cache
+def seed_scatter() -> dict[str, Any]:
+    """Return how far answers of the main job scatter with one seed of each wind speed."""
+    return _read("seed_scatter.json")
 
 
 def _read(name: str) -> Any:

@@ -162,6 +162,16 @@ class Heat(_Entering):
         return ("inlet_temperature", "ambient_temperature", "start_temperature")
 
     @property
+    def gives_off(self) -> bool:
+        """Whether the temperature of the surroundings acts on the film."""
+        return self.transfer > 0 or self.sump_transfer is not None or self.growth is not None
+
+    @property
+    def volume_heat(self) -> float:
+        """ρ c_p of the oil as it enters, J/(m³ K)."""
+        return float(self.liquid.density(self.inlet_temperature)) * self.heat_capacity
+
+    @property
     def coldest(self) -> float:
         """Lowest temperature that the film may have, K."""
         taken = [self.ambient_temperature] if self.transfer or self.sump_transfer else []
@@ -270,6 +280,11 @@ class FilmHeat(_Entering):
         if self.shaft_transfer and self.shaft_temperature is not None:
             given.append(self.shaft_temperature)
         return min(given)
+
+    @property
+    def gives_off(self) -> bool:
+        """Whether the temperature of the surroundings acts on the film."""
+        return self.shell_transfer > 0
 
     @property
     def volume_heat(self) -> float:

@@ -83,6 +83,9 @@ def check_choice(instance: Any, name: str, allowed: tuple[str, ...]) -> None:
 LARGEST_INTEGER = 2**63 - 1
 """Largest that a file of results can hold."""
 
+LARGEST = 1e30
+"""Largest magnitude of a value in SI units: its tenth power is still a number."""
+
 
 def shown(value: Any) -> str:
     """Return a value as it stands in a message: not all of a number of 400 digits."""

@@ -1,4 +1,4 @@
-"""Error budget of a finished run: what seeds, models and effects left out do to each answer."""
+"""Error budget of a finished run: what seeds, tolerances and models do to each answer."""
 
 from __future__ import annotations
 
@@ -17,6 +17,7 @@ from loadflow.scene.scene import Scene
 from loadflow.stages.registry import giving
 from loadflow.studies.run_lifetime import known_shares
 from loadflow.studies.seed_intervals import Groups, Picks, interval
+from loadflow.studies.tolerances import Band, band_of
 
 Floats = NDArray[np.float64]
 Statistic = Callable[[xr.Dataset, Floats, Picks], float]
@@ -66,6 +67,9 @@ _SOURCES = (
     ),
     _Source("journal.film", "maximum pressure", "journal", "largest_pressure", _largest),
     _Source("journal.film", "friction power", "journal", "mean_friction_power", _mean),
+    _Source("thrust.film", "minimum film", "thrust", "smallest_film", _smallest),
+    _Source("thrust.film", "maximum pressure", "thrust", "largest_pressure", _largest),
+    _Source("thrust.film", "friction power", "thrust", "mean_friction_power", _mean),
     _Source("rolling.loads", "maximum force", "rolling", "bearing_force", _largest),
     _Source("rolling.loads", "maximum pressure", "rolling", "bearing_pressure", _largest),
     _Source("rolling.life", "life", "rolling", "bearing_life", _life),
@@ -88,6 +92,8 @@ class Answer:
         Relative error by models, what is left out counted; None where it was not measured.
     left_out : dict
         Effects that are left out, and the share by which each moves the answer.
+    band : Band or None
+        By tolerances of the bearing's values; None where none has one.
 
     Examples
     --------
@@ -105,6 +111,7 @@ class Answer:
     high: float
     error: float | None
     left_out: Mapping[str, float] | None = None
+    band: Band | None = None
 
     @property
     def by_seeds(self) -> float:
@@ -115,12 +122,17 @@ class Answer:
 
     @property
     def governed_by(self) -> str:
-        """``"seeds"``, ``"models"``, or what of both is not known."""
+        """``"seeds"``, ``"models"``, ``"tolerance of …"``, or what of these is not known."""
         if self.error is None:
             return "models: not measured"
         if np.isnan(self.by_seeds):
             return "seeds: one of each wind speed"
-        return "seeds" if self.by_seeds > self.error else "models"
+        sizes = {"seeds": self.by_seeds, "models": self.error}
+        if self.band is not None:
+            if np.isnan(self.band.largest):
+                return "tolerances: no answer at an end of a band"
+            sizes[f"tolerance of {self.band.governed_by}"] = self.band.largest
+        return max(reversed(sizes), key=lambda name: sizes[name])
 
 
 def answers(
@@ -152,7 +164,7 @@ def answers(
         answer
         for source in _SOURCES
         if source.result in scene.results and source.variable in tables.get(source.stage, ())
-        for answer in _of(source, scene, _shared(tables, source), errors, Estimates(sizes))
+        for answer in _of(source, scene, tables, errors, Estimates(sizes))
     ]
 
 
@@ -169,10 +181,11 @@ def _shared(tables: Mapping[str, xr.Dataset], source: _Source) -> xr.Dataset:
 def _of(
     source: _Source,
     scene: Scene,
-    table: xr.Dataset,
+    tables: Mapping[str, xr.Dataset],
     errors: Mapping[str, Mapping[str, Any]],
     known: Estimates,
 ) -> Iterator[Answer]:
+    table = _shared(tables, source)
     groups = Groups.of(table)
     found = table[source.variable].transpose("bearing", "case")
     error = errors.get(source.result, {}).get(source.quantity)
@@ -193,6 +206,7 @@ def _of(
             high,
             float(error) if isinstance(error, (int, float)) else None,
             missing,
+            band_of(tables, source.stage, str(bearing), source.quantity),
         )
 
 

@@ -24,8 +24,7 @@ from loadflow.scene.cases import Case, list_cases
 from loadflow.scene.scene import Scene
 from loadflow.stages.effects.effect import Effect, Sizes
 from loadflow.stages.effects.registry import EFFECTS
-from loadflow.stages.effects.situation import situation
-from loadflow.stages.probes import PROBES, Answers
+from loadflow.stages.probes import PROBES, Answers, hardest
 from loadflow.stages.registry import STAGES
 from loadflow.stages.stage import with_settings
 
@@ -142,24 +141,6 @@ def pilot(
     return EffectVerdict(
         sizes, refused, tuple(case.name for case in looked_at if case in measured), seconds
     )
-
-
-def hardest(scene: Scene, cases: tuple[Case, ...]) -> list[Case]:
-    """Return the cases of the largest steady load per speed and of the largest load, estimated.
-
-    Of given series only the wind speed is known: the lowest and the highest are taken.
-    """
-    first = {case.wind_speed: case for case in reversed(cases)}
-    speeds = sorted(first)
-    if scene.loads.source == "files":
-        places = [0, len(speeds) - 1]
-    else:
-        at = situation(scene, cases)
-        bearings = at.bearings.values()
-        steady = np.max([one.radial for one in bearings], axis=0) / at.speed
-        largest = np.max([one.radial + one.swing + one.turn for one in bearings], axis=0)
-        places = [int(np.argmax(steady)), int(np.argmax(largest))]
-    return [first[speeds[place]] for place in dict.fromkeys(places)]
 
 
 def effort_for(scene: Scene, effects: Iterable[Effect], cases: tuple[Case, ...]) -> Effort:

@@ -184,6 +184,7 @@ def needed_stages(scene: Scene) -> set[str]:
     """Names of all stages that the wanted results need."""
     found: set[str] = set()
     todo = [giving(result).name for result in scene.results]
+    todo += [name for name, stage in STAGES.items() if stage.asked(scene)]
     while todo:
         name = todo.pop()
         if name not in found:

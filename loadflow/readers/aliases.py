@@ -29,7 +29,10 @@ GAUGE = {"hub_moment_y": "gauge_moment_y", "hub_moment_z": "gauge_moment_z"}
 POWER = "rotor_power"
 """Power on the shaft: never in the cube, but torque and speed are checked against it."""
 
-OPTIONAL = ("pitch", "azimuth", "wind", POWER)
+ROOT = tuple(f"root_{what}_{axis}" for what in ("force", "moment") for axis in "xyz")
+"""Loads of blade 1 at its root: all of them or none."""
+
+OPTIONAL = ("pitch", "azimuth", "wind", POWER, *ROOT)
 LATERAL = ("hub_force_y", "hub_force_z", "hub_moment_y", "hub_moment_z")
 """Components that differ between the fixed and the rotating frame."""
 

@@ -13,6 +13,7 @@ from loadflow.readers.aliases import (
     LATERAL,
     OPTIONAL,
     POWER,
+    ROOT,
     Aliases,
     Channels,
     Frame,
@@ -99,7 +100,11 @@ def _choose(
         for key in keys
     }
     names = {key: name for key, name in found.items() if name is not None}
+    if not set(ROOT) & set(own) and not set(ROOT) <= set(names):
+        names = {key: name for key, name in names.items() if key not in ROOT}
     optional = {*OPTIONAL, *GAUGE.values()} - ({"azimuth"} if rotating else set())
+    if set(ROOT) & set(own):
+        optional -= set(ROOT)
     named = {key for key in own if key not in names}  # what a user names must be there
     needed = [key for key in keys if key not in names and (key not in optional or key in named)]
     if gauge_distance is not None and set(GAUGE.values()) <= set(names):

@@ -16,7 +16,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from loadflow.cube.hdf5 import check_hdf5
+from loadflow.cube.trust import check_hdf5
 from loadflow.errors import InputError
 from loadflow.readers.aliases import Channels, Frame, aliases
 from loadflow.readers.series import to_series
@@ -92,6 +92,7 @@ def read_gtsdf(
 def is_series(path: Path) -> bool:
     """Whether an HDF5 file says that it is gtsdf, or cannot be opened to say what it is."""
     try:
+        check_hdf5(path)
         with h5py.File(path, "r") as file:
             return _text(file.attrs.get("type", "")).casefold() == KIND.casefold()
     except Exception:  # a damaged file is for the reader to refuse

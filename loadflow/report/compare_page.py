@@ -28,6 +28,7 @@ class Cell:
 
     value: str
     around: str = ""
+    band: str = ""
     limit: str = ""
     where: str = ""
     state: str = ""
@@ -83,8 +84,14 @@ def _cell(number: Mapping[str, Any] | None) -> Cell:
     seeds = "" if number["low"] is None else f"{short(number['low'])} … {short(number['high'])}"
     limit = "" if number["limit"] is None else f"limit {short(number['limit'])}"
     state = {True: "good", False: "bad", None: ""}[number["holds"]]
+    band = (
+        ""
+        if number["tolerance_low"] is None
+        else f"{short(number['tolerance_low'])} … {short(number['tolerance_high'])} by tolerances, "
+        f"most by {number['tolerance']}"
+    )
     around = ", ".join(part for part in (seeds, error) if part)
-    return Cell(short(number["value"]), around, limit, _where(number), state)
+    return Cell(short(number["value"]), around, band, limit, _where(number), state)
 
 
 def _where(number: Mapping[str, Any]) -> str:

@@ -45,6 +45,7 @@ from .rating.modified_life import life_modification as life_modification
 from .rating.modified_life import modified_life as modified_life
 from .rating.modified_life import system_life as system_life
 from .rating.oscillation import Oscillation as Oscillation
+from .rating.oscillation import PitchMotion as PitchMotion
 from .rating.static import Verdict as Verdict
 from .rating.static import verdicts as verdicts
 from .rings.beam import RingBeam as RingBeam

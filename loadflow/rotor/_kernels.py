@@ -17,6 +17,7 @@ from .slots import (
     GENERATOR,
     MX,
     PITCH,
+    ROOT,
     S_AXIAL,
     S_AZIMUTH,
     S_RATE,
@@ -245,7 +246,8 @@ def march(
     twists = torsions.shape[1] > 0
     answer = np.zeros((m.blades, modes, 1 + count))
     inertia, load = np.zeros((count, count)), np.zeros(count)
-    drift, gravity, jerk, total = np.zeros(6), np.zeros(3), np.zeros(6), np.zeros(6)
+    drift, gravity, jerk = np.zeros(6), np.zeros(3), np.zeros(6)
+    total, own = np.zeros(6), np.zeros(6)
     fresh = 1 if np.all(wake == 0.0) and np.all(induced == 0.0) else 0
     for step in range(steps):
         time = start + step * dt
@@ -307,8 +309,11 @@ def march(
                 out[step, TIP] = motion[sections - 1, 0] + m.prebend[sections - 1] * np.cos(pitch)
             blade_root(
                 m, b, speed, azimuth, shape[b], drift, gravity, jerk, force[b], motion, acc[b],
-                total,
+                total, own,
             )  # fmt: skip
+            if b == 0:
+                for axis in range(6):
+                    out[step, ROOT + axis] = own[axis]
             out[step, COLUMNS + b] = blade_pitch[b]
 
         out[step, SPEED] = state[S_SPEED] + h_rate[twist]

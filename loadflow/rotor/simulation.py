@@ -108,7 +108,10 @@ def simulate(
         Over ``time``: ``speed`` (rad/s), ``pitch``, ``azimuth`` (rad, blade 1, 0 up, clockwise seen
         from upwind), ``hub_force`` (axis, time; N) and ``hub_moment`` (axis, time; N m): what the
         rotor applies to the shaft at its apex, weight included, in the shaft frame that does not
-        rotate (x along the shaft downwind, z up, y left looking downwind); ``wind`` (axis, time;
+        rotate (x along the shaft downwind, z up, y left looking downwind); ``root_force`` and
+        ``root_moment`` (axis, time; N, N m): what blade 1 applies to the hub at its root, in axes
+        that turn with the rotor but not with the pitch (x outward along the axis of pitch, y
+        downwind, z against the rotation); ``wind`` (axis, time;
         m/s, ground frame) at the hub, ``generator_torque`` (N m), ``generator_speed`` (rad/s),
         ``tower_fore_aft`` (downwind), ``tower_side_side`` (left) and ``tip_deflection`` (m),
         ``blade_pitch`` (blade, time; rad), ``state`` (number of the supervisory state). The
@@ -370,6 +373,14 @@ def _dataset(out: np.ndarray, dt: float) -> xr.Dataset:
             "hub_force": vector([k.FX, k.FY, k.FZ], "N", "force of the rotor on the shaft"),
             "hub_moment": vector(
                 [k.MX, k.MY, k.MZ], "N m", "moment of the rotor on the shaft at the apex"
+            ),
+            "root_force": vector(
+                [k.ROOT, k.ROOT + 1, k.ROOT + 2], "N", "force of blade 1 on the hub at its root"
+            ),
+            "root_moment": vector(
+                [k.ROOT + 3, k.ROOT + 4, k.ROOT + 5],
+                "N m",
+                "moment of blade 1 on the hub at its root",
             ),
             "wind": vector([k.WIND_X, k.WIND_Y, k.WIND_Z], "m/s", "wind at the hub"),
             "generator_torque": scalar(k.TORQUE, "N m", "generator torque"),

@@ -3,9 +3,9 @@
 # columns of the output; the pitch of each blade follows them
 (
     SPEED, PITCH, AZIMUTH, FX, FY, FZ, MX, MY, MZ, WIND_X, WIND_Y, WIND_Z, TIP, TORQUE, STATE,
-    GENERATOR, FORE_AFT, SIDE_SIDE,
-) = range(18)  # fmt: skip
-COLUMNS = 18
+    GENERATOR, FORE_AFT, SIDE_SIDE, ROOT,
+) = range(19)  # fmt: skip
+COLUMNS = ROOT + 6  # force and moment of blade 1 at its root
 
 # slots of the scalar state: rotor, wind over the disc
 S_AZIMUTH, S_SPEED, S_RATE, S_AXIAL, S_Y, S_Z = range(6)

@@ -5,25 +5,31 @@ from __future__ import annotations
 import json
 import os
 import shutil
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
+
+import xarray as xr
 
 from loadflow.errors import InputError, LoadflowError
 from loadflow.planning.plan import Plan, make_plan
 from loadflow.report.compare_page import write_comparison
-from loadflow.running.folder import finished_parts, read_manifest
+from loadflow.running.folder import answered, finished_parts, open_part, read_manifest
 from loadflow.running.parts import digest_of
 from loadflow.running.runner import Report, run
+from loadflow.scene.as_built import AsBuilt
 from loadflow.scene.candidates import candidates_of
 from loadflow.scene.design import Design
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Candidate, Scene, make_scene, read_scene
+from loadflow.scene.tolerances import Tolerances
 from loadflow.scene.wear import check_wear
 from loadflow.storage import write_text
 from loadflow.studies.compare import Finished, compared
 from loadflow.studies.compare_result import Comparison
+from loadflow.studies.load_spectrum import load_spectrum
+from loadflow.studies.tolerance_bands import CLASSES, with_bands
 
 SHARED = ("loads", "shaft")
 """Stages whose parts are the same for all candidates, unless the shaft feels its bearings."""
@@ -109,11 +115,33 @@ def compare(
     loads = shared_loads(scene, out, how)
     finished, failures = run_candidates(loads, chosen, loads.folder / "candidates", how)
     found = compared(loads.scene, finished, loads.folder, failures, without_place)
+    if scene.as_built.any:
+        found = _banded(found, finished, loads, scene.as_built, how)
     done = Compared(loads.folder, found, failures)
     write_comparison(done.page, found.as_dict())
     write_text(done.table, found.to_csv())
     write_text(done.path / "compare.json", json.dumps(found.as_dict(), indent=1))
     return done
+
+
+def _banded(
+    found: Comparison,
+    finished: list[Finished],
+    loads: SharedLoads,
+    given: AsBuilt,
+    how: Means,
+) -> Comparison:
+    """The comparison with the bands of its numbers by tolerances."""
+    by_name, judged = {run.name: run for run in finished}, []
+    places = list(dict.fromkeys(b["place"] for one in found.candidates for b in one.bearings))
+    spectrum = load_spectrum(loads.scene, finished_cases(loads), places, CLASSES)
+    for k, one in enumerate(found.candidates):
+        how.say("tolerances", k, len(found.candidates))
+        run = by_name[one.name]
+        scene = read_scene(run.folder / "scene.toml")
+        judged.append(with_bands(one, run, scene, spectrum, given))
+    how.say("tolerances", len(judged), len(judged))
+    return replace(found, candidates=tuple(judged))
 
 
 @dataclass(frozen=True)
@@ -175,6 +203,14 @@ def shared_loads(scene: Scene, out: str | Path, how: Means) -> SharedLoads:
     return SharedLoads(as_run, make_plan(as_run), folder)
 
 
+def finished_cases(loads: SharedLoads) -> Iterator[tuple[str, xr.Dataset, xr.Dataset]]:
+    """Yield name, loads and shaft of each load case that has both."""
+    for case in loads.plan.cases:
+        if all(answered(loads.folder, stage, [case.name]) for stage in SHARED):
+            of_case, shaft = (open_part(loads.folder, stage, case.name) for stage in SHARED)
+            yield case.name, of_case.load(), shaft.load()
+
+
 def run_candidates(
     loads: SharedLoads, chosen: Mapping[str, Candidate], below: Path, how: Means
 ) -> tuple[list[Finished], dict[str, str]]:
@@ -232,14 +268,27 @@ def candidates_for(scene: Scene) -> tuple[dict[str, Candidate], list[str]]:
     if "journal" in scene.model_fields_set:
         title = "journal bearings of the scene"
         thrust = scene.thrust if scene.thrust.bearings else None
-        found["own-journal"] = Candidate(title=title, journal=scene.journal, thrust=thrust)
+        found["own-journal"] = Candidate(
+            title=title,
+            journal=scene.journal,
+            thrust=thrust,
+            tolerances=_of_places(scene, [*scene.journal.bearings, *scene.thrust.bearings]),
+        )
     elif scene.thrust.bearings:
         title = "film bearings of the scene"
-        found["own-thrust"] = Candidate(title=title, thrust=scene.thrust)
+        found["own-thrust"] = Candidate(
+            title=title,
+            thrust=scene.thrust,
+            tolerances=_of_places(scene, [*scene.thrust.bearings]),
+        )
     sized = candidates_of(scene.turbine.name)
     if "rolling" in scene.model_fields_set:
         title = "rolling bearings of the scene"
-        found["own-rolling"] = Candidate(title=title, rolling=scene.rolling)
+        found["own-rolling"] = Candidate(
+            title=title,
+            rolling=scene.rolling,
+            tolerances=_of_places(scene, [*scene.rolling.geometries]),
+        )
     shell = {
         "turbine": {"name": scene.turbine.name},
         "results": ["loads.statistics"],
@@ -255,6 +304,10 @@ def candidates_for(scene: Scene) -> tuple[dict[str, Candidate], list[str]]:
             f"{', '.join(places) or 'no place'} the package has none; write [candidates.NAME.PLACE]"
         )
     return usable, [name for name in found if name not in usable]
+
+
+def _of_places(scene: Scene, places: list[str]) -> Tolerances:
+    return {place: found for place, found in scene.tolerances.items() if place in places}
 
 
 def candidate_scene(base: Scene, name: str, candidate: Candidate, steps: int) -> Scene:
@@ -275,7 +328,7 @@ def candidate_scene(base: Scene, name: str, candidate: Candidate, steps: int) ->
         Length of the shortest series.
     """
     results: list[str] = []
-    update: dict[str, Any] = {"name": name, "candidates": {}}
+    update: dict[str, Any] = {"name": name, "candidates": {}, "tolerances": candidate.tolerances}
     fewer: dict[str, Any] = {"size": ROLLING_SHARE}
     if candidate.journal is not None:
         results.append("journal.film")
@@ -332,6 +385,7 @@ def _base(scene: Scene) -> Scene:
     """The scene with the models of its loads named, so that all candidates share them."""
     loads = make_plan(scene).scene.loads if scene.accuracy is not None else scene.loads
     update = {"loads": loads, "results": ["loads.statistics"], "candidates": {}, "design": Design()}
+    update |= {"tolerances": {}, "as_built": AsBuilt()}
     return scene.model_copy(update=update)
 
 

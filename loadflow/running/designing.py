@@ -10,28 +10,25 @@ from __future__ import annotations
 import hashlib
 import json
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from loadflow import __version__
 from loadflow.cube import open_cube
 from loadflow.errors import InputError, LoadflowError
 from loadflow.report.design_page import write_design
 from loadflow.running.comparison import (
-    SHARED,
     Means,
     SharedLoads,
     candidates_for,
+    finished_cases,
     run_candidates,
     shared_loads,
 )
 from loadflow.running.executor import executor
-from loadflow.running.folder import answered, open_part
 from loadflow.running.lock import locked
 from loadflow.running.parts import digest_of, is_sound, save_part
 from loadflow.running.search import Problem, Search
@@ -185,17 +182,10 @@ def spectrum_of(
     told += [loads.scene.digest("loads", "shaft", "turbine")]
     digest = hashlib.sha256("\n".join(told).encode()).hexdigest()
     if not file.exists() or digest_of(file) != digest or not is_sound(file):
-        made = load_spectrum(loads.scene, _cases(loads), places, classes)
+        made = load_spectrum(loads.scene, finished_cases(loads), places, classes)
         save_part(made, file, digest)
     tree: Any = open_cube(file)
     return tree.load(), digest
-
-
-def _cases(loads: SharedLoads) -> Iterator[tuple[str, xr.Dataset, xr.Dataset]]:
-    for case in loads.plan.cases:
-        if all(answered(loads.folder, stage, [case.name]) for stage in SHARED):
-            of_case, shaft = (open_part(loads.folder, stage, case.name) for stage in SHARED)
-            yield case.name, of_case.load(), shaft.load()
 
 
 def _told(

@@ -154,6 +154,15 @@ def finished_parts(folder: Path, plan: Plan) -> dict[str, int]:
     }
 
 
+def results_of(folder: Path) -> dict[str, xr.Dataset] | None:
+    """Tables of a finished run by stage; None where there is none."""
+    if not (folder / "result.h5").exists():
+        return None
+    results = open_cube(folder / "result.h5")
+    groups = results.children if isinstance(results, xr.DataTree) else {}
+    return {name: node.to_dataset().load() for name, node in groups.items()}
+
+
 def _parts(folder: Path, stage: str) -> list[Path]:
     return [*folder.glob(f"{stage}/*.h5"), *folder.glob(f"{stage}.h5")]
 

@@ -14,7 +14,8 @@ import xarray as xr
 import loadflow
 from loadflow.cube import open_cube
 from loadflow.errors import InputError
-from loadflow.planning.budget import Answer, answers, more_seeds
+from loadflow.planning.budget import answers, more_seeds
+from loadflow.planning.seeds_wanted import of_run, sentences
 from loadflow.planning.verification import WARN
 from loadflow.plots.journal import orbit
 from loadflow.plots.style import readable
@@ -24,8 +25,10 @@ from loadflow.report.charts import CLOSE, SAMPLES
 from loadflow.report.page import Shown
 from loadflow.report.run_charts import film_chart, over_wind_speed, reduction_chart, ring_chart
 from loadflow.report.sketch import sketch
+from loadflow.running.answers_page import answer_tables, largest
 from loadflow.running.dynamics_page import dynamics_section
-from loadflow.running.folder import answered, read_manifest, read_part
+from loadflow.running.energy_page import energy_table
+from loadflow.running.folder import answered, read_manifest, read_part, results_of
 from loadflow.running.loads_page import loads_section
 from loadflow.running.seeds_page import seed_section
 from loadflow.running.start_page import start_tables
@@ -68,9 +71,7 @@ def write_report(folder: Path, again: bool = False) -> Path:
         return folder / "report.html"
     scene = read_scene(folder / "scene.toml")
     manifest = read_manifest(folder)
-    results = open_cube(folder / "result.h5")
-    groups = results.children if isinstance(results, xr.DataTree) else {}
-    tables = {name: node.to_dataset().load() for name, node in groups.items()}
+    tables = results_of(folder) or {}
     sections = [*_sections(folder, scene, manifest, tables)]
     facts, title = _facts(scene, manifest), f"loadflow: {scene.name}"
     return write_page(folder / "report.html", title, facts, sections, made_of)
@@ -194,7 +195,8 @@ def _overview(scene: Scene, tables: dict[str, xr.Dataset], manifest: dict[str, A
     pictures: list[Shown] = [_shaft_sketch(scene)]
     pictures += over_wind_speed(tables.get("journal"), tables.get("rolling"), caption)
     found = answers(scene, tables, manifest.get("expected_errors", {}), manifest.get("effects", []))
-    notes = [*_answer_table(found), *_verdict_table(tables), *_lifetime_table(tables)]
+    notes = [*answer_tables(found, tables), *_verdict_table(tables), *_lifetime_table(tables)]
+    notes += energy_table(tables)
     if failures:
         without = [[part, why] for part, why in failures.items()]
         notes.append(Table("Without an answer", ["part", "why"], without))
@@ -203,35 +205,10 @@ def _overview(scene: Scene, tables: dict[str, xr.Dataset], manifest: dict[str, A
     if unused := unused_keys(scene):
         rows = [[key, why] for key, why in unused.items()]
         notes.append(Table("Keys without effect", ["key", "why"], rows))
-    said = more_seeds(found, lambda result: min(scene.allowed(result), WARN))
-    return Section("Overview", said, tables=notes, pictures=pictures)
-
-
-def _answer_table(found: list[Answer]) -> Iterator[Table]:
-    """Each answer with its interval by seeds, its error by models and what is left out."""
-    if not found:
-        return
-    heads = ["answer", "bearing", "value", "95 % interval by seeds", "error by models"]
-    yield Table("Answers", [*heads, "governed by", "left out"], [_answer_row(one) for one in found])
-
-
-def _answer_row(one: Answer) -> list[str]:
-    largest = _largest(one.low, one.value, one.high)
-    factor, unit = (1e6, "µm") if one.unit == "m" else fitting_unit(one.unit, largest)
-    low, value, high = (f"{factor * number:.4g}" for number in (one.low, one.value, one.high))
-    unit = "" if unit == "–" else f" {unit}"
-    missing = ", ".join(
-        f"{name} {100 * share:.2g} %" for name, share in (one.left_out or {}).items()
-    )
-    return [
-        one.quantity,
-        one.bearing,
-        value + unit,
-        "one seed" if np.isnan(one.low) else f"{low} … {high}{unit}",
-        "not measured" if one.error is None else f"≤ {100 * one.error:.2g} %",
-        one.governed_by,
-        missing or "-",
-    ]
+    said = [more_seeds(found, lambda result: min(scene.allowed(result), WARN))]
+    said += sentences(of_run(scene, tables, manifest.get("expected_errors", {})))[:1]
+    text = " ".join(f"{one[0].upper()}{one[1:].rstrip('.')}." for one in said if one)
+    return Section("Overview", text, tables=notes, pictures=pictures)
 
 
 def _verdict_table(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
@@ -247,7 +224,7 @@ def _verdict_table(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
 
 def _verdict_row(verdict: Verdict) -> list[str]:
     limit, at = "", verdict.case
-    factor, unit = fitting_unit(verdict.unit, _largest(verdict.value, verdict.limit))
+    factor, unit = fitting_unit(verdict.unit, largest(verdict.value, verdict.limit))
     if np.isfinite(verdict.limit):
         limit = f"{'≤' if verdict.sense == 'at most' else '≥'} {factor * verdict.limit:.4g} {unit}"
     if np.isfinite(verdict.time):
@@ -258,10 +235,6 @@ def _verdict_row(verdict: Verdict) -> list[str]:
     )
     said = (limit, margin, verdict.answer, at, verdict.source, verdict.note)
     return [verdict.subject, verdict.quantity, value, *said]
-
-
-def _largest(*numbers: float) -> float:
-    return max((abs(number) for number in numbers if np.isfinite(number)), default=0.0)
 
 
 def _lifetime_table(tables: dict[str, xr.Dataset]) -> Iterator[Table]:

@@ -101,13 +101,15 @@ def _judged(
     scene: Scene, groups: Mapping[str, Any], missing: Mapping[str, list[str]]
 ) -> dict[str, xr.Dataset]:
     """Lifetime and verdicts of what was found; nothing where no bearing was solved."""
+    from loadflow.studies.run_energy import run_energy
     from loadflow.studies.run_lifetime import run_lifetime
     from loadflow.studies.verdicts import verdicts
 
     lifetime = run_lifetime(scene, groups)
     found = verdicts(scene, groups, lifetime, missing)
     judged = {"verdicts": to_dataset(found)} if found else {}
-    return judged | ({} if lifetime is None else {"lifetime": lifetime})
+    tables = {"lifetime": lifetime, "energy": run_energy(scene, groups)}
+    return judged | {name: table for name, table in tables.items() if table is not None}
 
 
 def _nodes(data: xr.Dataset | xr.DataTree) -> Iterator[tuple[str, xr.Dataset]]:

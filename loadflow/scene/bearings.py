@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
 from pydantic import (
@@ -18,6 +19,7 @@ from loadflow.rolling import (
     KINDS,
     FlexibleRings,
     Oscillation,
+    PitchMotion,
     RingBeam,
     RingSection,
     RollingBearing,
@@ -135,6 +137,13 @@ Ring = Annotated[RingBeam, BeforeValidator(_by_measures)]
 ``height``, ``thickness`` and ``length`` a wall."""
 
 
+if TYPE_CHECKING:
+    Swing = Oscillation | PitchMotion
+else:
+    Swing = told_apart({"stated": Oscillation, "pitch": PitchMotion}, usual="stated")
+"""How a bearing swings; ``kind = "pitch"`` follows the pitch of each series."""
+
+
 class FurtherBearing(BaseModel):
     """Another rolling bearing of the shaft: its name, its geometry and its rings.
 
@@ -149,7 +158,7 @@ class FurtherBearing(BaseModel):
     rings: Literal["rigid", "flexible"] = "rigid"
     inner_ring: Ring | None = None
     outer_ring: Ring | None = None
-    oscillation: Oscillation | None = None
+    oscillation: Swing | None = None
     limits: RollingLimits = RollingLimits()
 
     @model_validator(mode="after")
@@ -241,3 +250,30 @@ class Rolling(FurtherBearing):
     def rung(self) -> Literal["rigid", "flexible"]:
         """Model in the ladder: flexible if the rings of any bearing are."""
         return "flexible" if any(b.rings == "flexible" for b in self.bearings.values()) else "rigid"
+
+
+def check_swinging(rolling: Rolling, films: Iterable[str]) -> None:
+    """Raise unless the bearings beside the shaft swing; `films` are the places of films.
+
+    Raises
+    ------
+    ValueError
+        A yaw or pitch bearing that turns with the rotor or is a film, or another one that follows
+        the pitch.
+    """
+    for place, name in (("Y", "yaw"), ("P", "pitch")):
+        part = rolling.bearings.get(place)
+        if part is not None and part.oscillation is None:
+            raise ValueError(
+                f"rolling bearing {place}: the {name} bearing swings; give its oscillation"
+            )
+        if place in films:
+            raise ValueError(
+                f"journal.bearings = {place!r}: the {name} bearing is a rolling bearing"
+            )
+    for place, part in rolling.bearings.items():
+        if part.oscillation is not None and part.oscillation.of_pitch and place != "P":
+            raise ValueError(
+                f'rolling bearing {place}: oscillation.kind = "pitch" is that of the pitch '
+                "bearing P; give amplitude and frequency"
+            )

@@ -8,6 +8,7 @@ from loadflow.scene.bearings import Rolling
 from loadflow.scene.journal import Journal
 from loadflow.scene.section import Section
 from loadflow.scene.thrust import Thrust
+from loadflow.scene.tolerances import Tolerances
 
 
 class Candidate(Section, BaseModel):
@@ -19,6 +20,8 @@ class Candidate(Section, BaseModel):
         What it is called, and where its measures are from.
     journal, rolling, thrust
         Its bearings, as sections.
+    tolerances : dict
+        Of their values, by place and key.
     """
 
     title: str = ""
@@ -26,6 +29,7 @@ class Candidate(Section, BaseModel):
     journal: Journal | None = None
     rolling: Rolling | None = None
     thrust: Thrust | None = None
+    tolerances: Tolerances = {}
 
     @property
     def places(self) -> tuple[str, ...]:

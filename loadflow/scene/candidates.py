@@ -11,7 +11,10 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
 ABOUT = ("title", "source")
-"""Keys of a candidate that say what it is; the others are places."""
+"""Keys of a candidate that say what it is."""
+
+TOLERANCES = "tolerances"
+"""Key of the tolerances of its bearings; all others are places."""
 
 
 @cache

@@ -14,10 +14,12 @@ class Environment(Section, BaseModel):
 
     ``temperature`` (K) is that of the surroundings: journal bearings with a ``heat`` balance and
     the rolling bearings of ``[friction]`` give their heat off to it, where they state no ambient
-    temperature of their own. With ``cold_start`` the oil has it, too: the film draws it in, and the
-    rolling bearings are as cold, where they state no temperature. ``air_density`` (kg/m³) is that
-    of simulated loads. Humidity and radiation of the sun move no bearing here, and are left out;
-    nor does a uniform temperature move the clearance of steel in steel.
+    temperature of their own; of a film whose ``heat`` is that of its area the shell has it. With
+    ``cold_start`` the oil has it, too: the film draws it in, and the rolling bearings are as cold,
+    where they state no temperature. Shafts and shells of different material or warmth
+    (``heat.growth``) have another clearance then; a uniform temperature does not move that of steel
+    in steel. ``air_density`` (kg/m³) is that of simulated loads. Humidity and radiation of the sun
+    move no bearing here, and are left out.
     """
 
     temperature: Annotated[float, Field(ge=223.15, le=333.15)] | None = None
@@ -61,6 +63,8 @@ def _warmed(journal: dict[str, Any], ambient: float, cold: bool) -> dict[str, An
     heat = journal.get("heat")
     if not isinstance(heat, dict):
         return dict(journal)
-    known = {} if heat.get("kind", "balance") != "balance" else {"ambient_temperature": ambient}
+    around = {"balance": "ambient_temperature", "film": "shell_temperature"}
+    name = around.get(heat.get("kind", "balance"))
+    known = {} if name is None else {name: ambient}
     known |= {"inlet_temperature": ambient} if cold else {}
     return journal | {"heat": known | heat}

@@ -8,6 +8,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from loadflow.scene.journal import Journal
+from loadflow.scene.shaft import SWINGING
 
 BORE = 0.5
 """Bore over diameter, that of the forged shafts of the WindPACT turbines."""
@@ -68,7 +69,7 @@ def narrowest(journal: Journal) -> float:
 def _is_open(kind: str, options: Any) -> bool:
     """Whether a suspension with bearings for films has a beam without sections."""
     beam = options.get("beam") if isinstance(options, dict) else None
-    return kind not in ("moment", "yaw") and isinstance(beam, dict) and "sections" not in beam
+    return kind not in ("moment", *SWINGING) and isinstance(beam, dict) and "sections" not in beam
 
 
 def _section(diameter: float) -> dict[str, float]:

@@ -30,6 +30,10 @@ from loadflow.scene.places import SHARED
 from loadflow.scene.section import Section
 
 Positive = Annotated[float, Field(gt=0)]
+Slope = Annotated[float, Field(ge=-0.1, le=0.1)]
+
+USUAL_HEAT_CAPACITY = 2000.0
+"""c_p of mineral oil, J/(kg K), the default of `Heat`."""
 
 
 class Journal(Section, BaseModel):
@@ -52,6 +56,9 @@ class Journal(Section, BaseModel):
     With ``tilt`` the shaft is tilted and bent in them as the beam of its suspension is; if it
     has none, it tilts freely under the moment that the shaft stage gives. The film is then solved
     over its full width.
+
+    ``alignment`` is how far the bore is turned against the shaft that does not bend, rad: about
+    down and about left; only a film with ``tilt`` around a beam knows it.
 
     ``cavitation`` is the law of the ruptured film; its key ``kind`` says which:
     gas-mixture, sommerfeld, guembel, reynolds or mass-conserving. ``inlet`` replaces the oil on a
@@ -98,6 +105,7 @@ class Journal(Section, BaseModel):
     motion: Literal["quasi-static", "transient"] = "quasi-static"
     step: Positive | None = None
     tilt: bool = False
+    alignment: tuple[Slope, Slope] = (0.0, 0.0)
     shell: Shell | None = None
     contact: Contact | None = None
     turbulence: Turbulence | None = None
@@ -170,6 +178,13 @@ class Journal(Section, BaseModel):
         names = ("lubricant", "cavitation", "edge_pressure", *mesh, *effects)
         inlet = None if self.inlet == "none" else self.inlet
         return {name: getattr(self, name) for name in names} | {"inlet": inlet}
+
+    @property
+    def volume_heat(self) -> float:
+        """ρ c_p of the oil, J/(m³ K); c_p of an oil without a heat balance is the usual one."""
+        if self.heat is not None:
+            return self.heat.volume_heat
+        return self.lubricant.density * USUAL_HEAT_CAPACITY
 
     def at_temperature(self, temperature: float) -> Journal:
         """The bearing with its oil held at `temperature`, K."""

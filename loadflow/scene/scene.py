@@ -11,7 +11,7 @@ import tomllib
 from dataclasses import replace
 from math import inf
 from pathlib import Path
-from typing import Annotated, Any, Literal, Self, get_args
+from typing import Annotated, Any, Literal, Self
 
 import numpy as np
 from pydantic import BaseModel, Field, ValidationError, field_validator, model_validator
@@ -19,10 +19,11 @@ from pydantic import BaseModel, Field, ValidationError, field_validator, model_v
 from loadflow.errors import InputError
 from loadflow.journal.line import Line
 from loadflow.journal.models.model import Steps, why_not
-from loadflow.numerics.fields import LARGEST_INTEGER, shown
-from loadflow.scene.bearings import Rolling
+from loadflow.numerics.fields import LARGEST, LARGEST_INTEGER
+from loadflow.scene.as_built import AsBuilt
+from loadflow.scene.bearings import Rolling, check_swinging
 from loadflow.scene.candidate import Candidate as Candidate
-from loadflow.scene.candidates import ABOUT, machine
+from loadflow.scene.candidates import ABOUT, TOLERANCES, machine
 from loadflow.scene.design import Design
 from loadflow.scene.dynamics import Dynamics
 from loadflow.scene.environment import Environment, surrounded
@@ -34,10 +35,13 @@ from loadflow.scene.loads import Loads, check_simulation
 from loadflow.scene.messages import message
 from loadflow.scene.own_shaft import taken
 from loadflow.scene.places import places_of
-from loadflow.scene.section import Section, too_large
+from loadflow.scene.results import BY_NAME as BY_NAME
+from loadflow.scene.results import OF_PLACES, USUAL, Result, has_films, that_the_shaft_can_give
+from loadflow.scene.section import Section, check_sizes
 from loadflow.scene.series import Reduction, Seeds
 from loadflow.scene.shaft import Shaft
 from loadflow.scene.thrust import Thrust, check_thrust
+from loadflow.scene.tolerances import Toleranced, Tolerances
 from loadflow.scene.turbine import Turbine
 from loadflow.scene.usual_bearings import usual_bearings
 from loadflow.scene.wear import Wear, check_wear
@@ -47,28 +51,6 @@ from loadflow.storage import check_name
 from loadflow.turbines import load_turbine, turbine_digest
 from loadflow.turbines.files import scaled_name
 from loadflow.turbines.similarity import factor_of_power
-
-Result = Literal[
-    "loads.statistics",
-    "seeds.equality",
-    "reduction.histogram",
-    "journal.film",
-    "journal.dynamics",
-    "journal.wear",
-    "rolling.loads",
-    "rolling.life",
-    "rolling.friction",
-    "thrust.film",
-]
-
-BY_NAME: tuple[Result, ...] = ("journal.dynamics", "journal.wear")
-"""Results that are computed only where a scene asks for them by name."""
-
-OF_PLACES: tuple[Result, ...] = tuple(name for name in get_args(Result) if name not in BY_NAME)
-"""Results of a scene that names none, as far as it has bearings for them."""
-
-USUAL: tuple[Result, ...] = tuple(name for name in OF_PLACES if name != "thrust.film")
-"""The same of a scene that names no bearings either: no film bearing carries its thrust."""
 
 Positive = Annotated[float, Field(gt=0)]
 
@@ -88,6 +70,12 @@ class Scene(Section, BaseModel):
         Largest relative error allowed, of every result or by result; 5 % if nothing is said. The
         plan takes the cheapest models and effects that hold it, wherever the scene names none.
         ``"given"`` leaves all models as the scene has them, the defaults where it names none.
+    tolerances : dict
+        By place and key of the bearing there, half of the band around a value, in its unit; of
+        ``heat.oil`` a share of its viscosity. ``{ value = …, tolerance = … }`` in place of the
+        value says the same.
+    as_built : AsBuilt
+        Tolerances of what `tolerances` leaves open, as `loadflow compare` takes them.
 
     Examples
     --------
@@ -113,8 +101,10 @@ class Scene(Section, BaseModel):
     rolling: Rolling = Rolling()
     thrust: Thrust = Thrust()
     friction: Friction = Friction()
+    tolerances: Tolerances = {}
     candidates: dict[str, Candidate] = {}
     design: Design = Design()
+    as_built: AsBuilt = AsBuilt()
 
     @field_validator("name")
     @classmethod
@@ -137,10 +127,10 @@ class Scene(Section, BaseModel):
             data = data | {"results": list(OF_PLACES)}
         if not own_shaft:
             data = _with_scaled_shaft(data)
-        if "shaft" in data and _has_films(data):
+        if "shaft" in data and has_films(data):
             fitting = with_fitting_beams(data["shaft"], data.get("journal", {}))
             data = data | {"shaft": fitting}
-        return _results_that_the_shaft_can_give(data, stated)
+        return that_the_shaft_can_give(data, stated)
 
     @model_validator(mode="after")
     def _simulates(self) -> Self:
@@ -205,18 +195,19 @@ class Scene(Section, BaseModel):
         return self
 
     @model_validator(mode="after")
-    def _yaw_bearings_swing(self) -> Self:
-        part = self.rolling.bearings.get("Y")
-        if part is not None and part.oscillation is None:
-            raise ValueError("rolling bearing Y: the yaw bearing swings; give its oscillation")
-        if self.wants("journal") and "Y" in self.journal.bearings:
-            raise ValueError("journal.bearings = 'Y': the yaw bearing is a rolling bearing")
+    def _beside_the_shaft_bearings_swing(self) -> Self:
+        check_swinging(self.rolling, self.journal.bearings if self.wants("journal") else ())
         return self
 
     @model_validator(mode="after")
     def _films_take_the_thrust(self) -> Self:
         if self.wants("thrust"):
             check_thrust(self.thrust, self.reduction.method)
+        return self
+
+    @model_validator(mode="after")
+    def _bands_are_allowed(self) -> Self:
+        self.toleranced.check(self.shaft, self.reduction.method)
         return self
 
     @model_validator(mode="after")
@@ -268,6 +259,11 @@ class Scene(Section, BaseModel):
         """Whether an accuracy is asked for, and models are chosen by it."""
         return self.accuracy != "given"
 
+    @property
+    def toleranced(self) -> Toleranced:
+        """Its bearings with the tolerances of their values."""
+        return Toleranced(self.tolerances, self.journal, self.rolling, self.thrust)
+
     def allowed(self, result: str) -> float:
         """Largest relative error allowed of a result; infinite where nothing is asked."""
         if isinstance(self.accuracy, dict):
@@ -281,7 +277,7 @@ class Scene(Section, BaseModel):
         data = self.model_dump(mode="json", exclude_none=True)
         data["bearings"] = places_of(*(data.pop(room) for room in ("journal", "rolling", "thrust")))
         data["candidates"] = {
-            name: {key: candidate[key] for key in ABOUT if candidate[key]}
+            name: {key: candidate[key] for key in (*ABOUT, TOLERANCES) if candidate[key]}
             | places_of(*(candidate.get(room) for room in ("journal", "rolling", "thrust")))
             for name, candidate in data["candidates"].items()
         }
@@ -354,12 +350,11 @@ def make_scene(data: dict[str, Any], source: str = "scene") -> Scene:
     'nrel-5mw'
     """
     data = {"name": Path(source).stem} | data
-    for key, value in too_large(data):
-        raise InputError(
-            f"{source}: {key} = {shown(value)}: must be within ±{LARGEST_INTEGER} (64 bits)"
-        )
+    check_sizes(data, int, LARGEST_INTEGER, source)
     try:
-        return Scene.model_validate(data)
+        scene = Scene.model_validate(data)
+        check_sizes(data, float, LARGEST, source)  # keys with a range of their own have told it
+        return scene
     except ValidationError as error:
         defaults = Scene(name="defaults").model_dump() | {"bearings": {}}
         raise InputError(message(error, source, origins(data), defaults)) from error
@@ -425,25 +420,3 @@ def _with_scaled_shaft(data: dict[str, Any]) -> dict[str, Any]:
     stated = machine(base).get("shaft")
     usual = Shaft.model_validate(stated) if stated else Scene.model_fields["shaft"].default
     return data | {"shaft": usual.scaled(factor_of_power(power, known.rated_power))}
-
-
-def _has_films(data: dict[str, Any]) -> bool:
-    """Whether data of a scene, in sections, want a result of journal bearings."""
-    results = data.get("results", USUAL)
-    return isinstance(results, (list, tuple)) and any(
-        isinstance(name, str) and name.startswith("journal.") for name in results
-    )
-
-
-def _results_that_the_shaft_can_give(data: dict[str, Any], stated: set[str]) -> dict[str, Any]:
-    """Without `results`: all, but none of a bearing by default that the shaft does not have."""
-    if "results" in data or "shaft" not in data:
-        return data
-    try:
-        there = set(Shaft.model_validate(data["shaft"]).bearings)
-    except ValidationError:  # told by the shaft's own check, with its key
-        return data
-    by_default = {"journal": {*Journal().bearings}, "rolling": {Rolling().bearing}}
-    absent = {room for room, own in by_default.items() if room not in stated and own - there}
-    wanted = [name for name in USUAL if name.split(".")[0] not in absent]
-    return data | {"results": wanted}

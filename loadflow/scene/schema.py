@@ -65,7 +65,7 @@ def json_schema() -> dict[str, Any]:
     about = parts["Candidate"]["properties"]
     candidate = {
         "type": "object",
-        "properties": {name: about[name] for name in ("title", "source")},
+        "properties": {name: about[name] for name in ("title", "source", "tolerances")},
         "additionalProperties": place,
     }
     known["candidates"] = {
@@ -74,10 +74,64 @@ def json_schema() -> dict[str, Any]:
         "description": "Arrangements to compare; an empty table takes the one of that name that is "
         "sized for the turbine.",
     }
+    _with_tolerances(schema)
     schema["required"] = [name for name in schema.get("required", []) if name != "name"]
     schema["$schema"] = "https://json-schema.org/draft/2020-12/schema"
     schema["title"] = "loadflow scene"
     return schema
+
+
+_TOLERANCED = "Toleranced"
+
+
+def _with_tolerances(schema: dict[str, Any]) -> None:
+    """Let each number of a bearing stand with its tolerance."""
+    parts = schema["$defs"]
+    parts[_TOLERANCED] = {
+        "type": "object",
+        "description": "A value with half of the band around it, in its unit.",
+        "required": ["value", "tolerance"],
+        "additionalProperties": False,
+        "properties": {
+            "value": {"type": ["number", "string"]},
+            "tolerance": {"type": "number", "exclusiveMinimum": 0},
+        },
+    }
+    seen: set[str] = set()
+    todo = ["Bearing"]
+    while todo:
+        name = todo.pop()
+        if name in seen or "Limits" in name:
+            continue
+        seen.add(name)
+        for key, part in parts[name].get("properties", {}).items():
+            todo += _references(part)
+            if "prefixItems" in part:
+                part["prefixItems"] = [_or_toleranced(one) for one in part["prefixItems"]]
+            if _holds_a_number(part) or key == "oil":
+                parts[name]["properties"][key] = _or_toleranced(part)
+        todo += _references({k: v for k, v in parts[name].items() if k != "properties"})
+
+
+def _or_toleranced(part: dict[str, Any]) -> dict[str, Any]:
+    about = {k: part[k] for k in ("title", "description", "default") if k in part}
+    rest = {k: value for k, value in part.items() if k not in about}
+    either = rest.pop("anyOf") if [*rest] == ["anyOf"] else [rest]
+    return about | {"anyOf": [*either, {"$ref": f"#/$defs/{_TOLERANCED}"}]}
+
+
+def _references(part: Any) -> list[str]:
+    """Names of all definitions that a part refers to."""
+    if isinstance(part, dict):
+        own = [part["$ref"].rpartition("/")[2]] if isinstance(part.get("$ref"), str) else []
+        return own + [name for value in part.values() for name in _references(value)]
+    if isinstance(part, list):
+        return [name for value in part for name in _references(value)]
+    return []
+
+
+def _holds_a_number(part: dict[str, Any]) -> bool:
+    return any(one.get("type") == "number" for one in (part, *part.get("anyOf", [])))
 
 
 def _name(kind: str) -> str:

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+import math
+from collections.abc import Mapping
 from functools import reduce
 from operator import or_
 from typing import Annotated, Any
 
 from pydantic import BaseModel, ConfigDict, Discriminator, Tag
 
-from loadflow.numerics.fields import LARGEST_INTEGER
+from loadflow.errors import InputError
+from loadflow.numerics.fields import shown
 
 SECTION = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
 """Of every part of a scene: frozen, and an unknown key is an error."""
@@ -45,14 +47,22 @@ def told_apart(kinds: Mapping[str, Any], usual: str | None = None) -> Any:
     ]
 
 
-def too_large(data: Any, key: str = "") -> Iterator[tuple[str, int]]:
-    """Yield the integers of nested tables that no file of results can hold, by their key."""
+def check_sizes(
+    data: Any, kind: type[int] | type[float], largest: float, source: str, key: str = ""
+) -> None:
+    """Raise if nested tables hold a number of a kind that is larger than any quantity.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        With its key and the range. Infinite values are left to whoever knows the key.
+    """
     items: Any = ()
     if isinstance(data, dict):
         items = data.items()
     elif isinstance(data, list | tuple):
         items = enumerate(data)
-    elif isinstance(data, int) and abs(data) > LARGEST_INTEGER:
-        yield key, data
+    elif isinstance(data, kind) and largest < abs(data) < math.inf:
+        raise InputError(f"{source}: {key} = {shown(data)}: must be within ±{largest:g}")
     for name, value in items:
-        yield from too_large(value, f"{key}.{name}".lstrip("."))
+        check_sizes(value, kind, largest, source, f"{key}.{name}".lstrip("."))

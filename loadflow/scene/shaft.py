@@ -7,7 +7,7 @@ from typing import Self
 from pydantic import BaseModel, model_validator
 
 from loadflow.scene.section import Section
-from loadflow.shaft import YawBearing, scaled_suspension
+from loadflow.shaft import PitchBearing, YawBearing, scaled_suspension
 from loadflow.shaft.beam import BearingSupport
 from loadflow.shaft.options import (
     Concept,
@@ -18,17 +18,20 @@ from loadflow.shaft.options import (
     TwoPoint,
 )
 
+SWINGING = ("yaw", "pitch")
+"""Tables of bearings beside the shaft, which swing."""
+
 
 class Shaft(Section, BaseModel):
     """Suspensions to compute; a table that is left out costs nothing.
 
     ``two_point``, ``integrated`` and ``direct_drive`` have the bearings N (floating) and N2
     (locating), ``three_point`` the bearing N and the gearbox's torque arms G; one of these at most.
-    ``moment`` has the bearing M, ``yaw`` the yaw bearing Y under the nacelle, a rolling bearing
-    that swings. With a ``beam`` in its table the shaft bends, and tilts in its bearings; without
-    ``sections`` it is as wide as the journal bearings. A support of the beam with ``stiffness =
-    "journal"`` or ``"rolling"`` gives under each load as the bearing of that kind that the scene
-    has there.
+    ``moment`` has the bearing M, ``yaw`` the yaw bearing Y under the nacelle, ``pitch`` the pitch
+    bearing P of blade 1, with the loads of its root: rolling bearings that swing. With a ``beam``
+    in its table the shaft bends, and tilts in its bearings; without ``sections`` it is as wide as
+    the journal bearings. A support of the beam with ``stiffness = "journal"`` or ``"rolling"``
+    gives under each load as the bearing of that kind that the scene has there.
     """
 
     two_point: TwoPoint | None = None
@@ -37,11 +40,12 @@ class Shaft(Section, BaseModel):
     direct_drive: DirectDrive | None = None
     moment: MomentBearing | None = None
     yaw: YawBearing | None = None
+    pitch: PitchBearing | None = None
 
     @property
     def suspensions(self) -> dict[str, Concept]:
         """The suspensions of the shaft that the scene has, by name."""
-        return {name: concept for name, concept in self if concept and name != "yaw"}
+        return {name: concept for name, concept in self if concept and name not in SWINGING}
 
     @property
     def concepts(self) -> tuple[Concept, ...]:
@@ -51,7 +55,8 @@ class Shaft(Section, BaseModel):
     @property
     def bearings(self) -> tuple[str, ...]:
         """Names of the bearings that the scene has loads of."""
-        every = (*self.concepts, *([self.yaw] if self.yaw else ()))
+        beside = (getattr(self, name) for name in SWINGING)
+        every = (*self.concepts, *(one for one in beside if one))
         return tuple(name for concept in every for name in concept.bearings)
 
     @model_validator(mode="after")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from abc import abstractmethod
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
 import numpy as np
@@ -17,6 +18,7 @@ from pydantic import (
     model_validator,
 )
 
+from loadflow.errors import InputError
 from loadflow.journal import (
     ConicalPair,
     DoubleThrustBearing,
@@ -151,6 +153,16 @@ class AxialBearing(Section, BaseModel):
         return None
 
     @abstractmethod
+    def with_clearance(self, change: float) -> Self:
+        """The bearing with its clearance changed by `change`, m.
+
+        Raises
+        ------
+        loadflow.errors.InputError
+            No clearance is left.
+        """
+
+    @abstractmethod
     def touches(self, force: Array, speed: float) -> bool:
         """Whether surfaces touch for certain under a load that no film was found to carry."""
 
@@ -208,6 +220,13 @@ class ThrustCollar(AxialBearing):
         return CollarCurves(self.bearing, self.film_model, 0.5 * self.contact_film).equilibrium(
             force[:, 2], speed
         )
+
+    def with_clearance(self, change: float) -> Self:
+        """With more play, by twice the change: that of both rows."""
+        play = self.play + 2.0 * change
+        if play <= 2.0 * self.contact_film:
+            raise InputError(f"play: {play:g} m is no more than the roughness")
+        return self.model_copy(update={"play": play})
 
     def touches(self, force: Array, speed: float) -> bool:
         """At standstill, or where a film as thin as the roughness carries less."""
@@ -269,6 +288,16 @@ class ConePair(AxialBearing):
     def solve(self, force: Array, moment: Array, speed: float) -> PairResult:
         """Place and tilt of the shaft."""
         return self.geometry.equilibrium(force, moment[:2], speed, self.film_model)
+
+    def with_clearance(self, change: float) -> Self:
+        """With another clearance normal to the cones, centred."""
+        pair = self.geometry
+        if pair.clearance is not None:
+            other = replace(pair, clearance=pair.clearance + change)
+        else:
+            cones = [replace(c, clearance=c.clearance + change) for c in (pair.left, pair.right)]
+            other = replace(pair, left=cones[0], right=cones[1])
+        return self.model_copy(update={"geometry": other})
 
     def touches(self, force: Array, speed: float) -> bool:
         """At standstill; while turning the cones may carry, whatever the solver found."""
@@ -336,7 +365,7 @@ def check_thrust(thrust: Thrust, method: str) -> None:
             '"histogram" or "stationary"'
         )
     for place, one in thrust.bearings.items():
-        if one.kind == "thrust" and place in ("M", "Y"):
+        if one.kind == "thrust" and place in ("M", "Y", "P"):
             raise ValueError(
                 f"bearings.{place}: a thrust bearing takes neither radial forces nor moments; a "
                 '"conical-pair" does'

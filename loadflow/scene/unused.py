@@ -70,7 +70,14 @@ def unused_warnings(scene: Scene) -> list[str]:
 
 def _all(scene: Scene) -> Iterator[tuple[str, str]]:
     unread = {section for section in _RESULTS if not _is_read(scene, section)}
-    default = make_scene({"turbine": {"name": scene.turbine.name}, "results": ["loads.statistics"]})
+    around = scene.environment.model_dump(mode="json", exclude_none=True)
+    default = make_scene(
+        {
+            "turbine": {"name": scene.turbine.name},
+            "environment": around,
+            "results": ["loads.statistics"],
+        }
+    )
     for section in sorted(unread):
         if getattr(scene, section) != getattr(default, section):
             yield section, "no wanted result reads this section"
@@ -115,10 +122,17 @@ def _of_environment(scene: Scene) -> Iterator[tuple[str, str]]:
     if scene.loads.source == "files":
         yield "air_density", "the loads are read from files"
     films = [scene.journal.at(place) for place in scene.journal.bearings]
-    warm = [film.heat for film in films if isinstance(film.heat, Heat)]
-    gives = any(heat.transfer > 0 for heat in warm) or scene.friction.conductance is not None
+    warm = [film.heat for film in films if film.heat is not None and scene.wants("journal")]
+    rolls = scene.wants("rolling")
+    sheds = rolls and scene.friction.conductance is not None
+    gives = sheds or any(heat.gives_off for heat in warm)
     if not (gives or scene.environment.cold_start):
         yield "temperature", "no bearing gives heat off to its surroundings, or starts cold"
+    if not warm and not rolls:
+        why = "no film has a heat balance with an oil, and no result of a rolling bearing is wanted"
+        yield "cold_start", why
+        if scene.environment.cold_start and not gives:
+            yield "temperature", why
 
 
 def scaling_note(scene: Scene) -> tuple[str, ...]:
@@ -260,6 +274,8 @@ def _of_journal(scene: Scene) -> Iterator[tuple[str, str]]:
             "tilt",
             "the shaft is rigid and brings no moment; give its suspension a beam",
         )
+    if not journal.tilt and not scene.asks:
+        yield "alignment", "only a film with tilt knows it; set journal.tilt"
     if "grading" not in RUNGS[journal.rung].at_rest:
         yield "grading", f'rung "{journal.rung}" has no graded mesh'
     if journal.inlet == "none" and journal.cavitation.kind not in ("reynolds", "guembel"):

@@ -6,9 +6,10 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
-from loadflow.scene.candidates import ABOUT, candidates_of
+from loadflow.scene.candidates import ABOUT, TOLERANCES, candidates_of
 from loadflow.scene.own_shaft import own_shaft
 from loadflow.scene.places import Location, sections_of
+from loadflow.scene.tolerances import taken_out
 from loadflow.schemas import Schema
 from loadflow.turbines import turbine_names
 
@@ -66,6 +67,7 @@ def in_sections(data: dict[str, Any], results: Sequence[str]) -> dict[str, Any]:
     """
     read = dict(data)
     read = SCENE.upgrade(read, read.pop(SCENE.key, UNSTATED))
+    read = taken_out(read)
     turbine = _turbine_of(read)
     if (shaft := own_shaft(turbine, read.get("shaft"))) is not None:
         read["shaft"] = shaft
@@ -90,7 +92,7 @@ def _candidate(name: str, stated: Any, turbine: str) -> Any:
         return stated
     if {"journal", "rolling", "thrust"} & {k for k, v in stated.items() if not _is_place(v)}:
         return stated  # in sections already
-    places, about = _bare(stated), {key: stated[key] for key in ABOUT if key in stated}
+    places, about = _bare(stated), {key: stated[key] for key in _NO_PLACES if key in stated}
     if not places:
         known = candidates_of(turbine)
         if name not in known:
@@ -108,7 +110,10 @@ def _is_place(value: Any) -> bool:
 
 def _bare(candidate: dict[str, Any]) -> dict[str, Any]:
     """The places of a candidate."""
-    return {key: value for key, value in candidate.items() if key not in ABOUT}
+    return {key: value for key, value in candidate.items() if key not in _NO_PLACES}
+
+
+_NO_PLACES = (*ABOUT, TOLERANCES)
 
 
 def named_by_file(turbine: Any) -> Any:

@@ -16,6 +16,8 @@ from .options import Integrated as Integrated
 from .options import MomentBearing as MomentBearing
 from .options import ThreePoint as ThreePoint
 from .options import TwoPoint as TwoPoint
+from .pitch import PitchBearing as PitchBearing
+from .pitch import pitch_loads as pitch_loads
 from .reactions import bearing_loads as bearing_loads
 from .similarity import scaled_suspension as scaled_suspension
 from .vibration import modes as modes

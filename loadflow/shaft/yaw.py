@@ -111,29 +111,22 @@ def yaw_loads(
     own = [2, 0, 1]
     forces, moments = push[own], turn[own]
     moments[0] = 0.0
+    return swinging_loads("Y", forces, moments, position=bearing.overhang)
+
+
+def swinging_loads(name: str, force: Floats, moment: Floats, *, position: float) -> xr.Dataset:
+    """Loads (3, n) of a bearing beside the shaft, labelled as those of its own bearings."""
+
+    def labelled(values: Floats, units: str, what: str) -> tuple[tuple[str, ...], Floats, dict]:
+        about = {"units": units, "long_name": f"{what} of the shaft on the bearing"}
+        return ("bearing", "axis", "time"), values[None], about
+
+    along = "position of the bearing along the shaft from the hub centre"
     return xr.Dataset(
+        {"force": labelled(force, "N", "force"), "moment": labelled(moment, "N m", "moment")},
         {
-            "force": (
-                ("bearing", "axis", "time"),
-                forces[None],
-                {"units": "N", "long_name": "force of the shaft on the bearing"},
-            ),
-            "moment": (
-                ("bearing", "axis", "time"),
-                moments[None],
-                {"units": "N m", "long_name": "moment of the shaft on the bearing"},
-            ),
-        },
-        {
-            "bearing": list(bearing.bearings),
+            "bearing": [name],
             "axis": ["x", "y", "z"],
-            "position": (
-                "bearing",
-                [bearing.overhang],
-                {
-                    "units": "m",
-                    "long_name": "position of the bearing along the shaft from the hub centre",
-                },
-            ),
+            "position": ("bearing", [position], {"units": "m", "long_name": along}),
         },
     )

@@ -11,7 +11,7 @@ import xarray as xr
 from loadflow.journal import Equilibrium
 from loadflow.journal.transition import load_capacity
 from loadflow.scene.journal import Journal
-from loadflow.stages.frames import to_film
+from loadflow.stages.frames import from_film, to_film
 
 _CERTAIN = 1.2  # times the load that a film as thin as the roughness carries: no film is asked
 _LIGHT = 10.0  # Sommerfeld number below which the film is asked in any case
@@ -43,10 +43,13 @@ def shaft_line(options: Journal, bearing: xr.Dataset) -> dict[str, np.ndarray]:
     names = {"moment": "moment"}
     if "tilt" in bearing and bool(bearing["tilt"].notnull().all()):
         names = {"tilt": "tilt", "bend": "curvature"}
-    return {
+    lying = {
         key: bearing[name].transpose(..., "axis").values.astype(float)
         for key, name in names.items()
     }
+    if "tilt" in lying:
+        lying["tilt"] = lying["tilt"] - from_film(options.alignment)
+    return lying
 
 
 def equilibria(

@@ -7,7 +7,7 @@ downwind. The rotor turns y toward z.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 Floats = NDArray[np.float64]
 
@@ -19,6 +19,12 @@ def to_film(vector: Floats) -> Floats:
     This is the frame of [Jonuschies 2015].
     """
     return np.stack([-vector[..., 2], vector[..., 1]], axis=-1)
+
+
+def from_film(vector: ArrayLike) -> Floats:
+    """Turn (..., first, second) of the plane of the film into (..., x, y, z) of the cube."""
+    first, second = np.moveaxis(np.asarray(vector, dtype=float), -1, 0)
+    return np.stack([np.zeros_like(first), second, -first], axis=-1)
 
 
 def to_rolling(vector: Floats) -> Floats:

@@ -20,6 +20,7 @@ from loadflow.stages.labelling import label, labelled
 from loadflow.stages.running_time import counted, time_shares, with_running
 from loadflow.stages.stage import Link, Links, Rungs, Stage, always, load_links
 from loadflow.stages.summary import over_cases
+from loadflow.stages.swinging import swing_speed
 from loadflow.tribology import lubricant
 
 CHUNK = 250  # samples of a ball bearing at once: all contacts of all samples would fill the memory
@@ -39,8 +40,8 @@ def losses(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
     """Losses, film and slip of each rolling bearing of the scene over (bearing, sample).
 
     Every roller is followed through the whole series; balls slide where their contacts are curved
-    and where they spin; bearings that swing have their mean speed. Rings are rigid. With a
-    conductance each bearing finds its own temperature.
+    and where they spin; bearings that swing have their mean speed, or that of the pitch. Rings are
+    rigid. With a conductance each bearing finds its own temperature.
 
     Raises
     ------
@@ -54,8 +55,9 @@ def losses(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
     speed = inputs["loads"]["speed"].values.astype(float)[::stride]
     found, temperatures = [], []
     for name, part in scene.rolling.bearings.items():
-        bearing, swings = part.geometry, part.oscillation
-        turning = speed if swings is None else np.full_like(speed, swings.mean_speed)
+        bearing, turning = part.geometry, speed
+        if part.oscillation is not None:
+            turning = swing_speed(part, inputs["loads"], slice(None, None, stride))
         load, moment = (
             to_rolling(
                 inputs["shaft"][what]

@@ -11,12 +11,18 @@ import numpy as np
 import xarray as xr
 
 from loadflow.cube import CASE_COORDS, case_named, iter_cases, open_cube
+from loadflow.errors import InputError
 from loadflow.scene.cases import CUBES, Case, wind_of
 from loadflow.scene.given_winds import RUN_IN, given_field
 from loadflow.scene.loads import Loads
 from loadflow.scene.scene import Scene
+from loadflow.stages.labelling import label
 from loadflow.stages.stage import Measured, Rungs, Stage
 from loadflow.stages.summary import over_cases
+from loadflow.stages.swinging import ROOT
+
+NEEDED = ("speed", "hub_force", "hub_moment")
+"""Without which no shaft has loads."""
 
 
 def hub_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
@@ -29,6 +35,8 @@ def hub_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
     series = _read(scene, case) if case.file else _simulate(scene, case)
     labels = {"dlc": case.dlc, "wind_speed": case.wind_speed, "seed": case.seed}
     series = series.assign_coords(labels | {"weight": case.weight})
+    if scene.shaft.pitch is None:  # no bearing has them
+        series = series.drop_vars([name for name in ROOT if name in series])
     return with_doubts(series, scene.turbine.name, simulated=not case.file).astype("float32")
 
 
@@ -61,27 +69,39 @@ def _read(scene: Scene, case: Case) -> xr.Dataset:
 
     path = Path(case.file)
     if path.suffix in CUBES:
-        return case_named(open_cube(path), case.entry).load()
+        found = case_named(open_cube(path), case.entry).load()
+        if missing := [name for name in NEEDED if name not in found]:
+            have = ", ".join(map(str, found.data_vars))
+            raise InputError(
+                f"{path}, {case.entry}: no {', '.join(missing)}; a scene needs the loads of the "
+                f"hub, this case has {have}"
+            )
+        return found
     cube = read_loads(path, turbine=scene.turbine.name, quiet=True, **scene.loads.reading)
     return next(series for _, series in iter_cases(cube))
 
 
 def summary(parts: Mapping[Case, xr.Dataset]) -> xr.Dataset | None:
-    """When each case tripped (s, NaN if not), how long it stood, and what is doubtful about it.
+    """Mean power of each case, when it tripped (s, NaN if not), how long it stood, its doubts.
 
-    None where the series were read and there is nothing of the kind to tell.
+    None where the series were read and have none of it.
     """
 
     def told(part: xr.Dataset) -> xr.Dataset:
         tripped = part.coords["tripped"].item() if "tripped" in part.coords else np.nan
         found = {"tripped": ((), tripped, _TRIPPED)}
         attrs = {key: CASE_COORDS[key].attrs for key in ("standing_share", "doubts")}
-        return xr.Dataset(found | {k: ((), part[k].item(), a) for k, a in attrs.items()})
+        found |= {k: ((), part[k].item(), a) for k, a in attrs.items()}
+        if {"hub_moment", "speed"} <= set(part.data_vars):
+            torque = part["hub_moment"].sel(axis="x").values.astype(float)
+            power = float(np.mean(torque * part["speed"].values))
+            found["rotor_power"] = (), power, label("W", "mean power of the rotor on the shaft")
+        return xr.Dataset(found)
 
     known = all("tripped" in part.coords for part in parts.values())
     found = over_cases({case: told(part) for case, part in parts.items()})
     tells = (found["standing_share"] > 0) | (found["doubts"] != "")
-    return found if known or bool(tells.any()) else None
+    return found if known or "rotor_power" in found or bool(tells.any()) else None
 
 
 def trips(groups: Mapping[str, Any]) -> dict[str, float]:
@@ -182,7 +202,10 @@ ROTOR = Rungs(
 STAGE = Stage(
     "loads",
     run=hub_loads,
-    sections=lambda scene: ("turbine", "loads", "environment"),
+    sections=lambda scene: (
+        *("turbine", "loads", "environment"),
+        *(("shaft",) if scene.shaft.pitch is not None else ()),
+    ),
     models=(WIND, ROTOR),
     summarise=summary,
     warnings=warnings,

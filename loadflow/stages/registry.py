@@ -15,6 +15,7 @@ from loadflow.stages import (
     shaft,
     statistics,
     thrust,
+    tolerances,
     wear,
 )
 from loadflow.stages.stage import Rungs, Stage
@@ -33,6 +34,7 @@ STAGES: dict[str, Stage] = {
         rolling,
         friction,
         wear,
+        tolerances,
     )
 }
 

@@ -21,6 +21,7 @@ from loadflow.stages.labelling import label, labelled, of_samples
 from loadflow.stages.reduction import kept_share
 from loadflow.stages.stage import Link, Links, Measured, Rungs, Stage, always, load_links, steps_of
 from loadflow.stages.summary import over_cases
+from loadflow.stages.swinging import follows_pitch, swing_of
 from loadflow.tribology import lubricant
 from loadflow.wind.cases import factor_of_maximum
 
@@ -78,7 +79,7 @@ def load_distribution(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Da
     answers = {name: solve_bearing(scene, name, loads[name]) for name in names}
     answer, reduced = answers[names[0]], loads[names[0]]
     samples = of_samples({name: getattr(answer, name) for name in KEPT}, KEPT)
-    each = [_of_bearing(scene, case, name, answers[name], loads[name]) for name in names]
+    each = [_of_bearing(scene, case, name, answers[name], loads[name], inputs) for name in names]
     whole = {
         name: ("bearing", np.array([found[name] for found in each]), label(*EACH[name]))
         for name in EACH
@@ -118,7 +119,12 @@ def rest(part: FurtherBearing, force: np.ndarray, moment: np.ndarray, strict: bo
 
 
 def _of_bearing(
-    scene: Scene, case: Case, name: str, answer: Any, reduced: xr.Dataset
+    scene: Scene,
+    case: Case,
+    name: str,
+    answer: Any,
+    reduced: xr.Dataset,
+    inputs: dict[str, Any],
 ) -> dict[str, float]:
     """Values of `EACH`."""
     options, weight = scene.friction, reduced["weight"].values
@@ -133,7 +139,10 @@ def _of_bearing(
     life = life_of(answer, reduced)
     if swings is not None:
         # in revolutions of the rotor, as all lives here: so many as it makes meanwhile
-        hours = swings.hours(swings.life(answer.bearing, answer.equivalent_load, weight))
+        swing = swing_of(scene.rolling.bearings[name], inputs)
+        hours = np.inf
+        if swing is not None:
+            hours = swing.hours(swing.life(answer.bearing, answer.equivalent_load, weight))
         turns = 3600 * _mean_speed(reduced) / (2 * np.pi)
         life = hours * turns / 1e6 if turns else np.inf
     factor = factor_of_maximum(case.dlc)
@@ -344,7 +353,7 @@ STAGE = Stage(
     "rolling",
     run=load_distribution,
     results={"rolling.loads": _contact_links, "rolling.life": _life_links},
-    needs=always("reduction"),
+    needs=lambda scene: ("loads", "reduction") if follows_pitch(scene) else ("reduction",),
     sections=always("rolling", "friction"),
     models=(
         Rungs(

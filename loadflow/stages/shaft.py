@@ -12,11 +12,13 @@ import xarray as xr
 from loadflow.scene.cases import Case
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
-from loadflow.shaft import Concept, CoupledBearing, coupled_loads, yaw_loads
+from loadflow.scene.shaft import SWINGING
+from loadflow.shaft import Concept, CoupledBearing, coupled_loads, pitch_loads, yaw_loads
 from loadflow.shaft import bearing_loads as reactions
 from loadflow.stages.labelling import labelled
 from loadflow.stages.stage import STEPS_PER_CASE, Measured, Rungs, Stage, always, steps_of
 from loadflow.stages.summary import over_cases
+from loadflow.stages.swinging import root_loads
 
 Floats = np.ndarray
 
@@ -48,6 +50,8 @@ def bearing_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Datase
     ]
     if scene.shaft.yaw is not None:
         parts.append(yaw_loads(scene.shaft.yaw, force, moment, tilt=tilt))
+    if scene.shaft.pitch is not None:
+        parts.append(pitch_loads(scene.shaft.pitch, *root_loads(series)))
     joined = xr.concat(parts, "bearing", combine_attrs="drop_conflicts").assign_attrs(_worst(parts))
     return joined.assign_coords(time=series["time"]).astype("float32")
 
@@ -160,7 +164,7 @@ _TOLD = {
 def _described(scene: Scene) -> str:
     concepts = scene.shaft.suspensions.items()
     words = [f"{name}, beam" if concept.beam else name for name, concept in concepts]
-    names = "+".join([*words, *(["yaw"] if scene.shaft.yaw else [])])
+    names = "+".join([*words, *(name for name in SWINGING if getattr(scene.shaft, name))])
     supports = [f"{name} {support.stiffness}" for name, support in scene.shaft.coupled.items()]
     return f"{names}, iterated with {', '.join(supports)}" if supports else names
 

@@ -182,6 +182,8 @@ class Stage:
         Scene → what it does not model and why, beyond the effects that say so themselves.
     sample : int, optional
         Number of cases that it looks at, spread over all of them; default all.
+    asked : callable
+        Scene → whether its data ask for the stage, though no result names it.
     """
 
     name: str
@@ -202,6 +204,7 @@ class Stage:
     more_seconds: Callable[[Scene, Measured], float | None] = lambda scene, measured: 0.0
     left_out: Callable[[Scene], dict[str, str]] = lambda scene: {}
     sample: int | None = None
+    asked: Callable[[Scene], bool] = lambda scene: False
 
 
 def steps_of(cases: Iterable[Case]) -> int:

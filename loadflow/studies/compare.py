@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -136,11 +136,14 @@ def _numbers(
         yield from _of_pads(run, verdicts)
     if "rolling" in run.tables:
         yield from _of_rolling(run, verdicts)
-    tilt, limit, place, note = shaft_tilt(run.scene, run.folder, run.tables)
-    share = 100 * tilt / limit if limit else math.nan
+    tilt = shaft_tilt(run.scene, run.folder, run.tables)
+    if math.isnan(tilt.share):
+        yield "tilt", Number(math.nan, "%", note=tilt.note)
+        return
+    low, high = _seeds(run, tilt.by_case, lambda seen: 100 * max(seen))
     yield "tilt", Number(
-        share, "%", limit=100.0 if limit else math.nan,
-        holds=bool(share <= 100) if limit else None, place=place, note=note,
+        100 * tilt.share, "%", low, high, limit=100.0, holds=tilt.share <= 1, case=tilt.case,
+        place=tilt.place, note=tilt.note,
     )  # fmt: skip
 
 
@@ -266,9 +269,10 @@ def _of_rolling(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[st
     losses = rolling_losses(run.scene, run.folder)
     if losses is not None:
         speed = losses.speed * 30 / np.pi
+        low, high = _seeds(run, losses.by_case, lambda seen: float(np.median(np.concatenate(seen))))
         yield "film_parameter", Number(
-            losses.film_parameter, "–", case=losses.case, time=losses.time, place=losses.place,
-            note=f"median below {speed:.3g} 1/min",
+            losses.film_parameter, "–", low, high, case=losses.case, time=losses.time,
+            place=losses.place, note=f"median below {speed:.3g} 1/min",
         )  # fmt: skip
     yield from _lost(run, table, None if losses is None else losses.power, "without slip")
 
@@ -284,9 +288,11 @@ def _rows(run: Finished) -> Iterator[tuple[str, Number]]:
     if found is None:
         return
     about: dict[str, Any] = {"case": found.case, "time": found.time, "place": found.place}
+    low, high = _seeds(run, found.by_case, lambda seen: max(seen)[1])
     note = f"{100 * found.mean:.0f} % in the mean, with {found.thrust / 1e3:.0f} kN of thrust"
-    yield "row_share", Number(100 * found.share, "%", note=note, **about)
-    yield "row_overload", Number(found.share * found.rows, "×", **about)
+    yield "row_share", Number(100 * found.share, "%", 100 * low, 100 * high, note=note, **about)
+    rows = found.rows
+    yield "row_overload", Number(found.share * rows, "×", low * rows, high * rows, **about)
 
 
 def _lost(
@@ -354,6 +360,22 @@ def _extreme(
         float(values[k, b]) * scale, unit, low * scale, high * scale, _error(run, result, model),
         case=str(table["case"].values[k]), time=when, place=str(table["bearing"].values[b]),
     )  # fmt: skip
+
+
+def _seeds(
+    run: Finished, by_case: Mapping[str, Any], statistic: Callable[[list[Any]], float]
+) -> tuple[float, float]:
+    """Interval of a statistic of what cases have, of those that have something."""
+    table = next(
+        run.tables[room] for room in ("journal", "thrust", "rolling") if room in run.tables
+    )
+    seen = [by_case.get(str(case)) for case in table["case"].values]
+
+    def known(some: np.ndarray) -> float:
+        own = [seen[k] for k in some if seen[k] is not None]
+        return statistic(own) if own else math.nan
+
+    return interval(Groups.of(table), known)
 
 
 def _mean(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -45,7 +45,10 @@ _WARMER = 60.0  # K: how much warmer the oil is asked to be at most
 
 @dataclass(frozen=True)
 class RowShare:
-    """Load on the row that takes the thrust: share at the largest thrust and in the mean."""
+    """Load on the row that takes the thrust: share at the largest thrust and in the mean.
+
+    `by_case` has the largest thrust of each case, N, and the share of that row then.
+    """
 
     share: float
     mean: float
@@ -54,6 +57,7 @@ class RowShare:
     place: str
     case: str
     time: float
+    by_case: dict[str, tuple[float, float]]
 
 
 def margin_of(scene: Scene, folder: Path, tables: Tables, verdicts: Sequence[Verdict]) -> Margin:
@@ -99,15 +103,15 @@ def _film_margins(scene: Scene, folder: Path, place: str, table: xr.Dataset) -> 
             stated.limits.pressure_at(stated.limits.material[0][0]), "largest film pressure",
         ),
     )  # fmt: skip
-    for name, pick, field, limit, what in asked:
+    for name, pick, answer, limit, what in asked:
         worst = int(pick(table[name].values))
         case, seen = str(table["case"].values[worst]), float(table[name].values[worst])
         time = float(table[f"{name}_time"].values[worst]) if f"{name}_time" in table else math.nan
-        value = partial(_film_value, options, *_force_at(folder, case, place, time), field)
+        value = partial(_film_value, options, *_force_at(folder, case, place, time), answer)
         usual = value(1.0, 1.0)
         if usual > 0:
             allowed = limit / seen * usual  # motion changes a film by the same share there
-            if field == "minimum_film":
+            if answer == "minimum_film":
                 factor, thinner = film_factors(value, allowed)
                 change = f"{place}: oil of {thinner * options.lubricant.viscosity:.2g} Pa s"
             else:
@@ -226,7 +230,10 @@ def row_shares(scene: Scene, folder: Path, tables: Tables) -> RowShare | None:
             (case, float(some["time"].values[k]), float(force), row)
             for case, some in _looked_at(folder, place)
             for k, (force, row) in enumerate(
-                zip(some["force"].sel(axis="x").values, _rows(bearing, _solved(scene, place, some)))
+                zip(
+                    some["force"].sel(axis="x").values,
+                    load_by_row(bearing, _solved(scene, place, some)),
+                )
             )
         ]
         thrust = np.abs([part[2] for part in parts])
@@ -236,16 +243,19 @@ def row_shares(scene: Scene, folder: Path, tables: Tables) -> RowShare | None:
             continue
         row = int(np.argmax(rows[hardest]))
         case, time, *_ = parts[hardest]
+        by_case: dict[str, tuple[float, float]] = {}
+        for (name, *_), force, own in zip(parts, thrust, rows):
+            by_case[name] = max(by_case.get(name, (0.0, math.nan)), (float(force), float(own[row])))
         found.append(
             RowShare(
                 float(rows[hardest, row]), float(np.nanmean(rows[:, row])), bearing.groups[0],
-                float(thrust[hardest]), place, case, time,
+                float(thrust[hardest]), place, case, time, by_case,
             )
         )  # fmt: skip
     return max(found, key=lambda one: one.share * one.rows, default=None)
 
 
-def _rows(bearing: RollingBearing, answer: Any) -> np.ndarray:
+def load_by_row(bearing: RollingBearing, answer: Any) -> np.ndarray:
     """Share of each row in the forces on all elements, (sample, row)."""
     forces = answer.element_forces
     own = forces.reshape(len(forces), bearing.groups[0], -1).sum(axis=-1)
@@ -267,6 +277,8 @@ class Losses:
         That bearing, and the load case of the thinnest film in it.
     time, speed : float
         Its time, s, and the speed below which a speed is low, rad/s.
+    by_case : dict
+        Λ at low speed of that bearing in each load case that has one.
     """
 
     power: xr.DataArray
@@ -275,6 +287,7 @@ class Losses:
     case: str
     time: float
     speed: float
+    by_case: dict[str, list[float]]
 
 
 def rolling_losses(scene: Scene, folder: Path) -> Losses | None:
@@ -311,7 +324,7 @@ def rolling_losses(scene: Scene, folder: Path) -> Losses | None:
     )
     speeds = np.array([row[0] for rows in films.values() for row in rows])
     if speeds.size == 0:
-        return Losses(table, math.nan, "", "", math.nan, math.nan)
+        return Losses(table, math.nan, "", "", math.nan, math.nan, {})
     slow = float(np.quantile(speeds, _SLOW))
     thin = {place: [row for row in rows if row[0] <= slow] for place, rows in films.items()}
     medians = {
@@ -319,7 +332,10 @@ def rolling_losses(scene: Scene, folder: Path) -> Losses | None:
     }
     place = min(medians, key=lambda name: medians[name])
     _, _, case, time = min(thin[place], key=lambda row: row[1])
-    return Losses(table, medians[place], place, case, time, slow)
+    by_case: dict[str, list[float]] = {}
+    for _, film, name, _ in thin[place]:
+        by_case.setdefault(name, []).append(film)
+    return Losses(table, medians[place], place, case, time, slow, by_case)
 
 
 # --- shaft ----------------------------------------------------------------------------------------
@@ -343,16 +359,30 @@ def carries_thrust(scene: Scene, tables: Tables) -> str:
     return "none"
 
 
-def shaft_tilt(scene: Scene, folder: Path, tables: Tables) -> tuple[float, float, str, str]:
-    """Largest tilt of the shaft in a bearing and what it allows, rad, the bearing, and a note.
+@dataclass(frozen=True)
+class Tilt:
+    """Largest tilt of the shaft in a bearing over what that allows; NaN where none is limited.
 
-    The shaft bends as its beam does; without one, as a hollow beam that fits into the bearings. A
-    limit of 0 means none: a bearing that takes the moment tilts with the shaft.
+    `by_case` has that of the bearing in each load case.
+    """
+
+    share: float = math.nan
+    place: str = ""
+    case: str = ""
+    note: str = "the bearing takes the moment"
+    by_case: dict[str, float] = field(default_factory=dict)
+
+
+def shaft_tilt(scene: Scene, folder: Path, tables: Tables) -> Tilt:
+    """Largest tilt of the shaft in a bearing over what it allows.
+
+    The shaft bends as its beam does; without one, as a hollow beam that fits into the bearings.
+    A bearing that takes the moment tilts with the shaft, without a limit.
     """
     from loadflow.turbines import load_turbine
 
     places = _allowed_tilts(scene, tables)
-    worst = (0.0, 0.0, "", "the bearing takes the moment")
+    found: dict[str, Tilt] = {}
     gravity = load_turbine(scene.turbine.name).rotor.tilt
     for concept in scene.shaft.concepts:
         own = [place for place in concept.bearings if place in places]
@@ -375,10 +405,13 @@ def shaft_tilt(scene: Scene, folder: Path, tables: Tables) -> tuple[float, float
             size = np.linalg.norm(across, axis=1).max(axis=1)
             largest = dict(zip(tilts["bearing"].values.tolist(), size.tolist()))
             for place in own:
-                tilt, limit = largest[place], places[place][0]
-                if limit > 0 and tilt / limit > (worst[0] / worst[1] if worst[1] else 0.0):
-                    worst = tilt, limit, place, note
-    return worst
+                limit, one = places[place][0], found.get(place, Tilt(0.0, place, note=note))
+                if limit > 0:
+                    share = largest[place] / limit
+                    by_case = one.by_case | {path.stem: share}
+                    more = (share, path.stem) if share > one.share else (one.share, one.case)
+                    found[place] = Tilt(more[0], place, more[1], note, by_case)
+    return max(found.values(), key=lambda one: one.share, default=Tilt())
 
 
 def _allowed_tilts(scene: Scene, tables: Tables) -> dict[str, tuple[float, float]]:

@@ -6,7 +6,7 @@ import csv
 import io
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from typing import Any
 
 import numpy as np
@@ -42,6 +42,10 @@ class Number:
         Bearing that it belongs to.
     note : str
         What else must be known.
+    tolerance_low, tolerance_high : float
+        Band by tolerances; NaN where the value does not follow them, or none were asked.
+    tolerance : str
+        Which tolerance moves it most.
     """
 
     value: float
@@ -55,6 +59,9 @@ class Number:
     time: float = math.nan
     place: str = ""
     note: str = ""
+    tolerance_low: float = math.nan
+    tolerance_high: float = math.nan
+    tolerance: str = ""
 
 
 @dataclass(frozen=True)
@@ -213,7 +220,7 @@ class Comparison:
     def to_csv(self) -> str:
         """All numbers as CSV, one for each line."""
         text = io.StringIO()
-        heads = ["low", "high", "error", "limit", "holds", "case", "time", "place", "note"]
+        heads = [one.name for one in fields(Number) if one.name not in ("value", "unit")]
         rows = csv.writer(text, lineterminator="\n")
         rows.writerow(["candidate", "quantity", "value", "unit", *heads])
         for one in self.candidates:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
@@ -20,6 +20,7 @@ from loadflow.stages.reduction import reduced_dataset
 from loadflow.studies.bearing_series import BearingSeries, iter_bearings, suspension
 from loadflow.studies.reduction_error import HEADS as FILM_HEADS
 from loadflow.studies.reduction_error import FilmError, for_long_series, solve_films, summary_rows
+from loadflow.studies.whole_cube import common_edges, whole_histograms
 
 HEADS = (
     "case",
@@ -95,10 +96,14 @@ class Part:
 
 @dataclass(frozen=True)
 class ReducedCube:
-    """All parts of a cube, and where the forces of its bearings come from."""
+    """All parts of a cube, and where the forces of its bearings come from.
+
+    With classes of the whole cube, `whole` has the histograms of all cases together, by bearing.
+    """
 
     parts: list[Part]
     suspension: str
+    whole: dict[str, xr.Dataset] = field(default_factory=dict)
 
 
 def as_row(part: Part) -> list[str]:
@@ -127,6 +132,8 @@ def reduce_cube(
     *,
     options: Mapping[str, Any] = MappingProxyType({}),
     phase: str = "",
+    between: tuple[float, float] | None = None,
+    grid: str = "each",
     journal: Journal | None = None,
     bearings: Sequence[str] = (),
     turbine: str = "nrel-5mw",
@@ -146,6 +153,11 @@ def reduce_cube(
     phase : str
         Reduce only phases of this name (`loadflow.reduction.phases`), or ``"each"`` phase by
         itself; empty: the series as a whole.
+    between : (float, float), optional
+        Reduce only the samples of these times, s, of each series.
+    grid : {"each", "cube"}
+        Classes of each series by itself, or the same for all series of a bearing, so that they make
+        one histogram of the whole cube.
     journal : Journal, optional
         Solve the film of this bearing for every sample, and say what the reduction does to it.
     bearings : sequence of str
@@ -162,26 +174,39 @@ def reduce_cube(
     Raises
     ------
     loadflow.errors.InputError
-        No such loads, bearing or phase in the cube; an option out of its range.
+        No such loads, bearing, phase or times in the cube; an option out of its range.
     """
     parts = []
     journal = journal and for_long_series(journal)
+    if grid not in ("each", "cube"):
+        raise InputError(f'grid = {grid!r}; allowed: "each", "cube"')
+    shared = {}
+    if grid == "cube":
+        every = iter_bearings(cube, bearings, turbine, source)
+        shared = common_edges(every, options.get("classes"))
     for series in iter_bearings(cube, bearings, turbine, source):
         try:
             films = solve_films(series, journal) if journal else None
-            for name, places in _stretches(series, phase):
-                part = _reduce(series, name, places, folder, options)
+            own = {"classes": shared[series.bearing]} if shared else {}
+            for name, places in _stretches(series, phase, between):
+                part = _reduce(series, name, places, folder, {**options, **own})
                 film = FilmError.of(films.part(places), part.series) if films else None
                 parts.append(replace(part, film=film))
         except InputError as error:
             raise InputError(f"{source}: {series.case}: {error}") from error
     if not parts:
         raise InputError(f"{source}: no case has a phase {phase!r}")
-    return ReducedCube(parts, suspension(cube, turbine))
+    whole = whole_histograms((part.bearing, part.series) for part in parts) if shared else {}
+    return ReducedCube(parts, suspension(cube, turbine), whole)
 
 
-def _stretches(series: BearingSeries, phase: str) -> Iterator[tuple[str, slice]]:
+def _stretches(
+    series: BearingSeries, phase: str, between: tuple[float, float] | None
+) -> Iterator[tuple[str, slice]]:
     """Names and places of what is to be reduced by itself."""
+    if between is not None:
+        yield _between(series, phase, between)
+        return
     if phase not in ("", "each", *PHASES):
         raise InputError(f"phase = {phase!r}; allowed: each, {', '.join(PHASES)}")
     if not phase:
@@ -190,6 +215,19 @@ def _stretches(series: BearingSeries, phase: str) -> Iterator[tuple[str, slice]]
     for found in phases(series.speed):
         if phase in ("each", found.name):
             yield found.name, found.places
+
+
+def _between(series: BearingSeries, phase: str, times: tuple[float, float]) -> tuple[str, slice]:
+    """Name and place of the samples of some time."""
+    if phase:
+        raise InputError("give either a phase or the times between which to reduce")
+    first, last = np.searchsorted(series.time, times, side="left")
+    if not times[0] < times[1] or last - first < 2:
+        raise InputError(
+            f"between = {times[0]:g}, {times[1]:g} s: fewer than two samples; the series runs from "
+            f"{series.time[0]:g} to {series.time[-1]:g} s"
+        )
+    return "stretch", slice(int(first), int(last))
 
 
 def _reduce(
@@ -247,7 +285,11 @@ def write_reduction_page(path: Path, made: ReducedCube, source: str = "load cube
         Picture(figures.histograms(part.series), part.series.attrs["source"], k > 0)
         for k, part in enumerate(made.parts)
     ]
-    sections = [Section("Series", tables=[table]), Section("Histograms", pictures=pictures)]
+    whole = [Picture(figures.histograms(d), d.attrs["source"], False) for d in made.whole.values()]
+    sections = [
+        Section("Series", tables=[table]),
+        Section("Histograms", pictures=[*whole, *pictures]),
+    ]
     if rows := film_rows(made.parts):
         sections.insert(1, Section("Film", FILM_TEXT, [Table("", list(FILM_HEADS), rows)]))
     return write_page(path, f"Reduction of {source}", facts, sections)

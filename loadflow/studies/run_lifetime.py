@@ -40,7 +40,7 @@ def run_lifetime(scene: Scene, tables: Tables) -> xr.Dataset | None:
         `share` (case); of rolling bearings `life_hours` and `modified_life_hours` (rolling) with
         `system_life_hours` and `system_modified_life_hours`, h; of journal, thrust and rolling
         bearings `journal_energy` (journal), `thrust_energy` (thrust) and `rolling_energy`
-        (rolling), J a year, while the wind is between cut-in and cut-out.
+        (rolling), and `rotor_energy`, J a year, while the wind is between cut-in and cut-out.
     """
     found: dict[str, xr.DataArray] = {}
     for name, work in (
@@ -54,7 +54,16 @@ def run_lifetime(scene: Scene, tables: Tables) -> xr.Dataset | None:
             if share is None:
                 return None
             found |= work(scene, tables[name], share)
+    if found and "rotor_power" in tables.get("loads", ()):
+        found |= _rotor_energy(scene, tables["loads"], found["share"])
     return xr.Dataset(found) if found else None
+
+
+def _rotor_energy(scene: Scene, table: xr.Dataset, share: xr.DataArray) -> dict[str, xr.DataArray]:
+    power = table["rotor_power"].sel(case=share["case"].values)
+    energy = energy_per_year(scene, table.sel(case=share["case"].values), power, share.values)
+    about = label("J", "energy that the rotor gives to the shaft, a year")
+    return {"rotor_energy": xr.DataArray(float(energy), attrs=about)}
 
 
 def case_shares(scene: Scene, table: xr.Dataset) -> np.ndarray | None:

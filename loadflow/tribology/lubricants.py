@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tomllib
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from importlib import resources
 from typing import Annotated, Any, Literal
@@ -99,6 +99,17 @@ class Oil:
     def level(self) -> float:
         """Walther's level a."""
         return laws.walther_level(self.viscosities, self.temperatures)
+
+    def scaled(self, factor: float) -> Oil:
+        """The oil with `factor` times its kinematic viscosities at both of its temperatures.
+
+        Examples
+        --------
+        >>> lubricant("mineral-vg-320").scaled(1.1).viscosities[0] * 1e6
+        352.0
+        """
+        first, second = self.viscosities
+        return replace(self, viscosities=(factor * first, factor * second))
 
     def kinematic_viscosity(self, temperature: ArrayLike) -> Array:
         """Kinematic viscosity at `temperature` (K), m²/s."""
@@ -217,6 +228,10 @@ class ExponentialOil:
     def __post_init__(self) -> None:
         check_fields(self)
         check_choice(self, "pressure_law", tuple(PRESSURE_LAWS))
+
+    def scaled(self, factor: float) -> ExponentialOil:
+        """The oil with `factor` times its viscosity."""
+        return replace(self, reference_viscosity=factor * self.reference_viscosity)
 
     def viscosity(self, temperature: ArrayLike, pressure: ArrayLike = 0.0) -> Array:
         """Dynamic viscosity at `temperature` (K) and `pressure` (Pa), Pa s."""

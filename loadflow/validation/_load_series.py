@@ -14,6 +14,8 @@ Array = NDArray[np.float64]
 
 BANDS = {"0 … 0.1 Hz": (0.0, 0.1), "0.1 … 0.5 Hz": (0.1, 0.5), "3p": (2.7, 3.3)}
 """Limits of the bands of the power spectrum, Hz; of the last one in rotor speeds."""
+SWINGING = ("root flap", "root edge", "yaw bearing")
+"""Moments of bearings beside the shaft, in the order of their rows."""
 MEASURES = ("mean", "std", *BANDS, "DEL m = 4", "highest", "lowest")
 
 
@@ -48,9 +50,10 @@ def measures(signal: Array, step: float, speed: float) -> dict[str, float]:
 def channels(series: xr.Dataset, tilt: float) -> dict[str, Array]:
     """Thrust, tilt and yaw moment and the forces on N and N2 of one series, kN and kN m; wind, m/s.
 
-    `tilt` of the shaft, rad.
+    `tilt` of the shaft, rad. Moments of the yaw bearing of the NREL 5 MW and, where the series has
+    them, of blade 1 at its root, too.
     """
-    from loadflow.shaft import TwoPoint, bearing_loads
+    from loadflow.shaft import TwoPoint, YawBearing, bearing_loads, yaw_loads
 
     force, moment = series["hub_force"].values, series["hub_moment"].values
     bearings = bearing_loads(TwoPoint(), force, moment, tilt=tilt, time=series["time"].values)
@@ -58,6 +61,9 @@ def channels(series: xr.Dataset, tilt: float) -> dict[str, Array]:
     for name in bearings["bearing"].values:
         for axis, label in (("z", "vertical"), ("y", "lateral")):
             out[f"{name} {label}"] = bearings["force"].sel(bearing=name, axis=axis).values
+    out["yaw bearing"] = yaw_loads(YawBearing(), force, moment, tilt=tilt)["moment"].values[0, 2]
+    if "root_moment" in series:
+        out["root edge"], out["root flap"] = series["root_moment"].values[1:]
     wind = series["wind"].values.reshape(-1, force.shape[1])[0]
     return {k: np.asarray(v, float) / 1e3 for k, v in out.items()} | {"wind": wind.astype(float)}
 

@@ -158,6 +158,25 @@ def test_candidates_that_can_wear_are_asked_for_it_where_the_scene_has_a_law():
         assert ("journal.wear" in one.results) is asked
 
 
+def test_bands_by_tolerances_stand_beside_the_numbers(found):
+    for one in found.comparison.candidates:
+        for key in ("load_factor", "friction", "energy"):
+            number = one.numbers[key]
+            assert number.tolerance_low <= number.value <= number.tolerance_high, (one.name, key)
+            assert number.tolerance_low < number.tolerance_high
+            assert number.tolerance
+    assert "by tolerances, most by" in found.page.read_text(encoding="utf-8")
+
+
+def test_tilt_films_and_rows_have_intervals_by_the_seeds(found):
+    rolling = by_name(found)["two-spherical"].numbers
+    for key in ("film_parameter", "row_share", "row_overload", "tilt"):
+        assert rolling[key].low <= rolling[key].value <= rolling[key].high, key
+    film = by_name(found)["journal-cylindrical"].numbers["tilt"]
+    assert film.low <= film.value == film.high  # none of the seeds has more
+    assert film.case
+
+
 def test_a_spherical_pair_has_its_thrust_on_one_row(found):
     share = by_name(found)["two-spherical"].numbers["row_share"]
     assert share.value > 95

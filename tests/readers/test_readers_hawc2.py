@@ -28,10 +28,16 @@ CHANNELS = {
 }
 
 
-def write(stem, binary, n=600, dt=0.05, start=100.0):
+def made_up(n=600, dt=0.05, start=100.0):
     values = 100 * np.random.default_rng(1).normal(size=(n, len(NAMES)))
     values[:, 0] = start + dt * np.arange(1, n + 1)
     values[:, 1] = 1.2 + 0.001 * values[:, 1]
+    return values
+
+
+def write(stem, binary, values=None):
+    values = made_up() if values is None else values
+    n, dt = len(values), values[1, 0] - values[0, 0]
     scales = np.abs(values).max(axis=0) / 32000
     line = "_" * 120
     text = [line, "  Version ID : HAWC2MB 12.8", " " * 60 + "Time : 10:00:00"]

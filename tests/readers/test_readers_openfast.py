@@ -227,3 +227,22 @@ def test_repeated_row_is_time_that_does_not_rise(tmp_path):
     path = damaged_text(tmp_path, lambda x: [*x[:100], x[99], *x[100:]])
     with pytest.raises(InputError, match=r"variable 'time', index 92: value 2\.275 does not rise"):
         read_openfast(path)
+
+
+def test_loads_of_a_blade_root_are_read_all_or_none(tmp_path):
+    roots = ("RootFzc1", "RootFxc1", "RootFyc1", "RootMzc1", "RootMxc1", "RootMyc1")
+    data = channels()
+    data |= {name: 50.0 * i + np.cos(data["Time"]) for i, name in enumerate(roots)}
+    units = UNITS | {name: "(kN)" if "F" in name else "(kN-m)" for name in roots}
+    series = read_openfast(write_outb(tmp_path / "a.outb", data, units=units, kind=3))
+    for key, names in (("root_force", roots[:3]), ("root_moment", roots[3:])):
+        for axis, name in zip("xyz", names):
+            np.testing.assert_allclose(series[key].sel(axis=axis), KILO * data[name], rtol=1e-6)
+    del data["RootFyc1"]
+    series = read_openfast(write_outb(tmp_path / "b.outb", data, units=units, kind=3))
+    assert not {"root_force", "root_moment"} & set(series.data_vars)
+    with pytest.raises(InputError, match="root_force_z"):
+        read_openfast(
+            write_outb(tmp_path / "c.outb", data, units=units, kind=3),
+            channels={"root_force_x": "RootFzc1"},
+        )

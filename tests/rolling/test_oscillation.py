@@ -7,11 +7,17 @@ import pytest
 from synthetic import case
 
 from loadflow.errors import InputError
-from loadflow.rolling import Oscillation, RollerBearing, SlewingBearing, friction_torque_forces
+from loadflow.rolling import (
+    Oscillation,
+    PitchMotion,
+    RollerBearing,
+    SlewingBearing,
+    friction_torque_forces,
+)
 from loadflow.rolling.rating.oscillation import IDLE_TORQUES, MOUNTING_FACTORS
 from loadflow.scene.scene import make_scene
-from loadflow.shaft import YawBearing, yaw_loads
-from loadflow.stages import friction, reduction, rolling, shaft
+from loadflow.shaft import PitchBearing, YawBearing, pitch_loads, yaw_loads
+from loadflow.stages import friction, loads, reduction, rolling, shaft
 from loadflow.studies.verdicts import verdicts
 
 BLADE = SlewingBearing(
@@ -146,3 +152,126 @@ def test_what_swings_has_no_modified_life_and_loses_at_its_own_speed():
     lost = friction.losses(scene, One(), inputs)
     ratio = lost["friction_power"] / lost["friction_torque"]
     np.testing.assert_allclose(ratio, 4 * 0.5 * 0.01, rtol=1e-9)
+
+
+def test_a_pitch_bearing_carries_its_blade():
+    force, moment = np.array([6e5, 2e5, -1e5]), np.array([3e4, 1e6, 8e6])
+    found = pitch_loads(PitchBearing(inboard=0.4), force, moment)
+    assert found["force"].values[0, :, 0] == pytest.approx(force)
+    # the blade's force has a longer arm there; the drive takes what turns about the axis
+    about = [0.0, 1e6 + 0.4 * 1e5, 8e6 + 0.4 * 2e5]
+    assert found["moment"].values[0, :, 0] == pytest.approx(about)
+    with pytest.raises(InputError, match="finite"):
+        pitch_loads(PitchBearing(), [np.nan, 0, 0], [0, 0, 0])
+
+
+def test_a_pitch_is_counted_by_its_cycles():
+    time = np.arange(0.0, 600.0, 0.05)
+    small, large = np.radians(0.04), np.radians(3.0)
+    angle = large * np.cos(2 * np.pi * time / 20) + small * np.cos(2 * np.pi * time)
+    swing = PitchMotion(threshold=np.radians(0.5)).during(time, angle)
+    assert swing.frequency == pytest.approx(1 / 20, rel=0.03)  # dither does not count
+    assert swing.amplitude == pytest.approx(large + small, rel=0.02)
+    assert swing.mounting_factor == 0.85
+    assert PitchMotion().during(time, np.full_like(time, 0.2)) is None
+    still, moving = (
+        PitchMotion().speed(time, a).max() for a in (0 * angle, large * np.cos(0.1 * np.pi * time))
+    )
+    assert (still, moving) == pytest.approx((0.0, large * 0.1 * np.pi), rel=1e-3)
+
+
+def with_blade(pitch):
+    """A series of a blade that turns and is pitched."""
+    turn = HUB["azimuth"].values if "azimuth" in HUB else np.cumsum(HUB["speed"].values) * 0.025
+    none = np.zeros_like(turn)
+    force = np.stack([6e5 - 1.7e5 * np.cos(turn), 1.5e5 + none, -1.7e5 * np.sin(turn)])
+    moment = np.stack([none, 1.2e6 + 3.5e6 * np.sin(turn), 5e6 + 4e5 * np.cos(turn)])
+    return HUB.assign(
+        root_force=(("axis", "time"), force),
+        root_moment=(("axis", "time"), moment),
+        pitch=("time", pitch),
+    )
+
+
+def pitch_scene(**swings):
+    return make_scene(
+        {
+            "name": "pitch",
+            "results": ["rolling.life"],
+            "shaft": {"two_point": {}, "pitch": {}},
+            "bearings": {
+                "P": {
+                    "kind": "four-point",
+                    "geometry": {
+                        "balls": 129, "rows": 2, "ball_diameter": 0.04, "pitch_diameter": 1.9,
+                        "groove_radius": 0.0205, "contact_angle": math.pi / 4, "hardness": 600.0,
+                    },
+                    "oscillation": {"kind": "pitch"} | swings,
+                }
+            },
+        }
+    )  # fmt: skip
+
+
+def lived(scene, hub):
+    found = {"loads": hub, "shaft": shaft.bearing_loads(scene, None, {"loads": hub})}
+    found["reduction"] = reduction.reduced_loads(scene, One(), found)
+    return rolling.load_distribution(scene, One(), found), found
+
+
+def test_a_scene_rates_a_pitch_bearing_by_the_pitch_of_its_series():
+    scene, time = pitch_scene(), HUB["time"].values.astype(float)
+    hub = with_blade(0.05 * np.sin(2 * np.pi * time / time[-1] * 4))
+    part, inputs = lived(scene, hub)
+    swing = scene.rolling.oscillation.during(time, hub["pitch"].values)
+    reduced = inputs["reduction"]["P"].to_dataset()
+    solved = rolling.solve_bearing(scene, "P", reduced)
+    life = swing.life(scene.rolling.geometry, solved.equivalent_load, reduced["weight"].values)
+    hours = rolling.hours_together(rolling.summary({One(): part}), "bearing_life")
+    assert hours[0] == pytest.approx(swing.hours(life), rel=1e-9)
+    # a blade bearing of 1.9 m on the root of a larger blade than its own
+    assert float(part["bearing_static_safety"].min()) < 5
+    # a pitch that stands wears no raceway out
+    still, _ = lived(scene, with_blade(0.05 + 0.0 * time))
+    assert float(still["bearing_life"][0]) == np.inf
+
+
+def test_a_pitch_bearing_loses_at_the_rate_of_the_pitch():
+    scene, time = pitch_scene(), HUB["time"].values.astype(float)
+    once, twice = (with_blade(a * np.sin(2 * np.pi * time / time[-1])) for a in (0.05, 0.1))
+    lost = []
+    for hub in (once, twice, with_blade(0.0 * time)):
+        inputs = {"loads": hub, "shaft": shaft.bearing_loads(scene, None, {"loads": hub})}
+        lost.append(float(friction.losses(scene, One(), inputs)["friction_power"].mean()))
+    assert 1.5 * lost[0] < lost[1]
+    assert lost[2] == 0.0
+
+
+def test_root_loads_are_kept_for_a_pitch_bearing_alone():
+    short = {"wind_speeds": [12.0], "duration": 1.0, "rung": "tables", "step": 0.1, "seeds": 1}
+    data = {"name": "x", "results": ["loads.statistics"], "loads": short}
+    one = make_scene(data)
+    from loadflow.scene.cases import list_cases
+
+    (first,) = list_cases(one)
+    assert "root_force" not in loads.hub_loads(one, first, {})
+    blade = make_scene(data | {"shaft": {"two_point": {}, "pitch": {}}})
+    assert {"root_force", "root_moment"} <= set(loads.hub_loads(blade, first, {}).data_vars)
+
+
+def test_what_a_pitch_bearing_lacks_is_named():
+    with pytest.raises(InputError, match=r"root_force.*RootMyc1"):
+        shaft.bearing_loads(pitch_scene(), None, {"loads": HUB})
+    with pytest.raises(InputError, match="pitch bearing swings"):
+        make_scene(
+            {
+                "name": "x",
+                "results": ["rolling.life"],
+                "shaft": {"pitch": {}},
+                "bearings": {"P": {"kind": "four-point", "geometry": {
+                    "balls": 50, "ball_diameter": 0.04, "pitch_diameter": 1.9,
+                    "groove_radius": 0.0205, "contact_angle": 0.7}}},
+            }
+        )  # fmt: skip
+    with pytest.raises(InputError, match="amplitude and frequency"):
+        scene_of(oscillation={"kind": "pitch"})

@@ -334,8 +334,11 @@ def test_waves_around_the_ring_shift_the_contacts_as_the_basis_does(sectors):
     modes = ring_modes(DRIVE.ring_coupling(0.03), FlexibleRings(inner=INNER, outer=ring))
     waves = modes.waves
     shift = np.zeros((modes.size, *waves.amplitude.shape[1:], DRIVE.balls))
+    sign = np.where(np.arange(len(waves.trig)) < waves.cosines, 1.0, -1.0)[:, None]
+    mirrored = sign * waves.trig[:, DRIVE.balls - waves.trig.shape[1] : 0 : -1]
+    trig = np.concatenate([waves.trig, mirrored], axis=1)
     for owner, wave, amplitude in zip(waves.owner, waves.wave, waves.amplitude):
-        shift[owner] += np.outer(amplitude, waves.trig[wave])
+        shift[owner] += np.outer(amplitude, trig[wave])
     expected = modes.basis.reshape(3, -1, DRIVE.balls, modes.size).transpose(3, 1, 0, 2)
     error = np.abs(shift.reshape(expected.shape) - expected).max(axis=(1, 2, 3))
     assert (error < 1e-9 * np.abs(expected).max(axis=(1, 2, 3))).all()

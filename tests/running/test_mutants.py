@@ -22,7 +22,7 @@ def test_of_150_mutants_none_escapes(kind):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("kind", ["scenes", "turbines"])
+@pytest.mark.parametrize("kind", mutants.KINDS)
 def test_of_10_000_mutants_none_escapes(kind):
     assert mutants.survey(kind, range(10_000))[1] == []
 

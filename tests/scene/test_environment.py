@@ -50,6 +50,49 @@ def test_a_cold_start_without_a_temperature_is_refused_and_what_is_idle_is_told(
     assert "environment.temperature" in unused_keys(make_scene({"name": "x", "environment": COLD}))
 
 
+def film_of(heat, **more):
+    data = {"name": "x", "environment": COLD | more, "results": ["journal.film"]}
+    return make_scene(data | {"journal": {"bearings": ["N"], "heat": heat}})
+
+
+@pytest.mark.parametrize(
+    "heat",
+    [
+        {"transfer": 100.0},
+        {"sump_transfer": 100.0},
+        {"growth": {"shell_share": 0.5}},
+        {"kind": "film", "shell_transfer": 100.0},
+    ],
+)
+def test_what_the_surroundings_cool_is_not_called_idle(heat):
+    assert unused_keys(film_of(heat)) == {}
+
+
+def test_the_shell_of_a_film_with_heat_over_its_area_is_as_cold_as_the_surroundings():
+    heat = film_of({"kind": "film", "shell_transfer": 100.0}).journal.heat
+    assert heat.shell_temperature == 253.15
+    idle = film_of({"kind": "film"})
+    assert [*unused_keys(idle)] == ["environment.temperature"]
+
+
+def test_a_shell_of_bronze_shrinks_on_its_shaft_in_the_cold():
+    heat = {"growth": {"shell_expansion": 18e-6}}
+    cold, steel = (film_of(one, cold_start=True).journal for one in (heat, {"growth": {}}))
+    radius = cold.geometry.radius
+    change = cold.at_temperature(253.15).geometry.clearance - cold.geometry.clearance
+    assert change == pytest.approx(radius * (18e-6 - 11.7e-6) * (253.15 - 293.15))
+    same = steel.at_temperature(253.15).geometry.clearance
+    assert same == pytest.approx(steel.geometry.clearance)
+
+
+def test_a_film_of_given_viscosity_cannot_start_cold_which_is_told():
+    data = {"name": "x", "environment": COLD | {"cold_start": True}}
+    told = unused_keys(make_scene(data | {"results": ["journal.film"]}))
+    assert {"environment.temperature", "environment.cold_start"} <= set(told)
+    assert "friction" not in told
+    assert unused_keys(film_of({"transfer": 0.0}, cold_start=True)) == {}
+
+
 def test_suspensions_are_named_by_their_integration():
     scene = make_scene({"name": "x", "shaft": {"three_point": {}, "moment": {}}})
     told = {one["name"]: one["integration"] for one in drawn(scene)}

@@ -146,29 +146,6 @@ def gap_coefficients(
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def gap_slope(
-    cos_face, sin_face, w_face, cos_cell, sin_cell, w_cell, stretches, ways, step, rough, spare,
-    out, around, open_share,
-):  # fmt: skip
-    """Central difference of `gap_coefficients` from the second to the first of `ways` (2, 2).
-
-    `out` (8, nx + 1, 1) gets the slope and `around` (2, nx) its rows of the modes; `spare` is one
-    more array like `out`, `stretches` (2,) those of the map at both places.
-    """
-    for way in range(2):
-        gap_coefficients(
-            cos_face, sin_face, w_face, cos_cell, sin_cell, w_cell, stretches[way],
-            ways[way][0], ways[way][1], rough, out if way == 0 else spare, open_share,
-        )  # fmt: skip
-    rows, nx = out.shape[0], out.shape[1]
-    for row in range(rows):
-        for i in range(nx):
-            out[row, i, 0] = (out[row, i, 0] - spare[row, i, 0]) / (2 * step)
-    for i in range(nx - 1):
-        around[0, i], around[1, i] = out[COS, i, 0], out[SIN, i, 0]
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
 def shaped_coefficients(
     face, face_gap, cell, cell_gap, ex, ey, surfaces, coef, by_x, by_y, open_share
 ):

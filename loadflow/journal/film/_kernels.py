@@ -20,7 +20,7 @@ from llvmlite import ir
 from numba import njit, types
 from numba.extending import intrinsic
 
-from loadflow.journal.cavitation import DFILL, DP, DSLACK, FILL, LOAD, SLACK, P
+from loadflow.journal.cavitation import DFILL, DP, DSLACK, FILL, LOAD, P
 
 # coefficients of the gap: on the faces around, on the faces across (H3), on cells; CELL3 is ∫H³ of
 # cells, from which the faces across of a gap that changes along the axis follow
@@ -96,97 +96,6 @@ def balance(state, coef, dz, area, gz, closed, wedge, p_edge, p_line, f_line, ma
             out[i, k] += q
             if k + 1 < nz:
                 out[i, k + 1] -= q
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def stored(coef, around, across, velocity, slope, rate, open_share, out):
-    """Growth of the gap volume of each cell, `out` (nx, rows), Pa.
-
-    The modes `around` (m, nx) · `across` (m, rows) move with `velocity` (m,); at `rate`, 1/s, the
-    gap itself is stored.
-    """
-    nx, rows = out.shape
-    for i in range(nx):
-        for k in range(rows):
-            moving = 0.0
-            for j in range(velocity.size):
-                moving += around[j, i] * velocity[j] * across[j, k]
-            if open_share is not None:
-                moving *= open_share[i, k]
-            out[i, k] = slope * (rate * coef[HM, i, k] - moving)
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def largest(column, load):
-    """Largest magnitude of a `column` (n,) and largest `load` (nx, nz)."""
-    most, peak = 0.0, load[0, 0]
-    for value in column:
-        most = max(most, abs(value))
-    for i in range(load.shape[0]):
-        for k in range(load.shape[1]):
-            peak = max(peak, load[i, k])
-    return most, peak
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def squeezed(fill, around, across, slope, area, open_share, out):
-    """Derivatives of the balance by the velocity of each mode, `out` (m, nx, nz)."""
-    size, nx, nz = out.shape
-    row = 1 if across.shape[1] > 1 else 0
-    for j in range(size):
-        for i in range(nx):
-            for k in range(nz):
-                value = -slope * fill[i, k] * area[k] * around[j, i] * across[j, row * k]
-                if open_share is not None:
-                    value *= open_share[i, row * k]
-                out[j, i, k] = value
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def gather_free(fields, slack, groove, order, columns):
-    """Write `fields` (l, nx, nz) into `columns` (l, n) in solver order; grooves have no balance.
-
-    The first is the balance itself, to which the `slack` belongs.
-    """
-    count, nx, nz = fields.shape
-    for c in range(count):
-        for i in range(nx):
-            base = order[i] * nz
-            for k in range(nz):
-                value = fields[c, i, k]
-                if c == 0:
-                    value += slack[i, k]
-                columns[c, base + k] = 0.0 if groove[i, k] else value
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def largest_terms(state, coef, dz, area, gz, closed, wedge, p_edge, p_line, mass, groove):
-    """Largest sum of the magnitudes of the terms of `balance` in a cell; grooves have none."""
-    _, nx, nz = state.shape
-    row = 1 if coef.shape[2] > 1 else 0
-    p = state[P]
-    fill = state[FILL]
-    most = 0.0
-    for i in range(nx):
-        before = i - 1 if i > 0 else nx - 1
-        after = i + 1 if i + 1 < nx else 0
-        for k in range(nz):
-            if groove[i, k]:
-                continue
-            p_before = p[before, k] if closed or i > 0 else p_line
-            p_after = p[after, k] if closed or i + 1 < nx else p_line
-            here = abs(p[i, k])
-            total = coef[G, i, row * k] * (abs(p_before) + here)
-            total += coef[G, i + 1, row * k] * (abs(p_after) + here)
-            dragged = abs(wedge) * (coef[E, i, row * k] + coef[E, i + 1, row * k])
-            total = dz[k] * total
-            total += area[k] * (dragged + fill[i, k] * abs(mass[i, row * k]))
-            low = abs(p[i, k - 1]) if k > 0 else abs(p_edge)
-            high = abs(p[i, k + 1]) if k + 1 < nz else abs(p_edge)
-            total += coef[H3, i, row * k] * gz[k] * (low + here)
-            total += coef[H3, i, row * (k + 1)] * gz[k + 1] * (high + here)
-            most = max(most, total + abs(state[SLACK, i, k]))
-    return most
 
 
 @njit(cache=True, nogil=True, error_model="numpy")

@@ -13,7 +13,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.journal.cavitation import LOAD
-from loadflow.journal.film import _error_kernels as kernel
 from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.gap import BoreGap
 from loadflow.journal.film.surface_film import SurfaceFilm
@@ -90,22 +89,44 @@ def pressure_error(
 ) -> tuple[float, float, float, Array]:
     """Second differences over the pressure, what they leave of the load, N, and of the peak.
 
-    `width` (nx,) and `across` (nz,) are those of the cells, `on_edges` is as in `_error_kernels`.
-    The differences of the cells (nx, nz) come last, times the share that counts, Pa.
+    `width` (nx,) and `across` (nz,) are those of the cells. `on_edges` is how far beyond the
+    outermost values the ends lie: 1 half a cell, 0 a whole one. The differences of the cells
+    (nx, nz) come last, times the share that counts, Pa.
     """
-    mesh, fields = film.mesh, np.empty((2, *film.mesh.shape))
-    whole, bent, highest, beside = kernel.differences(
-        film.state[LOAD], width, across, mesh.closed, mesh.half, film.p_line, film.p_edge,
-        on_edges, *fields,
-    )  # fmt: skip
+    pressure = film.state[LOAD]
+    around, beside = _differences(film, on_edges)
+    bends, area = around + beside, np.outer(width, across)
+    bent = float(np.vdot(bends, area))
+    whole = float(np.vdot(np.abs(pressure - film.p_edge), area))
     share = bent / whole if whole > 0.0 else 0.0
-    peak = _PEAK * share + (_AT_PEAK * beside / highest if highest > 0.0 else 0.0)
-    return (
-        share,
-        _LOAD * film.mirrors * film.radius**2 * bent,
-        peak,
-        _LOAD * (fields[0] + fields[1]),
-    )
+    row, column = np.unravel_index(int(pressure.argmax()), pressure.shape)
+    highest, peak = float(pressure[row, column]), _PEAK * share
+    if highest > 0.0:
+        rows = np.arange(row - 1, row + 2) % len(pressure)
+        near = rows[:, None], slice(max(0, column - 1), column + 2)
+        peak += _AT_PEAK * float(around[near].max() + beside[near].max()) / highest
+    return share, _LOAD * film.mirrors * film.radius**2 * bent, peak, _LOAD * bends
+
+
+def _differences(film: DiscreteFilm, on_edges: float) -> tuple[Array, Array]:
+    """Magnitudes of the second differences of the pressure around and across (nx, nz), Pa."""
+    mesh, pressure = film.mesh, film.state[LOAD]
+    nx, nz = pressure.shape
+
+    def beyond(end: float, inner: Array) -> Array:
+        return end + on_edges * (end - inner)
+
+    around, across = np.empty((nx + 2, nz)), np.empty((nx, nz + 2))
+    around[1:-1] = across[:, 1:-1] = pressure
+    if mesh.closed:
+        around[0], around[-1] = pressure[-1], pressure[0]
+    else:
+        around[0], around[-1] = (beyond(film.p_line, pressure[i]) for i in (0, -1))
+    across[:, 0] = pressure[:, 0] if mesh.half else beyond(film.p_edge, pressure[:, 0])
+    across[:, -1] = beyond(film.p_edge, pressure[:, -1])
+    twice = 2.0 * pressure
+    along = np.abs(around[:-2] + around[2:] - twice)
+    return along, np.abs(across[:, :-2] + across[:, 2:] - twice)
 
 
 class SurfaceError:

@@ -12,6 +12,7 @@ from scipy.linalg.lapack import dgbtrf, dgbtrs
 from loadflow.errors import SolverError
 from loadflow.journal.cavitation import DFILL, DLOAD, DP, FILL, LOAD, SLACK, CavitationLaw, P
 from loadflow.journal.film import _kernels as kernel
+from loadflow.journal.film._kernels import HM
 from loadflow.journal.film.asperity_load import AsperityLoad
 from loadflow.journal.film.gap import Gap, turning_frame
 from loadflow.journal.film.groove_pressure import Pockets
@@ -170,9 +171,10 @@ class DiscreteFilm:
     def storage(self, coef: Array, around: Array, velocity: Array, rate: float) -> Array:
         """Growth of the gap volume of each cell, (nx, rows), Pa."""
         gap = self.gap
-        mass = np.empty((around.shape[1], gap.across.shape[1]))
-        kernel.stored(coef, around, gap.across, velocity, self.slope, rate, gap.open_share, mass)
-        return mass
+        moving = (around.T * velocity) @ gap.across
+        if gap.open_share is not None:
+            moving *= gap.open_share
+        return self.slope * (rate * coef[HM, :-1, : moving.shape[1]] - moving)
 
     def balance(
         self,
@@ -202,6 +204,7 @@ class DiscreteFilm:
         field[self.fixed] = 0.0
         return field
 
+    @np.errstate(over="ignore", invalid="ignore")  # of an iteration that diverges
     def linearise(
         self,
         u: Array,
@@ -231,7 +234,7 @@ class DiscreteFilm:
         frame = self.place(u, position)
         local = frame.T @ velocity
         gap = self.gap
-        around, across = gap.around, gap.across
+        around = gap.around
         mass = self.storage(gap.coef, around, local, rate)
         slopes = gap.slopes(position)
         self._assemble(mass, rate)
@@ -246,13 +249,12 @@ class DiscreteFilm:
         for field, (coef, changed) in zip(fields[1:], slopes):
             self.balance(coef, self.storage(coef, changed, local, rate), out=field)
         if damped:
-            kernel.squeezed(
-                self.state[FILL], around, across, self.slope, mesh.area, gap.open_share,
-                fields[moves:],
-            )  # fmt: skip
+            self._squeezed(fields[moves:])
         flows = [self.pockets.flows(field)[free] for field in fields] if free.size else []
         columns = np.empty((len(fields) + free.size, mesh.angle.size * mesh.z.size))
-        kernel.gather_free(fields, self.state[SLACK], self.fixed, mesh.order, columns)
+        fields[0] += self.state[SLACK]
+        np.copyto(fields, 0.0, where=self.fixed)
+        columns[: len(fields)].reshape(fields.shape)[:, mesh.order] = fields
         for column, number in zip(columns[len(fields) :], free):
             kernel.gather(1.0 * (self.pockets.numbers == number), mesh.order, column)
         self._solve((lu, pivots), columns)
@@ -284,6 +286,14 @@ class DiscreteFilm:
             damping=frame @ damping @ frame.T,
             columns=columns,
         )
+
+    def _squeezed(self, out: Array) -> None:
+        """Write the derivatives of the balance by the velocity of each mode, `out` (m, nx, nz)."""
+        gap = self.gap
+        swept = -self.slope * self.state[FILL] * self.mesh.area
+        if gap.open_share is not None:
+            swept *= gap.open_share
+        np.multiply(gap.around[:, :, None] * gap.across[:, None, :], swept, out=out)
 
     def _assemble(self, mass: Array, rate: float) -> None:
         """Write the Newton matrix at the state last placed into the band."""
@@ -360,8 +370,7 @@ class DiscreteFilm:
 
     def size(self, column: Array) -> float:
         """Largest entry of a change of the unknowns over the pressure of the film."""
-        change, peak = kernel.largest(column, self.state[LOAD])
-        return float(change / max(self.scale, peak))
+        return float(np.abs(column).max()) / max(self.scale, float(self.state[LOAD].max()))
 
     def correct(self, u: Array, columns: Array, weights: Array) -> float:
         """Apply a Newton step to `u`; returns its largest change over the scale of pressure."""
@@ -430,19 +439,12 @@ class DiscreteFilm:
     # --- results ---------------------------------------------------------------------------------
     def dry(self, u: Array) -> bool:
         """Whether a fed groove would have to rupture, which only laws with fill can follow."""
-        if self.law.keeps_fill:
-            return False
-        return bool(np.any(self.pockets.of_free(u) < self.law.floor))
+        empty = self.pockets.of_free(u) < self.law.floor
+        return not self.law.keeps_fill and bool(np.any(empty))
 
     def field(self, u: Array, position: Array) -> tuple[Array, Array, Array, Array]:
         """Pressure (Pa) and fill of the cells (nx, nz), their angle (nx,), and the load (N)."""
         frame = self.place(u, position)
         load = self.load_of(frame, position)
-        angle = self.mesh.angle
-        if self.mesh.polar:
-            stretch = self.mesh.stretch(float(np.hypot(*position)))
-            narrow = np.sqrt((1 - stretch) / (1 + stretch))
-            angle = 2 * np.arctan(narrow * np.tan(0.5 * angle)) + np.arctan2(
-                frame[1, 0], frame[0, 0]
-            )
+        angle = self.mesh.angles(position)
         return self.state[LOAD].copy(), self.state[FILL].copy(), angle, load

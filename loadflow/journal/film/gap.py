@@ -109,10 +109,10 @@ class BoreGap(Gap, Protocol):
     def held(self, tilt: Array | None, bend: Array | None) -> Array:
         """Centred position (m,) of a shaft whose line has the given tilt and curvature."""
 
-    def converging(self, position: Array) -> NDArray[np.int64]:
+    def converging(self, position: Array, speed: float) -> NDArray[np.int64]:
         """Pads whose film can hold them at `position`: those toward which it narrows."""
 
-    def lifted(self, position: Array, sense: float) -> Array:
+    def lifted(self, position: Array, speed: float) -> Array:
         """Position with pads tilted so that their gap converges in the sense of rotation."""
 
     def closest(self, position: Array) -> tuple[float, float, float]:
@@ -207,17 +207,14 @@ class CylindricalGap(FlowBetween):
         if self.mesh.polar:
             turns = turns[:1]
             ex, ey = ratio, 0.0
-        stretch = self.mesh.stretch if self.mesh.polar else _unstretched
         slopes = []
         for tx, ty in turns:
-            slope, around = np.zeros_like(self.coef), np.empty((2, self.mesh.angle.size))
-            ways = tuple((ex + h * tx, ey + h * ty) for h in (step, -step))
-            stretches = (stretch(ways[0][0]), stretch(ways[1][0]))
-            kernel.gap_slope(
-                *self.mesh.trigonometry, stretches, ways, step, self.surfaces, self._spare,
-                slope, around, self.open_share,
-            )  # fmt: skip
-            slopes.append((slope, around))
+            slope = np.zeros_like(self.coef)
+            self._evaluate(slope, ex + step * tx, ey + step * ty)
+            self._evaluate(self._spare, ex - step * tx, ey - step * ty)
+            slope -= self._spare
+            slope /= 2.0 * step
+            slopes.append((slope, _around(slope)))
         return slopes
 
     def advance(self, position: Array, step: Array) -> Array:
@@ -258,11 +255,11 @@ class CylindricalGap(FlowBetween):
         """Centred position; the shaft is aligned and straight."""
         return np.zeros(2)
 
-    def converging(self, position: Array) -> NDArray[np.int64]:
+    def converging(self, position: Array, speed: float) -> NDArray[np.int64]:
         """There are no pads."""
         return self.pads
 
-    def lifted(self, position: Array, sense: float) -> Array:
+    def lifted(self, position: Array, speed: float) -> Array:
         """The position itself: there are no pads."""
         return position
 
@@ -282,11 +279,6 @@ class CylindricalGap(FlowBetween):
     def widest(self, position: Array, free: slice | NDArray[np.int64]) -> Array:
         """The centre."""
         return np.zeros(2)
-
-
-def _unstretched(ratio: float) -> float:
-    """No Sommerfeld map."""
-    return 0.0
 
 
 def _around(coef: Array) -> Array:

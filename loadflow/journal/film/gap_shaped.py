@@ -11,14 +11,13 @@ from numpy.typing import NDArray
 from loadflow.journal.film import _gap_kernels as kernel
 from loadflow.journal.film.gap import KEPT, FlowBetween
 from loadflow.journal.film.gap_mesh import ShapedMesh
+from loadflow.journal.film.pad_curve import PadCurve, pad_curve
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.shapes import Relief, Segment
 
 Array = NDArray[np.float64]
 _STAYS = 1e-3  # readiness of a shaft that nothing holds to move, against that of its pad
 _SMALL_LIFT = 0.03  # tilt of a pad, in clearances, from which it may grow threefold in a step
-_LIFT = 0.3  # share of the gap over the pivot by which a pad is tilted at first
-_FLAT = 0.02  # curvature of a pad's gap, in clearances, that still holds it
 _FINE = np.radians(0.5)  # distance of the angles at which the narrowest gap is sought
 
 
@@ -137,6 +136,7 @@ class ShapedGap(FlowBetween):
         z = mesh.z if along else np.zeros(1)
 
         pivots = np.array([bore.segments[number].narrowest for number in bore.pads])
+        self.pivots = np.stack([np.cos(pivots), np.sin(pivots)], axis=-1)
         self._tangents = np.stack([-np.sin(pivots), np.cos(pivots)], axis=-1)
         self._modes = self._shifts(mesh.segment)
         self.across = self._lengthwise(z)
@@ -298,27 +298,29 @@ class ShapedGap(FlowBetween):
         """Tilt of a pad against the shaft: its own less the way of the shaft past it."""
         return float(position[row] + position[:2] @ self._tangents[row - self.shaft])
 
-    def converging(self, position: Array) -> NDArray[np.int64]:
-        """Pads whose film can hold them at `position`: those toward which it narrows."""
+    def pad_curve(self, speed: float) -> PadCurve:
+        """What each pad carries, and how it tilts, in the sense of rotation of `speed`."""
+        part = self.bore.segments[self.bore.pads[0]]
+        before, after = part.narrowest - part.start, part.end - part.narrowest
+        ends = (before, after) if speed >= 0.0 else (after, before)
+        width_ratio = 0.5 * self.bore.width / self.bore.radius
+        return pad_curve(part.preload, *(round(end, 12) for end in ends), width_ratio)
+
+    def converging(self, position: Array, speed: float) -> NDArray[np.int64]:
+        """Pads that a film can hold at `position`: those toward which it narrows."""
         if not self.pads.size:
             return self.pads
-        pivots = (self.bore.segments[number] for number in self.bore.pads)
-        holds = [
-            part.preload / (1.0 - part.preload) + _turned(position, part.narrowest)[0] > _FLAT
-            for part in pivots
-        ]
-        return self.pads[holds]
+        return self.pads[self.pad_curve(speed).holds(1.0 - self.pivots @ position[:2])]
 
-    def lifted(self, position: Array, sense: float) -> Array:
+    def lifted(self, position: Array, speed: float) -> Array:
         """Position with pads tilted so that their gap converges in the sense of rotation."""
         position = position.copy()
+        if not self.pads.size:
+            return position
         position[self.pads] = 0.0
-        for row in self.converging(position):
-            part = self.bore.segments[self.bore.pads[row - self.shaft]]
-            pivot = part.narrowest
-            toward, aside = _turned(position, pivot)
-            lift = _LIFT * (1.0 - toward) / math.sin(max(pivot - part.start, part.end - pivot))
-            position[row] = math.copysign(lift, sense) - aside
+        lifts = self.pad_curve(speed).lift(1.0 - self.pivots @ position[:2])
+        for row, lift in zip(self.pads[lifts > 0.0].tolist(), lifts[lifts > 0.0].tolist()):
+            position[row] = math.copysign(lift, speed) - self.lift(row, position)
         return position
 
     def columns_of(self, pads: NDArray[np.int64]) -> NDArray[np.bool_]:
@@ -382,10 +384,3 @@ class ShapedGap(FlowBetween):
         )
         held[free] = answer.x[:-1]
         return held
-
-
-def _turned(position: Array, angle: float) -> tuple[float, float]:
-    """Eccentricity toward `angle`, and a quarter turn on."""
-    cos, sin = math.cos(angle), math.sin(angle)
-    x, y = position[:2].tolist()
-    return x * cos + y * sin, y * cos - x * sin

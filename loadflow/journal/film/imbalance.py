@@ -7,8 +7,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.journal.cavitation import P
-from loadflow.journal.film import _kernels as kernel
+from loadflow.journal.cavitation import FILL, SLACK, P
+from loadflow.journal.film._kernels import H3, LOAD, E, G
 from loadflow.journal.film.film import EVERY, DiscreteFilm
 from loadflow.numerics.convergence import EPS, rounding_level
 
@@ -59,18 +59,32 @@ def rounding(
     """
     mesh, gap = film.mesh, film.gap
     mass = film.storage(gap.coef, gap.around, velocity, 0.0)
-    terms = kernel.largest_terms(
-        film.state, gap.coef, mesh.dz, mesh.area, mesh.gz, mesh.closed, film.wedge,
-        film.p_edge, film.p_line, mass, film.fixed,
-    )  # fmt: skip
+    terms = _largest_terms(film, mass)
     narrow = min(max(gap.narrowest(position), EPS), 1.0)
     flux = (abs(film.wedge) + film.scale) * mesh.dz.max()
     worst = terms * (1.0 + 3.0 / narrow) / flux
     if force is not None:
         scale = film.load_scale(force)
-        pressed = float(np.abs(film.state[kernel.LOAD]).max()) * 2 * np.pi * mesh.dz.sum()
+        pressed = float(np.abs(film.state[LOAD]).max()) * 2 * np.pi * mesh.dz.sum()
         reach = np.abs(gap.across).max(axis=1)
         carried = film.mirrors * film.radius**2 * pressed * reach
         digits = np.abs(slope).sum(axis=1) * max(1.0, float(np.abs(position).max()))
         worst = max(worst, float((carried + digits)[free].max()) / scale)
     return rounding_level(worst)
+
+
+@np.errstate(over="ignore", invalid="ignore")  # of an iteration that diverges
+def _largest_terms(film: DiscreteFilm, mass: Array) -> float:
+    """Largest sum of the magnitudes of the terms of a balance in a cell; grooves have none."""
+    mesh, coef, cells = film.mesh, film.gap.coef, film.mesh.z.size
+    pressure = np.abs(film.state[P])
+    lines = pressure[[-1, 0]] if mesh.closed else np.full((2, cells), abs(film.p_line))
+    beside = np.concatenate([lines[:1], pressure, lines[1:]])
+    edges = np.full((len(pressure), 1), abs(film.p_edge))
+    above = np.concatenate([edges, pressure, edges], axis=1)
+    through = coef[G, :, :cells] * (beside[:-1] + beside[1:])
+    across = coef[H3, :-1] * mesh.gz * (above[:, :-1] + above[:, 1:])
+    drag = abs(film.wedge) * (coef[E, :-1, :cells] + coef[E, 1:, :cells])
+    total = mesh.dz * (through[:-1] + through[1:]) + across[:, :-1] + across[:, 1:]
+    total += mesh.area * (drag + film.state[FILL] * np.abs(mass)) + np.abs(film.state[SLACK])
+    return float(np.max(total, where=~film.fixed, initial=0.0))

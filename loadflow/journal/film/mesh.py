@@ -102,6 +102,15 @@ class Mesh:
         """Stretch of the Sommerfeld map at an eccentricity ratio, which may exceed 1."""
         return min(self.strength * ratio, _FLATTEST)
 
+    def angles(self, position: Array) -> Array:
+        """Angle of each column of cells (nx,), rad, as the shaft stands at `position`."""
+        if not self.polar:
+            return self.angle
+        stretch = self.stretch(float(np.hypot(*position[:2])))
+        narrow = np.sqrt((1 - stretch) / (1 + stretch))
+        turned = 2 * np.arctan(narrow * np.tan(0.5 * self.angle))
+        return np.asarray(turned + np.arctan2(position[1], position[0]))
+
     @cached_property
     def order(self) -> NDArray[np.int64]:
         """Place of each column of cells in the band; a closed film is folded (0, N−1, 1, …)."""

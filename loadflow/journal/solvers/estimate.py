@@ -4,18 +4,20 @@ from __future__ import annotations
 
 import math
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import SolverError
 from loadflow.journal.solvers.messages import narrowest_place
+from loadflow.journal.solvers.pad_estimate import on_pads
 from loadflow.tribology.film import butenschoen
 
 if TYPE_CHECKING:
     from loadflow.journal.film.film import DiscreteFilm
     from loadflow.journal.film.gap import BoreGap
+    from loadflow.journal.film.gap_shaped import ShapedGap
     from loadflow.journal.geometry import JournalGeometry
 
 Array = NDArray[np.float64]
@@ -74,6 +76,12 @@ def first_position(
     loadflow.errors.SolverError
         The shaft touches the bore wherever it is.
     """
+    if gap.pads.size:
+        afloat = on_pads(film, cast("ShapedGap", gap), load)
+        if afloat is not None:
+            start = gap.lifted(np.append(afloat, held[2:]), film.speed)
+            if gap.narrowest(start) > 0.0:
+                return start
     position, size = held.copy(), float(np.hypot(*load))
     if film.speed != 0.0:
         number = bearing.sommerfeld_number(size, film.speed, film.viscosity)

@@ -19,6 +19,7 @@ _STEP_LIMIT = 0.5  # change of the film, over its pressure, beyond which a step 
 _NEARLY = 1e-3  # a step this small is followed by the last ones, whose damping is kept
 _LATE = 8  # Newton steps after which longer steps are asked whether rounding makes them
 _PRESSED = 1e-13  # narrowest gap, in clearances, that is none
+_HELD = 1e-5  # share of it that pads must be let go, where they would tilt the other way
 _STUCK = 1e-3  # share of a Newton step that must be left by an elastic shell
 
 
@@ -198,7 +199,8 @@ def solve_equilibrium(
         missing = (force - linear.load)[free]
         step[free] = _solve(slope[free][:, free], missing, scale) / max(excess, 1.0)
         target, weights, share = _moved(film, u, linear, position, step, motion)
-        if share < _STUCK or not math.isfinite(float(target.sum())):
+        stuck = math.hypot(*(target - position)) < _HELD * math.hypot(*step)
+        if share < _STUCK or stuck or not math.isfinite(float(target.sum())):
             break
         change = film.correct(u, linear.columns, weights)
         change = max(change, math.hypot(*(target - position)) / max(gap, _PRESSED))

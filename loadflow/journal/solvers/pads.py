@@ -30,6 +30,7 @@ Rows = NDArray[np.int64]
 
 _ROUNDS = 40  # films of a shaft that is held
 _FLATTEST, _STEEPEST = 1e-4, 0.999  # share of the lift at which a pad meets the shaft
+_FLAT = 1e-3  # share of the same below which a film turns its pad the other way, flat as it is
 _BALANCED = 1e-6  # moment of a pad over load scale and arm, at which its tilt is good enough
 _TOUCHING = 1e-9  # gap, in clearances, that is none
 _BUDGET = 5  # Newton steps of all films together, in multiples of those of a solution
@@ -62,7 +63,7 @@ def balance_pads(
     lifts = np.array([sign * gap.lift(row, position) for row in pads])
     lifts = np.where((lifts > low) & (lifts < high), lifts, np.sqrt(low * high))
     scale = film.load_scale(np.zeros(1))
-    state, moments = start, np.zeros(pads.size)
+    state, moments, flat = start, np.zeros(pads.size), np.zeros(pads.size, dtype=bool)
     for _ in range(_ROUNDS):
         for row, lift in zip(pads.tolist(), lifts.tolist()):
             position[row] += sign * lift - gap.lift(row, position)
@@ -76,7 +77,9 @@ def balance_pads(
         u = state.u
         moments = sign * state.linear.load[pads]
         scale = max(scale, math.hypot(*state.linear.load[: gap.shaft]))
-        if np.abs(moments).max() < _BALANCED * scale or np.all(high - low < 1e-9 * most):
+        flat = (moments > 0) & (lifts < _FLAT * most)
+        left = (np.abs(moments) >= _BALANCED * scale) & (high - low >= 1e-9 * most)
+        if not np.any(left & ~flat):
             break
         low, high = np.where(moments < 0, lifts, low), np.where(moments > 0, lifts, high)
         slopes = np.diag(state.linear.stiffness)[pads]
@@ -85,12 +88,21 @@ def balance_pads(
         good = (slopes > 0) & (aim > low) & (aim < high)
         middle = np.where(high > 4 * low, np.sqrt(low * high), 0.5 * (low + high))
         lifts = np.where(good, aim, middle)
-    return replace(state, iterations=spent), np.abs(moments) < _LEFT * scale
+    return replace(state, iterations=spent), (np.abs(moments) < _LEFT * scale) & ~flat
 
 
 def unload_other_pads(film: DiscreteFilm, gap: ShapedGap, pads: Rows) -> None:
     """Take the film off all pads that tilt but `pads`."""
     film.unload(gap.columns_of(np.setdiff1d(gap.pads, pads)))
+
+
+def _without(film: DiscreteFilm, gap: ShapedGap, start: Solution, pads: Rows) -> dict[str, Array]:
+    """Unknowns and position of `start` with no film on, and no tilt of, all pads but `pads`."""
+    others = np.setdiff1d(gap.pads, pads)
+    position = start.position.copy()
+    position[others] = 0.0
+    u = np.where(gap.columns_of(others)[:, None], film.start(), start.u)
+    return {"u": u, "position": position}
 
 
 def film_on_pads(
@@ -141,17 +153,19 @@ def solve_with_pads(
         Of each film.
     """
 
-    def balanced(start: Solution) -> tuple[Solution, Rows]:
-        pads, spent = gap.converging(start.position), 0
+    def balanced(start: Solution, some: Rows) -> tuple[Solution, Rows]:
+        pads, spent = np.intersect1d(some, gap.converging(start.position, film.speed)), 0
         while True:
             unload_other_pads(film, gap, pads)
+            start = replace(start, **_without(film, gap, start, pads))
             state, held = balance_pads(film, gap, start, pads, tolerance, max_iterations)
             spent += state.iterations
             if held.all() or not state.converged:
                 return replace(state, iterations=spent), pads
             pads = pads[held]
 
-    state, pads = balanced(replace(no_film(film), position=position))
+    state, pads = balanced(replace(no_film(film), position=position), gap.pads)
+    on = np.union1d(pads, np.setdiff1d(gap.pads, gap.converging(position, film.speed)))
     spent, scale = state.iterations, film.load_scale(force)
     missing = force[shaft] - state.linear.load[shaft]
     for _ in range(_SHAFTS):
@@ -170,7 +184,7 @@ def solve_with_pads(
         step[shaft] = np.linalg.lstsq(stiffness + _ASIDE * scale * np.eye(shaft.size), missing)[0]
         step = gap.advance(state.position, step) - state.position
         for _ in range(_HALVINGS):
-            trial, some = balanced(replace(state, position=state.position + step))
+            trial, some = balanced(replace(state, position=state.position + step), on)
             spent += trial.iterations
             left = force[shaft] - trial.linear.load[shaft]
             allowed = 1.0 if steady else 2.0
@@ -180,6 +194,8 @@ def solve_with_pads(
         else:
             break
         state, pads, missing = trial, some, left
+        # a pad that has come off stays off: at the limit it would go on and off
+        on = np.union1d(pads, np.setdiff1d(on, gap.converging(state.position, film.speed)))
     free = np.append(shaft, pads)
     found = math.hypot(*missing) / scale if state.converged else math.inf
     return replace(state, converged=False, iterations=spent, residual=found, free=free)

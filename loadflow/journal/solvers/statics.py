@@ -45,6 +45,7 @@ Array = NDArray[np.float64]
 Rows = NDArray[np.int64]
 
 _PAD_ROUNDS = 8  # solutions in which pads may come under load, or lose theirs
+_FIRST = 2  # Newton steps of a film on pads before the shaft moves
 _MOST_AROUND = (120, 240)  # cells, of a shell that gives way all over, and where it is pressed
 _CROWDED = 2  # meshes that are tried beside the one asked for
 _SAME = 0.02  # angle, rad, by which the place of the narrowest gap must have moved for another
@@ -273,7 +274,7 @@ class Statics:
             )
         if not gap.pads.size:
             return self._checked(solve_film(film, film.start(), position, moving, *limits))
-        pads = self._on_pads(gap.converging(position))
+        pads = self._on_pads(gap.converging(position, omega))
         return self._checked(film_on_pads(film, self._shaped, position, moving, pads, *limits))
 
     def message(self, solution: Solution, load: Array | None = None) -> str:
@@ -329,14 +330,16 @@ class Statics:
     ) -> tuple[Solution, Array, Rows]:
         """Newton from every start; with it the position and the pads that it ended at."""
         film, gap = self.film, self.gap
-        pads = gap.converging(estimate)
-        for _ in range(_PAD_ROUNDS):
+        pads = gap.converging(estimate, film.speed)
+        for round_ in range(_PAD_ROUNDS):
             free = self._free(self._on_pads(pads))
             for start in self._starts(force, estimate, last, free, pads, limits):
                 solution = solve_equilibrium(film, force, *start, *limits, free=free)
                 if solution.converged:
                     break
-            tilting = gap.converging(solution.position)
+            tilting = gap.converging(solution.position, film.speed)
+            if round_:  # a pad that has come off stays off: at the limit it would go on and off
+                tilting = np.intersect1d(pads, tilting)
             if not solution.converged or np.array_equal(tilting, pads):
                 break
             estimate = np.append(solution.position[:2], estimate[2:])
@@ -363,12 +366,11 @@ class Statics:
             reach = NEAR * film.narrowest(last.u, position)
             if math.hypot(*(estimate - last.estimate)[:2]) < reach:
                 yield last.u, position
-        if pads.size:
-            still = np.zeros(gap.size)
-            first = film_on_pads(film, self._shaped, estimate, still, pads, *limits)
-            if first.converged:
-                yield first.u, first.position
-        yield film.start(), estimate
+        still = np.zeros(gap.size)
+        if pads.size:  # a film first: from none the tilts would go far
+            yield solve_film(film, film.start(), estimate, still, limits[0], _FIRST).u, estimate
+        else:
+            yield film.start(), estimate
         if lifts and not fed:
             yield from self._floating(force, estimate)
 

@@ -58,9 +58,12 @@ def largest_product(a, b):
 def _spread(x, waves, amount, shift):
     """Fill the `shift` (3 kind, ball) of all contacts by the unknowns `x`.
 
-    Unknowns to `amount` (wave, 3 kind) of each wave, then waves to balls, four at a time.
+    Unknowns to `amount` (wave, 3 kind) of each wave, then waves to balls, four at a time: cosines
+    and sines over half of the ring, whose sum and difference are both halves.
     """
-    trig, owner, wave, amplitude = waves
+    trig, owner, wave, amplitude, cosines, balls = waves
+    half = trig.shape[1]
+    odd = np.empty(half)
     amount[:, :] = 0.0
     for i in range(owner.shape[0]):
         size, line, part = x[owner[i]], amount[wave[i]], amplitude[i]
@@ -68,28 +71,45 @@ def _spread(x, waves, amount, shift):
             line[s] += size * part[s]
     for s in range(shift.shape[0]):
         line = shift[s]
-        line[:] = 0.0
-        for t in range(0, trig.shape[0], 4):
+        line[:half] = 0.0
+        odd[:] = 0.0
+        for t in range(0, cosines, 4):
             a, b, c, d = amount[t, s], amount[t + 1, s], amount[t + 2, s], amount[t + 3, s]
             ta, tb, tc, td = trig[t], trig[t + 1], trig[t + 2], trig[t + 3]
-            for j in range(line.shape[0]):
+            for j in range(half):
                 line[j] += a * ta[j] + b * tb[j] + c * tc[j] + d * td[j]
+        for t in range(cosines, trig.shape[0], 4):
+            a, b, c, d = amount[t, s], amount[t + 1, s], amount[t + 2, s], amount[t + 3, s]
+            ta, tb, tc, td = trig[t], trig[t + 1], trig[t + 2], trig[t + 3]
+            for j in range(half):
+                odd[j] += a * ta[j] + b * tb[j] + c * tc[j] + d * td[j]
+        for j in range(1, balls - half + 1):
+            line[balls - j] = line[j] - odd[j]
+            line[j] += odd[j]
 
 
 @njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER)
 def _gather(push, waves, amount, pull):
     """Add the forces `push` (3 kind, ball) of all contacts to those on the unknowns."""
-    trig, owner, wave, amplitude = waves
+    trig, owner, wave, amplitude, cosines, balls = waves
+    half = trig.shape[1]
+    even, odd = np.empty(half), np.empty(half)
     for s in range(push.shape[0]):
         line = push[s]
+        for j in range(half):
+            even[j], odd[j] = line[j], 0.0
+        for j in range(1, balls - half + 1):
+            even[j] = line[j] + line[balls - j]
+            odd[j] = line[j] - line[balls - j]
         for t in range(0, trig.shape[0], 4):
+            folded = even if t < cosines else odd
             ta, tb, tc, td = trig[t], trig[t + 1], trig[t + 2], trig[t + 3]
             a = b = c = d = 0.0
-            for j in range(line.shape[0]):
-                a += line[j] * ta[j]
-                b += line[j] * tb[j]
-                c += line[j] * tc[j]
-                d += line[j] * td[j]
+            for j in range(half):
+                a += folded[j] * ta[j]
+                b += folded[j] * tb[j]
+                c += folded[j] * tc[j]
+                d += folded[j] * td[j]
             amount[t, s], amount[t + 1, s], amount[t + 2, s], amount[t + 3, s] = a, b, c, d
     for i in range(owner.shape[0]):
         pull[owner[i]] += dot(amplitude[i], amount[wave[i]])
@@ -167,7 +187,7 @@ def evaluate(x, waves, law):
     Returns the shift and push (3 kind, ball) of the contacts, their slopes along and across and
     their slant (kind, ball), and the force on all unknowns.
     """
-    balls, fields = waves[0].shape[1], waves[3].shape[1]
+    balls, fields = waves[5], waves[3].shape[1]
     kinds = fields // 3 if law.power == POINT else fields // 2
     amount = np.zeros((waves[0].shape[0], fields))
     shift, push = np.zeros((fields, balls)), np.zeros((fields, balls))
@@ -252,7 +272,7 @@ def tangent(basis, push, slope, across, slant):
 def contact_state(states, waves, law):
     """Force and signed angle (from the radial plane) of each point contact, (n, kind, ball)."""
     table = law.table
-    balls, kinds = waves[0].shape[1], table.shape[0]
+    balls, kinds = waves[5], table.shape[0]
     force, angle = np.zeros((2, len(states), kinds, balls))
     for i in range(len(states)):
         shift, push, _, _, _, _ = evaluate(states[i], waves, law)

@@ -11,6 +11,7 @@ import numpy as np
 from numba import njit
 
 from loadflow.rolling._kernels import cholesky_solve, is_small, rounding_level, stalled
+from loadflow.rolling._kernels import solve_series as rigid_series
 from loadflow.rolling.rings._ring_kernels import (
     dot,
     evaluate,
@@ -196,7 +197,7 @@ def _newton(
     steps (`known` says whether a tangent from near `x` is there to begin with), a cap on the step
     of the contacts, and halving until energy or residual falls.
     """
-    fields, balls, size = waves[3].shape[1], waves[0].shape[1], x.shape[0]
+    fields, balls, size = waves[3].shape[1], waves[5], x.shape[0]
     kinds = fields // basis.shape[0]
     amount, small, one = np.zeros((waves[0].shape[0], fields)), np.zeros((5, 5)), np.ones(size)
     # one by one: arrays unpacked from a larger one count as strided, and their loops stay scalar
@@ -282,7 +283,7 @@ def _newton(
     return answered, residual, iterations, singular, rounding, held
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy", fastmath={"reassoc", "nsz", "nnan"})
 def _longest(shift):
     """Largest absolute value."""
     most = 0.0
@@ -303,36 +304,73 @@ def _between(x, step, shift, far, damping, trial, between):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
+def _predict(loads, states, i, past, x):
+    """Fill `x` with where case `i` may lie: as the case before, or in line with `past` ones.
+
+    The extrapolation through one, two or three cases is taken that would have told the load best;
+    in a series without order that is the case before.
+    """
+    best, order = np.inf, 1
+    for k in range(1, min(past, 3) + 1):
+        gap = 0.0
+        for a in range(5):
+            told = loads[i - 1, a]
+            if k == 2:
+                told += loads[i - 1, a] - loads[i - 2, a]
+            elif k == 3:
+                told += 2.0 * loads[i - 1, a] - 3.0 * loads[i - 2, a] + loads[i - 3, a]
+            gap += (loads[i, a] - told) ** 2
+        if gap < 0.5 * best:
+            best, order = gap, k
+    for a in range(x.shape[0]):
+        x[a] = states[i - 1, a]
+        if order == 2:
+            x[a] += states[i - 1, a] - states[i - 2, a]
+        elif order == 3:
+            x[a] += 2.0 * states[i - 1, a] - 3.0 * states[i - 2, a] + states[i - 3, a]
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
 def solve_series(loads, rigid, waves, basis, law, reach, cap, tolerance, limit, chunk):
     """Equilibrium for each load (n, 5) of lengths; warm start inside chunks of `chunk` cases.
 
-    `rigid` (n, 5) is the equilibrium with rigid rings, from which a cold start goes. A case that
-    fails or is singular from a warm start is solved again from a cold one; what then still fails is
-    reached from a larger load in steps.
+    `rigid` holds what `loadflow.rolling._kernels.solve_series` takes beside the load, and the
+    scale of the rigid unknowns: a cold start goes from the equilibrium with rigid rings. A case
+    that fails or is singular from a warm start is solved again from a cold one; what then still
+    fails is reached from a larger load in steps.
     """
+    arguments, scale = rigid
     n, size = loads.shape[0], basis.shape[2]
     states = np.zeros((n, size))
     residual, iterations = np.zeros(n), np.zeros(n, np.int64)
     converged, singular = np.zeros(n, np.bool_), np.zeros(n, np.bool_)
     rounding = np.zeros(n)
-    x, load, condensed = np.zeros(size), np.zeros(size), np.zeros((5, 5))
+    x, load, condensed = np.zeros(size), np.zeros(5), np.zeros((5, 5))
+    whole, lying = np.zeros(size), np.zeros((1, 5))
     factor, solved = np.zeros((size - 5, size - 5)), np.zeros((5, size - 5))
     moves, changes = np.zeros((_PAIRS, size)), np.zeros((_PAIRS, size))
     held = np.int64(0)  # a literal 0 would have the whole iteration compiled a second time
+    past = 0  # cases before this one, one after the other, that are solved
     for i in range(n):
-        warm = i % chunk > 0 and converged[i - 1] and not singular[i - 1]
+        past = past + 1 if i % chunk > 0 and converged[i - 1] and not singular[i - 1] else 0
         ok, res, count, free = False, 0.0, 0, False
         for attempt in range(9):  # warm, cold, then from 1e6 times the load down
-            if attempt == 0 and not warm:
+            if attempt == 0 and past == 0:
                 continue
             times = 1.0 if attempt < 2 else 10.0 ** (8 - attempt)
             for a in range(5):
-                load[a] = times * loads[i, a]
+                whole[a] = times * loads[i, a]
+            if attempt == 0:
+                _predict(loads, states, i, past, x)
+            elif attempt == 1:
+                for a in range(5):
+                    load[a] = loads[i, a] / scale[a]
+                lying[:, :] = rigid_series(load.reshape((1, 5)), *arguments)[0]
             if attempt == 1 or attempt == 2:
                 for a in range(size):
-                    x[a] = rigid[i, a] if a < 5 else 0.0
+                    x[a] = lying[0, a] / scale[a] if a < 5 else 0.0
             ok, res, more, free, rounding[i], held = _newton(
-                x, load, waves, basis, law, reach, cap, tolerance, limit, factor, solved,
+                x, whole, waves, basis, law, reach, cap, tolerance, limit, factor, solved,
                 condensed, moves, changes, held, attempt == 0,
             )  # fmt: skip
             count += more

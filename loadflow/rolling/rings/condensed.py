@@ -149,18 +149,23 @@ class RingWaves(NamedTuple):
 
     Attributes
     ----------
-    trig : ndarray, shape (wave, ball)
-        Cosines and sines over the balls, with empty waves up to a multiple of four.
+    trig : ndarray, shape (wave, half)
+        Cosines, then sines, over the balls of one half of the ring, with empty waves up to a
+        multiple of four of each: the other half mirrors them.
     owner, wave : ndarray of int, shape (part,)
         Unknown and wave of each part.
     amplitude : ndarray, shape (part, field · kind)
         Fields of each kind of contact: the shift (r, θ, z) of points.
+    cosines, balls : int
+        Number of cosines, empty ones included, and of balls.
     """
 
     trig: Array
     owner: NDArray[np.int64]
     wave: NDArray[np.int64]
     amplitude: Array
+    cosines: int
+    balls: int
 
     @classmethod
     def of(cls, basis: Array, balls: int) -> RingWaves:
@@ -176,6 +181,12 @@ class RingWaves(NamedTuple):
         seen = seen > _ROUNDING * seen.max(axis=1, keepdims=True)
         used = np.flatnonzero(seen.any(axis=0))
         owner, wave = np.nonzero(seen[:, used])
-        padded = np.zeros((-(-len(used) // 4) * 4, balls))
-        padded[: len(used)] = trig[used]
-        return cls(padded, owner, wave, np.ascontiguousarray(amplitude[owner, used[wave]]))
+        kept = [used[used <= balls // 2], used[used > balls // 2]]
+        sizes = [-(-len(some) // 4) * 4 for some in kept]
+        half = np.zeros((sum(sizes), balls // 2 + 1))
+        place = np.empty(len(used), np.int64)
+        for some, first in zip(kept, (0, sizes[0])):
+            half[first : first + len(some)] = trig[some, : balls // 2 + 1]
+            place[np.searchsorted(used, some)] = first + np.arange(len(some))
+        parts = np.ascontiguousarray(amplitude[owner, used[wave]])
+        return cls(half, owner, place[wave], parts, sizes[0], balls)

@@ -15,7 +15,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError, SolverError
-from loadflow.rolling import equilibrium
 from loadflow.rolling.contacts import Array, Raceway
 from loadflow.rolling.equilibrium import (
     Control,
@@ -27,6 +26,7 @@ from loadflow.rolling.rings.condensation import ring_modes
 from loadflow.rolling.rings.condensed import Coupling, RingModes
 from loadflow.rolling.rings.flexible import FlexibleRings
 
+_ROUGHLY = 1e-3  # residual of rigid rings from whose equilibrium a cold start goes
 _BLOCK = 512  # cases whose contact forces are formed at once
 
 
@@ -182,18 +182,13 @@ def solve_flexible(
     modes = ring_modes(coupling, rings)
     contacts = coupling.contacts
     loads = np.concatenate([f, m], axis=-1).reshape(-1, 5)
-    rigid = equilibrium.solve(
-        contacts,
-        f,
-        m,
-        tolerance=1e-3,
-        max_iterations=control.max_iterations,
-        strict=False,
-        chunk=control.chunk,
-    )
+    rigid = (
+        *contacts.arguments, contacts.scale, contacts.cap, _ROUGHLY, control.max_iterations,
+        contacts.unit_compliance(), 1,
+    )  # fmt: skip
     x, converged, residual, iterations, singular, rounding = _ring_newton.solve_series(
         loads * contacts.scale,
-        (rigid.displacement / contacts.scale).reshape(-1, 5),
+        (rigid, contacts.scale),
         modes.waves,
         modes.basis,
         modes.law,

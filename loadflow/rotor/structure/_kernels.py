@@ -295,11 +295,12 @@ def step_on(dt, new, q, v, acc):
 
 
 @kernel
-def blade_root(m, b, speed, azimuth, shape, drift, gravity, jerk, force, motion, acc, total):
+def blade_root(m, b, speed, azimuth, shape, drift, gravity, jerk, force, motion, acc, total, own):
     """Add what one blade applies to the hub at the apex: aerodynamics, weight and inertia.
 
     `jerk` (6,): acceleration of the apex and of the rotation of the rotor; `total` (6,): force and
-    moment in the shaft frame.
+    moment in the shaft frame; `own` (6,) becomes those of this blade alone at its root, in the axes
+    of its pitch bearing: outward along the axis of pitch, downwind, against the rotation.
     """
     cone_s, cone_c = np.sin(m.cone), np.cos(m.cone)
     sine, cosine = np.sin(azimuth), np.cos(azimuth)
@@ -308,6 +309,8 @@ def blade_root(m, b, speed, azimuth, shape, drift, gravity, jerk, force, motion,
     reach = np.empty(6)
     reach[0], reach[1], reach[2] = blade_axes(sine, cosine, jerk[:3])
     reach[3], reach[4], reach[5] = blade_axes(sine, cosine, jerk[3:])
+    root_x, root_r = -m.hub_radius * cone_s, m.hub_radius * cone_c
+    own_x = own_r = own_t = about_x = about_r = about_t = 0.0
     for i in range(m.radius.size):
         along, out, turn = place(m, i, motion, cone_s, cone_c)
         bend_n = bend_t = 0.0
@@ -327,3 +330,15 @@ def blade_root(m, b, speed, azimuth, shape, drift, gravity, jerk, force, motion,
         total[3] += out * f_t - turn * f_r
         total[4] += -sine * m_r - cosine * m_t
         total[5] += cosine * m_r - sine * m_t
+        own_x, own_r, own_t = own_x + f_x, own_r + f_r, own_t + f_t
+        about_x += (out - root_r) * f_t - turn * f_r
+        about_r += turn * f_x - (along - root_x) * f_t
+        about_t += (along - root_x) * f_r - (out - root_r) * f_x
+    own[0], own[1], own[2] = (
+        own_r * cone_c - own_x * cone_s,
+        own_x * cone_c + own_r * cone_s,
+        -own_t,
+    )
+    own[3] = about_r * cone_c - about_x * cone_s
+    own[4] = about_x * cone_c + about_r * cone_s
+    own[5] = -about_t

@@ -183,7 +183,7 @@ HEAT = Effect(
 
 
 def _tilt(at: Situation) -> Sizes:
-    """Slope of the shaft × width / (2 film): what the tilt takes from the film at one end.
+    """Slope of the shaft in its bore × width / (2 film): what tilt takes from the film at one end.
 
     A cantilever of the span between the bearings under the moment at the hub, as wide as the beam
     of the suspension, or as the bearing with a bore of `HOLLOW` where there is none. The shares in
@@ -202,7 +202,8 @@ def _tilt(at: Situation) -> Sizes:
         )
         load = at.bearings[name]
         moment = load.radial * concept.positions[0] + load.turn
-        slope = moment * span / (3.0 * STEEL * section.inertia)
+        bent = moment * span / (3.0 * STEEL * section.inertia)
+        slope = bent + np.hypot(*scene.journal.at(name).alignment)
         share = np.minimum(0.5 * slope * geometry.width / film.minimum_film, 1.0)
         worst = float(np.nanmax(share))
         found.append(

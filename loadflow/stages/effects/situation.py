@@ -16,8 +16,9 @@ import numpy as np
 from loadflow.journal.shapes import CYLINDER
 from loadflow.scene.cases import Case, wind_of
 from loadflow.scene.scene import Scene
-from loadflow.shaft import bearing_loads, yaw_loads
+from loadflow.shaft import bearing_loads, pitch_loads, yaw_loads
 from loadflow.stages.frames import to_film
+from loadflow.stages.swinging import root_loads
 from loadflow.turbines import Turbine, load_turbine
 
 Floats = np.ndarray
@@ -151,8 +152,13 @@ def _of_wind(scene: Scene, cases: list[Case]) -> Situation:
     thrust = 0.5 * AIR_DENSITY * area * wind**2 * np.minimum(0.8, 7.0 / wind)
     deviation = SWING * AIR_DENSITY * area * rotor.radius * wind**2 * turbulence
     parts = [
-        _on_bearings(scene, rotor.tilt, *_hub(force, turbine.rotor_mass, swing))
-        for force, swing in zip(thrust, DEVIATIONS * deviation)
+        _on_bearings(
+            scene,
+            rotor.tilt,
+            *_hub(force, turbine.rotor_mass, swing),
+            root=_root(turbine, force, swing, turning),
+        )
+        for force, swing, turning in zip(thrust, DEVIATIONS * deviation, speed)
     ]
     bearings = {
         name: BearingLoad(*(np.stack(values) for values in zip(*(part[name] for part in parts))))
@@ -174,8 +180,30 @@ def _hub(thrust: float, mass: float, swing: float) -> tuple[Floats, Floats]:
     return force, moment
 
 
+def _root(turbine: Turbine, thrust: float, swing: float, speed: float) -> tuple[Floats, Floats]:
+    """Loads (3, 5) of a blade at its root: their mean, with its weight and turbulence either way.
+
+    Thrust acts at two thirds of the radius; the tilting moment of a rotor is that of one and a half
+    blades.
+    """
+    rotor, blade = turbine.rotor, turbine.blade
+    out = np.trapezoid(blade.span * blade.mass_density, blade.span) / blade.mass
+    flap, weight = thrust / rotor.blades, blade.mass * GRAVITY
+    mean = np.array([blade.mass * speed**2 * (rotor.hub_radius + out), flap, 0.0])
+    force, moment = np.tile(mean[:, None], (1, 5)), np.zeros((3, 5))
+    force[2, 1:3] = weight, -weight
+    moment[1, 1:3] = -weight * out, weight * out
+    moment[2] = flap * (2 / 3 * rotor.radius - rotor.hub_radius)
+    moment[2, 3:5] += np.array([swing, -swing]) / 1.5
+    return force, moment
+
+
 def _on_bearings(
-    scene: Scene, tilt: float, force: Floats, moment: Floats
+    scene: Scene,
+    tilt: float,
+    force: Floats,
+    moment: Floats,
+    root: tuple[Floats, Floats] | None = None,
 ) -> dict[str, tuple[Floats, ...]]:
     """Mean force, mean moment and their largest deviations, by bearing of a rigid shaft."""
     found = {}
@@ -185,6 +213,8 @@ def _on_bearings(
     ]
     if scene.shaft.yaw is not None:
         every.append(yaw_loads(scene.shaft.yaw, force, moment, tilt=tilt))
+    if scene.shaft.pitch is not None and root is not None:
+        every.append(pitch_loads(scene.shaft.pitch, *root))
     for loads in every:
         for name in loads["bearing"].values:
             one = loads.sel(bearing=name)
@@ -200,13 +230,20 @@ def _of_series(scene: Scene, case: Case) -> Situation:
 
     series = hub_loads(scene, case, {})
     some = np.unique(np.linspace(0, series.sizes["time"] - 1, SAMPLES).astype(int))
+
+    def with_mean(load: Floats) -> Floats:
+        return np.concatenate([load[:, some].mean(axis=1, keepdims=True), load[:, some]], axis=1)
+
     force, moment = (
-        series[name].transpose("axis", "time").values.astype(float)[:, some]
+        with_mean(series[name].transpose("axis", "time").values.astype(float))
         for name in ("hub_force", "hub_moment")
     )
-    mean = [np.concatenate([v.mean(axis=1, keepdims=True), v], axis=1) for v in (force, moment)]
+    root = None
+    if scene.shaft.pitch is not None:
+        at_root = root_loads(series)
+        root = with_mean(at_root[0]), with_mean(at_root[1])
     tilt = load_turbine(scene.turbine.name).rotor.tilt
-    parts = _on_bearings(scene, tilt, *mean)
+    parts = _on_bearings(scene, tilt, force, moment, root)
     bearings = {name: BearingLoad(*(v[None] for v in part)) for name, part in parts.items()}
     speed = np.array([max(abs(float(series["speed"].mean())), 1e-3)])
     return Situation(scene, np.array([case.wind_speed]), np.array([GUST]), speed, bearings)

@@ -1,0 +1,82 @@
+"""Tables of a run's answers: value, interval by seeds, band by tolerances, error by models."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+import xarray as xr
+
+from loadflow.planning.budget import Answer
+from loadflow.quantities import fitting_unit
+from loadflow.report import Table
+from loadflow.studies.tolerances import Band
+
+
+def answer_tables(found: list[Answer], tables: dict[str, xr.Dataset]) -> Iterator[Table]:
+    """Each answer with its interval, band and error, then what tolerances do to each.
+
+    Parameters
+    ----------
+    found : list of Answer
+        Of the run.
+    tables : dict
+        Its results by stage.
+    """
+    if found:
+        yield _answers(found)
+    yield from _tolerances(tables)
+
+
+def _answers(found: list[Answer]) -> Table:
+    banded = any(one.band is not None for one in found)
+    heads = ["answer", "bearing", "value", "95 % interval by seeds"]
+    heads += ["band by tolerances"] if banded else []
+    heads += ["error by models", "governed by", "left out"]
+    return Table("Answers", heads, [answer_row(one, banded) for one in found])
+
+
+def answer_row(one: Answer, banded: bool = False) -> list[str]:
+    """Row of an answer: value and interval in the unit that fits; `banded`: with its band."""
+    ends = (np.nan, np.nan) if one.band is None else one.band.of(one.value)
+    size = largest(one.low, one.value, one.high, *ends)
+    factor, unit = (1e6, "µm") if one.unit == "m" else fitting_unit(one.unit, size)
+    low, value, high = (f"{factor * number:.4g}" for number in (one.low, one.value, one.high))
+    unit = "" if unit == "–" else f" {unit}"
+    missing = ", ".join(
+        f"{name} {100 * share:.2g} %" for name, share in (one.left_out or {}).items()
+    )
+    return [
+        one.quantity,
+        one.bearing,
+        value + unit,
+        "one seed" if np.isnan(one.low) else f"{low} … {high}{unit}",
+        *([_band(one.band, factor, ends, unit)] if banded else []),
+        "not measured" if one.error is None else f"≤ {100 * one.error:.2g} %",
+        one.governed_by,
+        missing or "-",
+    ]
+
+
+def _band(band: Band | None, factor: float, ends: tuple[float, float], unit: str) -> str:
+    if band is None:
+        return "none stated"
+    if np.isnan(ends[0]):
+        return "no answer at an end"
+    return f"{factor * ends[0]:.4g} … {factor * ends[1]:.4g}{unit}"
+
+
+def _tolerances(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
+    """How each answer moves with each value at the ends of its band."""
+    if "tolerances" not in tables:
+        return
+    data = tables["tolerances"]
+    text = [data[name].values.tolist() for name in ("bearing", "key", "quantity", "case")]
+    ends = [[f"{100 * x:+.2g} %" for x in data[end].values] for end in ("low", "high")]
+    heads = ["bearing", "value", "answer", "load case", "at the lower end", "at the upper end"]
+    yield Table("Tolerances", heads, [list(row) for row in zip(*text, *ends)])
+
+
+def largest(*numbers: float) -> float:
+    """Largest size of those numbers that are finite; 0 if none is."""
+    return max((abs(number) for number in numbers if np.isfinite(number)), default=0.0)

@@ -1,0 +1,271 @@
+"""Bands by tolerances beside the numbers of a comparison: few loads, cheap models, one by one."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+import xarray as xr
+
+from loadflow.journal import Equilibrium
+from loadflow.rolling.rating.modified_life import viscosity_ratio
+from loadflow.scene.as_built import AsBuilt
+from loadflow.scene.bearings import FurtherBearing
+from loadflow.scene.candidate import Candidate
+from loadflow.scene.friction import Friction
+from loadflow.scene.journal import Journal
+from loadflow.scene.scene import Scene
+from loadflow.scene.thrust import AnyAxial
+from loadflow.stages.film_of_bearing import equilibria, shaft_line
+from loadflow.stages.frames import to_rolling
+from loadflow.stages.friction import friction_options, least_film_parameter
+from loadflow.stages.rolling import rest
+from loadflow.stages.thrust import solved
+from loadflow.studies.compare import Finished
+from loadflow.studies.compare_margins import load_by_row, lubrication
+from loadflow.studies.compare_result import Judged, Number
+from loadflow.studies.compare_risks import LIGHT
+from loadflow.studies.design_point import fast_journal, judge_design
+from loadflow.studies.deviations import Built, Tolerance, tolerances_of
+
+CLASSES = 3
+"""Classes of speed, and twice as many of load, that stand for the series, beside the hardest."""
+
+PADS = 12
+"""Samples, the hardest first, in which films of pads are solved again."""
+
+_HEAVIER = 1.1  # factor on a load, for the power of it that an answer follows
+_SLOW = 0.1  # share of the samples that counts as low speed
+_SAME = 1e-9  # shares of a value below which a tolerance does not move it
+
+
+def with_bands(
+    one: Judged, run: Finished, scene: Scene, spectrum: xr.DataTree, given: AsBuilt
+) -> Judged:
+    """A candidate with the band by tolerances of each of its numbers that they move.
+
+    Each tolerance is taken to both of its ends, one at a time, under few loads of the lifetime and
+    the hardest ones, by the cheap models of `loadflow design`. The change of an answer there, as a
+    share, is that of the answer of the run. Ends of all tolerances add up as independent ones do:
+    the square root of the sum of squares, for either side.
+
+    Parameters
+    ----------
+    one : Judged
+        The candidate.
+    run : Finished
+        Its run.
+    scene : Scene
+        Of the run, with the effects that were decided on.
+    spectrum : xarray.DataTree
+        Of `loadflow.studies.load_spectrum.load_spectrum`, with its places.
+    given : AsBuilt
+        What to take.
+
+    Returns
+    -------
+    Judged
+        Its `change` names tolerances that break a limit by themselves.
+    """
+    built = Built(_bearings(run, scene), scene.friction, spectrum)
+    around: dict[str, list[tuple[str, float, float]]] = {}
+    breaking = []
+    for tolerance in tolerances_of(built, given):
+        moved = _moved(one, tolerance)
+        for key, (low, high) in moved.items():
+            around.setdefault(key, []).append((tolerance.name, low, high))
+        factor = one.numbers["load_factor"].value
+        if factor >= 1 > factor + moved.get("load_factor", (0.0, 0.0))[0] or tolerance.missing:
+            breaking.append(tolerance.name)
+    numbers = {
+        key: _banded(number, around[key]) if key in around else number
+        for key, number in one.numbers.items()
+    }
+    told = f"tolerance of {', '.join(breaking)} alone" if breaking else ""
+    change = "; ".join(part for part in (one.change, told) if part)
+    return replace(one, numbers=numbers, change=change)
+
+
+def _bearings(run: Finished, scene: Scene) -> Candidate:
+    """What stands in the scene, of the rooms that have results."""
+    there = {room: getattr(scene, room) for room in ("journal", "thrust", "rolling")}
+    return Candidate(**{room: own for room, own in there.items() if room in run.tables})
+
+
+def _banded(number: Number, around: Sequence[tuple[str, float, float]]) -> Number:
+    low = -math.sqrt(sum(down**2 for _, down, _ in around))
+    high = math.sqrt(sum(up**2 for *_, up in around))
+    most = max(around, key=lambda row: max(-row[1], row[2]))
+    return replace(
+        number,
+        tolerance_low=number.value + low,
+        tolerance_high=number.value + high,
+        tolerance=most[0],
+    )
+
+
+def _moved(one: Judged, tolerance: Tolerance) -> dict[str, tuple[float, float]]:
+    """By quantity, how far a tolerance moves its value down and up, in the unit of the number."""
+    stated = cheap_numbers(tolerance.stated)
+    found: dict[str, tuple[float, float]] = {}
+    for end in tolerance.ends:
+        there = cheap_numbers(end)
+        for key, number in one.numbers.items():
+            before, after = (values.get(key, math.nan) for values in (stated, there))
+            if not (math.isfinite(before) and math.isfinite(after) and math.isfinite(number.value)):
+                continue
+            step = after - before
+            step *= number.value / before if before else 1.0
+            if abs(step) > _SAME * abs(number.value):
+                low, high = found.get(key, (0.0, 0.0))
+                found[key] = min(low, step), max(high, step)
+    return found
+
+
+# --- numbers by cheap models ----------------------------------------------------------------------
+
+
+def cheap_numbers(built: Built) -> dict[str, float]:
+    """Numbers of a comparison by the cheap models of a design, by quantity.
+
+    Only their changes as shares are asked, so that units and what all share do not matter.
+    """
+    candidate, spectrum, found = built.candidate, built.spectrum, dict[str, float]()
+    if candidate.journal is not None:
+        found |= _of_films(candidate.journal, spectrum)
+    if candidate.rolling is not None:
+        alone = Candidate(rolling=candidate.rolling)
+        found |= judge_design(alone, built.friction, spectrum).numbers
+        found |= _of_rolling(candidate.rolling.bearings, built.friction, spectrum)
+    if candidate.thrust is not None:
+        found |= _of_pads(candidate.thrust.bearings, spectrum, found)
+    return found
+
+
+def _of_films(journal: Journal, spectrum: xr.DataTree) -> dict[str, float]:
+    """Films of journal bearings at rest; their margin by powers of the load at the hardest ones."""
+    sums = dict.fromkeys(("power", "pump", "oil_flow"), 0.0)
+    films, rough, ratios, pressures, margins, mixed = [], [], [], [], [], []
+    for place in journal.bearings:
+        options, samples = fast_journal(journal.at(place)), spectrum[place].to_dataset()
+        answer = _at(options, samples)
+        weight = samples["weight"].values
+        turning = answer.converged & (weight > 0)
+        own = weight * turning
+        scale = weight.sum() / max(own.sum(), 1e-300)  # those without a film lose as the others do
+        sums["power"] += scale * _mean(answer.friction_power, own)
+        sums["pump"] += scale * _mean(answer.supply_power, own)
+        sums["oil_flow"] += scale * _mean(answer.side_flow, own)
+        judged = answer.converged & samples["running"].values.astype(bool)
+        film = np.where(judged, answer.minimum_film, np.inf)
+        pressure = np.where(answer.converged, answer.maximum_pressure, 0.0)
+        thin, hard = int(np.argmin(film)), int(np.argmax(pressure))
+        heavier = _at(options, samples.isel(sample=[thin, hard]), _HEAVIER)
+        thinner, higher = heavier.minimum_film[0] / film[thin], pressure[hard]
+        steps = np.log(thinner), np.log(heavier.maximum_pressure[1] / higher)
+        reserves = film[thin] / options.least_film, options.limits.pressure_at(0.0) / higher
+        margins += [
+            float(reserve ** (math.log(_HEAVIER) / abs(step)))
+            for reserve, step in zip(reserves, steps)
+            if math.isfinite(step) and step != 0
+        ]
+        films.append(float(film[thin]))
+        rough.append(films[-1] / options.contact_film)
+        pressures.append(float(higher))
+        ratios.append(float(answer.eccentricity_ratio[judged].max(initial=0.0)))
+        formed = turning & (answer.eccentricity_ratio <= options.critical_eccentricity_ratio)
+        mixed.append(float(weight.sum() - (weight * formed).sum()))
+    return {
+        "minimum_film": min(films),
+        "film_to_roughness": min(rough),
+        "eccentricity_ratio": max(ratios),
+        "film_pressure": max(pressures),
+        "load_factor": min(margins, default=math.nan),
+        "friction": sums["power"],
+        "energy": sums["power"] + sums["pump"],
+        "oil_flow": sums["oil_flow"],
+        "pump": sums["pump"],
+        "mixed_time": max(mixed) * spectrum.attrs["seconds"] / 3600,
+        "tilt": 1.0 / min(films),
+    }
+
+
+def _at(options: Journal, samples: xr.Dataset, factor: float = 1.0) -> Equilibrium:
+    """Films under samples of a spectrum with a factor on the loads."""
+    force = factor * samples["force"].transpose("sample", "axis").values
+    line = shaft_line(options, samples)
+    return equilibria(options, force, samples["speed"].values, **line)
+
+
+def _mean(values: np.ndarray, weight: np.ndarray) -> float:
+    return float((np.where(weight > 0, values, 0.0) * weight).sum())
+
+
+def _of_rolling(
+    parts: Mapping[str, FurtherBearing], friction: Friction, spectrum: xr.DataTree
+) -> dict[str, float]:
+    """Thinnest films, smallest κ and load, and the load of the row that takes the thrust."""
+    films, ratios, loads, rows = [], [], [], [0.0]
+    for place, part in parts.items():
+        bearing, samples = part.geometry, spectrum[place].to_dataset()
+        force, moment, speed = (
+            samples[name].transpose("sample", ...).values for name in ("force", "moment", "speed")
+        )
+        turning = samples["weight"].values > 0
+        answer = rest(part, force, moment, strict=False)
+        lost = answer.friction(speed, friction_options(friction, bearing))
+        thin = least_film_parameter(lost.film_parameter, answer.element_forces)
+        slow = turning & (np.abs(speed) <= np.quantile(np.abs(speed[turning]), _SLOW))
+        films.append(float(np.median(thin[slow])))
+        kappa = viscosity_ratio(lubrication(friction), speed[turning], bearing.pitch_diameter)
+        ratios.append(float(kappa.min()))
+        share = answer.equivalent_load[turning] / bearing.rated_capacity
+        loads.append(float(share.min()) / LIGHT[bearing.element])
+        if bearing.group_dims[0] == "row" and bearing.groups[0] > 1 and bearing.takes_thrust:
+            hardest = int(np.argmax(np.abs(force[:, 0])))
+            rows.append(float(load_by_row(bearing, answer)[hardest].max()))
+    return {
+        "film_parameter": min(films),
+        "viscosity_ratio": min(ratios),
+        "minimum_load": min(loads),
+        "row_share": max(rows),
+        "row_overload": max(rows),
+    }
+
+
+def _of_pads(
+    bearings: Mapping[str, AnyAxial], spectrum: xr.DataTree, beside: Mapping[str, float]
+) -> dict[str, float]:
+    """Films of pads; what they lose is added to that of the journal bearings beside them."""
+    films, pressures, rough, power = [], [], [], 0.0
+    for place, bearing in bearings.items():
+        samples = spectrum[place].to_dataset()
+        force, moment = (
+            to_rolling(samples[name].transpose("sample", "axis").values)
+            for name in ("force", "moment")
+        )
+        turning = np.flatnonzero(samples["weight"].values > 0)
+        pressed = bearing.normal_load(force, moment) / np.maximum(np.abs(samples["speed"]), 1e-12)
+        order = turning[np.argsort(pressed.values[turning])]
+        some = samples.isel(sample=order[np.linspace(0, order.size - 1, PADS).astype(int)])
+        answer = solved(bearing, place, some)
+        weight = some["weight"].values * np.isfinite(answer["friction_power"].values)
+        power += float(samples["weight"].sum()) * (
+            _mean(answer["friction_power"].values, weight) / max(weight.sum(), 1e-300)
+        )
+        films.append(float(np.nan_to_num(answer["minimum_film"]).min()))
+        rough.append(films[-1] / bearing.contact_film)
+        pressures.append(float(np.nanmax(answer["maximum_pressure"].values)))
+    if beside:
+        lost = {name: beside[name] + power for name in ("friction", "energy")}
+        return {"thrust_film": min(films), "thrust_pressure": max(pressures)} | lost
+    return {
+        "minimum_film": min(films),
+        "film_to_roughness": min(rough),
+        "film_pressure": max(pressures),
+        "friction": power,
+        "energy": power,
+        "tilt": 1.0 / max(min(films), 1e-300),
+    }

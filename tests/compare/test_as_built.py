@@ -1,0 +1,170 @@
+"""Tolerances: what a bearing becomes at their ends, and the bands beside the numbers."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from loadflow.rolling.rating.modified_life import viscosity_ratio
+from loadflow.scene.as_built import AsBuilt, grade_width
+from loadflow.scene.candidate import Candidate
+from loadflow.scene.scene import make_scene
+from loadflow.studies.compare_margins import lubrication
+from loadflow.studies.deviations import Built, tolerances_of
+from loadflow.studies.tolerance_bands import cheap_numbers
+
+NONE = {"clearance": 0.0, "viscosity": 0.0, "temperature": 0.0, "roughness": 0.0, "alignment": 0.0}
+MEASURES = {"diameter": 1.0, "width": 0.8, "relative_clearance": 1e-3}
+
+
+@pytest.mark.parametrize(
+    ("first", "last", "grade", "table"),
+    [(30, 50, 6, 16), (80, 120, 7, 35), (400, 500, 7, 63), (630, 800, 6, 50), (1600, 2000, 7, 150),
+     (2500, 3150, 8, 330)],
+)  # fmt: skip
+def test_grades_are_those_of_the_tables_of_iso_286(first, last, grade, table):
+    """At the geometric mean of a step of diameters, but for the rounding of the tables."""
+    width = 1e6 * grade_width(1e-3 * math.sqrt(first * last), grade)
+    assert width == pytest.approx(table, rel=0.03)
+
+
+def spectrum(places, moment=0.0):
+    axes = ("sample", "axis")
+    count = 4
+    group = xr.Dataset(
+        {
+            "force": (axes, np.outer([1.0, 0.8, 0.6, 0.9], [2e5, 0.0, -1.2e6])),
+            "moment": (axes, np.outer(np.ones(count), [0.0, moment, 0.0])),
+            "speed": ("sample", [1.2, 1.2, 0.9, 1.0]),
+            "weight": ("sample", [0.25, 0.25, 0.25, 0.25]),
+            "load_factor": ("sample", np.full(count, 1.35)),
+            "running": ("sample", np.ones(count, bool)),
+            "ultimate": ("sample", np.ones(count, bool)),
+            "load_per_speed": ("case", [1e6]),
+        },
+        {"axis": ["x", "y", "z"], "case": ["one"]},
+    )
+    floating = group.assign(force=group["force"] * xr.DataArray([0.0, 1.0, 1.0], dims="axis"))
+    tree = xr.DataTree.from_dict({p: floating if p == "N" else group for p in places})
+    tree.attrs["seconds"] = 3e7
+    return tree
+
+
+def built(**sections):
+    scene = make_scene({"name": "t", "shaft": {"two_point": {}, "moment": {}}, **sections})
+    rooms = {room: getattr(scene, room) for room in ("journal", "rolling") if room in sections}
+    places = ["N", "N2"] if "journal" in rooms else [*scene.rolling.geometries]
+    return Built(Candidate(**rooms), scene.friction, spectrum(places))
+
+
+def journal(**more):
+    data = {"bearings": ["N", "N2"], "geometry": MEASURES, "lubricant": {"viscosity": 0.3}}
+    return built(journal=data | more)
+
+
+def only(stated, **given):
+    """The one tolerance that is not 0, and what its ends are."""
+    (found,) = tolerances_of(stated, AsBuilt(**(NONE | given)))
+    return found
+
+
+def test_a_tolerance_of_0_is_left_out():
+    assert not [*tolerances_of(journal(), AsBuilt(**NONE))]
+    assert not AsBuilt(**NONE).any
+    assert AsBuilt().any
+
+
+def test_clearance_is_taken_over_the_diameter_to_both_ends():
+    found = only(journal(), clearance=2e-4)
+    sizes = [end.candidate.journal.geometry.relative_clearance for end in found.ends]
+    assert sizes == pytest.approx([0.8e-3, 1.2e-3])
+    stated = cheap_numbers(found.stated)
+    tight, wide = map(cheap_numbers, found.ends)
+    assert tight["oil_flow"] < stated["oil_flow"] < wide["oil_flow"]
+
+
+def test_a_clearance_that_is_used_up_is_said():
+    found = only(journal(), clearance=0.01)
+    assert found.missing
+    assert len(found.ends) == 1
+
+
+def test_thinner_oil_and_warmer_oil_thin_the_film_alike():
+    """Of one viscosity: a share, and the kelvin that take as much of it."""
+    grade, warm = (
+        only(journal(), viscosity=0.1),
+        only(journal(), temperature=-math.log(0.9) / 0.035),
+    )
+    thin, warmer = grade.ends[0], warm.ends[1]
+    assert thin.candidate.journal.lubricant.viscosity == pytest.approx(0.27)
+    assert warmer.candidate.journal.lubricant.viscosity == pytest.approx(0.27)
+    films = [cheap_numbers(one)["minimum_film"] for one in (thin, grade.stated, grade.ends[1])]
+    assert films == sorted(films)
+    assert films[0] < films[-1]
+
+
+def test_a_film_with_heat_has_other_oil_and_another_inlet():
+    data = {"bearings": ["N"], "geometry": MEASURES, "heat": {"oil": "mineral-vg-320"}}
+    hot = built(journal=data)
+    assert only(hot, temperature=7.0).ends[1].candidate.journal.heat.inlet_temperature == 320.15
+    first = only(hot, viscosity=0.1).ends[0].candidate.journal.heat.liquid.viscosities[0]
+    assert first == pytest.approx(0.9 * hot.candidate.journal.heat.liquid.viscosities[0])
+
+
+def test_the_margin_of_a_film_follows_its_power_of_the_load():
+    """A pressure whose limit is twice as high: the loads may grow by 2 over its power."""
+    low, high = (
+        cheap_numbers(journal(limits={"material": [[400.0, p]], "minimum_film": 1e-7}))
+        for p in (1e7, 2e7)
+    )
+    power = math.log(2.0) / math.log(high["load_factor"] / low["load_factor"])
+    assert 0.9 < power < 2.0  # the pressure of a film grows faster than its load
+    rougher = only(journal(), roughness=0.25).ends[1]
+    assert cheap_numbers(rougher)["load_factor"] <= cheap_numbers(journal())["load_factor"]
+
+
+def test_a_shaft_that_lies_askew_thins_the_film_and_0_leaves_it():
+    found = only(journal(), alignment=1e-4)
+    stated = cheap_numbers(found.stated)["minimum_film"]
+    films = [cheap_numbers(end)["minimum_film"] for end in found.ends]
+    assert len(films) == 4
+    assert max(films) < stated
+    assert stated == pytest.approx(cheap_numbers(journal())["minimum_film"], rel=0.02)
+
+
+def test_oil_of_rolling_bearings_is_as_thin_as_its_grade_allows():
+    stated = built(rolling={"arrangement": "two-spherical"})
+    thin, thick = only(stated, viscosity=0.1).ends
+    ratio = [
+        float(viscosity_ratio(lubrication(one.friction), 1.2, 1.0)) for one in (thin, stated, thick)
+    ]
+    assert np.divide(ratio, ratio[1]) == pytest.approx([0.9, 1.0, 1.1], rel=1e-6)
+
+
+def test_preload_is_changed_and_moments_turn_what_cannot_tilt_alone():
+    pair = built(rolling={"arrangement": "cylindrical-tapered"})
+    end = only(pair, clearance=3e-5).ends[1]
+    for before, after in zip(
+        pair.candidate.rolling.geometries.values(), end.candidate.rolling.geometries.values()
+    ):
+        assert after.clearance - before.clearance == pytest.approx(3e-5)
+    askew = only(pair, alignment=1e-4)
+    pressure = [cheap_numbers(one)["contact_pressure"] for one in (askew.stated, *askew.ends)]
+    assert max(pressure[1:]) > pressure[0]
+    free = built(rolling={"arrangement": "two-spherical"})
+    assert not [*tolerances_of(free, AsBuilt(**(NONE | {"alignment": 1e-4})))]
+
+
+def test_tolerances_of_values_count_in_place_of_those_assumed():
+    stated = journal()
+    own = {"N": {"geometry.relative_clearance": 1e-4}}
+    toleranced = replace(stated, candidate=stated.candidate.model_copy(update={"tolerances": own}))
+    first, *others = tolerances_of(toleranced, AsBuilt(alignment=0.0))
+    assert first.name == "geometry.relative_clearance"
+    ends = [end.candidate.journal.at("N").geometry.relative_clearance for end in first.ends]
+    assert ends == pytest.approx([0.9e-3, 1.1e-3])
+    assert all(end.candidate.journal.at("N2").geometry.relative_clearance == 1e-3
+               for end in first.ends)  # fmt: skip
+    assert [one.name for one in others] == ["oil grade", "oil temperature", "roughness"]

@@ -1,0 +1,99 @@
+"""Tilting pads: where Newton starts, what holds a pad, and that all ways lead to one film."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from loadflow.journal import Film, GasMixture, Guembel, JournalBearing, Lubricant, TiltingPads
+from loadflow.journal.film.pad_curve import pad_curve
+from loadflow.journal.line import Line
+from loadflow.journal.solvers.pad_estimate import on_pads
+from loadflow.journal.solvers.pads import solve_with_pads
+from loadflow.journal.solvers.statics import Statics
+from loadflow.numerics.convergence import Limits
+
+PADS = TiltingPads(5, 1.05, preload=0.2, angle=0.628)
+BEARING = JournalBearing(1.4, 1.3, 1e-3, shape=PADS)
+FILM = Film(Lubricant(0.2), GasMixture(1e4), 1e5, grid=(48, 12))
+SPEED = 1.2
+LIMITS = Limits(1e-10, 60, True)
+
+
+def statics(bearing: JournalBearing, speed: float = SPEED) -> Statics:
+    """The film at a speed."""
+    found = Statics(bearing, FILM, Line.of(()), abs(speed))
+    found.film.set_speed(speed)
+    return found
+
+
+def test_long_flat_pad_carries_what_its_exact_film_does() -> None:
+    """A plane slider under parabolas across: 5/6 of the infinitely wide one, pivot at its centre.
+
+    With a ratio of gaps of 2.1886 the centre of pressure of the plane slider is at 0.5772 of its
+    length, and its load 0.02670 · 6 η U L²/h_out² [Cameron 1966].
+    """
+    small = 0.02  # rad, so short that the pad is plane
+    share = 0.5772
+    curve = pad_curve(0.0, share * small, (1 - share) * small, half_width=50.0)
+    place = int(np.argmin(np.abs(curve.gaps - 0.3)))
+    gap, lift = curve.gaps[place], curve.lifts[place]
+    outlet = gap - lift * np.sin((1 - share) * small)
+    inlet = gap + lift * np.sin(share * small)
+    assert inlet / outlet == pytest.approx(2.1886, rel=0.05)
+    exact = 5 / 6 * 6 * 0.02670 * small**2 / outlet**2
+    assert curve.forces[place] == pytest.approx(exact, rel=0.02)
+
+
+@pytest.mark.parametrize("load", [2e5, 1e6, 4e6])
+@pytest.mark.parametrize("angle", [0.0, 2.0])
+def test_first_position_is_near_the_answer(load: float, angle: float) -> None:
+    """Within 5 % of the clearance, so that Newton's method needs few steps from it."""
+    force = load * np.array([np.cos(angle), np.sin(angle)])
+    film = statics(BEARING)
+    place = on_pads(film.film, film.gap, force)
+    assert place is not None
+    found = film.solve(0, force, SPEED, None, LIMITS)
+    assert found.converged
+    assert found.iterations <= 6
+    np.testing.assert_allclose(place, found.position[:2], atol=0.05)
+
+
+def test_both_ways_lead_to_one_film() -> None:
+    """Newton for all at once, and shaft on pads held between bounds, which other pads come off."""
+    force = np.array([1.99e6, -2.4e5])
+    film = statics(BEARING)
+    once = film.solve(0, force, SPEED, None, LIMITS)
+    limits = LIMITS.tolerance, LIMITS.max_iterations
+    generalised = np.append(force, np.zeros(5))
+    away = film.gap.lifted(np.append([0.87, -0.1], np.zeros(5)), SPEED)
+    steps = solve_with_pads(film.film, film.gap, generalised, away, np.arange(2), *limits)
+    assert steps.converged
+    np.testing.assert_allclose(steps.position, once.position, atol=1e-8)
+    pads = film.gap.pads
+    off = film.gap.columns_of(np.setdiff1d(pads, film.gap.converging(once.position, SPEED)))
+    for state in (once, steps):
+        pressure = film.film.field(state.u, state.position)[0]
+        np.testing.assert_allclose(pressure[off], 1e5, rtol=1e-9)  # no pressure is left on them
+
+
+def test_pad_behind_its_middle_is_held_by_a_straight_film() -> None:
+    """Without preload a pad opposite the load tilts like a plane slider if its pivot is offset."""
+    middle = pad_curve(0.0, 0.5, 0.5, 1.0)
+    offset = pad_curve(0.0, 0.6, 0.4, 1.0)
+    assert not middle.holds(np.array([1.01]))[0]
+    assert offset.holds(np.array([1.2]))[0]
+
+
+def test_turned_bearing_and_reversed_speed_give_the_mirrored_answer() -> None:
+    """Offset pivots, load and rotation mirrored."""
+    mirrored = []
+    for sign in (1.0, -1.0):
+        offset = 0.6 if sign > 0 else 0.4
+        shape = TiltingPads(4, 1.2, preload=0.1, angle=0.3 * sign, offset=offset)
+        bearing = JournalBearing(1.4, 1.3, 1e-3, shape=shape)
+        film = Film(Lubricant(0.2), Guembel(), 1e5, grid=(48, 12))
+        mirrored.append(bearing.equilibrium((8e5, 2e5 * sign), 1.2 * sign, film))
+    first, second = mirrored
+    assert first.maximum_pressure == pytest.approx(float(second.maximum_pressure), rel=1e-8)
+    assert first.friction_power == pytest.approx(float(second.friction_power), rel=1e-8)
