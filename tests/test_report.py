@@ -8,6 +8,7 @@ import time
 from dataclasses import replace
 
 import numpy as np
+import pandas as pd
 import pytest
 import xarray as xr
 from browser import BROWSER, Browser
@@ -56,6 +57,53 @@ def test_the_page_shows_every_figure_that_was_promised(page):
     assert text.count('<div class="chart"') >= 5
     assert text.count("<svg ") >= 4
     assert "MIT License" in (ASSETS / "uPlot-LICENSE.txt").read_text()
+
+
+def test_the_lifetime_of_the_loads_stands_behind_them(page):
+    text = page.read_text()
+    assert text.index("<h2>Loads</h2>") < text.index("<h2>Lifetime of the loads</h2>")
+    assert "DEL of the lifetime" in text
+    for bearing in ("N", "N2", "M"):
+        assert f"Bearing {bearing}: hours and revolutions above" in text
+        assert f"Bearing {bearing}: Markov matrix" in text
+
+
+def test_duration_and_equivalent_loads_are_those_of_the_series(page):
+    """Hours, revolutions and the DEL by hand from the parts of the run."""
+    tables = page.parent / "tables"
+    turns = pd.read_csv(tables / "N_revolutions.csv")
+    years = 20 * 8766 * 3600
+    assert turns["seconds"].sum() == pytest.approx(years, rel=1e-3)
+    speeds = [xr.open_dataset(p)["speed"].mean().item() for p in (page.parent / "loads").iterdir()]
+    mean = 2 * np.pi * turns["revolutions"].sum() / turns["seconds"].sum()
+    assert min(speeds) < mean < max(speeds)
+    cases = pd.read_csv(next(tables.glob("*bearing-n-damage*.csv")))
+    share = cases["share"].str.rstrip("%").astype(float) / 100
+    assert share.sum() == pytest.approx(1.0, abs=1e-4)
+    column = "Fx (down), m = 4, kN"
+    whole = (share @ cases[column] ** 4) ** 0.25
+    first = pd.read_csv(next(tables.glob("lifetime-of-the-loads.csv")))
+    [told] = first[
+        (first["bearing"] == "N") & first["what"].str.startswith("DEL of Fx (down), m = 4")
+    ]["value"]
+    assert float(told) == pytest.approx(whole, rel=2e-3)
+
+
+def test_every_table_stands_beside_the_page_as_csv_and_no_old_one(page):
+    tables = page.parent / "tables"
+    old = tables / "long-gone.csv"
+    old.write_text("a\n1\n")
+    write_report(page.parent, again=True)
+    assert not old.exists()
+    names = {path.name for path in tables.glob("*.csv")}
+    assert {"loads-loads.csv", "loads-ultimate-loads.csv", "N_markov.csv"} <= names
+    text = page.read_text()
+    shown = text.count("<table")
+    assert shown <= len(names)
+    loads = pd.read_csv(tables / "loads-loads.csv", dtype=str)
+    assert len(loads) > 6
+    for value in loads["largest"]:
+        assert value in text
 
 
 def test_an_unchanged_report_is_not_written_again(page):

@@ -16,9 +16,9 @@ import numpy as np
 from annotated_types import Ge, Gt, Lt
 from numpy.typing import NDArray
 
-from loadflow.errors import InputError
 from loadflow.journal.housings import HousedShell, InfluenceShell
 from loadflow.numerics.fields import require
+from loadflow.numerics.matrix_file import read_matrix
 
 _LOCAL = 0.1  # deviation of a lining from the local law that is let pass
 
@@ -204,7 +204,7 @@ class MatrixShell(_Shell):
 
     def __post_init__(self) -> None:
         given = self.matrix
-        matrix = _read_matrix(given) if isinstance(given, str | Path) else np.array(given, float)
+        matrix = read_matrix(given) if isinstance(given, str | Path) else np.array(given, float)
         side = math.isqrt(matrix.size)
         require(side**2 == matrix.size, "matrix", matrix.shape, "as many rows as columns")
         require(bool(np.isfinite(matrix).all()), "matrix", "NaN or infinite", "finite, m/Pa")
@@ -216,24 +216,6 @@ class MatrixShell(_Shell):
     def numbers(self) -> NDArray[np.float64]:
         """Influence coefficients (n, n), m/Pa."""
         return np.asarray(self.__dict__["_numbers"])
-
-
-def _read_matrix(path: str | Path) -> NDArray[np.float64]:
-    """Read influence coefficients from a file.
-
-    Raises
-    ------
-    loadflow.errors.InputError
-        A file that is missing, or no table of numbers.
-    """
-    try:
-        if Path(path).suffix == ".npy":
-            return np.asarray(np.load(path, allow_pickle=False), dtype=float)
-        return np.loadtxt(path, ndmin=2)
-    except OSError as error:
-        raise InputError(f"matrix = {str(path)!r}: cannot be read: {error}") from error
-    except ValueError as error:
-        raise InputError(f"matrix = {str(path)!r}: no table of numbers: {error}") from error
 
 
 Shell = LocalShell | LinedShell | ThickShell | MatrixShell | HousedShell | InfluenceShell

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from loadflow.errors import InputError
 from loadflow.reduction._series import Floats, check_series, finite
-from loadflow.reduction.quasistatic import Edges, Grid, bin_sums, bivariate_edges
+from loadflow.reduction.quasistatic import Edges, Grid, bivariate_edges, weighted_sums
 
 
 @dataclass(frozen=True)
@@ -227,8 +227,7 @@ def load_duration(
     turns = seconds * np.abs(n) / (2.0 * np.pi)
     resultant = np.hypot(f[:, 0], f[:, 1])
     edges = bivariate_edges(n, resultant, classes)
-    time_in, turns_in, moment = (
-        bin_sums(n, resultant, edges, weight) for weight in (seconds, turns, turns * resultant)
-    )
+    weights = (seconds, turns, turns * resultant)
+    time_in, turns_in, moment = weighted_sums(n, resultant, edges, weights)
     mean = moment / np.where(turns_in > 0.0, turns_in, 1.0)
     return LoadDuration(edges, time_in, turns_in, mean)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import bisect
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
@@ -270,8 +270,16 @@ def bin_sums(
     speed: Floats, resultant: Floats, edges: Edges, weight: Floats | None = None
 ) -> NDArray[Any]:
     """Bivariate histogram of pairs that lie within the edges, optionally weighted."""
+    return next(weighted_sums(speed, resultant, edges, (weight,)))
+
+
+def weighted_sums(
+    speed: Floats, resultant: Floats, edges: Edges, weights: Iterable[Floats | None]
+) -> Iterator[NDArray[Any]]:
+    """Yield the bivariate histogram of `bin_sums` for each of some weights."""
     cell, shape = _cells(speed, resultant, edges)
-    return np.bincount(cell, weight, minlength=shape[0] * shape[1]).reshape(shape)
+    for weight in weights:
+        yield np.bincount(cell, weight, minlength=shape[0] * shape[1]).reshape(shape)
 
 
 def _shares(counts: Ints, q: int, rounding: Rounding) -> Ints:

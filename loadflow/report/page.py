@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import csv
+import io
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -52,6 +54,7 @@ class Table:
         )
 
 
+_STEM = 60  # characters of the name of a file
 _LONG = 24  # characters of a number with its unit
 
 
@@ -178,6 +181,44 @@ def write_page(
         mark=mark,
         asset=_asset,
     )
+
+
+def write_tables(folder: Path, sections: Sequence[Section]) -> list[Path]:
+    r"""Write every table of a page as CSV, as it stands there; return the files.
+
+    Each is named after its section and its title.
+
+    Parameters
+    ----------
+    folder : Path
+        Made if it is missing.
+    sections : sequence of Section
+        Of the page.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from loadflow.report.page import Section, Table, write_tables
+    >>> films = Section("Films", tables=[Table("At rest", ["bearing", "h_min, µm"], [["N", "38"]])])
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     [file] = write_tables(Path(folder), [films])
+    ...     file.name, file.read_text(encoding="utf-8")
+    ('films-at-rest.csv', 'bearing,"h_min, µm"\\nN,38\\n')
+    """
+    found: dict[Path, Table] = {}
+    for section in sections:
+        for table in section.tables:
+            title = re.split(r"[.;]", table.title)[0]
+            stem = re.sub(r"[^\w]+", "-", f"{section.title} {title}".lower()).strip("-")[:_STEM]
+            same = sum(path.name.startswith(stem) for path in found)
+            found[folder / (f"{stem}-{same + 1}.csv" if same else f"{stem}.csv")] = table
+    folder.mkdir(parents=True, exist_ok=True)
+    for path, table in found.items():
+        text = io.StringIO()
+        csv.writer(text, lineterminator="\n").writerows([table.heads, *table.rows])
+        write_text(path, text.getvalue())
+    return [*found]
 
 
 def mark_of(path: Path) -> str | None:

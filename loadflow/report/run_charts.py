@@ -77,6 +77,51 @@ def film_chart(
     return Chart(caption, label, samples["time"].values[order], panels, fold, count)
 
 
+def duration_chart(revolutions: xr.Dataset, caption: str) -> Chart:
+    """Hours and revolutions above each force.
+
+    Parameters
+    ----------
+    revolutions : xarray.Dataset
+        `seconds` and `revolutions` (speed_class, load_class) and `load_edges`.
+    caption : str
+        What it shows.
+    """
+    edges, unit = readable(revolutions["load_edges"])
+    lines = {}
+    for words, name, scale in (
+        ("hours above", "seconds", 3600.0), ("revolutions above", "revolutions", 1.0),
+    ):  # fmt: skip
+        own = revolutions[name].transpose("speed_class", "load_class").values.sum(axis=0) / scale
+        above = np.cumsum(own[::-1])[::-1]
+        lines[words] = np.where(above > 0, above, np.nan)
+    panel = Panel("in the lifetime", lines, logarithmic=True)
+    return Chart(caption, f"radial force, {unit}", edges[:-1], [panel])
+
+
+def exceedance_chart(found: xr.Dataset, caption: str) -> Chart:
+    """How often a year a level is exceeded, by wind speed and together.
+
+    Parameters
+    ----------
+    found : xarray.Dataset
+        `rate` (wind_speed, level) and `total` (level) in 1/year, coordinate `level`; attribute
+        `years` of the return period.
+    caption : str
+        What it shows.
+    """
+    level, unit = readable(found["level"])
+    least = 0.1 / found.attrs["years"]
+    lines = {
+        f"{speed:g} m/s": found["rate"].sel(wind_speed=speed).values
+        for speed in found["wind_speed"].values
+    }
+    lines["all"] = found["total"].values
+    shown = {name: np.where(rate > least, rate, np.nan) for name, rate in lines.items()}
+    panel = Panel("exceedances a year", shown, 1 / found.attrs["years"], logarithmic=True)
+    return Chart(caption, f"level, {unit}", level, [panel])
+
+
 def reduction_chart(reduced: xr.Dataset, caption: str, fold: bool) -> Chart:
     """How the loads are distributed before and after the reduction of a series.
 

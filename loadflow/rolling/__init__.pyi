@@ -57,6 +57,7 @@ from .rings.expansion import axial_expansion as axial_expansion
 from .rings.finite_element import FiniteElementRing as FiniteElementRing
 from .rings.flexible import FlexibleRings as FlexibleRings
 from .rings.given import CompliantRing as CompliantRing
+from .rings.given import MatrixRing as MatrixRing
 from .rings.given import guyan as guyan
 from .rings.patches import patch_points as patch_points
 from .rings.patches import raceway_points as raceway_points

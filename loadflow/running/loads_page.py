@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 
 from loadflow.plots.style import readable
+from loadflow.reduction import lifetime_equivalent_load
 from loadflow.report import Chart, Section, Table
 from loadflow.report.charts import CLOSE, SAMPLES
 from loadflow.report.run_charts import load_chart
@@ -16,6 +17,7 @@ from loadflow.running.folder import answered, read_part
 from loadflow.stages.loads import doubts, trips, when_tripped
 from loadflow.stages.statistics import SLOPE
 from loadflow.studies.extreme_loads import safety_factor
+from loadflow.studies.run_lifetime import known_shares
 
 LOAD_ROWS = (
     ("speed", "speed"),
@@ -53,6 +55,7 @@ def _load_tables(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
     if "statistics" not in tables:
         return
     data = tables["statistics"]
+    share = known_shares(tables, data)
     factors = np.array([safety_factor(str(dlc)) for dlc in data["dlc"].values])
     rows, ultimate = [], []
     for name, title in LOAD_ROWS:
@@ -67,6 +70,7 @@ def _load_tables(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
                 [
                     f"{label}, {unit}",
                     *(f"{table[s].mean():.4g}" for s in ("mean", "std", "del")),
+                    "-" if share is None else _of_lifetime(table["del"], share),
                     f"{table['min'].min():.4g}",
                     f"{table['max'].max():.4g}",
                 ]
@@ -88,12 +92,18 @@ def _load_tables(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
         "mean",
         "mean std",
         f"mean DEL (m = {SLOPE:g})",
+        f"DEL of the lifetime (m = {SLOPE:g})",
         "smallest",
         "largest",
     ]
     yield Table("Loads", heads, rows)
     heads = ["largest magnitude", "characteristic", "γ_f", "design value", "load case"]
     yield Table("Ultimate loads", heads, ultimate)
+
+
+def _of_lifetime(loads: np.ndarray, share: np.ndarray) -> str:
+    """Damage-equivalent load of the lifetime."""
+    return f"{float(lifetime_equivalent_load(loads, share, SLOPE)):.4g}"
 
 
 def _axis(part: xr.DataArray) -> int:

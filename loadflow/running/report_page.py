@@ -22,13 +22,14 @@ from loadflow.plots.style import readable
 from loadflow.quantities import fitting_unit
 from loadflow.report import Chart, Drawing, Picture, Section, Table, figures, mark_of, write_page
 from loadflow.report.charts import CLOSE, SAMPLES
-from loadflow.report.page import Shown
+from loadflow.report.page import Shown, write_tables
 from loadflow.report.run_charts import film_chart, over_wind_speed, reduction_chart, ring_chart
 from loadflow.report.sketch import sketch
 from loadflow.running.answers_page import answer_tables, largest
 from loadflow.running.dynamics_page import dynamics_section
 from loadflow.running.energy_page import energy_table
 from loadflow.running.folder import answered, read_manifest, read_part, results_of
+from loadflow.running.lifetime_page import lifetime_of_loads, lifetime_section
 from loadflow.running.loads_page import loads_section
 from loadflow.running.seeds_page import seed_section
 from loadflow.running.start_page import start_tables
@@ -36,7 +37,11 @@ from loadflow.running.wear_page import wear_section
 from loadflow.scene.scene import Scene, read_scene
 from loadflow.scene.unused import friction_note, scaling_note, unused_keys
 from loadflow.studies.compare_words import drawn
+from loadflow.studies.lifetime_page import write_lifetime_tables
 from loadflow.verdict import Verdict, from_dataset
+
+TABLES = "tables"
+"""Folder of a run that holds the tables of its report as CSV."""
 
 
 def report_is_current(folder: Path) -> bool:
@@ -72,8 +77,14 @@ def write_report(folder: Path, again: bool = False) -> Path:
     scene = read_scene(folder / "scene.toml")
     manifest = read_manifest(folder)
     tables = results_of(folder) or {}
+    lives, options = lifetime_of_loads(folder, scene, tables)
     sections = [*_sections(folder, scene, manifest, tables)]
+    sections[2:2] = [lifetime_section(lives, options)] if lives else []  # behind overview and loads
     facts, title = _facts(scene, manifest), f"loadflow: {scene.name}"
+    beside = folder / TABLES
+    kept = {*write_tables(beside, sections), *write_lifetime_tables(lives, beside)}
+    for old in {*beside.glob("*.csv")} - kept:
+        old.unlink()
     return write_page(folder / "report.html", title, facts, sections, made_of)
 
 
@@ -117,6 +128,7 @@ def _facts(scene: Scene, manifest: dict[str, Any]) -> dict[str, str]:
         **({"Taken from elsewhere": "; ".join(scene.taken)} if scene.taken else {}),
         "Load cases": str(len(manifest["cases"])),
         "Results": ", ".join(scene.results),
+        "Tables as CSV": f"in the folder {TABLES} beside this page",
         "Took": f"{manifest.get('wall_seconds', 0):.0f} s with {manifest.get('workers')} processes",
         "Software": ", ".join(f"{k} {v}" for k, v in manifest["versions"].items()),
     }

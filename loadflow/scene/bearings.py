@@ -18,6 +18,7 @@ from loadflow.rolling import (
     ARRANGEMENTS,
     KINDS,
     FlexibleRings,
+    MatrixRing,
     Oscillation,
     PitchMotion,
     RingBeam,
@@ -83,7 +84,9 @@ def standing_ring(
 
 
 def around(
-    bearing: RollingBearing, inner: RingBeam | None, outer: RingBeam | None
+    bearing: RollingBearing,
+    inner: RingBeam | MatrixRing | None,
+    outer: RingBeam | MatrixRing | None,
 ) -> FlexibleRings:
     """Flexible rings of a bearing, one of them at least, on their sides of its balls.
 
@@ -95,9 +98,10 @@ def around(
     pitch = bearing.pitch_diameter / 2
     if inner is None and outer is None:
         raise InputError("give inner_ring or outer_ring, of this geometry")
-    if inner is not None and inner.radius >= pitch:
+    # a matrix is formed at the raceways, and has no centroid
+    if inner is not None and inner.radius is not None and inner.radius >= pitch:
         raise InputError(f"inner_ring: radius must be < {pitch:g} m, got {inner.radius:g}")
-    if outer is not None and outer.radius <= pitch:
+    if outer is not None and outer.radius is not None and outer.radius <= pitch:
         raise InputError(f"outer_ring: radius must be > {pitch:g} m, got {outer.radius:g}")
     return FlexibleRings(inner=inner, outer=outer)
 
@@ -132,9 +136,16 @@ def _by_measures(ring: Any) -> Any:
     return read
 
 
-Ring = Annotated[RingBeam, BeforeValidator(_by_measures)]
+if TYPE_CHECKING:
+    Ring = RingBeam | MatrixRing
+else:
+    Ring = told_apart(
+        {"beam": Annotated[RingBeam, _PLAIN, BeforeValidator(_by_measures)], "matrix": MatrixRing},
+        usual="beam",
+    )
 """A flexible ring; ``section = {width, height}`` is a rectangle, and a support with ``radius``,
-``height``, ``thickness`` and ``length`` a wall."""
+``height``, ``thickness`` and ``length`` a wall. With ``kind = "matrix"`` its ``file`` has the
+compliance, or the stiffness, of ring, bolts and housing together."""
 
 
 if TYPE_CHECKING:

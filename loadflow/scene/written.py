@@ -171,10 +171,10 @@ def anchored(data: dict[str, Any], folder: Path) -> dict[str, Any]:
         }
         keys = [key for key in ("cases", "case_list", "channels") if key in loads]
         found["loads"] = loads | several | {key: path(loads[key]) for key in keys}
-    if "journal" in data:
-        found["journal"] = _with_shell(data["journal"], path)
+    for room in {"journal", "rolling"} & {*data}:
+        found[room] = _each(data[room], path)
     if isinstance(places := data.get("bearings"), dict):
-        found["bearings"] = {name: _with_shell(part, path) for name, part in places.items()}
+        found["bearings"] = {name: _each(part, path) for name, part in places.items()}
     turbine = data.get("turbine")
     if isinstance(turbine, dict) and isinstance(name := turbine.get("name"), str):
         file = name if name in turbine_names() or not Path(name).suffix else path(name)
@@ -184,10 +184,24 @@ def anchored(data: dict[str, Any], folder: Path) -> dict[str, Any]:
     return found
 
 
-def _with_shell(bearing: Any, path: Callable[[Any], Any]) -> Any:
-    """A journal bearing with the path to the file of its shell, if it has one."""
-    shell = bearing.get("shell") if isinstance(bearing, dict) else None
-    keys = [key for key in ("matrix", "file") if isinstance(shell, dict) and key in shell]
-    if not isinstance(shell, dict) or not keys:
+def _each(bearings: Any, path: Callable[[Any], Any]) -> Any:
+    """A bearing, or each of a list of them, with its paths."""
+    if isinstance(bearings, list):
+        return [_with_files(one, path) for one in bearings]
+    return _with_files(bearings, path)
+
+
+_FILES = (("shell", "matrix"), ("shell", "file"), ("inner_ring", "file"), ("outer_ring", "file"))
+"""Tables of a bearing, and their keys that name files."""
+
+
+def _with_files(bearing: Any, path: Callable[[Any], Any]) -> Any:
+    """A bearing with the paths to the matrices of its shell and rings, if it has some."""
+    if not isinstance(bearing, dict):
         return bearing
-    return bearing | {"shell": shell | {key: path(shell[key]) for key in keys}}
+    found = dict(bearing)
+    for part, key in _FILES:
+        table = found.get(part)
+        if isinstance(table, dict) and key in table:
+            found[part] = table | {key: path(table[key])}
+    return found

@@ -72,28 +72,14 @@ def as_dict(life: BearingLifetime, options: LifetimeOptions) -> dict[str, Any]:
 def write_lifetime(
     lives: Sequence[BearingLifetime], options: LifetimeOptions, folder: Path, source: str
 ) -> Path:
-    """Write for each bearing the revolutions and the Markov matrix as CSV, and one page.
-
-    ``BEARING_revolutions.csv`` has a row for each class of speed and force that occurs: its edges
-    (rad/s, N), mean force (N), seconds and revolutions, as a rolling-bearing life wants them.
-    ``BEARING_markov.csv`` is the matrix, from (row) to (column), with the class edges (N) above.
-    """
-    folder.mkdir(parents=True, exist_ok=True)
-    for life in lives:
-        _write_revolutions(life, folder / f"{life.bearing}_revolutions.csv")
-        np.savetxt(
-            folder / f"{life.bearing}_markov.csv",
-            life.markov.counts,
-            fmt="%d",
-            delimiter=",",
-            header="edges in N: " + ",".join(f"{e:.9g}" for e in life.markov.edges),
-        )
+    """Write for each bearing its tables, see `write_lifetime_tables`, and one page."""
+    write_lifetime_tables(lives, folder)
     rows = [row for life in lives for row in summary_rows(life, options)]
     sections = [Section("Lifetime", tables=[Table("", list(HEADS), rows)])]
     sections += [
         Section(
             f"Bearing {life.bearing}",
-            tables=[_case_table(life, options), *_tail_table(life)],
+            tables=[case_table(life, options), *tail_tables(life)],
             pictures=_pictures(life, options),
         )
         for life in lives
@@ -108,6 +94,26 @@ def write_lifetime(
     if warnings := share_warnings(lives):
         facts["Left out"] = " ".join(warnings)
     return write_page(folder / "lifetime.html", f"Lifetime of {source}", facts, sections)
+
+
+def write_lifetime_tables(lives: Sequence[BearingLifetime], folder: Path) -> list[Path]:
+    """Write for each bearing the revolutions and the Markov matrix as CSV.
+
+    ``BEARING_revolutions.csv`` has a row for each class of speed and force that occurs: its edges
+    (rad/s, N), mean force (N), seconds and revolutions, as a rolling-bearing life wants them.
+    ``BEARING_markov.csv`` is the matrix, from (row) to (column), with the class edges (N) above.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    written = []
+    for life in lives:
+        turns, matrix = (folder / f"{life.bearing}_{n}.csv" for n in ("revolutions", "markov"))
+        _write_revolutions(life, turns)
+        edges = ",".join(f"{e:.9g}" for e in life.markov.edges)
+        np.savetxt(
+            matrix, life.markov.counts, fmt="%d", delimiter=",", header=f"edges in N: {edges}"
+        )
+        written += [turns, matrix]
+    return written
 
 
 def _write_revolutions(life: BearingLifetime, path: Path) -> None:
@@ -129,7 +135,8 @@ def _write_revolutions(life: BearingLifetime, path: Path) -> None:
     ).to_csv(path, index=False)
 
 
-def _case_table(life: BearingLifetime, options: LifetimeOptions) -> Table:
+def case_table(life: BearingLifetime, options: LifetimeOptions) -> Table:
+    """Damage-equivalent loads of each case with its share of the lifetime."""
     heads = ["case", "share"]
     heads += [f"{name}, m = {m:g}, kN" for m in options.exponents for name in COMPONENTS]
     rows = [
@@ -139,7 +146,8 @@ def _case_table(life: BearingLifetime, options: LifetimeOptions) -> Table:
     return Table("Damage-equivalent loads of the cases", heads, rows)
 
 
-def _tail_table(life: BearingLifetime) -> list[Table]:
+def tail_tables(life: BearingLifetime) -> list[Table]:
+    """Tails behind the extreme of the return period; none without one."""
     if life.extreme is None:
         return []
     heads = ["wind, m/s", "threshold, kN", "scale, kN", "shape", "rate, 1/h", "from", "share"]
@@ -158,36 +166,48 @@ def _tail_table(life: BearingLifetime) -> list[Table]:
     return [Table("Tails of the radial force, and what each adds to the extreme", heads, rows)]
 
 
-def _pictures(life: BearingLifetime, options: LifetimeOptions) -> list[Picture]:
-    units = {"units": "N"}
-    duration = xr.Dataset(
+def duration_of(life: BearingLifetime) -> xr.Dataset:
+    """Seconds and revolutions of the lifetime by speed and force, as figures take them."""
+    dims = ("speed_class", "load_class")
+    return xr.Dataset(
         {
-            "seconds": (("speed_class", "load_class"), life.duration.seconds),
-            "revolutions": (("speed_class", "load_class"), life.duration.revolutions),
+            "seconds": (dims, life.duration.seconds),
+            "revolutions": (dims, life.duration.revolutions),
             "speed_edges": ("speed_edge", life.duration.edges[0], {"units": "rad/s"}),
-            "load_edges": ("load_edge", life.duration.edges[1], units),
+            "load_edges": ("load_edge", life.duration.edges[1], {"units": "N"}),
         }
     )
+
+
+def markov_picture(life: BearingLifetime, what: str = "") -> Picture:
+    """The Markov matrix in colour, folded; `what` stands before its caption."""
     matrix = xr.Dataset(
         {
             "counts": (("from", "to"), life.markov.counts),
-            "edges": ("edge", life.markov.edges, units),
+            "edges": ("edge", life.markov.edges, {"units": "N"}),
         }
     )
+    caption = f"{what}Markov matrix of Fx over the lifetime."
+    return Picture(load_figures.markov(matrix), caption, True)
+
+
+def _pictures(life: BearingLifetime, options: LifetimeOptions) -> list[Picture]:
+    drawn = load_figures.duration(duration_of(life))
     pictures = [
-        Picture(load_figures.duration(duration), "Load duration and revolutions of the lifetime."),
-        Picture(load_figures.markov(matrix), "Markov matrix of Fx over the lifetime.", True),
+        Picture(drawn, "Load duration and revolutions of the lifetime."),
+        markov_picture(life),
     ]
     if life.extreme is not None:
         caption = (
             f"Exceedances of the radial force; dashed: once in {options.return_period:g} years, "
             "shaded: 95 % confidence."
         )
-        pictures.append(Picture(load_figures.tails(_rates(life, options)), caption))
+        pictures.append(Picture(load_figures.tails(exceedances(life, options)), caption))
     return pictures
 
 
-def _rates(life: BearingLifetime, options: LifetimeOptions) -> xr.Dataset:
+def exceedances(life: BearingLifetime, options: LifetimeOptions) -> xr.Dataset:
+    """How often a year each wind speed exceeds a radial force, of a lifetime with an extreme."""
     assert life.extreme is not None
     low = min(tail.threshold for tail in life.tails.values())
     level = np.linspace(low, 1.05 * max(life.extreme.high, low), LEVELS)

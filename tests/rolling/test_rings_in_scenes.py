@@ -1,14 +1,23 @@
 """Flexible rings as a scene asks for them."""
 
+import math
 import tomllib
 
+import numpy as np
 import pytest
 from synthetic import cube_file
 
 import loadflow as lf
 from loadflow.errors import InputError
 from loadflow.planning.ladder import rung_of
-from loadflow.rolling import RingSection
+from loadflow.rolling import (
+    FlexibleRings,
+    RingBeam,
+    RingSection,
+    SlewingBearing,
+    Support,
+    patch_points,
+)
 from loadflow.scene.bearings import standing_ring
 from loadflow.scene.scene import make_scene
 
@@ -155,3 +164,71 @@ def test_flexible_rings_of_other_bearings_are_refused():
     first = {"geometry": crossed | {"pitch_diameter": 2.5}, "rings": "flexible", "outer_ring": RING}
     with pytest.raises(InputError, match="rings of a crossed bearing are rigid"):
         make_scene({"name": "x", "rolling": [first]})
+
+
+def part_of(place, ring):
+    from loadflow.scene.scene import read_scene
+
+    words = ", ".join(f"{key} = {value!r}" for key, value in ring.items())
+    (place / "scene.toml").write_text(
+        f"""
+        results = ["rolling.life"]
+        [bearings.M]
+        kind = "four-point"
+        rings = "flexible"
+        outer_ring = {{ {words} }}
+        [bearings.M.geometry]
+        balls = 45
+        ball_diameter = 0.015
+        pitch_diameter = 0.25
+        groove_radius = 0.0078
+        contact_angle = {math.pi / 4}
+        """
+    )
+    return read_scene(place / "scene.toml").rolling
+
+
+def test_a_ring_with_its_housing_may_be_given_as_a_matrix_in_a_file(tmp_path):
+    beam = RingBeam(
+        section=RingSection.rectangle(0.05, 0.04), radius=0.15,
+        supports=(Support.wall(0.15, -0.02, 0.01, 0.2),),
+    )  # fmt: skip
+    geometry = SlewingBearing(
+        balls=45, ball_diameter=0.015, pitch_diameter=0.25, groove_radius=0.0078,
+        contact_angle=math.pi / 4,
+    )  # fmt: skip
+    points = patch_points(geometry, "outer", geometry.contacts().azimuth)
+    factor = beam.flexibility(points)
+    size = 3 * 2 * 45
+    matrix = np.einsum("kbcm,KBCm->kbcKBC", factor, factor).reshape(size, size)
+    np.save(tmp_path / "housing.npy", matrix)
+    part = part_of(tmp_path, {"kind": "matrix", "file": "housing.npy"})  # beside the scene
+    load = (6.5e3, 0.0, 8e3), (0.0, 2e3)
+    got = part.geometry.equilibrium(*load, rings=part.ring_model)
+    known = geometry.equilibrium(*load, rings=FlexibleRings(outer=beam))
+    rigid = geometry.equilibrium(*load)
+    assert got.maximum_force == pytest.approx(known.maximum_force, rel=1e-5)
+    assert abs(known.maximum_force / rigid.maximum_force - 1) > 0.01
+    # what is written knows the file by its content
+    assert len(part.outer_ring.sha256) == 64
+    np.save(tmp_path / "housing.npy", 2 * matrix)
+    with pytest.raises(InputError, match="has changed since"):
+        part_of(tmp_path, {"kind": "matrix", "file": "housing.npy",
+                           "sha256": part.outer_ring.sha256})  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("ring", "says"),
+    [
+        ({"kind": "matrix", "file": "missing.npy"}, "cannot be read"),
+        ({"kind": "matrix", "file": "scene.toml"}, "no table of numbers"),
+        ({"kind": "matrix", "file": "odd.txt"}, "square with 3 n rows"),
+        ({"kind": "matrix", "file": "soft.txt", "form": "stiffness"}, "positive definite"),
+        ({"kind": "plate", "file": "odd.txt"}, "kind must be one of beam, matrix"),
+    ],
+)
+def test_files_that_are_no_ring_are_named(tmp_path, ring, says):
+    np.savetxt(tmp_path / "odd.txt", np.eye(4))
+    np.savetxt(tmp_path / "soft.txt", np.zeros((270, 270)))
+    with pytest.raises(InputError, match=says):
+        part_of(tmp_path, ring)

@@ -58,11 +58,17 @@ def solved(kind, factor=1.0, **more):
     return KINDS[kind].equilibrium(load[..., :3], load[..., 3:], **more)
 
 
-def test_ninth_root_holds_to_the_last_bits():
-    delta = np.logspace(-200, 3, 3001)
+def test_ninth_root_holds_over_the_whole_range_of_doubles():
+    delta = np.concatenate([np.logspace(-289.9, 308, 6001), [np.finfo(float).max]])
     found = np.array([ninth_root(d) for d in delta])
-    assert found == pytest.approx(delta ** (1 / 9), rel=2e-15)
-    assert ninth_root(0.0) == 0.0
+    exact = np.exp(np.log(delta.astype(np.longdouble)) / 9)
+    assert float(np.abs(found / exact - 1).max()) < 3e-15
+    assert [ninth_root(d) for d in (0.0, -1.0)] == [0.0, 0.0]
+    tiny = np.array([ninth_root(d) for d in (1e-290, 1e-300, 5e-324)])
+    assert (np.diff(tiny) < 0).all()
+    assert (tiny > 0).all()
+    assert ninth_root(np.inf) == np.inf
+    assert np.isnan(ninth_root(np.nan))
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 import numpy as np
 from annotated_types import Ge, Gt, Le
@@ -74,6 +74,8 @@ class RingBeam:
     elastic_modulus: Annotated[float, Gt(0)] = STEEL_MODULUS
     poisson_ratio: Annotated[float, Ge(0), Le(0.5)] = STEEL_POISSON
     harmonics: Annotated[int, Ge(1), Le(400)] = 32
+
+    kind: ClassVar[str] = "beam"
 
     def __post_init__(self) -> None:
         check_fields(self)

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Literal
+from typing import ClassVar, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from loadflow.errors import InputError, SolverError
+from loadflow.numerics.matrix_file import digest_of, read_matrix
 from loadflow.rolling.contacts import Array
 from loadflow.rolling.rings.patches import PatchPoints
 
@@ -181,3 +182,64 @@ class CompliantRing:
             x, y = factor[..., 0, :], factor[..., 1, :]
             factor = np.stack([x * cos + y * sin, y * cos - x * sin, factor[..., 2, :]], axis=2)
         return np.roll(factor, -round(steps), axis=1)
+
+
+@dataclass(frozen=True)
+class MatrixRing:
+    """A ring with all that it is bolted to, by a matrix in a file, as a scene names it.
+
+    Attributes
+    ----------
+    file : str
+        Of numpy (``.npy``) or rows of text: the matrix at the raceway patches, (3 n, 3 n), in the
+        order of `CompliantRing`.
+    form : {"compliance", "stiffness"}
+        m/N, or N/m of a ring that is held by its supports.
+    axes, first_angle
+        As in `CompliantRing`. In a scene the angle is that from y toward z of the load cube.
+    sha256 : str
+        Of the file; filled in. Where it is stated, the file must still be that one.
+
+    Raises
+    ------
+    InputError
+        The file is missing, has changed, or does not hold such a matrix.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> import numpy as np
+    >>> from loadflow.rolling import MatrixRing
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     np.save(Path(folder) / "hub.npy", 1e-11 * np.eye(3 * 48))
+    ...     ring = MatrixRing(str(Path(folder) / "hub.npy"))
+    >>> ring.form, len(ring.sha256)
+    ('compliance', 64)
+    """
+
+    file: str
+    form: Literal["compliance", "stiffness"] = "compliance"
+    axes: Literal["cylindrical", "cartesian"] = "cylindrical"
+    first_angle: float = 0.0
+    sha256: str = ""
+    kind: Literal["matrix"] = "matrix"
+
+    section: ClassVar[None] = None
+    radius: ClassVar[None] = None
+
+    def __post_init__(self) -> None:
+        found = digest_of(self.file, "file")
+        if self.sha256 not in ("", found):
+            raise InputError(f"file = {self.file!r}: has changed since; sha256 is {found}")
+        object.__setattr__(self, "sha256", found)
+        if self.form not in ("compliance", "stiffness"):
+            raise InputError(f"form: must be compliance or stiffness, got {self.form!r}")
+        make = CompliantRing if self.form == "compliance" else CompliantRing.from_stiffness
+        matrix = read_matrix(self.file, "file")
+        object.__setattr__(self, "_ring", make(matrix, self.axes, self.first_angle))
+
+    def flexibility(self, points: PatchPoints) -> Array:
+        """Factor Q, as `CompliantRing.flexibility`."""
+        ring: CompliantRing = self.__dict__["_ring"]
+        return ring.flexibility(points)

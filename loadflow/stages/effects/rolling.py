@@ -38,7 +38,7 @@ def _ring_compliance(part: FurtherBearing) -> float:
     side = SECTION_SIDE * diameter
     square = side**4 / 12
     inertias = [
-        ring.section.inertia_axial if ring is not None else square
+        ring.section.inertia_axial if ring is not None and ring.section is not None else square
         for ring in (part.inner_ring, part.outer_ring)
     ]
     around = count / (np.pi * pitch) * diameter**0.5
@@ -59,7 +59,8 @@ def _roller_share(part: FurtherBearing) -> float:
     side = SECTION_SIDE * bearing.roller_diameter
     high = side + (bearing.rows - 1) * bearing.row_spacing
     assumed = RingBeam(section=RingSection.rectangle(side, high), radius=radius)
-    stated = [ring for ring in (part.inner_ring, part.outer_ring) if ring is not None]
+    given = [ring for ring in (part.inner_ring, part.outer_ring) if ring is not None]
+    stated = [assumed if ring.section is None else ring for ring in given]
     yielding = sum(
         contact * ring.radius**4 / (9 * ring.elastic_modulus * ring.section.inertia_axial)
         for ring in stated or [assumed, assumed]

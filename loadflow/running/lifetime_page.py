@@ -1,0 +1,107 @@
+"""Loads of a run over the lifetime on its report page: duration, Markov matrix, extreme, DEL."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+
+import xarray as xr
+
+from loadflow.cube.hdf5 import read_variables
+from loadflow.report import Section, Table
+from loadflow.report.page import Shown
+from loadflow.report.run_charts import duration_chart, exceedance_chart
+from loadflow.running.folder import answered
+from loadflow.scene.scene import Scene
+from loadflow.studies.bearing_series import BearingSeries
+from loadflow.studies.lifetime import BearingLifetime, LifetimeOptions, lifetimes
+from loadflow.studies.lifetime_page import (
+    HEADS,
+    case_table,
+    duration_of,
+    exceedances,
+    markov_picture,
+    summary_rows,
+    tail_tables,
+)
+from loadflow.studies.run_lifetime import case_shares
+
+CLASSES = 32
+"""Of speed, of force, and of the Markov matrix."""
+
+
+def lifetime_of_loads(
+    folder: Path, scene: Scene, tables: Mapping[str, xr.Dataset]
+) -> tuple[list[BearingLifetime], LifetimeOptions]:
+    """Duration, transitions, tails and damage of the loads on the bearings of a run.
+
+    Each load case counts with its share of the lifetime.
+
+    Parameters
+    ----------
+    folder : Path
+        Of a finished run.
+    scene : Scene
+        What was run.
+    tables : mapping
+        Its results by stage.
+
+    Returns
+    -------
+    tuple
+        Those of the bearings that results are of, or of all; none where no case has a share.
+    """
+    options = LifetimeOptions(years=scene.lifetime.years, weights="given", classes=CLASSES)
+    share = case_shares(scene, tables["statistics"]) if "statistics" in tables else None
+    if share is None or not (folder / "shaft").is_dir():
+        return [], options
+    table = tables["statistics"]
+    shares = dict(zip(table["case"].values.tolist(), share.tolist()))
+    series = _series(folder, table, shares, _bearings(tables))
+    return list(lifetimes(series, options)), options
+
+
+def lifetime_section(lives: list[BearingLifetime], options: LifetimeOptions) -> Section:
+    """What matters of each bearing first; its cases, tails and pictures behind."""
+    rows = [row for life in lives for row in summary_rows(life, options)]
+    tables, pictures = [Table("", list(HEADS), rows)], list[Shown]()
+    for life in lives:
+        what = f"Bearing {life.bearing}: "
+        tables += [
+            Table(what + table.title, table.heads, table.rows, table.bad, fold=True)
+            for table in (case_table(life, options), *tail_tables(life))
+        ]
+        pictures.append(duration_chart(duration_of(life), what + "hours and revolutions above"))
+        if life.extreme is not None:
+            said = f"{what}radial force; dashed: once in {options.return_period:g} years"
+            pictures.append(exceedance_chart(exceedances(life, options), said))
+        pictures.append(markov_picture(life, what))
+    return Section(
+        "Lifetime of the loads",
+        "Every load case with its share of the lifetime. Ranges of damage-equivalent loads are "
+        "counted by rainflow; the extreme follows from block maxima of each wind speed.",
+        tables,
+        pictures,
+    )
+
+
+def _bearings(tables: Mapping[str, xr.Dataset]) -> set[str]:
+    """Bearings that results are of; empty: of all."""
+    of = ("journal", "thrust", "rolling")
+    return {str(b) for room in of if room in tables for b in tables[room]["bearing"].values}
+
+
+def _series(
+    folder: Path, table: xr.Dataset, shares: Mapping[str, float], wanted: set[str]
+) -> Iterator[BearingSeries]:
+    for case in answered(folder, "shaft", shares):
+        loads = read_variables(folder / "loads" / f"{case}.h5", ("speed",))
+        shaft = read_variables(folder / "shaft" / f"{case}.h5", ("force",))
+        time, speed = loads["time"].values, loads["speed"].values.astype(float)
+        forces = shaft["force"].transpose("bearing", "time", "axis")
+        row = table.sel(case=case)
+        labels = {name: row[name].item() for name in ("dlc", "wind_speed")}
+        for name, force in zip(forces["bearing"].values.tolist(), forces.values.astype(float)):
+            if not wanted or name in wanted:
+                labels_of = labels | {"weight": shares[case]}
+                yield BearingSeries(case, name, labels_of, time, speed, force, 0.0 * force)
