@@ -4,7 +4,7 @@ Where heat passes into shell and shaft the film is cooler there. With the mean T
 conductivity k a parabola through the surfaces has the fluxes ``k (6 T − 4 T_shell − 2 T_shaft)/h``
 into the shell and ``k (6 T − 2 T_shell − 4 T_shaft)/h`` into the shaft, which pass on to what cools
 them. Exact for even dissipation. The viscosity is taken at both surfaces and midway, by the rule of
-Simpson, which Lobatto's with three points is [Elrod 1991, NASA CR-185136].
+Simpson, which Lobatto's with three points is (Elrod, NASA CR-185136).
 """
 
 from __future__ import annotations
