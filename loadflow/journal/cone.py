@@ -200,6 +200,8 @@ class ConicalBearing(PadBearing, ConicalFilms[ConicalResult]):
         chart = Chart(self.clearance, self.half_angle, starts[0].position[3:])
         more = around(assembly, chart, lambda x: self._started(assembly, x, speed), wanted)
         found = search(assembly, chart, chain(starts, more), wanted, SHIFTS, limits)
+        if found is None:
+            return quick
         if found.converged and free.size > SHIFTS.size:
             return assembly.equilibrium([found, *starts], wanted, free, limits)
         return found

@@ -247,8 +247,10 @@ def _of_pads(
             for name in ("force", "moment")
         )
         turning = np.flatnonzero(samples["weight"].values > 0)
-        pressed = bearing.normal_load(force, moment) / np.maximum(np.abs(samples["speed"]), 1e-12)
-        order = turning[np.argsort(pressed.values[turning])]
+        pressed = bearing.normal_load(force, moment) / np.maximum(
+            np.abs(samples["speed"].values), 1e-12
+        )
+        order = turning[np.argsort(pressed[turning])]
         some = samples.isel(sample=order[np.linspace(0, order.size - 1, PADS).astype(int)])
         answer = solved(bearing, place, some)
         weight = some["weight"].values * np.isfinite(answer["friction_power"].values)

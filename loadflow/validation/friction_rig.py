@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -40,7 +41,7 @@ _STUDY = (
 )
 
 _MODEST = 1000.0
-_FILM_STUDY = (
+_FILM_STUDY: tuple[tuple[str, dict[str, Any], str, float, float, str], ...] = (
     ("s₃ uneven by half", {"main": uneven(MAIN)}, "main", 3.5, 1.0, ""),
     ("clearance 25 → 13 μm", {"pin": replace(PIN, clearance=13e-6)}, "pin", 7.0, 3.0, ""),
     (

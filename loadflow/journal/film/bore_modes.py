@@ -151,7 +151,7 @@ def _read(path: str | Path) -> tuple[Any, Any, Any]:
     try:
         if Path(path).suffix == ".npz":
             with np.load(path, allow_pickle=False) as data:
-                return tuple(data[name] for name in names)  # type: ignore[return-value]
+                return tuple(data[name] for name in names)
         with xr.open_dataset(path) as data:
             return tuple(data[name].to_numpy() for name in names)  # type: ignore[return-value]
     except OSError as error:

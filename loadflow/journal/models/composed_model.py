@@ -267,8 +267,9 @@ def _give(bearing: JournalGeometry, options: Film) -> float:
     shell = options.shell
     if shell is None:
         return 0.0
-    shell.check_local(bearing.width)
-    return cast("LocalShell | LinedShell", shell).compliance / bearing.clearance
+    local = cast("LocalShell | LinedShell", shell)  # others are refused by name
+    local.check_local(bearing.width)
+    return local.compliance / bearing.clearance
 
 
 def _yielding(bearing: JournalGeometry, options: Film, whole: bool, points: int) -> Yielding:

@@ -83,7 +83,7 @@ def around(
 
     `started` gives the films around a shaft at a position (5,).
     """
-    found = []
+    found: list[tuple[float, int, Array, float]] = []
     for ratio in _RATIOS:
         for turn in np.arange(_TURNS) * (2 * math.pi / _TURNS):
             x = np.array([ratio * math.cos(turn), ratio * math.sin(turn), 0.0])
