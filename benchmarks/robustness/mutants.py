@@ -20,6 +20,7 @@ import traceback
 import warnings
 from collections import Counter
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -94,7 +95,8 @@ def mutated(data: dict[str, Any], draw: random.Random) -> dict[str, Any]:
                 owner[draw.choice(["x", "", "name", "kind", str(last) + "s"])] = draw.choice(VALUES)
             case 2 if isinstance(owner[last], int | float):
                 factor = draw.choice([-1, 0, 1e-9, 0.5, 10, 1e9, 1e40, 1e200])
-                owner[last] = owner[last] * factor
+                with suppress(OverflowError):  # an integer of 400 digits of an earlier change
+                    owner[last] = owner[last] * factor
             case 3 if isinstance(owner[last], list) and owner[last]:
                 owner[last] = owner[last][: draw.randrange(len(owner[last]))]
             case _:

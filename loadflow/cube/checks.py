@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from loadflow.cube.parts import Cube, iter_cases
+from loadflow.cube.parts import Cube, iter_cases, parts
 from loadflow.cube.schema import VARIABLES
 from loadflow.errors import InputError
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     import xarray as xr
     from numpy.typing import ArrayLike, NDArray
 
 JITTER = 0.01  # share of the step within which all stamps must lie about the regular grid
+BLOCK = 64 * 2**20  # bytes of a cube that are in memory at once
 NOISE = 1e-9  # s, of arithmetic
 
 
@@ -24,7 +28,7 @@ def check_cube(cube: Cube, source: str = "") -> None:
     Parameters
     ----------
     cube : xarray.Dataset or xarray.DataTree
-        The cube, or one case of it (no dimension ``case``). Series are loaded case by case.
+        The cube, or one case of it (no dimension ``case``). Series are loaded some cases at a time.
     source : str
         Name of the file, for the messages.
 
@@ -41,13 +45,29 @@ def check_cube(cube: Cube, source: str = "") -> None:
     >>> check_cube(make_cube([make_case([0.0, 0.1], data, dlc="1.1", wind_speed=8.0, seed=1)]))
     """
     names = set()
-    for name, case in iter_cases(cube):
-        if name in names:
-            raise InputError(f"{_where(source, name)}: the cube holds this case twice")
-        names.add(name)
-        check_case(case, source=source, name=name)
+    for block in _blocks(cube):
+        for name, case in iter_cases(block):
+            if name in names:
+                raise InputError(f"{_where(source, name)}: the cube holds this case twice")
+            names.add(name)
+            check_case(case, source=source, name=name)
     if not names:
         raise InputError(f"{_where(source)}: the cube is empty, it holds no case")
+
+
+def _blocks(cube: Cube) -> Iterator[xr.Dataset]:
+    """Yield a cube in pieces of so many cases as are read at once; each reading costs some ms."""
+    for part in parts(cube).values():
+        count = part.sizes.get("case", 0)
+        if not count:
+            yield part
+            continue
+        some = max(1, int(BLOCK * count / max(1, part.nbytes)))
+        for start in range(0, count, some):
+            block = part.isel(case=slice(start, start + some))
+            with suppress(Exception):  # what cannot be read is told with the case that it is of
+                block = block.load()
+            yield block
 
 
 def check_case(case: xr.Dataset, source: str = "", name: str = "") -> None:

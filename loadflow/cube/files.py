@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import os
-import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
-from threading import Lock
 from typing import Any, Literal
 
 import xarray as xr
 
 from loadflow.cube.build import make_cube
+from loadflow.cube.hdf5_image import image
 from loadflow.cube.parts import Cube
 from loadflow.cube.schema import CUBE
 from loadflow.cube.trust import check_hdf5
@@ -79,6 +76,10 @@ def write_cube(cube: Cube, path: Path) -> None:
     OSError
         The disk is full, or refuses.
     """
+    if cube.nbytes <= IN_MEMORY:
+        path.write_bytes(image(cube))
+        return
+    check_room(path.parent, cube.nbytes)
     if isinstance(cube, xr.DataTree):
         keys: dict[str, Any] = {
             "encoding": {leaf.path: _encoding(leaf.to_dataset()) for leaf in cube.leaves}
@@ -88,29 +89,7 @@ def write_cube(cube: Cube, path: Path) -> None:
         cube = cube.drop_encoding()
         keys = {"encoding": _encoding(cube)}
     cube.attrs = {**cube.attrs, CUBE.key: CUBE.version}
-    if cube.nbytes > IN_MEMORY:
-        check_room(path.parent, cube.nbytes)
-        cube.to_netcdf(path, engine=ENGINE, **keys)
-    else:
-        with _not_distributed():
-            image = cube.to_netcdf(engine=ENGINE, **keys)
-        with path.open("wb") as stream:
-            stream.write(image)
-
-
-_AT_A_TIME = Lock()
-
-
-@contextmanager
-def _not_distributed() -> Iterator[None]:
-    """Keep xarray in a Dask worker from asking its scheduler for a lock: memory needs none."""
-    if sys.modules.get("dask") is None:
-        yield
-        return
-    import dask
-
-    with _AT_A_TIME, dask.config.set(scheduler="synchronous"):  # the setting is of all threads
-        yield
+    cube.to_netcdf(path, engine=ENGINE, **keys)
 
 
 def open_cube(path: str | os.PathLike[str], chunks: Any = None) -> Cube:

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from loadflow.planning.accuracy import Errors, contributions, expected_errors, of_link, total
+from loadflow.planning.accuracy import Errors, expected_errors, of_link, total
 from loadflow.planning.effects import Estimates, concerned, switched
 from loadflow.planning.ladder import choices, expected_seconds
 from loadflow.scene.cases import Case
@@ -136,6 +136,7 @@ class _Choosing:
     cases: tuple[Case, ...]
     known: Estimates
     times: dict[Any, float | None] = field(default_factory=dict)
+    parts: dict[Any, float | None] = field(default_factory=dict)
 
     def with_sections(self, changed: Mapping[str, Any]) -> Scene:
         return self.scene.model_copy(update=dict(changed))
@@ -165,15 +166,18 @@ class _Choosing:
 
     def worthwhile(self, name: str, alternatives: list[Any]) -> list[Any]:
         """Alternatives of a section that no other one beats in time and in every error."""
-        rated = []
+        rated, seen = [], []
         for section in alternatives:
             scene = self.with_sections({name: section})
             links = self.links(scene)
             errors = (
-                _or_infinite(total(contributions(scene, *place, of, self.known)))
+                _or_infinite(_sum(self._part(scene, place, link) for link in of))
                 for place, of in links.items()
             )
-            rated.append((section, links, (*map(float, self.seconds(scene)), *errors)))
+            if links not in seen:
+                seen.append(links)
+            rating = (*map(float, self.seconds(scene)), *errors)
+            rated.append((section, seen.index(links), rating))
         return [
             one
             for k, (one, links, rating) in enumerate(rated)
@@ -234,13 +238,13 @@ class _Choosing:
             table = np.zeros((1, len(links)))
             for name, found in others.items():
                 own = [
-                    self._shares(self.with_sections(fixed | {name: one}), links, name)
+                    self._shares(self.with_sections(fixed | {name: one}), links, name, tuple(fixed))
                     for one in found
                 ]
                 table = (table[:, None] + np.array(own)).reshape(-1, len(links))
             held = {*forking, *({rungs.section for rungs in models().values()} - {*others})}
             for name in held:
-                table = table + self._shares(scene, links, name)
+                table = table + self._shares(scene, links, name, tuple(fixed))
             errors.append(table)
             for rest in product(*others.values()):
                 whole = fixed | dict(zip(others, rest))
@@ -248,19 +252,38 @@ class _Choosing:
         return combined, np.concatenate(errors)
 
     def _shares(
-        self, scene: Scene, links: dict[tuple[str, str], tuple[Link, ...]], section: str
+        self,
+        scene: Scene,
+        links: dict[tuple[str, str], tuple[Link, ...]],
+        section: str,
+        forking: tuple[str, ...],
     ) -> Floats:
         """What the links to models of one section bring to each answer."""
         found = [
-            total(
-                part
+            _sum(
+                self._part(scene, place, link, forking)
                 for link in of
                 if models()[link.model].section == section
-                for part in of_link(scene, *place, link, self.known)
             )
             for place, of in links.items()
         ]
         return np.array([np.nan if share is None else share for share in found])
+
+    def _part(
+        self, scene: Scene, answer: tuple[str, str], link: Link, forking: tuple[str, ...] = ()
+    ) -> float | None:
+        """What a link brings to an answer; candidates share their sections, and so most of it."""
+        sections = dict.fromkeys((models()[link.model].section, *forking))
+        place = answer, link, *(id(getattr(scene, section)) for section in sections)
+        if place not in self.parts:
+            self.parts[place] = total(of_link(scene, *answer, link, self.known))
+        return self.parts[place]
+
+
+def _sum(shares: Iterable[float | None]) -> float | None:
+    """Sum of shares; None if one of them is not known."""
+    every = list(shares)
+    return None if None in every else float(sum(share for share in every if share is not None))
 
 
 def _or_infinite(error: float | None) -> float:

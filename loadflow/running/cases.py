@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeVar
 
-from loadflow.cube import open_cube
+from loadflow.cube.hdf5 import read_whole
 from loadflow.errors import InputError, SolverError
 from loadflow.planning.plan import Plan, Step
 from loadflow.running.compiling import Compiling
@@ -101,8 +101,8 @@ def is_ready(step: Step, case: Case, folder: Path) -> bool:
 
 
 def open_inputs(step: Step, case: Case, folder: Path) -> dict[str, Any]:
-    """Open what the stage reads of this case."""
-    return {need: open_cube(part_file(folder, need, case)) for need in step.needs}
+    """Read what the stage wants of this case; parts were checked when the run began."""
+    return {need: read_whole(part_file(folder, need, case)) for need in step.needs}
 
 
 class OpenedLate(Mapping[Key, Opened]):

@@ -9,7 +9,7 @@ from typing import Any
 
 import xarray as xr
 
-from loadflow.cube import open_cube
+from loadflow.cube.hdf5 import read_whole
 from loadflow.planning.plan import Plan
 from loadflow.planning.verification import CHECK
 from loadflow.running.executor import Executor
@@ -85,7 +85,7 @@ def collect(plan: Plan, folder: Path, where: Executor) -> xr.DataTree:
     """Join what the stages found, reduced to what a reader wants of each case."""
     found, missing = summaries(plan, folder, where)
     whole = {step.name: part_file(folder, step.name) for step in plan.of_scope("run")}
-    found |= {name: open_cube(part) for name, part in whole.items() if part.exists()}
+    found |= {name: read_whole(part) for name, part in whole.items() if part.exists()}
     groups = {step.name: found[step.name] for step in plan.steps if step.name in found}
     groups |= _judged(plan.scene, groups, missing)
     return xr.DataTree.from_dict(

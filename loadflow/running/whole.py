@@ -11,7 +11,7 @@ from typing import Any
 
 import xarray as xr
 
-from loadflow.cube import open_cube
+from loadflow.cube.hdf5 import read_whole
 from loadflow.errors import LoadflowError
 from loadflow.planning.plan import Plan, Step
 from loadflow.running.cases import OpenedLate, is_ready, open_inputs
@@ -141,7 +141,7 @@ def _summary(piece: Piece, folder: Path) -> Summary | None:
     summarise = piece.step.stage.summarise
     assert summarise is not None
     files = {case: part_file(folder, piece.step.name, case) for case in piece.cases}
-    found = summarise(OpenedLate(files, open_cube))
+    found = summarise(OpenedLate(files, read_whole))
     return None if found is None else found.load()
 
 

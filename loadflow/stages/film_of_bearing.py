@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from loadflow.journal import Equilibrium
+from loadflow.journal import Equilibrium, Film
 from loadflow.journal.transition import load_capacity
 from loadflow.scene.journal import Journal
 from loadflow.stages.frames import from_film, to_film
@@ -73,9 +73,7 @@ def surely_touching(options: Journal, force: np.ndarray, speed: np.ndarray) -> n
     is as thin as both surfaces are rough. The others have to be solved, and so have those of an
     elastic shell, which carries more the more it gives way.
     """
-    film = options.film_model.isothermal()
-    if options.heat is not None:
-        film = replace(film, lubricant=options.heat.lubricant(options.heat.coldest))
+    film = _coldest(options)
     load, turning = np.hypot(*to_film(force).T), np.abs(speed) > 0
     if options.contact is not None:  # the film knows what asperities carry
         return np.zeros_like(turning)
@@ -87,3 +85,19 @@ def surely_touching(options: Journal, force: np.ndarray, speed: np.ndarray) -> n
         capacity = load_capacity(options.geometry, options.contact_film, speed[doubtful], film)
         touching[doubtful] = load[doubtful] > _CERTAIN * capacity
     return touching
+
+
+def surely_carried(options: Journal, force: np.ndarray, speed: np.ndarray) -> np.ndarray:
+    """Whether a film carries each load (n, 3), N, well before the surfaces touch: it is light."""
+    load, viscosity = np.hypot(*to_film(force).T), _coldest(options).liquid.viscosity
+    turning = np.abs(speed) > 0
+    number = options.geometry.sommerfeld_number(load, np.where(turning, speed, 1.0), viscosity)
+    return np.asarray(turning & (number <= _LIGHT))
+
+
+def _coldest(options: Journal) -> Film:
+    """The film with its oil as cold as it can be."""
+    film = options.film_model.isothermal()
+    if options.heat is None:
+        return film
+    return replace(film, lubricant=options.heat.lubricant(options.heat.coldest))

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from loadflow.cube import CASE_COORDS, case_named, iter_cases, open_cube
+from loadflow.cube import CASE_COORDS, Cube, case_named, iter_cases, open_cube
 from loadflow.errors import InputError
 from loadflow.scene.cases import CUBES, Case, wind_of
 from loadflow.scene.given_winds import RUN_IN, given_field
@@ -69,7 +70,7 @@ def _read(scene: Scene, case: Case) -> xr.Dataset:
 
     path = Path(case.file)
     if path.suffix in CUBES:
-        found = case_named(open_cube(path), case.entry).load()
+        found = case_named(_opened(path, case.fingerprint), case.entry).load()
         if missing := [name for name in NEEDED if name not in found]:
             have = ", ".join(map(str, found.data_vars))
             raise InputError(
@@ -79,6 +80,12 @@ def _read(scene: Scene, case: Case) -> xr.Dataset:
         return found
     cube = read_loads(path, turbine=scene.turbine.name, quiet=True, **scene.loads.reading)
     return next(series for _, series in iter_cases(cube))
+
+
+@lru_cache(maxsize=4)
+def _opened(path: Path, fingerprint: str) -> Cube:
+    """A cube that stays open: each of its load cases is read when its turn comes."""
+    return open_cube(path)
 
 
 def summary(parts: Mapping[Case, xr.Dataset]) -> xr.Dataset | None:
@@ -98,8 +105,11 @@ def summary(parts: Mapping[Case, xr.Dataset]) -> xr.Dataset | None:
             found["rotor_power"] = (), power, label("W", "mean power of the rotor on the shaft")
         return xr.Dataset(found)
 
-    known = all("tripped" in part.coords for part in parts.values())
-    found = over_cases({case: told(part) for case, part in parts.items()})
+    known, each = True, {}
+    for case, part in parts.items():  # each is read once
+        known = known and "tripped" in part.coords
+        each[case] = told(part)
+    found = over_cases(each)
     tells = (found["standing_share"] > 0) | (found["doubts"] != "")
     return found if known or "rotor_power" in found or bool(tells.any()) else None
 

@@ -20,7 +20,13 @@ from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.stages.comparisons import FILM, describe_loads, extremes_of_orbit
 from loadflow.stages.effects.situation import situation
-from loadflow.stages.film_of_bearing import equilibria, follow, shaft_line, surely_touching
+from loadflow.stages.film_of_bearing import (
+    equilibria,
+    follow,
+    shaft_line,
+    surely_carried,
+    surely_touching,
+)
 from loadflow.stages.frames import to_film, to_rolling
 from loadflow.stages.loads import hub_loads
 from loadflow.stages.reduction import moment_governs
@@ -115,10 +121,15 @@ def _settled(loads: xr.Dataset) -> int:
 
 
 def _has_film(journal: Journal, shaft: xr.Dataset, speed: Floats) -> NDArray[np.bool_]:
-    """Whether a sample turns, and a film may carry it: one of a shaft that lies is no film."""
+    """Whether a sample turns, and a film carries it for certain, else perhaps.
+
+    A shaft that lies has no film, and where it nearly does a search for one takes seconds.
+    """
     smooth = journal.model_copy(update={"contact": None})  # the same samples with and without
     vectors = shaft["force"].transpose("time", "axis").values.astype(float)
-    return (speed > 0.01 * speed.max()) & ~surely_touching(smooth, vectors, speed)
+    turning = (speed > 0.01 * speed.max()) & ~surely_touching(smooth, vectors, speed)
+    light = turning & surely_carried(smooth, vectors, speed)
+    return light if light.any() else turning
 
 
 def _at_rest(journal: Journal, loads: xr.Dataset, shaft: xr.Dataset) -> xr.Dataset:

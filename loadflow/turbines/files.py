@@ -29,8 +29,13 @@ def turbine_names() -> list[str]:
     >>> "nrel-5mw" in turbine_names()
     True
     """
+    return list(_names())
+
+
+@cache
+def _names() -> tuple[str, ...]:
     folder = resources.files(__package__)
-    return sorted(f.name[:-5] for f in folder.iterdir() if f.name.endswith(".toml"))
+    return tuple(sorted(f.name[:-5] for f in folder.iterdir() if f.name.endswith(".toml")))
 
 
 def load_turbine(turbine: str | Path | Turbine) -> Turbine:
@@ -67,7 +72,7 @@ def load_turbine(turbine: str | Path | Turbine) -> Turbine:
         return _scaled(base, power)
     path = Path(turbine)
     if path.suffix not in (".toml", *_WINDIO):
-        if str(turbine) not in turbine_names():
+        if str(turbine) not in _names():
             raise InputError(
                 f"unknown turbine {str(turbine)!r}; known are {', '.join(turbine_names())}, "
                 "or give the path of a .toml or a windIO .yaml file"

@@ -35,9 +35,9 @@ def place(film, work, q):
         c, s = film.ring.cos[i], film.ring.sin[i]
         c_face, s_face = film.ring.cos_face[i], film.ring.sin_face[i]
         for k in range(points):
-            gap[PLANES, i, k] = 1.0 - ex[k] * c - ey[k] * s
+            gap[PLANES, i, k] = film.ring.base[i] - ex[k] * c - ey[k] * s
         for k in range(m):
-            face[FACE_PLANES, i, k] = 1.0 - ex[k] * c_face - ey[k] * s_face
+            face[FACE_PLANES, i, k] = film.ring.base_face[i] - ex[k] * c_face - ey[k] * s_face
         if give > 0.0:
             right = i + 1 if i + 1 < nx else 0
             for k in range(m):
@@ -155,17 +155,40 @@ def narrowest(film, work):
     Around a rigid shell it is that between the points, too.
     """
     least = 1e300
-    if film.give == 0.0:
+    if film.give == 0.0 and not film.ring.shaped:
         for k in range(film.nodes.z.size):
             least = min(least, 1.0 - np.hypot(work.centre[0, k], work.centre[1, k]))
         return least
     nx, m = work.u.shape[0], len(film.lanes)
     for i in range(nx):
-        for k in range(work.gap.shape[2]):
-            least = min(least, work.gap[PLANES, i, k])
+        if not film.ring.groove[i]:
+            for k in range(work.gap.shape[2]):
+                least = min(least, work.gap[PLANES, i, k])
         for k in range(m):
             least = min(least, work.face[FACE_PLANES, i, k])
     return opened(film.yielding, least)[0]
+
+
+@njit(cache=True, nogil=True)
+def share_of_step(film, work, dx, dy, tilt_x, tilt_y, kept):
+    """Share of a step of the shaft of which every place of a rigid shaped gap keeps `kept` of it.
+
+    Of a place narrower than the roughness, that counts in its stead.
+    """
+    share, ring = 1.0, film.ring
+    for i in range(ring.cos.size):
+        if ring.groove[i]:
+            continue
+        for k in range(film.nodes.z.size):
+            z = film.nodes.z[k]
+            closes = (dx + tilt_y * z) * ring.cos[i] + (dy - tilt_x * z) * ring.sin[i]
+            gap = work.gap[PLANES, i, k]
+            left = (1.0 - kept) * max(gap, film.rough.size)
+            if film.rough.size > 0.0:
+                left = max(min(left, gap + film.rough.deepest), 0.0)
+            if closes > 0.0 and share * closes > left:
+                share = left / closes
+    return share
 
 
 @njit(cache=True, nogil=True)
@@ -219,47 +242,53 @@ def touch(film, work, q):
 
 @njit(cache=True, nogil=True)
 def _touch_shell(film, work, q):
-    """`touch` on a shell that film and asperities press open; fills `work.pressed`, too.
+    """`touch` on a shell that film and asperities press open, or on segments of a shaped bore.
 
-    Between two cell centres the pressure of the film, and so the gap by it, runs straight.
+    Between two cell centres the pressure of the film, and so the gap by it, runs straight. Fills
+    `work.pressed`, too.
     """
     nx, m = work.u.shape[0], len(film.lanes)
     yielding, ring = film.yielding, film.ring
     p, pressed, load, stiffness = work.state[LOAD], work.pressed, work.touch[0], work.touch[1:]
     pressed[:] = 0.0
     beyond = yielding.first + yielding.step * (yielding.table.shape[1] - 1)
-    step = 2.0 * np.pi / nx
-    dip = 0.125 * step * step  # of a gap between two places, at most
-    part, normal = step / yielding.around, 0.0
+    normal = 0.0
     mode = np.empty(4)
     low, high = np.empty(4), np.empty(4)
     for g in range(yielding.z.size):
         z = yielding.z[g]
-        ex = q[0] + q[3] * z + 0.5 * work.bend[0] * z * z
-        ey = q[1] - q[2] * z + 0.5 * work.bend[1] * z * z
-        if 1.0 - np.hypot(ex, ey) >= beyond:
+        mid_x = q[0] + q[3] * z + 0.5 * work.bend[0] * z * z
+        mid_y = q[1] - q[2] * z + 0.5 * work.bend[1] * z * z
+        if not ring.shaped and 1.0 - np.hypot(mid_x, mid_y) >= beyond:
             continue
-        weight = yielding.weights[g] * part * yielding.unit
         for i in range(nx):
             right = i + 1 if i + 1 < nx else 0
+            step = ring.apart[i]
+            wide, ex, ey = ring.lobe[0, i], mid_x + ring.lobe[1, i], mid_y + ring.lobe[2, i]
             here, there = 0.0, 0.0
             for k in range(m):
                 here += yielding.values[g, k] * (p[i, k] - ring.p_edge)
                 there += yielding.values[g, k] * (p[right, k] - ring.p_edge)
             here, there = film.give * here, film.give * there
-            edge = 1.0 - ex * ring.cos[i] - ey * ring.sin[i] + here
-            other = 1.0 - ex * ring.cos[right] - ey * ring.sin[right] + there
+            edge = wide - ex * ring.cos[i] - ey * ring.sin[i] + here
+            other = wide - ex * ring.cos[right] - ey * ring.sin[right] + there
+            dip = 0.125 * step * step  # of a gap between two places, at most
+            if ring.groove[i]:
+                edge = wide - ex * ring.cos_face[i] - ey * ring.sin_face[i]
+            if ring.groove[right]:
+                other = wide - ex * ring.cos_face[i] - ey * ring.sin_face[i]
             if min(edge, other) - dip * np.hypot(ex, ey) >= beyond:
                 continue
+            weight = yielding.weights[g] * step / yielding.around * yielding.unit
             low[:] = 0.0
             high[:] = 0.0
             for n in range(yielding.around):
                 share = (n + 0.5) / yielding.around
-                turn = (share - 0.5) * step
+                turn = share * step - ring.back[i]
                 ct, st = np.cos(turn), np.sin(turn)
                 c = ring.cos_face[i] * ct - ring.sin_face[i] * st
                 s = ring.sin_face[i] * ct + ring.cos_face[i] * st
-                h = 1.0 - ex * c - ey * s + (1.0 - share) * here + share * there
+                h = wide - ex * c - ey * s + (1.0 - share) * here + share * there
                 if h >= beyond:
                     continue
                 value, rise = _of_table(yielding, 2, h)

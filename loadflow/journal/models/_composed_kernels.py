@@ -28,6 +28,7 @@ from loadflow.journal.models._composed_gap_kernels import (
     smooth_beyond,
     touch,
 )
+from loadflow.journal.models._reduced_kernels import hold_grooves_in
 
 
 @njit(cache=True, nogil=True)
@@ -38,16 +39,16 @@ def balance(film, work, wedge, rate, size):
     """
     nx, m = work.u.shape[0], len(film.lanes)
     points = len(film.points)
-    step = 2.0 * np.pi / nx
     z, weights, slopes = film.nodes.z, film.nodes.weights, film.nodes.slopes
     p, fill, columns, gap, face = (
         work.state[P], work.state[FILL], work.columns, work.gap, work.face,
     )  # fmt: skip
-    squeeze = film.ring.slope * step
     fx, fy, mx, my = 0.0, 0.0, 0.0, 0.0
     for i in range(nx):
         base = film.ring.order[i] * m
         c, s = film.ring.cos[i], film.ring.sin[i]
+        step = film.ring.width[i]
+        squeeze = film.ring.slope * step
         load, turn = 0.0, 0.0
         for k in range(m):
             held = squeeze * weights[k]
@@ -81,10 +82,10 @@ def balance(film, work, wedge, rate, size):
             if size > 2:
                 columns[base + k, 3] = -s * by_turn
                 columns[base + k, 4] = c * by_turn
-        fx += load * c
-        fy += load * s
-        mx -= turn * s
-        my += turn * c
+        fx += load * film.ring.load_x[i]
+        fy += load * film.ring.load_y[i]
+        mx -= turn * film.ring.load_y[i]
+        my += turn * film.ring.load_x[i]
     for i in range(nx):  # face between cell i and the next one
         right = i + 1 if i + 1 < nx else 0
         base = film.ring.order[i] * m
@@ -93,7 +94,7 @@ def balance(film, work, wedge, rate, size):
         c, s = film.ring.cos_face[i], film.ring.sin_face[i]
         for k in range(m):
             w = weights[k]
-            rise = (p[right, k] - p[i, k]) / step
+            rise = (p[right, k] - p[i, k]) / film.ring.apart[i]
             drag = wedge * fill[upwind, k]
             flow = w * (drag * face[DRAG, i, k] - face[FLOW, i, k] * rise)
             by_gap = -w * (drag * face[DRAG_SLOPE, i, k] - face[FLOW_SLOPE, i, k] * rise)
@@ -109,10 +110,12 @@ def balance(film, work, wedge, rate, size):
                 columns[base_r + k, 3] += by_gap * s
                 columns[base + k, 4] += by_gap * c
                 columns[base_r + k, 4] -= by_gap * c
+    if film.ring.shaped:
+        _hold_grooves(film, columns)
     largest = 0.0
     for row in range(columns.shape[0]):
         largest = max(largest, abs(columns[row, 0]))
-    unit = film.ring.area * step
+    unit = film.ring.area
     work.load[0], work.load[1] = unit * fx, unit * fy
     work.load[2], work.load[3] = unit * mx, unit * my
     return largest
@@ -122,16 +125,19 @@ def balance(film, work, wedge, rate, size):
 def magnitudes(film, work, wedge, rate):
     """Magnitude of the largest terms of `balance`, after it: in a cell, and in the load, N."""
     nx, m = work.u.shape[0], len(film.lanes)
-    step = 2.0 * np.pi / nx
     p, fill, face, gap = work.state[P], work.state[FILL], work.face, work.gap
     weights, slopes = film.nodes.weights, film.nodes.slopes
     largest, peak = 0.0, 0.0
     for i in range(nx):
         left = i - 1 if i > 0 else nx - 1
         right = i + 1 if i + 1 < nx else 0
+        step = film.ring.width[i]
+        if film.ring.groove[i]:
+            continue
         for k in range(m):
             drags = face[DRAG, left, k] + face[DRAG, i, k]
-            flows = (face[FLOW, left, k] + face[FLOW, i, k]) / step
+            flows = face[FLOW, left, k] / film.ring.apart[left]
+            flows += face[FLOW, i, k] / film.ring.apart[i]
             total = film.ring.slope * step * weights[k] * rate * fill[i, k] * gap[MEAN, i, k]
             total += weights[k] * (
                 abs(wedge) * drags + flows * max(abs(p[i, k]), abs(p[left, k]), abs(p[right, k]))
@@ -156,17 +162,17 @@ def matrix(film, work, wedge, rate):
     """Band matrix of the derivatives of the residual by the unknowns."""
     nx, m = work.u.shape[0], len(film.lanes)
     points = len(film.points)
-    step = 2.0 * np.pi / nx
     weights, slopes = film.nodes.weights, film.nodes.slopes
     band, gap, face = work.band, work.gap, work.face
     mid = 2 * m
     dp, df, p = work.state[DP], work.state[DFILL], work.state[P]
     fill, grows = work.state[FILL], work.state[DLOAD]
-    squeeze = film.ring.slope * step * rate
     give = film.give
     band[:] = 0.0
     for i in range(nx):
         base = film.ring.order[i] * m
+        step = film.ring.width[i]
+        squeeze = film.ring.slope * step * rate
         for j in range(points):
             flow = step * weights[j] * gap[CUBE, i, j]
             for k in range(m):
@@ -191,6 +197,7 @@ def matrix(film, work, wedge, rate):
         base_r = film.ring.order[right] * m
         shift = base_r - base
         upwind = i if wedge > 0 else right
+        step = film.ring.apart[i]
         for k in range(m):
             w = weights[k]
             h = w * wedge * face[DRAG, i, k]
@@ -211,6 +218,18 @@ def matrix(film, work, wedge, rate):
             band[base + k, mid + shift] += by_r
             band[base_r + k, mid] -= by_r
             band[base_r + k, mid - shift] -= by_l
+    if film.ring.shaped:
+        hold_grooves_in(film, band)
+
+
+@njit(cache=True, nogil=True)
+def _hold_grooves(film, columns):
+    """Leave the pressure of grooves as it is."""
+    m = len(film.lanes)
+    for i in range(film.ring.groove.size):
+        if film.ring.groove[i]:
+            base = film.ring.order[i] * m
+            columns[base : base + m] = 0.0
 
 
 @njit(cache=True, nogil=True)
@@ -252,7 +271,7 @@ def carry(film, work, size):
     z, weights, columns, carried = film.nodes.z, film.nodes.weights, work.columns, work.carried
     slope = work.state[DLOAD]
     carried[:] = 0.0
-    unit = film.ring.area * 2.0 * np.pi / nx
+    unit = film.ring.area
     if size == 2:  # forces alone
         fx0, fx1, fx2, fy0, fy1, fy2 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
         for i in range(nx):
@@ -263,7 +282,7 @@ def carry(film, work, size):
                 a += part * columns[row, 0]
                 b += part * columns[row, 1]
                 d += part * columns[row, 2]
-            c, s = unit * film.ring.cos[i], unit * film.ring.sin[i]
+            c, s = unit * film.ring.load_x[i], unit * film.ring.load_y[i]
             fx0, fx1, fx2 = fx0 + a * c, fx1 + b * c, fx2 + d * c
             fy0, fy1, fy2 = fy0 + a * s, fy1 + b * s, fy2 + d * s
         carried[0, 0], carried[1, 0], carried[2, 0] = fx0, fx1, fx2
@@ -273,7 +292,7 @@ def carry(film, work, size):
         return
     for i in range(nx):
         base = film.ring.order[i] * m
-        c, s = unit * film.ring.cos[i], unit * film.ring.sin[i]
+        c, s = unit * film.ring.load_x[i], unit * film.ring.load_y[i]
         for column in range(1 + size):
             load, turn = 0.0, 0.0
             for k in range(m):
@@ -303,11 +322,10 @@ def _carry_touch(film, work, size):
 
 
 @njit(cache=True, nogil=True)
-def summarise(film, work, q, row):
+def summarise(film, work, q, wedge, row):
     """Integrals over the film into `row`, after `place` at `q`; units of `_reduced_kernels`."""
     nx, m = work.u.shape[0], len(film.lanes)
     points = len(film.points)
-    step = 2.0 * np.pi / nx
     weights, slopes, fine = film.nodes.weights, film.nodes.slopes, film.nodes.fine
     p, gap, rough = work.state[LOAD], work.gap, film.rough
     far = -1.0 if rough.size == 0.0 else smooth_beyond(rough)
@@ -318,6 +336,7 @@ def summarise(film, work, q, row):
     for i in range(nx):
         right = i + 1 if i + 1 < nx else 0
         load, turn = 0.0, 0.0
+        step = film.ring.width[i]
         for k in range(points):
             slope = 0.0
             for j in range(m):
@@ -328,13 +347,16 @@ def summarise(film, work, q, row):
             if k < m:
                 inside = work.state[FILL, i, k]
                 rise = p[right, k] - p[i, k]
-                dissipation += work.face[FLOW, i, k] / step * weights[k] * rise * rise
+                conducts = work.face[FLOW, i, k] / film.ring.apart[i]
+                dissipation += conducts * weights[k] * rise * rise
                 if p[i, k] > peak:
                     peak, highest = p[i, k], i
                 load += weights[k] * p[i, k]
                 turn += weights[k] * p[i, k] * film.nodes.z[k]
-            else:
+            elif not film.ring.groove[i]:
                 outflow += max(-film.nodes.ends[k - m] * flow, 0.0)
+            if film.ring.groove[i]:
+                continue
             held = weights[k] * step * gap[MEAN, i, k]
             liquid += held * inside
             volume += held
@@ -348,10 +370,10 @@ def summarise(film, work, q, row):
             if film.regime.on:
                 inverse *= factor(h, numbers, SHEAR)[0]
             shear += weights[k] * step * inverse
-        fx += load * film.ring.cos[i]
-        fy += load * film.ring.sin[i]
-        mx -= turn * film.ring.sin[i]
-        my += turn * film.ring.cos[i]
+        fx += load * film.ring.load_x[i]
+        fy += load * film.ring.load_y[i]
+        mx -= turn * film.ring.load_y[i]
+        my += turn * film.ring.load_x[i]
     for i in range(highest - 1, highest + 2):  # between the points
         for k in range(fine.shape[0]):
             value = film.ring.p_edge
@@ -374,7 +396,7 @@ def summarise(film, work, q, row):
     row[at.LEAST] = narrowest(film, work)
     row[at.GROWTH] = max(grown, film.give * (peak - film.ring.p_edge))
     row[at.NORMAL] = touch(film, work, q)
-    unit = film.ring.area * step
+    unit = film.ring.area
     row[at.MOMENT_X] = unit * mx + work.touch[0, 2]
     row[at.MOMENT_Y] = unit * my + work.touch[0, 3]
     row[at.CONTACT_X] = work.touch[0, 0]
@@ -384,3 +406,28 @@ def summarise(film, work, q, row):
         2.0 * film.ring.area * weights.sum()
     )  # beside asperities a film may carry next to nothing
     row[at.HIGHEST] = left / max(peak - film.ring.p_edge, mean, 1e-3 * film.ring.scale)
+    row[at.FED] = _fed(film, work, wedge) if film.ring.shaped else 0.0
+
+
+@njit(cache=True, nogil=True)
+def _fed(film, work, wedge):
+    """Flow from the grooves into the film, less what flows back, after `place`."""
+    nx, m = work.u.shape[0], len(film.lanes)
+    weights, p, fill, face = film.nodes.weights, work.state[P], work.state[FILL], work.face
+    total = 0.0
+    for i in range(nx):
+        right = i + 1 if i + 1 < nx else 0
+        if film.ring.groove[i] == film.ring.groove[right]:
+            continue
+        upwind = i if wedge > 0 else right
+        flow = 0.0
+        for k in range(m):
+            rise = (p[right, k] - p[i, k]) / film.ring.apart[i]
+            drag = wedge * fill[upwind, k] * face[DRAG, i, k]
+            flow += weights[k] * (drag - face[FLOW, i, k] * rise)
+        for k in range(m, len(film.points)):  # the ends, at the pressure of the grooves
+            gap = film.ring.base_face[i] - work.centre[0, k] * film.ring.cos_face[i]
+            gap -= work.centre[1, k] * film.ring.sin_face[i]
+            flow += weights[k] * wedge * film.ring.edge_fill * gap
+        total += flow if film.ring.groove[i] else -flow
+    return total

@@ -11,7 +11,15 @@ from numba import njit
 
 from loadflow.journal.cavitation import DLOAD, FILL, LOAD
 from loadflow.journal.models import composed_film as at
-from loadflow.journal.models._composed_gap_kernels import MEAN, OPEN, narrowest, place, touch, turn
+from loadflow.journal.models._composed_gap_kernels import (
+    MEAN,
+    OPEN,
+    narrowest,
+    place,
+    share_of_step,
+    touch,
+    turn,
+)
 from loadflow.journal.models._composed_kernels import (
     balance,
     carry,
@@ -67,6 +75,11 @@ def _limited(film, work, q, step):
 
     An aligned, eccentric shaft goes along the gap, not along the chord.
     """
+    if film.ring.shaped:
+        share = share_of_step(film, work, step[0], step[1], step[2], step[3], _KEPT)
+        for k in range(4):
+            step[k] *= share
+        return
     x, y = q[0], q[1]
     ratio = np.hypot(x, y)
     if ratio >= 0.5 and step[2] == 0.0 and step[3] == 0.0:
@@ -225,8 +238,8 @@ def finish(film, work, q, speed, size, row, stiffness, damping):
     """
     nx, m = work.u.shape[0], len(film.lanes)
     place(film, work, q)
-    summarise(film, work, q, row)
     wedge = 0.5 * film.ring.slope * speed
+    summarise(film, work, q, wedge, row)
     balance(film, work, wedge, 0.0, size)
     matrix(film, work, wedge, 0.0)
     factorise(film.lanes, work.band, work.columns.shape[0])
@@ -235,9 +248,9 @@ def finish(film, work, q, speed, size, row, stiffness, damping):
     for a in range(size):
         for b in range(size):
             stiffness[a, b] = work.touch[1 + a, b] - work.carried[1 + b, a]
-    squeeze = film.ring.slope * 2.0 * np.pi / nx
     for i in range(nx):
         base = film.ring.order[i] * m
+        squeeze = 0.0 if film.ring.groove[i] else film.ring.slope * film.ring.width[i]
         for k in range(m):
             held = -squeeze * film.nodes.weights[k] * work.state[FILL, i, k]
             held *= work.gap[OPEN, i, k]
@@ -275,6 +288,9 @@ def keep(work):
 @njit(cache=True, nogil=True)
 def _leaves_room(film, work, q, ahead):
     """Whether every place of a rigid gap keeps half of itself, or of the roughness, `ahead`."""
+    if film.ring.shaped:
+        way = ahead[0] - q[0], ahead[1] - q[1], ahead[2] - q[2], ahead[3] - q[3]
+        return share_of_step(film, work, *way, 0.5) == 1.0
     for k in range(film.nodes.z.size):
         z = film.nodes.z[k]
         bx, by = 0.5 * work.bend[0] * z * z, 0.5 * work.bend[1] * z * z
@@ -353,5 +369,5 @@ def march(
             for a in range(4):
                 rows[n, a] = new[a]
             return n + 1
-        summarise(film, work, q, rows[n])
+        summarise(film, work, q, 0.5 * film.ring.slope * omega, rows[n])
     return time.size

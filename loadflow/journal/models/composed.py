@@ -122,7 +122,7 @@ def _equilibria(
         "moment": np.zeros((count, 2)),
         "tilt": np.zeros((count, 2)),
         "pad_tilt": np.zeros((count, 0)),
-        **model.results(rows, speed),
+        **model.results(rows, speed, lines),
         "stiffness": stiffness * scale,
         "damping": damping * scale,
     }
@@ -217,7 +217,7 @@ def _path(
     if not converged:
         found = residual, rounding, iterations
         raise no_start(force[0], speed[0], float(np.hypot(*first[:2])), found)
-    summarise(film, work, first, rows[0])
+    summarise(film, work, first, 0.5 * film.ring.slope * turning, rows[0])
     rows[0, at.RESIDUAL :] = residual, iterations, converged, rounding
     solved = march(
         film, work, first, model.size, time, loads, lines, speed,
@@ -228,7 +228,7 @@ def _path(
         found = tuple(rows[last, [at.RESIDUAL, at.ROUNDING, at.ITERATIONS]])
         ratio = float(np.hypot(rows[last, at.X], rows[last, at.Y]))
         raise stopped(time[last], force[last], speed[last], ratio, found)
-    values = model.results(rows, speed * states[:, THIN])
+    values = model.results(rows, speed * states[:, THIN], lines)
     values |= {"x": rows[:, at.X], "y": rows[:, at.Y]}
     if options.contact is not None:
         values["contact_share"] = _share(values["contact_force"], force)

@@ -15,6 +15,7 @@ from loadflow.journal.film._rough_kernels import NO_CONTACT
 from loadflow.journal.film.asperity_load import CylinderLoad
 from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.gap_rough import RoughGap, Roughness
+from loadflow.journal.film.gap_shaped import Bore, ShapedGap
 from loadflow.journal.film.integrals import Integrals, in_units
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
@@ -30,10 +31,11 @@ from loadflow.journal.models.composed_film import (
     Yielding,
     make_work,
 )
-from loadflow.journal.models.ring import estimates, ring_of, units_of
+from loadflow.journal.models.ring import estimates, lobed, ring_of, units_of
 from loadflow.journal.models.width_modes import at_places, half_width_nodes, whole_width
 from loadflow.journal.rows import without_supply
 from loadflow.journal.shells import LinedShell, LocalShell
+from loadflow.journal.solvers.estimate import SHARES
 from loadflow.tribology.kernels import pressure_integral
 
 Array = NDArray[np.float64]
@@ -111,6 +113,10 @@ class ComposedFilm:
         places[:, :2] = estimates(self.bearing, self.units, force, speed)
         if self.size == 2:
             places[:, 2:] = lines[:, :2]
+        if self.film.ring.shaped:
+            for place, (*_, bx, by) in zip(places, lines):
+                place[:2] *= self._share_inside(place, bx, by)
+            return places
         standing = speed == 0.0
         if self.film.rough.size > 0.0:
             alone = self._touching_at(size)
@@ -132,6 +138,15 @@ class ComposedFilm:
                 place[:2] *= 0.9
         return places
 
+    def _share_inside(self, place: Array, bx: float, by: float) -> float:
+        """Share of a first position (4,) that leaves a gap in a shaped bore; 0 if none does."""
+        bore, z = Bore.of(self.bearing), self.film.nodes.z
+        ends = np.stack([place[3] * z + 0.5 * bx * z * z, -place[2] * z + 0.5 * by * z * z], -1)
+        for share in SHARES:
+            if bore.narrowest(share * place[:2] + ends).min() > ShapedGap.first_gap:
+                return share
+        return 0.0
+
     def _touching_at(self, load: Array) -> Array:
         """Eccentricity ratios (n,) at which asperities alone carry loads (n,), N."""
         rough = self.film.rough
@@ -141,14 +156,20 @@ class ComposedFilm:
 
     def resolves(self, position: Array) -> bool:
         """Whether the cells around resolve the narrowest gap of a rigid shell."""
-        return self.film.give > 0.0 or self.units.resolves(np.array([self.farthest(position), 0.0]))
+        if self.film.give > 0.0:
+            return True
+        narrow = self._least(position[None], self.work.bend[None])[0]
+        return self.units.resolves(np.array([1.0 - narrow, 0.0]))
 
-    def farthest(self, position: Array) -> float:
-        """Largest eccentricity ratio across the width."""
-        z, bend = self.film.nodes.z, self.work.bend
-        ex = position[0] + position[3] * z + 0.5 * bend[0] * z**2
-        ey = position[1] - position[2] * z + 0.5 * bend[1] * z**2
-        return float(np.hypot(ex, ey).max())
+    def _least(self, positions: Array, bends: Array) -> Array:
+        """Narrowest gap (n,) of a rigid shell at `positions` (n, 4), clearances, over the width."""
+        bore, z = Bore.of(self.bearing), self.film.nodes.z
+        x, y, tilt_x, tilt_y = positions.T[:, :, None]
+        bend_x, bend_y = bends.T[:, :, None]
+        centres = np.stack(
+            [x + tilt_y * z + 0.5 * bend_x * z**2, y - tilt_x * z + 0.5 * bend_y * z**2], axis=-1
+        )
+        return bore.narrowest(centres.reshape(-1, 2)).reshape(len(positions), -1).min(axis=1)
 
     def unresolved_across(self, rows: Array) -> NDArray[np.bool_]:
         """Whether the polynomials miss the pressure of `rows` (n, RESULTS), as at a bearing end.
@@ -169,8 +190,10 @@ class ComposedFilm:
         share = pressure / np.maximum(pressure, pressure.mean())
         return rows[:, at.HIGHEST] * share > _UNRESOLVED
 
-    def results(self, rows: Array, speed: Array) -> dict[str, Any]:
+    def results(self, rows: Array, speed: Array, lines: Array) -> dict[str, Any]:
         """Rows of the compiled loops, in SI units and named as in `Equilibrium`."""
+        if self.film.ring.shaped and self.film.give == 0.0:  # between the cells, too
+            rows[:, at.LEAST] = self._least(rows[:, : at.TILT_Y + 1], lines[:, 2:])
         share = 0.5 if self.whole else 1.0  # the units are those of half of the width
         found = Integrals(
             peak=rows[:, at.PEAK],
@@ -186,6 +209,7 @@ class ComposedFilm:
             "iterations": rows[:, at.ITERATIONS].astype(int),
             "eccentricity_ratio": np.hypot(rows[:, at.X], rows[:, at.Y]),
             **without_supply(len(rows)),
+            "supply_flow": self.units.pockets.flow_unit * share * rows[:, at.FED],
         }
         if self.whole:
             values["tilt"] = rows[:, [at.TILT_X, at.TILT_Y]] * clearance / self.bearing.radius
@@ -227,12 +251,15 @@ def build(
         nodes = whole_width(half, POINTS[level])
     else:
         nodes = half_width_nodes(half, HALF_POINTS[level])
+    ring = ring_of(units, 1.0 if whole else 2.0)
+    if bearing.shape.segments:
+        ring = lobed(ring, bearing, options.cells[0])
     film = Composed(
-        ring_of(units, 1.0 if whole else 2.0), (0,) * nodes.slopes.shape[1], (0,) * nodes.z.size,
+        ring, (0,) * nodes.slopes.shape[1], (0,) * nodes.z.size,
         nodes, _give(bearing, options), _rough(bearing, options.contact, whole, units),
         _yielding(bearing, options, whole, nodes.slopes.shape[1]), _regime(bearing, options),
     )  # fmt: skip
-    return ComposedFilm(bearing, options, line, units, film, make_work(units.mesh.shape[0], nodes))
+    return ComposedFilm(bearing, options, line, units, film, make_work(ring.width.size, nodes))
 
 
 def _give(bearing: JournalGeometry, options: Film) -> float:
@@ -247,7 +274,7 @@ def _give(bearing: JournalGeometry, options: Film) -> float:
 def _yielding(bearing: JournalGeometry, options: Film, whole: bool, points: int) -> Yielding:
     """Asperities on a shell that gives way; `points` across carry the pressure."""
     contact, give = options.contact, _give(bearing, options)
-    if contact is None or give == 0.0:
+    if contact is None or (give == 0.0 and not bearing.shape.segments):
         return RIGID
     half = bearing.width / bearing.diameter
     x, w = np.polynomial.legendre.leggauss(_LINES if whole else _LINES // 2)

@@ -185,11 +185,6 @@ def _pairs(
         pressure = bearing.shape.groove_pressure
         at_ends = 'that of the bearing ends on rung = "reduced"'
         yield "groove_pressure", pressure, pressure != film.edge_pressure, at_ends
-        alone = 'None in a shaped bore on rung = "reduced"'
-        yield "contact", film.contact, True, alone
-        yield "shell", film.shell, True, alone
-        yield "turbulence", film.turbulence, True, alone
-        yield from ((name, getattr(line, name), True, alone) for name in ("moment", "tilt", "bend"))
     over_area = film.heat is not None and film.heat.over_area
     if verb == "in_motion":
         yield "shape", bearing.shape.kind, pads, "a fixed bore for an orbit"

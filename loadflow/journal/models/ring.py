@@ -39,6 +39,11 @@ class Ring(NamedTuple):
         groove.
     groove : array of bool (nx,)
         Columns that are axial grooves; their pressure is that of the bearing ends.
+    back : array (nx,)
+        Δθ from where each place between two columns begins, its centre or the end of a groove, to
+        the face behind it.
+    lobe : array (3, nx)
+        Of the segment at these faces: H of the centred shaft is ``b − x cos θ − y sin θ``.
     shaped : bool
         Whether the bore is no cylinder.
     order : array (nx,)
@@ -68,6 +73,8 @@ class Ring(NamedTuple):
     width: Array
     apart: Array
     groove: NDArray[np.bool_]
+    back: Array
+    lobe: Array
     shaped: bool
     order: NDArray[np.int64]
     law: int
@@ -98,7 +105,8 @@ def ring_of(film: DiscreteFilm, share: float) -> Ring:
         cos=np.cos(angle), sin=np.sin(angle), cos_face=np.cos(face), sin_face=np.sin(face),
         load_x=step * np.cos(angle), load_y=step * np.sin(angle),
         base=np.ones(count), base_face=np.ones(count), width=even, apart=even,
-        groove=np.zeros(count, dtype=bool), shaped=False, order=film.mesh.order,
+        groove=np.zeros(count, dtype=bool), back=0.5 * even,
+        lobe=np.outer([1.0, 0.0, 0.0], np.ones(count)), shaped=False, order=film.mesh.order,
         law=film.law.address, numbers=np.array(film.law.numbers),
         edge_fill=film.law.fill_at(film.p_edge), scale=film.scale, p_edge=film.p_edge,
         slope=film.slope, area=share * film.radius**2,
@@ -119,13 +127,17 @@ def lobed(ring: Ring, bearing: JournalGeometry, around: int) -> Ring:
     width, angle, face = np.diff(edge), 0.5 * (edge[1:] + edge[:-1]), edge[1:]
     half = np.where(gap, 0.0, 0.5 * width)
     owner = np.where(gap, np.roll(segment, -1), segment)  # of the face behind each cell
+    preload = np.array([part.preload for part in segments])[owner]
+    toward = np.array([part.narrowest for part in segments])[owner]
+    away = preload / (1.0 - preload)
+    lobe = np.stack([1.0 / (1.0 - preload), away * np.cos(toward), away * np.sin(toward)])
     centre, middle = np.array([0.0]), np.sinc(0.5 * width / np.pi)
     return ring._replace(
         cos=np.cos(angle), sin=np.sin(angle), cos_face=np.cos(face), sin_face=np.sin(face),
         load_x=width * middle * np.cos(angle), load_y=width * middle * np.sin(angle),
         base=bore.gap(angle, segment, centre)[:, 0], base_face=bore.gap(face, owner, centre)[:, 0],
-        width=width, apart=half + np.roll(half, -1), groove=gap, shaped=True,
-        order=folded(width.size),
+        width=width, apart=half + np.roll(half, -1), groove=gap, back=half,
+        lobe=lobe, shaped=True, order=folded(width.size),
     )  # fmt: skip
 
 

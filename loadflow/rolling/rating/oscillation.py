@@ -154,9 +154,9 @@ class PitchMotion:
     >>> import numpy as np
     >>> from loadflow.rolling import PitchMotion
     >>> time = np.linspace(0.0, 50.0, 2001)
-    >>> swing = PitchMotion().during(time, np.radians(2.0) * np.sin(0.2 * np.pi * time))
+    >>> swing = PitchMotion().during(time, np.radians(2.0) * np.cos(0.2 * np.pi * time))
     >>> round(float(np.degrees(swing.amplitude)), 1), round(swing.frequency, 2)
-    (1.9, 0.1)
+    (2.0, 0.1)
     """
 
     threshold: Annotated[float, Gt(0), Le(0.1)] = math.radians(0.1)
