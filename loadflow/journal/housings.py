@@ -141,6 +141,9 @@ class HousedShell:
     local = False
     any_grid = True
 
+    def check_local(self, length: float) -> None:
+        """Nothing to refuse: it does not claim to give way where it is pressed alone."""
+
     def __post_init__(self) -> None:
         require(self.modulus > 0, "modulus", self.modulus, "Pa, > 0")
         good = 0 <= self.poisson_ratio < 0.5
@@ -227,6 +230,9 @@ class InfluenceShell:
 
     local = False
     any_grid = True
+
+    def check_local(self, length: float) -> None:
+        """Nothing to refuse: it does not claim to give way where it is pressed alone."""
 
     def __post_init__(self) -> None:
         require(0 < self.accuracy <= 0.1, "accuracy", self.accuracy, "0 < accuracy ≤ 0.1")

@@ -150,10 +150,12 @@ def _read(path: str | Path) -> tuple[Any, Any, Any]:
     names = ("angle", "axial", "influence")
     try:
         if Path(path).suffix == ".npz":
-            with np.load(path, allow_pickle=False) as data:
-                return tuple(data[name] for name in names)
-        with xr.open_dataset(path) as data:
-            return tuple(data[name].to_numpy() for name in names)  # type: ignore[return-value]
+            with np.load(path, allow_pickle=False) as file:
+                angle, axial, matrix = (file[name] for name in names)
+        else:
+            with xr.open_dataset(path) as table:
+                angle, axial, matrix = (table[name].to_numpy() for name in names)
+        return angle, axial, matrix
     except OSError as error:
         raise InputError(f"file = {str(path)!r}: cannot be read: {error}") from error
     except KeyError as error:

@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
+from itertools import chain
 
 import numpy as np
 from numpy.typing import NDArray
@@ -93,7 +94,8 @@ def around(
             film = assembly.solve(start, np.zeros(BODY), _HELD, _ROUGH)
             if film.converged:
                 distance = _distance(assembly, film, force)[0]
-                found.append((float(np.linalg.norm(distance[1:])), len(found), x, distance[0]))
+                aside = float(np.linalg.norm(distance[1:]))
+                found.append((aside, len(found), x, float(distance[0])))
     for _, _, x, size in sorted(found)[:_BEST]:
         x[2] = np.clip(0.5 * size, 0.9 * _NARROWEST, 0.9 * _WIDEST)
         yield started(chart.position(x))
@@ -106,8 +108,8 @@ def search(
     force: Array,
     free: NDArray[np.int64],
     limits: Limits,
-) -> AssemblyState | None:
-    """Equilibrium under `force` (5,), N and N m, at the tilt of `chart`; none if none is found.
+) -> AssemblyState:
+    """Equilibrium under `force` (5,), N and N m, at the tilt of `chart`, or where the search ended.
 
     Parameters
     ----------
@@ -116,7 +118,7 @@ def search(
     chart : Chart
         Positions.
     starts : iterable of AssemblyState
-        Where to begin, one after the other.
+        Where to begin, one after the other; one or more.
     force : array (5,)
         The load.
     free : array of int
@@ -124,13 +126,14 @@ def search(
     limits : Limits
         Tolerance on the scaled residual.
     """
-    spent, found = 0, None
-    for start in starts:
+    spent, each = 0, iter(starts)
+    found = next(each)
+    for start in chain([found], each):
         found = _search_from(assembly, chart, start, force, free, limits)
         spent += found.iterations
         if found.converged or spent > _SPENT:
             break
-    return None if found is None else replace(found, iterations=spent)
+    return replace(found, iterations=spent)
 
 
 def _search_from(
