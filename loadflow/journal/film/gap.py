@@ -39,6 +39,8 @@ class Gap(Protocol):
     ----------
     size, shaft : int
         Number of degrees of freedom m, and of those of the shaft.
+    pads : array of int
+        Degrees of freedom of the pads that tilt.
     coef : array (8, nx + 1, rows)
         Coefficients of the gap where the shaft was last placed, rows as in `_kernels`.
     dof_scale : array (m,)
@@ -55,6 +57,7 @@ class Gap(Protocol):
 
     size: int
     shaft: int
+    pads: NDArray[np.int64]
     dof_scale: Array
     coef: Array
     across: Array
@@ -92,15 +95,12 @@ class BoreGap(Gap, Protocol):
         Whether a cylinder surrounds an aligned shaft.
     tilts : bool
         Whether rotations of the shaft are among its degrees of freedom.
-    pads : array of int
-        Degrees of freedom of the pads that tilt.
     first_gap : float
         Narrowest gap, in clearances, that a first position must leave.
     """
 
     axisymmetric: bool
     tilts: bool
-    pads: NDArray[np.int64]
     first_gap: float
 
     def arcs(self, position: Array) -> Array:

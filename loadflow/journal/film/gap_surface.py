@@ -168,6 +168,7 @@ class SurfaceGap:
         Gap of the centred shaft where nothing is cut, in clearances.
     """
 
+    pads: NDArray[np.int64] = np.arange(0)  # one that tilts moves with its film
     roughness: float = 0.0
     open_share: Array | None = None
     regime: RegimeNumbers | None = None
