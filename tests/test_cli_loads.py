@@ -181,3 +181,11 @@ def test_bad_keys_of_files_are_refused_with_key_and_range(capsys, tmp_path, load
     code, _, err = call(capsys, "scene", scene)
     assert code == 2
     assert message in " ".join(err.split())
+
+
+def test_a_folder_of_load_files_with_a_cube_among_them_is_one_of_load_files(capsys, tmp_path):
+    write(tmp_path / "dlc11_v8_s1.csv")
+    for name in ("first.h5", "second.h5"):
+        code, out, _ = call(capsys, "convert", tmp_path, "-o", tmp_path / name)
+        assert code == 0
+        assert "1 load case" in out

@@ -125,8 +125,12 @@ def _list_names(files: list[str], pattern: str | None, cases: Path | None, as_js
 
 
 def _holds_cubes(folder: Path) -> bool:
-    """Whether a folder is one of load cubes, as a run leaves them, not of load files."""
-    return folder.is_dir() and any(path.suffix in CUBES for path in folder.iterdir())
+    """Whether a folder is one of load cubes, as a run leaves them; load files come first."""
+    from loadflow.readers import READERS
+
+    inside = [*folder.iterdir()] if folder.is_dir() else []
+    loads = any(reader.recognises(path) for path in inside for reader in READERS)
+    return not loads and any(path.suffix in CUBES for path in inside)
 
 
 def _doubts(cube: Cube) -> list[str]:
