@@ -161,6 +161,5 @@ def _patience(process: subprocess.Popen[str]) -> Iterator[None]:
 
 _EXAMINER = _Examiner()
 _AT_A_TIME = Lock()
-Finalize(
-    None, _EXAMINER.close, exitpriority=0
-)  # also where a worker or a signal ends without atexit
+# also where a worker or a signal ends this process without atexit
+Finalize(None, _EXAMINER.close, exitpriority=0)
