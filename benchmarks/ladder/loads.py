@@ -38,6 +38,7 @@ from loadflow.shaft import (
     DirectDrive,
     Integrated,
     MomentBearing,
+    PitchBearing,
     ThreePoint,
     TwoPoint,
     YawBearing,
@@ -159,7 +160,6 @@ TILTING = 5e8
 
 
 def measure_shaft(bench: Bench) -> Rungs:
-    parts = bench.series[bench.middle]
     two, one = TwoPoint(), MomentBearing()
     bent, stiff = replace(two, beam=Beam()), replace(one, beam=Beam())
     suspensions = [
@@ -174,14 +174,19 @@ def measure_shaft(bench: Bench) -> Rungs:
         Shaft(two_point=bent, moment=one),
         Shaft(two_point=bent, moment=stiff),
         Shaft(yaw=YawBearing()),
+        Shaft(pitch=PitchBearing()),
     ]
     rungs = {
         rung_key(bench.scene.model_copy(update={"shaft": section}), "shaft"): section
         for section in suspensions
     }
 
+    root = bench.scene.model_copy(update={"shaft": Shaft(pitch=PitchBearing())})
+    of_root = inputs(root, bench.middle)  # the series keeps what a blade does only if it is asked
+
     def loaded(section: Shaft) -> xr.Dataset:
         scene = bench.scene.model_copy(update={"shaft": section})
+        parts = bench.series[bench.middle] if section.pitch is None else of_root
         return shaft.bearing_loads(scene, bench.middle, parts)
 
     def entry(section: Shaft) -> Entry:

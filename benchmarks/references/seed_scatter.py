@@ -6,11 +6,10 @@ python -m benchmarks.references.seed_scatter RUNS/dlc_1_1
 
 from __future__ import annotations
 
-import argparse
 import json
 from pathlib import Path
 
-from benchmarks.common import ROOT
+from benchmarks.common import ROOT, arguments
 from loadflow.running.folder import results_of
 from loadflow.scene import read_scene
 from loadflow.studies.run_lifetime import known_shares
@@ -21,7 +20,7 @@ FILE = ROOT / "loadflow" / "data" / "seed_scatter.json"
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = arguments(__doc__)
     parser.add_argument("run", type=Path, help="folder of a finished run of pipelines/dlc_1_1.toml")
     run = parser.parse_args().run
     tables = results_of(run) or {}

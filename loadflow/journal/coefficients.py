@@ -123,7 +123,7 @@ def rotor_coefficients(
     found: dict[str, Any] = {
         name: ("speed", np.array([getattr(row, name) for row in rows]), FILM[name].attributes)
         for name in _KEPT
-        if hasattr(rows[0], name)
+        if getattr(rows[0], name, None) is not None
     }
     for name in ("stiffness", "damping"):
         values = np.stack([getattr(row, name) for row in rows])

@@ -204,7 +204,7 @@ def write_tables(folder: Path, sections: Sequence[Section]) -> list[Path]:
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     [file] = write_tables(Path(folder), [films])
     ...     file.name, file.read_text(encoding="utf-8")
-    ('films-at-rest.csv', 'bearing,"h_min, µm"\\nN,38\\n')
+    ('films-at-rest.csv', 'bearing,"h_min, µm"\nN,38\n')
     """
     found: dict[Path, Table] = {}
     for section in sections:

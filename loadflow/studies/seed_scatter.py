@@ -63,11 +63,18 @@ def scatter_of_one_seed(
     ...      "wind_speed": ("case", [8.0, 8.0, 12.0, 12.0])})
     >>> found = scatter_of_one_seed({"journal": table}, None)
     >>> round(found["largest eccentricity ratio"], 3)
-    0.051
+    0.048
     """
     table = table_of_cases(tables)
     if table is None:
         return {}
+    every = table["case"].values
+    kept = {name: tables[name] for name in ("journal", "statistics", "rolling") if name in tables}
+    known = np.all([np.isin(every, one["case"].values) for one in kept.values()], axis=0)
+    if not known.all():  # a case that failed is left out of all
+        shares = None if shares is None else shares[known]
+        tables = {name: one.sel(case=every[known]) for name, one in kept.items()}
+        table = table.sel(case=every[known])
     groups = Groups.of(table)
     if max(groups.sizes, default=0) < 2:
         return {}

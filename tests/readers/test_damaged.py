@@ -13,7 +13,7 @@ from synthetic import cube_file
 from test_defects import GTSDF, write_gtsdf
 from test_readers_bladed import write_run
 from test_readers_csv import write as write_csv
-from test_readers_hawc2 import CHANNELS
+from test_readers_hawc2 import CHANNELS, made_up
 from test_readers_hawc2 import write as write_hawc2
 
 from loadflow.cube import check_cube, open_cube
@@ -24,8 +24,8 @@ WRITERS = {
     ".outb": lambda path: write_outb(path, channels(50)),
     ".out": lambda path: write_out(path, channels(50)),
     ".csv": write_csv,
-    ".sel": lambda path: write_hawc2(path.with_suffix(""), binary=True, n=50),
-    ".dat": lambda path: write_hawc2(path.with_suffix(""), binary=False, n=50),
+    ".sel": lambda path: write_hawc2(path.with_suffix(""), True, made_up(50)),
+    ".dat": lambda path: write_hawc2(path.with_suffix(""), False, made_up(50)),
     ".%23": lambda path: write_run(path.with_suffix(""), n=50),
     ".hdf5": write_gtsdf,
     ".h5": lambda path: cube_file(path, steps=50),

@@ -37,6 +37,8 @@ def on_pads(film: DiscreteFilm, gap: ShapedGap, load: Array) -> Array | None:
     size = math.hypot(*wanted)
     for _ in range(_STEPS):
         gaps = 1.0 - toward @ place
+        if gaps.min() <= 0.0:  # to rounding: a load that no film carries
+            return None
         forces, slopes = curve.force(gaps)
         missing = wanted - forces @ toward
         if math.hypot(*missing) <= _ENOUGH * max(size, float(forces.max())):
