@@ -1,6 +1,5 @@
 """The rung "reduced" with effects against the rung "grid" with the same ones."""
 
-import time as clock
 from dataclasses import replace
 
 import numpy as np
@@ -365,25 +364,6 @@ def test_what_it_does_not_know_is_named():
         BEARING.equilibrium(FORCE, SPEED, replace(REDUCED, shell=thick))
     with pytest.raises(InputError, match="thickness, poisson_ratio"):
         BEARING.equilibrium(FORCE, SPEED, replace(REDUCED, shell=LinedShell(0.5, 1e9, 0.45)))
-
-
-def test_effects_cost_a_few_times_the_plain_film():
-    """Processor time in one process on the same steps; measured 2.4 and 4.0."""
-    time = np.arange(0.0, 5.0, 0.025)
-    force = np.stack([2e6 + 5e5 * np.sin(1.5 * time), 4e5 * np.cos(4 * time)], axis=-1)
-    tilt = UNIT * np.stack([0.2 * np.sin(1.2 * time), 0.1 * np.cos(2 * time)], axis=-1)
-
-    def seconds(film, **line):
-        spent = []
-        for _ in range(5):
-            begun = clock.process_time()
-            BEARING.orbit(time, force, SPEED, film, **line)
-            spent.append(clock.process_time() - begun)
-        return min(spent)
-
-    plain = seconds(REDUCED)
-    assert seconds(replace(REDUCED, contact=ROUGH)) < 3.5 * plain
-    assert seconds(replace(REDUCED, shell=SOFT), tilt=tilt) < 5 * plain
 
 
 def test_moments_of_little_load_on_a_path_ask_for_no_more_points(monkeypatch):
