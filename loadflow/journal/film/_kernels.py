@@ -99,6 +99,20 @@ def balance(state, coef, dz, area, gz, closed, wedge, p_edge, p_line, f_line, ma
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
+def squeezed(fill, around, across, slope, area, open_share, out):
+    """Derivatives of the balance by the velocity of each mode, `out` (m, nx, nz)."""
+    size, nx, nz = out.shape
+    row = 1 if across.shape[1] > 1 else 0
+    for j in range(size):
+        for i in range(nx):
+            for k in range(nz):
+                value = -slope * fill[i, k] * area[k] * around[j, i] * across[j, row * k]
+                if open_share is not None:
+                    value *= open_share[i, row * k]
+                out[j, i, k] = value
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
 def jacobian(state, coef, dz, area, gz, closed, wedge, mass, order, fixed, ab):
     """Band matrix ∂(balance + slack)/∂u in LAPACK's layout, `ab` (n, 3 kl + 1), column by row."""
     _, nx, nz = state.shape

@@ -249,7 +249,10 @@ class DiscreteFilm:
         for field, (coef, changed) in zip(fields[1:], slopes):
             self.balance(coef, self.storage(coef, changed, local, rate), out=field)
         if damped:
-            self._squeezed(fields[moves:])
+            kernel.squeezed(
+                self.state[FILL], around, gap.across, self.slope, mesh.area, gap.open_share,
+                fields[moves:],
+            )  # fmt: skip
         flows = [self.pockets.flows(field)[free] for field in fields] if free.size else []
         columns = np.empty((len(fields) + free.size, mesh.angle.size * mesh.z.size))
         fields[0] += self.state[SLACK]
@@ -286,14 +289,6 @@ class DiscreteFilm:
             damping=frame @ damping @ frame.T,
             columns=columns,
         )
-
-    def _squeezed(self, out: Array) -> None:
-        """Write the derivatives of the balance by the velocity of each mode, `out` (m, nx, nz)."""
-        gap = self.gap
-        swept = -self.slope * self.state[FILL] * self.mesh.area
-        if gap.open_share is not None:
-            swept *= gap.open_share
-        np.multiply(gap.around[:, :, None] * gap.across[:, None, :], swept, out=out)
 
     def _assemble(self, mass: Array, rate: float) -> None:
         """Write the Newton matrix at the state last placed into the band."""
