@@ -106,7 +106,7 @@ def _attributes(name: str, part: h5py.Group | h5py.Dataset) -> Iterator[Part]:
         yield f"{name}, attribute {key}", declared, size
 
 
-UNKNOWN = (TypeError, NotImplementedError, UnicodeError)
+UNKNOWN = (TypeError, UnicodeError)
 """What h5py raises of sound values that it has no kind for; a reader that wants them tells so."""
 
 

@@ -6,6 +6,7 @@ These files are sealed, or were examined when they were opened; here nothing is 
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -51,19 +52,16 @@ def read_variables(path: Path, names: Collection[str], group: str = "") -> xr.Da
     ...     read_variables(path, ["speed"])["speed"].dims
     ('case', 'time')
     """
-    try:
-        with h5py.File(path, "r") as file:
-            inside = file[group or "/"]
-            found = {name: _variable(inside[name]) for name in names if name in inside}
-            wanted = {dim for variable in found.values() for dim in variable.dims}
-            coords = {
-                dim: _variable(inside[dim])
-                for dim in wanted
-                if dim in inside and not _is_bare(inside[dim])
-            }
-            told = {key: _told(value) for key, value in inside.attrs.items() if key[0] != "_"}
-    except (OSError, KeyError, RuntimeError, ValueError) as error:
-        raise InputError(f"{path}: cannot be read as HDF5 ({error})") from error
+    with _opened(path) as file:
+        inside = file[group or "/"]
+        found = {name: _variable(inside[name]) for name in names if name in inside}
+        wanted = {dim for variable in found.values() for dim in variable.dims}
+        coords = {
+            dim: _variable(inside[dim])
+            for dim in wanted
+            if dim in inside and not _is_bare(inside[dim])
+        }
+        told = _attributes(inside)
     return xr.Dataset({**coords, **found}, attrs=told).set_coords([*coords])
 
 
@@ -75,11 +73,8 @@ def groups_of(path: Path) -> list[str]:
     loadflow.errors.InputError
         No file that HDF5 can read.
     """
-    try:
-        with h5py.File(path, "r") as file:
-            return [name for name, part in file.items() if isinstance(part, h5py.Group)]
-    except (OSError, RuntimeError) as error:
-        raise InputError(f"{path}: cannot be read as HDF5 ({error})") from error
+    with _opened(path) as file:
+        return [name for name, part in file.items() if isinstance(part, h5py.Group)]
 
 
 def read_whole(path: Path) -> Cube:
@@ -111,14 +106,26 @@ def read_whole(path: Path) -> Cube:
     ...     read_whole(path)["speed"].values.tolist()
     [[1.2, 1.3]]
     """
-    try:
-        with h5py.File(path, "r") as file:
-            groups = dict(_groups("/", file))
-    except (OSError, KeyError, RuntimeError, ValueError) as error:
-        raise InputError(f"{path}: cannot be read as HDF5 ({error})") from error
+    with _opened(path) as file:
+        groups = dict(_groups("/", file))
     version = groups["/"].attrs.pop(CUBE.key, 1)
     groups = {name: CUBE.upgrade(part, version, str(path)) for name, part in groups.items()}
     return groups["/"] if len(groups) == 1 else xr.DataTree.from_dict(groups)
+
+
+@contextmanager
+def _opened(path: Path) -> Iterator[h5py.File]:
+    """A file to read; what HDF5 says of it becomes an `InputError` with its name."""
+    try:
+        with h5py.File(path, "r") as file:
+            yield file
+    except (OSError, KeyError, RuntimeError, ValueError) as error:
+        raise InputError(f"{path}: cannot be read as HDF5 ({error})") from error
+
+
+def _attributes(group: h5py.Group) -> dict[str, Any]:
+    """Attributes of a group that are not the file's own."""
+    return {key: _told(value) for key, value in group.attrs.items() if key[0] != "_"}
 
 
 def _groups(name: str, group: h5py.Group) -> Iterator[tuple[str, xr.Dataset]]:
@@ -129,7 +136,7 @@ def _groups(name: str, group: h5py.Group) -> Iterator[tuple[str, xr.Dataset]]:
             inside.append((f"{name}{key}/", part))
         elif not _is_bare(part):
             found[key] = _variable(part)
-    attrs = {key: _told(value) for key, value in group.attrs.items() if key[0] != "_"}
+    attrs = _attributes(group)
     labels = set(found).intersection(dim for one in found.values() for dim in one.dims)
     for one in (attrs, *(variable.attrs for variable in found.values())):
         labels.update(str(one.pop("coordinates", "")).split())

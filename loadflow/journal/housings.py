@@ -13,7 +13,9 @@ from typing import Annotated, Literal
 
 from annotated_types import Ge, Gt, Le, Lt
 
+from loadflow.journal.shell_base import ElasticShell
 from loadflow.numerics.fields import require
+from loadflow.numerics.matrix_file import digest_of
 
 _STEEL = 2.1e11  # Pa
 
@@ -93,7 +95,7 @@ class Flange:
 
 
 @dataclass(frozen=True)
-class HousedShell:
+class HousedShell(ElasticShell):
     """Shell in a housing on feet or a flange, by finite elements in three dimensions.
 
     The bore gives way by the modes of its influence matrix, which follow once from the elements
@@ -137,12 +139,6 @@ class HousedShell:
     ] = (36, 2, 4)
     accuracy: Annotated[float, Gt(0), Le(0.1)] = 0.002
     kind: Literal["housed"] = "housed"
-
-    local = False
-    any_grid = True
-
-    def check_local(self, length: float) -> None:
-        """Nothing to refuse: it does not claim to give way where it is pressed alone."""
 
     def __post_init__(self) -> None:
         require(self.modulus > 0, "modulus", self.modulus, "Pa, > 0")
@@ -202,7 +198,7 @@ class HousedShell:
 
 
 @dataclass(frozen=True)
-class InfluenceShell:
+class InfluenceShell(ElasticShell):
     """Shell whose influence matrix another finite-element program has written to a file.
 
     The file (NetCDF, or ``.npz`` of numpy) holds ``angle`` (n,), rad, rising through one turn,
@@ -216,25 +212,39 @@ class InfluenceShell:
         With the influence matrix.
     accuracy : float
         Share of the compliance of the bore that left out modes may have together.
+    sha256 : str
+        Of the file; filled in. Where it is stated, the file must still be that one.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        The file is missing, or has changed. What is in it is read with the first film.
 
     Examples
     --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> import numpy as np
     >>> from loadflow.journal import InfluenceShell
-    >>> InfluenceShell("housing.nc").accuracy
-    0.002
+    >>> angle, axial = np.linspace(0.0, 6.0, 24), np.linspace(-0.1, 0.1, 5)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     file = Path(folder) / "housing.npz"
+    ...     np.savez(file, angle=angle, axial=axial, influence=1e-12 * np.eye(120))
+    ...     shell = InfluenceShell(str(file))
+    >>> shell.accuracy, len(shell.sha256)
+    (0.002, 64)
     """
 
     file: str | Path
     accuracy: Annotated[float, Gt(0), Le(0.1)] = 0.002
+    sha256: str = ""
     kind: Literal["influence"] = "influence"
 
-    local = False
-    any_grid = True
-
-    def check_local(self, length: float) -> None:
-        """Nothing to refuse: it does not claim to give way where it is pressed alone."""
+    @property
+    def symmetric(self) -> bool:
+        """Whether both halves of the width give way alike."""
+        return False
 
     def __post_init__(self) -> None:
         require(0 < self.accuracy <= 0.1, "accuracy", self.accuracy, "0 < accuracy ≤ 0.1")
-
-    symmetric = False
+        object.__setattr__(self, "sha256", digest_of(self.file, "file", self.sha256))

@@ -17,8 +17,9 @@ from annotated_types import Ge, Gt, Lt
 from numpy.typing import NDArray
 
 from loadflow.journal.housings import HousedShell, InfluenceShell
+from loadflow.journal.shell_base import ElasticShell
 from loadflow.numerics.fields import require
-from loadflow.numerics.matrix_file import read_matrix
+from loadflow.numerics.matrix_file import digest_of, read_matrix
 
 _LOCAL = 0.1  # deviation of a lining from the local law that is let pass
 
@@ -28,22 +29,8 @@ def _require_solid(modulus: float, poisson_ratio: float) -> None:
     require(0 <= poisson_ratio < 0.5, "poisson_ratio", poisson_ratio, "0 ≤ poisson_ratio < 0.5")
 
 
-class _Shell:
-    """What the film asks of every shell."""
-
-    local = False
-    """Whether it gives way where it is pressed alone, by a `compliance`, m/Pa."""
-    symmetric = True
-    """Whether both halves of the width give way alike."""
-    any_grid = True
-    """Whether it is known on every grid of the film."""
-
-    def check_local(self, length: float) -> None:
-        """Refuse a shell that is not as local as it claims under a pressure over `length`, m."""
-
-
 @dataclass(frozen=True)
-class LocalShell(_Shell):
+class LocalShell(ElasticShell):
     """Shell that gives way where it is pressed alone (Winkler), (3.36, 3.37) of [Jonuschies 2015].
 
     Attributes
@@ -72,7 +59,7 @@ class LocalShell(_Shell):
 
 
 @dataclass(frozen=True)
-class LinedShell(_Shell):
+class LinedShell(ElasticShell):
     """Thin lining bonded to a rigid housing: each part is squeezed and cannot give way sideways.
 
     The compliance is ``t (1 + ν)(1 − 2ν)/(E (1 − ν))``, as long as the lining is thin against the
@@ -145,7 +132,7 @@ class LinedShell(_Shell):
 
 
 @dataclass(frozen=True)
-class ThickShell(_Shell):
+class ThickShell(ElasticShell):
     """Thick-walled cylinder as wide as the bearing, held all over its outside.
 
     Its influence coefficients come from three-dimensional elasticity, harmonic by harmonic around.
@@ -177,7 +164,7 @@ class ThickShell(_Shell):
 
 
 @dataclass(frozen=True, eq=False)
-class MatrixShell(_Shell):
+class MatrixShell(ElasticShell):
     """Shell whose influence coefficients are given, (3.52–3.56) of [Jonuschies 2015].
 
     Attributes
@@ -187,6 +174,8 @@ class MatrixShell(_Shell):
         deformation under 1 MPa on one cell is a column times 1e6 Pa. The cells are those of
         `FilmField.pressure`, full width, the axial place running fastest. Or the name of a file
         that holds it, of numpy (``.npy``) or rows of text.
+    sha256 : str
+        Of such a file; filled in. Where it is stated, the file must still be that one.
 
     Examples
     --------
@@ -198,13 +187,19 @@ class MatrixShell(_Shell):
     """
 
     matrix: Any
+    sha256: str = ""
     kind: Literal["matrix"] = "matrix"
 
     any_grid = False
 
     def __post_init__(self) -> None:
         given = self.matrix
-        matrix = read_matrix(given) if isinstance(given, str | Path) else np.array(given, float)
+        if isinstance(given, str | Path):
+            object.__setattr__(self, "sha256", digest_of(given, stated=self.sha256))
+            matrix = read_matrix(given)
+        else:
+            require(not self.sha256, "sha256", self.sha256, "that of a file, but matrix is none")
+            matrix = np.array(given, float)
         side = math.isqrt(matrix.size)
         require(side**2 == matrix.size, "matrix", matrix.shape, "as many rows as columns")
         require(bool(np.isfinite(matrix).all()), "matrix", "NaN or infinite", "finite, m/Pa")

@@ -1,4 +1,4 @@
-"""Matrices that a user has in a file."""
+"""Matrices that a user has in a file: read, and told from files that have changed."""
 
 from __future__ import annotations
 
@@ -39,15 +39,18 @@ def read_matrix(path: str | Path, name: str = "matrix") -> NDArray[np.float64]:
         raise InputError(f"{name} = {str(path)!r}: no table of numbers: {error}") from error
 
 
-def digest_of(path: str | Path, name: str = "matrix") -> str:
-    """SHA-256 of a file, by which a change of it is seen.
+def digest_of(path: str | Path, name: str = "matrix", stated: str = "") -> str:
+    """SHA-256 of a file, by which a change of it is seen; it must be the `stated` one, if any.
 
     Raises
     ------
     InputError
-        A file that is missing.
+        A file that is missing, or another one than was stated.
     """
     try:
-        return hashlib.sha256(Path(path).read_bytes()).hexdigest()
+        found = hashlib.sha256(Path(path).read_bytes()).hexdigest()
     except OSError as error:
         raise InputError(f"{name} = {str(path)!r}: cannot be read: {error}") from error
+    if stated not in ("", found):
+        raise InputError(f"{name} = {str(path)!r}: has changed since; sha256 is {found}")
+    return found

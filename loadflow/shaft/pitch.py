@@ -12,7 +12,7 @@ from annotated_types import Ge, Le
 from numpy.typing import ArrayLike
 
 from loadflow.errors import InputError
-from loadflow.shaft.yaw import swinging_loads
+from loadflow.shaft.yaw import checked_loads, swinging_loads
 
 
 @dataclass(frozen=True)
@@ -72,14 +72,7 @@ def pitch_loads(bearing: PitchBearing, root_force: ArrayLike, root_moment: Array
     >>> loads["force"].sel(bearing="P").values.ravel().tolist()
     [700000.0, 0.0, 170000.0]
     """
-    force, moment = (
-        np.asarray(load, float).reshape(3, -1) if np.ndim(load) == 1 else np.asarray(load, float)
-        for load in (root_force, root_moment)
-    )
-    if force.ndim != 2 or force.shape[0] != 3 or force.shape != moment.shape:
-        raise InputError(f"root_force {force.shape}, root_moment {moment.shape}: (3, n) is needed")
-    if not (np.isfinite(force).all() and np.isfinite(moment).all()):
-        raise InputError("root_force, root_moment: must be finite")
+    force, moment = checked_loads(root_force=root_force, root_moment=root_moment)
     arm = np.array([bearing.inboard, 0.0, 0.0])
     turn = moment + np.cross(arm[:, None], force, axis=0)
     turn[0] = 0.0

@@ -91,14 +91,7 @@ def yaw_loads(
     >>> round(float(loads["moment"].sel(axis="z").item()) / 1e6, 2)  # forward, MN m
     -5.02
     """
-    force, moment = (
-        np.asarray(load, float).reshape(3, -1) if np.ndim(load) == 1 else np.asarray(load, float)
-        for load in (hub_force, hub_moment)
-    )
-    if force.ndim != 2 or force.shape[0] != 3 or force.shape != moment.shape:
-        raise InputError(f"hub_force {force.shape}, hub_moment {moment.shape}: (3, n) is needed")
-    if not (np.isfinite(force).all() and np.isfinite(moment).all()):
-        raise InputError("hub_force, hub_moment: must be finite")
+    force, moment = checked_loads(hub_force=hub_force, hub_moment=hub_moment)
     cos, sin = math.cos(tilt), math.sin(tilt)
     level = np.array([[cos, 0.0, sin], [0.0, 1.0, 0.0], [-sin, 0.0, cos]])
     push, turn = level @ force, level @ moment
@@ -112,6 +105,25 @@ def yaw_loads(
     forces, moments = push[own], turn[own]
     moments[0] = 0.0
     return swinging_loads("Y", forces, moments, position=bearing.overhang)
+
+
+def checked_loads(**loads: ArrayLike) -> list[Floats]:
+    """A force and a moment by their names, each (3, n).
+
+    Raises
+    ------
+    InputError
+        Loads that do not fit or are not finite.
+    """
+    given = [np.asarray(load, float) for load in loads.values()]
+    found = [load[:, None] if load.shape == (3,) else load for load in given]
+    shapes = {load.shape for load in found}
+    if len(shapes) > 1 or found[0].ndim != 2 or found[0].shape[0] != 3:
+        told = ", ".join(f"{name} {load.shape}" for name, load in zip(loads, found))
+        raise InputError(f"{told}: (3, n) is needed")
+    if not all(np.isfinite(load).all() for load in found):
+        raise InputError(f"{', '.join(loads)}: must be finite")
+    return found
 
 
 def swinging_loads(name: str, force: Floats, moment: Floats, *, position: float) -> xr.Dataset:

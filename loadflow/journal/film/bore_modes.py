@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from loadflow.errors import InputError
 from loadflow.numerics.fields import require
+from loadflow.numerics.matrix_file import digest_of
 
 if TYPE_CHECKING:
     from loadflow.journal.housings import InfluenceShell
@@ -80,6 +81,7 @@ def leading(compliance: Array, aside: Array, accuracy: float) -> tuple[Array, Ar
     return values[kept], vectors[:, kept]
 
 
+@lru_cache(maxsize=8)
 def modes_of_file(shell: InfluenceShell, radius: float, width: float) -> BoreModes:
     """Modes of the influence matrix in the file of `shell`, for a bore of `radius` and `width`, m.
 
@@ -89,16 +91,7 @@ def modes_of_file(shell: InfluenceShell, radius: float, width: float) -> BoreMod
         A file that cannot be read or lacks a field; places that are not on the bore; a matrix that
         is not reciprocal.
     """
-    try:
-        written = Path(shell.file).stat().st_mtime_ns
-    except OSError as error:
-        raise InputError(f"file = {str(shell.file)!r}: cannot be read: {error}") from error
-    return _modes_of_file(shell, radius, width, written)
-
-
-@lru_cache(maxsize=8)
-def _modes_of_file(shell: InfluenceShell, radius: float, width: float, written: int) -> BoreModes:
-    """The same of a file as it was `written` at a time."""
+    digest_of(shell.file, "file", shell.sha256)
     angle, axial, matrix = (np.asarray(part, dtype=float) for part in _read(shell.file))
     size = angle.size * axial.size
     named = f"in {str(shell.file)!r}"

@@ -39,8 +39,20 @@ IDLE_TORQUES = {
 """Torque without load of the blade bearing of [Ritzer 2018], App. C1, by what is added, N m."""
 
 
+class _Swinging:
+    """What every kind of oscillation has: what the bearing is mounted on."""
+
+    mounting: Mounting
+
+    def __post_init__(self) -> None:
+        check_fields(self)
+        if self.mounting not in MOUNTING_FACTORS:
+            known = ", ".join(MOUNTING_FACTORS)
+            raise InputError(f"mounting: must be one of {known}, got {self.mounting!r}")
+
+
 @dataclass(frozen=True)
-class Oscillation:
+class Oscillation(_Swinging):
     """How a bearing swings, and on what it is mounted.
 
     Attributes
@@ -75,10 +87,6 @@ class Oscillation:
     kind: Literal["stated"] = "stated"
 
     of_pitch: ClassVar[bool] = False
-
-    def __post_init__(self) -> None:
-        check_fields(self)
-        _check_mounting(self.mounting)
 
     def during(self, time: ArrayLike, angle: ArrayLike) -> Oscillation | None:
         """How it swings in a series: as is stated."""
@@ -132,7 +140,7 @@ class Oscillation:
 
 
 @dataclass(frozen=True)
-class PitchMotion:
+class PitchMotion(_Swinging):
     """How a pitch bearing swings: as the pitch of each series does.
 
     Attributes
@@ -166,10 +174,6 @@ class PitchMotion:
 
     of_pitch: ClassVar[bool] = True
 
-    def __post_init__(self) -> None:
-        check_fields(self)
-        _check_mounting(self.mounting)
-
     def during(self, time: ArrayLike, angle: ArrayLike) -> Oscillation | None:
         """How it swings in a series, by its rainflow cycles; None where the pitch stands.
 
@@ -195,9 +199,3 @@ class PitchMotion:
         """Size of the pitch rate at the samples of a series, rad/s."""
         rate = np.gradient(np.asarray(angle, dtype=float), np.asarray(time, dtype=float))
         return np.asarray(np.abs(rate))
-
-
-def _check_mounting(mounting: str) -> None:
-    if mounting not in MOUNTING_FACTORS:
-        known = ", ".join(MOUNTING_FACTORS)
-        raise InputError(f"mounting: must be one of {known}, got {mounting!r}")
