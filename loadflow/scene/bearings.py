@@ -19,6 +19,7 @@ from loadflow.rolling import (
     KINDS,
     FlexibleRings,
     MatrixRing,
+    Mounting,
     Oscillation,
     PitchMotion,
     RingBeam,
@@ -160,6 +161,7 @@ class FurtherBearing(BaseModel):
 
     ``rings = "flexible"`` takes `inner_ring` and `outer_ring`; one that is left out is rigid. With
     an ``oscillation`` it swings, as pitch and yaw bearings do, in place of turning with the rotor.
+    With a `mounting` its clearance follows fits and temperatures.
     """
 
     model_config = SECTION
@@ -170,6 +172,7 @@ class FurtherBearing(BaseModel):
     inner_ring: Ring | None = None
     outer_ring: Ring | None = None
     oscillation: Swing | None = None
+    mounting: Mounting | None = None
     limits: RollingLimits = RollingLimits()
 
     @model_validator(mode="after")
@@ -179,6 +182,26 @@ class FurtherBearing(BaseModel):
         except InputError as error:
             raise ValueError(f'rings = "flexible": {error}') from error
         return self
+
+    @model_validator(mode="after")
+    def _has_seats(self) -> Self:
+        if self.mounting is not None:
+            cold = self.mounting.reference_temperature
+            self.mounting.gap_growth(self.geometry, cold, cold)
+        return self
+
+    def at_work(self, temperature: float, ambient: float) -> Self:
+        """Return the bearing with the clearance of its mounting at a temperature, K.
+
+        Raises
+        ------
+        loadflow.errors.SolverError
+            If it has no clearance there.
+        """
+        if self.mounting is None:
+            return self
+        warm = self.mounting.at_work(self.geometry, temperature, ambient)
+        return self.model_copy(update={"geometry": warm})
 
     @property
     def ring_model(self) -> Literal["rigid"] | FlexibleRings:
