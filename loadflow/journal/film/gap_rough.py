@@ -80,12 +80,12 @@ class RoughGap(CylindricalGap):
         self.roughness, self.rough_numbers = self.rough.roughness, self.rough.numbers
         self.open_share = np.ones((mesh.angle.size, 1))
 
-    def slopes(self, position: Array) -> list[tuple[Array, Array]]:
-        """Derivatives of (`coef`, `around`) by the mesh coordinates of the position."""
+    def slopes(self, position: Array) -> Array:
+        """Fill the derivatives in `coefs`; returns the modes and theirs (1 + s, 2, nx)."""
         kept = np.array(self.open_share)
-        slopes = super().slopes(position)
+        modes = super().slopes(position)
         self.open_share = kept
-        return slopes
+        return modes
 
     def farthest(self, ratio: float) -> float:
         """Eccentricity ratio up to which a step may lead from `ratio`."""

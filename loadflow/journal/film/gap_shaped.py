@@ -152,7 +152,9 @@ class ShapedGap(FlowBetween):
         self._around[self.shaft :, mesh.groove] = 0.0  # grooves do not press on pads
 
         shape = (8, nx + 1, rows + (1 if along else 0))
-        self.coef, self._by_x, self._by_y = np.zeros(shape), np.zeros(shape), np.zeros(shape)
+        self.coefs = np.zeros((1 + self.size, *shape))
+        self.coef, self._slopes = self.coefs[0], self.coefs[1:]
+        self._by_x, self._by_y = np.zeros((2, *shape))
         self.line, self.curvature = np.zeros((2, rows)), np.zeros(2)
         self._z = z
         self._sample()
@@ -269,16 +271,11 @@ class ShapedGap(FlowBetween):
         )
         return ex, ey
 
-    def slopes(self, position: Array) -> list[tuple[Array, Array]]:
-        """Derivatives of (`coef`, `around`) by the position, where it was last placed."""
-        still = np.zeros_like(self._around)
-        slopes = []
-        for (ax, ay), across in zip(np.swapaxes(self._modes, 1, 2), self.across):
-            out = np.zeros_like(self.coef)
-            kernel.mode_slope(self._by_x, self._by_y, ax.copy(), ay.copy(), across, out)
-            kernel.faces_across(self.coef, self.mesh.dz, True, out)
-            slopes.append((out, still))
-        return slopes
+    def slopes(self, position: Array) -> Array:
+        """Fill the derivatives in `coefs` where the shaft was last placed; returns the modes."""
+        sides = self._by_x, self._by_y
+        kernel.mode_slopes(*sides, self._modes, self.across, self.coef, self.mesh.dz, self._slopes)
+        return self._around[None]
 
     def advance(self, position: Array, step: Array) -> Array:
         """Position after `step`, of which every place keeps at least a third of its gap."""

@@ -27,8 +27,9 @@ _STUCK = 1e-3  # share of a Newton step that must be left by an elastic shell
 class Solution:
     """A solved film: unknowns, position (clearances), last linearisation, convergence.
 
-    `rounding` is the residual that rounding allows, `estimate` the position by the closed form,
-    which tells whether the next load is near; `free` are the degrees of freedom in balance.
+    `rounding` is the residual that rounding allows, where that was asked; `estimate` the position
+    by the closed form, which tells whether the next load is near; `free` are the degrees of freedom
+    in balance.
     """
 
     u: Array
@@ -77,7 +78,8 @@ REST = Motion()
 class _Check:
     """Whether the Newton steps of a film have led to an answer, by the rule of `convergence`.
 
-    Residual and rounding level are looked at after steps that are short enough.
+    The residual is looked at after steps that are short enough, its rounding level where the
+    tolerance is not met.
     """
 
     def __init__(
@@ -92,12 +94,17 @@ class _Check:
         self.force, self.free = force, free
         self.residual, self.rounding = math.inf, 0.0
 
-    def weigh(self, u: Array, position: Array, linear: Linear) -> None:
-        """Residual and its rounding level at `u` and `position`; `linear` is from nearby."""
+    def weigh(self, u: Array, position: Array) -> None:
+        """Residual at `u` and `position`."""
         motion = self.motion
         velocity, old = motion.velocity(position), (motion.volume_rate, motion.volume)
         where = (u, position, velocity, self.force)
         self.residual = imbalance(self.film, *where, *old, self.free)
+
+    def round(self, position: Array, linear: Linear) -> None:
+        """Rounding level of the residual just weighed; `linear` is from nearby."""
+        motion = self.motion
+        velocity = motion.velocity(position)
         slope = linear.stiffness + motion.rate * linear.damping
         self.rounding = rounding(self.film, position, velocity, slope, self.force, self.free)
 
@@ -108,7 +115,10 @@ class _Check:
         if not change < (_QUADRATIC if iteration <= _LATE else COARSEST**0.5):
             return False
         before, finest = self.residual, 0.0
-        self.weigh(u, position, linear)
+        self.weigh(u, position)
+        if self.residual <= self.tolerance and change < _QUADRATIC:
+            return True  # whatever rounding allows
+        self.round(position, linear)
         if change >= _QUADRATIC:
             finest = self._finest(u, position, linear)
         level = (self.tolerance, min(self.rounding, COARSEST))
@@ -132,7 +142,8 @@ class _Check:
 
     def unanswered(self, u: Array, position: Array, linear: Linear, iterations: int) -> Solution:
         """What the last step left."""
-        self.weigh(u, position, linear)
+        self.weigh(u, position)
+        self.round(position, linear)
         return self.solution(u, position, linear, False, iterations)
 
 
