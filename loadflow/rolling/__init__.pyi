@@ -60,6 +60,7 @@ from .rings.flexible import FlexibleRings as FlexibleRings
 from .rings.given import CompliantRing as CompliantRing
 from .rings.given import MatrixRing as MatrixRing
 from .rings.given import guyan as guyan
+from .rings.meshed import MeshedRing as MeshedRing
 from .rings.patches import patch_points as patch_points
 from .rings.patches import raceway_points as raceway_points
 from .rings.profile import RingProfile as RingProfile

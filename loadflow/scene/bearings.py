@@ -19,6 +19,7 @@ from loadflow.rolling import (
     KINDS,
     FlexibleRings,
     MatrixRing,
+    MeshedRing,
     Mounting,
     Oscillation,
     PitchMotion,
@@ -86,8 +87,8 @@ def standing_ring(
 
 def around(
     bearing: RollingBearing,
-    inner: RingBeam | MatrixRing | None,
-    outer: RingBeam | MatrixRing | None,
+    inner: RingBeam | MatrixRing | MeshedRing | None,
+    outer: RingBeam | MatrixRing | MeshedRing | None,
 ) -> FlexibleRings:
     """Flexible rings of a bearing, one of them at least, on their sides of its balls.
 
@@ -104,7 +105,9 @@ def around(
         raise InputError(f"inner_ring: radius must be < {pitch:g} m, got {inner.radius:g}")
     if outer is not None and outer.radius is not None and outer.radius <= pitch:
         raise InputError(f"outer_ring: radius must be > {pitch:g} m, got {outer.radius:g}")
-    return FlexibleRings(inner=inner, outer=outer)
+    return FlexibleRings(
+        inner=inner and inner.of(bearing, "inner"), outer=outer and outer.of(bearing, "outer")
+    )
 
 
 def _wall(radius: float, height: float, thickness: float, length: float) -> Support:
@@ -138,15 +141,20 @@ def _by_measures(ring: Any) -> Any:
 
 
 if TYPE_CHECKING:
-    Ring = RingBeam | MatrixRing
+    Ring = RingBeam | MatrixRing | MeshedRing
 else:
     Ring = told_apart(
-        {"beam": Annotated[RingBeam, _PLAIN, BeforeValidator(_by_measures)], "matrix": MatrixRing},
+        {
+            "beam": Annotated[RingBeam, _PLAIN, BeforeValidator(_by_measures)],
+            "matrix": MatrixRing,
+            "finite-element": Annotated[MeshedRing, _PLAIN, _TOLD],
+        },
         usual="beam",
     )
 """A flexible ring; ``section = {width, height}`` is a rectangle, and a support with ``radius``,
 ``height``, ``thickness`` and ``length`` a wall. With ``kind = "matrix"`` its ``file`` has the
-compliance, or the stiffness, of ring, bolts and housing together."""
+compliance, or the stiffness, of ring, bolts and housing together; with ``"finite-element"`` the
+ring is meshed here, with the grooves of its bearing."""
 
 
 if TYPE_CHECKING:
