@@ -8,8 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.journal.film.gap import KEPT
+from loadflow.journal.film.gap_layout import Bore
 from loadflow.journal.film.gap_mesh import ShapedMesh
-from loadflow.journal.film.gap_shaped import Bore, ShapedGap
+from loadflow.journal.film.gap_shaped import ShapedGap
 
 Array = NDArray[np.float64]
 
@@ -35,7 +36,7 @@ class ElasticGap(ShapedGap):
         first, last = (columns[-1], 0) if mesh.closed else (0, columns[-1])
         self._sides = np.append(first, columns), np.append(columns, last)
         self._ends_deform = ends_deform
-        self._to_spots = self.between(self._spots_angle, self._spots_z)
+        self._to_spots = self.between(self.layout.angle, self.layout.spots_z)
         self.growth = np.zeros(mesh.shape)
 
     def grow(self, growth: Array) -> None:
