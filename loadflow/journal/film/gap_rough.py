@@ -15,8 +15,9 @@ from loadflow.journal.contact import Contact
 from loadflow.journal.film import _rough_kernels as kernel
 from loadflow.journal.film.gap import KEPT, CylindricalGap, RoughNumbers
 from loadflow.journal.film.gap_elastic import ElasticGap
+from loadflow.journal.film.gap_layout import Bore
 from loadflow.journal.film.gap_mesh import ShapedMesh
-from loadflow.journal.film.gap_shaped import Bore, ShapedGap
+from loadflow.journal.film.gap_shaped import ShapedGap
 from loadflow.journal.film.mesh import Mesh
 from loadflow.tribology import kernels as laws
 

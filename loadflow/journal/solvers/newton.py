@@ -207,15 +207,14 @@ def solve_equilibrium(
             break
         slope = linear.stiffness + motion.rate * linear.damping
         excess = film.size(linear.columns[0]) / _STEP_LIMIT
-        step = np.zeros(position.size)
-        missing = (force - linear.load)[free]
-        step[free] = _solve(slope[free][:, free], missing, scale) / max(excess, 1.0)
+        step, missing = np.zeros(position.size), force - linear.load
+        step[free] = _solve(slope[free][:, free], missing[free], scale) / max(excess, 1.0)
         target, weights, share = _moved(film, u, linear, position, step, motion)
-        stuck = pads and math.hypot(*(target - position)) < _HELD * math.hypot(*step)
-        if share < _STUCK or stuck or not math.isfinite(float(target.sum())):
+        way = math.hypot(*(target - position).tolist())
+        stuck = pads and way < _HELD * math.hypot(*step)
+        if share < _STUCK or stuck or not math.isfinite(way):
             break
-        change = film.correct(u, linear.columns, weights)
-        change = max(change, math.hypot(*(target - position)) / max(gap, _PRESSED))
+        change = max(film.correct(u, linear.columns, weights), way / max(gap, _PRESSED))
         position, gap = target, film.gap.narrowest(target)
         if not gap > _PRESSED and not film.elastic:
             break
@@ -245,15 +244,17 @@ def _solve(matrix: Array, rhs: Array, scale: Array) -> Array:
     The second is a shaft on one single pad, free to go sideways while the pad follows. What is not
     finite gives NaN.
     """
-    if not math.isfinite(float(matrix.sum() + rhs.sum())):
-        return np.full(rhs.size, np.nan)
     if rhs.size != 2:
+        if not math.isfinite(float(matrix.sum() + rhs.sum())):
+            return np.full(rhs.size, np.nan)
         return scale * np.asarray(np.linalg.lstsq(matrix * scale, rhs, rcond=1e-10)[0])
     (a, b), (c, d) = matrix.tolist()
+    first, second = rhs.tolist()
+    if not math.isfinite(a + b + c + d + first + second):
+        return np.full(2, np.nan)
     det = a * d - b * c
     if det == 0.0:
         return np.zeros(2)
-    first, second = rhs.tolist()
     return np.array([(d * first - b * second) / det, (a * second - c * first) / det])
 
 
