@@ -90,7 +90,8 @@ def test_numbers_are_finite_where_they_are_asked(found):
 def test_the_margin_with_the_seeds_as_they_are_lies_in_its_interval(found):
     for one in found.comparison.candidates:
         factor = one.numbers["load_factor"]
-        assert factor.low <= factor.value * (1 + 1e-9) and factor.value <= factor.high * (1 + 1e-9)
+        assert factor.low <= factor.value * (1 + 1e-9)
+        assert factor.value <= factor.high * (1 + 1e-9)
         assert factor.high > factor.low, one.name
 
 
