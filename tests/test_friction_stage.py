@@ -13,6 +13,7 @@ from loadflow.scene.unused import unused_warnings
 from loadflow.stages import friction
 from loadflow.stages.loads import hub_loads
 from loadflow.stages.registry import STAGES
+from loadflow.stages.rolling_at_work import friction_options
 from loadflow.stages.shaft import bearing_loads
 from loadflow.tribology import lubricant
 
@@ -80,7 +81,7 @@ def test_tapered_rollers_rub_on_their_ribs_unless_the_scene_says_otherwise():
     )
     # 17 to 42 % of the torque for an angle of 0.04 (docs/friction.md)
     assert 0.1 < 1 - float(none / usual) < 0.5
-    options = friction.friction_options(short().friction, main_bearings("two-spherical")["N"])
+    options = friction_options(short().friction, main_bearings("two-spherical")["N"])
     assert options.rib_angle == 0.0
 
 

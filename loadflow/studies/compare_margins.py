@@ -18,8 +18,9 @@ from loadflow.scene.friction import Friction
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.stages.film_of_bearing import equilibria
-from loadflow.stages.friction import friction_options, least_film_parameter
-from loadflow.stages.rolling import rest
+from loadflow.stages.friction import least_film_parameter
+from loadflow.stages.rolling import bearing_at_work
+from loadflow.stages.rolling_at_work import friction_options, rest
 from loadflow.studies.compare_factor import (
     SAMPLES,
     WIDEST,
@@ -232,7 +233,7 @@ def _solved(scene: Scene, place: str, some: xr.Dataset) -> Any:
     force, moment = (
         some[name].transpose("sample", "axis").values.astype(float) for name in ("force", "moment")
     )
-    return rest(scene.rolling.bearings[place], force, moment, strict=False)
+    return rest(bearing_at_work(scene, place, some), force, moment, strict=False)
 
 
 def _looked_at(folder: Path, place: str) -> Iterator[tuple[str, xr.Dataset]]:

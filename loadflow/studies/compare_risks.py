@@ -15,7 +15,8 @@ from loadflow.scene.scene import Scene
 from loadflow.scene.wear import check_wear
 from loadflow.stages.film_summary import STANDING
 from loadflow.stages.frames import to_rolling
-from loadflow.stages.rolling import rest
+from loadflow.stages.rolling import bearing_at_work
+from loadflow.stages.rolling_at_work import rest
 from loadflow.studies.compare_factor import reduced_samples
 from loadflow.studies.compare_result import Number
 from loadflow.studies.seed_intervals import Groups, interval
@@ -188,4 +189,4 @@ def _equilibrium(scene: Scene, place: str, some: xr.Dataset) -> Any:
     force, moment = (
         some[name].transpose("sample", "axis").values.astype(float) for name in ("force", "moment")
     )
-    return rest(scene.rolling.bearings[place], force, moment, strict=False)
+    return rest(bearing_at_work(scene, place, some), force, moment, strict=False)

@@ -20,8 +20,8 @@ from loadflow.scene.scene import Scene
 from loadflow.scene.thrust import AnyAxial
 from loadflow.stages.film_of_bearing import equilibria, shaft_line
 from loadflow.stages.frames import to_rolling
-from loadflow.stages.friction import friction_options, least_film_parameter
-from loadflow.stages.rolling import rest
+from loadflow.stages.friction import least_film_parameter
+from loadflow.stages.rolling_at_work import as_stated, friction_options, rest
 from loadflow.stages.thrust import solved
 from loadflow.studies.compare import Finished
 from loadflow.studies.compare_margins import load_by_row, lubrication
@@ -225,8 +225,9 @@ def _of_rolling(
 ) -> dict[str, float]:
     """Thinnest films, smallest κ and load, and the load of the row that takes the thrust."""
     films, ratios, loads, rows = [], [], [], [0.0]
-    for place, part in parts.items():
-        bearing, samples = part.geometry, spectrum[place].to_dataset()
+    for place, stated in parts.items():
+        part, samples = as_stated(stated, friction), spectrum[place].to_dataset()
+        bearing = part.geometry
         force, moment, speed = (
             samples[name].transpose("sample", ...).values for name in ("force", "moment", "speed")
         )
