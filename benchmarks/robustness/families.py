@@ -24,6 +24,8 @@ viscosity 1e-3 … 1 Pa s, speed ± 0.1 … 300 rad/s, So 1e-3 … 300, all five
 - cone: rings and segments of half angles 11 … 52°, under the force of a film at some place.
 - heat: oil that thins by 1 … 5 % each kelvin; one temperature of the film, with cooling, a sump or
   growth of shaft and shell, or heat over the area, at one or three points across the gap.
+- pair: two such cones against each other, under the force of both films at some place, half of them
+  under their moment, too, at a tilt that takes up to 0.3 of the gap.
 - orbit: 24 steps under a load that turns and pulsates, the fifth part closed; 1 in 3 "reduced".
 """
 
@@ -47,6 +49,7 @@ from loadflow.journal import (
     Arc,
     Capillary,
     ConicalBearing,
+    ConicalPair,
     ConstantFlow,
     Contact,
     Contour,
@@ -82,7 +85,7 @@ REASONS = ("touches", "carries no load", "starved", "carries no more", "half-spe
 REASONS += ("find no tilt", "a cone presses the shaft away", "the film gets hotter than")
 REASONS += ("no heat balance below 423.15 K; at 423",)
 SEEDS = {"cylinder": 1, "shaped": 2, "supply": 3, "line": 4, "shell": 5, "orbit": 6}
-SEEDS |= {"contact": 7, "thrust": 8, "cone": 9, "heat": 10}
+SEEDS |= {"contact": 7, "thrust": 8, "cone": 9, "pair": 10, "heat": 11}
 
 
 @dataclass
@@ -311,6 +314,32 @@ def heat(point: Point) -> Callable[[], Any]:
     return lambda: point.bearing.equilibrium(point.force, point.speed, film)
 
 
+def pair(point: Point) -> Callable[[], Any]:
+    """Two cones against each other, one locating bearing, under the load of both films."""
+    rng, start, half = point.rng, 0.5 * point.diameter, point.rng.uniform(0.2, 0.9)
+    gap = powers(rng, 5e-5, 5e-4) * start
+    pads = {} if rng.random() < 0.5 else {"pads": int(rng.integers(4, 10)), "pad_angle": 0.5}
+    slant = (start, start * rng.uniform(1.2, 1.6))
+    cone = ConicalBearing(half_angle=half, slant=slant, clearance=gap, **pads)
+    distance = start * rng.uniform(0.5, 3.0)
+    bearing = ConicalPair(cone, cone, distance, arrangement="OX"[rng.integers(2)])
+    grid = (24, 8) if pads else (60, 10)
+    film = Film(Lubricant(point.viscosity), **(point.film | {"grid": grid, "inlet": None}))
+    axial = rng.uniform(-0.8, 0.8)
+    aside = rng.uniform(0.1, 0.85) * gap * (1.0 - abs(axial)) / np.cos(half)
+    shift = aside * np.cos(point.angle), aside * np.sin(point.angle), axial * gap / np.sin(half)
+    free, way = rng.random() < 0.5, rng.uniform(-np.pi, np.pi)
+    lean = rng.uniform(0.0, 0.3) * gap * (1.0 - abs(axial)) / (0.5 * distance + slant[1])
+    tilt = lean * np.array([np.cos(way), np.sin(way)]) * (0.3 if free else 0.0)
+
+    def work() -> Any:
+        held = bearing.pressure(eccentricity=shift, speed=point.speed, film=film, tilt=tilt)
+        moment = held.moment if free else None
+        return bearing.equilibrium(held.force, moment, point.speed, film)
+
+    return work
+
+
 def orbit(point: Point) -> Callable[[], Any]:
     """24 steps of a load that turns and pulsates."""
     rng = point.rng
@@ -340,6 +369,7 @@ FAMILIES: dict[str, Callable[[Point], Callable[[], Any]]] = {
     "thrust": thrust,
     "cone": cone,
     "heat": heat,
+    "pair": pair,
     "orbit": orbit,
 }
 

@@ -14,8 +14,9 @@ from loadflow.journal.contact import Contact
 from loadflow.journal.film._rough_kernels import NO_CONTACT
 from loadflow.journal.film.asperity_load import CylinderLoad
 from loadflow.journal.film.film import DiscreteFilm
+from loadflow.journal.film.gap_layout import Bore
 from loadflow.journal.film.gap_rough import RoughGap, Roughness
-from loadflow.journal.film.gap_shaped import Bore, ShapedGap
+from loadflow.journal.film.gap_shaped import ShapedGap
 from loadflow.journal.film.integrals import Integrals, in_units
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry

@@ -17,7 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.journal.film.film import DiscreteFilm
-from loadflow.journal.film.gap_shaped import Bore, ShapedGap
+from loadflow.journal.film.gap_layout import Bore
+from loadflow.journal.film.gap_shaped import ShapedGap
 from loadflow.journal.film.integrals import Integrals, in_units
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
