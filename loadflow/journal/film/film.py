@@ -248,6 +248,7 @@ class DiscreteFilm:
         fields[0] -= old
         for field, (coef, changed) in zip(fields[1:], slopes):
             self.balance(coef, self.storage(coef, changed, local, rate), out=field)
+        self._add_following(fields[1:moves])
         if damped:
             kernel.squeezed(
                 self.state[FILL], around, gap.across, self.slope, mesh.area, gap.open_share,
@@ -312,6 +313,9 @@ class DiscreteFilm:
         After the Newton step, `columns` hold `size` derivatives by position (fewer where the mesh
         turns) and `size` by velocity.
         """
+
+    def _add_following(self, fields: Array) -> None:
+        """Let derivatives of the balance by position have gaps that follow it: none if rigid."""
 
     def _freed(self, columns: Array, direct: Array, mass: Array) -> Array:
         """Let the pressure of the free grooves follow their flow in all `columns`."""
