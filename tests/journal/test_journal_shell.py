@@ -130,7 +130,7 @@ def _influence_numbers():
     from loadflow.journal.film.compliance import compliance_of
     from loadflow.journal.film.gap_mesh import shaped_mesh
 
-    mesh = shaped_mesh(0.75, (36, 12), False, False, (), [], [])
+    mesh = shaped_mesh(0.75, (36, 12), False, False, (), (), ())
     unit = np.eye(36 * 12).reshape(-1, 36, 12)
     return compliance_of(THICK, mesh, 1.5).growth(unit).reshape(36 * 12, -1).T
 

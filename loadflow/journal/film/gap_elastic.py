@@ -9,8 +9,9 @@ from numpy.typing import NDArray
 
 from loadflow.journal.film import _shell_kernels as shell_kernel
 from loadflow.journal.film.gap import KEPT
+from loadflow.journal.film.gap_layout import Bore
 from loadflow.journal.film.gap_mesh import ShapedMesh
-from loadflow.journal.film.gap_shaped import Bore, ShapedGap
+from loadflow.journal.film.gap_shaped import ShapedGap
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_matrix
@@ -41,7 +42,7 @@ class ElasticGap(ShapedGap):
         self._sides = np.append(first, columns), np.append(columns, last)
         self.own_share = _own_share(mesh)
         self._ends_deform = ends_deform
-        self._to_spots = self.between(self._spots_angle, self._spots_z)
+        self._to_spots = self.between(self.layout.angle, self.layout.spots_z)
         self.growth = np.zeros(mesh.shape)
         self.blend = np.zeros((4, mesh.shape[0] + 1, mesh.shape[1]))
         self.advected = np.zeros(self.blend.shape[1:])
