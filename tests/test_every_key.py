@@ -121,9 +121,9 @@ BASES = {
         "loads": WIND | {"seeds": 1, "rung": "tables"},
         "environment": {"temperature": 263.15}, "shaft": {"two_point": {}},
         "rolling": {"bearing": "N2", "geometry": {
-            "kind": "spherical", "rollers": 28, "roller_diameter": 0.08, "roller_length": 0.12,
-            "pitch_diameter": 1.2, "contact_angle": 0.17, "clearance": 4e-4},
-            "mounting": {"inner_temperature": 300.0, "outer_share": 1.1}},
+            "kind": "roller", "rollers": 44, "roller_diameter": 0.07, "roller_length": 0.12,
+            "pitch_diameter": 1.2, "rows": 2, "row_spacing": 0.25, "contact_angle": 0.35,
+            "clearance": 1e-4}, "mounting": {"inner_temperature": 300.0, "outer_share": 1.1}},
         "reduction": FEW, "results": ["rolling.life"],
     },
     "thrust collar": {

@@ -198,6 +198,11 @@ class FurtherBearing(BaseModel):
             self.mounting.gap_growth(self.geometry, cold, cold)
         return self
 
+    @property
+    def idle_torque(self) -> float:
+        """Friction without load of a bearing that swings, N m; 0 of others."""
+        return 0.0 if self.oscillation is None else self.oscillation.idle_torque
+
     def at_work(self, temperature: float, ambient: float) -> Self:
         """Return the bearing with the clearance of its mounting at a temperature, K.
 

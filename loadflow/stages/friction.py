@@ -38,7 +38,8 @@ def losses(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
     """Losses, film and slip of each rolling bearing of the scene over (bearing, sample).
 
     Every roller is followed through the whole series; balls slide where their contacts are curved
-    and where they spin; bearings that swing have their mean speed, or that of the pitch. Rings are
+    and where they spin; bearings that swing have their mean speed, or that of the pitch, and their
+    torque without load. Rings are
     rigid. With a conductance each bearing finds its own temperature.
 
     Raises
@@ -67,7 +68,7 @@ def losses(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
         try:
             warm, temperature = at_work(part, scene.friction, load, moment, turning)
             bearing = warm.geometry
-            options = friction_options(scene.friction, bearing)
+            options = friction_options(scene.friction, bearing, part.idle_torque)
             options = replace(options, temperature=temperature)
             follow = _FOLLOW[bearing.friction_model]
             turned = to_rolling(load), to_rolling(moment)[:, :2]

@@ -192,7 +192,7 @@ def _of_bearing(
         "bearing_load_factor": factor,
         "bearing_truncated": _truncated_share(answer, weight),
         "bearing_axial_force": float(np.abs(reduced["force"].values[:, 0]).max()),
-        "bearing_torque": _torque(answer, 0.0 if swings is None else swings.idle_torque),
+        "bearing_torque": _torque(answer, part.idle_torque),
         "bearing_pressure": float(np.max(answer.maximum_pressure)),
         "bearing_force": float(np.max(answer.maximum_force)),
     }

@@ -77,7 +77,7 @@ def at_work(
     balance = balanced_temperature(
         warm if part.mounting is not None else answer if every else warm(ambient),
         np.abs(speed[some]),
-        friction_options(options, part.geometry),
+        friction_options(options, part.geometry, part.idle_torque),
         options.conductance,
         ambient,
         weights=None if weight is None else weight[some],
@@ -93,8 +93,13 @@ of 0.02 … 0.06."""
 _RIB_HEIGHT, _RIB_RADIUS = 0.075, 50.0  # of a roller's diameter, where a scene gives none
 
 
-def friction_options(options: Friction, bearing: RollingBearing) -> FrictionOptions:
+def friction_options(
+    options: Friction, bearing: RollingBearing, idle_torque: float = 0.0
+) -> FrictionOptions:
     """Options of the room for a bearing, of a scene's section.
+
+    `idle_torque` (N m) is that of a bearing that swings: its seals, grease and preload without
+    load, beside the torque of the section's seals.
 
     Where the scene says nothing of ribs, tapered rollers press on theirs with `TAPERED_RIB`, at a
     height of 0.075 and with a reduced radius of 50 of a roller's diameter; others on none.
@@ -115,7 +120,7 @@ def friction_options(options: Friction, bearing: RollingBearing) -> FrictionOpti
         rib_radius=radius,
         roller_drag=options.roller_drag,
         churning=options.churning,
-        seal_torque=options.seal_torque,
+        seal_torque=options.seal_torque + idle_torque,
     )
 
 
