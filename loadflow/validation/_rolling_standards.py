@@ -35,14 +35,14 @@ def _clearance() -> Iterator[Check]:
     housing; with a bore in the shaft (1 − (d_b/d)²)/(1 − (d_b/d_i)²) of it.
     """
     row = RollerBearing(rollers=24, roller_diameter=0.04, roller_length=0.06, pitch_diameter=0.54)
-    shaft = {"bore": 0.4, "inner_interference": 1e-4}
+    solid = Mounting(bore=0.4, inner_interference=1e-4)
     hollow = (1 - (0.3 / 0.4) ** 2) / (1 - (0.3 / 0.5) ** 2)
     for name, source, expected, mounting in (
         ("inner ring and rollers 10 K warmer", "α ΔT E, catalogue of IKO", 11.7e-6 * 10 * 0.58,
          Mounting(outer_temperature=283.15)),
-        ("fit on a solid shaft", "Lamé", 1e-4 * 0.4 / 0.5, Mounting(**shaft)),
+        ("fit on a solid shaft", "Lamé", 1e-4 * 0.4 / 0.5, solid),
         ("fit on a hollow shaft", "Lamé", 1e-4 * 0.4 / 0.5 * hollow,
-         Mounting(**shaft, shaft_bore=0.3)),
+         replace(solid, shaft_bore=0.3)),
         ("fit in a thick housing", "Lamé", 1e-4 * 0.58 / 0.66,
          Mounting(outside=0.66, outer_interference=1e-4)),
     ):  # fmt: skip
