@@ -27,10 +27,12 @@ from loadflow.journal.models.model import Steps
 from loadflow.journal.models.ring import no_start, stopped
 from loadflow.journal.models.slow_heat import THIN, cooled, lighter, slow_states
 from loadflow.journal.rows import operating_columns
-from loadflow.journal.solvers.estimate import NEAR
+from loadflow.journal.solvers.estimate import NEAR, OFF_THE_BORE
 from loadflow.numerics.convergence import Limits
 
 Array = NDArray[np.float64]
+
+_MISSED = 0.6  # of the load where the shaft touches: above 0.46 the grid had a film in no draw
 
 
 def composes(film: Film, line: Line) -> bool:
@@ -41,8 +43,8 @@ def composes(film: Film, line: Line) -> bool:
 
 def equilibrium(
     bearing: JournalGeometry, options: Film, force: Array, speed: Array, line: Line, control: Limits
-) -> tuple[dict[str, Any], NDArray[np.bool_]]:
-    """Fields of `Equilibrium`, and which loads have an answer.
+) -> tuple[dict[str, Any], NDArray[np.bool_], NDArray[np.bool_]]:
+    """Fields of `Equilibrium`, which loads have an answer, and which surely have none.
 
     Warns
     -----
@@ -50,11 +52,11 @@ def equilibrium(
         A pressure that changes more across the width than the polynomials do; names the load.
     """
     given = bearing, options
-    answer, found, left = _equilibria(*given, force, speed, line, control, 0)
+    answer, found, left, none = _equilibria(*given, force, speed, line, control, 0)
     for level in LEVELS[1:]:
         again = np.flatnonzero(found & left)
         if again.size:
-            more, solved, still = _equilibria(
+            more, solved, still, _ = _equilibria(
                 *given, force[again], speed[again], line.at(again), control, level
             )
             for name, values in more.items():
@@ -62,7 +64,7 @@ def equilibrium(
             left[again] = still | ~solved
     if (left & found).any():
         _warn(left & found, f"load {int((left & found).argmax())}")
-    return answer, found
+    return answer, found, none
 
 
 def _warn(left: NDArray[np.bool_], first: str) -> None:
@@ -83,14 +85,15 @@ def _equilibria(
     line: Line,
     control: Limits,
     level: int,
-) -> tuple[dict[str, Any], NDArray[np.bool_], NDArray[np.bool_]]:
-    """Fields of `Equilibrium`, which loads have an answer, and which ask for more points across."""
+) -> tuple[dict[str, Any], NDArray[np.bool_], NDArray[np.bool_], NDArray[np.bool_]]:
+    """Fields of `Equilibrium`, and which loads: have an answer, ask for more points, have none."""
     model = build(bearing, options, speed, line, level)
     film, work, count = model.film, model.work, speed.size
     rows, lines, loads = np.zeros((count, at.RESULTS)), model.lines(speed.size), model.loads(force)
     places = model.estimates(force, speed, lines)
     both = 4 if model.whole else 2
     stiffness, damping = np.zeros((count, both, both)), np.zeros((count, both, both))
+    none = np.zeros(count, dtype=bool)
     last: int | None = None
     for n in range(count):
         spent, converged, residual, rounding = 0, False, np.inf, 0.0
@@ -100,18 +103,19 @@ def _equilibria(
         if speed[n] == 0.0 and options.contact is None and loads[n].any():
             rows[n, at.RESIDUAL] = np.inf
             continue  # no film without rotation and squeeze
-        for place in _starts(model, places, last, n, rows):
-            residual, iterations, converged, rounding = newton(
+        for place, first in _starts(model, places, last, n, rows, speed[n], control):
+            residual, iterations, answered, rounding = newton(
                 film, work, place, loads[n], model.size, speed[n], 0.0,
                 control.tolerance, control.max_iterations,
             )  # fmt: skip
             spent += iterations
-            if converged and options.may_grade:
-                converged = model.resolves(place)
+            converged = answered and (not options.may_grade or model.resolves(place))
+            none[n] = first and _MISSED < residual < 1.0 and model.touches(place)
             if converged:
                 finish(film, work, place, speed[n], both, rows[n], stiffness[n], damping[n])
                 work.last[:] = work.u
                 last = n
+            if answered or none[n]:
                 break
         rows[n, at.RESIDUAL :] = residual, spent, converged, rounding
     lengths = np.array([1.0, 1.0, bearing.radius, bearing.radius])[:both]
@@ -128,7 +132,7 @@ def _equilibria(
     }
     if options.contact is not None:
         answer["contact_share"] = _share(answer["contact_force"], force)
-    return answer, rows[:, at.CONVERGED] > 0, model.unresolved_across(rows)
+    return answer, rows[:, at.CONVERGED] > 0, model.unresolved_across(rows), none
 
 
 def orbit(
@@ -236,19 +240,39 @@ def _path(
 
 
 def _starts(
-    model: ComposedFilm, places: Array, last: int | None, n: int, rows: Array
-) -> Iterator[Array]:
-    """Positions to start load `n` from; sets the unknowns that belong to each."""
+    model: ComposedFilm,
+    places: Array,
+    last: int | None,
+    n: int,
+    rows: Array,
+    speed: float,
+    control: Limits,
+) -> Iterator[tuple[Array, bool]]:
+    """Positions to start load `n` from, and which is the first; sets the unknowns of each.
+
+    The last ones are off the bore with their film solved: near the bore, and without a film, the
+    first steps of a shaft lead far away.
+    """
     work = model.work
     if last is not None:
         before = rows[last, :4]
-        moved = np.hypot(*(places[n] - places[last])[:2])
+        moved, turned = np.hypot(*(places[n] - places[last]).reshape(2, 2).T)
         gap = max(1.0 - np.hypot(*before[:2]), model.film.rough.size)
-        if moved < NEAR * gap and (model.size == 4 or np.allclose(before[2:], places[n, 2:])):
+        given = 0.0 if model.size == 4 else turned * model.film.nodes.z.max()
+        if moved + given < NEAR * gap:
             work.u[:] = work.last
-            yield before.copy()
+            yield np.append(before[:2], (before if model.size == 4 else places[n])[2:]), False
     work.u[:] = model.cold()
-    yield places[n].copy()
+    yield places[n].copy(), True
+    for share in OFF_THE_BORE:
+        work.u[:] = model.cold()
+        place = places[n].copy()
+        place[:2] *= share
+        newton(
+            model.film, work, place, np.zeros(4), 0, speed, 0.0,
+            control.tolerance, control.max_iterations,
+        )  # fmt: skip
+        yield place, False
 
 
 def _share(carried: Array, force: Array) -> Array:
