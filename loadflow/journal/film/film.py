@@ -253,6 +253,8 @@ class DiscreteFilm:
         )  # fmt: skip
         if rate != 0.0:
             fields[0] -= old
+        self._assemble(growth[0], rate)
+        self._add_following(fields[1:moves])
         columns = np.empty((len(fields) + free.size, mesh.angle.size * mesh.z.size))
         kernel.right_hand_sides(
             self.state, fields, moves, modes[0], gap.across, self.slope, mesh.area, gap.open_share,
@@ -261,7 +263,6 @@ class DiscreteFilm:
         flows = [self.pockets.flows(field)[free] for field in fields] if free.size else []
         for column, number in zip(columns[len(fields) :], free):
             kernel.gather(1.0 * (self.pockets.numbers == number), mesh.order, column)
-        self._assemble(growth[0], rate)
         band = mesh.bandwidth
         _, pivots, info = dgbtrf(self.ab.T, band, band, overwrite_ab=1)
         if info:
@@ -311,9 +312,11 @@ class DiscreteFilm:
     ) -> None:
         """Let the derivatives by velocity know what else moves with the shaft: nothing, if rigid.
 
-        After the Newton step, `columns` hold `size` derivatives by position (fewer where the mesh
-        turns) and `size` by velocity.
+        After the Newton step, `columns` hold `size` derivatives by position and `size` by velocity.
         """
+
+    def _add_following(self, fields: Array) -> None:
+        """Let derivatives of the balance by position have gaps that follow it: none if rigid."""
 
     def _freed(self, columns: Array, direct: Array, mass: Array) -> Array:
         """Let the pressure of the free grooves follow their flow in all `columns`."""
