@@ -111,8 +111,8 @@ def shaped_film(
         require(not bore.pads, "shell", options.shell, "None for pads, whose backs are not held")
         compliance = compliance_of(options.shell, mesh, bore.radius)
         elastic = _elastic_gap(mesh, bore, options, compliance)
-        around = contact is not None and compliance.spreads
-        kind = TouchedFilm if around else ElasticFilm
+        touched = contact is not None and compliance.spreads
+        kind = TouchedFilm if touched else ElasticFilm
         gap, film = elastic, kind(compliance, elastic, *oil, pressure)
     film.fill(mesh.groove, pressure)
     film.ambient = _outside(gap, film, options.edge_pressure, bearing.shape)

@@ -101,7 +101,7 @@ class ShellContact(YieldingNodeLoad):
         gaps = rigid + self._gap_of_cells @ growth.ravel()
         value, slope = np.zeros(gaps.size), np.zeros(gaps.size)
         kernel.asperity_field(gaps, self._roughness, self._free, value, slope)
-        sums = np.bincount(self._cells, self._means * value, growth.size)
+        sums = np.bincount(self._cells, self._means * value, growth.size).astype(float)
         return sums.reshape(self._shape), self._means * slope
 
     def _linearise(self, slope: Array) -> None:
