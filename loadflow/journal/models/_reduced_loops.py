@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from loadflow.journal.film._kernels import FILL, LOAD
+from loadflow.journal.cavitation import FILL, LOAD
 from loadflow.journal.models._reduced_kernels import (
     balance,
     carried,
