@@ -30,7 +30,6 @@ from loadflow.wind.coherence import (
 from loadflow.wind.field import Field
 from loadflow.wind.iec import COMPONENT_SIGMA, Floats
 from loadflow.wind.iec import length_scale as iec_length_scale
-from loadflow.wind.noise import NormalStream
 from loadflow.wind.options import Lateral, Scaling
 from loadflow.wind.seeding import Seed, as_sequence, child
 from loadflow.wind.spectra import check_turbulence, coherence_decay, kaimal_spectrum
@@ -272,9 +271,9 @@ def _noise(
     the first of them, zero.
     """
     noise = np.empty((grid.blocks, grid.order, 2 * count), dtype=np.float32)
-    stream, row = NormalStream(seed), np.empty(2 * drawn, dtype=np.float32)
+    generator, row = np.random.default_rng(seed), np.empty(2 * drawn, dtype=np.float32)
     for part in noise.reshape(-1, 2 * count):
-        stream.fill(row)
+        generator.standard_normal(dtype=np.float32, out=row)
         part[:] = row[: 2 * count]
     noise[..., :2] = 0
     return noise.view(np.complex64)
