@@ -78,6 +78,15 @@ def test_cones_carry_the_load_of_a_film_at_any_place(number):
     assert state.residual < 1e-9
 
 
+@pytest.mark.parametrize("number", [3, 11, 45, 49])
+def test_pairs_of_cones_carry_the_load_of_films_at_any_place(number):
+    """Rings without rupture, held and free tilts, an axial force among them."""
+    point = draw_point(np.random.default_rng([SEEDS["pair"], number]))
+    state = FAMILIES["pair"](point)()
+    assert state.converged
+    assert state.residual < 1e-9
+
+
 @pytest.mark.parametrize("number", [85, 94, 266])
 def test_shells_that_give_way_by_more_than_the_clearance_are_reached(number):
     """From a rigid shell on, or on more cells around."""

@@ -107,6 +107,25 @@ BASES = {
             "section": {"width": 0.1, "height": 0.3}, "radius": 0.7}},
         "friction": {"conductance": 50.0},
     },
+    "mounted rollers": {
+        "environment": {"temperature": 263.15}, "shaft": {"two_point": {}},
+        "rolling": {"bearing": "N2", "geometry": {
+            "kind": "roller", "rollers": 44, "roller_diameter": 0.07, "roller_length": 0.12,
+            "pitch_diameter": 1.2, "rows": 2, "row_spacing": 0.25, "contact_angle": 0.35,
+            "clearance": 1e-4}, "mounting": {
+            "inner_share": 1.1, "bore": 1.0, "outside": 1.4, "inner_interference": 2e-4,
+            "outer_interference": 1e-4, "shaft_bore": 0.5, "housing_outside": 2.0}},
+        "reduction": FEW, "friction": {"conductance": 50.0}, "results": ["rolling.life"],
+    },
+    "mounted rollers, loose": {
+        "loads": WIND | {"seeds": 1, "rung": "tables"},
+        "environment": {"temperature": 263.15}, "shaft": {"two_point": {}},
+        "rolling": {"bearing": "N2", "geometry": {
+            "kind": "roller", "rollers": 44, "roller_diameter": 0.07, "roller_length": 0.12,
+            "pitch_diameter": 1.2, "rows": 2, "row_spacing": 0.25, "contact_angle": 0.35,
+            "clearance": 1e-4}, "mounting": {"inner_temperature": 300.0, "outer_share": 1.1}},
+        "reduction": FEW, "results": ["rolling.life"],
+    },
     "thrust collar": {
         "shaft": {"two_point": {}}, "results": ["thrust.film"],
         "reduction": {"size": 0.02, "classes": 2},
@@ -165,6 +184,8 @@ READERS = {
     "worn bores": ("wear",),
     "worn bores, events counted": ("lifetime",),
     "tapered rollers": ("rolling", "friction"),
+    "mounted rollers": ("rolling",),
+    "mounted rollers, loose": ("rolling", "environment"),
     "thrust collar": ("thrust",),
     "pair of cones": ("thrust",),
     "three points": ("shaft",),
@@ -265,6 +286,18 @@ OTHERS = {
         {"section": {"width": 0.1, "height": 0.15}, "radius": 0.9},
         {"section": {"width": 0.1, "height": 0.3}, "radius": 0.5},
     ],
+    "rolling.mounting": [{"inner_share": 1.2}],
+    "rolling.mounting.row_distance": ["seats"],
+    "rolling.mounting.inner_temperature": [290.0],
+    "rolling.mounting.outer_temperature": [310.0],
+    "rolling.mounting.shaft_temperature": [310.0],
+    "rolling.mounting.housing_temperature": [310.0],
+    "rolling.mounting.inner_interference": [1e-4],
+    "rolling.mounting.outer_interference": [5e-5],
+    "rolling.mounting.bore": [0.95],
+    "rolling.mounting.outside": [1.5],
+    "rolling.mounting.shaft_bore": [0.1],
+    "rolling.mounting.housing_outside": [2.5],
     "rolling.outer_ring.supports": [
         [{"radius": 0.7, "height": -0.15, "thickness": 0.05, "length": 0.3}],
     ],
@@ -464,7 +497,10 @@ def _wear(scene, add):
 
 def _environment(scene, add):
     _loads(scene, add)
-    _journal(scene, add)
+    if scene.wants("journal"):
+        _journal(scene, add)
+    if "rolling.life" in scene.results:
+        _rolling(scene, add)
 
 
 def _reduction(scene, add):

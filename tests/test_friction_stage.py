@@ -10,10 +10,13 @@ from loadflow.rolling import main_bearings
 from loadflow.scene.cases import list_cases
 from loadflow.scene.scene import make_scene
 from loadflow.scene.unused import unused_warnings
-from loadflow.stages import friction
+from loadflow.stages import friction, loads
 from loadflow.stages.loads import hub_loads
 from loadflow.stages.registry import STAGES
+from loadflow.stages.rolling_at_work import friction_options
 from loadflow.stages.shaft import bearing_loads
+from loadflow.studies.run_energy import run_energy
+from loadflow.studies.run_lifetime import run_lifetime
 from loadflow.tribology import lubricant
 
 
@@ -80,7 +83,7 @@ def test_tapered_rollers_rub_on_their_ribs_unless_the_scene_says_otherwise():
     )
     # 17 to 42 % of the torque for an angle of 0.04 (docs/friction.md)
     assert 0.1 < 1 - float(none / usual) < 0.5
-    options = friction.friction_options(short().friction, main_bearings("two-spherical")["N"])
+    options = friction_options(short().friction, main_bearings("two-spherical")["N"])
     assert options.rib_angle == 0.0
 
 
@@ -94,6 +97,36 @@ def test_churning_and_seals_of_the_scene_are_counted():
     torque = 100.0 + 50.0 * oil.viscosity(313.15) * speed + 0.1 * oil.density(313.15) * speed**2
     added = (more["friction_torque"] - base["friction_torque"]).values[0]
     np.testing.assert_allclose(added, torque, rtol=1e-9)
+
+
+def test_ribs_churning_and_seals_count_in_the_energy_of_a_run():
+    """From the section of a scene to its energy balance and to the joules of a year."""
+
+    usual = short(rolling=TAPERED)
+    (one,) = list_cases(usual)
+    series = hub_loads(usual, one, {})
+    inputs = {"loads": series, "shaft": bearing_loads(usual, one, {"loads": series})}
+
+    def balance(**keys):
+        scene = short(rolling=TAPERED, friction={"step": 2.0} | keys)
+        tables = {
+            "loads": loads.summary({one: series}),
+            "friction": friction.summary({one: friction.losses(scene, one, inputs)}),
+        }
+        year = run_lifetime(scene, tables)
+        return run_energy(scene, tables)["rolling_loss"].values.item(), float(
+            year["rolling_energy"].sum()
+        )
+
+    bare = balance(rib_angle=0.0)
+    for keys in (
+        {},  # the rib of tapered rollers
+        {"rib_angle": 0.0, "seal_torque": 100.0},
+        {"rib_angle": 0.0, "churning": {"viscous": 5000.0}},
+    ):
+        lost, energy = balance(**keys)
+        assert lost > 1.05 * bare[0]
+        assert energy / bare[1] == pytest.approx(lost / bare[0], rel=1e-9)
 
 
 @pytest.mark.parametrize(("rolling", "conductance"), [({}, 300.0), (TAPERED, 30.0)])

@@ -116,24 +116,35 @@ def test_the_film_outlasts_an_emergency_stop_and_is_then_squeezed_out(tmp_path):
     assert told["transition_speed"] == pytest.approx(0.0, abs=1e-3)
 
 
+FULL = {
+    "3.1": ("dlc_3_1_startup", [8.0, 20.0]),
+    "4.1": ("dlc_4_2_shutdown", [16.0]),
+    "4.2": ("dlc_4_2_shutdown", [11.4]),
+    "5.1": ("dlc_5_1", [11.4]),
+}
+"""Pipeline and wind speeds, m/s, of one start or stop of each load case."""
+
+
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["dlc_3_1_startup", "dlc_4_2_shutdown"])
-def test_a_start_and_a_stop_at_full_size(name, tmp_path):
+@pytest.mark.parametrize("dlc", FULL)
+def test_a_start_and_a_stop_at_full_length_and_accuracy(dlc, tmp_path):
+    name, speeds = FULL[dlc]
     scene = read_scene(next(path for path in PIPELINES if path.stem == name))
     scene = scene.model_copy(update={"results": ["journal.film"]})
-    run = lf.run(scene, out=tmp_path)
+    run = lf.run(changed(scene, "loads", dlc=dlc, wind_speeds=speeds, seeds=1), out=tmp_path)
     assert run.failures == {}
     assert run.flagged == {}
     table = run.tree["journal"].to_dataset().sel(bearing="N")
     assert (table["not_converged"] == 0).all()
     assert (table["smallest_film"] > 0).all()
     assert table["transition_time"].notnull().all()
-    if EVENTS[name] == "3.1":
+    if dlc == "3.1":
         assert (table["lift_off_speed"] > 0).all()
         slowest = table["transition_speed"].sortby(table["wind_speed"]).values
         assert slowest[-1] > slowest[0]  # as Table 5-21 of [Jonuschies 2015]
     else:
         assert (table["film_after_stop"] > 0).all()  # as from 16 m/s on in Table 5-22
+        assert (table["mixed_friction_revolutions"] < 0.01).all()
 
 
 def test_the_report_ranks_ultimate_loads_with_their_safety_factors(tmp_path):

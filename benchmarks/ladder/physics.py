@@ -54,6 +54,7 @@ DEFAULT = "accuracy = 0.05 (default)"
 
 
 REFERENCE = ROOT / "pipelines" / "dlc_1_1.toml"
+STOP = ROOT / "pipelines" / "dlc_4_2_shutdown.toml"
 HOLLOW = 0.9
 """Bore of the shaft over its diameter, as in the main job."""
 
@@ -128,7 +129,9 @@ def ten_scenes() -> dict[str, Scene]:
     small, usual, large = TURBINES
     still = {"results": ["loads.statistics", "rolling.loads"]}
     parked = {"dlc": "6.1", "rung": "tables"} | SHORT
-    events = {"results": ["journal.film"]}
+    stop = tomllib.loads(STOP.read_text(encoding="utf-8"))["journal"]
+    touching = {key: stop[key] for key in ("motion", "contact")}
+    events = {"results": ["journal.film"], "film": touching}
     soft = {"kind": "local", "compliance": 1e-11}
     return {
         "power production, 1.5 MW": scene_of(small, loads=production),

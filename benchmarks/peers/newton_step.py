@@ -44,7 +44,8 @@ def algebra(film: Film, steps: int) -> Callable[[], None]:
     statics.resolve(0, FORCE, SPEED, None, LIMITS)
     discrete = statics.film
     still, gap, band = np.zeros(2), discrete.gap, discrete.mesh.bandwidth
-    discrete._assemble(discrete.storage(gap.coef, gap.around, still, 0.0), 0.0)
+    growth = discrete.storage(gap.coefs[:1], gap.around[None], still, 0.0)
+    discrete._assemble(growth[0], 0.0)
     matrix, work = discrete.ab.copy(), discrete.ab
     columns = np.random.default_rng(1).random((RIGHT_HAND_SIDES, work.shape[0]))
 

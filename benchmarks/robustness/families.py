@@ -22,6 +22,10 @@ viscosity 1e-3 … 1 Pa s, speed ± 0.1 … 300 rad/s, So 1e-3 … 300, all five
 - contact: roughness of 1e-4 … 3e-2 c, half of them tilted, bent or under a moment.
 - thrust: 3 … 8 tapered lands or tilting pads on 20 × 10 cells, under 1e-3 … 1e-1 η ω R⁴/h².
 - cone: rings and segments of half angles 11 … 52°, under the force of a film at some place.
+- heat: oil that thins by 1 … 5 % each kelvin; one temperature of the film, with cooling, a sump or
+  growth of shaft and shell, or heat over the area, at one or three points across the gap.
+- pair: two such cones against each other, under the force of both films at some place, half of them
+  under their moment, too, at a tilt that takes up to 0.3 of the gap.
 - orbit: 24 steps under a load that turns and pulsates, the fifth part closed; 1 in 3 "reduced".
 """
 
@@ -45,14 +49,18 @@ from loadflow.journal import (
     Arc,
     Capillary,
     ConicalBearing,
+    ConicalPair,
     ConstantFlow,
     Contact,
     Contour,
     Crown,
     Film,
+    FilmHeat,
     GasMixture,
     Groove,
+    Growth,
     Guembel,
+    Heat,
     JournalBearing,
     Lobes,
     LocalShell,
@@ -69,14 +77,15 @@ from loadflow.journal import (
     ThrustBearing,
     TiltingPads,
 )
-from loadflow.tribology import AsperityContact
+from loadflow.tribology import AsperityContact, ExponentialOil
 
 SLOW = 2.0  # s
 GRIDS = ((48, 8), (60, 12), (60, 20), (96, 16))
 REASONS = ("touches", "carries no load", "starved", "carries no more", "half-speed whirl")
-REASONS += ("find no tilt", "a cone presses the shaft away")
+REASONS += ("find no tilt", "a cone presses the shaft away", "the film gets hotter than")
+REASONS += ("no heat balance below 423.15 K; at 423",)
 SEEDS = {"cylinder": 1, "shaped": 2, "supply": 3, "line": 4, "shell": 5, "orbit": 6}
-SEEDS |= {"contact": 7, "thrust": 8, "cone": 9}
+SEEDS |= {"contact": 7, "thrust": 8, "cone": 9, "pair": 10, "heat": 11}
 
 
 @dataclass
@@ -277,6 +286,60 @@ def cone(point: Point) -> Callable[[], Any]:
     return work
 
 
+def heat(point: Point) -> Callable[[], Any]:
+    """Films that warm: one temperature of the whole film, or one of each place."""
+    rng = point.rng
+    oil = ExponentialOil(
+        reference_viscosity=point.viscosity, constant_steepness=rng.uniform(0.01, 0.05)
+    )
+    area = np.pi * point.diameter * point.width
+    cooling = powers(rng, 1.0, 1e3)  # W/(m² K)
+    balance: Heat | FilmHeat
+    if rng.random() < 0.5:
+        kind = rng.integers(3)
+        balance = Heat(
+            oil,
+            transfer=cooling * area if kind != 1 else 0.0,
+            sump_transfer=cooling * area if kind == 1 else None,
+            growth=Growth(shell_share=rng.uniform(0.5, 1.0)) if kind == 2 else None,
+        )
+    else:
+        walls = {} if rng.random() < 0.3 else {"shell_transfer": cooling, "shaft_transfer": cooling}
+        points = 3 if rng.random() < 0.3 else 1
+        balance = FilmHeat(oil, carry_over=rng.uniform(0.0, 0.8), points=points, **walls)
+        point.film["cavitation"] = MassConserving()
+        if rng.random() < 0.5:
+            point.shape["shape"] = Lobes(int(rng.integers(1, 4)), preload=rng.uniform(0, 0.5))
+    film = Film(None, **(point.film | {"heat": balance}))
+    return lambda: point.bearing.equilibrium(point.force, point.speed, film)
+
+
+def pair(point: Point) -> Callable[[], Any]:
+    """Two cones against each other, one locating bearing, under the load of both films."""
+    rng, start, half = point.rng, 0.5 * point.diameter, point.rng.uniform(0.2, 0.9)
+    gap = powers(rng, 5e-5, 5e-4) * start
+    pads = {} if rng.random() < 0.5 else {"pads": int(rng.integers(4, 10)), "pad_angle": 0.5}
+    slant = (start, start * rng.uniform(1.2, 1.6))
+    cone = ConicalBearing(half_angle=half, slant=slant, clearance=gap, **pads)
+    distance = start * rng.uniform(0.5, 3.0)
+    bearing = ConicalPair(cone, cone, distance, arrangement="OX"[rng.integers(2)])
+    grid = (24, 8) if pads else (60, 10)
+    film = Film(Lubricant(point.viscosity), **(point.film | {"grid": grid, "inlet": None}))
+    axial = rng.uniform(-0.8, 0.8)
+    aside = rng.uniform(0.1, 0.85) * gap * (1.0 - abs(axial)) / np.cos(half)
+    shift = aside * np.cos(point.angle), aside * np.sin(point.angle), axial * gap / np.sin(half)
+    free, way = rng.random() < 0.5, rng.uniform(-np.pi, np.pi)
+    lean = rng.uniform(0.0, 0.3) * gap * (1.0 - abs(axial)) / (0.5 * distance + slant[1])
+    tilt = lean * np.array([np.cos(way), np.sin(way)]) * (0.3 if free else 0.0)
+
+    def work() -> Any:
+        held = bearing.pressure(eccentricity=shift, speed=point.speed, film=film, tilt=tilt)
+        moment = held.moment if free else None
+        return bearing.equilibrium(held.force, moment, point.speed, film)
+
+    return work
+
+
 def orbit(point: Point) -> Callable[[], Any]:
     """24 steps of a load that turns and pulsates."""
     rng = point.rng
@@ -305,6 +368,8 @@ FAMILIES: dict[str, Callable[[Point], Callable[[], Any]]] = {
     "contact": contact,
     "thrust": thrust,
     "cone": cone,
+    "heat": heat,
+    "pair": pair,
     "orbit": orbit,
 }
 

@@ -9,7 +9,12 @@ import typer
 
 from loadflow.cli.base import (
     AsJson,
+    CaseList,
+    FrameOfChannels,
+    GaugeDistance,
+    NamePattern,
     Overwrite,
+    OwnChannels,
     app,
     check_free,
     out,
@@ -17,7 +22,7 @@ from loadflow.cli.base import (
     print_rows,
 )
 from loadflow.cli.progress import progress
-from loadflow.cli.scenes import LoadFiles, SceneFile, read
+from loadflow.cli.scenes import LoadFiles, SceneFile, read, reading_of
 from loadflow.errors import InputError, LoadflowError
 
 
@@ -34,6 +39,11 @@ def compare(
     workers: Annotated[int, typer.Option(min=0, help="Processes; 0: one for each core.")] = 0,
     scheduler: Annotated[str | None, typer.Option(help="Dask scheduler, tcp://host:port.")] = None,
     overwrite: Annotated[bool, typer.Option(help="Replace parts of other settings.")] = False,
+    cases: CaseList = None,
+    pattern: NamePattern = None,
+    channels: OwnChannels = None,
+    gauge_distance: GaugeDistance = None,
+    frame: FrameOfChannels = None,
     as_json: AsJson = False,
 ) -> None:
     """Journal or rolling? Compare bearings for the same places under the same loads.
@@ -43,9 +53,10 @@ def compare(
     from loadflow.running.comparison import compare as carry_out
     from loadflow.running.executor import usable_cores
 
+    reading = reading_of(cases, pattern, channels, gauge_distance, frame)
     with progress(quiet=as_json) as show:
         found = carry_out(
-            read(scene, loads, name),
+            read(scene, loads, name, **reading),
             out=out_folder,
             candidates=candidate,
             workers=workers or usable_cores(),

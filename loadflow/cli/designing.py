@@ -7,9 +7,20 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from loadflow.cli.base import AsJson, app, out, print_json, print_rows
+from loadflow.cli.base import (
+    AsJson,
+    CaseList,
+    FrameOfChannels,
+    GaugeDistance,
+    NamePattern,
+    OwnChannels,
+    app,
+    out,
+    print_json,
+    print_rows,
+)
 from loadflow.cli.progress import progress
-from loadflow.cli.scenes import LoadFiles, SceneFile, read
+from loadflow.cli.scenes import LoadFiles, SceneFile, read, reading_of
 from loadflow.errors import InputError
 
 if TYPE_CHECKING:
@@ -45,13 +56,19 @@ def design(
     workers: Annotated[int, typer.Option(min=0, help="Processes; 0: one for each core.")] = 0,
     scheduler: Annotated[str | None, typer.Option(help="Dask scheduler, tcp://host:port.")] = None,
     overwrite: Annotated[bool, typer.Option(help="Replace parts of other settings.")] = False,
+    cases: CaseList = None,
+    pattern: NamePattern = None,
+    channels: OwnChannels = None,
+    gauge_distance: GaugeDistance = None,
+    frame: FrameOfChannels = None,
     as_json: AsJson = False,
 ) -> None:
     """Search the best bearing: least friction with enough margin under the loads of the scene."""
     from loadflow.running.designing import design as carry_out
     from loadflow.running.executor import usable_cores
 
-    asked = _with_options(read(scene, loads, name), candidate, key, margin)
+    reading = reading_of(cases, pattern, channels, gauge_distance, frame)
+    asked = _with_options(read(scene, loads, name, **reading), candidate, key, margin)
     means: dict[str, Any] = {
         "out": out_folder,
         "workers": workers or usable_cores(),

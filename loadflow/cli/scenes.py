@@ -41,7 +41,7 @@ def read(path: Path, loads: list[str] | None, name: str | None = None, **reading
     return scene if name is None else with_name(scene, name)
 
 
-def _reading(
+def reading_of(
     cases: Path | None,
     pattern: str | None,
     channels: str | None,
@@ -86,7 +86,7 @@ def run(
         from loadflow.running.executor import usable_cores
         from loadflow.running.runner import run as carry_out
 
-        reading = _reading(cases, pattern, channels, gauge_distance, frame)
+        reading = reading_of(cases, pattern, channels, gauge_distance, frame)
         result = carry_out(
             read(scene, loads, name, **reading),
             out=out_folder,
@@ -158,7 +158,7 @@ def plan(
     from loadflow.running.folder import finished_parts, known_verdict, refinements, results_of
     from loadflow.scene.unused import unused_keys, unused_warnings
 
-    reading = _reading(cases, pattern, channels, gauge_distance, frame)
+    reading = reading_of(cases, pattern, channels, gauge_distance, frame)
     wanted = read(scene, loads, **reading)
     folder = out_folder / wanted.name
     verdict = known_verdict(folder, wanted)

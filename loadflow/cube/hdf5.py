@@ -125,7 +125,7 @@ def _opened(path: Path) -> Iterator[h5py.File]:
 
 def _attributes(group: h5py.Group) -> dict[str, Any]:
     """Attributes of a group that are not the file's own."""
-    return {key: _told(value) for key, value in group.attrs.items() if key[0] != "_"}
+    return {key: _told(group.attrs[key]) for key in group.attrs if key[0] != "_"}
 
 
 def _groups(name: str, group: h5py.Group) -> Iterator[tuple[str, xr.Dataset]]:
@@ -153,9 +153,10 @@ def _variable(part: h5py.Dataset) -> xr.Variable:
     dims = [part.name] if part.is_scale else [scales[0].name for scales in part.dims]
     dims = [dim.rsplit("/", 1)[-1] for dim in dims]
     values = part.asstr()[()] if h5py.check_string_dtype(part.dtype) else part[()]
+    told = part.attrs
     attrs = {
-        key: _told(value)
-        for key, value in part.attrs.items()
+        key: _told(told[key])
+        for key in told
         if key not in _INTERNAL and not key.startswith("_Netcdf4")
     }
     if attrs.get("dtype") == "bool":  # HDF5 has no such kind

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from itertools import chain
 from typing import Any, Unpack
 
 import numpy as np
@@ -15,7 +16,9 @@ from loadflow.journal.film_model import Control, Film, Keywords
 from loadflow.journal.lubricant import Lubricant
 from loadflow.journal.pad_bearing import (
     AT_REST,
+    SHIFTS,
     ConicalFilms,
+    Rows,
     answered,
     asked,
     limits_of,
@@ -24,6 +27,8 @@ from loadflow.journal.pad_bearing import (
 from loadflow.journal.pad_results import ConicalResult, PairResult
 from loadflow.journal.pads import finite
 from loadflow.journal.solvers.assembly import BODY, Assembly, AssemblyState
+from loadflow.journal.solvers.assembly_search import PairChart, between, search
+from loadflow.numerics.convergence import Limits
 from loadflow.numerics.fields import require
 
 Array = NDArray[np.float64]
@@ -149,10 +154,46 @@ class ConicalPair(ConicalFilms[PairResult]):
                 starts.append(start)
         if not starts:
             raise SolverError(f"{head}: the shaft touches a cone at this tilt")
-        state = assembly.equilibrium(starts, wanted, free, limits)
+        state = self._balanced(assembly, starts, wanted, free, limits, speed)
         return self._result(assembly, answered(head, assembly, state, limits), speed)
 
     # --- inside ----------------------------------------------------------------------------------
+    def _balanced(
+        self,
+        assembly: Assembly,
+        starts: list[AssemblyState],
+        wanted: Array,
+        free: Rows,
+        limits: Limits,
+        speed: float,
+    ) -> AssemblyState:
+        """Equilibrium from one of `starts`, or from all between the cones."""
+        if not wanted[:3].any():
+            return assembly.equilibrium(starts, wanted, free, limits)
+        quick = assembly.solve(starts[0], wanted, free, limits)
+        if quick.converged:
+            return quick
+        chart = self._chart(starts[0].position[3:], free.size > SHIFTS.size)
+        found = search(assembly, chart, starts[:1], wanted, free, limits)
+        if found.converged:
+            return found
+        stepped = assembly.equilibrium(starts, wanted, free, limits)
+        if stepped.converged:
+            return stepped
+        more = between(assembly, chart, lambda x: self._started(assembly, x, speed), wanted)
+        return search(assembly, chart, chain(starts[1:], more), wanted, free, limits)
+
+    def _chart(self, tilt: Array, free: bool) -> PairChart:
+        """Where the shaft may be between the cones."""
+        ends, aside = [math.inf, -math.inf], math.inf
+        for cone, view in zip(self.cones, self.views()):
+            c = cone.clearance if self.clearance is None else self.clearance
+            reach = -math.copysign(c / math.sin(cone.half_angle), view[2, 2])
+            ends = [min(ends[0], reach), max(ends[1], reach)]
+            aside = min(aside, c / math.cos(cone.half_angle))
+        length = 0.5 * self.distance + max(cone.row.surface.radius for cone in self.cones)
+        return PairChart(ends[0], ends[1], aside, length, tilt, free)
+
     def _assembly(self, film: Film, speed: float, moving: float) -> Assembly:
         members = []
         for cone, view in zip(self.cones, self.views()):

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 import numpy as np
@@ -99,6 +101,14 @@ def resolved(relative: Array, converged: NDArray[np.bool_]) -> NDArray[np.bool_]
     """Whether bounds (…, 7) say that the cells resolve the gap, or the load at a given one."""
     worst = np.asarray(relative)[..., _MATTER].max(axis=-1)
     return np.asarray(converged & (worst < UNRESOLVED))
+
+
+@contextmanager
+def unresolved_counted() -> Iterator[None]:
+    """Where whoever asks keeps the bounds of every sample, or needs a rough number: no warning."""
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", "the cells do not resolve", ValidityWarning)
+        yield
 
 
 def warn_if_unresolved(columns: dict[str, Array]) -> None:

@@ -236,10 +236,11 @@ class FilmHeat(_Entering):
     shaft_temperature : float, optional
         K; left out, the one at which as much heat enters the shaft as leaves it: the mean
         temperature of the film.
-    points : {1, 3}
+    points : {1, 3, 4}
         1: constant across the gap. 3: on a parabola through both surfaces, with the viscosity at
         these and midway; the film then conducts to the surfaces by its own conductivity, and
-        `shell_transfer` and `shaft_transfer` are from there on.
+        `shell_transfer` and `shaft_transfer` are from there on. 4: on a cubic, whose first moment
+        the flow carries on, too: heat of the surfaces takes its way to the middle of the film.
 
     Raises
     ------
@@ -262,7 +263,7 @@ class FilmHeat(_Entering):
     shaft_transfer: Annotated[float, Ge(0)] = 0.0
     shell_temperature: Annotated[float, Gt(200)] = 293.15
     shaft_temperature: Annotated[float, Gt(200)] | None = None
-    points: Literal[1, 3] = 1
+    points: Literal[1, 3, 4] = 1
     kind: Literal["film"] = "film"
 
     over_area: ClassVar[bool] = True

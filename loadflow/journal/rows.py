@@ -78,6 +78,25 @@ def operating_columns(
     }
 
 
+def answered_rows(found: NDArray[np.bool_], columns: dict[str, Any]) -> dict[str, Any]:
+    """Columns of which the rows that have not been `found` (n,) say nothing but that."""
+    kept = ("force", "speed", "residual", "critical_reynolds_number")
+    factor = np.where(found, 1.0, np.nan)
+    blank = {
+        name: times_rows(values, factor)
+        for name, values in columns.items()
+        if name not in kept and values is not None and values.dtype == float
+    }
+    return columns | blank | {"converged": columns["converged"] & found}
+
+
+def times_rows(values: Any, factor: Array) -> Any:
+    """Rows of `values` times `factor` (n,)."""
+    if values is None:
+        return None
+    return values * factor.reshape(factor.shape + (1,) * (values.ndim - 1))
+
+
 def without_supply(count: int) -> dict[str, Any]:
     """What `Equilibrium` says of the supply of `count` films that have none."""
     return {name: np.array([value] * count) for name, value in UNSUPPLIED.items()}

@@ -23,6 +23,7 @@ from loadflow.errors import InputError, SolverError
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.heat import HOTTEST, Heat
+from loadflow.journal.rows import answered_rows, times_rows
 from loadflow.numerics.fields import require
 
 Array = NDArray[np.float64]
@@ -88,7 +89,7 @@ def warm_film(
             f"balance below {HOTTEST} K; at {warmth.temperature[worst]:.4g} K it is off by "
             f"{warmth.residual[worst]:.2g} K"
         )
-    return warmth.said_of(_where(found, state), heat)
+    return warmth.said_of(answered_rows(found, state), heat)
 
 
 @dataclass(frozen=True)
@@ -146,8 +147,8 @@ class _Balance:
             "speed": speed,
             "reynolds_number": reynolds,
             "laminar": reynolds < state["critical_reynolds_number"],
-            "damping": _times(state["damping"], thinner),
-            **{name: _times(state[name], 1.0 / thinner) for name in more},
+            "damping": times_rows(state["damping"], thinner),
+            **{name: times_rows(state[name], 1.0 / thinner) for name in more},
         }
 
     def solve(self, tolerance: float, max_iterations: int) -> _Warmth:
@@ -209,25 +210,6 @@ class _Balance:
             columns = np.nan_to_num([state["friction_power"], state["side_flow"]])
             power, flow = np.average(columns, axis=1, weights=share)[:, None]
         return self.heat.temperature(power, flow, temperature) - temperature
-
-
-def _where(found: NDArray[np.bool_], state: Columns) -> Columns:
-    """Films of which those without a balance say nothing but that."""
-    kept = ("force", "speed", "residual", "critical_reynolds_number")
-    factor = np.where(found, 1.0, np.nan)
-    blank = {
-        name: _times(values, factor)
-        for name, values in state.items()
-        if name not in kept and values is not None and values.dtype == float
-    }
-    return state | blank | {"converged": found}
-
-
-def _times(values: Any, factor: Array) -> Any:
-    """Rows of `values` times `factor` (n,)."""
-    if values is None:
-        return None
-    return values * factor.reshape(factor.shape + (1,) * (values.ndim - 1))
 
 
 def shares(weights: ArrayLike | None, shape: tuple[int, ...]) -> Array | None:

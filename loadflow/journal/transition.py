@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from loadflow.errors import InputError, SolverError
 from loadflow.journal.bearing import JournalBearing
 from loadflow.journal.film_model import Film, Keywords, film_and_control
+from loadflow.journal.grid_bounds import unresolved_counted
 from loadflow.journal.lubricant import Lubricant
 from loadflow.journal.shapes import Cylindrical
 from loadflow.numerics.fields import require
@@ -97,7 +98,8 @@ def _in_direction(
     way, away = np.array([np.cos(angle), np.sin(angle)]), bearing.clearance - least_film
     for _ in range(_STEPS):
         try:
-            found = bearing.pressure(away * way, speed, film, strict=False)
+            with unresolved_counted():
+                found = bearing.pressure(away * way, speed, film, strict=False)
         except (InputError, SolverError):
             return np.inf
         if not bool(found.converged):

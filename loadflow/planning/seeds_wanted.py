@@ -113,7 +113,16 @@ def seeds_wanted(
     of_one = own or _of_reference(len(sizes), min(case.duration for case in plan.cases))
     known = [step.seconds for step in plan.steps if step.seconds is not None]
     each = sum(known) / seeds if scene.loads.source == "simulate" and known else None
-    return [*_counted(scene, of_one, seeds, plan.errors, each, bool(own), wanted)]
+    counted = _counted(
+        scene,
+        of_one,
+        plan.errors,
+        seeds=seeds,
+        seconds_each=each,
+        measured=bool(own),
+        wanted=wanted,
+    )
+    return list(counted)
 
 
 def of_run(
@@ -140,17 +149,18 @@ def of_run(
     if table is None or not of_one:
         return []
     seeds = min(Groups.of(table).sizes)
-    return [*_counted(scene, of_one, seeds, errors, None, True, None)]
+    return list(_counted(scene, of_one, errors, seeds=seeds, measured=True))
 
 
 def _counted(
     scene: Scene,
     of_one: Mapping[str, float],
-    seeds: int,
     errors: Mapping[str, Mapping[str, Any]],
-    seconds_each: float | None,
+    *,
+    seeds: int,
     measured: bool,
-    wanted: float | None,
+    seconds_each: float | None = None,
+    wanted: float | None = None,
 ) -> Iterator[SeedsWanted]:
     for answer, (result, quantity) in ANSWERS.items():
         if answer not in of_one or result not in scene.results:

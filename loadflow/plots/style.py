@@ -81,6 +81,14 @@ def envelope(axis: Axes, x: np.ndarray, y: np.ndarray, label: str, bins: int = 1
     axis.plot(np.repeat(x[edges], 2), np.column_stack([low, high]).ravel(), lw=0.7, label=label)
 
 
+def _laid_out(drawing: Figure) -> None:
+    """Place axes once: a figure that still has an engine for that is drawn twice when saved."""
+    engine = drawing.get_layout_engine()
+    if engine is not None:
+        engine.execute(drawing)
+        drawing.set_layout_engine("none")
+
+
 def to_png(drawing: Figure) -> str:
     """Return a figure as a ``data:`` address, so that the page needs no other file.
 
@@ -92,6 +100,7 @@ def to_png(drawing: Figure) -> str:
     """
     buffer = io.BytesIO()
     with mpl.rc_context(STYLE):
+        _laid_out(drawing)
         drawing.savefig(buffer, format="png", dpi=110)
     return "data:image/png;base64," + base64.b64encode(buffer.getvalue()).decode()
 
@@ -111,6 +120,7 @@ def to_svg(drawing: Figure) -> str:
     """
     buffer = io.StringIO()
     with mpl.rc_context({**STYLE, "svg.fonttype": "none", "svg.hashsalt": "loadflow"}):
+        _laid_out(drawing)
         drawing.savefig(buffer, format="svg", dpi=110, metadata=NOTHING)
     text = buffer.getvalue()
     return text[text.index("<svg") :]

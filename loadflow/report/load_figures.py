@@ -152,7 +152,7 @@ def markov(matrix: xr.Dataset) -> Figure:
     drawing, axis = figure(height=3.4)
     edges, unit = readable(matrix["edges"])
     counts = matrix["counts"].where(matrix["counts"] > 0).values
-    mesh = axis.pcolormesh(edges, edges, np.log10(counts), cmap="viridis")
+    mesh = axis.pcolormesh(edges, edges, np.log10(counts), cmap="viridis", rasterized=True)
     axis.set(aspect="equal", xlabel=f"to, {unit}", ylabel=f"from, {unit}")
     drawing.colorbar(mesh, ax=axis, label="log10 of turning points")
     return drawing

@@ -10,6 +10,7 @@
                   `_forces`: its compiled loops
 `results`         what follows from the forces of all contacts
 `edge_contact`    edge stress of rollers
+`mounting`        fits and temperatures of the rings: clearance at work
 `rings`           flexible rings: beams, finite elements, given matrices, condensed; dynamics
 `rating`          capacities, rating life, modified life, static safety
 `friction`        components of friction with an energy audit, catalogues, slewing bearings

@@ -35,6 +35,7 @@ from .hertz import PointContact as PointContact
 from .hertz import hertz_line as hertz_line
 from .hertz import hertz_point as hertz_point
 from .motion.skidding import roller_slip as roller_slip
+from .mounting import Mounting as Mounting
 from .rating.binning import bin_loads as bin_loads
 from .rating.life import rating_life_spectrum as rating_life_spectrum
 from .rating.life import spectrum_load as spectrum_load
@@ -59,6 +60,7 @@ from .rings.flexible import FlexibleRings as FlexibleRings
 from .rings.given import CompliantRing as CompliantRing
 from .rings.given import MatrixRing as MatrixRing
 from .rings.given import guyan as guyan
+from .rings.meshed import MeshedRing as MeshedRing
 from .rings.patches import patch_points as patch_points
 from .rings.patches import raceway_points as raceway_points
 from .rings.profile import RingProfile as RingProfile

@@ -119,6 +119,15 @@ def row_sides(rows: int, arrangement: str) -> list[float]:
     return [first if k < rows / 2 else -first for k in range(rows)]
 
 
+def mean_offset(rows: int, spacing: float, arrangement: str) -> float:
+    """Axial place of a row on the side to which its normal points outward, m, mean of all rows.
+
+    Negative back-to-back, positive face-to-face, 0 in tandem.
+    """
+    places = [(k - (rows - 1) / 2) * spacing for k in range(rows)]
+    return sum(z * side for z, side in zip(places, row_sides(rows, arrangement))) / rows
+
+
 def azimuths(count: int, first: float = 0.0) -> Array:
     """Azimuths of `count` equally spaced elements, the first at `first` rad."""
     return first + 2 * np.pi * np.arange(count) / count

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from typing import TYPE_CHECKING, ClassVar, Literal
+from typing import TYPE_CHECKING, ClassVar, Literal, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -92,6 +92,35 @@ class RollingGeometry(ABC):
     @abstractmethod
     def reference_life(self, found: ContactForces) -> Array:
         """Reference life L10r of ISO/TS 16281, millions of revolutions; the inner ring turns."""
+
+    # --- of bearings whose clearance follows the temperature of their rings ----------------------
+    @property
+    def element_diameter(self) -> float:
+        """Diameter of the rolling elements, m."""
+        raise InputError(f"mounting: a {type(self).__name__} has more than one clearance")
+
+    @property
+    def nominal_angle(self) -> float:
+        """Contact angle of a row from the radial plane, rad."""
+        raise InputError(f"mounting: a {type(self).__name__} has more than one clearance")
+
+    @property
+    def row_offset(self) -> float:
+        """Axial distance of a row from the bearing centre along its contact normal outward, m.
+
+        Where rows are not alike in it the mean: 0 of rows in tandem and of two diagonals.
+        """
+        return 0.0
+
+    def opened(self, gap: float) -> Self:
+        """Return the bearing with `gap`, m, more along the normal of each contact.
+
+        Raises
+        ------
+        InputError
+            If it cannot have such a clearance.
+        """
+        raise InputError(f"mounting: a {type(self).__name__} has more than one clearance")
 
     # --- the same unless a kind says otherwise ---------------------------------------------------
     @property

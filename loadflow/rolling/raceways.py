@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal, Self
 
 import numpy as np
 from annotated_types import Ge, Gt, Le
@@ -160,6 +160,21 @@ class BallRaceways(RollingGeometry):
     def row_heights(self) -> list[float]:
         """Axial position of the rows, m, from the lowest."""
         return [(k - (self.rows - 1) / 2) * self.row_spacing for k in range(self.rows)]
+
+    @property
+    def element_diameter(self) -> float:
+        """Diameter of the balls, m."""
+        return self.ball_diameter
+
+    @property
+    def nominal_angle(self) -> float:
+        """Contact angle of a row from the radial plane, rad."""
+        return self.contact_angle
+
+    def opened(self, gap: float) -> Self:
+        """Return the bearing with `gap`, m, more along the normal of each contact."""
+        more = 2 * gap / math.cos(self.contact_angle)
+        return replace(self, clearance=self.clearance + more)
 
     @property
     def groups(self) -> tuple[int, ...]:

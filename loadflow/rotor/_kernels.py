@@ -117,6 +117,8 @@ def wind_at(m, inflow, step, time, x, y, z):
 @section
 def tabulated_induction(m, i, pitch, normal, tangential):
     """Induction factors from the table over inflow angle and pitch; solved outside of it."""
+    if not m.slows[i]:
+        return 0.0, 0.0
     speed = np.sqrt(normal * normal + tangential * tangential)
     angle = np.arctan2(normal, tangential)
     p = (angle - m.table_angle[0]) / m.table_angle[1]

@@ -43,6 +43,7 @@ class Machine(NamedTuple):
     twist: Array  # (n,)
     lift: Array  # (n, p), over −π … π in equal steps
     drag: Array  # (n, p)
+    slows: NDArray[np.bool_]  # (n,), whether the section slows the wind: a cylinder has no lift
     zero_lift: Array  # (n,), angle of attack without lift
     lift_slope: Array  # (n,), of potential flow, 1/rad; 0: a section without lift
     friction: Array  # (n,), drag at zero lift
@@ -106,6 +107,7 @@ def machine(turbine: Turbine, options: RotorOptions) -> Machine:
     outer_pull = _from_tip(density * (span + rotor.hub_radius), span)
     angle = np.arange(-np.pi, np.pi + _POLAR_STEP / 2, _POLAR_STEP)
     foils = [turbine.airfoils[name] for name in blade.airfoil]
+    lift = np.array([np.interp(angle, f.angle, f.lift) for f in foils])
     flows = [potential_flow(foil) for foil in foils]
     split = [separation(*pair, angle) for pair in zip(foils, flows, strict=True)]
     imbalance = np.zeros(rotor.blades)
@@ -128,8 +130,9 @@ def machine(turbine: Turbine, options: RotorOptions) -> Machine:
         width=_widths(blade.radius, rotor.hub_radius, rotor.radius),
         chord=blade.chord,
         twist=blade.twist,
-        lift=np.array([np.interp(angle, f.angle, f.lift) for f in foils]),
+        lift=lift,
         drag=np.array([np.interp(angle, f.angle, f.drag) for f in foils]),
+        slows=options.drag_in_induction | np.any(lift != 0.0, axis=1),
         zero_lift=np.array([flow.zero for flow in flows]),
         lift_slope=np.array([flow.slope for flow in flows]),
         friction=np.array([flow.friction for flow in flows]),

@@ -5,42 +5,40 @@ from __future__ import annotations
 import json
 import os
 import shutil
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import nullcontext
+from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TypeVar
 
 import xarray as xr
 
-from loadflow.errors import InputError, LoadflowError
+from loadflow.cube.hdf5 import read_whole
+from loadflow.errors import LoadflowError
 from loadflow.planning.plan import Plan, make_plan
 from loadflow.report.compare_page import write_comparison
-from loadflow.running.folder import answered, finished_parts, open_part, read_manifest
+from loadflow.running.candidates import candidate_scene, candidates_for, chosen_of
+from loadflow.running.executor import HERE, Executor, Lost, executor
+from loadflow.running.folder import answered, finished_parts, part_file, read_manifest
 from loadflow.running.parts import digest_of
-from loadflow.running.runner import Report, run
+from loadflow.running.result import Run
+from loadflow.running.runner import Report, run_on
 from loadflow.scene.as_built import AsBuilt
-from loadflow.scene.candidates import candidates_of
 from loadflow.scene.design import Design
-from loadflow.scene.journal import Journal
-from loadflow.scene.scene import Candidate, Scene, make_scene, read_scene
-from loadflow.scene.tolerances import Tolerances
-from loadflow.scene.wear import check_wear
+from loadflow.scene.scene import Candidate, Scene, read_scene
 from loadflow.storage import write_text
-from loadflow.studies.compare import Finished, compared
-from loadflow.studies.compare_result import Comparison
+from loadflow.studies.compare import Finished, compared, judged
+from loadflow.studies.compare_result import Comparison, Judged
+from loadflow.studies.compare_words import bearings
 from loadflow.studies.load_spectrum import load_spectrum
 from loadflow.studies.tolerance_bands import CLASSES, with_bands
 
+Item = TypeVar("Item")
+Outcome = TypeVar("Outcome")
+
 SHARED = ("loads", "shaft")
 """Stages whose parts are the same for all candidates, unless the shaft feels its bearings."""
-
-ROLLING_SHARE = 0.05
-"""Share of the samples in which a rolling bearing is solved, where the scene does not say."""
-
-SHAPED_CLASSES = 5
-"""Classes of speed, and of load, of which one sample is solved, the extremes first, in journal
-bearings that cannot be followed through the whole series in reasonable time: pads, lobes, elastic
-shells, tilted shafts."""
 
 
 @dataclass(frozen=True)
@@ -110,13 +108,14 @@ def compare(
         No candidate has an answer.
     """
     known, without_place = candidates_for(scene)
-    chosen = _chosen(known, candidates)
-    how = Means(workers, scheduler, overwrite, progress)
-    loads = shared_loads(scene, out, how)
-    finished, failures = run_candidates(loads, chosen, loads.folder / "candidates", how)
-    found = compared(loads.scene, finished, loads.folder, failures, without_place)
-    if scene.as_built.any:
-        found = _banded(found, finished, loads, scene.as_built, how)
+    chosen = chosen_of(known, candidates)
+    with executor(workers, scheduler) as where:
+        how = Means(where, overwrite, progress)
+        loads = shared_loads(scene, out, how)
+        finished, failures = run_candidates(loads, chosen, loads.folder / "candidates", how)
+        judge = _Judge(loads, finished, scene.as_built)
+        answers = [*how.outcomes("numbers and tolerances", judge, finished)]
+    found = compared(loads.scene, finished, answers, failures, without_place)
     done = Compared(loads.folder, found, failures)
     write_comparison(done.page, found.as_dict())
     write_text(done.table, found.to_csv())
@@ -124,32 +123,41 @@ def compare(
     return done
 
 
-def _banded(
-    found: Comparison,
-    finished: list[Finished],
-    loads: SharedLoads,
-    given: AsBuilt,
-    how: Means,
-) -> Comparison:
-    """The comparison with the bands of its numbers by tolerances."""
-    by_name, judged = {run.name: run for run in finished}, []
-    places = list(dict.fromkeys(b["place"] for one in found.candidates for b in one.bearings))
-    spectrum = load_spectrum(loads.scene, finished_cases(loads), places, CLASSES)
-    for k, one in enumerate(found.candidates):
-        how.say("tolerances", k, len(found.candidates))
-        run = by_name[one.name]
+class _Judge:
+    """What is said of a finished candidate, wherever it is asked."""
+
+    def __init__(self, loads: SharedLoads, finished: Sequence[Finished], given: AsBuilt) -> None:
+        self.folder, self.given = loads.folder, given
+        standing = (one for run in finished for one in bearings(run.scene, run.rooms))
+        places = dict.fromkeys(one["place"] for one in standing)
+        self.spectrum = (
+            load_spectrum(loads.scene, finished_cases(loads), [*places], CLASSES)
+            if given.any
+            else None
+        )
+
+    def __call__(self, run: Finished) -> Judged:
+        """Its numbers, with their bands by tolerances where there are any."""
+        one = judged(run, self.folder)
+        if self.spectrum is None:
+            return one
         scene = read_scene(run.folder / "scene.toml")
-        judged.append(with_bands(one, run, scene, spectrum, given))
-    how.say("tolerances", len(judged), len(judged))
-    return replace(found, candidates=tuple(judged))
+        return with_bands(one, run, scene, self.spectrum, self.given)
 
 
 @dataclass(frozen=True)
 class Means:
-    """How runs are carried out: as of `loadflow.run`."""
+    """How runs are carried out.
 
-    workers: int = 1
-    scheduler: str | None = None
+    Attributes
+    ----------
+    where : Executor
+        One for all of them: its processes are started, and import the package, once.
+    overwrite, progress
+        As of `loadflow.run`.
+    """
+
+    where: Executor = HERE
     overwrite: bool = False
     progress: Report | None = None
 
@@ -157,6 +165,35 @@ class Means:
         """Tell of progress, if anybody listens."""
         if self.progress is not None:
             self.progress(stage, done, total)
+
+    def run(self, scene: Scene, out: str | Path, tell: Report | None) -> Run:
+        """Carry out a scene without a report."""
+        return run_on(
+            nullcontext(self.where), scene, out, overwrite=self.overwrite, report=False, say=tell
+        )
+
+    def outcomes(
+        self, what: str, work: Callable[[Item], Outcome], items: Sequence[Item]
+    ) -> Iterator[Outcome]:
+        """What is made of each item, in their order.
+
+        Raises
+        ------
+        loadflow.errors.LoadflowError
+            The worker of an item was killed.
+        """
+        found: dict[int, Outcome] = {}
+        self.say(what, 0, len(items))
+        for (k, _), outcome in self.where.outcomes(partial(_numbered, work), [*enumerate(items)]):
+            if isinstance(outcome, Lost):
+                raise LoadflowError(f"{what}: {outcome.reason}")
+            found[k] = outcome
+            self.say(what, len(found), len(items))
+        return (found[k] for k in range(len(items)))
+
+
+def _numbered(work: Callable[[Item], Outcome], item: tuple[int, Item]) -> Outcome:
+    return work(item[1])
 
 
 @dataclass(frozen=True)
@@ -195,10 +232,7 @@ def shared_loads(scene: Scene, out: str | Path, how: Means) -> SharedLoads:
     base = _base(scene)
     as_run = _as_run(base, scene, folder)
     if as_run is None or not _there(make_plan(as_run), folder):
-        run(
-            base, out=out, workers=how.workers, scheduler=how.scheduler, overwrite=how.overwrite,
-            report=False, progress=how.progress,
-        )  # fmt: skip
+        how.run(base, out, how.progress)
         as_run = _as_run(base, scene, folder) or base
     return SharedLoads(as_run, make_plan(as_run), folder)
 
@@ -207,8 +241,8 @@ def finished_cases(loads: SharedLoads) -> Iterator[tuple[str, xr.Dataset, xr.Dat
     """Yield name, loads and shaft of each load case that has both."""
     for case in loads.plan.cases:
         if all(answered(loads.folder, stage, [case.name]) for stage in SHARED):
-            of_case, shaft = (open_part(loads.folder, stage, case.name) for stage in SHARED)
-            yield case.name, of_case.load(), shaft.load()
+            of_case, shaft = (read_whole(part_file(loads.folder, stage, case)) for stage in SHARED)
+            yield case.name, of_case, shaft
 
 
 def run_candidates(
@@ -236,10 +270,7 @@ def run_candidates(
             how.say(f"{name}: {stage}", done, total)
 
         try:
-            result = run(
-                own, out=below, workers=how.workers, scheduler=how.scheduler,
-                overwrite=how.overwrite, report=False, progress=tell,
-            )  # fmt: skip
+            result = how.run(own, below, tell)
         except LoadflowError as error:
             failures[name] = str(error)
             continue
@@ -252,133 +283,6 @@ def run_candidates(
         lines = "\n".join(f"  {name}: {why}" for name, why in failures.items())
         raise LoadflowError(f"no candidate has an answer:\n{lines}")
     return finished, failures
-
-
-def candidates_for(scene: Scene) -> tuple[dict[str, Candidate], list[str]]:
-    """Candidates of a scene, and names of those for which its shaft has no places.
-
-    Raises
-    ------
-    loadflow.errors.InputError
-        There is none at all.
-    """
-    if scene.candidates:
-        return dict(scene.candidates), []
-    found: dict[str, Candidate] = {}
-    if "journal" in scene.model_fields_set:
-        title = "journal bearings of the scene"
-        thrust = scene.thrust if scene.thrust.bearings else None
-        found["own-journal"] = Candidate(
-            title=title,
-            journal=scene.journal,
-            thrust=thrust,
-            tolerances=_of_places(scene, [*scene.journal.bearings, *scene.thrust.bearings]),
-        )
-    elif scene.thrust.bearings:
-        title = "film bearings of the scene"
-        found["own-thrust"] = Candidate(
-            title=title,
-            thrust=scene.thrust,
-            tolerances=_of_places(scene, [*scene.thrust.bearings]),
-        )
-    sized = candidates_of(scene.turbine.name)
-    if "rolling" in scene.model_fields_set:
-        title = "rolling bearings of the scene"
-        found["own-rolling"] = Candidate(
-            title=title,
-            rolling=scene.rolling,
-            tolerances=_of_places(scene, [*scene.rolling.geometries]),
-        )
-    shell = {
-        "turbine": {"name": scene.turbine.name},
-        "results": ["loads.statistics"],
-        "candidates": {name: {} for name in sized},
-        "shaft": {"two_point": {}, "moment": {}},
-    }
-    found |= make_scene(shell).candidates
-    places = set(scene.shaft.bearings)
-    usable = {name: one for name, one in found.items() if set(one.places) <= places}
-    if not usable:
-        raise InputError(
-            f"no candidates: the scene states none, and for {scene.turbine.name} with bearings at "
-            f"{', '.join(places) or 'no place'} the package has none; write [candidates.NAME.PLACE]"
-        )
-    return usable, [name for name in found if name not in usable]
-
-
-def _of_places(scene: Scene, places: list[str]) -> Tolerances:
-    return {place: found for place, found in scene.tolerances.items() if place in places}
-
-
-def candidate_scene(base: Scene, name: str, candidate: Candidate, steps: int) -> Scene:
-    """The scene of one candidate: its bearings, by the models that suit a comparison.
-
-    Journal bearings of cylindrical bores are followed in motion through the whole series on the
-    rung ``reduced``; others are solved at rest in a few samples, the extremes among them.
-
-    Parameters
-    ----------
-    base : Scene
-        Loads, shaft, friction.
-    name : str
-        Of the candidate.
-    candidate : Candidate
-        Its bearings.
-    steps : int
-        Length of the shortest series.
-    """
-    results: list[str] = []
-    update: dict[str, Any] = {"name": name, "candidates": {}, "tolerances": candidate.tolerances}
-    fewer: dict[str, Any] = {"size": ROLLING_SHARE}
-    if candidate.journal is not None:
-        results.append("journal.film")
-        if _wears(base, candidate.journal):
-            results.append("journal.wear")
-        update["journal"] = journal = _modelled(candidate.journal)
-        if not journal.in_motion:
-            share = min(1.0, SHAPED_CLASSES**2 / steps)
-            fewer = {"size": share, "classes": SHAPED_CLASSES}
-    if candidate.rolling is not None:
-        results += ["rolling.loads", "rolling.life"]
-        update["rolling"] = candidate.rolling
-    if candidate.thrust is not None:
-        results.append("thrust.film")
-        update["thrust"] = candidate.thrust
-        fewer = {"size": min(1.0, SHAPED_CLASSES**2 / steps), "classes": SHAPED_CLASSES}
-    if not base.reduction.changed:
-        update["reduction"] = base.reduction.model_copy(update=fewer)
-    return base.model_copy(update=update | {"results": results})
-
-
-def _wears(base: Scene, journal: Journal) -> bool:
-    """Whether the scene says how bores wear, and these can."""
-    try:
-        check_wear(base.wear, journal, base.shaft)
-    except ValueError:
-        return False
-    return True
-
-
-def _modelled(journal: Journal) -> Journal:
-    """A journal bearing in motion on `reduced`, where that rung knows it and none is named."""
-    parts = (journal, *journal.own.values())
-    simple = not journal.tilt and all(
-        not part.geometry.shape.segments and part.geometry.relief == () and part.shell is None
-        for part in parts
-    )
-    if not simple or {"motion", "rung"} & journal.changed:
-        return journal
-    fast = {"motion": "transient", "rung": "reduced"}
-    own = {place: part.model_copy(update=fast) for place, part in journal.own.items()}
-    return journal.model_copy(update=fast | {"own": own})
-
-
-def _chosen(known: dict[str, Candidate], names: list[str] | None) -> dict[str, Candidate]:
-    if names is None:
-        return known
-    if unknown := [name for name in names if name not in known]:
-        raise InputError(f"no candidate {', '.join(unknown)}; there are {', '.join(known)}")
-    return {name: known[name] for name in names}
 
 
 def _base(scene: Scene) -> Scene:

@@ -12,6 +12,7 @@ from loadflow.errors import InputError
 from loadflow.journal import Crown
 from loadflow.running.comparison import Means, shared_loads
 from loadflow.running.designing import chosen_candidate, spectrum_of
+from loadflow.running.executor import executor
 from loadflow.running.lock import locked
 from loadflow.scene.design import Crowning
 from loadflow.scene.scene import Candidate, Scene
@@ -84,7 +85,8 @@ def crown(
     journal = candidate.journal
     if journal is None:
         raise InputError(f"design.crown: candidate {name!r} has no journal bearing")
-    loads = shared_loads(scene, out, Means(workers, scheduler, overwrite, progress))
+    with executor(workers, scheduler) as where:
+        loads = shared_loads(scene, out, Means(where, overwrite, progress))
     folder = loads.folder / "design" / name
     folder.mkdir(parents=True, exist_ok=True)
     with locked(folder):

@@ -20,10 +20,10 @@ from loadflow import __version__
 from loadflow.cube import open_cube
 from loadflow.errors import InputError, LoadflowError
 from loadflow.report.design_page import write_design
+from loadflow.running.candidates import candidates_for
 from loadflow.running.comparison import (
     Means,
     SharedLoads,
-    candidates_for,
     finished_cases,
     run_candidates,
     shared_loads,
@@ -36,13 +36,21 @@ from loadflow.scene.design import Design
 from loadflow.scene.friction import Friction
 from loadflow.scene.scene import Candidate, Scene
 from loadflow.storage import write_text
-from loadflow.studies.compare import compared
+from loadflow.studies.compare import judged
 from loadflow.studies.compare_result import Judged
 from loadflow.studies.design_point import (
     DesignPoint,
     judge_design,
 )
-from loadflow.studies.design_result import Designs, Front, Map, best_of, front_of, scene_of_best
+from loadflow.studies.design_result import (
+    Designs,
+    Front,
+    Map,
+    best_of,
+    front_of,
+    most_room,
+    scene_of_best,
+)
 from loadflow.studies.design_space import Space, space_of, start_of
 from loadflow.studies.load_spectrum import load_spectrum
 
@@ -116,21 +124,22 @@ def design(
     options = scene.design
     name, candidate = chosen_candidate(scene)
     space = space_of(scene, candidate, options)
-    how = Means(workers, scheduler, overwrite, progress)
-    loads = shared_loads(scene, out, how)
-    folder = loads.folder / "design" / name
-    (folder / "parts").mkdir(parents=True, exist_ok=True)
-    with locked(folder), executor(workers, scheduler) as where:
-        problem = _problem(loads, space, candidate, options, folder)
-        search = Search(problem, options, folder.absolute() / "parts", where, how)
-        search.ask(np.array([start_of(space)]))
-        given = judge_design(candidate, scene.friction, problem.spectrum)
-        search.sweep()
-        fronts = search.levels()
-        best = search.best(options.margin)
-        maps = search.maps(best if best is not None else np.array(start_of(space)))
-    told = _told(scene, name, candidate, space, search, given, fronts, maps)
-    checked = _check(told, loads, candidate, folder, how)
+    with executor(workers, scheduler) as where:
+        how = Means(where, overwrite, progress)
+        loads = shared_loads(scene, out, how)
+        folder = loads.folder / "design" / name
+        (folder / "parts").mkdir(parents=True, exist_ok=True)
+        with locked(folder):
+            problem = _problem(loads, space, candidate, options, folder)
+            search = Search(problem, options, folder.absolute() / "parts", where, how)
+            search.ask(np.array([start_of(space)]))
+            given = judge_design(candidate, scene.friction, problem.spectrum)
+            search.sweep()
+            fronts = search.levels()
+            best = search.best(options.margin)
+            maps = search.maps(best if best is not None else np.array(start_of(space)))
+        told = _told(scene, name, candidate, space, search, given, fronts, maps)
+        checked = _check(told, loads, candidate, folder, how)
     done = Designed(folder, checked)
     write_text(done.table, checked.to_csv())
     if checked.best is not None:
@@ -212,7 +221,7 @@ def _check(
     """Run the best design, and that which was given, by the models that a plan takes.
 
     Where the margin is smaller than the fast models said, the next best design is one that has
-    more of it by as much.
+    more of it by as much; where none has, it is the one that is furthest from its limits.
     """
     share, passed = 1.0, list[bytes]()
     judged: dict[str, Judged] = {}
@@ -220,7 +229,9 @@ def _check(
     failures: dict[str, str] = {}
     best = None
     for _ in range(told.options.checks):
-        point = best_of(told.points, told.answers, told.options.margin, passed, share)
+        known = told.points, told.answers, told.options.margin, passed
+        point = best_of(*known, share)
+        point = most_room(*known) if point is None else point
         if point is None:
             break
         passed.append(point.tobytes())
@@ -238,8 +249,8 @@ def _check(
             break
         share = min(_NEARER * share, left)
     judged["start"], failed = _run(loads, {"start": start}, loads.scene.friction, folder, how)
-    known = {key: one for key, one in judged.items() if one is not None}
-    return told.checked(best, known, failures | failed, len(passed))
+    there = {key: one for key, one in judged.items() if one is not None}
+    return told.checked(best, there, failures | failed, len(passed))
 
 
 def _left(run: Judged, fast: DesignPoint) -> float:
@@ -264,4 +275,4 @@ def _run(
         finished, failures = run_candidates(of_scene, chosen, folder / "checks", how)
     except LoadflowError as error:
         return None, dict.fromkeys(chosen, str(error))
-    return compared(scene, finished, folder, failures, []).candidates[0], failures
+    return judged(finished[0], folder), failures

@@ -87,7 +87,7 @@ def executor(workers: int, scheduler: str | None) -> Iterator[Executor]:
         finally:
             processes.kill()
     else:
-        yield _Here()
+        yield HERE
 
 
 class _Here:
@@ -100,6 +100,10 @@ class _Here:
         self, work: Callable[[Item], Outcome], items: Iterable[Item]
     ) -> Iterator[tuple[Item, Outcome | Lost]]:
         return in_turn(work, items)
+
+
+HERE: Executor = _Here()
+"""In this process."""
 
 
 class _Processes:

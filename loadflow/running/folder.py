@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import logging
 import platform
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from importlib import metadata
 from pathlib import Path
 from typing import Any
@@ -14,11 +15,11 @@ import xarray as xr
 
 import loadflow
 from loadflow.cube import open_cube
-from loadflow.cube.hdf5 import groups_of, read_variables
+from loadflow.cube.hdf5 import groups_of, read_variables, read_whole
 from loadflow.errors import InputError, NewerVersionError
 from loadflow.planning.effects import EffectVerdict
 from loadflow.planning.plan import Plan
-from loadflow.running.parts import digest_of, set_aside, unsound
+from loadflow.running.parts import digest_of, is_sound, save_part, set_aside, unsound
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
 from loadflow.schemas import Schema
@@ -154,13 +155,30 @@ def finished_parts(folder: Path, plan: Plan) -> dict[str, int]:
     }
 
 
+def save_result(folder: Path, tree: xr.DataTree, plan: Plan) -> None:
+    """Write what all stages found, sealed with the fingerprint of the plan."""
+    told = "\n".join(step.digest for step in plan.steps)
+    save_part(tree, folder / "result.h5", hashlib.sha256(told.encode()).hexdigest())
+
+
 def results_of(folder: Path) -> dict[str, xr.Dataset] | None:
     """Tables of a finished run by stage; None where there is none."""
-    if not (folder / "result.h5").exists():
+    groups = _result(folder / "result.h5") if (folder / "result.h5").exists() else None
+    if groups is None:
         return None
-    results = open_cube(folder / "result.h5")
-    groups = results.children if isinstance(results, xr.DataTree) else {}
     return {name: node.to_dataset().load() for name, node in groups.items()}
+
+
+def groups_of_result(folder: Path, stage: str) -> dict[str, xr.Dataset]:
+    """What a stage of a finished run found of each bearing, all load cases together."""
+    found = _result(folder / "result.h5").get(stage)
+    return {} if found is None else {n: p.to_dataset().load() for n, p in found.children.items()}
+
+
+def _result(path: Path) -> Mapping[str, xr.DataTree]:
+    """Groups of a result: read at once where it is what a run wrote, examined first where not."""
+    results = read_whole(path) if is_sound(path) else open_cube(path)
+    return results.children if isinstance(results, xr.DataTree) else {}
 
 
 def _parts(folder: Path, stage: str) -> list[Path]:

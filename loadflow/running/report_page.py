@@ -12,7 +12,6 @@ import numpy as np
 import xarray as xr
 
 import loadflow
-from loadflow.cube import open_cube
 from loadflow.errors import InputError
 from loadflow.planning.budget import answers, more_seeds
 from loadflow.planning.seeds_wanted import of_run, sentences
@@ -28,7 +27,13 @@ from loadflow.report.sketch import sketch
 from loadflow.running.answers_page import answer_tables, largest
 from loadflow.running.dynamics_page import dynamics_section
 from loadflow.running.energy_page import energy_table
-from loadflow.running.folder import answered, read_manifest, read_part, results_of
+from loadflow.running.folder import (
+    answered,
+    groups_of_result,
+    read_manifest,
+    read_part,
+    results_of,
+)
 from loadflow.running.lifetime_page import lifetime_of_loads, lifetime_section
 from loadflow.running.loads_page import loads_section
 from loadflow.running.seeds_page import seed_section
@@ -134,12 +139,6 @@ def _facts(scene: Scene, manifest: dict[str, Any]) -> dict[str, str]:
     }
 
 
-def _groups(folder: Path, stage: str) -> dict[str, xr.Dataset]:
-    """What a stage found of each bearing, all load cases together."""
-    found = open_cube(folder / "result.h5")[stage]
-    return {name: node.to_dataset().load() for name, node in found.children.items()}
-
-
 def _turbine_fact(scene: Scene) -> str:
     from loadflow.turbines import load_turbine
 
@@ -176,7 +175,7 @@ def _sections(
         listed = [*start_tables(films), _case_table(films)]
         yield Section("Journal bearing", tables=listed, pictures=pictures)
     if "wear" in tables:
-        yield wear_section(_groups(folder, "wear"))
+        yield wear_section(groups_of_result(folder, "wear"))
     if "thrust" in tables:
         yield Section("Thrust bearing", tables=[_case_table(tables["thrust"])])
     if "dynamics" in tables:

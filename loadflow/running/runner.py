@@ -10,14 +10,13 @@ from __future__ import annotations
 import logging
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from functools import partial
 from pathlib import Path
 
 from threadpoolctl import threadpool_limits
 
 import loadflow
-from loadflow.cube import save_cube
 from loadflow.errors import LoadflowError, SolverError
 from loadflow.planning import verification as check
 from loadflow.planning.choice import can_refine
@@ -36,6 +35,7 @@ from loadflow.running.folder import (
     prepare,
     record,
     refinements,
+    save_result,
 )
 from loadflow.running.lock import locked
 from loadflow.running.profile import COMPILING, Profile
@@ -120,15 +120,29 @@ def run(
     >>> there, list(done.tree.children)
     (True, ['loads', 'statistics'])
     """
+    where = executor(workers, scheduler)
+    told = Profile() if profile else None
+    return run_on(where, scene, out, overwrite=overwrite, report=report, say=progress, profile=told)
+
+
+def run_on(
+    where: AbstractContextManager[Executor],
+    scene: Scene,
+    out: str | Path,
+    *,
+    overwrite: bool = False,
+    report: bool = True,
+    say: Report | None = None,
+    profile: Profile | None = None,
+) -> Run:
+    """Carry out what a scene wants, where it says; else as `run`."""
     # absolute, as the workers of a cluster stand elsewhere
     folder = Path(out).absolute() / check_name(scene.name, "name of the run")
-    say = progress or (lambda stage, done, total: None)
+    say = say or (lambda stage, done, total: None)
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        with locked(folder), _logged(folder), executor(workers, scheduler) as where:
-            return _run(
-                scene, folder, where, overwrite, report, say, Profile() if profile else None
-            )
+        with locked(folder), _logged(folder), where as workers:
+            return _run(scene, folder, workers, overwrite, report, say, profile)
     except OSError as error:
         place = error.filename or folder
         raise LoadflowError(
@@ -187,7 +201,7 @@ def _run(
         timing, failures = _carry_out(plan, folder, where, say, profile, pilot_verdict)
         begun = time.perf_counter()
         tree = collect(plan, folder, where)
-        save_cube(tree, folder / "result.h5")
+        save_result(folder, tree, plan)
         wall = time.perf_counter() - started
         if profile:
             profile.add_wall("result", time.perf_counter() - begun)

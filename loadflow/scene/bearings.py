@@ -19,6 +19,8 @@ from loadflow.rolling import (
     KINDS,
     FlexibleRings,
     MatrixRing,
+    MeshedRing,
+    Mounting,
     Oscillation,
     PitchMotion,
     RingBeam,
@@ -85,8 +87,8 @@ def standing_ring(
 
 def around(
     bearing: RollingBearing,
-    inner: RingBeam | MatrixRing | None,
-    outer: RingBeam | MatrixRing | None,
+    inner: RingBeam | MatrixRing | MeshedRing | None,
+    outer: RingBeam | MatrixRing | MeshedRing | None,
 ) -> FlexibleRings:
     """Flexible rings of a bearing, one of them at least, on their sides of its balls.
 
@@ -103,7 +105,9 @@ def around(
         raise InputError(f"inner_ring: radius must be < {pitch:g} m, got {inner.radius:g}")
     if outer is not None and outer.radius is not None and outer.radius <= pitch:
         raise InputError(f"outer_ring: radius must be > {pitch:g} m, got {outer.radius:g}")
-    return FlexibleRings(inner=inner, outer=outer)
+    return FlexibleRings(
+        inner=inner and inner.of(bearing, "inner"), outer=outer and outer.of(bearing, "outer")
+    )
 
 
 def _wall(radius: float, height: float, thickness: float, length: float) -> Support:
@@ -137,15 +141,20 @@ def _by_measures(ring: Any) -> Any:
 
 
 if TYPE_CHECKING:
-    Ring = RingBeam | MatrixRing
+    Ring = RingBeam | MatrixRing | MeshedRing
 else:
     Ring = told_apart(
-        {"beam": Annotated[RingBeam, _PLAIN, BeforeValidator(_by_measures)], "matrix": MatrixRing},
+        {
+            "beam": Annotated[RingBeam, _PLAIN, BeforeValidator(_by_measures)],
+            "matrix": MatrixRing,
+            "finite-element": Annotated[MeshedRing, _PLAIN, _TOLD],
+        },
         usual="beam",
     )
 """A flexible ring; ``section = {width, height}`` is a rectangle, and a support with ``radius``,
 ``height``, ``thickness`` and ``length`` a wall. With ``kind = "matrix"`` its ``file`` has the
-compliance, or the stiffness, of ring, bolts and housing together."""
+compliance, or the stiffness, of ring, bolts and housing together; with ``"finite-element"`` the
+ring is meshed here, with the grooves of its bearing."""
 
 
 if TYPE_CHECKING:
@@ -160,6 +169,7 @@ class FurtherBearing(BaseModel):
 
     ``rings = "flexible"`` takes `inner_ring` and `outer_ring`; one that is left out is rigid. With
     an ``oscillation`` it swings, as pitch and yaw bearings do, in place of turning with the rotor.
+    With a `mounting` its clearance follows fits and temperatures.
     """
 
     model_config = SECTION
@@ -170,6 +180,7 @@ class FurtherBearing(BaseModel):
     inner_ring: Ring | None = None
     outer_ring: Ring | None = None
     oscillation: Swing | None = None
+    mounting: Mounting | None = None
     limits: RollingLimits = RollingLimits()
 
     @model_validator(mode="after")
@@ -179,6 +190,31 @@ class FurtherBearing(BaseModel):
         except InputError as error:
             raise ValueError(f'rings = "flexible": {error}') from error
         return self
+
+    @model_validator(mode="after")
+    def _has_seats(self) -> Self:
+        if self.mounting is not None:
+            cold = self.mounting.reference_temperature
+            self.mounting.gap_growth(self.geometry, cold, cold)
+        return self
+
+    @property
+    def idle_torque(self) -> float:
+        """Friction without load of a bearing that swings, N m; 0 of others."""
+        return 0.0 if self.oscillation is None else self.oscillation.idle_torque
+
+    def at_work(self, temperature: float, ambient: float) -> Self:
+        """Return the bearing with the clearance of its mounting at a temperature, K.
+
+        Raises
+        ------
+        loadflow.errors.SolverError
+            If it has no clearance there.
+        """
+        if self.mounting is None:
+            return self
+        warm = self.mounting.at_work(self.geometry, temperature, ambient)
+        return self.model_copy(update={"geometry": warm})
 
     @property
     def ring_model(self) -> Literal["rigid"] | FlexibleRings:

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import glob
 import hashlib
+import json
+import time
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -14,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from loadflow.cube import case_name, check_cube, iter_cases, open_cube
+from loadflow.cube.trust import RACY
 from loadflow.errors import InputError
 from loadflow.readers import list_names, read_loads
 from loadflow.readers.loads import find_files
@@ -205,7 +209,24 @@ def _matching(pattern: str) -> list[Path]:
     return paths
 
 
-def _cases_of(path: Path, loads: Loads) -> Iterator[Case]:
+def _cases_of(path: Path, loads: Loads) -> Iterable[Case]:
+    """Cases of one file; one that has not changed since, and stands for itself, is read once."""
+    found = path.stat()
+    alone = loads.cases is None and not isinstance(loads.channels, str)
+    if not alone or time.time() - found.st_mtime < RACY:
+        return _read(path, loads)
+    told = json.dumps(loads.reading, sort_keys=True)
+    return _read_once(path, told, Path.cwd(), found.st_ino, found.st_size, found.st_mtime_ns)
+
+
+@lru_cache(maxsize=10_000)
+def _read_once(path: Path, reading: str, *stamp: Path | int) -> tuple[Case, ...]:
+    """Keep the cases of a file; what is raised is not kept."""
+    loads = Loads.model_validate({"files": [str(path)]} | json.loads(reading))
+    return tuple(_read(path, loads))
+
+
+def _read(path: Path, loads: Loads) -> Iterator[Case]:
     """Yield the cases of one file: a load cube, or the output of a simulator."""
     numbered = False
     if path.suffix in CUBES:

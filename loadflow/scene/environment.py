@@ -17,9 +17,9 @@ class Environment(Section, BaseModel):
     temperature of their own; of a film whose ``heat`` is that of its area the shell has it. With
     ``cold_start`` the oil has it, too: the film draws it in, and the rolling bearings are as cold,
     where they state no temperature. Shafts and shells of different material or warmth
-    (``heat.growth``) have another clearance then; a uniform temperature does not move that of steel
-    in steel. ``air_density`` (kg/m³) is that of simulated loads. Humidity and radiation of the sun
-    move no bearing here, and are left out.
+    (``heat.growth``), and rolling bearings with a ``mounting``, have another clearance then; a
+    uniform temperature does not move that of steel in steel. ``air_density`` (kg/m³) is that of
+    simulated loads. Humidity and radiation of the sun move no bearing here, and are left out.
     """
 
     temperature: Annotated[float, Field(ge=223.15, le=333.15)] | None = None
@@ -42,7 +42,7 @@ def surrounded(data: dict[str, Any]) -> dict[str, Any]:
     found = dict(data)
     friction = found.get("friction", {})
     if isinstance(friction, dict):
-        gives = "conductance" in friction
+        gives = "conductance" in friction or _is_mounted(found.get("rolling"))
         known = {"ambient_temperature": ambient} if gives else {}
         known |= {"temperature": ambient} if cold else {}
         found["friction"] = known | friction
@@ -56,6 +56,14 @@ def surrounded(data: dict[str, Any]) -> dict[str, Any]:
             }
         found["journal"] = warmed
     return found
+
+
+def _is_mounted(rolling: Any) -> bool:
+    """Whether the clearance of a rolling bearing follows temperatures."""
+    parts = rolling if isinstance(rolling, list) else [rolling]
+    parts = [part for part in parts if isinstance(part, dict)]
+    further = [part for one in parts for part in one.get("further") or () if isinstance(part, dict)]
+    return any(part.get("mounting") is not None for part in (*parts, *further))
 
 
 def _warmed(journal: dict[str, Any], ambient: float, cold: bool) -> dict[str, Any]:

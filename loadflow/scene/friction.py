@@ -19,7 +19,8 @@ class Friction(Section, BaseModel):
     ``roughness`` (m), ``starvation``, ``hysteresis``, ``boundary_friction``, ``roller_drag``
     (N m s), ``churning`` and ``seal_torque`` (N m) are those of `loadflow.rolling.FrictionOptions`,
     as are ``rib_angle`` (rad), ``rib_height`` (m), ``rib_radius`` (m) and ``rib_friction``. The
-    first three follow from the bearing where they are left out, see `loadflow.stages.friction`.
+    first three follow from the bearing where they are left out, see
+    `loadflow.stages.rolling_at_work`.
     Churning and seals have no values of their own: they count only if they are given.
 
     With a ``conductance`` (W/K) to ``ambient_temperature`` (K) each bearing has the temperature in

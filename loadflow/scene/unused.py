@@ -9,6 +9,7 @@ from loadflow.journal import Heat
 from loadflow.journal.rungs import RUNGS
 from loadflow.rolling import RollerBearing, SphericalRollerBearing
 from loadflow.rolling.friction import Churning
+from loadflow.rolling.mounting import unused_of
 from loadflow.scene.bearings import FurtherBearing
 from loadflow.scene.loads import Loads
 from loadflow.scene.scene import Scene, make_scene
@@ -89,6 +90,7 @@ def _all(scene: Scene) -> Iterator[tuple[str, str]]:
             yield f"loads.{key}", reason
     yield from _of_shaft(scene)
     yield from _of_thrust(scene) if "thrust" not in unread else ()
+    yield from _of_mountings(scene) if "rolling" not in unread else ()
     for section, rules in (
         ("reduction", _of_reduction),
         ("journal", _of_journal),
@@ -124,7 +126,7 @@ def _of_environment(scene: Scene) -> Iterator[tuple[str, str]]:
     films = [scene.journal.at(place) for place in scene.journal.bearings]
     warm = [film.heat for film in films if film.heat is not None and scene.wants("journal")]
     rolls = scene.wants("rolling")
-    sheds = rolls and scene.friction.conductance is not None
+    sheds = rolls and (scene.friction.conductance is not None or _mounted(scene))
     gives = sheds or any(heat.gives_off for heat in warm)
     if not (gives or scene.environment.cold_start):
         yield "temperature", "no bearing gives heat off to its surroundings, or starts cold"
@@ -325,6 +327,18 @@ def _of_rolling(scene: Scene) -> Iterator[tuple[str, str]]:
                 yield key, 'rings = "rigid"'
 
 
+def _of_mountings(scene: Scene) -> Iterator[tuple[str, str]]:
+    """Keys of the mountings of rolling bearings, which stand in a list after the first one."""
+    for number, part in enumerate(scene.rolling.bearings.values(), -1):
+        where = "rolling" if number < 0 else f"rolling.further.{number}"
+        for key, reason in unused_of(part.mounting, part.geometry) if part.mounting else ():
+            yield f"{where}.mounting.{key}", reason
+
+
+def _mounted(scene: Scene) -> bool:
+    return any(part.mounting is not None for part in scene.rolling.bearings.values())
+
+
 _OF_LIFE = ("lubricant", "temperature", "cleanliness", "conductance", "ambient_temperature")
 """Keys of friction that the modified life reads, too."""
 
@@ -339,8 +353,8 @@ def _of_friction(scene: Scene) -> Iterator[tuple[str, str]]:
         for key in type(friction).model_fields:
             if key not in _OF_LIFE:
                 yield key, "the result rolling.friction is not wanted"
-    if friction.conductance is None:
-        yield "ambient_temperature", "no friction.conductance"
+    if friction.conductance is None and not _mounted(scene):
+        yield "ambient_temperature", "no friction.conductance, no mounting of a bearing"
     elif all(_balances(part) for part in scene.rolling.bearings.values()):
         yield "temperature", "with a conductance each bearing has that of its heat balance"
     if "rolling.friction" not in scene.results:

@@ -130,7 +130,7 @@ def swinging_loads(name: str, force: Floats, moment: Floats, *, position: float)
     """Loads (3, n) of a bearing beside the shaft, labelled as those of its own bearings."""
 
     def labelled(values: Floats, units: str, what: str) -> tuple[tuple[str, ...], Floats, dict]:
-        about = {"units": units, "long_name": f"{what} of the shaft on the bearing"}
+        about = {"units": units, "long_name": f"{what} of what it carries on the bearing"}
         return ("bearing", "axis", "time"), values[None], about
 
     along = "position of the bearing along the shaft from the hub centre"

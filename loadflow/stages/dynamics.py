@@ -18,6 +18,7 @@ from loadflow.shaft.beam import Beam, BearingSupport
 from loadflow.stages.film_of_bearing import shaft_line
 from loadflow.stages.film_support import TURN
 from loadflow.stages.frames import to_film
+from loadflow.stages.rolling_at_work import as_stated
 from loadflow.stages.rolling_support import rolling_model
 from loadflow.stages.stage import Stage, always
 from loadflow.stages.summary import over_cases
@@ -150,7 +151,7 @@ def _stiffness(scene: Scene, name: str, support: BearingSupport, mean: xr.Datase
         force, moment = (
             mean[part].sel(bearing=name).values[None].astype(float) for part in ("force", "moment")
         )
-        part = scene.rolling.bearings[name]
+        part = as_stated(scene.rolling.bearings[name], scene.friction)
         model = rolling_model(part, force[:, 0], tilting=support.takes_moment)
         stiff = model(force, moment)[1][0]
         size = len(stiff)

@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 
 from loadflow.journal import Equilibrium, Film
+from loadflow.journal.grid_bounds import unresolved_counted
 from loadflow.journal.transition import load_capacity
 from loadflow.scene.journal import Journal
 from loadflow.stages.frames import from_film, to_film
@@ -61,9 +62,10 @@ def equilibria(
     1/m, it lies as they say; without, it stays aligned.
     """
     lying: dict[str, Any] = {name: to_film(vectors) for name, vectors in line.items()}
-    return options.geometry.equilibrium(
-        to_film(force), speed, options.film_model, strict=False, **lying
-    )
+    with unresolved_counted():  # `film_summary` counts them
+        return options.geometry.equilibrium(
+            to_film(force), speed, options.film_model, strict=False, **lying
+        )
 
 
 def surely_touching(options: Journal, force: np.ndarray, speed: np.ndarray) -> np.ndarray:

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from loadflow.scene.cases import Case
 from loadflow.stages.labelling import labelled
@@ -94,6 +95,10 @@ STANDING = 0.01 * np.pi / 30
 """Speed, rad/s, below which a shaft counts as standing: 0.01 1/min, the last digit of Table 5-22 in
 [Jonuschies 2015]."""
 
+SWING = 0.01
+"""Angle, rad, within which a shaft that stands may swing: a brake holds it by an elastic
+drivetrain."""
+
 
 def mixed_friction(samples: xr.Dataset) -> xr.Dataset:
     """How long and how far the shaft turns in contact and above E_krit, as [Jonuschies 2015] asks.
@@ -108,7 +113,8 @@ def mixed_friction(samples: xr.Dataset) -> xr.Dataset:
     `film_after_stop` how much later the film is squeezed out to E_krit; negative if it is before.
     """
     time, speed, about = samples["time"].values, np.abs(samples["speed"].values), samples.attrs
-    touching, turning = samples["in_contact"].values.astype(bool), speed >= STANDING
+    touching = samples["in_contact"].values.astype(bool)
+    turning = (speed >= STANDING) & ~_swinging(time, samples["speed"].values)
     known = np.isfinite(samples["friction_power"].values)  # in contact, too, with its asperities
     # each sample stands for `weight` steps of the full series
     weight = samples["weight"].values
@@ -171,6 +177,14 @@ def _changes(
     last = int(changed[-1])
     there = float(time[last]), float(speed[last])
     return (there, none) if touching[0] else (none, there)
+
+
+def _swinging(time: np.ndarray, speed: np.ndarray) -> NDArray[np.bool_]:
+    """From where on a shaft has turned back and only swings, to the end of the series."""
+    turned = np.append(0.0, np.cumsum(0.5 * (speed[1:] + speed[:-1]) * np.diff(time)))
+    most, least = (of.accumulate(turned[::-1])[::-1] for of in (np.maximum, np.minimum))
+    back = np.append(False, speed[1:] * speed[:-1] < 0.0) & (most - least < SWING)
+    return np.asarray(np.logical_or.accumulate(back))
 
 
 def _standing(time: np.ndarray, turning: np.ndarray, ratio: np.ndarray) -> tuple[float, float]:

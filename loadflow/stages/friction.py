@@ -4,24 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from loadflow.errors import SolverError
 from loadflow.rolling import FrictionOptions, RollingBearing, roller_slip
-from loadflow.rolling.friction import balanced_temperature
 from loadflow.scene.cases import Case
-from loadflow.scene.friction import Friction
 from loadflow.scene.scene import Scene
 from loadflow.stages.frames import to_rolling
 from loadflow.stages.labelling import label, labelled
+from loadflow.stages.rolling_at_work import at_work, friction_options
 from loadflow.stages.running_time import counted, time_shares, with_running
 from loadflow.stages.stage import Link, Links, Rungs, Stage, always, load_links
 from loadflow.stages.summary import over_cases
 from loadflow.stages.swinging import swing_speed
-from loadflow.tribology import lubricant
 
 CHUNK = 250  # samples of a ball bearing at once: all contacts of all samples would fill the memory
 
@@ -40,7 +38,8 @@ def losses(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
     """Losses, film and slip of each rolling bearing of the scene over (bearing, sample).
 
     Every roller is followed through the whole series; balls slide where their contacts are curved
-    and where they spin; bearings that swing have their mean speed, or that of the pitch. Rings are
+    and where they spin; bearings that swing have their mean speed, or that of the pitch, and their
+    torque without load. Rings are
     rigid. With a conductance each bearing finds its own temperature.
 
     Raises
@@ -55,25 +54,26 @@ def losses(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
     speed = inputs["loads"]["speed"].values.astype(float)[::stride]
     found, temperatures = [], []
     for name, part in scene.rolling.bearings.items():
-        bearing, turning = part.geometry, speed
+        turning = speed
         if part.oscillation is not None:
             turning = swing_speed(part, inputs["loads"], slice(None, None, stride))
         load, moment = (
-            to_rolling(
-                inputs["shaft"][what]
-                .sel(bearing=name)
-                .transpose("time", "axis")
-                .values[::stride]
-                .astype(float)
-            )
+            inputs["shaft"][what]
+            .sel(bearing=name)
+            .transpose("time", "axis")
+            .values[::stride]
+            .astype(float)
             for what in ("force", "moment")
         )
-        options = friction_options(scene.friction, bearing)
         try:
-            options = _at_its_temperature(scene.friction, bearing, load, moment, turning, options)
+            warm, temperature = at_work(part, scene.friction, load, moment, turning)
+            bearing = warm.geometry
+            options = friction_options(scene.friction, bearing, part.idle_torque)
+            options = replace(options, temperature=temperature)
             follow = _FOLLOW[bearing.friction_model]
-            found.append(follow(bearing, load, moment[:, :2], time, turning, options))
-            temperatures.append(options.temperature)
+            turned = to_rolling(load), to_rolling(moment)[:, :2]
+            found.append(follow(bearing, *turned, time, turning, options))
+            temperatures.append(temperature)
         except SolverError as error:
             raise SolverError(f"bearing {name}: {error}") from error
     kept = {
@@ -92,72 +92,6 @@ def losses(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
     if any(swinging := [part.oscillation is not None for part in parts]):  # whatever the rotor does
         samples["running"] = samples["running"] | xr.DataArray(swinging, dims="bearing")
     return samples
-
-
-TAPERED_RIB = 0.04
-"""Angle between both contact normals of tapered rollers, rad, where a scene gives none: the middle
-of 0.02 … 0.06."""
-
-_RIB_HEIGHT, _RIB_RADIUS = 0.075, 50.0  # of a roller's diameter, where a scene gives none
-
-
-def friction_options(options: Friction, bearing: RollingBearing) -> FrictionOptions:
-    """Options of the room for a bearing, of a scene's section.
-
-    Where the scene says nothing of ribs, tapered rollers press on theirs with `TAPERED_RIB`, at a
-    height of 0.075 and with a reduced radius of 50 of a roller's diameter; others on none.
-    """
-    tapered = bearing.rib_guided
-    diameter = getattr(bearing, "roller_diameter", 0.0)
-    radius = options.rib_radius or (_RIB_RADIUS * diameter if tapered else None)
-    return FrictionOptions(
-        oil=lubricant(options.lubricant),
-        temperature=options.temperature,
-        roughness=options.roughness,
-        hysteresis=options.hysteresis,
-        starvation=options.starvation,
-        boundary_friction=options.boundary_friction,
-        rib_angle=_given(options.rib_angle, TAPERED_RIB if tapered else 0.0),
-        rib_height=_given(options.rib_height, _RIB_HEIGHT * diameter),
-        rib_friction=options.rib_friction,
-        rib_radius=radius,
-        roller_drag=options.roller_drag,
-        churning=options.churning,
-        seal_torque=options.seal_torque,
-    )
-
-
-def _given(value: float | None, default: float) -> float:
-    return default if value is None else value
-
-
-def _at_its_temperature(
-    options: Friction,
-    bearing: RollingBearing,
-    force: np.ndarray,
-    moment: np.ndarray,
-    speed: np.ndarray,
-    found: FrictionOptions,
-) -> FrictionOptions:
-    """Options at the temperature at which the cooling carries off the mean friction of a case.
-
-    Raises
-    ------
-    loadflow.errors.SolverError
-        There is no friction model for the bearing, or no such temperature.
-    """
-    if options.conductance is None:
-        return found
-    some = np.unique(np.linspace(0, speed.size - 1, CHUNK).round().astype(int))
-    balance = balanced_temperature(
-        cast("Any", bearing.equilibrium(force[some], moment[some, :2])),
-        speed[some],
-        found,
-        options.conductance,
-        options.ambient_temperature,
-        model=bearing.losses,
-    )
-    return replace(found, temperature=balance.temperature)
 
 
 def _rollers(

@@ -10,15 +10,13 @@ import xarray as xr
 
 from loadflow.errors import SolverError
 from loadflow.rolling import Lubrication, modified_spectrum_life, system_life
-from loadflow.rolling.friction import balanced_temperature
 from loadflow.rolling.rating import life, safety
 from loadflow.scene.bearings import FurtherBearing
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
-from loadflow.stages.frames import to_rolling
-from loadflow.stages.friction import friction_options
 from loadflow.stages.labelling import label, labelled, of_samples
 from loadflow.stages.reduction import kept_share
+from loadflow.stages.rolling_at_work import at_work, rest
 from loadflow.stages.stage import Link, Links, Measured, Rungs, Stage, always, load_links, steps_of
 from loadflow.stages.summary import over_cases
 from loadflow.stages.swinging import follows_pitch, swing_of
@@ -44,6 +42,7 @@ EACH = {
     "bearing_modified_life": ("1e6 revolution", "modified life L10m, ISO 281"),
     "bearing_viscosity_ratio": ("1", "smallest viscosity ratio κ of what turns"),
     "bearing_temperature": ("K", "temperature of the bearing in its modified life"),
+    "bearing_clearance": ("m", "clearance at work, as the kind of bearing states it"),
     "bearing_thin_share": ("1", "share of the revolutions with κ below 0.1, a_ISO taken as 0.1"),
     "bearing_static_safety": ("1", "smallest static safety, by force, characteristic loads"),
     "bearing_design_safety": ("1", "smallest static safety, by force, design loads"),
@@ -76,10 +75,18 @@ def load_distribution(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Da
     """
     names = list(scene.rolling.geometries)
     loads = {name: inputs["reduction"][name].to_dataset() for name in names}
-    answers = {name: solve_bearing(scene, name, loads[name]) for name in names}
+    warm, answers = {}, {}
+    for name in names:
+        part, answer = scene.rolling.bearings[name], None
+        if part.mounting is None:  # else its clearance follows its temperature
+            answer = _solved(name, part, loads[name])
+        warm[name] = warm_bearing(scene, name, loads[name], answer)
+        answers[name] = answer or _solved(name, warm[name][0], loads[name])
     answer, reduced = answers[names[0]], loads[names[0]]
     samples = of_samples({name: getattr(answer, name) for name in KEPT}, KEPT)
-    each = [_of_bearing(scene, case, name, answers[name], loads[name], inputs) for name in names]
+    each = [
+        _of_bearing(scene, case, *warm[name], answers[name], loads[name], inputs) for name in names
+    ]
     whole = {
         name: ("bearing", np.array([found[name] for found in each]), label(*EACH[name]))
         for name in EACH
@@ -99,59 +106,85 @@ def load_distribution(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Da
         .assign(samples | whole)
         .assign_coords(bearing=names)
         .assign_attrs(attrs)
-        .merge(_worst(scene, reduced, worst), combine_attrs="override")
+        .merge(_worst(warm[names[0]][0], reduced, worst), combine_attrs="override")
     )
 
 
 def solve_bearing(scene: Scene, name: str, loads: xr.Dataset) -> Any:
-    """Equilibrium of one bearing under all samples of `loads`, or the one that they are."""
+    """Equilibrium of one bearing, with its clearance at work, under all samples of `loads`."""
+    return _solved(name, bearing_at_work(scene, name, loads), loads)
+
+
+def bearing_at_work(scene: Scene, name: str, loads: xr.Dataset) -> FurtherBearing:
+    """A bearing with the clearance that it has at work under all samples of `loads`."""
+    part = scene.rolling.bearings[name]
+    return part if part.mounting is None else warm_bearing(scene, name, loads)[0]
+
+
+def warm_bearing(
+    scene: Scene, name: str, loads: xr.Dataset, answer: Any = None
+) -> tuple[FurtherBearing, float]:
+    """A bearing with its clearance at work under all samples of `loads`; its temperature, K.
+
+    Bearings that swing, and those without a model of friction, have the temperature that the scene
+    says. `answer`: see `loadflow.stages.rolling_at_work.at_work`.
+    """
+    part, options = scene.rolling.bearings[name], scene.friction
+    if part.geometry.friction_model is None or part.oscillation is not None:
+        options = options.model_copy(update={"conductance": None})
+    values = (
+        loads[what].transpose("sample", ...).values
+        for what in ("force", "moment", "speed", "weight")
+    )
     try:
-        return rest(scene.rolling.bearings[name], loads["force"].values, loads["moment"].values)
+        return at_work(part, options, *values, answer=answer)
     except SolverError as error:
         raise SolverError(f"bearing {name}: {error}") from error
 
 
-def rest(part: FurtherBearing, force: np.ndarray, moment: np.ndarray, strict: bool = True) -> Any:
-    """Equilibrium of a bearing, with its rings, under loads (..., 3) in the frame of the cube."""
-    bearing = part.geometry
-    load = to_rolling(force), to_rolling(moment)[..., :2]
-    return bearing.equilibrium(*load, rings=part.ring_model, strict=strict)
+def _solved(name: str, part: FurtherBearing, loads: xr.Dataset) -> Any:
+    """Equilibrium of a bearing under all samples of `loads`, or the one that they are."""
+    try:
+        return rest(part, loads["force"].values, loads["moment"].values)
+    except SolverError as error:
+        raise SolverError(f"bearing {name}: {error}") from error
 
 
 def _of_bearing(
     scene: Scene,
     case: Case,
-    name: str,
+    part: FurtherBearing,
+    temperature: float,
     answer: Any,
     reduced: xr.Dataset,
     inputs: dict[str, Any],
 ) -> dict[str, float]:
     """Values of `EACH`."""
     options, weight = scene.friction, reduced["weight"].values
-    temperature = _temperature(scene, name, answer, reduced)
     lubrication = Lubrication(
         oil=lubricant(options.lubricant), temperature=temperature, cleanliness=options.cleanliness
     )
     modified = modified_spectrum_life(
         answer.bearing, answer.equivalent_load, reduced["speed"].values, lubrication, weight
     )
-    swings = scene.rolling.bearings[name].oscillation
+    swings = part.oscillation
     life = life_of(answer, reduced)
     if swings is not None:
         # in revolutions of the rotor, as all lives here: so many as it makes meanwhile
-        swing = swing_of(scene.rolling.bearings[name], inputs)
+        swing = swing_of(part, inputs)
         hours = np.inf
         if swing is not None:
             hours = swing.hours(swing.life(answer.bearing, answer.equivalent_load, weight))
         turns = 3600 * _mean_speed(reduced) / (2 * np.pi)
         life = hours * turns / 1e6 if turns else np.inf
     factor = factor_of_maximum(case.dlc)
-    safety, time = _design_safety(scene.rolling.bearings[name], answer, reduced, factor)
+    safety, time = _design_safety(part, answer, reduced, factor)
     return {
         "bearing_life": life,
         "bearing_modified_life": modified.life if swings is None else np.nan,
         "bearing_viscosity_ratio": modified.least_viscosity_ratio,
         "bearing_temperature": temperature,
+        "bearing_clearance": getattr(part.geometry, "clearance", np.nan),
         "bearing_thin_share": modified.thin_share,
         "bearing_static_safety": float(np.min(answer.static_safety)),
         "bearing_design_safety": safety,
@@ -159,32 +192,10 @@ def _of_bearing(
         "bearing_load_factor": factor,
         "bearing_truncated": _truncated_share(answer, weight),
         "bearing_axial_force": float(np.abs(reduced["force"].values[:, 0]).max()),
-        "bearing_torque": _torque(answer, 0.0 if swings is None else swings.idle_torque),
+        "bearing_torque": _torque(answer, part.idle_torque),
         "bearing_pressure": float(np.max(answer.maximum_pressure)),
         "bearing_force": float(np.max(answer.maximum_force)),
     }
-
-
-def _temperature(scene: Scene, name: str, answer: Any, reduced: xr.Dataset) -> float:
-    """Temperature of a bearing in a case, K: in balance with its friction, or as the scene says."""
-    options, part = scene.friction, scene.rolling.bearings[name]
-    bearing = answer.bearing
-    balances = bearing.friction_model is not None and part.oscillation is None
-    if options.conductance is None or not balances:
-        return options.temperature
-    try:
-        balance = balanced_temperature(
-            answer,
-            np.abs(reduced["speed"].values),
-            friction_options(options, bearing),
-            options.conductance,
-            options.ambient_temperature,
-            weights=reduced["weight"].values,
-            model=bearing.losses,
-        )
-    except SolverError as error:
-        raise SolverError(f"bearing {name}: {error}") from error
-    return balance.temperature
 
 
 def _torque(answer: Any, idle: float) -> float:
@@ -215,13 +226,13 @@ def _design_safety(
     return float(safety.min()), float(some["time"].values[np.argmin(safety)])
 
 
-def _worst(scene: Scene, reduced: xr.Dataset, worst: int) -> xr.Dataset:
+def _worst(part: FurtherBearing, reduced: xr.Dataset, worst: int) -> xr.Dataset:
     """Every ball force of the worst sample of a bearing whose balls have two diagonals."""
-    bearing = scene.rolling.geometry
+    bearing = part.geometry
     around = (*bearing.group_dims, bearing.element)
     if "diagonal" not in around:
         return xr.Dataset()
-    hardest = solve_bearing(scene, scene.rolling.bearing, reduced.isel(sample=worst))
+    hardest = _solved(part.bearing, part, reduced.isel(sample=worst))
     count = hardest.ball_forces.shape[-1]
     angle = 2 * np.pi / count * np.arange(count)
     angles = label("rad", "operating contact angle, worst sample")

@@ -6,7 +6,7 @@ import numpy as np
 
 from loadflow.scene.bearings import FurtherBearing
 from loadflow.shaft import BearingModel
-from loadflow.stages.rolling import rest
+from loadflow.stages.rolling_at_work import rest
 
 Floats = np.ndarray
 

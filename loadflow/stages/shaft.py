@@ -95,9 +95,10 @@ def _film(options: Journal, speed: Floats, tilting: bool) -> CoupledBearing:
 
 
 def _rolling(scene: Scene, name: str, thrust: Floats, tilting: bool) -> CoupledBearing:
+    from loadflow.stages.rolling_at_work import as_stated
     from loadflow.stages.rolling_support import rolling_model
 
-    part = scene.rolling.bearings[name]
+    part = as_stated(scene.rolling.bearings[name], scene.friction)
     return CoupledBearing(
         lambda rows: rolling_model(part, thrust[rows], tilting=tilting, strict=False),
         state=thrust,

@@ -12,20 +12,20 @@ from typing import Any, Literal
 import numpy as np
 import xarray as xr
 
-from loadflow.cube import open_cube
+from loadflow.cube.hdf5 import read_whole
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.scene.thrust import AnyAxial
 from loadflow.studies.compare_factor import Margin
 from loadflow.studies.compare_margins import (
-    carries_thrust,
+    damage_per_hour,
     margin_of,
     rolling_losses,
     row_shares,
-    shaft_tilt,
 )
 from loadflow.studies.compare_result import QUANTITIES, Comparison, Judged, Number, plain
 from loadflow.studies.compare_risks import rolling_risks, wear
+from loadflow.studies.compare_tilt import carries_thrust, shaft_tilt
 from loadflow.studies.compare_words import bearings, conclusion, drawn, facts, kind_of
 from loadflow.studies.run_lifetime import energy_per_year, known_shares
 from loadflow.studies.seed_intervals import Groups, interval, joint_life
@@ -65,15 +65,20 @@ class Finished:
     manifest: Mapping[str, Any]
     folder: Path
 
+    @property
+    def rooms(self) -> list[str]:
+        """What kinds of bearing it has results of."""
+        return [room for room in ("journal", "thrust", "rolling") if room in self.tables]
+
 
 def compared(
     scene: Scene,
     finished: Sequence[Finished],
-    folder: Path,
+    answers: Sequence[Judged],
     failures: dict[str, str],
     without_place: list[str],
 ) -> Comparison:
-    """Compare candidates that were run on the same loads.
+    """Put candidates that were run on the same loads beside each other.
 
     Parameters
     ----------
@@ -81,17 +86,19 @@ def compared(
         Their loads and shaft.
     finished : sequence of Finished
         The runs.
-    folder : Path
-        Of the comparison.
+    answers : sequence of Judged
+        What `judged` says of each.
     failures, without_place
         Of `Comparison`.
     """
-    judged = [_judged(one, folder) for one in finished]
-    judged.sort(key=lambda one: (not one.holds, _or_infinite(one.numbers["energy"].value)))
+    order = sorted(
+        answers,
+        key=lambda one: (not one.holds, np.nan_to_num(one.numbers["energy"].value, nan=math.inf)),
+    )
     return Comparison(
         name=scene.name,
-        conclusion=conclusion(judged),
-        candidates=tuple(judged),
+        conclusion=conclusion(order),
+        candidates=tuple(order),
         facts=facts(scene, [run.tables for run in finished]),
         shaft=drawn(scene),
         failures=failures,
@@ -99,16 +106,24 @@ def compared(
     )
 
 
-def _judged(run: Finished, folder: Path) -> Judged:
+def judged(run: Finished, folder: Path) -> Judged:
+    """All numbers of a finished candidate.
+
+    Parameters
+    ----------
+    run : Finished
+        Its run.
+    folder : Path
+        Of the comparison.
+    """
     verdicts = tuple(from_dataset(run.tables["verdicts"])) if "verdicts" in run.tables else ()
     margin = margin_of(run.scene, run.folder, run.tables, verdicts)
     numbers = dict(_numbers(run, verdicts, margin))
-    rooms = [room for room in ("journal", "thrust", "rolling") if room in run.tables]
     return Judged(
         name=run.name,
         title=run.title or run.name,
         source=run.source,
-        kind=kind_of(rooms),
+        kind=kind_of(run.rooms),
         numbers={key: numbers[key] for key in QUANTITIES if key in numbers},
         verdicts=verdicts,
         thrust=carries_thrust(run.scene, run.tables),
@@ -116,7 +131,7 @@ def _judged(run: Finished, folder: Path) -> Judged:
         change=margin.change,
         models={stage: told["rung"] for stage, told in run.manifest.get("rungs", {}).items()},
         checks=_checks(run.tables),
-        bearings=bearings(run.scene, rooms),
+        bearings=bearings(run.scene, run.rooms),
         folder=run.folder.relative_to(folder).as_posix(),
         unanswered=dict(run.manifest.get("failures", {})),
     )
@@ -127,8 +142,8 @@ def _numbers(
 ) -> Iterator[tuple[str, Number]]:
     """Yield the numbers of a candidate by quantity."""
     yield "load_factor", Number(
-        margin.factor, "×", limit=1.0, holds=margin.factor >= 1, place=margin.place,
-        case=margin.case, note=margin.governs,
+        margin.factor, "×", margin.low, margin.high, limit=1.0,
+        holds=margin.factor >= 1, place=margin.place, case=margin.case, note=margin.governs,
     )  # fmt: skip
     if "journal" in run.tables:
         yield from _of_journal(run, verdicts)
@@ -212,8 +227,8 @@ def _bores(run: Finished) -> dict[str, xr.Dataset]:
     """Worn bores by bearing; none where the run followed no wear."""
     if "wear" not in run.tables:
         return {}
-    found = open_cube(run.folder / "result.h5")["wear"]
-    return {name: node.to_dataset().load() for name, node in found.children.items()}
+    found = read_whole(run.folder / "result.h5")["wear"]
+    return {name: node.to_dataset() for name, node in found.children.items()}
 
 
 def _over_roughness(film: Number, surfaces: Journal | AnyAxial) -> Number:
@@ -248,11 +263,7 @@ def _of_rolling(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[st
     slope = float(table.attrs["weibull_slope"])
     design = min(part.limits.life for part in run.scene.rolling.bearings.values())
     for key, kind in (("modified_life", "modified_"), ("rating_life", "")):
-        per_hour = (
-            (table["mean_speed"] / (2 * np.pi) * 3600 / (table[f"bearing_{kind}life"] * 1e6))
-            .transpose("case", "bearing")
-            .values
-        )
+        per_hour = damage_per_hour(table, kind).transpose("case", "bearing").values
         life = _years(per_hour, share, slope, np.arange(share.size))
         low, high = interval(groups, partial(_years, per_hour, share, slope))
         limit = design / HOURS_PER_YEAR
@@ -435,7 +446,3 @@ def _checks(tables: Mapping[str, xr.Dataset]) -> list[dict[str, Any]]:
         {"stage": stage, "quantity": quantity, "against": against, "change": plain(value)}
         for (stage, quantity, against), value in worst.items()
     ]
-
-
-def _or_infinite(value: float) -> float:
-    return value if math.isfinite(value) else math.inf

@@ -4,15 +4,21 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
 import numpy as np
+import xarray as xr
 
-from loadflow.cube import open_cube
+from loadflow.cube.hdf5 import read_variables
+from loadflow.studies.compare_seeds import Draw
 
-_WIDEST = 16.0  # factor on load, viscosity: beyond, nothing is asked
+SAMPLES = 40
+"""Samples of each case that are looked at again, the extremes among them."""
+
+WIDEST = 16.0
+"""Factor on load or viscosity beyond which nothing is asked."""
+
 _HALVINGS = 9
 
 
@@ -28,6 +34,10 @@ class Margin:
         Where.
     governs, change : str
         Which limit that is; what else would reach it.
+    drawn : callable, optional
+        The factor that some of the cases would give, for the seeds.
+    low, high : float
+        Interval by the seeds, of all limits together.
     """
 
     factor: float
@@ -35,11 +45,14 @@ class Margin:
     case: str = ""
     governs: str = ""
     change: str = ""
+    drawn: Draw | None = field(default=None, compare=False, repr=False)
+    low: float = math.nan
+    high: float = math.nan
 
 
 def largest_factor(holds: Callable[[float], bool]) -> float:
     """Largest factor with which something holds that holds for all smaller ones."""
-    low, high = 1 / _WIDEST, _WIDEST
+    low, high = 1 / WIDEST, WIDEST
     for _ in range(_HALVINGS):
         middle = math.sqrt(low * high)
         low, high = (middle, high) if holds(middle) else (low, middle)
@@ -57,12 +70,17 @@ def pressure_factor(value: Callable[[float, float], float], limit: float) -> flo
     return largest_factor(lambda f: value(f, 1.0) <= limit)
 
 
+def reduced_samples(path: Path, place: str) -> xr.Dataset:
+    """Loads, speed, time and weight of the samples that a bearing was solved for in a case."""
+    return read_variables(path, ("force", "moment", "speed", "weight", "time"), place)
+
+
 def loads_at(
     folder: Path, case: str, place: str, time: float
 ) -> tuple[np.ndarray, np.ndarray, float]:
     """Force and moment (3,) on a bearing, N and N m, and speed, rad/s, at a time of a case."""
-    loads: Any = open_cube(folder / "loads" / f"{case}.h5")
-    shaft: Any = open_cube(folder / "shaft" / f"{case}.h5").sel(bearing=place)
+    loads = read_variables(folder / "loads" / f"{case}.h5", ("speed",))
+    shaft = read_variables(folder / "shaft" / f"{case}.h5", ("force", "moment")).sel(bearing=place)
     k = int(np.argmin(np.abs(loads["time"].values - time))) if math.isfinite(time) else 0
     force, moment = (
         shaft[name].isel(time=k).transpose("axis").values.astype(float)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -12,31 +12,34 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from loadflow.cube import open_cube
 from loadflow.errors import SolverError
 from loadflow.rolling import Lubrication, RollingBearing, modified_spectrum_life
 from loadflow.scene.friction import Friction
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
-from loadflow.shaft import Beam, ShaftSection, bearing_loads
 from loadflow.stages.film_of_bearing import equilibria
-from loadflow.stages.friction import friction_options, least_film_parameter
-from loadflow.stages.rolling import rest
+from loadflow.stages.friction import least_film_parameter
+from loadflow.stages.rolling import bearing_at_work
+from loadflow.stages.rolling_at_work import friction_options, rest
 from loadflow.studies.compare_factor import (
+    SAMPLES,
+    WIDEST,
     Margin,
     film_factors,
     largest_factor,
     loads_at,
     pressure_factor,
+    reduced_samples,
 )
 from loadflow.studies.compare_pads import pad_margins
+from loadflow.studies.compare_seeds import of_extreme, of_life, power_of_load
+from loadflow.studies.run_lifetime import known_shares
+from loadflow.studies.seed_intervals import Groups, interval
 from loadflow.tribology import lubricant
 from loadflow.verdict import Verdict
 
 Tables = Mapping[str, xr.Dataset]
 
-SAMPLES = 40
-"""Samples of each case that are looked at again, the extremes among them."""
 
 _SLOW = 0.1  # share of the samples that counts as low speed
 _TOLD = 2  # changes that are told
@@ -68,6 +71,10 @@ def margin_of(scene: Scene, folder: Path, tables: Tables, verdicts: Sequence[Ver
     largest pressure are solved again at rest under larger or smaller loads.
     """
     found: list[Margin] = []
+    rooms = [room for room in ("journal", "thrust", "rolling") if room in tables]
+    first = tables[rooms[0]]
+    same = {room: tables[room].reindex(case=first["case"].values) for room in rooms}
+    tables = {**tables, **same}  # all of the same cases, for the seeds
     if "journal" in tables:
         table = tables["journal"]
         for place in table["bearing"].values.tolist():
@@ -82,7 +89,13 @@ def margin_of(scene: Scene, folder: Path, tables: Tables, verdicts: Sequence[Ver
     if not known:
         return Margin(math.nan)
     changes = dict.fromkeys(one.change for one in known if one.change)
-    return replace(known[0], change="; ".join([*changes][:_TOLD]))
+    low, high = math.nan, math.nan
+    if all(one.drawn is not None for one in known):
+        draws = [one.drawn for one in known if one.drawn is not None]
+        low, high = interval(
+            Groups.of(first), lambda some: float(np.nanmin([drawn(some) for drawn in draws]))
+        )
+    return replace(known[0], change="; ".join([*changes][:_TOLD]), low=low, high=high)
 
 
 # --- films ----------------------------------------------------------------------------------------
@@ -97,14 +110,14 @@ def _film_margins(scene: Scene, folder: Path, place: str, table: xr.Dataset) -> 
         yield Margin(0.0, place, case, f"shaft and shell touch in {place}", f"{place}: thicker oil")
         return
     asked = (
-        ("smallest_film", np.nanargmin, "minimum_film", stated.least_film, "smallest film"),
+        ("smallest_film", np.nanmin, "minimum_film", stated.least_film, "smallest film"),
         (
-            "largest_pressure", np.nanargmax, "maximum_pressure",
+            "largest_pressure", np.nanmax, "maximum_pressure",
             stated.limits.pressure_at(stated.limits.material[0][0]), "largest film pressure",
         ),
     )  # fmt: skip
     for name, pick, answer, limit, what in asked:
-        worst = int(pick(table[name].values))
+        worst = int(np.nanargmax(table[name].values == pick(table[name].values)))
         case, seen = str(table["case"].values[worst]), float(table[name].values[worst])
         time = float(table[f"{name}_time"].values[worst]) if f"{name}_time" in table else math.nan
         value = partial(_film_value, options, *_force_at(folder, case, place, time), answer)
@@ -116,7 +129,9 @@ def _film_margins(scene: Scene, folder: Path, place: str, table: xr.Dataset) -> 
                 change = f"{place}: oil of {thinner * options.lubricant.viscosity:.2g} Pa s"
             else:
                 factor, change = pressure_factor(value, allowed), ""
-            yield Margin(factor, place, case, f"{what} in {place}", change)
+            power = power_of_load(partial(value, oil=1.0), factor, WIDEST)
+            drawn = of_extreme(table[name], pick, factor, power)
+            yield Margin(factor, place, case, f"{what} in {place}", change, drawn)
 
 
 def _film_value(
@@ -146,15 +161,21 @@ def _rolling_margins(
     """Margins of static rating, rating life and modified life of one rolling bearing."""
     limits = scene.rolling.bearings[place].limits
     own = {v.quantity: v for v in verdicts if v.subject == f"rolling {place}"}
+    table = tables["rolling"].sel(bearing=place)
+    share = known_shares(tables, table)
+    share = np.ones(table.sizes["case"]) if share is None else np.nan_to_num(share)
     static = own.get("static rating over the design load")
     if static is not None and math.isfinite(static.value):
         what = f"static rating of {place}"
-        yield Margin(static.value / limits.static_safety, place, static.case, what)
+        factor = static.value / limits.static_safety
+        drawn = of_extreme(table["bearing_design_safety"], np.nanmin, factor, -1.0)
+        yield Margin(factor, place, static.case, what, drawn=drawn)
     bearing = scene.rolling.geometries[place]
     basic = own.get("rating life L10h")
     if basic is not None and math.isfinite(basic.value):
         factor = (basic.value / limits.life) ** (1 / bearing.life_exponent)
-        yield Margin(factor, place, governs=f"rating life of {place}")
+        drawn = of_life(damage_per_hour(table, ""), share, factor, bearing.life_exponent)
+        yield Margin(factor, place, governs=f"rating life of {place}", drawn=drawn)
     modified = own.get("modified rating life L10mh")
     if modified is None or not math.isfinite(modified.value):
         return
@@ -170,7 +191,15 @@ def _rolling_margins(
     lives = [life(1.0, replace(grease, temperature=grease.temperature + w)) for w in warmth]
     short = np.flatnonzero(np.array(lives) < allowed)
     change = f"{place}: oil {warmth[short[0]]:.0f} K warmer" if short.size and short[0] > 0 else ""
-    yield Margin(factor, place, governs=f"modified life of {place}", change=change)
+    power = -power_of_load(life, factor, WIDEST)
+    drawn = of_life(damage_per_hour(table, "modified_"), share, factor, power)
+    yield Margin(factor, place, governs=f"modified life of {place}", change=change, drawn=drawn)
+
+
+def damage_per_hour(table: xr.Dataset, kind: str) -> xr.DataArray:
+    """Damage of each case in an hour by the rating life, or the ``modified_`` one."""
+    revolutions = table["mean_speed"] / (2 * np.pi) * 3600
+    return revolutions / (table[f"bearing_{kind}life"] * 1e6)
 
 
 def lubrication(options: Friction) -> Lubrication:
@@ -204,13 +233,13 @@ def _solved(scene: Scene, place: str, some: xr.Dataset) -> Any:
     force, moment = (
         some[name].transpose("sample", "axis").values.astype(float) for name in ("force", "moment")
     )
-    return rest(scene.rolling.bearings[place], force, moment, strict=False)
+    return rest(bearing_at_work(scene, place, some), force, moment, strict=False)
 
 
 def _looked_at(folder: Path, place: str) -> Iterator[tuple[str, xr.Dataset]]:
     """Yield each case and some of its samples, that with the largest thrust among them."""
     for path in sorted((folder / "reduction").glob("*.h5")):
-        samples = open_cube(path)[place].to_dataset().load()
+        samples = reduced_samples(path, place)
         count = samples.sizes["sample"]
         spread = np.linspace(0, count - 1, min(SAMPLES, count)).round().astype(int)
         thrust = int(np.argmax(np.abs(samples["force"].sel(axis="x").values)))
@@ -336,96 +365,3 @@ def rolling_losses(scene: Scene, folder: Path) -> Losses | None:
     for _, film, name, _ in thin[place]:
         by_case.setdefault(name, []).append(film)
     return Losses(table, medians[place], place, case, time, slow, by_case)
-
-
-# --- shaft ----------------------------------------------------------------------------------------
-
-
-def carries_thrust(scene: Scene, tables: Tables) -> str:
-    """What carries the force along the shaft, in words."""
-    if "rolling" in tables:
-        table = tables["rolling"]
-        for place, bearing in scene.rolling.geometries.items():
-            force = float(table["bearing_axial_force"].sel(bearing=place).max())
-            if force > 0 and bearing.takes_thrust:
-                return f"{place}, up to {force / 1e3:.0f} kN"
-    if "thrust" in tables:
-        forces = tables["thrust"]["largest_axial_load"].max("case")
-        k = int(np.argmax(forces.values))
-        return f"{forces['bearing'].values[k]}, up to {float(forces[k]) / 1e3:.0f} kN"
-    if "journal" in tables:
-        force = float(tables["journal"]["largest_axial_load"].max())
-        return f"none: needs a thrust bearing for {force / 1e3:.0f} kN"
-    return "none"
-
-
-@dataclass(frozen=True)
-class Tilt:
-    """Largest tilt of the shaft in a bearing over what that allows; NaN where none is limited.
-
-    `by_case` has that of the bearing in each load case.
-    """
-
-    share: float = math.nan
-    place: str = ""
-    case: str = ""
-    note: str = "the bearing takes the moment"
-    by_case: dict[str, float] = field(default_factory=dict)
-
-
-def shaft_tilt(scene: Scene, folder: Path, tables: Tables) -> Tilt:
-    """Largest tilt of the shaft in a bearing over what it allows.
-
-    The shaft bends as its beam does; without one, as a hollow beam that fits into the bearings.
-    A bearing that takes the moment tilts with the shaft, without a limit.
-    """
-    from loadflow.turbines import load_turbine
-
-    places = _allowed_tilts(scene, tables)
-    found: dict[str, Tilt] = {}
-    gravity = load_turbine(scene.turbine.name).rotor.tilt
-    for concept in scene.shaft.concepts:
-        own = [place for place in concept.bearings if place in places]
-        if not own or len(concept.bearings) < 2:
-            continue
-        outer = min(places[place][1] for place in own)
-        beam = concept.beam or Beam(sections=(ShaftSection(outer, outer / 2),))
-        note = "" if concept.beam else f"of a hollow shaft of {1e3 * outer:.0f} mm"
-        line = replace(concept, beam=beam.on_rigid_bearings())
-        for path in sorted((folder / "loads").glob("*.h5")):
-            series: Any = open_cube(path)
-            count = series.sizes["time"]
-            some = np.linspace(0, count - 1, min(SAMPLES, count)).round().astype(int)
-            force, moment = (
-                series[name].transpose("axis", "time").values[:, some].astype(float)
-                for name in ("hub_force", "hub_moment")
-            )
-            tilts = bearing_loads(line, force, moment, tilt=gravity)["tilt"]
-            across = tilts.sel(axis=["y", "z"]).transpose("bearing", "axis", "time").values
-            size = np.linalg.norm(across, axis=1).max(axis=1)
-            largest = dict(zip(tilts["bearing"].values.tolist(), size.tolist()))
-            for place in own:
-                limit, one = places[place][0], found.get(place, Tilt(0.0, place, note=note))
-                if limit > 0:
-                    share = largest[place] / limit
-                    by_case = one.by_case | {path.stem: share}
-                    more = (share, path.stem) if share > one.share else (one.share, one.case)
-                    found[place] = Tilt(more[0], place, more[1], note, by_case)
-    return max(found.values(), key=lambda one: one.share, default=Tilt())
-
-
-def _allowed_tilts(scene: Scene, tables: Tables) -> dict[str, tuple[float, float]]:
-    """By place: tilt that the bearing allows, rad (0: no limit), and the shaft's diameter, m.
-
-    A journal bearing allows that which closes its smallest film at an end.
-    """
-    found: dict[str, tuple[float, float]] = {}
-    if "journal" in tables:
-        for place in scene.journal.bearings:
-            size = scene.journal.at(place).geometry
-            film = float(tables["journal"]["smallest_film"].sel(bearing=place).min())
-            found[place] = 2 * film / size.width, size.diameter
-    if "rolling" in tables:
-        for place, bearing in scene.rolling.geometries.items():
-            found[place] = bearing.allowed_tilt or 0.0, 0.8 * bearing.pitch_diameter
-    return found

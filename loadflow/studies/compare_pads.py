@@ -14,7 +14,14 @@ import xarray as xr
 from loadflow.errors import SolverError
 from loadflow.scene.thrust import AnyAxial
 from loadflow.stages.frames import to_rolling
-from loadflow.studies.compare_factor import Margin, film_factors, loads_at, pressure_factor
+from loadflow.studies.compare_factor import (
+    WIDEST,
+    Margin,
+    film_factors,
+    loads_at,
+    pressure_factor,
+)
+from loadflow.studies.compare_seeds import of_extreme, power_of_load
 
 
 def pad_margins(bearing: AnyAxial, folder: Path, place: str, table: xr.Dataset) -> Iterator[Margin]:
@@ -29,13 +36,13 @@ def pad_margins(bearing: AnyAxial, folder: Path, place: str, table: xr.Dataset) 
         return
     pressure = bearing.limits.pressure_at(bearing.limits.material[0][0])
     asked = (
-        ("smallest_film", np.nanargmin, "minimum_film", bearing.least_film, "smallest film"),
-        ("largest_pressure", np.nanargmax, "maximum_pressure", pressure, "largest film pressure"),
+        ("smallest_film", np.nanmin, "minimum_film", bearing.least_film, "smallest film"),
+        ("largest_pressure", np.nanmax, "maximum_pressure", pressure, "largest film pressure"),
     )
-    for name, pick, field, limit, what in asked:
+    for name, extreme, field, limit, what in asked:
         if not np.isfinite(table[name].values).any():
             continue
-        worst = int(pick(table[name].values))
+        worst = int(np.nanargmax(table[name].values == extreme(table[name].values)))
         case, time = str(table["case"].values[worst]), float(table[f"{name}_time"].values[worst])
         force, moment, speed = loads_at(folder, case, place, time)
         value = partial(value_of, bearing, to_rolling(force), to_rolling(moment), speed, field)
@@ -43,9 +50,11 @@ def pad_margins(bearing: AnyAxial, folder: Path, place: str, table: xr.Dataset) 
         if field == "minimum_film":
             factor, thinner = film_factors(value, limit)
             change = f"{place}: oil of {thinner * bearing.lubricant.viscosity:.2g} Pa s"
-            yield Margin(factor, place, case, told, change)
         else:
-            yield Margin(pressure_factor(value, limit), place, case, told)
+            factor, change = pressure_factor(value, limit), ""
+        power = power_of_load(partial(value, oil=1.0), factor, WIDEST)
+        drawn = of_extreme(table[name], extreme, factor, power)
+        yield Margin(factor, place, case, told, change, drawn)
 
 
 def value_of(

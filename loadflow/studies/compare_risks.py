@@ -10,12 +10,14 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from loadflow.cube import open_cube
+from loadflow.cube.hdf5 import read_variables
 from loadflow.scene.scene import Scene
 from loadflow.scene.wear import check_wear
 from loadflow.stages.film_summary import STANDING
 from loadflow.stages.frames import to_rolling
-from loadflow.stages.rolling import rest
+from loadflow.stages.rolling import bearing_at_work
+from loadflow.stages.rolling_at_work import rest
+from loadflow.studies.compare_factor import reduced_samples
 from loadflow.studies.compare_result import Number
 from loadflow.studies.seed_intervals import Groups, interval
 
@@ -136,7 +138,7 @@ def _standing(scene: Scene, folder: Path, table: xr.Dataset, share: np.ndarray) 
     """Share of the lifetime in which the shaft stands, and the largest pressure meanwhile."""
     stands, worst = np.zeros(table.sizes["case"]), (0.0, "", "", math.nan)
     for k, case in enumerate(table["case"].values.tolist()):
-        series: Any = open_cube(folder / "loads" / f"{case}.h5")
+        series = read_variables(folder / "loads" / f"{case}.h5", ("speed",))
         stands[k] = float((np.abs(series["speed"].values) < STANDING).mean())
     for place, case, some in _samples(scene, folder):
         still = np.abs(some["speed"].values) < STANDING
@@ -171,7 +173,7 @@ def _samples(scene: Scene, folder: Path) -> Iterator[tuple[str, str, xr.Dataset]
         if part.oscillation is not None:
             continue
         for path in sorted((folder / "reduction").glob("*.h5")):
-            samples = open_cube(path)[place].to_dataset().load()
+            samples = reduced_samples(path, place)
             radial = to_rolling(samples["force"].transpose("sample", "axis").values)
             size = np.linalg.norm(radial, axis=1)
             speed = np.abs(samples["speed"].values)
@@ -187,4 +189,4 @@ def _equilibrium(scene: Scene, place: str, some: xr.Dataset) -> Any:
     force, moment = (
         some[name].transpose("sample", "axis").values.astype(float) for name in ("force", "moment")
     )
-    return rest(scene.rolling.bearings[place], force, moment, strict=False)
+    return rest(bearing_at_work(scene, place, some), force, moment, strict=False)

@@ -21,8 +21,7 @@ from loadflow.scene.friction import Friction
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Candidate
 from loadflow.stages.film_of_bearing import equilibria, shaft_line, surely_touching
-from loadflow.stages.friction import friction_options
-from loadflow.stages.rolling import rest
+from loadflow.stages.rolling_at_work import as_stated, friction_options, rest
 from loadflow.studies.compare_factor import largest_factor
 from loadflow.studies.compare_margins import lubrication
 from loadflow.studies.compare_result import QUANTITIES
@@ -303,8 +302,8 @@ def _add_rolling(
 ) -> None:
     """Add what the rolling bearings lose, and how far their limits are."""
     lives: list[_Turned] = []
-    for place, part in parts.items():
-        samples = spectrum[place].to_dataset()
+    for place, stated in parts.items():
+        part, samples = as_stated(stated, friction), spectrum[place].to_dataset()
         turned = _Turned.of(part, samples, friction)
         lives.append(turned)
         sums.power += turned.power

@@ -149,7 +149,13 @@ class Designs:
             count = f"{len(self.answers)} designs of {self.title}"
             told = f"None of {count} holds all limits with {asked}"
             if self.tried:
-                return f"{told}: {self.tried} did by the fast models, none when it was run."
+                fast = sum(
+                    a.load_factor >= self.options.margin and a.condition >= 1 for a in self.answers
+                )
+                return (
+                    f"{told}: by the fast models {fast} do, but none of the {self.tried} of them "
+                    "that were run."
+                )
             if math.isfinite(most):
                 return f"{told}; the widest margin that was found is {most:.3g}."
             return f"{told}."
@@ -298,6 +304,28 @@ def best_of(
         and points[k].tobytes() not in passed
     ]
     return points[min(holding)[1]] if holding else None
+
+
+def most_room(
+    points: Sequence[np.ndarray],
+    answers: Sequence[DesignPoint],
+    margin: float,
+    passed: Sequence[bytes] = (),
+) -> np.ndarray | None:
+    """Point of the design that is furthest from its nearest limit; None where none holds.
+
+    Parameters
+    ----------
+    points, answers, margin, passed
+        As of `best_of`.
+    """
+    rooms = [
+        (min(answer.load_factor / margin, answer.condition), k)
+        for k, answer in enumerate(answers)
+        if not answer.why and math.isfinite(answer.energy) and points[k].tobytes() not in passed
+    ]
+    room, k = max(rooms, default=(0.0, -1))
+    return points[k] if room >= 1 else None
 
 
 def scene_of_best(scene: Scene, designs: Designs) -> str:

@@ -20,7 +20,7 @@ from loadflow.scene.journal import Journal
 from loadflow.scene.thrust import Thrust
 from loadflow.scene.tolerances import ALIGNMENT, Toleranced
 from loadflow.stages.comparisons import THINNING
-from loadflow.stages.rolling import rest
+from loadflow.stages.rolling_at_work import as_stated, rest
 from loadflow.tribology import lubricant
 
 _ABOUT = {
@@ -292,7 +292,8 @@ def _pushed(built: Built, rolling: Rolling, way: tuple[float, float]) -> xr.Data
         force, moment = (
             samples[name].transpose("sample", "axis").values for name in ("force", "moment")
         )
-        stiffness = rest(part, force, moment, strict=False).stiffness
+        warm = as_stated(part, built.friction)
+        stiffness = rest(warm, force, moment, strict=False).stiffness
         free = np.linalg.pinv(stiffness)[:, 3:, 3:]
         extra = np.zeros_like(moment)
         extra[:, 1:] = np.linalg.pinv(free) @ np.array(way)

@@ -22,6 +22,7 @@ from loadflow.rolling.rating.static import HOURS_20_YEARS
 from loadflow.scene.bearings import around, standing_ring
 from loadflow.scene.scene import read_scene
 from loadflow.stages.rolling import KEPT
+from loadflow.stages.rolling_at_work import as_stated
 from loadflow.studies.journal_point import Load, quantities
 
 Rings = Literal["rigid"] | FlexibleRings
@@ -73,16 +74,20 @@ def slewing_bearing(
 def bearing_of_scene(path: Path, name: str | None) -> tuple[RollingBearing, Rings]:
     """Return a rolling bearing of a scene, its first if no `name` is given, and its rings.
 
+    With a mounting it has its clearance at the temperature of the section ``[friction]``.
+
     Raises
     ------
     loadflow.errors.InputError
         No such scene or bearing.
     """
-    bearings = read_scene(path).rolling.bearings
+    scene = read_scene(path)
+    bearings = scene.rolling.bearings
     name = name or next(iter(bearings))
     if name not in bearings:
         raise InputError(f"{path}: no rolling bearing {name!r}; there are {', '.join(bearings)}")
-    return bearings[name].geometry, bearings[name].ring_model
+    part = as_stated(bearings[name], scene.friction)
+    return part.geometry, part.ring_model
 
 
 def rolling_point(

@@ -20,8 +20,8 @@ from loadflow.scene.scene import Scene
 from loadflow.scene.thrust import AnyAxial
 from loadflow.stages.film_of_bearing import equilibria, shaft_line
 from loadflow.stages.frames import to_rolling
-from loadflow.stages.friction import friction_options, least_film_parameter
-from loadflow.stages.rolling import rest
+from loadflow.stages.friction import least_film_parameter
+from loadflow.stages.rolling_at_work import as_stated, friction_options, rest
 from loadflow.stages.thrust import solved
 from loadflow.studies.compare import Finished
 from loadflow.studies.compare_margins import load_by_row, lubrication
@@ -70,10 +70,11 @@ def with_bands(
         Its `change` names tolerances that break a limit by themselves.
     """
     built = Built(_bearings(run, scene), scene.friction, spectrum)
+    known = Known()
     around: dict[str, list[tuple[str, float, float]]] = {}
     breaking = []
     for tolerance in tolerances_of(built, given):
-        moved = _moved(one, tolerance)
+        moved = _moved(one, tolerance, known)
         for key, (low, high) in moved.items():
             around.setdefault(key, []).append((tolerance.name, low, high))
         factor = one.numbers["load_factor"].value
@@ -106,9 +107,25 @@ def _banded(number: Number, around: Sequence[tuple[str, float, float]]) -> Numbe
     )
 
 
-def _moved(one: Judged, tolerance: Tolerance) -> dict[str, tuple[float, float]]:
+class Known:
+    """Numbers of the bearings as stated, which most tolerances share."""
+
+    def __init__(self) -> None:
+        self._found: list[tuple[Built, dict[str, float]]] = []
+
+    def of(self, built: Built) -> dict[str, float]:
+        """Those of one object, computed once."""
+        for one, numbers in self._found:
+            if one is built:
+                return numbers
+        numbers = cheap_numbers(built)
+        self._found.append((built, numbers))
+        return numbers
+
+
+def _moved(one: Judged, tolerance: Tolerance, known: Known) -> dict[str, tuple[float, float]]:
     """By quantity, how far a tolerance moves its value down and up, in the unit of the number."""
-    stated = cheap_numbers(tolerance.stated)
+    stated = known.of(tolerance.stated)
     found: dict[str, tuple[float, float]] = {}
     for end in tolerance.ends:
         there = cheap_numbers(end)
@@ -208,8 +225,9 @@ def _of_rolling(
 ) -> dict[str, float]:
     """Thinnest films, smallest κ and load, and the load of the row that takes the thrust."""
     films, ratios, loads, rows = [], [], [], [0.0]
-    for place, part in parts.items():
-        bearing, samples = part.geometry, spectrum[place].to_dataset()
+    for place, stated in parts.items():
+        part, samples = as_stated(stated, friction), spectrum[place].to_dataset()
+        bearing = part.geometry
         force, moment, speed = (
             samples[name].transpose("sample", ...).values for name in ("force", "moment", "speed")
         )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Literal
 
@@ -24,7 +24,7 @@ from loadflow.journal import (
 from loadflow.tribology import ExponentialOil
 from loadflow.validation.check import Check, evidence
 
-Rung = Literal["isoviscous", "adiabatic"]
+Rung = Literal["isoviscous", "adiabatic", "full"]
 _SOURCE = "ROSS (another code), fixed_{}.json"
 _CELSIUS = 273.15
 
@@ -78,8 +78,21 @@ LADDER = (
     _row("adiabatic", "T out, loaded pad", "trailing_temperature", 71.46, 1.5, **_WARM, index=0),
     _row("adiabatic", "T in, upper pad", "leading_temperature", 62.56, 1.5, **_WARM, index=0),
     _row("adiabatic", "T out, upper pad", "trailing_temperature", 66.15, 1.5, **_WARM, index=1),
+    _row("full", "ε", "eccentricity_ratio", 0.62676, 0.01),
+    _row("full", "loss", "friction_power", 8181.1, 0.03, **_SHARE, unit="W"),
+    _row("full", "p_max", "maximum_pressure", 2.8242, 0.02, **_SHARE, unit="MPa", factor=1e-6),
+    _row("full", "T_max", "maximum_temperature", 71.87, 2.0, **_WARM),
+    _row("full", "T in, loaded pad", "leading_temperature", 55.89, 2.0, **_WARM, index=1),
+    _row("full", "T out, loaded pad", "trailing_temperature", 69.45, 2.0, **_WARM, index=0),
+    _row("full", "T in, upper pad", "leading_temperature", 61.31, 2.0, **_WARM, index=0),
+    _row("full", "T out, upper pad", "trailing_temperature", 65.13, 2.0, **_WARM, index=1),
 )
-"""Rows of the ladder from one viscosity to that of every cell."""
+"""Rows of the ladder: one viscosity, that of every cell, that of a temperature across the film."""
+
+# heat through the pad of 150 mm and from its back, to the mean temperature of the oil that drains,
+# and a shaft as warm as the film on the mean, as the source has it
+_THROUGH = {"shell_transfer": 332.5, "shell_temperature": 325.942}
+_THROUGH |= {"shaft_transfer": 1e6, "shaft_temperature": _CELSIUS + 63.72}
 
 
 def ladder_bearing() -> JournalBearing:
@@ -99,12 +112,14 @@ def ladder_state(rung: Rung) -> FilmHeatEquilibrium:
     oil = ExponentialOil(
         reference_viscosity=0.01901574,
         reference_temperature=322.9833,
-        constant_steepness=0.0300690 if rung == "adiabatic" else 0.0,
+        constant_steepness=0.0 if rung == "isoviscous" else 0.0300690,
         reference_density=854.952,
         constant_specific_heat=1951.50,
         constant_conductivity=0.15,
     )
     heat = FilmHeat(oil, inlet_temperature=323.0, carry_over=0.8)
+    if rung == "full":
+        heat = replace(heat, points=4, **_THROUGH)
     film = Film(None, MassConserving(), edge_pressure=100.0, grid=(80, 20), heat=heat)
     state = ladder_bearing().equilibrium((112814.907, 0.0), 94.24778, film)
     assert isinstance(state, FilmHeatEquilibrium)
@@ -134,15 +149,16 @@ def couette_check(cells: int = 100) -> Check:
 # tilting pads [Fillon, Bligoud and Frêne 1992]: 1/min; largest temperature of a pad, measured (read
 # off a figure to 1 K) and by the authors' model with elastic pads, °C
 FILLON = ((1000, 49.5, 43.7), (2000, 59.5, 53.4), (3000, 67.5, 63.2))
-_CONDUCTION = "slow films lose much of their heat through the pads, which the adiabatic film keeps"
+_SLOW = "their model has the coldest pad of all published ones there, 5.8 K below the measurement"
 
 
 def pad_checks() -> Iterator[Check]:
-    """Four pads of 75° under 10 kN between them, adiabatic; 4/5 of the hot oil carried over.
+    """Four pads of 75° under 10 kN between them; 4/5 of the hot oil carried over.
 
-    Clearance is the assembled one. All published models lie 4 to 7 K below the measurement, so that
-    it is held to from 8 K below to 2 K above, which is 3 K below within 5 K; the authors' model
-    within 4 K.
+    A cubic across the film; heat passes through 20 mm of steel and from the backs of the pads, as
+    in the large bearing of this file, into oil as it is supplied; none into the shaft. Clearance is
+    the assembled one. All published models lie 4 to 7 K below the measurement, so that it is held
+    to from 8 K below to 2 K above, which is 3 K below within 5 K; the authors' model within 4 K.
     """
     oil = ExponentialOil(
         reference_viscosity=0.0277,
@@ -154,17 +170,21 @@ def pad_checks() -> Iterator[Check]:
     )
     pads = TiltingPads(4, np.radians(75.0), preload=0.47, angle=np.pi / 4)
     bearing = JournalBearing(0.1, 0.07, 78.44e-6 / 0.05, shape=pads)
-    heat = FilmHeat(oil, inlet_temperature=313.15, carry_over=0.8)
+    through = 1.0 / (0.020 / 50.0 + 1.0 / 735.9)
+    heat = FilmHeat(
+        oil, inlet_temperature=313.15, carry_over=0.8, points=4, shell_transfer=through,
+        shell_temperature=313.15, shaft_transfer=1e6,
+    )  # fmt: skip
     film = Film(None, MassConserving(), edge_pressure=1e4, grid=(80, 12), heat=heat)
     for rpm, measured, computed in FILLON:
         state = bearing.equilibrium((1e4, 0.0), rpm * np.pi / 30, film)
         assert isinstance(state, FilmHeatEquilibrium)
         got = float(state.maximum_temperature) - _CELSIUS
-        missed = _CONDUCTION if rpm < 3000 else ""
+        missed = _SLOW if rpm == 1000 else ""
         name, source = f"T_max of four pads, {rpm}/min", "Fillon, Bligoud and Frêne 1992"
         yield Check(
             f"{name}, 3 K below the measured", source, measured - 3.0, got, 5.0, "absolute", "°C",
-            missed=missed, evidence="measured elsewhere",
+            evidence="measured elsewhere",
         )  # fmt: skip
         yield Check(
             f"{name}, their model", source, computed, got, 4.0, "absolute", "°C",

@@ -120,7 +120,7 @@ def reference_effect(wall: float = 0.15, modulus: float = 210e9) -> Effect:
     load, speed = (2.58426e6, -0.45968e6), 12.1 * 2 * np.pi / 60
     rigid = bearing.equilibrium(load, speed, **film)
     soft = bearing.equilibrium(load, speed, shell=shell, **film)
-    mesh = shaped_mesh(bearing.width / bearing.diameter, (60, 20), False, False, (), [], [])
+    mesh = shaped_mesh(bearing.width / bearing.diameter, (60, 20), False, False, (), (), ())
     return Effect(
         1e6 * float(compliance_of(shell, mesh, bearing.radius).local.max()),
         float(soft.shell_deformation),

@@ -13,6 +13,7 @@ load, and 20 % of the speed of the least moment.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 
@@ -33,17 +34,29 @@ MEASURED = {
 }  # fmt: skip
 """Moment, N m, over the speed, 1/min, for each load, N."""
 
-_LEFT_OUT = "rigid, aligned bearings and constant viscosity leave too much of the load to the oil"
+_LEFT_OUT = (
+    "aligned bearings leave too much of the load to the oil: tilted by 0.15 of the clearance, 4 kN "
+    "is met, and 8 kN misses half as much"
+)
 
 
-def moments(load: float, speeds: np.ndarray) -> np.ndarray:
-    """Moment of the shaft on all three bearings, N m, at speeds (n,), 1/min."""
+def moments(load: float, speeds: np.ndarray, tilted: float = 0.0) -> np.ndarray:
+    """Moment of the shaft on all three bearings, N m, at speeds (n,), 1/min.
+
+    `tilted`: rise of the shaft at the ends of each bearing, in its plane of the load, over the
+    clearance.
+    """
     omega = speeds * np.pi / 30
     tested, supporting = (
-        bearing.equilibrium((force, 0.0), omega, FILM)
+        bearing.equilibrium((force, 0.0), omega, FILM, **_tilt(bearing, tilted))
         for bearing, force in ((TEST, load), (SUPPORT, 0.5 * load))
     )
     return np.asarray((tested.friction_power + 2 * supporting.friction_power) / omega)
+
+
+def _tilt(bearing: JournalBearing, share: float) -> dict[str, Any]:
+    rise = share * bearing.relative_clearance * bearing.diameter / bearing.width
+    return {"tilt": (rise, 0.0)} if share else {}
 
 
 @evidence("measured elsewhere")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -15,6 +17,10 @@ from loadflow.wind.mann import mann_box
 from loadflow.wind.options import Machine, WindOptions
 from loadflow.wind.seeding import case_seed
 from loadflow.wind.turbulence import Method, kaimal, sample_times
+
+DRAWN_STEP = 0.05
+"""Step down to which the noise of a field is drawn, s: a field of a longer step is the same wind,
+gust for gust, without what is faster than it can show."""
 
 
 def rotor_grid(machine: Machine, options: WindOptions) -> PolarGrid:
@@ -46,6 +52,9 @@ def coherence_factors(machine: Machine, options: WindOptions) -> CoherenceFactor
     True
     """
     return CoherenceFactors(rotor_grid(machine, options), length_scale(machine.hub_height))
+
+
+_factors = lru_cache(maxsize=2)(coherence_factors)
 
 
 def inflow(
@@ -107,7 +116,8 @@ def inflow(
             scaling=options.scaling,
             lateral=options.lateral,
             method=method,
-            factors=factors,
+            factors=factors or (_factors(machine, options) if method == "fast" else None),
+            oversampled=max(1, round(options.step / DRAWN_STEP)),
         )
     time = sample_times(condition.duration, options.step)
     return gusts.gust_field(

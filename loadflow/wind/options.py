@@ -53,7 +53,8 @@ class WindOptions:
     radii, angles : int
         Number of radii (with the hub) and of angles of the polar grid.
     step : float
-        Time step of the wind, s.
+        Time step of the wind, s. Half of it moves the deviations of the hub moments by less than
+        0.2 %, their extremes by less than 0.5 % (docs/wind.md).
 
     Examples
     --------
@@ -75,7 +76,7 @@ class WindOptions:
     lateral: Lateral = "coherent"
     radii: Annotated[int, Ge(2)] = 11
     angles: Annotated[int, Ge(3)] = 48
-    step: Annotated[float, Gt(0)] = 0.05
+    step: Annotated[float, Gt(0)] = 0.1
 
     def __post_init__(self) -> None:
         for name, kind in _CHOICES.items():

@@ -11,6 +11,7 @@ the grid, and the field is a Gaussian process with exactly the spectrum and cohe
 
 from __future__ import annotations
 
+from numbers import Integral
 from typing import Literal
 
 import numpy as np
@@ -29,6 +30,7 @@ from loadflow.wind.coherence import (
 from loadflow.wind.field import Field
 from loadflow.wind.iec import COMPONENT_SIGMA, Floats
 from loadflow.wind.iec import length_scale as iec_length_scale
+from loadflow.wind.noise import NormalStream
 from loadflow.wind.options import Lateral, Scaling
 from loadflow.wind.seeding import Seed, as_sequence, child
 from loadflow.wind.spectra import check_turbulence, coherence_decay, kaimal_spectrum
@@ -54,6 +56,7 @@ def kaimal(
     lateral: Lateral = "coherent",
     method: Method = "fast",
     factors: CoherenceFactors | None = None,
+    oversampled: int = 1,
 ) -> Field:
     """Turbulence on a polar grid around the hub.
 
@@ -88,6 +91,9 @@ def kaimal(
         Factors interpolated over the decay, or computed at each frequency.
     factors : CoherenceFactors, optional
         Ready factors of this grid, for many seeds and speeds (only with "fast").
+    oversampled : int
+        How many times as fast as `dt` asks for the noise is drawn. The field is then that of the
+        step dt / oversampled, gust for gust, without its fluctuations above 1 / (2 dt).
 
     Returns
     -------
@@ -113,7 +119,7 @@ def kaimal(
     scale = _length_scale(hub_height, length_scale)
     parts, time = _components(
         _choose(method, factors, grid, scale), wind_speed, sigma, duration, dt, seed,
-        components, scaling, lateral, hub=(0, 0),
+        components, scaling, lateral, hub=(0, 0), oversampled=oversampled,
     )  # fmt: skip
     # one after another, so that each is freed: a fine grid takes 300 MB a component
     fields = [time_first(parts.pop(0)) for _ in components]
@@ -215,6 +221,7 @@ def _components(
     scaling: Scaling,
     lateral: Lateral,
     hub: tuple[int, ...],
+    oversampled: int = 1,
 ) -> tuple[list[NDArray[np.float32]], Floats]:
     """Components with the axes of `Grid.to_points` and time last; and the time."""
     import scipy.fft
@@ -224,13 +231,16 @@ def _components(
     _check_choice("scaling", scaling, ("none", "hub", "each"))
     _check_choice("lateral", lateral, ("coherent", "independent"))
     time = sample_times(duration, dt)
+    if not (isinstance(oversampled, Integral) and oversampled >= 1):
+        raise InputError(f"oversampled = {oversampled} must be a whole number >= 1")
     period = scipy.fft.next_fast_len(len(time), real=True)
+    drawn = oversampled * period // 2 + 1
     frequency = np.arange(period // 2 + 1) / (period * dt)
     decay = coherence_decay(frequency, wind_speed, factors.length_scale)
     root = as_sequence(seed)
     parts = []
     for k in range(len(components)):
-        noise = _noise(factors.grid, len(frequency), child(root, k))
+        noise = _noise(factors.grid, len(frequency), drawn, child(root, k))
         if k == 0 or lateral == "coherent":
             factors.correlate(noise, decay)
         else:
@@ -255,10 +265,17 @@ def sample_times(duration: float, dt: float) -> Floats:
     return np.arange(int(np.ceil(round(duration / dt, 6))) + 1, dtype=float) * dt
 
 
-def _noise(grid: Grid, count: int, seed: np.random.SeedSequence) -> NDArray[np.complex64]:
-    """Complex Gaussian noise of variance 2 at `count` frequencies, none at the first, zero."""
-    shape = (grid.blocks, grid.order, 2 * count)
-    noise = np.random.default_rng(seed).standard_normal(shape, dtype=np.float32)
+def _noise(
+    grid: Grid, count: int, drawn: int, seed: np.random.SeedSequence
+) -> NDArray[np.complex64]:
+    """Complex Gaussian noise of variance 2 at the first `count` of the `drawn` frequencies, none at
+    the first of them, zero.
+    """
+    noise = np.empty((grid.blocks, grid.order, 2 * count), dtype=np.float32)
+    stream, row = NormalStream(seed), np.empty(2 * drawn, dtype=np.float32)
+    for part in noise.reshape(-1, 2 * count):
+        stream.fill(row)
+        part[:] = row[: 2 * count]
     noise[..., :2] = 0
     return noise.view(np.complex64)
 

@@ -21,11 +21,10 @@ from loadflow.errors import InputError
 from loadflow.planning.effects import EffectVerdict
 from loadflow.planning.plan import make_plan
 from loadflow.report.sketch import sketch
+from loadflow.running.candidates import candidate_scene, candidates_for
 from loadflow.running.comparison import (
     SHARED,
     Means,
-    candidate_scene,
-    candidates_for,
     compare,
     shared_loads,
 )
@@ -86,6 +85,14 @@ def test_numbers_are_finite_where_they_are_asked(found):
     assert film.low <= film.value <= film.high
     assert film.value > film.limit
     assert film.case.startswith("dlc1.1")
+
+
+def test_the_margin_with_the_seeds_as_they_are_lies_in_its_interval(found):
+    for one in found.comparison.candidates:
+        factor = one.numbers["load_factor"]
+        assert factor.low <= factor.value * (1 + 1e-9)
+        assert factor.value <= factor.high * (1 + 1e-9)
+        assert factor.high > factor.low, one.name
 
 
 def test_the_load_factor_of_a_film_is_where_its_limit_is(found):

@@ -82,14 +82,15 @@ def test_stiffness_is_the_slope_of_the_load():
 
 
 def test_damping_is_the_lag_behind_a_load_that_grows_slowly():
-    rate, time = np.array([20.0, -10.0]), np.linspace(0.0, 2.0, 41)
+    film = replace(FILM, cavitation=Guembel())  # damping is that of a fill that stays
+    rate, time = np.array([2.0, -1.0]), np.linspace(0.0, 20.0, 41)
     force = FORCE + np.outer(time - time[-1], rate)
-    path = BEARING.orbit(time, force, SPEED, FILM, tolerance=1e-11)
-    still = BEARING.equilibrium(FORCE, SPEED, FILM, **TIGHT)
+    path = BEARING.orbit(time, force, SPEED, film, tolerance=1e-12)
+    still = BEARING.equilibrium(FORCE, SPEED, film, tolerance=1e-12)
     moving = np.gradient(path.eccentricity.values, time, axis=0)[-1]
     lag = still.eccentricity - path.eccentricity.values[-1]
     behind = np.linalg.solve(still.stiffness, still.damping @ moving)
-    np.testing.assert_allclose(lag, behind, atol=0.02 * np.abs(behind).max())
+    np.testing.assert_allclose(lag, behind, atol=0.002 * np.abs(behind).max())
 
 
 def test_a_yielding_shell_spreads_the_contact():

@@ -4,8 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.linalg import solve_banded
 
-from loadflow.journal import Film, FilmHeat, MassConserving
+from loadflow.journal import Arc, Film, FilmHeat, JournalBearing, MassConserving, Sommerfeld
 from loadflow.journal.film.surface_temperatures import Surfaces
 from loadflow.tribology import ExponentialOil
 from loadflow.validation.film_heat import ladder_bearing
@@ -98,13 +99,67 @@ def test_without_conduction_three_points_are_one():
     np.testing.assert_allclose(three.surface_temperature, three.film_temperature, rtol=1e-9)
 
 
+@pytest.mark.parametrize("points", [3, 4])
 @pytest.mark.parametrize("shaft", [{}, {"shaft_temperature": 330.0}])
-def test_all_heat_is_accounted_for(shaft):
+def test_all_heat_is_accounted_for(shaft, points):
     state = solved(
-        points=3, shell_transfer=300.0, shell_temperature=325.9, shaft_transfer=1e6, **shaft
+        points=points, shell_transfer=300.0, shell_temperature=325.9, shaft_transfer=1e6, **shaft
     )
     assert state.heat_imbalance < 1e-8
     assert state.heat_conducted > 0.05 * state.friction_power
+
+
+def entering(length, out, into, shaft):
+    """Temperatures above those of entering oil, of a sheared film marched along 2000 steps of 100
+    cells across: mean of the film and its shell's surface at the end.
+    """
+    heavy, speed, gap, cells, steps = 860.0 * 1951.8, 10.471976, float(GAP[0]), 100, 2000
+    high, step = gap / cells, length / steps
+    velocity = speed * (np.arange(cells) + 0.5) / cells
+    made = VISCOSITY * speed**2 / gap**2 * high
+    each = heavy * velocity * high / step
+    bands = np.zeros((3, cells))
+    bands[0, 1:] = bands[2, :-1] = -CONDUCTIVITY / high
+    bands[1] = each + 2.0 * CONDUCTIVITY / high
+    for row, transfer in ((0, out), (-1, into)):
+        bands[1, row] -= CONDUCTIVITY / high
+        bands[1, row] += 1.0 / (1.0 / transfer + 0.5 * high / CONDUCTIVITY) if transfer else 0.0
+    warm = shaft / (1.0 / into + 0.5 * high / CONDUCTIVITY)
+    t = np.zeros(cells)
+    for _ in range(steps):
+        rhs = each * t + made
+        rhs[-1] += warm
+        t = solve_banded((1, 1), bands, rhs)
+    through = out * t[0] / (1.0 + 0.5 * out * high / CONDUCTIVITY)
+    return t.mean(), t[0] - 0.5 * high * through / CONDUCTIVITY
+
+
+@pytest.mark.parametrize("length", [0.1, 0.4])
+@pytest.mark.parametrize(("out", "shaft"), [(0.0, 20.0), (1e3, -10.0), (0.0, 0.0)])
+def test_heat_of_the_surfaces_takes_its_way_into_the_film(length, out, shaft):
+    """A cubic follows the entry of a film between a shaft held warm or cold and its shell."""
+    oil = ExponentialOil(
+        reference_viscosity=VISCOSITY,
+        constant_steepness=0.0,
+        reference_density=860.0,
+        constant_specific_heat=1951.8,
+        constant_conductivity=CONDUCTIVITY,
+    )
+    cold, radius = oil.reference_temperature, 0.5
+    bearing = JournalBearing(2 * radius, 0.1, float(GAP[0]) / radius, shape=Arc(0, length / radius))
+    known, off = np.array(entering(length, out, 1e6, shaft)), []
+    for points in (3, 4):
+        heat = FilmHeat(
+            oil, cold, carry_over=0.0, points=points, shell_transfer=out, shell_temperature=cold,
+            shaft_transfer=1e6, shaft_temperature=cold + shaft,
+        )  # fmt: skip
+        film = Film(None, Sommerfeld(), heat=heat, grid=(100, 2))
+        field = bearing.pressure((0.0, 0.0), 10.471976 / radius, film)
+        got = np.array([x[-1, 0] for x in (field.film_temperature, field.surface_temperature)])
+        off.append(np.abs(got - cold - known).max())
+    largest = np.abs([shaft, *known]).max()
+    assert off[1] < (0.1 if length < 0.2 else 0.015) * largest
+    assert off[1] < 0.4 * off[0] or shaft == 0.0
 
 
 def test_heat_across_the_film_raises_the_ladder_by_a_rung():

@@ -50,7 +50,7 @@ def test_a_housing_held_all_over_its_outside_is_the_thick_cylinder():
     modulus = 2e10
     held = Flange(bolt_circle=4.0, thickness=BEARING.width)
     housed = HousedShell(3.6, held, modulus, elements=(24, 2, 4))
-    mesh = shaped_mesh(0.75, (48, 12), True, False, (), [], [])
+    mesh = shaped_mesh(0.75, (48, 12), True, False, (), (), ())
     pressure = np.maximum(np.cos(mesh.angle), 0.0)[:, None] ** 3 * (1 - (mesh.z / 0.75) ** 2)
     thick = compliance_of(ThickShell(4.0, modulus), mesh, 1.5).growth(pressure)
     np.testing.assert_allclose(
@@ -63,7 +63,7 @@ def test_a_housing_held_all_over_its_outside_is_the_thick_cylinder():
 
 def test_a_shell_of_another_material_in_the_housing_softens_it():
     pressure = np.ones((36, 8))
-    mesh = shaped_mesh(0.75, (36, 8), False, False, (), [], [])
+    mesh = shaped_mesh(0.75, (36, 8), False, False, (), (), ())
     parts = [
         ON_FEET,
         replace(ON_FEET, shell_thickness=0.05, shell_modulus=2.1e11),

@@ -130,7 +130,7 @@ def _influence_numbers():
     from loadflow.journal.film.compliance import compliance_of
     from loadflow.journal.film.gap_mesh import shaped_mesh
 
-    mesh = shaped_mesh(0.75, (36, 12), False, False, (), [], [])
+    mesh = shaped_mesh(0.75, (36, 12), False, False, (), (), ())
     unit = np.eye(36 * 12).reshape(-1, 36, 12)
     return compliance_of(THICK, mesh, 1.5).growth(unit).reshape(36 * 12, -1).T
 
@@ -172,6 +172,34 @@ def test_a_shaft_in_a_soft_shell_goes_farther_than_the_clearance():
     assert state.minimum_film > 0.05 * BEARING.clearance
     field = BEARING.pressure(state.eccentricity, SPEED, shell=soft, **film)
     np.testing.assert_allclose(field.force, LOAD, rtol=1e-6)
+
+
+def test_a_shell_that_gives_way_keeps_the_order_of_the_film():
+    """The share of the upstream gap vanishes faster than the cells do."""
+    force = [
+        BEARING.pressure(
+            (1e-4, 3e-4), SPEED, **FILM | {"cavitation": Sommerfeld(), "grid": (n, 8)}, shell=SOFT
+        ).force
+        for n in (48, 96, 192)
+    ]
+    first, second = np.linalg.norm(np.diff(np.array(force), axis=0), axis=1)
+    assert np.log2(first / second) == pytest.approx(2.0, abs=0.1)
+
+
+@pytest.mark.parametrize("growth", [0.3, 1.0])
+def test_coarse_cells_find_what_fine_ones_find_in_soft_walls(growth):
+    """The gap of a cell is the one that its pressure opens, not that of its neighbours."""
+    small = JournalBearing(diameter=0.2, width=0.1, relative_clearance=1e-3)
+    load, wall = (4e4, 5e3), 0.02
+    mean = load[0] / (small.diameter * small.width)
+    soft = ThickShell(small.diameter + 2 * wall, wall * mean / (growth * small.clearance), 0.3)
+    film = {"lubricant": Lubricant(0.03), "cavitation": Guembel(), "edge_pressure": 1.5e5}
+    film |= {"grading": "uniform"}
+    ratio = [
+        float(small.equilibrium(load, 20.0, shell=soft, grid=(n, 8), **film).eccentricity_ratio)
+        for n in (24, 96)
+    ]
+    assert ratio[0] == pytest.approx(ratio[1], rel=5e-3)
 
 
 def test_rims_that_would_meet_the_shaft_are_named():

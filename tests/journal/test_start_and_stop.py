@@ -165,6 +165,31 @@ def test_a_film_that_outlasts_the_stop_is_timed():
     assert told["mixed_friction_time"] == 0.0
 
 
+def test_a_braked_shaft_that_swings_stands():
+    time = 0.025 * np.arange(4000)
+    braked = np.maximum(1.0 - 0.05 * time, 0.0)
+    swings = np.where(time > 20.0, 2e-3 * np.sin(10.0 * (time - 20.0)), 0.0)
+    samples = xr.Dataset(
+        {
+            "time": ("sample", time),
+            "speed": ("sample", braked + swings),
+            "weight": ("sample", np.ones(time.size)),
+            "load": ("sample", np.full(time.size, LOAD)),
+            "in_contact": ("sample", np.zeros(time.size)),
+            "friction_power": ("sample", np.ones(time.size)),
+            "eccentricity_ratio": ("sample", np.where(time < 40.0, 0.5, 0.97)),
+        },
+        attrs={"critical_eccentricity_ratio": 0.95, "boundary_friction": 0.1, "radius": 1.5},
+    )
+    told = mixed_friction(samples)
+    assert told["standstill_time"] == pytest.approx(20.0, abs=0.5)
+    assert told["mixed_friction_revolutions"] == 0.0
+    samples["speed"] = samples["speed"] + np.where(time > 50.0, 1e-3, 0.0)  # turns on slowly
+    told = mixed_friction(samples)
+    assert told["standstill_time"] > 80.0
+    assert told["mixed_friction_revolutions"] > 0.0
+
+
 def test_rubbing_loses_the_boundary_friction_of_the_load():
     scene = scene_with(boundary_friction=0.1, shaft_roughness=2e-4, shell_roughness=2e-4)
     speed = np.full(11, 0.02)

@@ -136,6 +136,17 @@ def test_idle_friction_adds_to_the_torque_of_a_scene():
     assert more - usual == pytest.approx(7560.0)
 
 
+def test_idle_friction_is_lost_at_the_speed_of_the_swing():
+    swings = {"amplitude": 0.5, "frequency": 0.01}
+    lost = []
+    for idle in (0.0, 7560.0):
+        scene = scene_of(oscillation=swings | {"idle_torque": idle})
+        reactions = shaft.bearing_loads(scene, None, {"loads": HUB})
+        lost.append(friction.losses(scene, One(), {"loads": HUB, "shaft": reactions}))
+    more = (lost[1]["friction_power"] - lost[0]["friction_power"]).values
+    np.testing.assert_allclose(more, 7560.0 * 4 * 0.5 * 0.01, rtol=1e-9)
+
+
 def test_a_yaw_bearing_that_turns_with_the_rotor_is_refused():
     with pytest.raises(InputError, match="oscillation"):
         scene_of(oscillation=None)

@@ -2,6 +2,7 @@
 
 import math
 import tomllib
+from dataclasses import fields
 
 import numpy as np
 import pytest
@@ -11,10 +12,14 @@ import loadflow as lf
 from loadflow.errors import InputError
 from loadflow.planning.ladder import rung_of
 from loadflow.rolling import (
+    FiniteElementRing,
     FlexibleRings,
+    MeshedRing,
     RingBeam,
+    RingProfile,
     RingSection,
     SlewingBearing,
+    SolidRing,
     Support,
     patch_points,
 )
@@ -224,7 +229,7 @@ def test_a_ring_with_its_housing_may_be_given_as_a_matrix_in_a_file(tmp_path):
         ({"kind": "matrix", "file": "scene.toml"}, "no table of numbers"),
         ({"kind": "matrix", "file": "odd.txt"}, "square with 3 n rows"),
         ({"kind": "matrix", "file": "soft.txt", "form": "stiffness"}, "positive definite"),
-        ({"kind": "plate", "file": "odd.txt"}, "kind must be one of beam, matrix"),
+        ({"kind": "plate", "file": "odd.txt"}, "kind must be one of beam, matrix, finite-element"),
     ],
 )
 def test_files_that_are_no_ring_are_named(tmp_path, ring, says):
@@ -232,3 +237,82 @@ def test_files_that_are_no_ring_are_named(tmp_path, ring, says):
     np.savetxt(tmp_path / "soft.txt", np.zeros((270, 270)))
     with pytest.raises(InputError, match=says):
         part_of(tmp_path, ring)
+
+
+MESHED = {"kind": "finite-element", "inside": 0.2535, "outside": 0.31, "bottom": -0.02,
+          "top": 0.02, "held": "bottom", "bed": 1e12, "grip": 1e12}  # fmt: skip
+
+
+def meshed(**changes):
+    geometry = {"balls": 45, "ball_diameter": 0.015, "pitch_diameter": 0.25,
+                "groove_radius": 0.0078, "contact_angle": math.pi / 4}  # fmt: skip
+    rolling = {"bearing": "M", "rings": "flexible", "geometry": geometry,
+               "outer_ring": MESHED | changes}  # fmt: skip
+    return make_scene({"name": "x", "results": ["rolling.life"], "rolling": rolling}).rolling
+
+
+def test_a_ring_of_finite_elements_is_meshed_with_the_grooves_of_its_bearing():
+    part = meshed()
+    geometry = part.geometry
+    profile = RingProfile(
+        bearing=geometry, ring="outer", inside=0.2535, outside=0.31, bottom=-0.02, top=0.02
+    )
+    ring = FiniteElementRing(profile=profile, held="bottom", bed=1e12, grip=1e12)
+    load = (6.5e3, 0.0, 8e3), (0.0, 2e3)
+    got = geometry.equilibrium(*load, rings=part.ring_model)
+    known = geometry.equilibrium(*load, rings=FlexibleRings(outer=ring))
+    rigid = geometry.equilibrium(*load)
+    assert got.maximum_force == pytest.approx(known.maximum_force, rel=1e-9)
+    assert abs(known.maximum_force / rigid.maximum_force - 1) > 0.002
+    beam = geometry.equilibrium(*load, rings=FlexibleRings(outer=ring.as_beam()))
+    assert got.maximum_force == pytest.approx(beam.maximum_force, rel=0.05)
+    again = make_scene(
+        {"name": "x", "results": ["rolling.life"], "rolling": part.model_dump(mode="json")}
+    )
+    assert again.rolling.outer_ring == part.outer_ring
+
+
+def test_a_ring_held_in_sectors_is_meshed_all_round():
+    ring = meshed(sectors=[[0.0, 0.8], [math.pi, 0.8]]).ring_model.outer
+    assert isinstance(ring, SolidRing)
+    assert ring.sectors == ((0.0, 0.8), (math.pi, 0.8))
+
+
+@pytest.mark.parametrize(
+    ("changes", "says"),
+    [
+        ({"inside": 0.29}, "the raceway must reach"),
+        ({"top": 0.005, "bottom": -0.005}, "the grooves from"),
+        ({"top": -0.05}, "must be > bottom"),
+        ({"held": "side"}, "held"),
+    ],
+)
+def test_meshed_rings_that_do_not_fit_are_refused_by_name(changes, says):
+    with pytest.raises(InputError, match=says):
+        meshed(**changes)
+
+
+def test_rings_of_rollers_are_not_meshed():
+    geometry = {"kind": "spherical"} | SPHERICAL
+    with pytest.raises(InputError, match="grooves for balls"):
+        make_scene(
+            {"name": "x", "rolling": {"bearing": "N", "rings": "flexible", "geometry": geometry,
+                                      "outer_ring": MESHED | {"inside": 1.2, "outside": 1.4}}}
+        )  # fmt: skip
+
+
+def test_every_key_of_a_meshed_ring_moves_the_forces():
+    """What the walk over all keys of a scene does for the rings of its own scenes."""
+    other = {"inside": 0.2525, "outside": 0.33, "bottom": -0.025, "top": 0.025, "held": "back",
+             "bed": 1e11, "grip": 1e11, "across": 3, "resolution": 4.0,
+             "elastic_modulus": 1e11, "poisson_ratio": 0.2}  # fmt: skip
+    assert {*other, "sectors"} == {field.name for field in fields(MeshedRing)}
+    load = (6.5e3, 0.0, 8e3), (0.0, 2e3)
+
+    def force(**changes):
+        part = meshed(**changes)
+        return float(part.geometry.equilibrium(*load, rings=part.ring_model).maximum_force)
+
+    usual = force()
+    moved = {key: abs(force(**{key: value}) / usual - 1) for key, value in other.items()}
+    assert min(moved.values()) > 1e-7, moved

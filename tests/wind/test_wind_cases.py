@@ -100,7 +100,7 @@ def test_the_example_of_the_documentation_runs():
     names: dict = {}
     exec(example, names)
     assert len(names["everything"]) == 66
-    assert names["field"].u.shape == (12001, 11, 48)
+    assert names["field"].u.shape == (6001, 11, 48)
 
 
 # -- seeds ---------------------------------------------------------------------------------------

@@ -22,6 +22,7 @@ from loadflow.wind import (
     kaimal_box,
     polar_angles,
 )
+from loadflow.wind.noise import NormalStream
 from loadflow.wind.spectra import coherence, kaimal_spectrum
 
 ALARM = 1e-3
@@ -113,6 +114,35 @@ def test_noise_is_gaussian(fields):
     sample = white(fields, 0, 2, 3).ravel()
     p = stats.kstest(np.concatenate([sample.real, sample.imag]), "norm", (0, np.sqrt(0.5))).pvalue
     assert p > ALARM
+
+
+def test_noise_is_that_of_numpy_whatever_the_lengths_it_is_drawn_in():
+    drawn = np.empty(3_000_000, dtype=np.float32)
+    stream = NormalStream(np.random.SeedSequence(7))
+    for part in np.split(drawn, [1, 70_000, 70_001, 1_000_003]):
+        stream.fill(part)
+    theirs = np.random.default_rng(7).standard_normal(drawn.size, dtype=np.float32)
+    np.testing.assert_allclose(drawn, theirs, rtol=2e-7, atol=0)
+    assert np.count_nonzero(drawn != theirs) < 1e-5 * drawn.size
+
+
+@pytest.mark.parametrize("oversampled", [2, 3])
+def test_a_longer_step_is_the_same_wind_without_what_is_faster(oversampled):
+    options = {"radius": RADIUS, "angles": ANGLES, "length_scale": LENGTH, "seed": 4}
+    step, period = 0.1, 3 * 2**11  # the FFT takes both lengths as they are: no cut
+    fine = kaimal(V, SIGMA, duration=step * (period - 1), dt=step, **options)
+    coarse = kaimal(
+        V,
+        SIGMA,
+        duration=step * (period - oversampled),
+        dt=oversampled * step,
+        oversampled=oversampled,
+        **options,
+    )
+    for part in ("u", "v", "w"):
+        spectrum = np.fft.rfft(getattr(fine, part), axis=0)[: period // oversampled // 2]
+        ours = np.fft.rfft(getattr(coarse, part), axis=0)[:-1]
+        np.testing.assert_allclose(oversampled * ours, spectrum, rtol=0, atol=2e-4 * period**0.5)
 
 
 def test_independent_lateral_components_share_nothing_between_points():

@@ -23,6 +23,8 @@ from loadflow.journal.film._rough_kernels import (
 )
 from loadflow.journal.film._turbulence_kernels import ACROSS, ALONG, SHEAR, factor
 
+FLATTEST = 0.99  # stretch of the Sommerfeld map, which ends at 1
+
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def resistance(h, w, surfaces):
@@ -91,58 +93,50 @@ def _cell_terms(h, w, rough, regime):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def gap_coefficients(
-    cos_face,
-    sin_face,
-    w_face,
-    cos_cell,
-    sin_cell,
-    w_cell,
-    stretch,
-    ex,
-    ey,
-    surfaces,
-    out,
-    open_share,
-):
-    """Coefficients of the gap H = 1 − ex cos θ − ey sin θ, `out` (8, nx + 1, 1).
+def gap_coefficients(face, cell, strength, places, surfaces, out, open_share):
+    """Coefficients of the gaps H = 1 − ex cos θ − ey sin θ of some places, `out` (l, 8, nx + 1, 1).
 
-    Nodes are given in the coordinate a of the Sommerfeld map of strength `stretch` (0: θ = a),
-    densest at θ = 0. Rough surfaces also fill the share of open gap, `open_share` (nx, 1).
+    `places` (l, 2) are those of the shaft, ex and ey.
+    Nodes are those of `Mesh.trigonometry`, in the coordinate a of the Sommerfeld map whose strength
+    is `strength` (0: θ = a) times ex, densest at θ = 0. Rough surfaces also fill the share of open
+    gap, `open_share` (nx, 1), that of the last place.
     """
-    nf, nq = cos_face.shape
-    root = np.sqrt(1.0 - stretch * stretch)
-    for i in range(nf):
-        i3 = 0.0
-        i2 = 0.0
-        for q in range(nq):
-            d = 1.0 / (1.0 + stretch * cos_face[i, q])
-            c = (stretch + cos_face[i, q]) * d
-            s = root * sin_face[i, q] * d
-            w2, w3, _, _ = resistance(1.0 - ex * c - ey * s, w_face[i, q] * root * d, surfaces)
-            i2 += w2
-            i3 += w3
-        out[G, i, 0] = 1.0 / i3
-        out[E, i, 0] = i2 / i3
-    for i in range(nf - 1):
-        for row in range(H3, HINV + 1):
-            out[row, i, 0] = 0.0
-        opened, width = 0.0, 0.0
-        for q in range(nq):
-            d = 1.0 / (1.0 + stretch * cos_cell[i, q])
-            c = (stretch + cos_cell[i, q]) * d
-            s = root * sin_cell[i, q] * d
-            w = w_cell[i, q] * root * d
-            cubed, _, mean, w_open, inverse, _ = cell_terms(1.0 - ex * c - ey * s, w, surfaces)
-            out[H3, i, 0] += cubed
-            out[HM, i, 0] += mean
-            out[COS, i, 0] += w * c
-            out[SIN, i, 0] += w * s
-            out[HINV, i, 0] += inverse
-            opened += w_open
-            width += w
-        if open_share is not None:
-            open_share[i, 0] = opened / width
+    _, nf, nq = face.shape
+    for at in range(places.shape[0]):
+        ex, ey = places[at, 0], places[at, 1]
+        stretch = min(strength * ex, FLATTEST)
+        root = np.sqrt(1.0 - stretch * stretch)
+        for i in range(nf):
+            i3 = 0.0
+            i2 = 0.0
+            for q in range(nq):
+                d = 1.0 / (1.0 + stretch * face[0, i, q])
+                c = (stretch + face[0, i, q]) * d
+                s = root * face[1, i, q] * d
+                w2, w3, _, _ = resistance(1.0 - ex * c - ey * s, face[2, i, q] * root * d, surfaces)
+                i2 += w2
+                i3 += w3
+            out[at, G, i, 0] = 1.0 / i3
+            out[at, E, i, 0] = i2 / i3
+        for i in range(nf - 1):
+            for row in range(H3, HINV + 1):
+                out[at, row, i, 0] = 0.0
+            opened, width = 0.0, 0.0
+            for q in range(nq):
+                d = 1.0 / (1.0 + stretch * cell[0, i, q])
+                c = (stretch + cell[0, i, q]) * d
+                s = root * cell[1, i, q] * d
+                w = cell[2, i, q] * root * d
+                cubed, _, mean, w_open, inverse, _ = cell_terms(1.0 - ex * c - ey * s, w, surfaces)
+                out[at, H3, i, 0] += cubed
+                out[at, HM, i, 0] += mean
+                out[at, COS, i, 0] += w * c
+                out[at, SIN, i, 0] += w * s
+                out[at, HINV, i, 0] += inverse
+                opened += w_open
+                width += w
+            if open_share is not None:
+                open_share[i, 0] = opened / width
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -190,16 +184,18 @@ def shaped_coefficients(
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def mode_slope(by_x, by_y, ax, ay, across, out):
-    """Derivative of the coefficients by a mode that moves the shaft by (ax, ay) (nx) · across."""
-    nx = ax.size
-    rows = across.size
-    for i in range(nx + 1):
-        j = min(i, nx - 1)
-        for k in range(rows):
-            x, y = ax[j] * across[k], ay[j] * across[k]
-            for row in (G, E, HM, CELL3):
-                out[row, i, k] = x * by_x[row, i, k] + y * by_y[row, i, k]
+def mode_slopes(by_x, by_y, modes, across, coef, dz, out):
+    """Derivatives of `coef`, `out` (m, …), by modes that move the shaft by (m, nx, 2) · across."""
+    size, nx, _ = modes.shape
+    rows = across.shape[1]
+    for mode in range(size):
+        for i in range(nx + 1):
+            j = min(i, nx - 1)
+            for k in range(rows):
+                x, y = modes[mode, j, 0] * across[mode, k], modes[mode, j, 1] * across[mode, k]
+                for row in (G, E, HM, CELL3):
+                    out[mode, row, i, k] = x * by_x[row, i, k] + y * by_y[row, i, k]
+        faces_across(coef, dz, True, out[mode])
 
 
 @njit(cache=True, nogil=True, error_model="numpy")

@@ -20,7 +20,7 @@ from llvmlite import ir
 from numba import njit, types
 from numba.extending import intrinsic
 
-from loadflow.journal.cavitation import DFILL, DP, DSLACK, FILL, LOAD, P
+from loadflow.journal.cavitation import DFILL, DP, DSLACK, FILL, LOAD, SLACK, P
 
 # coefficients of the gap: on the faces around, on the faces across (H3), on cells; CELL3 is ∫H³ of
 # cells, from which the faces across of a gap that changes along the axis follow
@@ -56,60 +56,76 @@ def apply_law(address, numbers, scale, u, state):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def balance(state, coef, dz, area, gz, closed, wedge, p_edge, p_line, f_line, mass, groove, out):
-    """Add the outflow of each cell to `out` (nx, nz); linear in `coef` and `mass` (nx, rows).
+def balance(state, coefs, dz, area, gz, closed, wedge, edges, growth, groove, out):
+    """Add the outflow of each cell in some gaps to `out` (≥ l, nx, nz).
 
-    A groove that reaches a bearing end is closed there.
+    It is linear in what a gap is told by, `coefs` (l, 8, nx + 1, rows) and `growth` (l, nx, rows),
+    so that these may also be derivatives. `edges` are the pressures at the bearing ends and on
+    the inlet line, and the fill there. A groove that reaches a bearing end is closed there.
     """
     _, nx, nz = state.shape
-    row = 1 if coef.shape[2] > 1 else 0
+    row = 1 if coefs.shape[3] > 1 else 0
+    p_edge, p_line, f_line = edges
     p = state[P]
     fill = state[FILL]
-    for i in range(nx + 1):
-        left = i - 1 if i > 0 else nx - 1
-        right = i if i < nx else 0
-        if closed and i == nx:
-            break
-        for k in range(nz):
-            g = coef[G, i, row * k]
-            e = wedge * coef[E, i, row * k]
-            p_l, f_l, p_r, f_r = p[left, k], fill[left, k], p[right, k], fill[right, k]
-            if not closed:
-                if i == 0:
-                    p_l, f_l = p_line, f_line
-                elif i == nx:
-                    p_r, f_r = p_line, f_line
-            q = area[k] * e * (f_l if wedge > 0 else f_r) - dz[k] * g * (p_r - p_l)
-            if closed or i > 0:
-                out[left, k] += q
-            if closed or i < nx:
-                out[right, k] -= q
-    for i in range(nx):
-        if not groove[i, 0]:
-            out[i, 0] -= coef[H3, i, 0] * gz[0] * (p_edge - p[i, 0])
-        for k in range(nz):
-            out[i, k] += fill[i, k] * mass[i, row * k] * area[k]
-            if k + 1 == nz and groove[i, k]:
-                continue
-            g = coef[H3, i, row * (k + 1)] * gz[k + 1]
-            q = g * (p[i, k] - (p[i, k + 1] if k + 1 < nz else p_edge))
-            out[i, k] += q
-            if k + 1 < nz:
-                out[i, k + 1] -= q
+    for c in range(coefs.shape[0]):
+        coef, mass, left_over = coefs[c], growth[c], out[c]
+        for i in range(nx + 1):
+            left = i - 1 if i > 0 else nx - 1
+            right = i if i < nx else 0
+            if closed and i == nx:
+                break
+            for k in range(nz):
+                g = coef[G, i, row * k]
+                e = wedge * coef[E, i, row * k]
+                p_l, f_l, p_r, f_r = p[left, k], fill[left, k], p[right, k], fill[right, k]
+                if not closed:
+                    if i == 0:
+                        p_l, f_l = p_line, f_line
+                    elif i == nx:
+                        p_r, f_r = p_line, f_line
+                q = area[k] * e * (f_l if wedge > 0 else f_r) - dz[k] * g * (p_r - p_l)
+                if closed or i > 0:
+                    left_over[left, k] += q
+                if closed or i < nx:
+                    left_over[right, k] -= q
+        for i in range(nx):
+            if not groove[i, 0]:
+                left_over[i, 0] -= coef[H3, i, 0] * gz[0] * (p_edge - p[i, 0])
+            for k in range(nz):
+                left_over[i, k] += fill[i, k] * mass[i, row * k] * area[k]
+                if k + 1 == nz and groove[i, k]:
+                    continue
+                g = coef[H3, i, row * (k + 1)] * gz[k + 1]
+                q = g * (p[i, k] - (p[i, k + 1] if k + 1 < nz else p_edge))
+                left_over[i, k] += q
+                if k + 1 < nz:
+                    left_over[i, k + 1] -= q
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def squeezed(fill, around, across, slope, area, open_share, out):
-    """Derivatives of the balance by the velocity of each mode, `out` (m, nx, nz)."""
-    size, nx, nz = out.shape
+def right_hand_sides(state, fields, moves, around, across, slope, area, opened, order, fixed, out):
+    """Write `fields` (l, nx, nz) in solver order, `out` (l, n); cells that are held have none.
+
+    The first, to which the slack of the law is added, is the balance, the next up to `moves` are
+    its derivatives by positions. Those by velocities of each mode follow, and are filled here.
+    """
+    count, nx, nz = fields.shape
     row = 1 if across.shape[1] > 1 else 0
-    for j in range(size):
+    for c in range(count):
+        j = c - moves
         for i in range(nx):
+            base = order[i] * nz
             for k in range(nz):
-                value = -slope * fill[i, k] * area[k] * around[j, i] * across[j, row * k]
-                if open_share is not None:
-                    value *= open_share[i, row * k]
-                out[j, i, k] = value
+                if j >= 0:
+                    value = -slope * state[FILL, i, k] * area[k] * around[j, i] * across[j, row * k]
+                    if opened is not None:
+                        value *= opened[i, row * k]
+                    fields[c, i, k] = value
+                value = fields[c, i, k]
+                if c == 0:
+                    value += state[SLACK, i, k]
+                out[c, base + k] = 0.0 if fixed[i, k] else value
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -179,16 +195,20 @@ def gather(field, order, column):
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def load_of(load, around, across, dz, out):
-    """∫ p N_j over the film for modes N_j = around_j (m, nx) · across_j (m, rows), `out` (m,)."""
+    """∫ p N_j over the film, `out` (l, m), of modes around_j (l, m, nx) · across_j (m, rows).
+
+    Their factors around come in l sets.
+    """
     nx, nz = load.shape
     row = 1 if across.shape[1] > 1 else 0
-    for j in range(out.size):
-        out[j] = 0.0
-        for i in range(nx):
-            total = 0.0
-            for k in range(nz):
-                total += load[i, k] * dz[k] * across[j, row * k]
-            out[j] += around[j, i] * total
+    out[:] = 0.0
+    for c in range(out.shape[0]):
+        for j in range(out.shape[1]):
+            for i in range(nx):
+                total = 0.0
+                for k in range(nz):
+                    total += load[i, k] * dz[k] * across[j, row * k]
+                out[c, j] += around[c, j, i] * total
 
 
 @njit(cache=True, nogil=True, error_model="numpy")

@@ -16,14 +16,70 @@ ITSELF, BEFORE, AFTER, INNER, OUTER = range(5)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
+def upwind(cell, cell_gap, ex, ey, surfaces, closed, advected, coef, by_x, by_y, blend):
+    """Blend the effective gap E of the faces around with that of the cell the flow comes from.
+
+    `advected` (nx + 1, rows) is what the surfaces drag over a face for each Pa of its pressure that
+    widens the gap; over the conductance of the face it is a Péclet number Pe. With s = Pe/2 the
+    share of the upstream cell is ((1 + s⁴)^¼ − 1)/s: at least 1 − 1/s, so that no pressure rises
+    with that downstream of it, and s³/4 on cells that resolve the gap, which keeps their order.
+
+    `blend` (4, nx + 1, rows) is filled with the share, its slope by Pe times Pe, and both gaps.
+    """
+    nx, rows = ex.shape
+    blend[:] = 0.0
+    for i in range(nx + 1):
+        if not closed and (i == 0 or i == nx):
+            continue
+        for k in range(rows):
+            half = 0.5 * abs(advected[i, k]) / coef[G, i, k]
+            share, slope = _upstream_share(half)
+            if share == 0.0:
+                continue
+            at = (i - 1) % nx if advected[i, k] > 0 else i % nx
+            c, s = cell[0, at], cell[1, at]
+            h = cell_gap[at, k] - ex[at, k] * c - ey[at, k] * s
+            up, rise = _dragged(h, surfaces)
+            e = coef[E, i, k]
+            blend[0, i, k], blend[1, i, k], blend[2, i, k], blend[3, i, k] = share, slope, e, up
+            turn = slope * (up - e) / coef[G, i, k]
+            coef[E, i, k] = e + share * (up - e)
+            for by, turned in ((by_x, c), (by_y, s)):
+                change = (1.0 - share) * by[E, i, k] - share * rise * turned
+                by[E, i, k] = change - turn * by[G, i, k]
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _dragged(h, surfaces):
+    """Effective gap of an even one, ∫H⁻²/∫H⁻³, and its derivative by the gap."""
+    w2, w3, d2, d3 = resistance(h, 1.0, surfaces)
+    return w2 / w3, (d2 - w2 / w3 * d3) / w3
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _upstream_share(half):
+    """Share of the upstream gap at half a Péclet number, and its slope times that number."""
+    if half < 1e-3:
+        return 0.0, 0.0
+    if half > 1e4:
+        return 1.0 - 1.0 / half, 1.0 / half
+    power = half**4
+    root = (1.0 + power) ** 0.25
+    share = (root - 1.0) / half
+    return share, power / (root**3 * half) - share
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
 def gap_stencil(
-    state, coef, face, face_gap, cell, cell_gap, surfaces, dz, gz, closed, wedge, ends, storing,
-    groove, out,
+    state, coef, blend, own_share, face, face_gap, cell, cell_gap, surfaces, dz, gz, closed,
+    wedge, ends, storing, groove, out,
 ):  # fmt: skip
     """Fill `out` (5, nx, nz) at the state and gap last placed.
 
-    `face`, `cell`, their gaps and `surfaces` are those of `_gap_kernels.shaped_coefficients`, the
-    gaps in place and deformed; `ends` are edge pressure, pressure and fill of an inlet line;
+    `blend` is that of `upwind`, `own_share` (nx + 1, 2) what the nodes of a face take of the growth
+    of their own cell, the rest being that of the other one; `face`, `cell`, their gaps and
+    `surfaces` those of `_gap_kernels.shaped_coefficients`, the gaps in place and deformed; `ends`
+    are edge pressure, pressure and fill of an inlet line;
     `storing` (Pa) is the squeeze pressure of a growth of the gap in one implicit step.
     """
     _, nx, nz = state.shape
@@ -40,22 +96,35 @@ def gap_stencil(
             p_left, f_left = (p[left, k], fill[left, k]) if has_left else (p_line, f_line)
             p_right, f_right = (p[right, k], fill[right, k]) if has_right else (p_line, f_line)
             drag = wedge * (f_left if wedge > 0 else f_right)
-            g, e = coef[G, i, k], coef[E, i, k]
+            g, share, up = coef[G, i, k], blend[0, i, k], blend[3, i, k]
+            e = blend[2, i, k] if share > 0.0 else coef[E, i, k]
+            by_left, by_right = 0.0, 0.0
             for side in range(2):
-                if not (has_left if side == 0 else has_right):
-                    continue
-                h, w = face_gap[i, side, k], face[2, i, side]
-                _, _, by_2, by_3 = resistance(h, w, surfaces)
+                _, _, by_2, by_3 = resistance(face_gap[i, side, k], face[2, i, side], surfaces)
                 by_g, by_e = -g * g * by_3, g * (by_2 - e * by_3)
+                if share > 0.0:
+                    by_e = (1.0 - share) * by_e - blend[1, i, k] * (up - e) * by_g / g
                 flow = dz[k] * (drag * by_e - by_g * (p_right - p_left))
-                if side == 0:
-                    out[ITSELF, left, k] += flow
-                    if has_right:
-                        out[AFTER, left, k] -= flow
-                else:
-                    out[ITSELF, right, k] -= flow
-                    if has_left:
-                        out[BEFORE, right, k] += flow
+                own = own_share[i, side]
+                by_left += flow * (own if side == 0 else 1.0 - own)
+                by_right += flow * (own if side == 1 else 1.0 - own)
+            if share > 0.0:
+                before = wedge > 0
+                _, rise = _dragged(cell_gap[left if before else right, k], surfaces)
+                rise *= dz[k] * drag * share
+                by_left += rise if before else 0.0
+                by_right += 0.0 if before else rise
+            if not has_left:
+                by_right += by_left
+            elif not has_right:
+                by_left += by_right
+            if has_left:
+                out[ITSELF, left, k] += by_left
+                if has_right:
+                    out[AFTER, left, k] -= by_left
+                    out[BEFORE, right, k] += by_right
+            if has_right:
+                out[ITSELF, right, k] -= by_right
     for i in range(nx):
         for k in range(nz):
             _, cubed, _, wider, _, _ = cell_terms(cell_gap[i, k], cell[2, i], surfaces)

@@ -25,6 +25,7 @@ _TURN = 2.5  # of the attitude, of the way of the shaft: it turns more readily t
 _SHEAR, _DRAG = 1.0 / 30.0, 0.3  # of friction, of all of them and of the change of the gap
 # where the unknowns lie on nodes and the film ends on the edges; the whole gap may close there
 _NODES, _CLOSES = 1.25, 1.5
+_REGULAR = 1e-12  # determinant of a stiffness, over its largest entry squared, that is not 0
 _FLOW, _OPEN = 1.0 / 3.0, 2.0  # of the side flow, of all of them and of what moves and opens
 
 
@@ -60,7 +61,7 @@ def relative_errors(
         out[4], out[5], out[6] = peak, _SHEAR * share, _FLOW * share
         return out
     moves = np.arange(gap.size)[free]
-    response = _inverse(stiffness[np.ix_(moves, moves)])
+    response = _inverse(stiffness[free][:, free])
     unbalanced = np.where(moves < gap.shaft, missing, 0.0)
     unbalanced[(moves >= 2) & (moves < gap.shaft)] *= 0.5 * film.mesh.z_edges[-1]
     _, angle, z = gap.closest(position)
@@ -165,4 +166,9 @@ def _inverse(stiffness: Array) -> Array:
     """How far the shaft moves under a load; of a stiffness that is none the least."""
     if not np.isfinite(stiffness).all():
         return np.full(stiffness.shape, np.nan)
+    if len(stiffness) == 2:
+        (a, b), (c, d) = stiffness.tolist()
+        det = a * d - b * c
+        if abs(det) > _REGULAR * max(abs(a), abs(b), abs(c), abs(d)) ** 2:
+            return np.array([[d, -b], [-c, a]]) / det
     return np.asarray(np.linalg.pinv(stiffness))

@@ -16,9 +16,10 @@ from loadflow.journal.film.feed import Feed
 from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.gap import CylindricalGap
 from loadflow.journal.film.gap_elastic import ElasticGap
+from loadflow.journal.film.gap_layout import Bore
 from loadflow.journal.film.gap_mesh import ShapedMesh, crowded, relief_marks, shaped_mesh
 from loadflow.journal.film.gap_rough import RoughElasticGap, RoughGap, RoughShapedGap
-from loadflow.journal.film.gap_shaped import Bore, ShapedGap
+from loadflow.journal.film.gap_shaped import ShapedGap
 from loadflow.journal.film.gap_warm import WarmGap
 from loadflow.journal.film.groove_pressure import Pockets
 from loadflow.journal.film.grooves import groove_marks, groove_numbers
@@ -96,7 +97,7 @@ def shaped_film(
     around, ends = groove_marks(supply.grooves if supply else (), grid[0], bore.radius)
     ratio = bearing.width_ratio
     mesh = shaped_mesh(
-        ratio, grid, half, graded, bore.segments, [*turns, *around], [*places, *ends, *-ends]
+        ratio, grid, half, graded, bore.segments, (*turns, *around), (*places, *ends, *-ends)
     )
     for angle in crowd:
         mesh = crowded(mesh, angle)
@@ -199,9 +200,10 @@ def operating_points(
     if vectors.ndim == 0 or vectors.shape[-1] != 2:
         raise InputError(f"{name} has shape {vectors.shape}: the last axis must have 2 components")
     for label, values in ((name, vectors), ("speed", speed)):
-        bad = np.argwhere(~np.isfinite(values))
-        if bad.size:
-            raise InputError(f"{label}{bad[0].tolist()} = {values[tuple(bad[0])]}: must be finite")
+        finite = np.isfinite(values)
+        if not finite.all():
+            bad = np.argwhere(~finite)[0]
+            raise InputError(f"{label}{bad.tolist()} = {values[tuple(bad)]}: must be finite")
     try:
         shape = np.broadcast_shapes(vectors.shape[:-1], speed.shape)
     except ValueError as error:

@@ -70,6 +70,7 @@ class ElasticFilm(DiscreteFilm):
         return self._share / (self.relative_clearance * self.radius)
 
     def _grow(self) -> None:
+        self.gap.drag(self.wedge * self._per_clearance * self.compliance.local)
         pressure = self.state[LOAD] - self.p_edge
         self.gap.grow(self._per_clearance * self.compliance.growth(pressure))
 
@@ -130,9 +131,10 @@ class ElasticFilm(DiscreteFilm):
         super()._assemble(mass, rate)
         mesh = self.mesh
         ends = (self.p_edge, self.p_line, self.line_fill)
+        gap = self.gap
         shell_kernel.gap_stencil(
-            self.state, self.gap.coef, *self.gap.nodes, self.gap.surfaces, mesh.dz, mesh.gz,
-            mesh.closed, self.wedge, ends, self.slope * rate, self.fixed, self.stencil,
+            self.state, gap.coef, gap.blend, gap.own_share, *gap.nodes, gap.surfaces, mesh.dz,
+            mesh.gz, mesh.closed, self.wedge, ends, self.slope * rate, self.fixed, self.stencil,
         )  # fmt: skip
         growth = self._per_clearance * self.compliance.local * self.state[DLOAD]
         shell_kernel.add_stencil(self.stencil, growth, mesh.order, self.fixed, self.ab)

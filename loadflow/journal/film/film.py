@@ -88,10 +88,10 @@ class DiscreteFilm:
         self.law = law
         self._address, self._numbers = law.address, np.array(law.numbers, dtype=float)
         self.ruptures = law.ruptures
-        self.p_edge = edge_pressure
-        self.p_line = edge_pressure if end_pressure is None else end_pressure
+        self.p_edge = float(edge_pressure)
+        self.p_line = self.p_edge if end_pressure is None else float(end_pressure)
         self.ends_supply = end_pressure is not None and not gap.mesh.closed
-        self.line_fill = law.fill_at(self.p_line)
+        self.line_fill = float(law.fill_at(self.p_line))
         self.radius = radius
         self.relative_clearance = relative_clearance
         self.viscosity = viscosity
@@ -107,9 +107,11 @@ class DiscreteFilm:
         nx, nz = mesh.shape
         n = nx * nz
         self.ab = np.empty((n, 3 * mesh.bandwidth + 1))
+        self._still = np.zeros((len(gap.coefs), nx, gap.across.shape[1]))  # growth at rest
         self.state = np.empty((8, nx, nz))
         self.elastic = False  # whether the gap follows the pressure
         self.mirrors = 2.0 if mesh.half else 1.0
+        self._unit = self.mirrors * radius**2  # of loads
         self.ambient: Array | float = 0.0  # of `_load`: what acts outside the film, N
         self.contact: AsperityLoad | None = None  # of rough surfaces, which may touch
 
@@ -168,13 +170,22 @@ class DiscreteFilm:
         self.state[LOAD][cells], self.state[DLOAD][cells] = u[cells], 1.0
 
     # --- balance ---------------------------------------------------------------------------------
-    def storage(self, coef: Array, around: Array, velocity: Array, rate: float) -> Array:
-        """Growth of the gap volume of each cell, (nx, rows), Pa."""
+    def storage(self, coefs: Array, modes: Array, velocity: Array, rate: float) -> Array:
+        """Growth of the gap volume of each cell, (l, nx, rows), Pa, by coefficients and modes.
+
+        Of these, (l, …) and (≥ 1, m, nx), the first are those of the gap, others their derivatives.
+        """
+        if rate == 0.0 and not velocity.any():
+            return self._still[: len(coefs)]
         gap = self.gap
-        moving = (around.T * velocity) @ gap.across
-        if gap.open_share is not None:
-            moving *= gap.open_share
-        return self.slope * (rate * coef[HM, :-1, : moving.shape[1]] - moving)
+        growth = rate * coefs[:, HM, :-1, : gap.across.shape[1]]
+        for one, around in zip(growth, modes):
+            moving = (around.T * velocity) @ gap.across
+            if gap.open_share is not None:
+                moving *= gap.open_share
+            one -= moving
+        growth *= self.slope
+        return growth
 
     def balance(
         self,
@@ -189,12 +200,12 @@ class DiscreteFilm:
         """
         mesh = self.mesh
         field = np.zeros(mesh.shape) if out is None else out
-        state, edge, line, full = self.state, self.p_edge, self.p_line, self.line_fill
+        state, edges = self.state, (self.p_edge, self.p_line, self.line_fill)
         if change is not None:
-            state, edge, line, full = change, 0.0, 0.0, 0.0
+            state, edges = change, (0.0, 0.0, 0.0)
         kernel.balance(
-            state, coef, mesh.dz, mesh.area, mesh.gz, mesh.closed, self.wedge,
-            edge, line, full, mass, self.fixed, field,
+            state, coef[None], mesh.dz, mesh.area, mesh.gz, mesh.closed, self.wedge, edges,
+            mass[None], self.fixed, field[None],
         )  # fmt: skip
         return field
 
@@ -230,65 +241,58 @@ class DiscreteFilm:
             Whether the derivatives by velocity are asked, which a step at rest does not need; else
             `damping` is 0 and `columns` have none.
         """
-        mesh = self.mesh
+        mesh, gap, free = self.mesh, self.gap, self.pockets.free
         frame = self.place(u, position)
-        local = frame.T @ velocity
-        gap = self.gap
-        around = gap.around
-        mass = self.storage(gap.coef, around, local, rate)
-        slopes = gap.slopes(position)
-        self._assemble(mass, rate)
-        lu, pivots, info = dgbtrf(self.ab.T, mesh.bandwidth, mesh.bandwidth, overwrite_ab=1)
-        if info:
-            raise SingularFilm(f"film matrix is singular in row {info} at eccentricity {position}")
-
-        free, moves = self.pockets.free, 1 + len(slopes)
+        local = frame.T @ velocity if mesh.polar else velocity
+        modes = gap.slopes(position)
+        growth, moves = self.storage(gap.coefs, modes, local, rate), len(gap.coefs)
         fields = np.zeros((moves + (gap.size if damped else 0), *mesh.shape))
-        self.balance(gap.coef, mass, out=fields[0])
-        fields[0] -= old
-        for field, (coef, changed) in zip(fields[1:], slopes):
-            self.balance(coef, self.storage(coef, changed, local, rate), out=field)
-        if damped:
-            kernel.squeezed(
-                self.state[FILL], around, gap.across, self.slope, mesh.area, gap.open_share,
-                fields[moves:],
-            )  # fmt: skip
-        flows = [self.pockets.flows(field)[free] for field in fields] if free.size else []
+        kernel.balance(
+            self.state, gap.coefs, mesh.dz, mesh.area, mesh.gz, mesh.closed, self.wedge,
+            (self.p_edge, self.p_line, self.line_fill), growth, self.fixed, fields,
+        )  # fmt: skip
+        if rate != 0.0:
+            fields[0] -= old
         columns = np.empty((len(fields) + free.size, mesh.angle.size * mesh.z.size))
-        fields[0] += self.state[SLACK]
-        np.copyto(fields, 0.0, where=self.fixed)
-        columns[: len(fields)].reshape(fields.shape)[:, mesh.order] = fields
+        kernel.right_hand_sides(
+            self.state, fields, moves, modes[0], gap.across, self.slope, mesh.area, gap.open_share,
+            mesh.order, self.fixed, columns,
+        )  # fmt: skip
+        flows = [self.pockets.flows(field)[free] for field in fields] if free.size else []
         for column, number in zip(columns[len(fields) :], free):
             kernel.gather(1.0 * (self.pockets.numbers == number), mesh.order, column)
+        self._assemble(growth[0], rate)
+        band = mesh.bandwidth
+        lu, pivots, info = dgbtrf(self.ab.T, band, band, overwrite_ab=1)
+        if info:
+            raise SingularFilm(f"film matrix is singular in row {info} at eccentricity {position}")
         self._solve((lu, pivots), columns)
         if damped:
             self._add_shell_squeeze((lu, pivots), columns, gap.size)
         if free.size:
-            columns = self._freed(columns, np.array(flows), mass)
+            columns = self._freed(columns, np.array(flows), growth[0])
 
-        carried = self.mirrors * self.radius**2 * self._carried(columns)
-        load = self._load(around) - carried[0]
-        by_gap = [self._load(a) + self.ambient for _, a in slopes]
-        damping = -carried[moves:].T if damped else np.zeros((gap.size, gap.size))
-        direct = [d - c for d, c in zip(by_gap, carried[1:])]
-        if mesh.polar:
-            ratio = float(np.hypot(*position))
-            if ratio < _AXIS:
-                direct.append(_TURN @ direct[0])
-            else:
-                direct.append(_TURN @ load / ratio - damping @ (_TURN @ local) / ratio)
+        carried, loads = self._unit * self._carried(columns), self._unit * self._loads(modes)
+        load = loads[0] - self.ambient - carried[0]
         if not math.isfinite(float(load.sum())):
             raise SingularFilm(f"film matrix has no solution at eccentricity {position}")
-        load, stiffness = frame @ load, frame @ np.array(direct).T @ frame.T
+        direct = -carried[1:moves]
+        if len(modes) > 1:
+            direct += loads[1:]
+        damping = -carried[moves:].T if damped else np.zeros((gap.size, gap.size))
+        stiffness = direct.T
+        if mesh.polar:
+            ratio = math.hypot(*position.tolist())
+            if ratio < _AXIS:
+                sideways = _TURN @ direct[0]
+            else:
+                sideways = (_TURN @ load - damping @ (_TURN @ local)) / ratio
+            load, damping = frame @ load, frame @ damping @ frame.T
+            stiffness = frame @ np.array([direct[0], sideways]).T @ frame.T
         if self.contact is not None:
             touch = self.contact.at(position)
             load, stiffness = load + touch.load, stiffness + touch.stiffness
-        return Linear(
-            load=load,
-            stiffness=stiffness,
-            damping=frame @ damping @ frame.T,
-            columns=columns,
-        )
+        return Linear(load, stiffness, damping, columns)
 
     def _assemble(self, mass: Array, rate: float) -> None:
         """Write the Newton matrix at the state last placed into the band."""
@@ -337,16 +341,15 @@ class DiscreteFilm:
         kernel.carried_by(slope, gap.around, gap.across, mesh.dz, mesh.order, columns, carried)
         return carried
 
-    def _load(self, around: Array) -> Array:
-        """∫ p N_j dA at the state last placed, whole film, in the mesh's frame, N."""
-        out = np.empty(self.gap.size)
-        load = self.state[LOAD]
-        kernel.load_of(load, around, self.gap.across, self.mesh.dz, out)
-        return self.mirrors * self.radius**2 * out - self.ambient
+    def _loads(self, around: Array) -> Array:
+        """∫ p N_j dA at the state last placed, (l, m) in units of R², for modes (l, m, nx)."""
+        out = np.empty(around.shape[:2])
+        kernel.load_of(self.state[LOAD], around, self.gap.across, self.mesh.dz, out)
+        return out
 
     def load_of(self, frame: Array, position: Array) -> Array:
         """Load of film and asperities at the state last placed, N."""
-        load = frame @ self._load(self.gap.around)
+        load = frame @ (self._unit * self._loads(self.gap.around[None])[0] - self.ambient)
         return load if self.contact is None else load + self.contact.at(position).load
 
     # --- what Newton needs -----------------------------------------------------------------------

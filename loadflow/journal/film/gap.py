@@ -41,8 +41,9 @@ class Gap(Protocol):
         Number of degrees of freedom m, and of those of the shaft.
     pads : array of int
         Degrees of freedom of the pads that tilt.
-    coef : array (8, nx + 1, rows)
-        Coefficients of the gap where the shaft was last placed, rows as in `_kernels`.
+    coefs : array (1 + s, 8, nx + 1, rows)
+        Coefficients of the gap where the shaft was last placed, rows as in `_kernels`, and room for
+        their derivatives by the position; `coef` is the first of them.
     dof_scale : array (m,)
         How readily each degree of freedom moves where nothing holds it.
     across : array (m, rows)
@@ -59,6 +60,7 @@ class Gap(Protocol):
     shaft: int
     pads: NDArray[np.int64]
     dof_scale: Array
+    coefs: Array
     coef: Array
     across: Array
     roughness: float
@@ -76,8 +78,12 @@ class Gap(Protocol):
     def place(self, position: Array) -> Array:
         """Evaluate `coef` at `position`; returns the axes of the frame of the mesh (m, m)."""
 
-    def slopes(self, position: Array) -> list[tuple[Array, Array]]:
-        """Derivatives of (`coef`, `around`) by the position, in the frame of the mesh."""
+    def slopes(self, position: Array) -> Array:
+        """Fill the derivatives in `coefs`, by the s coordinates of the position that move the mesh.
+
+        Returns the modes `around` and their derivatives, (1 + s, m, nx), or the modes alone,
+        (1, m, nx), where they stay.
+        """
 
     def advance(self, position: Array, step: Array) -> Array:
         """Position after `step`, of which the narrowest gap keeps at least a third."""
@@ -169,53 +175,49 @@ class CylindricalGap(FlowBetween):
 
     def __init__(self, mesh: Mesh) -> None:
         self.mesh = mesh
-        shape = (8, mesh.angle.size + 1, 1)
-        self.coef = np.zeros(shape)
+        shape, moves = (8, mesh.angle.size + 1, 1), 1 if mesh.polar else 2
+        self.coefs, self._beside = np.zeros((1 + moves, *shape)), np.zeros((2 * moves, *shape))
+        self.coef, self._slopes = self.coefs[0], self.coefs[1:]
+        self._modes = self.coefs[:, COS : SIN + 1, :-1, 0]
         self.across = np.ones((2, 1))
         self.dof_scale = np.ones(2)
-        self._spare = np.zeros(shape)
 
     @property
     def around(self) -> Array:
         """Cosine and sine, integrated over the cells around (2, nx)."""
-        return _around(self.coef)
+        return self._modes[0].copy()
 
     def place(self, position: Array) -> Array:
         """Evaluate `coef` at `position`; returns the axes of the frame of the mesh (2, 2)."""
         if not self.mesh.polar:
-            self._evaluate(self.coef, float(position[0]), float(position[1]))
+            self._evaluate(self.coefs, position[None])
             return _SHELL
-        self._evaluate(self.coef, math.hypot(*position), 0.0)
+        self._evaluate(self.coefs, np.array([[math.hypot(*position.tolist()), 0.0]]))
         return turning_frame(position)
 
-    def _evaluate(self, out: Array, ex: float, ey: float) -> None:
-        stretch = self.mesh.stretch(ex) if self.mesh.polar else 0.0
-        around = self.mesh.trigonometry
-        kernel.gap_coefficients(*around, stretch, ex, ey, self.surfaces, out, self.open_share)
+    def _evaluate(self, out: Array, places: Array) -> None:
+        face, cell = self.mesh.trigonometry
+        strength = self.mesh.strength
+        kernel.gap_coefficients(face, cell, strength, places, self.surfaces, out, self.open_share)
 
-    def slopes(self, position: Array) -> list[tuple[Array, Array]]:
-        """Derivatives of (`coef`, `around`) by the mesh coordinates of the position.
+    def slopes(self, position: Array) -> Array:
+        """Fill the derivatives in `coefs`; returns the modes and theirs (1 + s, 2, nx).
 
         Central differences of closed forms: the relative error is below 1e-7 for gaps above 1e-5;
         the step is the one at which what it leaves out and what rounding adds are alike.
         """
-        ex, ey = float(position[0]), float(position[1])
-        ratio = math.hypot(ex, ey)
+        x, y = position.tolist()
+        ratio = math.hypot(x, y)
         gap = max(1.0 - ratio, self.roughness)
         step = gap * max(1e-5, min((EPS / max(gap, EPS)) ** (1 / 3), 0.1))
-        turns = [(1.0, 0.0), (0.0, 1.0)]
         if self.mesh.polar:
-            turns = turns[:1]
-            ex, ey = ratio, 0.0
-        slopes = []
-        for tx, ty in turns:
-            slope = np.zeros_like(self.coef)
-            self._evaluate(slope, ex + step * tx, ey + step * ty)
-            self._evaluate(self._spare, ex - step * tx, ey - step * ty)
-            slope -= self._spare
-            slope /= 2.0 * step
-            slopes.append((slope, _around(slope)))
-        return slopes
+            beside = [[ratio + step, 0.0], [ratio - step, 0.0]]
+        else:
+            beside = [[x + step, y], [x - step, y], [x, y + step], [x, y - step]]
+        self._evaluate(self._beside, np.array(beside))
+        np.subtract(self._beside[::2], self._beside[1::2], out=self._slopes)
+        self._slopes /= 2.0 * step
+        return self._modes.copy()
 
     def advance(self, position: Array, step: Array) -> Array:
         """Position after `step`, of which the narrowest gap keeps at least a third of its height.
@@ -247,7 +249,7 @@ class CylindricalGap(FlowBetween):
     def arcs(self, position: Array) -> Array:
         """Angles that the cells span around (nx,), rad, with the shaft at `position`."""
         stretch = self.mesh.stretch(math.hypot(*position)) if self.mesh.polar else 0.0
-        cos, _, weights = self.mesh.trigonometry[3:]
+        cos, _, weights = self.mesh.trigonometry[1]
         mapped = weights * math.sqrt(1.0 - stretch * stretch) / (1.0 + stretch * cos)
         return np.asarray(mapped.sum(axis=1))
 
@@ -279,7 +281,3 @@ class CylindricalGap(FlowBetween):
     def widest(self, position: Array, free: slice | NDArray[np.int64]) -> Array:
         """The centre."""
         return np.zeros(2)
-
-
-def _around(coef: Array) -> Array:
-    return np.ascontiguousarray(coef[COS : SIN + 1, :-1, 0])

@@ -7,9 +7,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from loadflow.journal.film import _shell_kernels as shell_kernel
 from loadflow.journal.film.gap import KEPT
+from loadflow.journal.film.gap_layout import Bore
 from loadflow.journal.film.gap_mesh import ShapedMesh
-from loadflow.journal.film.gap_shaped import Bore, ShapedGap
+from loadflow.journal.film.gap_shaped import ShapedGap
 
 Array = NDArray[np.float64]
 
@@ -17,8 +19,9 @@ Array = NDArray[np.float64]
 class ElasticGap(ShapedGap):
     """Gap ``H = H_0(θ, z) + W − Σ q_j N_j(θ, z)`` with a growth W of each cell.
 
-    Between cell centres the gap is that of the one up to their face and of the other beyond, which
-    the conductances in series of a face take as it is.
+    Between cell centres the growth runs straight. What the surfaces drag over a face is that of its
+    gap, and the more of the cell it comes from the more the pressure there widens it: on faces, the
+    gap of a soft shell would let the pressure swing from cell to cell.
 
     Parameters
     ----------
@@ -34,14 +37,32 @@ class ElasticGap(ShapedGap):
         columns = np.arange(mesh.shape[0])
         first, last = (columns[-1], 0) if mesh.closed else (0, columns[-1])
         self._sides = np.append(first, columns), np.append(columns, last)
+        self.own_share = _own_share(mesh)
         self._ends_deform = ends_deform
-        self._to_spots = self.between(self._spots_angle, self._spots_z)
+        self._to_spots = self.between(self.layout.angle, self.layout.spots_z)
         self.growth = np.zeros(mesh.shape)
+        self.blend = np.zeros((4, mesh.shape[0] + 1, mesh.shape[1]))
+        self.advected = np.zeros(self.blend.shape[1:])
+
+    def drag(self, advected: Array) -> None:
+        """Set what the surfaces drag along for each Pa that widens the cells (nx, nz)."""
+        before, behind = (advected[side] for side in self._sides)
+        self.advected = 0.5 * (before + behind)
+
+    def _evaluate(self) -> None:
+        """Fill `coef` and its derivatives; where pressure widens the gap, of the upstream side."""
+        super()._evaluate()
+        shell_kernel.upwind(
+            self._cell, self._cell_gap, *self.moved, self.surfaces, self.mesh.closed,
+            self.advected, self.coef, self._by_x, self._by_y, self.blend,
+        )  # fmt: skip
 
     def grow(self, growth: Array) -> None:
         """Let the gaps of the cells grow by `growth` (nx, nz), clearances."""
         self.growth = growth
-        self._face_gap = self._rigid_face + np.stack([growth[s] for s in self._sides], axis=1)
+        sides = np.stack([growth[side] for side in self._sides], axis=1)
+        own = self.own_share[:, :, None]
+        self._face_gap = self._rigid_face + own * sides + (1.0 - own) * sides[:, ::-1]
         self._cell_gap = self._rigid_cell + growth
 
     def gaps(self, position: Array) -> Array:
@@ -86,6 +107,16 @@ class ElasticGap(ShapedGap):
     def pressed_open(self) -> Array:
         """Growth of the cells by what is not in the film: none."""
         return np.zeros(self.mesh.shape)
+
+
+def _own_share(mesh: ShapedMesh) -> Array:
+    """Share of their own cell in the growth of the nodes of a face, (nx + 1, 2).
+
+    The growth runs straight from cell to cell; the rest is that of the cell across the face.
+    """
+    places, sides = mesh.face_angles
+    away = np.abs(places - mesh.edges[:, None])
+    return np.asarray((away + sides[:, ::-1]) / sides.sum(axis=1)[:, None])
 
 
 class _Line(NamedTuple):

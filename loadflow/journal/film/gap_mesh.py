@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -63,16 +63,17 @@ class ShapedMesh(Mesh):
         return self.edges[:, None] + away, sides
 
 
+@lru_cache(maxsize=32)
 def shaped_mesh(
     width_ratio: float,
     grid: tuple[int, int],
     half: bool,
     graded: bool,
     segments: tuple[Segment, ...],
-    marks: Iterable[float],
-    marks_across: Sequence[float],
+    marks: tuple[float, ...],
+    marks_across: tuple[float, ...],
 ) -> ShapedMesh:
-    """Mesh of a shaped gap.
+    """Mesh of a shaped gap, kept from one load to the next.
 
     Parameters
     ----------
@@ -86,7 +87,7 @@ def shaped_mesh(
         Whether cells crowd at the bearing ends.
     segments : tuple of Segment
         Lobes or pads; none for a bore that runs round.
-    marks, marks_across : sequence of float
+    marks, marks_across : tuple of float
         Angles (rad) and axial places (shaft radii) at which the gap may step.
     """
     around, across = check_grid(grid)

@@ -15,8 +15,9 @@ from loadflow.journal.contact import Contact
 from loadflow.journal.film import _rough_kernels as kernel
 from loadflow.journal.film.gap import KEPT, CylindricalGap, RoughNumbers
 from loadflow.journal.film.gap_elastic import ElasticGap
+from loadflow.journal.film.gap_layout import Bore
 from loadflow.journal.film.gap_mesh import ShapedMesh
-from loadflow.journal.film.gap_shaped import Bore, ShapedGap
+from loadflow.journal.film.gap_shaped import ShapedGap
 from loadflow.journal.film.mesh import Mesh
 from loadflow.tribology import kernels as laws
 
@@ -80,12 +81,12 @@ class RoughGap(CylindricalGap):
         self.roughness, self.rough_numbers = self.rough.roughness, self.rough.numbers
         self.open_share = np.ones((mesh.angle.size, 1))
 
-    def slopes(self, position: Array) -> list[tuple[Array, Array]]:
-        """Derivatives of (`coef`, `around`) by the mesh coordinates of the position."""
+    def slopes(self, position: Array) -> Array:
+        """Fill the derivatives in `coefs`; returns the modes and theirs (1 + s, 2, nx)."""
         kept = np.array(self.open_share)
-        slopes = super().slopes(position)
+        modes = super().slopes(position)
         self.open_share = kept
-        return slopes
+        return modes
 
     def farthest(self, ratio: float) -> float:
         """Eccentricity ratio up to which a step may lead from `ratio`."""

@@ -3,101 +3,19 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.journal.film import _gap_kernels as kernel
 from loadflow.journal.film.gap import KEPT, FlowBetween
+from loadflow.journal.film.gap_layout import Bore, Places, layout_of
 from loadflow.journal.film.gap_mesh import ShapedMesh
 from loadflow.journal.film.pad_curve import PadCurve, pad_curve
-from loadflow.journal.geometry import JournalGeometry
-from loadflow.journal.shapes import Relief, Segment
 
 Array = NDArray[np.float64]
 _STAYS = 1e-3  # readiness of a shaft that nothing holds to move, against that of its pad
 _SMALL_LIFT = 0.03  # tilt of a pad, in clearances, from which it may grow threefold in a step
-_FINE = np.radians(0.5)  # distance of the angles at which the narrowest gap is sought
-
-
-@dataclass(frozen=True)
-class Bore:
-    """Bore of a bearing: segments, relief, and the lengths that make its gap dimensionless (m)."""
-
-    segments: tuple[Segment, ...]
-    relief: tuple[Relief, ...]
-    radius: float
-    width: float
-    clearance: float
-
-    @classmethod
-    def of(cls, bearing: JournalGeometry) -> Bore:
-        """Bore of a bearing."""
-        shape, lengths = bearing.shape, (bearing.radius, bearing.width, bearing.clearance)
-        return cls(shape.segments, bearing.relief, *lengths)
-
-    @property
-    def along(self) -> bool:
-        """Whether the gap changes along the axis."""
-        return bool(self.relief)
-
-    @property
-    def pads(self) -> list[int]:
-        """Numbers of the segments that tilt."""
-        return [number for number, part in enumerate(self.segments) if part.tilting]
-
-    def gap(self, angle: Array, segment: NDArray[np.int64], z: Array) -> Array:
-        """Gap of the centred shaft in clearances, (n, m).
-
-        Parameters
-        ----------
-        angle, segment : array (n,)
-            rad, and the segment that each lies in.
-        z : array (m,)
-            Shaft radii from mid-plane.
-        """
-        around = np.ones(angle.size)
-        if self.segments:
-            preload = np.array([part.preload for part in self.segments])[segment]
-            narrowest = np.array([part.narrowest for part in self.segments])[segment]
-            around = (1.0 - preload * np.cos(angle - narrowest)) / (1.0 - preload)
-        total = np.repeat(around[:, None], z.size, axis=1)
-        for part in self.relief:
-            total += part.added(angle, z * self.radius, self.width) / self.clearance
-        return total
-
-    def narrowest(self, position: Array) -> Array:
-        """Narrowest gap (n,) around aligned shafts at positions (n, 2), clearances; no relief."""
-        if not self.segments:
-            return np.asarray(1.0 - np.hypot(*position.T))
-        least = np.full(len(position), np.inf)
-        for part in self.segments:
-            shift = part.preload * np.array([np.cos(part.narrowest), np.sin(part.narrowest)])
-            x, y = (position + shift / (1.0 - part.preload)).T
-            # H = 1/(1 − m) − |(x, y)| cos(θ − its angle): least there, or at an end of the segment
-            away = (np.arctan2(y, x) - part.start) % (2 * np.pi)
-            ends = [x * np.cos(end) + y * np.sin(end) for end in (part.start, part.end)]
-            reach = np.where(away <= part.end - part.start, np.hypot(x, y), np.maximum(*ends))
-            least = np.minimum(least, 1.0 / (1.0 - part.preload) - reach)
-        return least
-
-
-@dataclass(frozen=True)
-class Places:
-    """Places in a gap: H_0 (n, l), direction (n, 2), z (l,), modes (m, n) around, (m, l) along."""
-
-    base: Array
-    facing: Array
-    z: Array
-    reach: Array
-    lengths: Array
-
-    def gaps(self, position: Array, curvature: Array) -> Array:
-        """Gap (n, l) of a shaft at `position` whose centre line has a `curvature` (2,)."""
-        moved = (self.reach.T * position) @ self.lengths
-        bent = self.facing @ (0.5 * np.outer(curvature, self.z**2))
-        return np.asarray(self.base - moved - bent)
 
 
 class ShapedGap(FlowBetween):
@@ -123,76 +41,21 @@ class ShapedGap(FlowBetween):
     first_gap = 0.02
 
     def __init__(self, mesh: ShapedMesh, bore: Bore, along: bool = False) -> None:
-        self.mesh = mesh
-        self.bore = bore
-        self.tilts = not mesh.half
-        self.shaft = 4 if self.tilts else 2
-        self.size = self.shaft + len(bore.pads)
+        self.mesh, self.bore = mesh, bore
+        self.layout = plan = layout_of(mesh, bore, along)
+        self.tilts, self.shaft, self.size = plan.tilts, plan.shaft, plan.size
         self.dof_scale = np.repeat([_STAYS, 1.0], [self.shaft, len(bore.pads)])
         self.pads = np.arange(self.shaft, self.size)
-        nx, nz = mesh.shape
-        along = along or self.tilts or bore.along
-        rows = nz if along else 1
-        z = mesh.z if along else np.zeros(1)
-
-        pivots = np.array([bore.segments[number].narrowest for number in bore.pads])
-        self.pivots = np.stack([np.cos(pivots), np.sin(pivots)], axis=-1)
-        self._tangents = np.stack([-np.sin(pivots), np.cos(pivots)], axis=-1)
-        self._modes = self._shifts(mesh.segment)
-        self.across = self._lengthwise(z)
-        angles, weights = mesh.face_angles
-        self._face = np.ascontiguousarray([np.cos(angles), np.sin(angles), weights])
-        self._cell = np.array([np.cos(mesh.angle), np.sin(mesh.angle), np.diff(mesh.edges)])
-        columns = np.arange(nx)
-        sides = np.append(0, columns), np.append(columns, nx - 1)
-        nodes = [bore.gap(a, mesh.segment[side], z) for a, side in zip(angles.T, sides)]
-        self._face_gap = np.ascontiguousarray(np.stack(nodes, axis=1))
-        self._cell_gap = bore.gap(mesh.angle, mesh.segment, z)
-        self._around = np.einsum("jid,di->ji", self._modes, self._cell[:2] * self._cell[2])
-        self._around[self.shaft :, mesh.groove] = 0.0  # grooves do not press on pads
-
-        shape = (8, nx + 1, rows + (1 if along else 0))
-        self.coef, self._by_x, self._by_y = np.zeros(shape), np.zeros(shape), np.zeros(shape)
-        self.line, self.curvature = np.zeros((2, rows)), np.zeros(2)
-        self._z = z
-        self._sample()
-
-    def _shifts(self, segment: NDArray[np.int64]) -> Array:
-        """Direction (x, y) in which each degree of freedom shifts the shaft, (m, n, 2)."""
-        shifts = np.zeros((self.size, segment.size, 2))
-        shifts[0, :, 0] = shifts[1, :, 1] = 1.0
-        if self.tilts:
-            shifts[2, :, 1], shifts[3, :, 0] = -1.0, 1.0
-        for row, number in enumerate(self.bore.pads, start=self.shaft):
-            shifts[row, segment == number] = self._tangents[row - self.shaft]
-        return shifts
-
-    def _lengthwise(self, z: Array) -> Array:
-        """Factor of each mode along the axis, (m, rows)."""
-        across = np.ones((self.size, z.size))
-        if self.tilts:
-            across[2:4] = z
-        return across
-
-    def _sample(self) -> None:
-        """Places at which the narrowest gap is sought: H_0, cosine and sine, modes there."""
-        mesh = self.mesh
-        columns = np.flatnonzero(~mesh.groove)
-        parts = [
-            np.linspace(mesh.edges[i], mesh.edges[i + 1], 2 + int(mesh.dx[i] / _FINE))
-            for i in columns
-        ]
-        angle = np.concatenate(parts)
-        segment = np.repeat(mesh.segment[columns], [part.size for part in parts])
-        z = mesh.z_edges if self._z.size > 1 else self._z
-        inner = np.clip(angle, angle[0] + 1e-9, angle[-1] - 1e-9)
-        self._spots = self.bore.gap(inner, segment, z)
-        facing = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
-        self._reach = np.einsum("jid,id->ji", self._shifts(segment), facing)
-        self._lengths = self._lengthwise(z)
-        self._facing, self._spots_angle, self._spots_z = facing, angle, z
-        self._spots_segment = segment
-        self._spots_line = np.zeros((2, z.size))
+        self.pivots, self._tangents, self.across = plan.pivots, plan.tangents, plan.across
+        self._face, self._face_gap = plan.face, plan.face_gap
+        self._cell, self._cell_gap = plan.cell, plan.cell_gap
+        self._reach, self._lengths = plan.reach, plan.lengths
+        nx, rows = plan.cell_gap.shape
+        shape = (8, nx + 1, rows + (1 if plan.along else 0))
+        self.coefs = np.zeros((1 + self.size, *shape))
+        self.coef, self._slopes = self.coefs[0], self.coefs[1:]
+        self._by_x, self._by_y = np.zeros((2, *shape))
+        self.bend(np.zeros(2))
 
     def arcs(self, position: Array) -> Array:
         """Angles that the cells span around (nx,), rad."""
@@ -210,9 +73,9 @@ class ShapedGap(FlowBetween):
 
     def bend(self, curvature: Array) -> None:
         """Bend the shaft: curvature (2,) of its centre line over that of one clearance per R²."""
-        self.curvature = curvature
-        self.line = 0.5 * np.outer(curvature, self._z**2)
-        self._spots_line = 0.5 * np.outer(curvature, self._spots_z**2)
+        self.curvature, plan = curvature, self.layout
+        self.line = 0.5 * np.outer(curvature, plan.z**2)
+        self._spots = plan.spots - plan.facing @ (0.5 * np.outer(curvature, plan.spots_z**2))
 
     def modes_at(self, angle: Array, segment: NDArray[np.int64], z: Array) -> Places:
         """Gap and modes at angles (n,), rad, in segments (n,), and at z (l,), shaft radii."""
@@ -221,18 +84,18 @@ class ShapedGap(FlowBetween):
             base=self.bore.gap(angle, segment, z),
             facing=facing,
             z=z,
-            reach=np.einsum("jid,id->ji", self._shifts(segment), facing),
-            lengths=self._lengthwise(z),
+            reach=np.einsum("jid,id->ji", self.layout.shifts(segment), facing),
+            lengths=self.layout.lengthwise(z),
         )
 
     def gaps(self, position: Array) -> Array:
         """Gap at the sampled places, in clearances."""
         moved = (self._reach.T * position) @ self._lengths
-        return np.asarray(self._spots - moved - self._facing @ self._spots_line)
+        return np.asarray(self._spots - moved)
 
     def uniform(self) -> Array:
         """∫ N_j over the film (m,), in units of R²."""
-        return np.asarray(self._around.sum(axis=1) * (self.across * self.mesh.dz).sum(axis=1))
+        return np.asarray(self.around.sum(axis=1) * (self.across * self.mesh.dz).sum(axis=1))
 
     def facing_groove(self) -> Array:
         """∫ N_j over the groove in which the film begins and ends (m,), in units of R²."""
@@ -245,7 +108,7 @@ class ShapedGap(FlowBetween):
     @property
     def around(self) -> Array:
         """Modes, integrated over the cells around (m, nx)."""
-        return self._around
+        return self.layout.around
 
     def place(self, position: Array) -> Array:
         """Evaluate `coef` at `position`; the frame of the mesh is that of the shell."""
@@ -263,22 +126,15 @@ class ShapedGap(FlowBetween):
 
     def centre(self, position: Array) -> tuple[Array, Array]:
         """Where the shaft is seen to be from each cell, x and y (nx, rows)."""
-        ex, ey = (
-            np.ascontiguousarray((modes.T * position) @ self.across + line)
-            for modes, line in zip(np.moveaxis(self._modes, 2, 0), self.line)
-        )
-        return ex, ey
+        modes, (along_x, along_y) = self.layout.modes, self.line
+        ex = (modes[:, :, 0].T * position) @ self.across + along_x
+        return ex, (modes[:, :, 1].T * position) @ self.across + along_y
 
-    def slopes(self, position: Array) -> list[tuple[Array, Array]]:
-        """Derivatives of (`coef`, `around`) by the position, where it was last placed."""
-        still = np.zeros_like(self._around)
-        slopes = []
-        for (ax, ay), across in zip(np.swapaxes(self._modes, 1, 2), self.across):
-            out = np.zeros_like(self.coef)
-            kernel.mode_slope(self._by_x, self._by_y, ax.copy(), ay.copy(), across, out)
-            kernel.faces_across(self.coef, self.mesh.dz, True, out)
-            slopes.append((out, still))
-        return slopes
+    def slopes(self, position: Array) -> Array:
+        """Fill the derivatives in `coefs` where the shaft was last placed; returns the modes."""
+        modes, dz = self.layout.modes, self.mesh.dz
+        kernel.mode_slopes(self._by_x, self._by_y, modes, self.across, self.coef, dz, self._slopes)
+        return self.around[None]
 
     def advance(self, position: Array, step: Array) -> Array:
         """Position after `step`, of which every place keeps at least a third of its gap."""
@@ -343,18 +199,18 @@ class ShapedGap(FlowBetween):
         """Narrowest gap (clearances), its angle (rad) and axial place (shaft radii)."""
         gaps = self.gaps(position)
         i, k = np.unravel_index(gaps.argmin(), gaps.shape)
-        angle = math.atan2(self._facing[i, 1], self._facing[i, 0])
-        return float(gaps[i, k]), angle, float(self._spots_z[k])
+        x, y = self.layout.facing[i].tolist()
+        return float(gaps[i, k]), math.atan2(y, x), float(self.layout.spots_z[k])
 
     def closing(self, position: Array, limit: float) -> tuple[float, ...]:
         """Angles, rad, of the narrowest gap of each segment where it is below `limit`."""
         gaps = self.gaps(position).min(axis=1)
         angles = []
-        for number in np.unique(self._spots_segment):
-            part = np.flatnonzero(self._spots_segment == number)
+        for number in np.unique(self.layout.segment):
+            part = np.flatnonzero(self.layout.segment == number)
             nearest = part[gaps[part].argmin()]
             if gaps[nearest] < limit:
-                angles.append(float(self._spots_angle[nearest]))
+                angles.append(float(self.layout.angle[nearest]))
         return tuple(angles)
 
     def reach(self, direction: Array, least: float) -> float:

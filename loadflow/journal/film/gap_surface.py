@@ -211,8 +211,8 @@ class SurfaceGap:
         self.pressed = np.ascontiguousarray(factors @ (surface.basis(mesh.angle) * mesh.weights[0]))
         nx, nz = mesh.shape
         shape = (8, nx + 1, nz + 1)
-        self.coef, self._by = np.zeros(shape), np.zeros((3, *shape))
-        self.still = np.zeros_like(self.around)
+        self.coefs, self._by = np.zeros((1 + self.size, *shape)), np.zeros((3, *shape))
+        self.coef = self.coefs[0]
         inner = 1e-9 * np.diff(nodes)
         spots = np.concatenate([nodes[:-1] + inner, nodes[1:] - inner])
         self._spots, self._spots_basis = gap(spots), surface.basis(spots)
@@ -236,14 +236,11 @@ class SurfaceGap:
         surface_kernel.around_nodes(basis, width, gap, moved, ends, self.coef, self._by)
         return self.unmoved
 
-    def slopes(self, position: Array) -> list[tuple[Array, Array]]:
-        """Derivatives of (`coef`, `around`) by the position, where it was last placed."""
-        slopes = []
-        for factors, across, ends in zip(self._factors, self.across, self._ends):
-            out = np.zeros_like(self.coef)
-            surface_kernel.motion(self._by, factors, across, ends, out)
-            slopes.append((out, self.still))
-        return slopes
+    def slopes(self, position: Array) -> Array:
+        """Fill the derivatives in `coefs` where the shaft was last placed; returns the modes."""
+        for out, *motion in zip(self.coefs[1:], self._factors, self.across, self._ends):
+            surface_kernel.motion(self._by, *motion, out)
+        return self.around[None]
 
     def share(self, position: Array, step: Array) -> float:
         """Share of a `step` after which every place keeps at least a third of its gap."""

@@ -9,8 +9,9 @@ from numpy.typing import NDArray
 
 from loadflow.journal.film import _kernels as row
 from loadflow.journal.film._gap_kernels import faces_across
+from loadflow.journal.film.gap_layout import Bore
 from loadflow.journal.film.gap_mesh import ShapedMesh
-from loadflow.journal.film.gap_shaped import Bore, ShapedGap
+from loadflow.journal.film.gap_shaped import ShapedGap
 
 Array = NDArray[np.float64]
 

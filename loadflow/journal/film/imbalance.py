@@ -30,8 +30,8 @@ def imbalance(
     Only the degrees of freedom `free` need balance.
     """
     frame = film.place(u, position)
-    around = film.gap.around
-    mass = film.storage(film.gap.coef, around, frame.T @ velocity, rate)
+    gap, local = film.gap, frame.T @ velocity
+    mass = film.storage(gap.coefs[:1], gap.around[None], local, rate)[0]
     flux = (abs(film.wedge) + film.scale) * film.mesh.area.max()
     outflow = film.balance(film.gap.coef, mass) - old
     worst = float(np.abs(film.residual(outflow)).max()) / flux
@@ -58,7 +58,7 @@ def rounding(
     digits. `slope` (m, m) is the derivative of the load by the position.
     """
     mesh, gap = film.mesh, film.gap
-    mass = film.storage(gap.coef, gap.around, velocity, 0.0)
+    mass = film.storage(gap.coefs[:1], gap.around[None], velocity, 0.0)[0]
     terms = _largest_terms(film, mass)
     narrow = min(max(gap.narrowest(position), EPS), 1.0)
     flux = (abs(film.wedge) + film.scale) * mesh.dz.max()

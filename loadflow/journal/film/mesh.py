@@ -8,6 +8,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from loadflow.journal.film._gap_kernels import FLATTEST
 from loadflow.journal.film.grooves import edges_across, edges_around
 from loadflow.journal.film_model import check_grid
 from loadflow.journal.supply import Supply
@@ -17,7 +18,6 @@ Array = NDArray[np.float64]
 MAP_STRENGTH = (
     0.95  # of the Sommerfeld map, times the eccentricity ratio: least error up to ε = 0.99
 )
-_FLATTEST = 0.99  # stretch of the map, which ends at 1
 END_STRENGTH = 0.8  # share of the sine in the axial grading toward the bearing end
 
 
@@ -100,7 +100,7 @@ class Mesh:
 
     def stretch(self, ratio: float) -> float:
         """Stretch of the Sommerfeld map at an eccentricity ratio, which may exceed 1."""
-        return min(self.strength * ratio, _FLATTEST)
+        return min(self.strength * ratio, FLATTEST)
 
     def angles(self, position: Array) -> Array:
         """Angle of each column of cells (nx,), rad, as the shaft stands at `position`."""
@@ -122,12 +122,15 @@ class Mesh:
         return (2 if self.closed else 1) * self.z.size
 
     @cached_property
-    def trigonometry(self) -> tuple[Array, Array, Array, Array, Array, Array]:
-        """Cosine, sine and weight at the Gauss points between centres, then inside cells."""
+    def trigonometry(self) -> tuple[Array, Array]:
+        """Cosine, sine and weight at the Gauss points between centres, and inside cells.
+
+        Of the shape (3, nx + 1, nodes) and (3, nx, nodes).
+        """
         a = self.angle
         ends = (a[-1] - 2 * np.pi, a[0] + 2 * np.pi) if self.closed else self.edges[[0, -1]]
         between = np.concatenate([[ends[0]], a, [ends[1]]])
-        return (*_gauss(between, self.nodes), *_gauss(self.edges, self.nodes))
+        return _gauss(between, self.nodes), _gauss(self.edges, self.nodes)
 
 
 def folded(count: int) -> NDArray[np.int64]:
@@ -136,12 +139,12 @@ def folded(count: int) -> NDArray[np.int64]:
     return np.where(2 * turn < count, 2 * turn, 2 * (count - turn) - 1)
 
 
-def _gauss(edges: Array, nodes: int) -> tuple[Array, Array, Array]:
-    """Cosine, sine and weight of Gauss points between `edges`, each (intervals, nodes)."""
+def _gauss(edges: Array, nodes: int) -> Array:
+    """Cosine, sine and weight of Gauss points between `edges`, (3, intervals, nodes)."""
     x, w = np.polynomial.legendre.leggauss(nodes)
     half = 0.5 * np.diff(edges)[:, None]
     a = 0.5 * (edges[1:] + edges[:-1])[:, None] + half * x
-    return np.cos(a), np.sin(a), np.ascontiguousarray(half * w)
+    return np.stack([np.cos(a), np.sin(a), half * w])
 
 
 def graded_share(cells: int) -> Array:

@@ -35,14 +35,11 @@ class SurfaceFilm(DiscreteFilm):
             mesh.closed, self.law.floor, self.p_line, mesh.between, self.state, self._slope
         )
 
-    def _load(self, around: Array) -> Array:
-        gap = self.gap
-        if around is gap.still:  # motions do not move the nodes
-            return np.zeros(gap.size)
-        out = np.empty(gap.size)
+    def _loads(self, around: Array) -> Array:
+        gap, out = self.gap, np.empty((1, self.gap.size))  # motions do not move the nodes
         above = self.state[LOAD] - self.p_edge
-        kernel.load_of(above, gap.pressed, gap.across, gap.mesh.carrying, out)
-        return np.asarray(self.radius**2 * out)
+        kernel.load_of(above, gap.pressed[None], gap.across, gap.mesh.carrying, out)
+        return out
 
     def _carried(self, columns: Array) -> Array:
         gap, mesh = self.gap, self.gap.mesh

@@ -1,14 +1,22 @@
-"""Temperatures across a film: those of its surfaces beside its mean, on a parabola.
+"""Temperatures across a film: those of its surfaces beside its mean, on a parabola or a cubic.
 
 Where heat passes into shell and shaft the film is cooler there. With the mean T, gap h and
 conductivity k a parabola through the surfaces has the fluxes ``k (6 T − 4 T_shell − 2 T_shaft)/h``
 into the shell and ``k (6 T − 2 T_shell − 4 T_shaft)/h`` into the shaft, which pass on to what cools
-them. Exact for even dissipation. The viscosity is taken at both surfaces and midway, by the rule of
-Simpson, which Lobatto's with three points is (Elrod, NASA CR-185136).
+them. Exact for even dissipation, once the heat of the surfaces has reached the middle.
+
+A cubic also has the first moment of the temperature, A, which the flow carries on as it does the
+mean (Elrod, NASA CR-185136): with s = ±1 at shaft and shell and Legendre's polynomials
+``T + A P₁(s) + b P₂(s) + d P₃(s)``, where b and d follow from what both surfaces pass on. Oil that
+the shaft drags has the velocity 1 + s, oil that pressure drives 3 (1 − s²)/2 over their means, so
+that they carry T + A/3 and T − b/5.
+
+The viscosity is taken at Lobatto's points: both surfaces and one or two between.
 """
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -20,66 +28,150 @@ from loadflow.journal.heat import FilmHeat
 
 Array = NDArray[np.float64]
 
+_MIDDLE = (0.0, 0.5, 1.0), (1 / 6, 4 / 6, 1 / 6)  # Lobatto's points from the shell, their weights
+_INNER = 1 / math.sqrt(5)
+_PAIR = (0.0, 0.5 - 0.5 * _INNER, 0.5 + 0.5 * _INNER, 1.0), (1 / 12, 5 / 12, 5 / 12, 1 / 12)
+
 
 class Surface(NamedTuple):
-    """Temperature of a surface: ``given + mean T + shaft T_J``, of the film and of the shaft."""
+    """A temperature ``given + mean T + shaft T_J + skew A``: T, A of the film, T_J of the shaft."""
 
     given: Array
     mean: Array
     shaft: Array
+    skew: Array
 
-    def at(self, mean: Array, shaft: float) -> Array:
-        """Temperature where the film has `mean`, and the shaft, K."""
-        return np.asarray(self.given + self.mean * mean + self.shaft * shaft)
+    def at(self, mean: Array, shaft: float, skew: Array | float = 0.0) -> Array:
+        """Temperature where the film has `mean` and `skew`, and the shaft, K."""
+        return np.asarray(self.given + self.mean * mean + self.shaft * shaft + self.skew * skew)
+
+
+def _sum(*parts: tuple[float | Array, Surface]) -> Surface:
+    """Sum of surfaces, each with a factor."""
+    return Surface(*(sum(f * s[i] for f, s in parts) for i in range(len(Surface._fields))))
+
+
+class Moments(NamedTuple):
+    """First moments of what is carried: by drag, by pressure, and by what crosses the film."""
+
+    dragged: Surface
+    pressed: Surface
+    crossing: Surface
+
+
+class Across(NamedTuple):
+    """Viscosity across a film: its means, the changes of that under shear by T and by A, 1/K, and
+    the first moment of the dissipation, over its mean.
+    """
+
+    film: AcrossFilm
+    by_mean: Array
+    by_skew: Array
+    moment: Array
 
 
 @dataclass(frozen=True)
 class Surfaces:
-    """Surfaces of the shell and of the shaft at the cells of a film."""
+    """Surfaces of the shell and of the shaft at the cells of a film, and what lies between.
+
+    Attributes
+    ----------
+    shell, shaft : Surface
+        Temperatures of both surfaces.
+    between : tuple of Surface
+        Those at Lobatto's points between them.
+    dragged, pressed : Surface
+        Means of what the shaft drags along, and of what pressure drives.
+    conducts : array
+        2 k/h, W/(m² K).
+    moments : Moments, optional
+        First moments; without them A is none of the unknowns.
+    """
 
     shell: Surface
     shaft: Surface
-
-    @property
-    def carried(self) -> Surface:
-        """Mean temperature of what the shaft drags along: faster oil counts for more."""
-        given, mean, shaft = (b - a for a, b in zip(self.shell, self.shaft))
-        return Surface(given / 6, 1 + mean / 6, shaft / 6)
+    between: tuple[Surface, ...]
+    dragged: Surface
+    pressed: Surface
+    conducts: Array
+    moments: Moments | None = None
 
     @classmethod
     def of(cls, heat: FilmHeat, gap: Array) -> Surfaces:
         """Surfaces of a film whose cells have a `gap`, m; as warm as the film with one point."""
         none, all_ = np.zeros_like(gap), np.ones_like(gap)
+        mean = Surface(none, all_, none, none)
         if heat.points == 1:
-            return cls(Surface(none, all_, none), Surface(none, all_, none))
+            return cls(mean, mean, (mean,), mean, mean, none)
         conducts = float(heat.liquid.conductivity(heat.inlet_temperature)) / gap
-        out, into = heat.shell_transfer, heat.shaft_transfer
-        first, second = 4 * conducts + out, 4 * conducts + into
-        det = first * second - 4 * conducts**2
-        warm = out * heat.shell_temperature
-        shell = (second * warm, 6 * conducts * (second - 2 * conducts), -2 * conducts * into)
-        shaft = (-2 * conducts * warm, 6 * conducts * (first - 2 * conducts), first * into)
-        return cls(
-            Surface(*(part / det for part in shell)), Surface(*(part / det for part in shaft))
-        )
+        return _cubic(heat, conducts) if heat.points == 4 else _parabola(heat, conducts, mean)
 
     def viscosity(
-        self, heat: FilmHeat, reference: float, mean: Array, shaft: float
-    ) -> tuple[AcrossFilm, Array]:
-        """Viscosity over `reference` of cells at `mean`, K; its change under shear by that, 1/K."""
-        low, high = self.shell.at(mean, shaft), self.shaft.at(mean, shaft)
-        middle = 0.25 * (6 * mean - low - high)
-        by = self.shell.mean, 0.25 * (6 - self.shell.mean - self.shaft.mean), self.shaft.mean
+        self,
+        heat: FilmHeat,
+        reference: float,
+        mean: Array,
+        shaft: float,
+        skew: Array | float = 0.0,
+    ) -> Across:
+        """Viscosity over `reference` of cells at `mean` and `skew`, K."""
+        nodes = (self.shell, *self.between, self.shaft)
+        places, weights = _MIDDLE if len(nodes) == 3 else _PAIR
         oil, fluid, slopes = heat.liquid, [], []
-        for temperature, change in zip((low, middle, high), by):
+        for node in nodes:
+            temperature = node.at(mean, shaft, skew)
             viscosity = oil.viscosity(temperature)
             fluid.append(reference / viscosity)
             slope = np.asarray(oil.viscosity_slopes(temperature)[0])
-            slopes.append(-fluid[-1] * slope / viscosity * change)
-        total = fluid[0] + 4 * fluid[1] + fluid[2]
-        centre = (2 * fluid[1] + fluid[2]) / total
-        parts = (centre**2 * fluid[0], 4 * (0.5 - centre) ** 2 * fluid[1])
-        flows = 2 * (parts[0] + parts[1] + (1 - centre) ** 2 * fluid[2])
-        shear = 6 / total
-        slope = -shear * (slopes[0] + 4 * slopes[1] + slopes[2]) / total
-        return AcrossFilm(shear, 1 / flows, 2 * (1 - centre)), slope
+            slopes.append(-fluid[-1] * slope / viscosity)
+        total = sum(w * f for w, f in zip(weights, fluid))
+        centre = sum(w * z * f for w, z, f in zip(weights, places, fluid)) / total
+        flows = 12 * sum(w * (centre - z) ** 2 * f for w, z, f in zip(weights, places, fluid))
+        by_mean, by_skew = (
+            -sum(w * s * change for w, s, change in zip(weights, slopes, changes)) / total**2
+            for changes in ([n.mean for n in nodes], [n.skew for n in nodes])
+        )
+        film = AcrossFilm(np.asarray(1 / total), np.asarray(1 / flows), 2 * (1 - centre))
+        return Across(film, by_mean, by_skew, 2 * centre - 1)
+
+
+def _parabola(heat: FilmHeat, conducts: Array, mean: Surface) -> Surfaces:
+    """Surfaces of a film of conductance k/h whose temperature is a parabola."""
+    out, into = heat.shell_transfer, heat.shaft_transfer
+    first, second = 4 * conducts + out, 4 * conducts + into
+    det = first * second - 4 * conducts**2
+    warm, none = out * heat.shell_temperature, np.zeros_like(conducts)
+    parts = (second * warm, 6 * conducts * (second - 2 * conducts), -2 * conducts * into)
+    shell = Surface(*(part / det for part in parts), none)
+    parts = (-2 * conducts * warm, 6 * conducts * (first - 2 * conducts), first * into)
+    shaft = Surface(*(part / det for part in parts), none)
+    middle = _sum((1.5, mean), (-0.25, shell), (-0.25, shaft))
+    carried = _sum((1.0, mean), (1 / 6, shaft), (-1 / 6, shell))
+    return Surfaces(shell, shaft, (middle,), carried, carried, 2 * conducts)
+
+
+def _cubic(heat: FilmHeat, conducts: Array) -> Surfaces:
+    """Surfaces of a film of conductance k/h whose temperature is a cubic with the moment A."""
+    none, all_, k = np.zeros_like(conducts), np.ones_like(conducts), 2 * conducts
+    mean, skew = Surface(none, all_, none, none), Surface(none, none, none, all_)
+    out, into = heat.shell_transfer, heat.shaft_transfer
+    # b (−3 k − α) ± d (6 k + α) is, at shell (+) and shaft (−), what T and A ask there
+    low = Surface(-out * heat.shell_temperature * all_, out * all_, none, -(out + k))
+    high = Surface(none, into * all_, -into * all_, into + k)
+    det = (3 * k + out) * (6 * k + into) + (6 * k + out) * (3 * k + into)
+    b = _sum((-(6 * k + into) / det, low), (-(6 * k + out) / det, high))
+    d = _sum((-(3 * k + out) / det, high), ((3 * k + into) / det, low))
+    inner = [_sum((1.0, mean), (way, skew), (-0.2, b), (-way, d)) for way in (-_INNER, _INNER)]
+    return Surfaces(
+        shell=_sum((1.0, mean), (-1.0, skew), (1.0, b), (-1.0, d)),
+        shaft=_sum((1.0, mean), (1.0, skew), (1.0, b), (1.0, d)),
+        between=tuple(inner),
+        dragged=_sum((1.0, mean), (1 / 3, skew)),
+        pressed=_sum((1.0, mean), (-1 / 5, b)),
+        conducts=k,
+        moments=Moments(
+            dragged=_sum((1 / 3, mean), (1 / 3, skew), (2 / 15, b)),
+            pressed=_sum((1 / 5, skew), (-3 / 35, d)),
+            crossing=_sum((1 / 3, mean), (1 / 15, skew), (-1 / 15, b), (-1 / 35, d)),
+        ),
+    )

@@ -2,9 +2,10 @@
 
 A film and its work arrays are tuples of some fifty arrays. To count references to each, to hand
 each over from Python, and to raise where a number is divided by zero took half of the time, of
-compiling and of running. So nothing here counts references (`_nrt`: it may not allocate), a division by zero
-gives infinity or NaN, which Newton's loop looks for, and what compiled functions alone call has no
-way in from Python. A function is compiled again in each that calls it: there are few levels.
+compiling and of running. So nothing here counts references (`_nrt`: it may not allocate), a
+division by zero gives infinity or NaN, which Newton's loop looks for, and what compiled functions
+alone call has no way in from Python. A function is compiled again in each that calls it, so levels
+are few.
 """
 
 from functools import partial

@@ -25,12 +25,14 @@ from loadflow.journal.models.model import Steps
 from loadflow.journal.models.ring import no_start, stopped
 from loadflow.journal.models.slow_heat import COLD, THIN, cooled, slow_states, standing_states
 from loadflow.journal.rows import operating_columns
-from loadflow.journal.solvers.estimate import NEAR
+from loadflow.journal.solvers.estimate import NEAR, OFF_THE_BORE
 from loadflow.numerics.convergence import Limits
 
 Array = NDArray[np.float64]
 
 _AT_REST = np.zeros(1)  # one time
+_NO_SLOPES = np.zeros((2, 0, 0))
+_MISSED = 0.6  # of the load where the shaft touches: above 0.46 the grid had a film in no draw
 
 
 def composes(film: Film, line: Line) -> bool:
@@ -41,8 +43,8 @@ def composes(film: Film, line: Line) -> bool:
 
 def equilibrium(
     bearing: JournalGeometry, options: Film, force: Array, speed: Array, line: Line, control: Limits
-) -> tuple[dict[str, Any], NDArray[np.bool_]]:
-    """Fields of `Equilibrium`, and which loads have an answer.
+) -> tuple[dict[str, Any], NDArray[np.bool_], NDArray[np.bool_]]:
+    """Fields of `Equilibrium`, which loads have an answer, and which surely have none.
 
     Warns
     -----
@@ -50,11 +52,11 @@ def equilibrium(
         A pressure that changes more across the width than the polynomials do; names the load.
     """
     given = bearing, options
-    answer, found, left = _equilibria(*given, force, speed, line, control, 0)
+    answer, found, left, none = _equilibria(*given, force, speed, line, control, 0)
     for level in LEVELS[1:]:
         again = np.flatnonzero(found & left)
         if again.size:
-            more, solved, still = _equilibria(
+            more, solved, still, _ = _equilibria(
                 *given, force[again], speed[again], line.at(again), control, level
             )
             for name, values in more.items():
@@ -62,7 +64,7 @@ def equilibrium(
             left[again] = still | ~solved
     if (left & found).any():
         _warn(left & found, f"load {int((left & found).argmax())}")
-    return answer, found
+    return answer, found, none
 
 
 def _warn(left: NDArray[np.bool_], first: str) -> None:
@@ -83,15 +85,25 @@ def _equilibria(
     line: Line,
     control: Limits,
     level: int,
-) -> tuple[dict[str, Any], NDArray[np.bool_], NDArray[np.bool_]]:
-    """Fields of `Equilibrium`, which loads have an answer, and which ask for more points across."""
+) -> tuple[dict[str, Any], NDArray[np.bool_], NDArray[np.bool_], NDArray[np.bool_]]:
+    """Fields of `Equilibrium`, and which loads: have an answer, ask for more points, have none."""
     model = build(bearing, options, speed, line, level)
     film, work, count = model.film, model.work, speed.size
     rows, lines, loads = np.zeros((count, at.RESULTS)), model.lines(speed.size), model.loads(force)
     places = model.estimates(force, speed, lines)
     both = 4 if model.whole else 2
     stiffness, damping = np.zeros((count, both, both)), np.zeros((count, both, both))
-    found, slopes, still = np.zeros((1, at.RESULTS)), np.zeros((2, both, both)), standing_states(1)
+    none, slopes = np.zeros(count, dtype=bool), np.zeros((2, both, both))
+
+    def at_rest(place: Array, n: int, size: int, slopes: Array) -> Array:
+        """Row of load `n` at rest; `place` moves in `size` coordinates to where it is carried."""
+        this, row = slice(n, n + 1), np.zeros((1, at.RESULTS))
+        solve(
+            film, work, place, size, _AT_REST, loads[this], lines[this], speed[this],
+            control.tolerance, control.max_iterations, row, slopes, COLD, standing_states(1),
+        )  # fmt: skip
+        return row[0]
+
     last: int | None = None
     for n in range(count):
         spent, converged, residual, rounding = 0, False, np.inf, 0.0
@@ -99,21 +111,17 @@ def _equilibria(
         if speed[n] == 0.0 and options.contact is None and loads[n].any():
             rows[n, at.RESIDUAL] = np.inf
             continue  # no film without rotation and squeeze
-        for place in _starts(model, places, last, n, rows):
-            found[:] = 0.0
-            this = slice(n, n + 1)
-            solve(
-                film, work, place, model.size, _AT_REST, loads[this], lines[this], speed[this],
-                control.tolerance, control.max_iterations, found, slopes, COLD, still,
-            )  # fmt: skip
-            residual, iterations, converged, rounding = found[0, at.RESIDUAL :]
+        for place, first in _starts(model, places, last, n, rows, at_rest):
+            row = at_rest(place, n, model.size, slopes)
+            residual, iterations, answered, rounding = row[at.RESIDUAL :]
             spent += int(iterations)
-            if converged and options.may_grade:
-                converged = model.resolves(place)
+            converged = answered > 0.0 and (not options.may_grade or model.resolves(place))
+            none[n] = first and _MISSED < residual < 1.0 and model.touches(place)
             if converged:
-                rows[n], stiffness[n], damping[n] = found[0], *slopes
+                rows[n], stiffness[n], damping[n] = row, *slopes
                 work.last[:] = work.u
                 last = n
+            if answered or none[n]:
                 break
         rows[n, at.RESIDUAL :] = residual, spent, converged, rounding
     lengths = np.array([1.0, 1.0, bearing.radius, bearing.radius])[:both]
@@ -130,7 +138,7 @@ def _equilibria(
     }
     if options.contact is not None:
         answer["contact_share"] = _share(answer["contact_force"], force)
-    return answer, rows[:, at.CONVERGED] > 0, model.unresolved_across(rows)
+    return answer, rows[:, at.CONVERGED] > 0, model.unresolved_across(rows), none
 
 
 def orbit(
@@ -201,14 +209,13 @@ def _path(
     rub = 0.0 if options.contact is None else options.contact.coefficient * bearing.radius
     share = 0.5 if model.whole else 1.0
     warmth, states = slow_states(options, model.units, share, rub, steps.temperature, time.size)
-    none = np.zeros((2, 0, 0))
 
     def run(place: Array, size: int, count: int, iterations: int) -> int:
         """Solve from a place through the first samples; returns how many have been."""
         return int(
             solve(
                 film, work, place, size, time[:count], loads[:count], lines[:count], speed[:count],
-                control.tolerance, iterations, rows[:count], none, warmth, states[:count],
+                control.tolerance, iterations, rows[:count], _NO_SLOPES, warmth, states[:count],
             )
         )  # fmt: skip
 
@@ -236,19 +243,35 @@ def _path(
 
 
 def _starts(
-    model: ComposedFilm, places: Array, last: int | None, n: int, rows: Array
-) -> Iterator[Array]:
-    """Positions to start load `n` from; sets the unknowns that belong to each."""
+    model: ComposedFilm,
+    places: Array,
+    last: int | None,
+    n: int,
+    rows: Array,
+    at_rest: Callable[[Array, int, int, Array], Array],
+) -> Iterator[tuple[Array, bool]]:
+    """Positions to start load `n` from, and which is the first; sets the unknowns of each.
+
+    The last ones are off the bore with their film solved: near the bore, and without a film, the
+    first steps of a shaft lead far away.
+    """
     work = model.work
     if last is not None:
         before = rows[last, :4]
-        moved = np.hypot(*(places[n] - places[last])[:2])
+        moved, turned = np.hypot(*(places[n] - places[last]).reshape(2, 2).T)
         gap = max(1.0 - np.hypot(*before[:2]), model.film.rough.size)
-        if moved < NEAR * gap and (model.size == 4 or np.allclose(before[2:], places[n, 2:])):
+        given = 0.0 if model.size == 4 else turned * model.film.nodes.z.max()
+        if moved + given < NEAR * gap:
             work.u[:] = work.last
-            yield before.copy()
+            yield np.append(before[:2], (before if model.size == 4 else places[n])[2:]), False
     work.u[:] = model.cold()
-    yield places[n].copy()
+    yield places[n].copy(), True
+    for share in OFF_THE_BORE:
+        work.u[:] = model.cold()
+        place = places[n].copy()
+        place[:2] *= share
+        at_rest(place, n, 0, _NO_SLOPES)
+        yield place, False
 
 
 def _share(carried: Array, force: Array) -> Array:

@@ -14,8 +14,9 @@ from loadflow.journal.contact import Contact
 from loadflow.journal.film._rough_kernels import NO_CONTACT
 from loadflow.journal.film.asperity_load import CylinderLoad
 from loadflow.journal.film.film import DiscreteFilm
+from loadflow.journal.film.gap_layout import Bore
 from loadflow.journal.film.gap_rough import RoughGap, Roughness
-from loadflow.journal.film.gap_shaped import Bore, ShapedGap
+from loadflow.journal.film.gap_shaped import ShapedGap
 from loadflow.journal.film.integrals import Integrals, in_units
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
@@ -36,6 +37,7 @@ from loadflow.journal.models.width_modes import at_places, half_width_nodes, who
 from loadflow.journal.rows import without_supply
 from loadflow.journal.shells import LinedShell, LocalShell
 from loadflow.journal.solvers.estimate import SHARES
+from loadflow.journal.solvers.load_stepping import TOUCHING
 from loadflow.tribology.kernels import pressure_integral
 
 Array = NDArray[np.float64]
@@ -160,6 +162,11 @@ class ComposedFilm:
             return True
         narrow = self._least(position[None], self.work.bend[None])[0]
         return self.units.resolves(np.array([1.0 - narrow, 0.0]))
+
+    def touches(self, position: Array) -> bool:
+        """Whether smooth, rigid surfaces touch at a position (4,)."""
+        smooth = self.film.give == 0.0 and self.film.rough.size == 0.0
+        return smooth and bool(self._least(position[None], self.work.bend[None])[0] < TOUCHING)
 
     def _least(self, positions: Array, bends: Array) -> Array:
         """Narrowest gap (n,) of a rigid shell at `positions` (n, 4), clearances, over the width."""

@@ -17,7 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.journal.film.film import DiscreteFilm
-from loadflow.journal.film.gap_shaped import Bore, ShapedGap
+from loadflow.journal.film.gap_layout import Bore
+from loadflow.journal.film.gap_shaped import ShapedGap
 from loadflow.journal.film.integrals import Integrals, in_units
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
@@ -38,8 +39,8 @@ from loadflow.journal.models.ring import (
 )
 from loadflow.journal.models.slow_heat import THIN, cooled, slow_states
 from loadflow.journal.models.width_modes import lobatto
-from loadflow.journal.rows import operating_columns, without_supply
-from loadflow.journal.solvers.estimate import NEAR, SHARES
+from loadflow.journal.rows import answered_rows, operating_columns, without_supply
+from loadflow.journal.solvers.estimate import NEAR, OFF_THE_BORE, SHARES
 from loadflow.journal.solvers.transient import orbit_dataset
 from loadflow.numerics.convergence import Limits
 
@@ -60,8 +61,11 @@ def equilibrium(
     """Static equilibria; a load that fails or is not resolved here is solved on the grid."""
     force, speed = np.array(force), np.array(speed)  # of the layout that the kernels know
     if composed.composes(options, line):
-        answer, found = composed.equilibrium(bearing, options, force, speed, line, control)
-        return _with_the_grid(bearing, options, line, answer | {"converged": found}, control)
+        answer, found, none = composed.equilibrium(bearing, options, force, speed, line, control)
+        answer["converged"] = found
+        if not control.strict:  # else the grid says why
+            answer, found = answered_rows(found | ~none, answer), found | none
+        return _with_the_grid(bearing, options, line, answer, control, found)
     film = units_of(bearing, options, speed)
     reduced, work = _discrete(bearing, options, film)
     count, bore = speed.size, Bore.of(bearing)
@@ -70,18 +74,20 @@ def equilibrium(
     starts = _Starts(bearing, film, reduced, work, estimates(bearing, film, force, speed))
     for n in range(count):
         spent, converged = 0, False
-        for x, y in starts.of(n):
+        for x, y in starts.of(n, speed[n], control):
             x, y, residual, iterations, converged, rounding = newton(
                 reduced, work, x, y, force[n, 0], force[n, 1], speed[n], 0.0,
                 control.tolerance, control.max_iterations,
             )  # fmt: skip
             spent += iterations
+            answered = converged
             if converged and options.may_grade:
                 narrow = float(bore.narrowest(np.array([[x, y]]))[0])
                 converged = film.resolves(np.array([1.0 - narrow, 0.0]))
             if converged:
                 finish(reduced, work, x, y, speed[n], rows[n], stiffness[n], damping[n])
                 starts.keep(n, (x, y))
+            if answered:
                 break
         rows[n, at.RESIDUAL :] = residual, spent, converged, rounding
     position = rows[:, [at.X, at.Y]]
@@ -93,16 +99,21 @@ def equilibrium(
         "damping": damping / bearing.clearance,
         "converged": rows[:, at.CONVERGED] > 0,
     }
-    return _with_the_grid(bearing, options, line, answer, control)
+    return _with_the_grid(bearing, options, line, answer, control, answer["converged"])
 
 
 def _with_the_grid(
-    bearing: JournalGeometry, options: Film, line: Line, answer: dict[str, Any], control: Limits
+    bearing: JournalGeometry,
+    options: Film,
+    line: Line,
+    answer: dict[str, Any],
+    control: Limits,
+    known: NDArray[np.bool_],
 ) -> dict[str, Any]:
-    """The answer, its loads that have not converged solved on the grid, if they may be."""
+    """The answer, its loads that are not `known` solved on the grid, if they may be."""
     if not control.refine:
         return answer
-    for index in np.flatnonzero(~answer["converged"]):
+    for index in np.flatnonzero(~known):
         solve_on_grid(bearing, options, int(index), line, answer, control)
     return answer
 
@@ -187,13 +198,18 @@ class _Starts:
         estimate: Array,
     ) -> None:
         self.bore = Bore.of(bearing)
+        self.held = reduced._replace(free=False)
         self.work = work
         self.estimate = estimate
         self.cold = _cold(film, reduced)
         self.last: tuple[int, tuple[float, float]] | None = None
 
-    def of(self, n: int) -> Iterator[tuple[float, float]]:
-        """Positions to start load `n` from; sets the unknowns that belong to each."""
+    def of(self, n: int, speed: float, control: Limits) -> Iterator[tuple[float, float]]:
+        """Positions to start load `n` from; sets the unknowns that belong to each.
+
+        The last ones are off the bore with their film solved: near the bore, and without a film,
+        the first steps of a shaft lead far away.
+        """
         if self.last is not None:
             before, position = self.last
             moved = np.hypot(*(self.estimate[n] - self.estimate[before]))
@@ -207,6 +223,13 @@ class _Starts:
             free = self.bore.narrowest(tries) > ShapedGap.first_gap
             x, y = tries[np.argmax(free)] if free.any() else (0.0, 0.0)
         yield x, y
+        for share in OFF_THE_BORE:
+            self.work.u[:] = self.cold
+            newton(
+                self.held, self.work, share * x, share * y, 0.0, 0.0, speed, 0.0,
+                control.tolerance, control.max_iterations,
+            )  # fmt: skip
+            yield share * x, share * y
 
     def keep(self, n: int, position: tuple[float, float]) -> None:
         """Remember the solved film of load `n`."""

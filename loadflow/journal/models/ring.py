@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from loadflow.errors import SolverError
 from loadflow.journal.film.discretise import build_film
 from loadflow.journal.film.film import DiscreteFilm
+from loadflow.journal.film.gap_layout import Bore
 from loadflow.journal.film.gap_mesh import cells_on
-from loadflow.journal.film.gap_shaped import Bore
 from loadflow.journal.film.mesh import folded
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry

@@ -1,10 +1,11 @@
-"""Where a cone carries a load: eccentricity over gap, and size of the gap, by damped steps.
+"""Where cones carry a load: eccentricity over gap, and size of the gap, by damped steps.
 
 The load of a film goes about with the inverse square of its gap, and its direction with the
 eccentricity over the gap. Sought are a direction and the logarithm of a size, both of films around
 a shaft that is held: they are smooth from light to heavy loads, and every step is a film that is
 there. Where a whole ring without rupture has no axial force at all, its axial position is the
-nearest to where the search began.
+nearest to where the search began. Two cones against each other share the way along the axis
+between them, and their tilt is sought, too, where it is free.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
-from itertools import chain
+from itertools import chain, product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,6 +28,7 @@ _STEPS, _SPENT = 60, 1500  # films of one search, and Newton steps of them all
 _LARGEST = 0.7  # change of an eccentricity over the gap, or of the gap's logarithm, in a step
 _HALVINGS = 12
 _RATIOS, _TURNS, _BEST = (0.4, 0.8), 10, 8  # films all around, and those from which it begins
+_ALONGS, _ALONG = (0.0, 0.6, -0.6), 1.0 - 1e-9  # ways between two cones
 _ROUGH = Limits(1e-3, 20)  # of these
 _NEAR = 0.02  # distance to the load below which Newton's method takes over
 _DAMPING = 1e-12  # of what the load does not feel
@@ -59,9 +61,9 @@ class Chart:
         return np.concatenate([aside, [axial], self.tilt])
 
     def slope(self, x: Array) -> Array:
-        """Change of the shifts by that of `x`, (3, 3)."""
+        """Change of the position by that of `x`, (5, 3)."""
         gap = self.clearance * math.exp(x[2])
-        found = np.diag([1.0, 1.0, 0.0]) * gap / math.cos(self.half_angle)
+        found = np.eye(BODY, 3) * gap / math.cos(self.half_angle)
         found[:2, 2] = gap / math.cos(self.half_angle) * x[:2]
         found[2, 2] = gap / math.sin(self.half_angle)
         return found
@@ -72,6 +74,95 @@ class Chart:
         gap = max(gap, math.exp(_NARROWEST) * self.clearance)
         aside = position[:2] * math.cos(self.half_angle) / gap
         return np.append(aside, math.log(gap / self.clearance))
+
+    def holds(self, x: Array) -> bool:
+        """Whether `x` is one of a film."""
+        return math.hypot(*x[:2]) < 1.0 and _NARROWEST < x[2] < _WIDEST
+
+
+@dataclass(frozen=True)
+class PairChart:
+    """Positions of a shaft between two cones.
+
+    Attributes
+    ----------
+    low, high : float
+        Ends of its way along the axis, m, where either gap is closed.
+    aside : float
+        Its way across the axis half-way between them, m.
+    length : float
+        By which a tilt is made a way, m.
+    tilt : array (2,)
+        Where the search begins, or held, rad.
+    free : bool
+        Whether the tilt is sought.
+    """
+
+    low: float
+    high: float
+    aside: float
+    length: float
+    tilt: Array
+    free: bool
+
+    def position(self, x: Array) -> Array:
+        """Position (5,) at an eccentricity over the gap and a way along the axis, and tilts."""
+        narrow = self.aside / math.cosh(x[2]) ** 2
+        axial = 0.5 * (self.low + self.high) + 0.5 * (self.high - self.low) * math.tanh(x[2])
+        tilt = self.tilt + x[3:] * narrow / self.length if self.free else self.tilt
+        return np.concatenate([narrow * x[:2], [axial], tilt])
+
+    def slope(self, x: Array) -> Array:
+        """Change of the position by that of `x`, (5, 3) or (5, 5)."""
+        steep = 1.0 / math.cosh(x[2]) ** 2
+        narrow, shrinks = self.aside * steep, -2.0 * math.tanh(x[2])
+        found = np.eye(BODY, x.size) * narrow
+        found[:2, 2] = shrinks * narrow * x[:2]
+        found[2, 2] = 0.5 * (self.high - self.low) * steep
+        if self.free:
+            found[3:, 3:] /= self.length
+            found[3:, 2] = shrinks * narrow / self.length * x[3:]
+        return found
+
+    def place(self, position: Array) -> Array:
+        """Inverse of `position`."""
+        way = (2.0 * position[2] - self.low - self.high) / (self.high - self.low)
+        along = math.atanh(min(max(way, -_ALONG), _ALONG))
+        narrow = self.aside / math.cosh(along) ** 2
+        x = np.append(position[:2] / narrow, along)
+        return np.append(x, (position[3:] - self.tilt) * self.length / narrow) if self.free else x
+
+    def holds(self, x: Array) -> bool:
+        """Whether `x` may be one of a film."""
+        return math.hypot(*x[:2]) < 2.0 and abs(x[2]) < -_NARROWEST
+
+    def starts(self) -> Iterator[Array]:
+        """Places all between the cones, (5,)."""
+        for along, ratio in product(_ALONGS, _RATIOS):
+            for turn in np.arange(_TURNS) * (2 * math.pi / _TURNS):
+                x = np.zeros(BODY if self.free else 3)
+                x[:3] = ratio * math.cos(turn), ratio * math.sin(turn), along
+                yield self.position(x)
+
+
+def between(
+    assembly: Assembly,
+    chart: PairChart,
+    started: Callable[[Array], AssemblyState],
+    force: Array,
+) -> Iterator[AssemblyState]:
+    """Films all between two cones, those first whose load is nearest to `force`."""
+    found: list[tuple[float, int, AssemblyState]] = []
+    for place in chart.starts():
+        start = started(place)
+        if assembly.narrowest(start) <= 0.0:
+            continue
+        film = assembly.solve(start, np.zeros(BODY), _HELD, _ROUGH)
+        if film.converged:
+            distance = _distance(assembly, film, force, chart.free)[0]
+            found.append((float(np.linalg.norm(distance)), len(found), film))
+    for _, _, film in sorted(found, key=lambda each: each[:2])[:_BEST]:
+        yield film
 
 
 def around(
@@ -93,7 +184,7 @@ def around(
                 continue
             film = assembly.solve(start, np.zeros(BODY), _HELD, _ROUGH)
             if film.converged:
-                distance = _distance(assembly, film, force)[0]
+                distance = _distance(assembly, film, force, False)[0]
                 aside = float(np.linalg.norm(distance[1:]))
                 found.append((aside, len(found), x, float(distance[0])))
     for _, _, x, size in sorted(found)[:_BEST]:
@@ -103,13 +194,13 @@ def around(
 
 def search(
     assembly: Assembly,
-    chart: Chart,
+    chart: Chart | PairChart,
     starts: Iterable[AssemblyState],
     force: Array,
     free: NDArray[np.int64],
     limits: Limits,
 ) -> AssemblyState:
-    """Equilibrium under `force` (5,), N and N m, at the tilt of `chart`, or where the search ended.
+    """Equilibrium under `force` (5,), N and N m, or where the search ended.
 
     Parameters
     ----------
@@ -122,7 +213,7 @@ def search(
     force : array (5,)
         The load.
     free : array of int
-        The three shifts.
+        The three shifts, or with them both tilts.
     limits : Limits
         Tolerance on the scaled residual.
     """
@@ -138,7 +229,7 @@ def search(
 
 def _search_from(
     assembly: Assembly,
-    chart: Chart,
+    chart: Chart | PairChart,
     start: AssemblyState,
     force: Array,
     free: NDArray[np.int64],
@@ -150,7 +241,8 @@ def _search_from(
     spent, polished = state.iterations, math.inf
     if not state.converged:
         return state
-    distance, change = _distance(assembly, state, force)
+    tilts = free.size > 3
+    distance, change = _distance(assembly, state, force, tilts)
     for _ in range(_STEPS):
         size = float(np.linalg.norm(distance))
         if size < _NEAR and size < 0.1 * polished:
@@ -170,14 +262,13 @@ def _search_from(
         step *= min(1.0, _LARGEST / float(np.abs(step).max()))
         for _ in range(_HALVINGS):
             trial_x = x + step
-            good = math.hypot(*trial_x[:2]) < 1.0 and _NARROWEST < trial_x[2] < _WIDEST
-            if good:
+            if chart.holds(trial_x):
                 moved = replace(state, position=chart.position(trial_x))
                 if assembly.narrowest(moved) > 0.0:
                     trial = _film_at(assembly, moved, limits)
                     spent += trial.iterations
                     if trial.converged:
-                        left, after = _distance(assembly, trial, force)
+                        left, after = _distance(assembly, trial, force, tilts)
                         if float(np.linalg.norm(left)) < size * (1.0 - 1e-4):
                             x, state, distance, change = trial_x, trial, left, after
                             break
@@ -203,13 +294,23 @@ def _film_at(assembly: Assembly, state: AssemblyState, limits: Limits) -> Assemb
     return found
 
 
-def _distance(assembly: Assembly, state: AssemblyState, force: Array) -> tuple[Array, Array]:
-    """Distance of the load to `force`, by size and direction (4,), and its change by shifts."""
-    load = np.sum([part for pads in assembly.loads(state) for part in pads], axis=0)[:3]
-    stiffness = assembly.coefficients(state)[0][:3, :3]
-    size, wanted = float(np.linalg.norm(load)), float(np.linalg.norm(force[:3]))
+def _distance(
+    assembly: Assembly, state: AssemblyState, force: Array, tilts: bool
+) -> tuple[Array, Array]:
+    """Distance of the load to `force`, by size and direction (4,), and its change by the position.
+
+    With `tilts` also that of the moments, over the force and the length of the assembly, (6,).
+    """
+    load = np.sum([part for pads in assembly.loads(state) for part in pads], axis=0)
+    stiffness = assembly.coefficients(state)[0]
+    size, wanted = float(np.linalg.norm(load[:3])), float(np.linalg.norm(force[:3]))
     size = max(size, 1e-300)
-    way = load / size
+    way = load[:3] / size
     distance = np.append(math.log(size / wanted), way - force[:3] / wanted)
-    turn = (np.eye(3) - np.outer(way, way)) @ stiffness / size
-    return distance, np.vstack([way @ stiffness / size, turn])
+    turn = (np.eye(3) - np.outer(way, way)) @ stiffness[:3] / size
+    change = np.vstack([way @ stiffness[:3] / size, turn])
+    if tilts:
+        unit = wanted * assembly.length
+        distance = np.append(distance, (load[3:] - force[3:]) / unit)
+        change = np.vstack([change, stiffness[3:] / unit])
+    return distance, change

@@ -25,6 +25,7 @@ Array = NDArray[np.float64]
 NEAR = 0.3  # share of the narrowest gap that the estimate may move for a warm start
 
 SHARES = (1.0, 0.7, 0.4, 0.1)  # of the closed form, at which the bore is tried
+OFF_THE_BORE = (0.8, 0.6, 0.4, 0.2)  # of the first position, where that one led nowhere
 _RATIOS = np.concatenate([np.linspace(0.0, 0.9, 91)[1:], 1.0 - np.geomspace(0.099, 1e-4, 60)])
 
 

@@ -18,7 +18,7 @@ _FIRST_LOAD = 0.2  # share of the load from which it is raised in steps
 _LEAST_LOAD = 1e-3  # share below which a step of the load is given up
 _FIRST_SHARE = 1e-4  # of its compliance, that a shell has first where it is softened in steps
 _LEAST_SHARE = 0.01  # of the share that it has, below which such a step is given up
-_STEPS, _STEPS_EACH = 400, 25  # Newton steps of all of them, and of each
+_STEPS, _STEPS_EACH = 16, 25  # Newton steps of each, and of all in multiples of those
 _STRIDE = 0.25  # first share of the way from the load at the start to the one that is wanted
 _SHORTEST = 1e-3  # of the lesser of both loads, below which such a step is given up
 _STEPS_SHORT, _BUDGET = (
@@ -52,11 +52,12 @@ def solve_in_load_steps(
     film.relax()
     u, place, state = film.start(), position.copy(), no_film(film)
     done, step, spent = 0.0, _FIRST_LOAD, 0
-    while step >= _LEAST_LOAD and spent < _STEPS:
+    most = film.newton_steps(_STEPS_EACH)
+    while step >= _LEAST_LOAD and spent < _STEPS * most:
         share = min(1.0, done + step)
         if done == 0.0:
             place[free] = share * position[free]
-        state = solve_equilibrium(film, share * force, u, place, tolerance, _STEPS_EACH, free=free)
+        state = solve_equilibrium(film, share * force, u, place, tolerance, most, free=free)
         spent += state.iterations
         if not state.converged:
             step *= 0.5
@@ -79,15 +80,18 @@ def solve_by_stiffness(
 ) -> Solution:
     """As `solve_equilibrium`, from a rigid shell on, whose compliance grows to what it is."""
     film.relax(share=0.0)
-    state = solve_equilibrium(
-        film, force, film.start(), position, tolerance, 2 * _STEPS_EACH, free=free
-    )
-    share, step, spent = 0.0, _FIRST_SHARE, state.iterations
+    most = film.newton_steps(_STEPS_EACH)
+    state = solve_equilibrium(film, force, film.start(), position, tolerance, 2 * most, free=free)
+    spent = state.iterations
+    if not state.converged:
+        state = solve_from_held(film, force, position, tolerance, 2 * most, free)
+        spent += state.iterations
+    share, step = 0.0, _FIRST_SHARE
     while state.converged and step >= _LEAST_SHARE * max(share, _FIRST_SHARE):
         at = min(1.0, share + step)
         film.relax(share=at)
         start = (state.u, state.position)
-        trial = solve_equilibrium(film, force, *start, tolerance, _STEPS_EACH, free=free)
+        trial = solve_equilibrium(film, force, *start, tolerance, most, free=free)
         spent += trial.iterations
         if trial.converged:
             if at == 1.0:
@@ -96,7 +100,7 @@ def solve_by_stiffness(
             step *= 2.0 if trial.iterations < _STEPS_EACH // 2 else 1.2
         else:
             step *= 0.4
-        if spent > _STEPS:
+        if spent > _STEPS * most:
             break
     if state.converged:  # show the gap that is left, in the shell that it was found in
         film.relax(share=share)

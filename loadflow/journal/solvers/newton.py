@@ -27,8 +27,9 @@ _STUCK = 1e-3  # share of a Newton step that must be left by an elastic shell
 class Solution:
     """A solved film: unknowns, position (clearances), last linearisation, convergence.
 
-    `rounding` is the residual that rounding allows, `estimate` the position by the closed form,
-    which tells whether the next load is near; `free` are the degrees of freedom in balance.
+    `rounding` is the residual that rounding allows, where that was asked; `estimate` the position
+    by the closed form, which tells whether the next load is near; `free` are the degrees of freedom
+    in balance.
     """
 
     u: Array
@@ -77,7 +78,8 @@ REST = Motion()
 class _Check:
     """Whether the Newton steps of a film have led to an answer, by the rule of `convergence`.
 
-    Residual and rounding level are looked at after steps that are short enough.
+    The residual is looked at after steps that are short enough, its rounding level where the
+    tolerance is not met.
     """
 
     def __init__(
@@ -92,12 +94,17 @@ class _Check:
         self.force, self.free = force, free
         self.residual, self.rounding = math.inf, 0.0
 
-    def weigh(self, u: Array, position: Array, linear: Linear) -> None:
-        """Residual and its rounding level at `u` and `position`; `linear` is from nearby."""
+    def weigh(self, u: Array, position: Array) -> None:
+        """Residual at `u` and `position`."""
         motion = self.motion
         velocity, old = motion.velocity(position), (motion.volume_rate, motion.volume)
         where = (u, position, velocity, self.force)
         self.residual = imbalance(self.film, *where, *old, self.free)
+
+    def round(self, position: Array, linear: Linear) -> None:
+        """Rounding level of the residual just weighed; `linear` is from nearby."""
+        motion = self.motion
+        velocity = motion.velocity(position)
         slope = linear.stiffness + motion.rate * linear.damping
         self.rounding = rounding(self.film, position, velocity, slope, self.force, self.free)
 
@@ -108,7 +115,10 @@ class _Check:
         if not change < (_QUADRATIC if iteration <= _LATE else COARSEST**0.5):
             return False
         before, finest = self.residual, 0.0
-        self.weigh(u, position, linear)
+        self.weigh(u, position)
+        if self.residual <= self.tolerance and change < _QUADRATIC:
+            return True  # whatever rounding allows
+        self.round(position, linear)
         if change >= _QUADRATIC:
             finest = self._finest(u, position, linear)
         level = (self.tolerance, min(self.rounding, COARSEST))
@@ -132,7 +142,8 @@ class _Check:
 
     def unanswered(self, u: Array, position: Array, linear: Linear, iterations: int) -> Solution:
         """What the last step left."""
-        self.weigh(u, position, linear)
+        self.weigh(u, position)
+        self.round(position, linear)
         return self.solution(u, position, linear, False, iterations)
 
 
@@ -196,15 +207,14 @@ def solve_equilibrium(
             break
         slope = linear.stiffness + motion.rate * linear.damping
         excess = film.size(linear.columns[0]) / _STEP_LIMIT
-        step = np.zeros(position.size)
-        missing = (force - linear.load)[free]
-        step[free] = _solve(slope[free][:, free], missing, scale) / max(excess, 1.0)
+        step, missing = np.zeros(position.size), force - linear.load
+        step[free] = _solve(slope[free][:, free], missing[free], scale) / max(excess, 1.0)
         target, weights, share = _moved(film, u, linear, position, step, motion)
-        stuck = pads and math.hypot(*(target - position)) < _HELD * math.hypot(*step)
-        if share < _STUCK or stuck or not math.isfinite(float(target.sum())):
+        way = math.hypot(*(target - position).tolist())
+        stuck = pads and way < _HELD * math.hypot(*step)
+        if share < _STUCK or stuck or not math.isfinite(way):
             break
-        change = film.correct(u, linear.columns, weights)
-        change = max(change, math.hypot(*(target - position)) / max(gap, _PRESSED))
+        change = max(film.correct(u, linear.columns, weights), way / max(gap, _PRESSED))
         position, gap = target, film.gap.narrowest(target)
         if not gap > _PRESSED and not film.elastic:
             break
@@ -234,15 +244,17 @@ def _solve(matrix: Array, rhs: Array, scale: Array) -> Array:
     The second is a shaft on one single pad, free to go sideways while the pad follows. What is not
     finite gives NaN.
     """
-    if not math.isfinite(float(matrix.sum() + rhs.sum())):
-        return np.full(rhs.size, np.nan)
     if rhs.size != 2:
+        if not math.isfinite(float(matrix.sum() + rhs.sum())):
+            return np.full(rhs.size, np.nan)
         return scale * np.asarray(np.linalg.lstsq(matrix * scale, rhs, rcond=1e-10)[0])
     (a, b), (c, d) = matrix.tolist()
+    first, second = rhs.tolist()
+    if not math.isfinite(a + b + c + d + first + second):
+        return np.full(2, np.nan)
     det = a * d - b * c
     if det == 0.0:
         return np.zeros(2)
-    first, second = rhs.tolist()
     return np.array([(d * first - b * second) / det, (a * second - c * first) / det])
 
 

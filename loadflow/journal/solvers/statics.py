@@ -408,7 +408,12 @@ class Statics:
             if by_load.converged or film.clearance_left(by_load.position) <= APART:
                 return by_load
             by_shell = solve_by_stiffness(film, force, estimate, limits[0], free)
-            return replace(by_shell, iterations=by_load.iterations + by_shell.iterations)
+            spent = by_load.iterations + by_shell.iterations
+            if by_shell.converged or by_shell.residual < by_load.residual:
+                return replace(by_shell, iterations=spent)
+            film.relax()
+            film.place(by_load.u, by_load.position)  # show the gap that the load steps have left
+            return replace(by_load, iterations=spent)
         if pads.size:
             shaft = np.arange(self.gap.size)[self.shaft]
             solution = solve_with_pads(film, self._shaped, force, estimate, shaft, *limits)

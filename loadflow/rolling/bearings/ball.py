@@ -12,7 +12,7 @@ import numpy as np
 from loadflow.errors import InputError
 from loadflow.numerics.fields import check_choice
 from loadflow.rolling.bearings.elements import BearingOfBalls
-from loadflow.rolling.contacts import POINT, Contacts, azimuths, row_sides
+from loadflow.rolling.contacts import POINT, Contacts, azimuths, mean_offset, row_sides
 from loadflow.rolling.raceways import BallRaceways
 from loadflow.rolling.rating import capacity
 
@@ -99,6 +99,11 @@ class BallBearing(BallRaceways, BearingOfBalls):
             self.gamma,
             self.osculation_ratio,
         )
+
+    @property
+    def row_offset(self) -> float:
+        """Axial distance of a row from the bearing centre along its normal outward, m; mean."""
+        return mean_offset(self.rows, self.row_spacing, self.arrangement)
 
     def contacts(self, element_angle: float = 0.0) -> Contacts:
         """All contacts, one kind for each row."""

@@ -11,7 +11,7 @@ from annotated_types import Ge, Lt
 
 from loadflow.numerics.fields import check_choice
 from loadflow.rolling.bearings.elements import BearingOfRollers
-from loadflow.rolling.contacts import LINE, Contacts, azimuths, row_sides
+from loadflow.rolling.contacts import LINE, Contacts, azimuths, mean_offset, row_sides
 from loadflow.rolling.roller_raceways import RollerRaceways
 
 
@@ -72,6 +72,11 @@ class RollerBearing(RollerRaceways, BearingOfRollers):
         """Total axial clearance s/tan α of a pair of rows, m; infinite for cylindrical rollers."""
         tan = math.tan(self.contact_angle)
         return self.clearance / tan if tan else math.inf
+
+    @property
+    def row_offset(self) -> float:
+        """Axial distance of a row from the bearing centre along its normal outward, m; mean."""
+        return mean_offset(self.rows, self.row_spacing, self.arrangement)
 
     def contacts(self, element_angle: float = 0.0) -> Contacts:
         """All contacts; kinds in the order row 0 slice 0, row 0 slice 1, …."""

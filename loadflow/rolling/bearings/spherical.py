@@ -65,6 +65,11 @@ class SphericalRollerBearing(RollerRaceways, BearingOfRollers):
                 f"got {self.contact_angle:g}"
             )
 
+    @property
+    def row_offset(self) -> float:
+        """Axial distance of a row from the bearing centre, outward along its normal, m."""
+        return self.pitch_diameter / 2 * math.tan(self.contact_angle)
+
     def contacts(self, element_angle: float = 0.0) -> Contacts:
         """All contacts; kinds in the order row 0 slice 0, row 0 slice 1, …."""
         cos, sin = math.cos(self.contact_angle), math.sin(self.contact_angle)

@@ -17,6 +17,7 @@ from loadflow.rolling.friction.roller_losses import roller_friction
 from loadflow.rolling.results import ContactResult
 
 _HOTTEST = 200.0  # K above the surroundings that are searched
+_STEP = 10.0  # K, of the search where the loss may overtake the cooling again
 
 
 @dataclass(frozen=True)
@@ -52,7 +53,7 @@ class HeatBalance:
 
 
 def balanced_temperature(
-    result: ContactResult[Any],
+    result: ContactResult[Any] | Callable[[float], ContactResult[Any]],
     speed: ArrayLike,
     options: FrictionOptions,
     conductance: float,
@@ -66,7 +67,10 @@ def balanced_temperature(
 
     Parameters
     ----------
-    result, speed, options
+    result : ContactResult or callable
+        As `roller_friction`; or a function of the temperature, K, that gives it, of a bearing whose
+        clearance follows its temperature.
+    speed, options
         As `roller_friction`; `options.temperature` is replaced.
     conductance : float
         Heat that leaves the bearing, W/K > 0.
@@ -82,7 +86,8 @@ def balanced_temperature(
     InputError
         If the conductance is not positive or the oil is not known so cold.
     SolverError
-        If the bearing would run more than 200 K hot.
+        If the bearing would run more than 200 K hot, as one does whose preload grows faster with
+        the temperature than what is carried off.
 
     Examples
     --------
@@ -104,7 +109,8 @@ def balanced_temperature(
         raise InputError(f"conductance: must be > 0 W/K, got {conductance}")
 
     def friction(temperature: float) -> BearingFriction:
-        return model(result, speed, replace(options, temperature=temperature))
+        state = result(temperature) if callable(result) else result
+        return model(state, speed, replace(options, temperature=temperature))
 
     def surplus(temperature: float) -> float:
         power = friction(temperature).power
@@ -117,15 +123,34 @@ def balanced_temperature(
     if idle <= 0:  # stands still
         return HeatBalance(ambient, friction(ambient), Convergence(True, 0.0, 0))
     hottest = min(ambient + _HOTTEST, 500.0)
+    low = ambient
+    if callable(result):
+        low, hottest = _first_span(surplus, ambient, hottest)
     left = surplus(hottest)
     if left > 0:
         raise SolverError(
             f"heat balance: {left:.3g} W are left at {hottest:g} K; conductance {conductance:g} W/K"
         )
-    found, report = brentq(surplus, ambient, hottest, xtol=1e-6, full_output=True)
+    found, report = brentq(surplus, low, hottest, xtol=1e-6, full_output=True)
     residual = abs(surplus(found)) / idle
     return HeatBalance(
         float(found),
         friction(found),
         Convergence(bool(report.converged), residual, int(report.iterations)),
     )
+
+
+def _first_span(
+    surplus: Callable[[float], float], ambient: float, hottest: float
+) -> tuple[float, float]:
+    """The coolest span in which cooling overtakes the loss.
+
+    Where preload grows with heat, the loss may overtake again beyond it.
+    """
+    steps = int(np.ceil((hottest - ambient) / _STEP))
+    low = ambient
+    for high in np.linspace(ambient, hottest, steps + 1)[1:]:
+        if surplus(float(high)) <= 0:
+            return low, float(high)
+        low = float(high)
+    return low, hottest

@@ -94,21 +94,39 @@ def slice_forces(shift, table):
     return force
 
 
+@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER)
+def _row_forces(middle, turn, arm, gap, stiffness, force):
+    """Fill the force of one slice of each roller of a row."""
+    for j in range(force.shape[0]):
+        delta = max(middle[j] + arm * turn[j] - gap, 0.0)
+        force[j] = stiffness * ninth_root(delta) * delta
+
+
 @njit(cache=True, nogil=True, error_model="numpy")
 def roller_forces(shift, table):
     """Force of each roller, (n, row, roller), by the shift (n, row, 2, roller)."""
     cases, rows, _, count = shift.shape
     slices = table.shape[0] // rows
-    force = np.zeros((cases, rows, count))
+    force, one = np.zeros((cases, rows, count)), np.zeros(count)
     for i in range(cases):
         for s in range(table.shape[0]):
-            total = force[i, s // slices]
-            middle, turn = shift[i, s // slices]
-            arm, gap, stiffness = table[s, ARM], table[s, GAP], table[s, STIFFNESS]
+            row = s // slices
+            total = force[i, row]
+            _row_forces(
+                shift[i, row, 0], shift[i, row, 1], table[s, ARM], table[s, GAP],
+                table[s, STIFFNESS], one,
+            )  # fmt: skip
             for j in range(count):
-                delta = max(middle[j] + arm * turn[j] - gap, 0.0)
-                total[j] += stiffness * ninth_root(delta) * delta
+                total[j] += one[j]
     return force
+
+
+@njit(forceinline=True, nogil=True, error_model="numpy", fastmath={"reassoc", "nsz", "nnan"})
+def _largest(values):
+    most = 0.0
+    for j in range(values.shape[0]):
+        most = max(most, values[j])
+    return most
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath=_REORDER)
@@ -117,19 +135,21 @@ def slice_sums(shift, table):
     cases, rows, _, count = shift.shape
     slices = table.shape[0] // rows
     largest, sums = np.zeros((cases, table.shape[0])), np.zeros((cases, table.shape[0], 3))
+    one = np.zeros(count)
     for i in range(cases):
         for s in range(table.shape[0]):
-            middle, turn = shift[i, s // slices]
-            arm, gap, stiffness = table[s, ARM], table[s, GAP], table[s, STIFFNESS]
-            most = first = fourth = powers = 0.0
+            row = s // slices
+            _row_forces(
+                shift[i, row, 0], shift[i, row, 1], table[s, ARM], table[s, GAP],
+                table[s, STIFFNESS], one,
+            )  # fmt: skip
+            first = fourth = powers = 0.0
             for j in range(count):
-                delta = max(middle[j] + arm * turn[j] - gap, 0.0)
-                force = stiffness * ninth_root(delta) * delta
+                force = one[j]
                 square = force * force
-                most = max(most, force)
                 first += force
                 fourth += square * square
                 powers += square * square * math.sqrt(force)
-            largest[i, s] = most
+            largest[i, s] = _largest(one)
             sums[i, s, 0], sums[i, s, 1], sums[i, s, 2] = first, fourth, powers
     return largest, sums

@@ -80,6 +80,10 @@ class RingBeam:
     def __post_init__(self) -> None:
         check_fields(self)
 
+    def of(self, bearing: object, ring: str) -> RingBeam:
+        """The ring of a bearing: its section says all."""
+        return self
+
     def flexibility(self, points: PatchPoints) -> Array:
         """Factor Q of the compliance C = Q Qᵀ of the ring at its raceway patches.
 

@@ -139,7 +139,7 @@ class LineCoupling:
         Azimuth of the first roller of each row, rad.
     """
 
-    left_out: ClassVar[float] = 1e-7
+    left_out: ClassVar[float] = 1e-5
     sprung: ClassVar[bool] = False
 
     bearing: RollerRaceways

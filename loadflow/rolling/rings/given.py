@@ -236,6 +236,10 @@ class MatrixRing:
         matrix = read_matrix(self.file, "file")
         object.__setattr__(self, "_ring", make(matrix, self.axes, self.first_angle))
 
+    def of(self, bearing: object, ring: str) -> MatrixRing:
+        """The ring of a bearing: the matrix says all."""
+        return self
+
     def flexibility(self, points: PatchPoints) -> Array:
         """Factor Q, as `CompliantRing.flexibility`."""
         ring: CompliantRing = self.__dict__["_ring"]

@@ -170,6 +170,37 @@ def free_acceleration(speed, rate, motion, i, cone_s, cone_c, out, turn):
 
 
 @kernel
+def solve_in_place(system, right):
+    """Gaussian elimination with row pivots of a few equations, for all columns of `right` (n, k).
+
+    What has no solution becomes infinite or no number. A call of LAPACK takes longer than this.
+    """
+    n, columns = right.shape
+    for k in range(n):
+        pivot = k
+        for i in range(k + 1, n):
+            if abs(system[i, k]) > abs(system[pivot, k]):
+                pivot = i
+        if pivot != k:
+            for j in range(k, n):
+                system[k, j], system[pivot, j] = system[pivot, j], system[k, j]
+            for j in range(columns):
+                right[k, j], right[pivot, j] = right[pivot, j], right[k, j]
+        for i in range(k + 1, n):
+            share = system[i, k] / system[k, k]
+            for j in range(k + 1, n):
+                system[i, j] -= share * system[k, j]
+            for j in range(columns):
+                right[i, j] -= share * right[k, j]
+    for k in range(n - 1, -1, -1):
+        for j in range(columns):
+            total = right[k, j]
+            for i in range(k + 1, n):
+                total -= system[k, i] * right[i, j]
+            right[k, j] = total / system[k, k]
+
+
+@kernel
 def blade_equations(
     m, b, dt, speed, azimuth, shape, drift, gravity, force, motion, q, v, acc, answer, inertia, load
 ):
@@ -235,7 +266,8 @@ def blade_equations(
             q_free = q[j] + dt * v[j] + 0.25 * dt * dt * acc[j]
             v_free = v[j] + 0.5 * dt * acc[j]
             right[k, 0] -= m.modal_damping[k, j] * v_free + stiffness[k, j] * q_free
-    answer[:] = np.linalg.solve(system, right)
+    solve_in_place(system, right)
+    answer[:] = right
     for j in range(count):
         for k in range(modes):
             load[j] -= couple[k, 1 + j] * answer[k, 0]
@@ -256,7 +288,8 @@ def frame_acceleration(m, dt, controlled, held, inertia, load, gravity, h, v, ac
     count = load.size
     f = m.frame
     system = inertia + f.mass + 0.5 * dt * f.damping + 0.25 * dt * dt * f.stiffness
-    right = load + f.load
+    column = (load + f.load).reshape(count, 1)
+    right = column[:, 0]
     for j in range(count):
         for axis in range(3):
             right[j] += m.hub_mass * f.reach[j, axis] * gravity[axis]
@@ -267,12 +300,14 @@ def frame_acceleration(m, dt, controlled, held, inertia, load, gravity, h, v, ac
     free = controlled and (held == 0.0 or v[0] != 0.0)
     if free:
         right[0] -= np.sign(v[0]) * held
-        return np.linalg.solve(system, right)
-    fixed, still = system.copy(), right.copy()
+        solve_in_place(system, column)
+        return right
+    fixed, still = system.copy(), column.copy()
     fixed[0, :] = 0.0
     fixed[0, 0] = 1.0
-    still[0] = 0.0
-    out = np.linalg.solve(fixed, still)
+    still[0, 0] = 0.0
+    solve_in_place(fixed, still)
+    out = still[:, 0]
     out[0] = 0.0  # exactly
     if controlled:
         # torque that the brake would have to take to keep the generator at rest
@@ -281,7 +316,8 @@ def frame_acceleration(m, dt, controlled, held, inertia, load, gravity, h, v, ac
             needed -= system[0, j] * out[j]
         if abs(needed) > held:
             right[0] -= np.sign(needed) * held
-            out = np.linalg.solve(system, right)
+            solve_in_place(system, column)
+            out = right
     return out
 
 

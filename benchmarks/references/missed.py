@@ -1,0 +1,173 @@
+"""What lies behind the rows that `loadflow validate` calls missed: the cause, switched on or off.
+
+python -m benchmarks.references.missed [--folder CLONES] [PART …]
+
+Parts: grooves, slip, crank, rig, momentum. Each prints the rows of a source and ours with the cause
+that the row names, or without it. `--folder` (clones as OWNER/NAME) adds the IEA 10 and 22 MW to
+the part momentum.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from benchmarks.common import arguments
+from loadflow.validation import _friction_motion as motion
+from loadflow.validation import friction_rig, stribeck, supply
+from loadflow.validation.friction import MAIN
+from loadflow.validation.turbines import TURBINES, completed, published_states
+
+Floats = np.ndarray
+
+
+def grooves() -> None:
+    """Flow of Table 5-23 with two grooves of 0.7 B at ± some angle from the first axis."""
+    printed = [row[-1] for row in supply.ENERGY.values()]
+    print("Q, l/min, at V =", [*supply.ENERGY], "printed", printed)
+    for degrees, share in ((90.0, 0.7), (94.0, 0.695), (96.0, 0.695), (98.0, 0.695)):
+        flows = supply.flows(degrees, share)
+        off = [100 * (flows[wind] / row[-1] - 1) for wind, row in supply.ENERGY.items()]
+        print(f"±{degrees:g}°, {share:g} B: {_told(off, '+.1f')} %")
+
+
+def slip() -> None:
+    """Slip of Table 8.6, stage 1, by the frequency of the load and the viscosity of the oil."""
+    speeds = [row[0] for row in motion.REVERSING]
+    print("slip, %, at", speeds, "1/min, printed", [row[2] for row in motion.REVERSING])
+    for viscosity in (26.3e-3, 29e-3, 33e-3):
+        model = motion.coulomb_model(MAIN, viscosity)
+        for turns in (0.5, 1.0, 2.0):
+            found = [100 * model(motion.reversing_load(rpm, turns)).maximum_slip for rpm in speeds]
+            print(f"{1e3 * viscosity:g} mPa s, {turns:g} reversals a turn: {_told(found, '.1f')}")
+
+
+def crank() -> None:
+    """Torque of the pin bearing at 1000/min, stage 2, by its clearance: printed +18 … 53 % at 0."""
+    rig = friction_rig.CrankRig(seal_force=0.0)
+    usual: dict[str, float] = {}
+    for clearance in (25e-6, 13e-6, 5e-6, 2e-6, 1e-6, 0.0):
+        pin = replace(friction_rig.PIN, clearance=clearance)
+        torques = replace(rig, pin=pin).friction_torque(1000.0, "film").torques
+        parts = {key: value for key, value in torques.items() if key.startswith("pin")}
+        usual = usual or parts
+        rise = 100 * (sum(parts.values()) / sum(usual.values()) - 1)
+        each = ", ".join(
+            f"{key[4:]} {100 * (v / usual[key] - 1):+.0f} %" for key, v in parts.items()
+        )
+        print(f"{1e6 * clearance:g} µm: {rise:+.0f} %: {each}")
+
+
+def rig() -> None:
+    """Moments of [Sander et al. 2015] with bearings that are tilted by a share of the clearance."""
+    for load, measured in stribeck.MEASURED.items():
+        speeds, values = np.array([*measured], float), np.array([*measured.values()])
+        print(f"{load:g} N, 1/min {speeds.astype(int).tolist()}, measured {values.tolist()} N m")
+        for share in (0.0, 0.05, 0.1, 0.15):
+            found = stribeck.moments(load, speeds, share)
+            print(f"tilted by {share:g} of the clearance at the ends: {_told(found, '.3f')} N m")
+
+
+def momentum(folder: Path | None) -> None:
+    """Power and thrust of rigid blades at the printed states: Buhl's relation, and HAWC2's."""
+    from loadflow.rotor import RotorOptions
+    from loadflow.rotor.rungs import prepare
+    from loadflow.turbines import load_turbine
+
+    options = RotorOptions(tower_dam=False, shed_wake=False, skew_factor=0.0)
+    for public in TURBINES:
+        if folder is None and not public.shipped:
+            continue
+        shipped = load_turbine(public.shipped) if public.shipped else None
+        if folder is not None and not (folder / public.repository).exists():
+            continue
+        turbine = shipped or completed(public, folder)  # type: ignore[arg-type]
+        m, _ = prepare(turbine, "bem", options)
+        for wind, speed, pitch, power, thrust in published_states(public.name):
+            if wind > 10.5:
+                continue
+            said = [f"{public.name}, {wind:g} m/s"]
+            for law, relation in (("Buhl", buhl), ("HAWC2", hawc2)):
+                got = rotor(m, wind, speed * np.pi / 30, np.radians(pitch), relation)
+                off = [100 * (a / b - 1) for a, b in zip(got, (power, thrust))]
+                said.append(f"{law} {_told(off, '+.1f')} %")
+            print("; ".join(said))
+
+
+def buhl(thrust: float, loss: float) -> float:
+    """Axial induction of a thrust coefficient, momentum theory and Buhl's parabola beyond it."""
+    if thrust <= 0.96 * loss:
+        return float(0.5 * (1 - np.sqrt(1 - thrust / loss)))
+    root = np.sqrt(thrust * (50 - 36 * loss) + 12 * loss * (3 * loss - 4))
+    return float((18 * loss - 20 - 3 * root) / (36 * loss - 50))
+
+
+def hawc2(thrust: float, loss: float) -> float:
+    """Axial induction of a thrust coefficient, polynomial of [Madsen et al. 2020]."""
+    x = thrust / loss
+    return 0.0883 * x**3 + 0.0586 * x**2 + 0.246 * x
+
+
+def rotor(
+    m: Any, wind: float, speed: float, pitch: float, relation: Callable[[float, float], float]
+) -> tuple[float, float]:
+    """Power, W, and thrust, N, of a rigid rotor without tilt in even wind."""
+    from loadflow.rotor.aero._airfoil_kernels import polar
+    from loadflow.rotor.aero._kernels import loss
+
+    across, along = [], []
+    for i, radius in enumerate(m.radius):
+        solidity = m.blades * m.chord[i] / (2 * np.pi * radius)
+        a, swirl = 0.3, 0.0
+        for _ in range(400):
+            normal, turning = wind * (1 - a), speed * radius * (1 + swirl)
+            angle = np.arctan2(normal, turning)
+            lift, drag = (polar(table, i, angle - m.twist[i] - pitch) for table in (m.lift, m.drag))
+            sine, cosine, square = np.sin(angle), np.cos(angle), normal**2 + turning**2
+            tip = loss(m, i, abs(sine))
+            push, pull = lift * cosine + drag * sine, lift * sine - drag * cosine
+            new = relation(solidity * square * push / wind**2, tip)
+            twist = solidity * lift / (4 * tip * cosine)
+            if abs(new - a) < 1e-9:
+                break
+            a += 0.2 * (new - a)
+            swirl += 0.2 * (twist / (1 - twist) - swirl)
+        dynamic = 0.5 * 1.225 * square * m.chord[i]
+        across.append(dynamic * push)
+        along.append(dynamic * pull)
+    place = np.append(m.radius, m.tip_radius)
+    thrust = m.blades * np.trapezoid([*across, 0.0], place)
+    torque = m.blades * np.trapezoid(np.array([*along, 0.0]) * place, place)
+    return float(speed * torque), float(thrust)
+
+
+def _told(values: Any, form: str) -> str:
+    return ", ".join(f"{float(value):{form}}" for value in values)
+
+
+PARTS = {"grooves": grooves, "slip": slip, "crank": crank, "rig": rig, "momentum": momentum}
+
+
+def main() -> None:
+    """Print the parts that are asked for."""
+    parser = arguments(__doc__)
+    parser.add_argument("parts", nargs="*", default=[*PARTS], metavar="PART")
+    parser.add_argument("--folder", type=Path, help="clones as OWNER/NAME")
+    asked = parser.parse_args()
+    if unknown := set(asked.parts) - set(PARTS):
+        sys.exit(f"unknown parts: {', '.join(sorted(unknown))}; known: {', '.join(PARTS)}")
+    for name in asked.parts:
+        print(f"--- {name}")
+        if name == "momentum":
+            momentum(asked.folder)
+        else:
+            PARTS[name]()  # type: ignore[operator]
+
+
+if __name__ == "__main__":
+    main()

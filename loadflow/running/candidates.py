@@ -1,0 +1,154 @@
+"""Bearings that a comparison runs for a scene, and the scene of each of them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from loadflow.errors import InputError
+from loadflow.scene.candidates import candidates_of
+from loadflow.scene.journal import Journal
+from loadflow.scene.scene import Candidate, Scene, make_scene
+from loadflow.scene.tolerances import Tolerances
+from loadflow.scene.wear import check_wear
+
+ROLLING_SHARE = 0.05
+"""Share of the samples in which a rolling bearing is solved, where the scene does not say."""
+
+SHAPED_CLASSES = 5
+"""Classes of speed, and of load, of which one sample is solved, the extremes first, in journal
+bearings that cannot be followed through the whole series in reasonable time: pads, lobes, elastic
+shells, tilted shafts."""
+
+
+def candidates_for(scene: Scene) -> tuple[dict[str, Candidate], list[str]]:
+    """Candidates of a scene, and names of those for which its shaft has no places.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        There is none at all.
+    """
+    if scene.candidates:
+        return dict(scene.candidates), []
+    found: dict[str, Candidate] = {}
+    if "journal" in scene.model_fields_set:
+        title = "journal bearings of the scene"
+        thrust = scene.thrust if scene.thrust.bearings else None
+        found["own-journal"] = Candidate(
+            title=title,
+            journal=scene.journal,
+            thrust=thrust,
+            tolerances=_of_places(scene, [*scene.journal.bearings, *scene.thrust.bearings]),
+        )
+    elif scene.thrust.bearings:
+        title = "film bearings of the scene"
+        found["own-thrust"] = Candidate(
+            title=title,
+            thrust=scene.thrust,
+            tolerances=_of_places(scene, [*scene.thrust.bearings]),
+        )
+    sized = candidates_of(scene.turbine.name)
+    if "rolling" in scene.model_fields_set:
+        title = "rolling bearings of the scene"
+        found["own-rolling"] = Candidate(
+            title=title,
+            rolling=scene.rolling,
+            tolerances=_of_places(scene, [*scene.rolling.geometries]),
+        )
+    shell = {
+        "turbine": {"name": scene.turbine.name},
+        "results": ["loads.statistics"],
+        "candidates": {name: {} for name in sized},
+        "shaft": {"two_point": {}, "moment": {}},
+    }
+    found |= make_scene(shell).candidates
+    places = set(scene.shaft.bearings)
+    usable = {name: one for name, one in found.items() if set(one.places) <= places}
+    if not usable:
+        raise InputError(
+            f"no candidates: the scene states none, and for {scene.turbine.name} with bearings at "
+            f"{', '.join(places) or 'no place'} the package has none; write [candidates.NAME.PLACE]"
+        )
+    return usable, [name for name in found if name not in usable]
+
+
+def _of_places(scene: Scene, places: list[str]) -> Tolerances:
+    return {place: found for place, found in scene.tolerances.items() if place in places}
+
+
+def candidate_scene(base: Scene, name: str, candidate: Candidate, steps: int) -> Scene:
+    """The scene of one candidate: its bearings, by the models that suit a comparison.
+
+    Journal bearings of cylindrical bores are followed in motion through the whole series on the
+    rung ``reduced``; others are solved at rest in a few samples, the extremes among them.
+
+    Parameters
+    ----------
+    base : Scene
+        Loads, shaft, friction.
+    name : str
+        Of the candidate.
+    candidate : Candidate
+        Its bearings.
+    steps : int
+        Length of the shortest series.
+    """
+    results: list[str] = []
+    update: dict[str, Any] = {"name": name, "candidates": {}, "tolerances": candidate.tolerances}
+    fewer: dict[str, Any] = {"size": ROLLING_SHARE}
+    if candidate.journal is not None:
+        results.append("journal.film")
+        if _wears(base, candidate.journal):
+            results.append("journal.wear")
+        update["journal"] = journal = _modelled(candidate.journal)
+        if not journal.in_motion:
+            share = min(1.0, SHAPED_CLASSES**2 / steps)
+            fewer = {"size": share, "classes": SHAPED_CLASSES}
+    if candidate.rolling is not None:
+        results += ["rolling.loads", "rolling.life"]
+        update["rolling"] = candidate.rolling
+    if candidate.thrust is not None:
+        results.append("thrust.film")
+        update["thrust"] = candidate.thrust
+        fewer = {"size": min(1.0, SHAPED_CLASSES**2 / steps), "classes": SHAPED_CLASSES}
+    if not base.reduction.changed:
+        update["reduction"] = base.reduction.model_copy(update=fewer)
+    return base.model_copy(update=update | {"results": results})
+
+
+def _wears(base: Scene, journal: Journal) -> bool:
+    """Whether the scene says how bores wear, and these can."""
+    try:
+        check_wear(base.wear, journal, base.shaft)
+    except ValueError:
+        return False
+    return True
+
+
+def _modelled(journal: Journal) -> Journal:
+    """A journal bearing in motion on `reduced`, where that rung knows it and none is named."""
+    parts = (journal, *journal.own.values())
+    simple = not journal.tilt and all(
+        not part.geometry.shape.segments and part.geometry.relief == () and part.shell is None
+        for part in parts
+    )
+    if not simple or {"motion", "rung"} & journal.changed:
+        return journal
+    fast = {"motion": "transient", "rung": "reduced"}
+    own = {place: part.model_copy(update=fast) for place, part in journal.own.items()}
+    return journal.model_copy(update=fast | {"own": own})
+
+
+def chosen_of(known: dict[str, Candidate], names: list[str] | None) -> dict[str, Candidate]:
+    """Those of some names.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        A name that is not known.
+    """
+    if names is None:
+        return known
+    if unknown := [name for name in names if name not in known]:
+        raise InputError(f"no candidate {', '.join(unknown)}; there are {', '.join(known)}")
+    return {name: known[name] for name in names}

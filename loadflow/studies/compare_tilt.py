@@ -1,0 +1,108 @@
+"""How the shaft lies in the bearings of a candidate: its tilt over what they allow, its thrust."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from loadflow.cube.hdf5 import read_variables
+from loadflow.scene.scene import Scene
+from loadflow.shaft import Beam, ShaftSection, bearing_loads
+from loadflow.studies.compare_factor import SAMPLES
+
+Tables = Mapping[str, xr.Dataset]
+
+
+def carries_thrust(scene: Scene, tables: Tables) -> str:
+    """What carries the force along the shaft, in words."""
+    if "rolling" in tables:
+        table = tables["rolling"]
+        for place, bearing in scene.rolling.geometries.items():
+            force = float(table["bearing_axial_force"].sel(bearing=place).max())
+            if force > 0 and bearing.takes_thrust:
+                return f"{place}, up to {force / 1e3:.0f} kN"
+    if "thrust" in tables:
+        forces = tables["thrust"]["largest_axial_load"].max("case")
+        k = int(np.argmax(forces.values))
+        return f"{forces['bearing'].values[k]}, up to {float(forces[k]) / 1e3:.0f} kN"
+    if "journal" in tables:
+        force = float(tables["journal"]["largest_axial_load"].max())
+        return f"none: needs a thrust bearing for {force / 1e3:.0f} kN"
+    return "none"
+
+
+@dataclass(frozen=True)
+class Tilt:
+    """Largest tilt of the shaft in a bearing over what that allows; NaN where none is limited.
+
+    `by_case` has that of the bearing in each load case.
+    """
+
+    share: float = math.nan
+    place: str = ""
+    case: str = ""
+    note: str = "the bearing takes the moment"
+    by_case: dict[str, float] = field(default_factory=dict)
+
+
+def shaft_tilt(scene: Scene, folder: Path, tables: Tables) -> Tilt:
+    """Largest tilt of the shaft in a bearing over what it allows.
+
+    The shaft bends as its beam does; without one, as a hollow beam that fits into the bearings.
+    A bearing that takes the moment tilts with the shaft, without a limit.
+    """
+    from loadflow.turbines import load_turbine
+
+    places = _allowed_tilts(scene, tables)
+    found: dict[str, Tilt] = {}
+    gravity = load_turbine(scene.turbine.name).rotor.tilt
+    for concept in scene.shaft.concepts:
+        own = [place for place in concept.bearings if place in places]
+        if not own or len(concept.bearings) < 2:
+            continue
+        outer = min(places[place][1] for place in own)
+        beam = concept.beam or Beam(sections=(ShaftSection(outer, outer / 2),))
+        note = "" if concept.beam else f"of a hollow shaft of {1e3 * outer:.0f} mm"
+        line = replace(concept, beam=beam.on_rigid_bearings())
+        for path in sorted((folder / "loads").glob("*.h5")):
+            series = read_variables(path, ("hub_force", "hub_moment"))
+            count = series.sizes["time"]
+            some = np.linspace(0, count - 1, min(SAMPLES, count)).round().astype(int)
+            force, moment = (
+                series[name].transpose("axis", "time").values[:, some].astype(float)
+                for name in ("hub_force", "hub_moment")
+            )
+            tilts = bearing_loads(line, force, moment, tilt=gravity)["tilt"]
+            across = tilts.sel(axis=["y", "z"]).transpose("bearing", "axis", "time").values
+            size = np.linalg.norm(across, axis=1).max(axis=1)
+            largest = dict(zip(tilts["bearing"].values.tolist(), size.tolist()))
+            for place in own:
+                limit, one = places[place][0], found.get(place, Tilt(0.0, place, note=note))
+                if limit > 0:
+                    share = largest[place] / limit
+                    by_case = one.by_case | {path.stem: share}
+                    more = (share, path.stem) if share > one.share else (one.share, one.case)
+                    found[place] = Tilt(more[0], place, more[1], note, by_case)
+    return max(found.values(), key=lambda one: one.share, default=Tilt())
+
+
+def _allowed_tilts(scene: Scene, tables: Tables) -> dict[str, tuple[float, float]]:
+    """By place: tilt that the bearing allows, rad (0: no limit), and the shaft's diameter, m.
+
+    A journal bearing allows that which closes its smallest film at an end.
+    """
+    found: dict[str, tuple[float, float]] = {}
+    if "journal" in tables:
+        for place in scene.journal.bearings:
+            size = scene.journal.at(place).geometry
+            film = float(tables["journal"]["smallest_film"].sel(bearing=place).min())
+            found[place] = 2 * film / size.width, size.diameter
+    if "rolling" in tables:
+        for place, bearing in scene.rolling.geometries.items():
+            found[place] = bearing.allowed_tilt or 0.0, 0.8 * bearing.pitch_diameter
+    return found
