@@ -118,9 +118,9 @@ def test_the_film_outlasts_an_emergency_stop_and_is_then_squeezed_out(tmp_path):
 
 FULL = {
     "3.1": ("dlc_3_1_startup", [8.0, 20.0]),
-    "4.1": ("dlc_4_2_shutdown", [16.0]),
-    "4.2": ("dlc_4_2_shutdown", [11.4]),
-    "5.1": ("dlc_5_1", [11.4]),
+    "4.1": ("dlc_4_2_shutdown", [12.0]),
+    "4.2": ("dlc_4_2_shutdown", [16.0]),
+    "5.1": ("dlc_5_1", [12.0]),
 }
 """Pipeline and wind speeds, m/s, of one start or stop of each load case."""
 

@@ -127,10 +127,17 @@ def _print_profile(path: Path) -> None:
     for phase, row in found["phases"].items():
         phases.add_row(phase, f"{row['wall_seconds']:.1f}", f"{100 * row['share']:.0f} %")
     out.print(phases)
-    heads = ("load cases, stage", "all processes, s", "share", "compiling, s", "writing, s")
+    heads = (
+        "load cases, stage",
+        "all processes, s",
+        "share",
+        "processor, s",
+        "compiling, s",
+        "writing, s",
+    )
     stages = Table(*heads, box=None)
     for stage, row in found["stages_of_load_cases"].items():
-        numbers = (f"{row[key]:.1f}" for key in ("compiling", "writing"))
+        numbers = (f"{row[key]:.1f}" for key in ("processor_seconds", "compiling", "writing"))
         share = f"{100 * row['share']:.0f} %"
         stages.add_row(stage, f"{row['process_seconds']:.1f}", share, *numbers)
     out.print(stages)

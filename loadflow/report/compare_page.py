@@ -67,12 +67,18 @@ def write_comparison(path: Path, data: Mapping[str, Any]) -> Path:
 
 
 def _row(key: str, data: Mapping[str, Any]) -> tuple[str, str, list[Cell]] | None:
-    """Name, unit and cells of a quantity; None where no candidate has it."""
+    """Name, unit and cells of a quantity; None where no candidate has it, or could have it."""
     about = data["quantities"][key]
-    cells = [_cell(one["numbers"].get(key)) for one in data["candidates"]]
-    if all(cell.value == "" for cell in cells):
+    numbers = [one["numbers"].get(key) for one in data["candidates"]]
+    cells = [_cell(number) for number in numbers]
+    if all(cell.value == "" or _makes_no_sense(number) for cell, number in zip(cells, numbers)):
         return None
     return about["name"], about["unit"], cells
+
+
+def _makes_no_sense(number: Mapping[str, Any] | None) -> bool:
+    """Whether a kind of bearing has no such quantity."""
+    return number is not None and number["value"] is None and number["note"].startswith("n/a: no ")
 
 
 def _cell(number: Mapping[str, Any] | None) -> Cell:
@@ -81,7 +87,7 @@ def _cell(number: Mapping[str, Any] | None) -> Cell:
     if number["value"] is None:
         return Cell("–", where=number["note"])
     error = "" if number["error"] is None else f"± {100 * number['error']:.2g} % by models"
-    seeds = "" if number["low"] is None else f"{short(number['low'])} … {short(number['high'])}"
+    seeds = "" if number["low"] is None else _by_seeds(number)
     limit = "" if number["limit"] is None else f"limit {short(number['limit'])}"
     state = {True: "good", False: "bad", None: ""}[number["holds"]]
     band = (
@@ -92,6 +98,12 @@ def _cell(number: Mapping[str, Any] | None) -> Cell:
     )
     around = ", ".join(part for part in (seeds, error) if part)
     return Cell(short(number["value"]), around, band, limit, _where(number), state)
+
+
+def _by_seeds(number: Mapping[str, Any]) -> str:
+    """The interval; in words where no other choice of seeds moves the digits that are shown."""
+    value, low, high = (short(number[end]) for end in ("value", "low", "high"))
+    return "the same by seeds" if value == low == high else f"{low} … {high} by seeds"
 
 
 def _where(number: Mapping[str, Any]) -> str:

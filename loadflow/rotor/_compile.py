@@ -11,7 +11,10 @@ from functools import partial
 from numba import njit
 
 kernel = partial(njit, cache=True, nogil=True, error_model="numpy")()
-"""Of a function that is called once for each blade, or less."""
+"""Of a function that is called once for each blade, or less, and allocates."""
 
 section = partial(njit, cache=True, nogil=True, error_model="numpy", forceinline=True, _nrt=False)()
 """Of a function that is called for each section at each step."""
+
+once = partial(njit, cache=True, nogil=True, error_model="numpy", _nrt=False)()
+"""Of a function that is called once for each blade, or less, and allocates nothing."""

@@ -6,7 +6,7 @@ e_r = −sin ψ y + cos ψ z, in the sense of rotation e_t = −cos ψ y − sin
 
 import numpy as np
 
-from ._compile import kernel, section
+from ._compile import kernel, once, section
 from .aero._kernels import inflow_lag, section_force, solve
 from .control._kernels import brake, control
 from .slots import (
@@ -50,19 +50,34 @@ from .structure._kernels import (
 
 
 @section
+def ring_of(rings, radius):
+    """Place of the last but one of the `rings` (n,) that a radius reaches; any n, no search where
+    they are equidistant.
+    """
+    last = rings.size - 2
+    i = max(min(int(radius / rings[last + 1] * (last + 1)), last), 0)  # NaN is no place
+    while i < last and radius >= rings[i + 1]:
+        i += 1
+    while i > 0 and radius < rings[i]:
+        i -= 1
+    return i
+
+
+@section
 def turbulence(inflow, time, y, z):
     """Fluctuation (u, v, w) at a point of the rotor plane: linear in time, radius and angle."""
-    count, rings, angles = inflow.u.shape
+    count, _, angles = inflow.u.shape
     position = min(max(time / inflow.box_step, 0.0), count - 1.0)
     k = max(min(int(position), count - 2), 0)  # NaN is no place
     late = position - k
 
     radius = np.sqrt(y * y + z * z)
-    i = min(np.searchsorted(inflow.box_radius, radius, side="right") - 1, rings - 2)
+    i = ring_of(inflow.box_radius, radius)
     width = inflow.box_radius[i + 1] - inflow.box_radius[i]
     outer = min((radius - inflow.box_radius[i]) / width, 1.0)
 
-    around = (np.arctan2(-y, z) * (angles / (2 * np.pi))) % angles
+    around = np.arctan2(-y, z) * (angles / (2 * np.pi))
+    around += angles if around < 0.0 else 0.0
     j = max(min(int(around), angles - 1), 0)
     turn = around - j
     j_next = j + 1 if j + 1 < angles else 0
@@ -91,7 +106,7 @@ def wind_at(m, inflow, step, time, x, y, z):
     """Wind (X, Y, Z) in the ground frame, tower dam included, at a point relative to the hub."""
     height = max(m.hub_height + z, 1.0)
     speed = inflow.mean * (height / m.hub_height) ** inflow.shear + inflow.rise[step]
-    turn_c, turn_s = np.cos(inflow.direction[step]), np.sin(inflow.direction[step])
+    turn_c, turn_s = inflow.heading[step, 0], inflow.heading[step, 1]
     along, across = turn_c * x + turn_s * y, turn_c * y - turn_s * x
     speed += inflow.vertical[step] * z + inflow.horizontal[step] * across
     v = wind_z = 0.0
@@ -143,17 +158,25 @@ def tabulated_induction(m, i, pitch, normal, tangential):
 
 
 @section
-def skewed(m, a, r_y, r_z, state):
-    """Induction factor redistributed over the disc under oblique inflow (Pitt and Peters)."""
+def oblique(m, state):
+    """Angle of the wind to the shaft, and its direction (y, z) across over the tip's radius."""
     across = np.sqrt(state[S_Y] ** 2 + state[S_Z] ** 2)
-    if m.skew_factor == 0 or across < 1e-6 or state[S_AXIAL] < 0.1 or a <= 0:
+    if m.skew_factor == 0 or across < 1e-6 or state[S_AXIAL] < 0.1:
+        return 0.0, 0.0, 0.0
+    length = across * m.tip_radius
+    return np.arctan2(across, state[S_AXIAL]), state[S_Y] / length, state[S_Z] / length
+
+
+@section
+def skewed(m, a, r_y, r_z, angle, along_y, along_z):
+    """Induction factor redistributed over the disc under oblique inflow (Pitt and Peters)."""
+    if angle == 0.0 or a <= 0:
         return a
-    skew = (0.6 * a + 1) * np.arctan2(across, state[S_AXIAL])
-    downstream = (r_y * state[S_Y] + r_z * state[S_Z]) / (across * m.tip_radius)
-    return a * (1 + m.skew_factor * np.tan(0.5 * min(skew, 1.5)) * downstream)
+    turn = np.tan(0.5 * min((0.6 * a + 1) * angle, 1.5))
+    return a * (1 + m.skew_factor * turn * (r_y * along_y + r_z * along_z))
 
 
-@kernel
+@once
 def momentum_share(m, speed, state):
     """Share of the induction that momentum theory gives: none up to a tip speed ratio of 1, where
     a rotor at standstill or idling has no helical wake, all of it from 2 on.
@@ -165,7 +188,7 @@ def momentum_share(m, speed, state):
     return 0.5 * (1 - np.cos(np.pi * excess / wind)) if excess > 0 else 0.0
 
 
-@kernel
+@once
 def blade_aerodynamics(
     m, inflow, step, time, azimuth, pitch, speed, tilt, drift, motion, state, guess, wake, induced,
     dt, force,
@@ -181,6 +204,7 @@ def blade_aerodynamics(
     tilt_s, tilt_c = np.sin(tilt), np.cos(tilt)
     count = m.radius.size
     momentum = momentum_share(m, speed, state)
+    skew, skew_y, skew_z = oblique(m, state)
     mean_x = mean_y = mean_z = 0.0
     for i in range(count):
         along, out, turn = place(m, i, motion, cone_s, cone_c)
@@ -215,7 +239,7 @@ def blade_aerodynamics(
             a, swirl = a * momentum, swirl * momentum
         if m.dynamic_inflow:
             a, swirl = inflow_lag(m, i, normal, tangential, a, swirl, state, dt, induced[i])
-        a = skewed(m, a, y, z, state)
+        a = skewed(m, a, y, z, skew, skew_y, skew_z)
         # rotation of the rotor turns an inclined section about its span
         f_normal, f_tangential, couple = section_force(
             m, i, twisted + motion[i, 6], -speed * bend_s, normal, tangential, a, swirl, dt, wake[i]

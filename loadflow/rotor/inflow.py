@@ -26,7 +26,7 @@ class Inflow(NamedTuple):
 
     mean: float  # m/s
     rise: Array  # (steps,), m/s
-    direction: Array  # (steps,), rad, positive to the left
+    heading: Array  # (steps, 2), cosine and sine of the direction, positive to the left
     vertical: Array  # (steps,), linear shear, 1/s
     horizontal: Array  # (steps,), 1/s
     shear: float
@@ -45,7 +45,7 @@ def steady_inflow(
     return Inflow(
         mean=float(wind_speed),
         rise=zero,
-        direction=np.full(steps, float(direction)),
+        heading=_heading(np.full(steps, float(direction))),
         vertical=zero,
         horizontal=zero,
         shear=float(shear),
@@ -57,6 +57,10 @@ def steady_inflow(
     )
 
 
+def _heading(direction: Array) -> Array:
+    return np.stack([np.cos(direction), np.sin(direction)], axis=-1)
+
+
 def case_inflow(
     condition: Condition, machine: WindMachine, time: Array, box: Field | None
 ) -> Inflow:
@@ -66,7 +70,7 @@ def case_inflow(
     )
     change: dict[str, Any] = dict(transient(condition, machine, time))
     if "direction" in change:
-        change["direction"] = condition.yaw_error + change["direction"]
+        change["heading"] = _heading(condition.yaw_error + change.pop("direction"))
     return steady._replace(**change)
 
 

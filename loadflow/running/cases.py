@@ -30,8 +30,9 @@ class Outcome:
 
     Attributes
     ----------
-    seconds, compiling, writing : dict
-        By stage, s: in all, of it in the compilation of kernels, of it in writing the part.
+    seconds, compiling, writing, processor : dict
+        By stage, s: in all, of it in the compilation of kernels, of it in writing the part; and the
+        processor time, which other work on the machine does not lengthen as it does the others.
     failures : dict
         Why a part has no answer, by part.
     traces : list of str
@@ -41,6 +42,7 @@ class Outcome:
     seconds: dict[str, float] = field(default_factory=dict)
     compiling: dict[str, float] = field(default_factory=dict)
     writing: dict[str, float] = field(default_factory=dict)
+    processor: dict[str, float] = field(default_factory=dict)
     failures: dict[str, str] = field(default_factory=dict)
     traces: list[str] = field(default_factory=list)
 
@@ -59,7 +61,7 @@ def do_case(case: Case, scene: Scene, steps: tuple[Step, ...], folder: Path) -> 
         name, target = step.name, part_file(folder, step.name, case)
         if target.exists() or not is_ready(step, case, folder):
             continue
-        begun = time.perf_counter()
+        begun, worked = time.perf_counter(), time.process_time()
         with Compiling() as compiling:
             try:
                 result = step.stage.run(scene, case, open_inputs(step, case, folder))
@@ -79,6 +81,7 @@ def do_case(case: Case, scene: Scene, steps: tuple[Step, ...], folder: Path) -> 
         done.seconds[name] = written - begun
         done.compiling[name] = compiling.seconds
         done.writing[name] = written - answered
+        done.processor[name] = time.process_time() - worked
     return done
 
 

@@ -10,7 +10,7 @@ from contextlib import nullcontext
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import xarray as xr
 
@@ -241,7 +241,8 @@ def finished_cases(loads: SharedLoads) -> Iterator[tuple[str, xr.Dataset, xr.Dat
     """Yield name, loads and shaft of each load case that has both."""
     for case in loads.plan.cases:
         if all(answered(loads.folder, stage, [case.name]) for stage in SHARED):
-            of_case, shaft = (read_whole(part_file(loads.folder, stage, case)) for stage in SHARED)
+            parts: list[Any] = [read_whole(part_file(loads.folder, s, case)) for s in SHARED]
+            of_case, shaft = parts
             yield case.name, of_case, shaft
 
 

@@ -6,7 +6,8 @@ import hashlib
 import json
 import logging
 import platform
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from functools import cache
 from importlib import metadata
 from pathlib import Path
 from typing import Any
@@ -80,6 +81,20 @@ def read_part(folder: Path, stage: str, case: str, names: Collection[str]) -> di
     """Read some variables of what a stage found of a case, by bearing where it keeps them so."""
     path = folder / stage / f"{case}.h5"
     return {group: read_variables(path, names, group) for group in groups_of(path) or [""]}
+
+
+ForceOf = Callable[[str], xr.DataArray]
+"""From the name of a case to the forces on the bearings in it."""
+
+
+def forces_of(folder: Path) -> ForceOf:
+    """Read the forces on the bearings of each case once, however often they are asked for."""
+
+    @cache
+    def force_of(case: str) -> xr.DataArray:
+        return read_variables(folder / "shaft" / f"{case}.h5", ("force",))["force"]
+
+    return force_of
 
 
 def answered(folder: Path, stage: str, cases: Iterable[str]) -> list[str]:

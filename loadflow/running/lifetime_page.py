@@ -11,7 +11,7 @@ from loadflow.cube.hdf5 import read_variables
 from loadflow.report import Section, Table
 from loadflow.report.page import Shown
 from loadflow.report.run_charts import duration_chart, exceedance_chart
-from loadflow.running.folder import answered
+from loadflow.running.folder import ForceOf, answered
 from loadflow.scene.scene import Scene
 from loadflow.studies.bearing_series import BearingSeries
 from loadflow.studies.lifetime import BearingLifetime, LifetimeOptions, lifetimes
@@ -31,7 +31,7 @@ CLASSES = 32
 
 
 def lifetime_of_loads(
-    folder: Path, scene: Scene, tables: Mapping[str, xr.Dataset]
+    folder: Path, scene: Scene, tables: Mapping[str, xr.Dataset], force_of: ForceOf
 ) -> tuple[list[BearingLifetime], LifetimeOptions]:
     """Duration, transitions, tails and damage of the loads on the bearings of a run.
 
@@ -45,6 +45,8 @@ def lifetime_of_loads(
         What was run.
     tables : mapping
         Its results by stage.
+    force_of : callable
+        Forces on the bearings of a case, by its name.
 
     Returns
     -------
@@ -57,7 +59,7 @@ def lifetime_of_loads(
         return [], options
     table = tables["statistics"]
     shares = dict(zip(table["case"].values.tolist(), share.tolist()))
-    series = _series(folder, table, shares, _bearings(tables))
+    series = _series(folder, table, shares, _bearings(tables), force_of)
     return list(lifetimes(series, options)), options
 
 
@@ -92,13 +94,16 @@ def _bearings(tables: Mapping[str, xr.Dataset]) -> set[str]:
 
 
 def _series(
-    folder: Path, table: xr.Dataset, shares: Mapping[str, float], wanted: set[str]
+    folder: Path,
+    table: xr.Dataset,
+    shares: Mapping[str, float],
+    wanted: set[str],
+    force_of: ForceOf,
 ) -> Iterator[BearingSeries]:
     for case in answered(folder, "shaft", shares):
         loads = read_variables(folder / "loads" / f"{case}.h5", ("speed",))
-        shaft = read_variables(folder / "shaft" / f"{case}.h5", ("force",))
         time, speed = loads["time"].values, loads["speed"].values.astype(float)
-        forces = shaft["force"].transpose("bearing", "time", "axis")
+        forces = force_of(case).transpose("bearing", "time", "axis")
         row = table.sel(case=case)
         labels = {name: row[name].item() for name in ("dlc", "wind_speed")}
         for name, force in zip(forces["bearing"].values.tolist(), forces.values.astype(float)):

@@ -12,6 +12,7 @@ from loadflow.running.cases import Outcome
 from loadflow.storage import write_text
 
 COMPILING = "compiling kernels"
+_OF_STAGE = ("seconds", "compiling", "writing", "processor")
 
 
 @dataclass
@@ -23,7 +24,8 @@ class Profile:
     wall : dict
         Seconds by phase of the run, as a clock on the wall shows them.
     stages : dict
-        Seconds of all processes by stage of a load case: in all, of it compiling, of it writing.
+        Seconds of all processes by stage of a load case: in all, of it compiling, of it writing;
+        and their processor time.
     """
 
     started: float = field(default_factory=time.perf_counter)
@@ -37,10 +39,11 @@ class Profile:
     def add(self, outcome: Outcome) -> None:
         """Add a load case."""
         for stage, seconds in outcome.seconds.items():
-            row = self.stages.setdefault(stage, {"seconds": 0.0, "compiling": 0.0, "writing": 0.0})
+            row = self.stages.setdefault(stage, dict.fromkeys(_OF_STAGE, 0.0))
             row["seconds"] += seconds
             row["compiling"] += outcome.compiling[stage]
             row["writing"] += outcome.writing[stage]
+            row["processor"] += outcome.processor[stage]
 
     def table(self, workers: int) -> dict[str, Any]:
         """What a reader wants of it, rounded to milliseconds."""
@@ -57,6 +60,7 @@ class Profile:
             "stages_of_load_cases": {
                 stage: {
                     "process_seconds": round(row["seconds"], 3),
+                    "processor_seconds": round(row["processor"], 3),
                     "share": round(row["seconds"] / of_cases, 4),
                     "compiling": round(row["compiling"], 3),
                     "writing": round(row["writing"], 3),

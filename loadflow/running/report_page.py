@@ -28,7 +28,9 @@ from loadflow.running.answers_page import answer_tables, largest
 from loadflow.running.dynamics_page import dynamics_section
 from loadflow.running.energy_page import energy_table
 from loadflow.running.folder import (
+    ForceOf,
     answered,
+    forces_of,
     groups_of_result,
     read_manifest,
     read_part,
@@ -82,8 +84,9 @@ def write_report(folder: Path, again: bool = False) -> Path:
     scene = read_scene(folder / "scene.toml")
     manifest = read_manifest(folder)
     tables = results_of(folder) or {}
-    lives, options = lifetime_of_loads(folder, scene, tables)
-    sections = [*_sections(folder, scene, manifest, tables)]
+    force_of = forces_of(folder)
+    lives, options = lifetime_of_loads(folder, scene, tables, force_of)
+    sections = [*_sections(folder, scene, manifest, tables, force_of)]
     sections[2:2] = [lifetime_section(lives, options)] if lives else []  # behind overview and loads
     facts, title = _facts(scene, manifest), f"loadflow: {scene.name}"
     beside = folder / TABLES
@@ -148,7 +151,11 @@ def _turbine_fact(scene: Scene) -> str:
 
 
 def _sections(
-    folder: Path, scene: Scene, manifest: dict[str, Any], tables: dict[str, xr.Dataset]
+    folder: Path,
+    scene: Scene,
+    manifest: dict[str, Any],
+    tables: dict[str, xr.Dataset],
+    force_of: ForceOf,
 ) -> Iterator[Section]:
     yield _overview(scene, tables, manifest)
     shown = _shown_cases(tables, manifest)
@@ -161,7 +168,7 @@ def _sections(
             tables=[_case_table(tables["shaft"])],
         )
     if "seeds" in tables:
-        yield seed_section(folder, tables["seeds"], manifest)
+        yield seed_section(folder, tables["seeds"], manifest, force_of)
     histogram = scene.reduction.method == "histogram"
     if histogram and (folder / "reduction").is_dir() and "reduction" in manifest["stages"]:
         yield Section(

@@ -12,13 +12,15 @@ import xarray as xr
 
 from loadflow.report import Chart, Picture, Section, Table, figures
 from loadflow.report.run_charts import seed_verdicts
-from loadflow.running.folder import answered, read_part
+from loadflow.running.folder import ForceOf, answered
 
 QUANTILES = (1, 25, 50, 75, 99)
 """Shares of the samples, %, at which the spread of a seed is drawn."""
 
 
-def seed_section(folder: Path, seeds: xr.Dataset, manifest: dict[str, Any]) -> Section:
+def seed_section(
+    folder: Path, seeds: xr.Dataset, manifest: dict[str, Any], force_of: ForceOf
+) -> Section:
     """Tabulate the tests of the seeds, and draw their spread."""
     tables: list[Table] = [_merge_table(seeds)]
     pictures: list[Picture | Chart] = []
@@ -40,7 +42,7 @@ def seed_section(folder: Path, seeds: xr.Dataset, manifest: dict[str, Any]) -> S
         tables.append(Table(f"Equality of seeds, {method}", heads, rows, fold=True))
         caption = f"Tests, {method}: a point below the dashed line is not equal."
         pictures.append(seed_verdicts(seeds, str(method), caption))
-    pictures += _spread(folder, manifest)
+    pictures += _spread(folder, manifest, force_of)
     text = (
         f"{_answer(seeds)} "
         "Series of one wind speed may be merged only if location, spread and spectrum agree. The "
@@ -87,7 +89,7 @@ def _p(value: float) -> str:
     return "-" if np.isnan(value) else f"{value:.2g}"
 
 
-def _spread(folder: Path, manifest: dict[str, Any]) -> Iterator[Picture]:
+def _spread(folder: Path, manifest: dict[str, Any], force_of: ForceOf) -> Iterator[Picture]:
     """Draw the spread of the seeds of every wind speed that has more than one."""
     groups: dict[str, list[str]] = {}
     for name in answered(folder, "shaft", manifest["cases"]):
@@ -96,10 +98,11 @@ def _spread(folder: Path, manifest: dict[str, Any]) -> Iterator[Picture]:
     found: dict[str, list[np.ndarray]] = {}
     attrs: dict[str, Any] = {}
     for name in itertools.chain(*several.values()):
-        (data,) = read_part(folder, "shaft", name, ("force",)).values()
-        force = data["force"].isel(bearing=slice(2)).sel(axis=["y", "z"])
+        force = force_of(name).isel(bearing=slice(2)).sel(axis=["y", "z"])
         attrs = force.attrs
-        values = np.nanpercentile(force.transpose(..., "time").values, QUANTILES, axis=-1)
+        series = force.transpose(..., "time").values
+        percentile = np.nanpercentile if np.isnan(series).any() else np.percentile
+        values = percentile(series, QUANTILES, axis=-1)
         for b, bearing in enumerate(force["bearing"].values):
             for a, axis in enumerate("yz"):
                 found.setdefault(f"{bearing} F{axis}", []).append(values[:, b, a])

@@ -106,7 +106,8 @@ def around(
     if outer is not None and outer.radius is not None and outer.radius <= pitch:
         raise InputError(f"outer_ring: radius must be > {pitch:g} m, got {outer.radius:g}")
     return FlexibleRings(
-        inner=inner and inner.of(bearing, "inner"), outer=outer and outer.of(bearing, "outer")
+        inner=None if inner is None else inner.of(bearing, "inner"),
+        outer=None if outer is None else outer.of(bearing, "outer"),
     )
 
 

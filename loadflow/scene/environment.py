@@ -39,13 +39,27 @@ def surrounded(data: dict[str, Any]) -> dict[str, Any]:
     if not isinstance(told, dict) or not isinstance(told.get("temperature"), int | float):
         return data
     ambient, cold = float(told["temperature"]), told.get("cold_start") is True
-    found = dict(data)
+    candidates = data.get("candidates")
+    among = candidates if isinstance(candidates, dict) else {}
+    every = [data, *(one for one in among.values() if isinstance(one, dict))]
+    found = _with_warm_films(data, ambient, cold)
+    if among:
+        found["candidates"] = {
+            name: _with_warm_films(one, ambient, cold) if isinstance(one, dict) else one
+            for name, one in among.items()
+        }
     friction = found.get("friction", {})
     if isinstance(friction, dict):
-        gives = "conductance" in friction or _is_mounted(found.get("rolling"))
+        gives = "conductance" in friction or any(_is_mounted(one.get("rolling")) for one in every)
         known = {"ambient_temperature": ambient} if gives else {}
         known |= {"temperature": ambient} if cold else {}
         found["friction"] = known | friction
+    return found
+
+
+def _with_warm_films(data: dict[str, Any], ambient: float, cold: bool) -> dict[str, Any]:
+    """A copy of sections, the heat of whose journal bearings knows its surroundings."""
+    found = dict(data)
     if isinstance(journal := found.get("journal"), dict):
         own = journal.get("own", {})
         warmed = _warmed(journal, ambient, cold)

@@ -123,9 +123,12 @@ def _differs(scene: Scene, section: str, key: str) -> bool:
 def _of_environment(scene: Scene) -> Iterator[tuple[str, str]]:
     if scene.loads.source == "files":
         yield "air_density", "the loads are read from files"
-    films = [scene.journal.at(place) for place in scene.journal.bearings]
-    warm = [film.heat for film in films if film.heat is not None and scene.wants("journal")]
-    rolls = scene.wants("rolling")
+    others = scene.candidates.values()
+    journals = [one.journal for one in others if one.journal is not None]
+    journals += [scene.journal] if scene.wants("journal") else []
+    heats = [journal.at(place).heat for journal in journals for place in journal.bearings]
+    warm = [heat for heat in heats if heat is not None]
+    rolls = scene.wants("rolling") or any(one.rolling is not None for one in others)
     sheds = rolls and (scene.friction.conductance is not None or _mounted(scene))
     gives = sheds or any(heat.gives_off for heat in warm)
     if not (gives or scene.environment.cold_start):
@@ -336,7 +339,9 @@ def _of_mountings(scene: Scene) -> Iterator[tuple[str, str]]:
 
 
 def _mounted(scene: Scene) -> bool:
-    return any(part.mounting is not None for part in scene.rolling.bearings.values())
+    others = (one.rolling for one in scene.candidates.values() if one.rolling is not None)
+    every = (part for rolling in (scene.rolling, *others) for part in rolling.bearings.values())
+    return any(part.mounting is not None for part in every)
 
 
 _OF_LIFE = ("lubricant", "temperature", "cleanliness", "conductance", "ambient_temperature")

@@ -132,12 +132,12 @@ def warm_bearing(
     part, options = scene.rolling.bearings[name], scene.friction
     if part.geometry.friction_model is None or part.oscillation is not None:
         options = options.model_copy(update={"conductance": None})
-    values = (
+    force, moment, speed, weight = (
         loads[what].transpose("sample", ...).values
         for what in ("force", "moment", "speed", "weight")
     )
     try:
-        return at_work(part, options, *values, answer=answer)
+        return at_work(part, options, force, moment, speed, weight, answer)
     except SolverError as error:
         raise SolverError(f"bearing {name}: {error}") from error
 

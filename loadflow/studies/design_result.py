@@ -30,6 +30,8 @@ SHOWN = {
 }
 """Factor and unit in which a number is shown."""
 
+_ALL = 100.0  # %, of the tilt that a bearing allows
+
 
 @dataclass(frozen=True)
 class Front:
@@ -166,6 +168,13 @@ class Designs:
             f"{energy:.3g} MWh a year with loads to spare by a factor of {factor:.3g}, "
             f"governed by: {found.governs}."
         )
+        tilt = found.numbers.get("tilt")
+        if tilt is not None and tilt.value > _ALL:
+            text += (
+                f" But the shaft in it bends: it tilts by {tilt.value / _ALL:.3g} times what "
+                f"closes the smallest film at an end, no limit here ({tilt.note}); state a beam "
+                "and journal.tilt, or a larger diameter."
+            )
         start = self.judged.get("start")
         if start is None:
             return text

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import replace
 
-from loadflow.rolling import BallBearing
+from loadflow.rolling import BallBearing, Mounting, RollerBearing
 from loadflow.rolling.rating import modified_life as lubricated_life
 from loadflow.tribology.contact_ellipse import exact_ellipse
 from loadflow.tribology.hertz import curvature_sum
@@ -23,6 +23,31 @@ def checks() -> Iterator[Check]:
     yield from _harris()
     yield from _catalogue()
     yield from _modified_life()
+    yield from _clearance()
+
+
+@evidence("closed form")
+def _clearance() -> Iterator[Check]:
+    """What temperatures and fits take off a radial clearance.
+
+    Makers' catalogues: α ΔT E where the inner ring and its rollers are warmer, E the diameter of
+    the outer raceway. Lamé, one steel: d/d_i of the interference on a solid shaft, D_o/D in a thick
+    housing; with a bore in the shaft (1 − (d_b/d)²)/(1 − (d_b/d_i)²) of it.
+    """
+    row = RollerBearing(rollers=24, roller_diameter=0.04, roller_length=0.06, pitch_diameter=0.54)
+    solid = Mounting(bore=0.4, inner_interference=1e-4)
+    hollow = (1 - (0.3 / 0.4) ** 2) / (1 - (0.3 / 0.5) ** 2)
+    for name, source, expected, mounting in (
+        ("inner ring and rollers 10 K warmer", "α ΔT E, catalogue of IKO", 11.7e-6 * 10 * 0.58,
+         Mounting(outer_temperature=283.15)),
+        ("fit on a solid shaft", "Lamé", 1e-4 * 0.4 / 0.5, solid),
+        ("fit on a hollow shaft", "Lamé", 1e-4 * 0.4 / 0.5 * hollow,
+         replace(solid, shaft_bore=0.3)),
+        ("fit in a thick housing", "Lamé", 1e-4 * 0.58 / 0.66,
+         Mounting(outside=0.66, outer_interference=1e-4)),
+    ):  # fmt: skip
+        got = -mounting.at_work(row, 293.15, 293.15).clearance
+        yield Check(f"clearance lost, {name}", source, 1e6 * expected, 1e6 * got, 1e-9, unit="μm")
 
 
 @evidence("closed form")

@@ -91,8 +91,7 @@ LADDER = (
 
 # heat through the pad of 150 mm and from its back, to the mean temperature of the oil that drains,
 # and a shaft as warm as the film on the mean, as the source has it
-_THROUGH = {"shell_transfer": 332.5, "shell_temperature": 325.942}
-_THROUGH |= {"shaft_transfer": 1e6, "shaft_temperature": _CELSIUS + 63.72}
+_THROUGH, _DRAINED, _TURNING = 332.5, 325.942, _CELSIUS + 63.72
 
 
 def ladder_bearing() -> JournalBearing:
@@ -119,7 +118,10 @@ def ladder_state(rung: Rung) -> FilmHeatEquilibrium:
     )
     heat = FilmHeat(oil, inlet_temperature=323.0, carry_over=0.8)
     if rung == "full":
-        heat = replace(heat, points=4, **_THROUGH)
+        heat = replace(
+            heat, points=4, shell_transfer=_THROUGH, shell_temperature=_DRAINED,
+            shaft_transfer=1e6, shaft_temperature=_TURNING,
+        )  # fmt: skip
     film = Film(None, MassConserving(), edge_pressure=100.0, grid=(80, 20), heat=heat)
     state = ladder_bearing().equilibrium((112814.907, 0.0), 94.24778, film)
     assert isinstance(state, FilmHeatEquilibrium)

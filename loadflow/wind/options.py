@@ -53,8 +53,8 @@ class WindOptions:
     radii, angles : int
         Number of radii (with the hub) and of angles of the polar grid.
     step : float
-        Time step of the wind, s. Half of it moves the deviations of the hub moments by less than
-        0.2 %, their extremes by less than 0.5 % (docs/wind.md).
+        Time step of the wind, s. Half of it moves equivalent hub loads by less than 0.5 %, single
+        extremes by about 1 % (docs/wind.md).
 
     Examples
     --------

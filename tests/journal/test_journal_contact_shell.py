@@ -5,7 +5,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from loadflow.errors import InputError
 from loadflow.journal import (
     Contact,
     Film,
@@ -116,7 +115,43 @@ def test_a_stop_ends_on_the_yielding_asperities():
     assert float(still.minimum_film) < float(path.minimum_film[-1])
 
 
-def test_a_shell_that_spreads_is_refused_by_name():
-    thick = ThickShell(outer_diameter=0.3, modulus=2.1e11)
-    with pytest.raises(InputError, match=r"contact .* pressed open around"):
-        BEARING.equilibrium(FORCE, SPEED, replace(FILM, shell=thick))
+THICK = ThickShell(outer_diameter=0.3, modulus=2e10)
+AROUND = replace(FILM, grid=(48, 8), shell=THICK)
+
+
+def test_contact_presses_a_shell_open_around():
+    """From a rigid shell to one that carries the load on its film alone."""
+    states = [
+        BEARING.equilibrium(FORCE, SPEED, replace(AROUND, shell=shell), **TIGHT)
+        for shell in (None, replace(THICK, modulus=2e15), replace(THICK, modulus=2e11), THICK)
+    ]
+    share = [float(state.contact_share) for state in states]
+    assert share[1] == pytest.approx(share[0], rel=1e-3)
+    assert share[1] > 1.3 * share[2] > 3.0 * share[3] > 0.01
+    still = BEARING.equilibrium(FORCE, 0.0, AROUND)
+    assert float(still.contact_share) == pytest.approx(1.0, abs=1e-6)
+    assert float(still.shell_deformation) > 0.05 * BEARING.clearance
+
+
+@pytest.mark.parametrize("tilt", [{}, pytest.param({"tilt": TILT}, marks=pytest.mark.slow)])
+def test_stiffness_of_a_shell_pressed_open_around(tilt):
+    state = BEARING.equilibrium(FORCE, SPEED, AROUND, **TIGHT, **tilt)
+    way = 1e-10 * np.array([[0.0, 0.0], [1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]])
+    places = np.asarray(state.eccentricity) + way
+    force = np.array(BEARING.pressure(places, SPEED, AROUND, **TIGHT, **tilt).force)
+    np.testing.assert_allclose(force[0], FORCE, rtol=1e-6, atol=1e-6 * FORCE[0])
+    slopes = np.stack([force[1] - force[2], force[3] - force[4]], axis=-1) / 2e-10
+    known = np.asarray(state.stiffness)[:2, :2]
+    np.testing.assert_allclose(known, slopes, atol=1e-6 * np.abs(known).max())
+
+
+def test_damping_of_a_shell_pressed_open_around():
+    film = replace(AROUND, cavitation=Guembel())
+    rate, time = np.array([2.0, -1.0]), np.linspace(0.0, 20.0, 21)
+    force = FORCE + np.outer(time - time[-1], rate)
+    path = BEARING.orbit(time, force, SPEED, film, tolerance=1e-12)
+    still = BEARING.equilibrium(FORCE, SPEED, film, tolerance=1e-12)
+    moving = np.gradient(path.eccentricity.values, time, axis=0)[-1]
+    behind = np.linalg.solve(still.stiffness, still.damping @ moving)
+    lag = still.eccentricity - path.eccentricity.values[-1]
+    np.testing.assert_allclose(lag, behind, atol=0.002 * np.abs(behind).max())

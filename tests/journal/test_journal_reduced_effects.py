@@ -415,33 +415,33 @@ def test_a_tilted_end_on_a_yielding_shell_is_that_of_finer_cells():
         assert getattr(few, name) == pytest.approx(getattr(grid, name), rel=bound), name
 
 
-SLOW = JournalBearing(diameter=3.0, width=2.25, relative_clearance=5e-4)
+MAIN_BEARING = JournalBearing(diameter=3.0, width=2.25, relative_clearance=5e-4)
 """A main bearing, at speeds of a start."""
-AT_REST = Film(Lubricant(0.05), GasMixture(5e4), edge_pressure=5e5, grid=(60, 20), rung="reduced")
+DIPPED = Film(Lubricant(0.05), GasMixture(5e4), edge_pressure=5e5, grid=(60, 20), rung="reduced")
 
 
 @pytest.mark.parametrize("end", [0.0, 1.1e-3])
 def test_light_loads_of_slow_shafts_are_answered_without_the_grid(end, monkeypatch):
     monkeypatch.setattr(reduced, "solve_on_grid", lambda *rows: None)
     angle, speed = np.linspace(0.0, 6.0, 13), np.linspace(5e-3, 15e-3, 13)
-    tilt = end * SLOW.relative_clearance * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    tilt = end * MAIN_BEARING.relative_clearance * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
     line = {"tilt": tilt} if end else {}
     force = np.tile([7.6e4, 0.0], (angle.size, 1))
-    found = SLOW.equilibrium(force, speed, AT_REST, strict=False, **line)
+    found = MAIN_BEARING.equilibrium(force, speed, DIPPED, strict=False, **line)
     assert found.converged.all()
     monkeypatch.undo()
     some = {name: rows[::6] for name, rows in line.items()}
-    grid = SLOW.equilibrium(force[::6], speed[::6], replace(AT_REST, rung="grid"), **some)
+    grid = MAIN_BEARING.equilibrium(force[::6], speed[::6], replace(DIPPED, rung="grid"), **some)
     assert found.minimum_film[::6] == pytest.approx(grid.minimum_film, rel=0.01)
 
 
 def test_an_end_that_touches_has_no_film_and_the_grid_is_not_asked(monkeypatch):
-    tilt = (0.0, -0.0416 * SLOW.relative_clearance)
+    tilt = (0.0, -0.0416 * MAIN_BEARING.relative_clearance)
     given = ((1.57e6, 0.0), 0.0065)
-    exact = SLOW.equilibrium(*given, replace(AT_REST, rung="grid"), tilt=tilt, strict=False)
+    exact = MAIN_BEARING.equilibrium(*given, replace(DIPPED, rung="grid"), tilt=tilt, strict=False)
     assert not exact.converged
     monkeypatch.setattr(reduced, "solve_on_grid", lambda *rows: pytest.fail("asked"))
-    found = SLOW.equilibrium(*given, AT_REST, tilt=tilt, strict=False)
+    found = MAIN_BEARING.equilibrium(*given, DIPPED, tilt=tilt, strict=False)
     assert not found.converged
     assert found.residual > 0.6
     assert np.isnan([found.minimum_film, found.eccentricity_ratio, found.friction_power]).all()

@@ -12,6 +12,8 @@ from small_run import contents, small_scene
 
 from loadflow.cli import progress as shown
 from loadflow.errors import InputError, LoadflowError
+from loadflow.running.cases import Outcome
+from loadflow.running.profile import Profile
 from loadflow.running.runner import run
 
 RESULTS = ("reduction.histogram", "loads.statistics")
@@ -93,6 +95,15 @@ def test_a_log_gets_lines_the_first_of_them_at_once(tmp_path):
     assert "\x1b" not in rest  # no bars in a file
     assert "phase" in out
     assert (tmp_path / "runs/small/profile.json").exists()
+
+
+def test_the_profile_adds_up_the_processor_time_of_stages():
+    profile = Profile()
+    for worked in (1.5, 0.25):
+        stage = {"loads": 2.0}, {"loads": 0.5}, {"loads": 0.1}, {"loads": worked}
+        profile.add(Outcome(*stage))
+    row = profile.table(2)["stages_of_load_cases"]["loads"]
+    assert (row["process_seconds"], row["processor_seconds"]) == (4.0, 1.75)
 
 
 def test_a_stage_that_takes_long_tells_every_minute(monkeypatch, capsys):

@@ -35,6 +35,19 @@ def test_each_place_has_its_own_surroundings():
     assert scene.journal.at("N2").heat.ambient_temperature == 290.0
 
 
+def test_candidates_stand_in_the_same_surroundings():
+    geometry = {"rollers": 28, "roller_diameter": 0.08, "roller_length": 0.12,
+                "pitch_diameter": 0.95, "contact_angle": 0.17}  # fmt: skip
+    film = {"kind": "journal", "heat": {"transfer": 100.0}}
+    rolls = {"kind": "spherical", "geometry": geometry, "mounting": {"inner_share": 1.1}}
+    scene = make_scene(
+        {"name": "x", "environment": COLD, "candidates": {"one": {"N": film, "N2": rolls}}}
+    )
+    assert scene.candidates["one"].journal.at("N").heat.ambient_temperature == 253.15
+    assert scene.friction.ambient_temperature == 253.15
+    assert unused_keys(scene) == {}
+
+
 def test_a_cold_start_begins_with_cold_oil():
     cold = COLD | {"cold_start": True}
     scene = make_scene({"name": "x", "environment": cold, "journal": WARM})

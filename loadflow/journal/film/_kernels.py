@@ -20,7 +20,7 @@ from llvmlite import ir
 from numba import njit, types
 from numba.extending import intrinsic
 
-from loadflow.journal.cavitation import DFILL, DP, DSLACK, FILL, LOAD, SLACK, P
+from loadflow.journal.cavitation import DFILL, DP, DSLACK, FILL, SLACK, P
 
 # coefficients of the gap: on the faces around, on the faces across (H3), on cells; CELL3 is ∫H³ of
 # cells, from which the faces across of a gap that changes along the axis follow
@@ -56,20 +56,22 @@ def apply_law(address, numbers, scale, u, state):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def balance(state, coefs, dz, area, gz, closed, wedge, edges, growth, groove, out):
+def balance(state, coefs, cells, closed, wedge, edges, growth, groove, out):
     """Add the outflow of each cell in some gaps to `out` (≥ l, nx, nz).
 
     It is linear in what a gap is told by, `coefs` (l, 8, nx + 1, rows) and `growth` (l, nx, rows),
-    so that these may also be derivatives. `edges` are the pressures at the bearing ends and on
-    the inlet line, and the fill there. A groove that reaches a bearing end is closed there.
+    so that these may also be derivatives. `cells` are those of `Mesh.cells`, `edges` the pressures
+    at the bearing ends and on the inlet line, and the fill there. A groove that reaches a bearing
+    end is closed there.
     """
     _, nx, nz = state.shape
+    dz, area, gz = cells
     row = 1 if coefs.shape[3] > 1 else 0
     p_edge, p_line, f_line = edges
     p = state[P]
     fill = state[FILL]
     for c in range(coefs.shape[0]):
-        coef, mass, left_over = coefs[c], growth[c], out[c]
+        coef, mass, field = coefs[c], growth[c], out[c]
         for i in range(nx + 1):
             left = i - 1 if i > 0 else nx - 1
             right = i if i < nx else 0
@@ -86,21 +88,21 @@ def balance(state, coefs, dz, area, gz, closed, wedge, edges, growth, groove, ou
                         p_r, f_r = p_line, f_line
                 q = area[k] * e * (f_l if wedge > 0 else f_r) - dz[k] * g * (p_r - p_l)
                 if closed or i > 0:
-                    left_over[left, k] += q
+                    field[left, k] += q
                 if closed or i < nx:
-                    left_over[right, k] -= q
+                    field[right, k] -= q
         for i in range(nx):
             if not groove[i, 0]:
-                left_over[i, 0] -= coef[H3, i, 0] * gz[0] * (p_edge - p[i, 0])
+                field[i, 0] -= coef[H3, i, 0] * gz[0] * (p_edge - p[i, 0])
             for k in range(nz):
-                left_over[i, k] += fill[i, k] * mass[i, row * k] * area[k]
+                field[i, k] += fill[i, k] * mass[i, row * k] * area[k]
                 if k + 1 == nz and groove[i, k]:
                     continue
                 g = coef[H3, i, row * (k + 1)] * gz[k + 1]
                 q = g * (p[i, k] - (p[i, k + 1] if k + 1 < nz else p_edge))
-                left_over[i, k] += q
+                field[i, k] += q
                 if k + 1 < nz:
-                    left_over[i, k + 1] -= q
+                    field[i, k + 1] -= q
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -112,30 +114,31 @@ def right_hand_sides(state, fields, moves, around, across, slope, area, opened, 
     """
     count, nx, nz = fields.shape
     row = 1 if across.shape[1] > 1 else 0
-    for c in range(count):
-        j = c - moves
-        for i in range(nx):
-            base = order[i] * nz
-            for k in range(nz):
-                if j >= 0:
-                    value = -slope * state[FILL, i, k] * area[k] * around[j, i] * across[j, row * k]
-                    if opened is not None:
-                        value *= opened[i, row * k]
-                    fields[c, i, k] = value
-                value = fields[c, i, k]
-                if c == 0:
-                    value += state[SLACK, i, k]
-                out[c, base + k] = 0.0 if fixed[i, k] else value
+    for i in range(nx):
+        base = order[i] * nz
+        for k in range(nz):
+            squeeze = -slope * state[FILL, i, k] * area[k]
+            if opened is not None:
+                squeeze *= opened[i, row * k]
+            for c in range(count):
+                if c >= moves:
+                    fields[c, i, k] = squeeze * around[c - moves, i] * across[c - moves, row * k]
+                out[c, base + k] = 0.0 if fixed[i, k] else fields[c, i, k]
+            if not fixed[i, k]:
+                out[0, base + k] += state[SLACK, i, k]
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def jacobian(state, coef, dz, area, gz, closed, wedge, mass, order, fixed, ab):
+def jacobian(state, coef, cells, closed, wedge, mass, order, fixed, ab):
     """Band matrix ∂(balance + slack)/∂u in LAPACK's layout, `ab` (n, 3 kl + 1), column by row."""
     _, nx, nz = state.shape
+    dz, area, gz = cells
     row = 1 if coef.shape[2] > 1 else 0
     kl = (ab.shape[1] - 1) // 3
     mid = 2 * kl
-    ab[:, kl:] = 0.0  # what lies above is LAPACK's, for pivots
+    for at in range(ab.shape[0]):
+        for place in range(kl, ab.shape[1]):
+            ab[at, place] = 0.0  # what lies above is LAPACK's, for pivots
     dp = state[DP]
     df = state[DFILL]
     for i in range(nx + 1):
@@ -195,15 +198,15 @@ def gather(field, order, column):
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def load_of(load, around, across, dz, out):
-    """∫ p N_j over the film, `out` (l, m), of modes around_j (l, m, nx) · across_j (m, rows).
+    """∫ p N_j over the film, `out` (l, m), of modes N_j = around_j (l, m, nx) · across_j (m, rows).
 
     Their factors around come in l sets.
     """
     nx, nz = load.shape
     row = 1 if across.shape[1] > 1 else 0
-    out[:] = 0.0
     for c in range(out.shape[0]):
         for j in range(out.shape[1]):
+            out[c, j] = 0.0
             for i in range(nx):
                 total = 0.0
                 for k in range(nz):
@@ -213,18 +216,53 @@ def load_of(load, around, across, dz, out):
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def carried_by(slope, around, across, dz, order, columns, out):
-    """Change of `load_of` by each of `columns` (l, n) of changes of the unknowns, `out` (l, m)."""
+    """Change of ∫ p N_j by each of `columns` (l, n) of changes of the unknowns, `out` (l, m)."""
     nx, nz = slope.shape
     row = 1 if across.shape[1] > 1 else 0
-    out[:] = 0.0
     for c in range(columns.shape[0]):
-        for i in range(nx):
-            base = order[i] * nz
-            for j in range(out.shape[1]):
+        for j in range(out.shape[1]):
+            out[c, j] = 0.0
+            for i in range(nx):
+                base = order[i] * nz
                 total = 0.0
                 for k in range(nz):
                     total += slope[i, k] * dz[k] * across[j, row * k] * columns[c, base + k]
                 out[c, j] += around[j, i] * total
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def substitute(factors, pivots, columns):
+    """Solve for each of `columns` (l, n) in place, with what LAPACK's `dgbtrf` has left.
+
+    All columns pass the factors together, and where no rows were exchanged, as in most films, the
+    upper factor is as narrow as the matrix: a third of the time of `dgbtrs`. `factors`
+    (n, 3 kl + 1) hold a column of the band in each row.
+    """
+    n, width = factors.shape
+    kl = (width - 1) // 3
+    mid, reach = 2 * kl, kl
+    for j in range(n):
+        below = factors[j, mid + 1 : mid + 1 + min(kl, n - 1 - j)]
+        other = pivots[j]
+        for c in range(columns.shape[0]):
+            column = columns[c]
+            value = column[other]
+            if other != j:
+                reach = mid
+                column[other] = column[j]
+                column[j] = value
+            rest = column[j + 1 : j + 1 + below.size]
+            for i in range(below.size):
+                rest[i] -= value * below[i]
+    for j in range(n - 1, -1, -1):
+        far = min(reach, j)
+        above, pivot = factors[j, mid - far : mid], factors[j, mid]
+        for c in range(columns.shape[0]):
+            value = columns[c, j] / pivot
+            columns[c, j] = value
+            rest = columns[c, j - far : j]
+            for i in range(far):
+                rest[i] -= value * above[i]
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -242,43 +280,3 @@ def correct(u, columns, weights, order):
             u[i, k] -= change
             largest = max(largest, abs(change))
     return largest
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def integrals(state, coef, dz, gz, closed, p_edge, p_line, groove):
-    """Integrals over the solved film, in the units of this module.
-
-    Returns the largest pressure, the dissipation Σ H³ |∂p|², the shear ∫ 1/H outside grooves, the
-    outflow over the bearing ends (where it leaves), and ∫ F H and ∫ H.
-    """
-    _, nx, nz = state.shape
-    row = 1 if coef.shape[2] > 1 else 0
-    p = state[LOAD]
-    peak = p[0, 0]
-    dissipation, shear, outflow, liquid, volume = 0.0, 0.0, 0.0, 0.0, 0.0
-    for i in range(nx + 1):
-        if closed and i == nx:
-            break
-        for k in range(nz):
-            p_l = p[i - 1 if i > 0 else nx - 1, k] if closed or i > 0 else p_line
-            p_r = p[i, k] if i < nx else p_line
-            dissipation += coef[G, i, row * k] * dz[k] * (p_r - p_l) ** 2
-    for i in range(nx):
-        drop = 0.0 if groove[i, 0] else p[i, 0] - p_edge
-        flow = coef[H3, i, 0] * gz[0] * drop
-        dissipation += flow * drop
-        outflow += max(flow, 0.0)
-        for k in range(nz):
-            peak = max(peak, p[i, k])
-            drop = p[i, k] - (p[i, k + 1] if k + 1 < nz else p_edge)
-            if k + 1 == nz and groove[i, k]:
-                drop = 0.0
-            flow = coef[H3, i, row * (k + 1)] * gz[k + 1] * drop
-            dissipation += flow * drop
-            if k + 1 == nz:
-                outflow += max(flow, 0.0)
-            if not groove[i, k]:
-                shear += coef[HINV, i, row * k] * dz[k]
-            liquid += state[FILL, i, k] * coef[HM, i, row * k] * dz[k]
-            volume += coef[HM, i, row * k] * dz[k]
-    return peak, dissipation, shear, outflow, liquid, volume

@@ -131,3 +131,15 @@ def pressed(
                 for b in range(size):
                     stiffness[a, b] -= mode * rise / s * reach[b, i] * lengths[b, k]
     return normal, narrowest
+
+
+@njit(cache=True, nogil=True)
+def asperity_field(gap, s, free, value, slope):
+    """Fill pressure of the summits at the nodes of a `gap` (n,), in units of K E*, and its slope.
+
+    Nodes that are not `free` carry none.
+    """
+    for i in range(gap.size):
+        if free[i] and gap[i] <= NO_CONTACT * s:
+            pressure, rise = laws.pressure_integral(gap[i] / s)
+            value[i], slope[i] = pressure, rise / s

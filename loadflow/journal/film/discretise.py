@@ -24,6 +24,7 @@ from loadflow.journal.film.gap_warm import WarmGap
 from loadflow.journal.film.groove_pressure import Pockets
 from loadflow.journal.film.grooves import groove_marks, groove_numbers
 from loadflow.journal.film.mesh import Mesh, build_mesh
+from loadflow.journal.film.shell_contact import ShellContact, TouchedFilm
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
@@ -110,7 +111,9 @@ def shaped_film(
         require(not bore.pads, "shell", options.shell, "None for pads, whose backs are not held")
         compliance = compliance_of(options.shell, mesh, bore.radius)
         elastic = _elastic_gap(mesh, bore, options, compliance)
-        gap, film = elastic, ElasticFilm(compliance, elastic, *oil, pressure)
+        touched = contact is not None and compliance.spreads
+        kind = TouchedFilm if touched else ElasticFilm
+        gap, film = elastic, kind(compliance, elastic, *oil, pressure)
     film.fill(mesh.groove, pressure)
     film.ambient = _outside(gap, film, options.edge_pressure, bearing.shape)
     if contact is not None:
@@ -118,8 +121,11 @@ def shaped_film(
         if options.shell is None:
             film.contact = NodeLoad(contact, gap, radius, mirrors, grooved)
         else:
-            between = cast("RoughElasticGap", gap)
-            film.contact = YieldingNodeLoad(contact, between, radius, mirrors, grooved)
+            between, rest = cast("RoughElasticGap", gap), (radius, mirrors, grooved)
+            if compliance.spreads:
+                film.contact = ShellContact(contact, between, *rest, compliance)
+            else:
+                film.contact = YieldingNodeLoad(contact, between, *rest)
     _choose_regime(film, options)
     return gap, film
 
@@ -161,12 +167,12 @@ def _rigid_gap(mesh: ShapedMesh, bore: Bore, options: Film) -> ShapedGap:
 
 
 def _elastic_gap(mesh: ShapedMesh, bore: Bore, options: Film, compliance: Compliance) -> ElasticGap:
-    """Gap of an elastic shell, which yields to asperities only where they press."""
+    """Gap of an elastic shell; a local one yields to asperities where each of them presses."""
     if options.contact is None:
         return ElasticGap(mesh, bore, ends_deform=compliance.spreads)
-    allowed = "None with an elastic shell that gives way around what is pressed"
-    require(not compliance.spreads, "contact", options.contact, allowed)
-    return RoughElasticGap(mesh, bore, options.contact, float(compliance.local.flat[0]))
+    spreads = compliance.spreads
+    alone = 0.0 if spreads else float(compliance.local.flat[0])
+    return RoughElasticGap(mesh, bore, options.contact, alone, ends_deform=spreads)
 
 
 def _outside(

@@ -44,7 +44,7 @@ class ElasticFilm(DiscreteFilm):
     def place(self, u: Array, position: Array) -> Array:
         """Evaluate law, shell and gap at `u` and `position`; returns the axes of the frame."""
         self._apply_law(u)
-        self._grow()
+        self._grow(position)
         self._place = position
         return self.gap.place(position)
 
@@ -53,7 +53,7 @@ class ElasticFilm(DiscreteFilm):
         carried = super()._carried(columns)
         if self.contact is not None:
             pressure = self.state[DLOAD] * self._fields(columns)
-            growth = self._per_clearance * self.compliance.growth(pressure)
+            growth = self._grows(pressure)
             asperities = cast("YieldingNodeLoad", self.contact)
             slopes = asperities.by_growth(self._place) / (self.mirrors * self.radius**2)
             carried += np.einsum("mxz,lxz->lm", slopes, growth)
@@ -69,10 +69,22 @@ class ElasticFilm(DiscreteFilm):
         """Growth of the gap that counts, in clearances, over that of the shell, m."""
         return self._share / (self.relative_clearance * self.radius)
 
-    def _grow(self) -> None:
+    def _excess(self) -> Array:
+        """Pressure of the cells (nx, nz) above that at the bearing ends, Pa."""
         self.gap.drag(self.wedge * self._per_clearance * self.compliance.local)
-        pressure = self.state[LOAD] - self.p_edge
-        self.gap.grow(self._per_clearance * self.compliance.growth(pressure))
+        return np.asarray(self.state[LOAD] - self.p_edge)
+
+    def _grow(self, position: Array) -> None:
+        """Let the gaps grow under the pressure at hand, with the shaft at `position`."""
+        self.gap.grow(self._grows(self._excess()))
+
+    def _grows(self, pressure: Array) -> Array:
+        """Growth of the gaps (…, nx, nz), clearances, by a change of the `pressure`, Pa."""
+        return self._per_clearance * self.compliance.growth(pressure)
+
+    def _follows(self) -> Array | None:
+        """Growth of the gaps by the position of the shaft (m, nx, nz); none unless they touch."""
+        return None
 
     @property
     def deformation(self) -> Array:
@@ -104,8 +116,9 @@ class ElasticFilm(DiscreteFilm):
             trial = u.copy()
             kernel.correct(trial, columns, share * weights, self.mesh.order)
             self._apply_law(trial)
-            self._grow()
-            if self.gap.least(start + share * (target - start)) >= least:
+            place = start + share * (target - start)
+            self._grow(place)
+            if self.gap.least(place) >= least:
                 return share
             share *= 0.5
         return share
@@ -120,12 +133,18 @@ class ElasticFilm(DiscreteFilm):
         """Outflow of every cell (nx, nz) at the state last placed, or by a `change` of it."""
         field = super().balance(coef, mass, change, out)
         if change is not None:
-            self._spread(self.compliance.growth(change[LOAD])[None], field[None])
+            self._spread(self._grows(change[LOAD][None]), field[None])
         return field
 
     def _spread(self, growth: Array, fields: Array) -> None:
-        """Add what a `growth` (l, nx, nz), m, of the gaps changes in the balance to `fields`."""
-        shell_kernel.spread(self.stencil, self._per_clearance * growth, fields)
+        """Add what a `growth` (l, nx, nz), clearances, changes in the balance to `fields`."""
+        shell_kernel.spread(self.stencil, growth, fields)
+
+    def _add_following(self, fields: Array) -> None:
+        """Let the derivatives of the balance by position (m, nx, nz) have the gaps that follow."""
+        growth = self._follows()
+        if growth is not None:
+            self._spread(growth, fields)
 
     def _assemble(self, mass: Array, rate: float) -> None:
         super()._assemble(mass, rate)
@@ -175,7 +194,9 @@ class ElasticFilm(DiscreteFilm):
         """Let the derivatives by velocity have the squeeze of the shell that follows the shaft."""
         by_place, by_velocity = columns[1 : size + 1], columns[size + 1 : 2 * size + 1]
         pressure = -self.state[DLOAD] * self._fields(by_place)
-        growth = self._per_clearance * self.compliance.growth(pressure)
+        growth, follows = self._grows(pressure), self._follows()
+        if follows is not None:
+            growth = growth + follows
         volume = self.slope * self.state[FILL] * self.gap.widths * growth
         if self.gap.open_share is not None:
             volume *= self.gap.open_share
@@ -198,7 +219,7 @@ class ElasticFilm(DiscreteFilm):
         """What the balance owes to changes of the unknowns, (l, n), by way of other cells' gaps."""
         fields = self._fields(columns)
         pressure = self.state[DLOAD] * fields
-        growth = self.compliance.growth(pressure) - self.compliance.local * pressure
+        growth = self._grows(pressure) - self._per_clearance * self.compliance.local * pressure
         out = np.zeros_like(fields)
         self._spread(growth, out)
         out[:, self.fixed] = 0.0

@@ -129,7 +129,7 @@ class HeatBalance:
         known, new = to_cell & (flows.source != FRESH), to_cell & (flows.source == FRESH)
         shape = (volumes.size, volumes.count)
         matrix = sparse(part[known], flows.sink[known], flows.source[known], shape)
-        return matrix, np.bincount(flows.sink[new], part[new], volumes.size)
+        return matrix, np.bincount(flows.sink[new], part[new], volumes.size).astype(float)
 
     def _profile(self, surface: Surface, others: float = 1.0) -> tuple[Array, csc_matrix]:
         """A temperature of the cells, and that of all other volumes times `others`."""

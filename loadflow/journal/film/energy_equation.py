@@ -197,7 +197,8 @@ class EnergyEquation:
             entries.append((sheared * across.by_mean * across.moment, behind, cells))
             entries.append((sheared * across.by_skew * across.moment, behind, behind))
         shape = (volumes.unknowns, volumes.unknowns)
-        return source, sparse(*(np.concatenate(x) for x in zip(*entries)), shape)
+        values, rows, columns = (np.concatenate(x) for x in zip(*entries))
+        return source, sparse(values, rows, columns, shape)
 
     def _viscosity(self, mean: Array, shaft: float, skew: Array | float) -> Across:
         """Viscosity of the wet cells at their `mean` and `skew`, K."""

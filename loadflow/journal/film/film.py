@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg.lapack import dgbtrf, dgbtrs
+from scipy.linalg.lapack import dgbtrf
 
 from loadflow.errors import SolverError
 from loadflow.journal.cavitation import DFILL, DLOAD, DP, FILL, LOAD, SLACK, CavitationLaw, P
@@ -204,7 +204,7 @@ class DiscreteFilm:
         if change is not None:
             state, edges = change, (0.0, 0.0, 0.0)
         kernel.balance(
-            state, coef[None], mesh.dz, mesh.area, mesh.gz, mesh.closed, self.wedge, edges,
+            state, coef[None], mesh.cells, mesh.closed, self.wedge, edges,
             mass[None], self.fixed, field[None],
         )  # fmt: skip
         return field
@@ -248,11 +248,13 @@ class DiscreteFilm:
         growth, moves = self.storage(gap.coefs, modes, local, rate), len(gap.coefs)
         fields = np.zeros((moves + (gap.size if damped else 0), *mesh.shape))
         kernel.balance(
-            self.state, gap.coefs, mesh.dz, mesh.area, mesh.gz, mesh.closed, self.wedge,
+            self.state, gap.coefs, mesh.cells, mesh.closed, self.wedge,
             (self.p_edge, self.p_line, self.line_fill), growth, self.fixed, fields,
         )  # fmt: skip
         if rate != 0.0:
             fields[0] -= old
+        self._assemble(growth[0], rate)
+        self._add_following(fields[1:moves])
         columns = np.empty((len(fields) + free.size, mesh.angle.size * mesh.z.size))
         kernel.right_hand_sides(
             self.state, fields, moves, modes[0], gap.across, self.slope, mesh.area, gap.open_share,
@@ -261,14 +263,13 @@ class DiscreteFilm:
         flows = [self.pockets.flows(field)[free] for field in fields] if free.size else []
         for column, number in zip(columns[len(fields) :], free):
             kernel.gather(1.0 * (self.pockets.numbers == number), mesh.order, column)
-        self._assemble(growth[0], rate)
         band = mesh.bandwidth
-        lu, pivots, info = dgbtrf(self.ab.T, band, band, overwrite_ab=1)
+        _, pivots, info = dgbtrf(self.ab.T, band, band, overwrite_ab=1)
         if info:
             raise SingularFilm(f"film matrix is singular in row {info} at eccentricity {position}")
-        self._solve((lu, pivots), columns)
+        self._solve((self.ab, pivots), columns)
         if damped:
-            self._add_shell_squeeze((lu, pivots), columns, gap.size)
+            self._add_shell_squeeze((self.ab, pivots), columns, gap.size)
         if free.size:
             columns = self._freed(columns, np.array(flows), growth[0])
 
@@ -298,24 +299,24 @@ class DiscreteFilm:
         """Write the Newton matrix at the state last placed into the band."""
         mesh = self.mesh
         kernel.jacobian(
-            self.state, self.gap.coef, mesh.dz, mesh.area, mesh.gz, mesh.closed, self.wedge,
+            self.state, self.gap.coef, mesh.cells, mesh.closed, self.wedge,
             mass, mesh.order, self.fixed, self.ab,
         )  # fmt: skip
 
     def _solve(self, factors: tuple[Array, NDArray[np.int32]], columns: Array) -> None:
         """Solve the Newton matrix for each of `columns` (l, n), in place."""
-        lu, pivots = factors
-        band = self.mesh.bandwidth
-        dgbtrs(lu, band, band, columns.T, pivots, overwrite_b=1)
+        kernel.substitute(*factors, columns)
 
     def _add_shell_squeeze(
         self, factors: tuple[Array, NDArray[np.int32]], columns: Array, size: int
     ) -> None:
         """Let the derivatives by velocity know what else moves with the shaft: nothing, if rigid.
 
-        After the Newton step, `columns` hold `size` derivatives by position (fewer where the mesh
-        turns) and `size` by velocity.
+        After the Newton step, `columns` hold `size` derivatives by position and `size` by velocity.
         """
+
+    def _add_following(self, fields: Array) -> None:
+        """Let derivatives of the balance by position have gaps that follow it: none if rigid."""
 
     def _freed(self, columns: Array, direct: Array, mass: Array) -> Array:
         """Let the pressure of the free grooves follow their flow in all `columns`."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +12,9 @@ from loadflow.journal.film.gap import KEPT
 from loadflow.journal.film.gap_layout import Bore
 from loadflow.journal.film.gap_mesh import ShapedMesh
 from loadflow.journal.film.gap_shaped import ShapedGap
+
+if TYPE_CHECKING:
+    from scipy.sparse import csr_matrix
 
 Array = NDArray[np.float64]
 
@@ -137,6 +140,14 @@ class _Line(NamedTuple):
         """Values (rows, m) on the lines, (places, m)."""
         return (1.0 - self.share) * values[self.low] + self.share * values[self.high]
 
+    def matrix(self, rows: int) -> csr_matrix:
+        """What `of` does, (places, rows)."""
+        from scipy.sparse import csr_matrix
+
+        every, share = np.arange(self.low.size), self.share[:, 0]
+        places = np.append(every, every), np.append(self.low, self.high)
+        return csr_matrix((np.append(1.0 - share, share), places), shape=(every.size, rows))
+
     def spread(self, weights: Array, rows: int) -> Array:
         """What `of` does, transposed: `weights` (places, m) given back to the rows (rows, m)."""
         out = np.zeros((rows, weights.shape[1]))
@@ -155,6 +166,14 @@ class Between(NamedTuple):
         """Values of the cells (nx, nz) at the places (n, l)."""
         still = np.zeros((self.around.low.size, 1))
         return self.across.of(np.hstack([self.around.of(values), still]).T).T
+
+    def matrix(self, shape: tuple[int, int]) -> csr_matrix:
+        """What `of` does with the values of all cells of `shape` at once, (n l, nx nz)."""
+        from scipy.sparse import kron
+
+        nx, nz = shape
+        across = self.across.matrix(nz + 1)[:, :nz]  # the last row stays
+        return kron(self.around.matrix(nx), across, format="csr")
 
     def back(self, weights: Array, shape: tuple[int, int]) -> Array:
         """Sum of `weights` (n, l) over the places, to the cells (nx, nz) that they depend on."""

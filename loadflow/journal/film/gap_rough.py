@@ -140,16 +140,24 @@ class RoughElasticGap(ElasticGap):
 
     Parameters
     ----------
-    mesh, bore
+    mesh, bore, ends_deform
         As for `ElasticGap`.
     contact : Contact
         Roughness and its pattern.
     compliance : float
-        Growth of the gap over pressure, m/Pa.
+        Growth of the gap over the pressure of asperities that the growth of the cells is without,
+        m/Pa; 0 where it is that by all that presses the shell.
     """
 
-    def __init__(self, mesh: ShapedMesh, bore: Bore, contact: Contact, compliance: float) -> None:
-        super().__init__(mesh, bore, ends_deform=False)
+    def __init__(
+        self,
+        mesh: ShapedMesh,
+        bore: Bore,
+        contact: Contact,
+        compliance: float,
+        ends_deform: bool = False,
+    ) -> None:
+        super().__init__(mesh, bore, ends_deform)
         self.rough = Roughness(contact, bore.clearance, compliance)
         self.roughness, self.rough_numbers = self.rough.roughness, self.rough.numbers
         self.open_share = np.ones_like(self._cell_gap)

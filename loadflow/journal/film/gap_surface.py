@@ -238,8 +238,9 @@ class SurfaceGap:
 
     def slopes(self, position: Array) -> Array:
         """Fill the derivatives in `coefs` where the shaft was last placed; returns the modes."""
-        for out, *motion in zip(self.coefs[1:], self._factors, self.across, self._ends):
-            surface_kernel.motion(self._by, *motion, out)
+        slopes = self.coefs[1:]
+        for out, factors, across, ends in zip(slopes, self._factors, self.across, self._ends):
+            surface_kernel.motion(self._by, factors, across, ends, out)
         return self.around[None]
 
     def share(self, position: Array, step: Array) -> float:

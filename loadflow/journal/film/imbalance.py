@@ -7,8 +7,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.journal.cavitation import FILL, SLACK, P
-from loadflow.journal.film._kernels import H3, LOAD, E, G
+from loadflow.journal.cavitation import FILL, LOAD, SLACK, P
+from loadflow.journal.film._kernels import H3, E, G
 from loadflow.journal.film.film import EVERY, DiscreteFilm
 from loadflow.numerics.convergence import EPS, rounding_level
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.journal.cavitation import FILL, P
+from loadflow.journal.cavitation import FILL, LOAD, P
 from loadflow.journal.film import _kernels as kernel
 from loadflow.journal.film.groove_pressure import UNSUPPLIED
 
@@ -34,12 +34,7 @@ class Integrals(NamedTuple):
 def summary(film: DiscreteFilm, u: Array, position: Array) -> dict[str, Any]:
     """Integral results at `u`, in SI units, named as in `Equilibrium`."""
     film.place(u, position)
-    mesh = film.mesh
-    peak, dissipation, shear, outflow, liquid, volume = kernel.integrals(
-        film.state, film.gap.coef, mesh.dz, mesh.gz, mesh.closed,
-        film.p_edge, film.p_line, film.grooved,
-    )  # fmt: skip
-    found = Integrals(peak, dissipation, shear, outflow, liquid / volume)
+    found = integrals(film)
     row = {
         **in_units(film, found, film.speed, film.gap.narrowest(position)),
         **_supplied(film, u),
@@ -49,6 +44,30 @@ def summary(film: DiscreteFilm, u: Array, position: Array) -> dict[str, Any]:
         row["friction_power"] += rubbing["contact_power"]
         row |= rubbing
     return row
+
+
+@np.errstate(over="ignore", invalid="ignore")  # of an iteration that diverges
+def integrals(film: DiscreteFilm) -> Integrals:
+    """Integrals over the film at the state last placed."""
+    mesh, coef, cells = film.mesh, film.gap.coef, film.mesh.z.size
+    pressure, dz = film.state[LOAD], mesh.dz
+    line = np.full((1, cells), film.p_line)
+    ends = (pressure[-1:],) if mesh.closed else (line,)
+    steps = np.diff(np.concatenate([*ends, pressure, *(() if mesh.closed else ends)]), axis=0)
+    dissipation = float(np.sum(coef[kernel.G, : len(steps), :cells] * steps * steps * dz))
+    drops = np.empty((len(pressure), cells + 1))
+    np.subtract(pressure[:, :-1], pressure[:, 1:], out=drops[:, 1:-1])
+    for end in (0, -1):
+        drops[:, end] = np.where(film.grooved[:, end], 0.0, pressure[:, end] - film.p_edge)
+    flow = coef[kernel.H3, :-1] * mesh.gz * drops
+    gap = coef[kernel.HM, :-1, :cells] * dz
+    return Integrals(
+        peak=float(pressure.max()),
+        dissipation=dissipation + float(np.vdot(flow, drops)),
+        shear=float(np.sum(coef[kernel.HINV, :-1, :cells] * dz, where=~film.grooved)),
+        outflow=float(np.maximum(flow[:, [0, -1]], 0.0).sum()),
+        fill=float(np.vdot(film.state[FILL], gap) / gap.sum()),
+    )
 
 
 def _rubbing(film: DiscreteFilm, asperities: AsperityLoad, position: Array) -> dict[str, Any]:

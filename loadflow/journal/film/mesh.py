@@ -93,6 +93,11 @@ class Mesh:
             inverse[0] = 0.0
         return inverse
 
+    @cached_property
+    def cells(self) -> tuple[Array, Array, Array]:
+        """Widths and surfaces of the cells across, and their inverse distances."""
+        return self.dz, self.area, self.gz
+
     @property
     def shape(self) -> tuple[int, int]:
         """Cells around and across."""

@@ -48,7 +48,9 @@ class Surface(NamedTuple):
 
 def _sum(*parts: tuple[float | Array, Surface]) -> Surface:
     """Sum of surfaces, each with a factor."""
-    return Surface(*(sum(f * s[i] for f, s in parts) for i in range(len(Surface._fields))))
+    columns = zip(*(surface for _, surface in parts))
+    factors = [factor for factor, _ in parts]
+    return Surface(*(np.asarray(sum(f * x for f, x in zip(factors, column))) for column in columns))
 
 
 class Moments(NamedTuple):
@@ -125,10 +127,12 @@ class Surfaces:
             slope = np.asarray(oil.viscosity_slopes(temperature)[0])
             slopes.append(-fluid[-1] * slope / viscosity)
         total = sum(w * f for w, f in zip(weights, fluid))
-        centre = sum(w * z * f for w, z, f in zip(weights, places, fluid)) / total
+        centre = np.asarray(sum(w * z * f for w, z, f in zip(weights, places, fluid)) / total)
         flows = 12 * sum(w * (centre - z) ** 2 * f for w, z, f in zip(weights, places, fluid))
         by_mean, by_skew = (
-            -sum(w * s * change for w, s, change in zip(weights, slopes, changes)) / total**2
+            np.asarray(
+                -sum(w * s * change for w, s, change in zip(weights, slopes, changes)) / total**2
+            )
             for changes in ([n.mean for n in nodes], [n.skew for n in nodes])
         )
         film = AcrossFilm(np.asarray(1 / total), np.asarray(1 / flows), 2 * (1 - centre))
@@ -141,10 +145,9 @@ def _parabola(heat: FilmHeat, conducts: Array, mean: Surface) -> Surfaces:
     first, second = 4 * conducts + out, 4 * conducts + into
     det = first * second - 4 * conducts**2
     warm, none = out * heat.shell_temperature, np.zeros_like(conducts)
-    parts = (second * warm, 6 * conducts * (second - 2 * conducts), -2 * conducts * into)
-    shell = Surface(*(part / det for part in parts), none)
-    parts = (-2 * conducts * warm, 6 * conducts * (first - 2 * conducts), first * into)
-    shaft = Surface(*(part / det for part in parts), none)
+    own, other = 6 * conducts * (second - 2 * conducts), 6 * conducts * (first - 2 * conducts)
+    shell = Surface(second * warm / det, own / det, -2 * conducts * into / det, none)
+    shaft = Surface(-2 * conducts * warm / det, other / det, first * into / det, none)
     middle = _sum((1.5, mean), (-0.25, shell), (-0.25, shaft))
     carried = _sum((1.0, mean), (1 / 6, shaft), (-1 / 6, shell))
     return Surfaces(shell, shaft, (middle,), carried, carried, 2 * conducts)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from loadflow.journal.film._kernels import FILL, LOAD
+from loadflow.journal.cavitation import FILL, LOAD
 from loadflow.journal.models._band_kernels import factorise, substitute
 from loadflow.journal.models._compile import inner, outer
 from loadflow.journal.models._reduced_kernels import (

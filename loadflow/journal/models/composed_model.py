@@ -164,8 +164,8 @@ class ComposedFilm:
         return self.units.resolves(np.array([1.0 - narrow, 0.0]))
 
     def touches(self, position: Array) -> bool:
-        """Whether smooth, rigid surfaces touch at a position (4,)."""
-        smooth = self.film.give == 0.0 and self.film.rough.size == 0.0
+        """Whether a rigid bore and a smooth shaft of given line touch at a position (4,)."""
+        smooth = self.film.give == 0.0 and self.film.rough.size == 0.0 and self.size == 2
         return smooth and bool(self._least(position[None], self.work.bend[None])[0] < TOUCHING)
 
     def _least(self, positions: Array, bends: Array) -> Array:

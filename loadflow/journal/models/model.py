@@ -200,8 +200,6 @@ def _pairs(
     yield "heat.growth", growth, growth is not None and film.rung == "map", one
     yield "shell", film.shell, pads, "None for pads, whose backs are not held"
     yield "shell", film.shell, over_area, "None with heat over the area"
-    spreads = film.shell is not None and not film.shell.local
-    yield "contact", film.contact, spreads, "None with a shell that is pressed open around, too"
     yield "contact", film.contact, pads, "None for pads that tilt"
     yield "contact", film.contact, over_area, "None with heat over the area"
     stored = _kind_of_heat(film, verb) == "slow_heat"

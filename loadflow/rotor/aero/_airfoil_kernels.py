@@ -22,13 +22,21 @@ _ATTACHED, _FADE = np.radians(45.0), np.radians(5.0)  # beyond, the polars hold 
 
 
 @section
-def polar(table, i, angle):
-    """Linear interpolation in row i of a table over −π … π in equal steps."""
+def place_of(table, angle):
+    """Where an angle is in a table over −π … π in equal steps: column, and share of the next."""
     count = table.shape[1] - 1
-    wrapped = (angle + np.pi) % (2 * np.pi)
+    wrapped = angle + np.pi
+    if not 0.0 <= wrapped < 2 * np.pi:
+        wrapped %= 2 * np.pi
     position = wrapped * (count / (2 * np.pi))
     j = max(min(int(position), count - 1), 0)  # NaN is no place
-    share = position - j
+    return j, position - j
+
+
+@section
+def polar(table, i, angle):
+    """Linear interpolation in row i of a table over −π … π in equal steps."""
+    j, share = place_of(table, angle)
     return table[i, j] * (1 - share) + table[i, j + 1] * share
 
 
@@ -52,7 +60,9 @@ def coefficients(m, i, attack, speed, turn, dt, states):
             states[k] = share * rear
         states[3] = slope * (rear - zero)
         states[4] = polar(m.attached, i, rear)
-    steady_lift, steady_drag = polar(m.lift, i, attack), polar(m.drag, i, attack)
+    j, share = place_of(m.lift, attack)
+    steady_lift = m.lift[i, j] * (1 - share) + m.lift[i, j + 1] * share
+    steady_drag = m.drag[i, j] * (1 - share) + m.drag[i, j + 1] * share
     if held == 0.0:
         states[2] = rear
         return steady_lift, steady_drag
@@ -66,8 +76,10 @@ def coefficients(m, i, attack, speed, turn, dt, states):
             effective += states[k]
     states[2] = rear
     potential, added = slope * (effective - zero), np.pi * passing * turn
-    attached = settled = polar(m.attached, i, effective)
-    drag = polar(m.drag, i, effective)
+    j, share = place_of(m.drag, effective)
+    attached = settled = m.attached[i, j] * (1 - share) + m.attached[i, j + 1] * share
+    drag = m.drag[i, j] * (1 - share) + m.drag[i, j + 1] * share
+    parted = m.separated[i, j] * (1 - share) + m.separated[i, j + 1] * share
     if m.dynamic_stall:
         if dt > 0:
             keep = np.exp(-dt / (_PRESSURE * passing))
@@ -78,7 +90,7 @@ def coefficients(m, i, attack, speed, turn, dt, states):
         attached = states[4]
         late = 0.5 * (np.sqrt(settled) - np.sqrt(attached)) - 0.25 * (settled - attached)
         drag += (drag - m.friction[i]) * late
-    lift = attached * potential + (1 - attached) * polar(m.separated, i, effective)
+    lift = attached * potential + (1 - attached) * parted
     drag += (rear - effective + passing * turn) * lift
     lift += added
     return held * lift + (1 - held) * steady_lift, held * drag + (1 - held) * steady_drag

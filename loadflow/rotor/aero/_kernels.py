@@ -132,13 +132,14 @@ def inflow_lag(m, i, normal, tangential, a, swirl, state, dt, induced):
     wind = max(state[S_AXIAL], 1.0)
     first = 1.1 / (1 - 1.3 * min(max(a, 0.0), 0.5)) * m.tip_radius / wind
     second = (0.39 - 0.26 * (m.radius[i] / m.tip_radius) ** 2) * first
+    fast, slow = (1 - np.exp(-dt / first), 1 - np.exp(-dt / second)) if dt > 0 else (1.0, 1.0)
     for k in range(2):
         steady = a * normal if k == 0 else swirl * tangential
         lag = induced[k]
         if dt > 0:
             drive = steady + 0.6 * first * (steady - lag[0]) / dt
-            lag[1] += (drive - lag[1]) * (1 - np.exp(-dt / first))
-            lag[2] += (lag[1] - lag[2]) * (1 - np.exp(-dt / second))
+            lag[1] += (drive - lag[1]) * fast
+            lag[2] += (lag[1] - lag[2]) * slow
             lag[0] = steady
         else:
             lag[:] = steady
@@ -164,7 +165,7 @@ def section_force(m, i, pitch, turn, normal, tangential, a, swirl, dt, states):
     chord_angle = m.twist[i] + pitch
     lift, drag = coefficients(m, i, angle - chord_angle, speed, turn, dt, states)
     pressure = 0.5 * m.air_density * m.chord[i] * speed**2
-    sine, cosine = np.sin(angle), np.cos(angle)
+    sine, cosine = (w_normal / speed, w_tangential / speed) if speed > 0.0 else (0.0, 1.0)
     across = pressure * (lift * cosine + drag * sine)
     along = pressure * (lift * sine - drag * cosine)
     if m.torsion_compliance.size == 0:

@@ -7,7 +7,7 @@ modes over as they answer to the frame, the frame is solved, the blades follow.
 
 import numpy as np
 
-from .._compile import kernel, section
+from .._compile import kernel, once, section
 
 GRAVITY = 9.80665
 TORSION_LAG = 0.05
@@ -32,7 +32,7 @@ def place(m, i, motion, cone_s, cone_c):
     return along, out, motion[i, 1]
 
 
-@kernel
+@once
 def turned_shapes(m, pitch, shape):
     """Mode shapes of a pitched blade, (n, k, 4): normal, tangential, and the slopes of both."""
     c, s = np.cos(pitch), np.sin(pitch)
@@ -44,7 +44,7 @@ def turned_shapes(m, pitch, shape):
             shape[i, k, 3] = m.slope[i, k, 0] * s + m.slope[i, k, 1] * c
 
 
-@kernel
+@once
 def deflection(m, pitch, shape, q, v, motion):
     """Motion of each section, (n, 8): deflection normal and tangential, their rates, slope of the
     normal deflection, pull towards the root, nose-down turn by bending; the last, that by torsion,
@@ -122,7 +122,7 @@ def torsion(m, b, dt, speed, azimuth, drift, gravity, force, motion, turned):
         turned[i] += share * (wanted - turned[i])
 
 
-@kernel
+@once
 def nacelle_motion(m, h, v, drift, gravity):
     """Speed of the apex and rate of rotation of the nacelle, `drift` (6,), and `gravity` (3,), in
     the shaft frame, which tilts with the nacelle; returns its tilt.
@@ -169,7 +169,7 @@ def free_acceleration(speed, rate, motion, i, cone_s, cone_c, out, turn):
     )
 
 
-@kernel
+@once
 def solve_in_place(system, right):
     """Gaussian elimination with row pivots of a few equations, for all columns of `right` (n, k).
 
@@ -321,7 +321,7 @@ def frame_acceleration(m, dt, controlled, held, inertia, load, gravity, h, v, ac
     return out
 
 
-@kernel
+@once
 def step_on(dt, new, q, v, acc):
     """Newmark step (constant mean acceleration) to the acceleration `new`, in place."""
     for k in range(q.size):
@@ -330,7 +330,7 @@ def step_on(dt, new, q, v, acc):
         acc[k] = new[k]
 
 
-@kernel
+@once
 def blade_root(m, b, speed, azimuth, shape, drift, gravity, jerk, force, motion, acc, total, own):
     """Add what one blade applies to the hub at the apex: aerodynamics, weight and inertia.
 
@@ -342,9 +342,7 @@ def blade_root(m, b, speed, azimuth, shape, drift, gravity, jerk, force, motion,
     sine, cosine = np.sin(azimuth), np.cos(azimuth)
     g_x, g_r, g_t = blade_axes(sine, cosine, gravity)
     rate = blade_axes(sine, cosine, drift[3:])
-    reach = np.empty(6)
-    reach[0], reach[1], reach[2] = blade_axes(sine, cosine, jerk[:3])
-    reach[3], reach[4], reach[5] = blade_axes(sine, cosine, jerk[3:])
+    reach = (*blade_axes(sine, cosine, jerk[:3]), *blade_axes(sine, cosine, jerk[3:]))
     root_x, root_r = -m.hub_radius * cone_s, m.hub_radius * cone_c
     own_x = own_r = own_t = about_x = about_r = about_t = 0.0
     for i in range(m.radius.size):
