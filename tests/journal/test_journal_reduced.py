@@ -42,7 +42,8 @@ def cells(half_width, mesh):
     stiffness = np.diag(mesh.gz[1:]) + np.diag(np.append(0.0, mesh.gz[1:-1]))
     stiffness -= np.diag(mesh.gz[1:-1], 1) + np.diag(mesh.gz[1:-1], -1)
     first, last = np.eye(mesh.z.size)[[0, -1]]
-    return Axial(mesh.z, mesh.dz, stiffness, mesh.gz[-1] * last, first, 0.0)
+    width = float(mesh.dz.sum()), float(mesh.dz.max())
+    return Axial(mesh.z, mesh.dz, stiffness, mesh.gz[-1] * last, first, 0.0, *width)
 
 
 @pytest.mark.parametrize("nodes", [1, 2, 3, 5])

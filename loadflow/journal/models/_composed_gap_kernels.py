@@ -7,25 +7,25 @@ from law and unknowns; `film` and `work` are those of `composed_film`.
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from loadflow.journal.cavitation import LOAD
 from loadflow.journal.film._kernels import apply_law
 from loadflow.journal.film._rough_kernels import conductance, dragged, mean_film
 from loadflow.journal.film._turbulence_kernels import ACROSS, ALONG, factor
+from loadflow.journal.models._compile import inner, once
 
 PLANES, MEAN, OPEN, CUBE = range(4)  # of `work.gap`
 FLOW, DRAG, FLOW_SLOPE, DRAG_SLOPE, FACE_PLANES = range(5)  # of `work.face`
 _FAR = 8.5  # film parameter above which the mean gap is that of the mean planes, to rounding
 
 
-@njit(cache=True, nogil=True)
+@inner
 def place(film, work, q):
     """Evaluate law, shell and gap at the unknowns and the position `q` (4,)."""
     apply_law(film.ring.law, film.ring.numbers, film.ring.scale, work.u, work.state)
-    nx, m = work.u.shape[0], len(film.lanes)
+    nx, m = work.u.shape
     z = film.nodes.z
-    points = len(film.points)
+    points = film.nodes.z.size
     for k in range(points):
         work.centre[0, k] = q[0] + q[3] * z[k] + 0.5 * work.bend[0] * z[k] * z[k]
         work.centre[1, k] = q[1] - q[2] * z[k] + 0.5 * work.bend[1] * z[k] * z[k]
@@ -61,14 +61,14 @@ def place(film, work, q):
         _turbulent_gap(film, work)
 
 
-@njit(cache=True, nogil=True)
-def turn(film, work, speed, lighter):
-    """Set the Reynolds numbers at a speed, rad/s; `lighter`: 1/ν over that of the film."""
-    work.numbers[0] = film.regime.reynolds * abs(speed) * lighter
-    work.numbers[1] = film.regime.onset * abs(speed) * lighter
+@once
+def turn(film, work, speed, lightness):
+    """Set the Reynolds numbers at a speed, rad/s; `lightness`: as of `newton`."""
+    work.numbers[0] = film.regime.reynolds * abs(speed) * lightness
+    work.numbers[1] = film.regime.onset * abs(speed) * lightness
 
 
-@njit(cache=True, nogil=True)
+@once
 def _turbulent_gap(film, work):
     """Conductances of turbulent flow, from those of laminar flow."""
     nx, m = work.u.shape
@@ -85,13 +85,13 @@ def _turbulent_gap(film, work):
             face[FLOW_SLOPE, i, k] = (face[FLOW_SLOPE, i, k] - face[FLOW, i, k] * rise) / more
 
 
-@njit(cache=True, nogil=True)
+@inner
 def smooth_beyond(rough):
     """Gap above which surfaces count as smooth, clearances; none where flow factors reach far."""
     return _FAR * rough.size if rough.along.shape[0] == 0 else np.inf
 
 
-@njit(cache=True, nogil=True)
+@inner
 def opened(yielding, h):
     """Gap where asperities press the shell open, and its derivative by the gap `h` without that."""
     if not yielding.on or h >= yielding.first + yielding.step * (yielding.table.shape[1] - 1):
@@ -99,7 +99,7 @@ def opened(yielding, h):
     return _of_table(yielding, 0, h)
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _of_table(yielding, row, h):
     """A value of the table and its derivative; straight on before its first."""
     place_in = (h - yielding.first) / yielding.step
@@ -110,7 +110,7 @@ def _of_table(yielding, row, h):
     return _between(yielding.table[row], yielding.table[row + 1], i, place_in - i, yielding.step)
 
 
-@njit(cache=True, nogil=True)
+@once
 def _rough_gap(film, work):
     """Mean gap and conductances between rough surfaces."""
     nx, m = work.u.shape
@@ -148,7 +148,7 @@ def _rough_gap(film, work):
                 face[DRAG_SLOPE, i, k] *= opens
 
 
-@njit(cache=True, nogil=True)
+@inner
 def narrowest(film, work):
     """Narrowest gap of the mean planes at points and faces, after `place`; clearances.
 
@@ -159,7 +159,7 @@ def narrowest(film, work):
         for k in range(film.nodes.z.size):
             least = min(least, 1.0 - np.hypot(work.centre[0, k], work.centre[1, k]))
         return least
-    nx, m = work.u.shape[0], len(film.lanes)
+    nx, m = work.u.shape
     for i in range(nx):
         if not film.ring.groove[i]:
             for k in range(work.gap.shape[2]):
@@ -169,7 +169,7 @@ def narrowest(film, work):
     return opened(film.yielding, least)[0]
 
 
-@njit(cache=True, nogil=True)
+@inner
 def share_of_step(film, work, dx, dy, tilt_x, tilt_y, kept):
     """Share of a step of the shaft of which every place of a rigid shaped gap keeps `kept` of it.
 
@@ -191,7 +191,7 @@ def share_of_step(film, work, dx, dy, tilt_x, tilt_y, kept):
     return share
 
 
-@njit(cache=True, nogil=True)
+@inner
 def touch(film, work, q):
     """Load of the asperities and its derivative by the position into `work.touch`; ∫ p_a, N."""
     work.touch[:] = 0.0
@@ -240,21 +240,20 @@ def touch(film, work, q):
     return normal
 
 
-@njit(cache=True, nogil=True)
+@once
 def _touch_shell(film, work, q):
     """`touch` on a shell that film and asperities press open, or on segments of a shaped bore.
 
     Between two cell centres the pressure of the film, and so the gap by it, runs straight. Fills
     `work.pressed`, too.
     """
-    nx, m = work.u.shape[0], len(film.lanes)
+    nx, m = work.u.shape
     yielding, ring = film.yielding, film.ring
     p, pressed, load, stiffness = work.state[LOAD], work.pressed, work.touch[0], work.touch[1:]
     pressed[:] = 0.0
     beyond = yielding.first + yielding.step * (yielding.table.shape[1] - 1)
     normal = 0.0
-    mode = np.empty(4)
-    low, high = np.empty(4), np.empty(4)
+    mode, low, high = work.modes[0], work.modes[1], work.modes[2]
     for g in range(yielding.z.size):
         z = yielding.z[g]
         mid_x = q[0] + q[3] * z + 0.5 * work.bend[0] * z * z
@@ -312,7 +311,7 @@ def _touch_shell(film, work, q):
     return normal
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _between(values, slopes, i, t, step):
     """Cubic through values and slopes at i and i + 1, and its slope; straight on beyond."""
     if t > 1.0:

@@ -8,12 +8,12 @@ all points l of the rule of Gauss and Lobatto. `film` and `work` are those of `c
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from loadflow.journal.cavitation import DFILL, DLOAD, DP, DSLACK, FILL, LOAD, SLACK, P
 from loadflow.journal.film._rough_kernels import sheared
 from loadflow.journal.film._turbulence_kernels import SHEAR, factor
 from loadflow.journal.models import composed_film as at
+from loadflow.journal.models._compile import inner, once
 from loadflow.journal.models._composed_gap_kernels import (
     CUBE,
     DRAG,
@@ -31,14 +31,14 @@ from loadflow.journal.models._composed_gap_kernels import (
 from loadflow.journal.models._reduced_kernels import hold_grooves_in
 
 
-@njit(cache=True, nogil=True)
+@inner
 def balance(film, work, wedge, rate, size):
     """Residual of the cells and its derivatives by `size` coordinates into `columns`.
 
     After `place`; also fills `work.load`. Returns the largest residual.
     """
-    nx, m = work.u.shape[0], len(film.lanes)
-    points = len(film.points)
+    nx, m = work.u.shape
+    points = film.nodes.z.size
     z, weights, slopes = film.nodes.z, film.nodes.weights, film.nodes.slopes
     p, fill, columns, gap, face = (
         work.state[P], work.state[FILL], work.columns, work.gap, work.face,
@@ -121,10 +121,10 @@ def balance(film, work, wedge, rate, size):
     return largest
 
 
-@njit(cache=True, nogil=True)
+@once
 def magnitudes(film, work, wedge, rate):
     """Magnitude of the largest terms of `balance`, after it: in a cell, and in the load, N."""
-    nx, m = work.u.shape[0], len(film.lanes)
+    nx, m = work.u.shape
     p, fill, face, gap = work.state[P], work.state[FILL], work.face, work.gap
     weights, slopes = film.nodes.weights, film.nodes.slopes
     largest, peak = 0.0, 0.0
@@ -150,20 +150,21 @@ def magnitudes(film, work, wedge, rate):
             peak = max(peak, abs(work.state[LOAD, i, k]))
     least = max(narrowest(film, work), film.rough.size)
     lost = 1.0 + 3.0 / max(least, 1e-16)
-    pressed = film.ring.area * 2.0 * np.pi * weights.sum() * peak
+    pressed = film.ring.area * 2.0 * np.pi * film.nodes.width * peak
     stiff = 0.0
     for a in range(4):
         stiff = max(stiff, abs(work.touch[1 + a, a]))
     return largest * lost, pressed * lost + stiff
 
 
-@njit(cache=True, nogil=True)
+@inner
 def matrix(film, work, wedge, rate):
     """Band matrix of the derivatives of the residual by the unknowns."""
-    nx, m = work.u.shape[0], len(film.lanes)
-    points = len(film.points)
+    nx, m = work.u.shape
+    points = film.nodes.z.size
     weights, slopes = film.nodes.weights, film.nodes.slopes
     band, gap, face = work.band, work.gap, work.face
+    pairs, block = film.nodes.pairs, work.block
     mid = 2 * m
     dp, df, p = work.state[DP], work.state[DFILL], work.state[P]
     fill, grows = work.state[FILL], work.state[DLOAD]
@@ -173,15 +174,13 @@ def matrix(film, work, wedge, rate):
         base = film.ring.order[i] * m
         step = film.ring.width[i]
         squeeze = film.ring.slope * step * rate
-        for j in range(points):
-            flow = step * weights[j] * gap[CUBE, i, j]
-            for k in range(m):
-                part = flow * slopes[j, k]
-                for n in range(m):
-                    band[base + k, mid + n - k] += part * slopes[j, n]
+        for j in range(points):  # one long loop for all pairs of points
+            flow = step * gap[CUBE, i, j]
+            for pair in range(m * m):
+                block[pair] = flow * pairs[j, pair] + (block[pair] if j > 0 else 0.0)
         for k in range(m):
             for n in range(m):
-                band[base + k, mid + n - k] *= dp[i, n]
+                band[base + k, mid + n - k] = block[k * m + n] * dp[i, n]
         for k in range(m):
             held = squeeze * weights[k]
             band[base + k, mid] += held * gap[MEAN, i, k] * df[i, k] + work.state[DSLACK, i, k]
@@ -219,55 +218,25 @@ def matrix(film, work, wedge, rate):
             band[base_r + k, mid] -= by_r
             band[base_r + k, mid - shift] -= by_l
     if film.ring.shaped:
-        hold_grooves_in(film, band)
+        hold_grooves_in(film.ring, band)
 
 
-@njit(cache=True, nogil=True)
+@once
 def _hold_grooves(film, columns):
     """Leave the pressure of grooves as it is."""
-    m = len(film.lanes)
+    m = columns.shape[0] // film.ring.groove.size
     for i in range(film.ring.groove.size):
         if film.ring.groove[i]:
             base = film.ring.order[i] * m
-            columns[base : base + m] = 0.0
+            for row in range(base, base + m):
+                for column in range(columns.shape[1]):
+                    columns[row, column] = 0.0
 
 
-@njit(cache=True, nogil=True)
-def substitute_all(lanes, band, columns):
-    """Solve for the five `columns` in place with the factors of `factorise`."""
-    mid, n = 2 * len(lanes), columns.shape[0]
-    for i in range(min(mid, n)):
-        for k in range(mid - i, mid):
-            for c in range(5):
-                columns[i, c] -= band[i, k] * columns[i - mid + k, c]
-    for i in range(mid, n):
-        a, b, c, d, e = columns[i, 0], columns[i, 1], columns[i, 2], columns[i, 3], columns[i, 4]
-        for k in range(mid):
-            factor, row = band[i, k], i - mid + k
-            a -= factor * columns[row, 0]
-            b -= factor * columns[row, 1]
-            c -= factor * columns[row, 2]
-            d -= factor * columns[row, 3]
-            e -= factor * columns[row, 4]
-        columns[i, 0], columns[i, 1], columns[i, 2], columns[i, 3], columns[i, 4] = a, b, c, d, e
-    for i in range(n - 1, -1, -1):
-        a, b, c, d, e = columns[i, 0], columns[i, 1], columns[i, 2], columns[i, 3], columns[i, 4]
-        for k in range(1, min(mid, n - 1 - i) + 1):
-            factor, row = band[i, mid + k], i + k
-            a -= factor * columns[row, 0]
-            b -= factor * columns[row, 1]
-            c -= factor * columns[row, 2]
-            d -= factor * columns[row, 3]
-            e -= factor * columns[row, 4]
-        pivot = band[i, mid]
-        columns[i, 0], columns[i, 1], columns[i, 2] = a * pivot, b * pivot, c * pivot
-        columns[i, 3], columns[i, 4] = d * pivot, e * pivot
-
-
-@njit(cache=True, nogil=True)
+@inner
 def carry(film, work, size):
     """Load that each of the first 1 + `size` columns carries into `work.carried`."""
-    nx, m = work.u.shape[0], len(film.lanes)
+    nx, m = work.u.shape
     z, weights, columns, carried = film.nodes.z, film.nodes.weights, work.columns, work.carried
     slope = work.state[DLOAD]
     carried[:] = 0.0
@@ -287,10 +256,7 @@ def carry(film, work, size):
             fy0, fy1, fy2 = fy0 + a * s, fy1 + b * s, fy2 + d * s
         carried[0, 0], carried[1, 0], carried[2, 0] = fx0, fx1, fx2
         carried[0, 1], carried[1, 1], carried[2, 1] = fy0, fy1, fy2
-        if film.yielding.on:
-            _carry_touch(film, work, size)
-        return
-    for i in range(nx):
+    for i in range(nx if size > 2 else 0):
         base = film.ring.order[i] * m
         c, s = unit * film.ring.load_x[i], unit * film.ring.load_y[i]
         for column in range(1 + size):
@@ -307,10 +273,10 @@ def carry(film, work, size):
         _carry_touch(film, work, size)
 
 
-@njit(cache=True, nogil=True)
+@once
 def _carry_touch(film, work, size):
     """Add what asperities carry more by way of the shell, which the film presses open."""
-    nx, m = work.u.shape[0], len(film.lanes)
+    nx, m = work.u.shape
     for i in range(nx):
         base = film.ring.order[i] * m
         for k in range(m):
@@ -321,11 +287,11 @@ def _carry_touch(film, work, size):
                     work.carried[column, a] += work.pressed[a, i, k] * change
 
 
-@njit(cache=True, nogil=True)
+@inner
 def summarise(film, work, q, wedge, row):
     """Integrals over the film into `row`, after `place` at `q`; units of `_reduced_kernels`."""
-    nx, m = work.u.shape[0], len(film.lanes)
-    points = len(film.points)
+    nx, m = work.u.shape
+    points = film.nodes.z.size
     weights, slopes, fine = film.nodes.weights, film.nodes.slopes, film.nodes.fine
     p, gap, rough = work.state[LOAD], work.gap, film.rough
     far = -1.0 if rough.size == 0.0 else smooth_beyond(rough)
@@ -403,16 +369,16 @@ def summarise(film, work, q, wedge, row):
     row[at.CONTACT_Y] = work.touch[0, 1]
     mean = np.hypot(unit * fx + work.touch[0, 0], unit * fy + work.touch[0, 1])
     mean /= (
-        2.0 * film.ring.area * weights.sum()
+        2.0 * film.ring.area * film.nodes.width
     )  # beside asperities a film may carry next to nothing
     row[at.HIGHEST] = left / max(peak - film.ring.p_edge, mean, 1e-3 * film.ring.scale)
     row[at.FED] = _fed(film, work, wedge) if film.ring.shaped else 0.0
 
 
-@njit(cache=True, nogil=True)
+@once
 def _fed(film, work, wedge):
     """Flow from the grooves into the film, less what flows back, after `place`."""
-    nx, m = work.u.shape[0], len(film.lanes)
+    nx, m = work.u.shape
     weights, p, fill, face = film.nodes.weights, work.state[P], work.state[FILL], work.face
     total = 0.0
     for i in range(nx):
@@ -425,7 +391,7 @@ def _fed(film, work, wedge):
             rise = (p[right, k] - p[i, k]) / film.ring.apart[i]
             drag = wedge * fill[upwind, k] * face[DRAG, i, k]
             flow += weights[k] * (drag - face[FLOW, i, k] * rise)
-        for k in range(m, len(film.points)):  # the ends, at the pressure of the grooves
+        for k in range(m, film.nodes.z.size):  # the ends, at the pressure of the grooves
             gap = film.ring.base_face[i] - work.centre[0, k] * film.ring.cos_face[i]
             gap -= work.centre[1, k] * film.ring.sin_face[i]
             flow += weights[k] * wedge * film.ring.edge_fill * gap

@@ -7,10 +7,11 @@ shell that gives way; a shaft under a moment has four degrees of freedom.
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from loadflow.journal.cavitation import DLOAD, FILL, LOAD
 from loadflow.journal.models import composed_film as at
+from loadflow.journal.models._band_kernels import factorise_any, substitute_all
+from loadflow.journal.models._compile import inner, once, outer
 from loadflow.journal.models._composed_gap_kernels import (
     MEAN,
     OPEN,
@@ -25,10 +26,8 @@ from loadflow.journal.models._composed_kernels import (
     carry,
     magnitudes,
     matrix,
-    substitute_all,
     summarise,
 )
-from loadflow.journal.models._reduced_kernels import factorise, substitute
 from loadflow.journal.models._reduced_loops import (
     COARSEST,
     LATE,
@@ -40,14 +39,14 @@ from loadflow.journal.models._reduced_loops import (
     shift,
     two_steps,
 )
-from loadflow.journal.models.slow_heat import lighter, slow_heat
+from loadflow.journal.models.slow_heat import THIN, lighter, slow_heat
 
 _KEPT = 0.3  # share of the narrowest gap that a step of the shaft leaves
 _ROOM = 1.0 / 2**20  # share of a step below which an elastic shell has no room for it
 _FALLS = 0.01  # ratio of residuals below which the next step takes the factors of the last one
 
 
-@njit(cache=True, nogil=True)
+@once
 def _solve(system, size):
     """Solve the linear `system` (size, size + 1) in place with pivots; False if it is singular."""
     for j in range(size):
@@ -69,7 +68,7 @@ def _solve(system, size):
     return True
 
 
-@njit(cache=True, nogil=True)
+@once
 def _limited(film, work, q, step):
     """Turn a `step` (4,) from `q` into one of which every place keeps a third of its gap.
 
@@ -110,17 +109,17 @@ def _limited(film, work, q, step):
         step[k] *= share
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _farthest(film, ratio):
     """Eccentricity ratio up to which a step may lead from `ratio`."""
     gap, rough = 1.0 - ratio, film.rough
     return ratio + max(min((1.0 - _KEPT) * max(gap, rough.size), gap + rough.deepest), 0.0)
 
 
-@njit(cache=True, nogil=True)
+@once
 def _shaft_step(film, work, load, size, step):
     """Newton step (4,) of a shaft that is to carry `load` (4,), shortened where it is too long."""
-    nx, m = work.u.shape[0], len(film.lanes)
+    nx, m = work.u.shape
     carry(film, work, size)
     step[:] = 0.0
     for a in range(size):
@@ -140,10 +139,10 @@ def _shaft_step(film, work, load, size, step):
         step[a] = work.system[a, size] / excess
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _correct(film, work, step, size, share):
     """Unknowns after a share of a Newton step from `work.trial`."""
-    nx, m = work.u.shape[0], len(film.lanes)
+    nx, m = work.u.shape
     for i in range(nx):
         base = film.ring.order[i] * m
         for k in range(m):
@@ -153,10 +152,12 @@ def _correct(film, work, step, size, share):
             work.u[i, k] = work.trial[i, k] - share * change
 
 
-@njit(cache=True, nogil=True)
+@once
 def _advance(film, work, q, step, size):
     """Move film and shaft by a Newton step, or by the share of it that leaves a film."""
-    work.trial[:] = work.u
+    for i in range(work.u.shape[0]):
+        for k in range(work.u.shape[1]):
+            work.trial[i, k] = work.u[i, k]
     if film.give == 0.0:
         if size > 0:
             _limited(film, work, q, step)
@@ -178,21 +179,25 @@ def _advance(film, work, q, step, size):
         share *= 0.5
 
 
-@njit(cache=True, nogil=True)
-def newton(film, work, q, load, size, speed, rate, tolerance, max_iterations):
+@once
+def _newton(film, work, q, load, size, speed, lightness, rate, tolerance, max_iterations):
     """Film and shaft at which `load` (4,) is carried; one implicit step if rate > 0.
 
-    Starts from `work.u` and `q` (4,), of which the first `size` coordinates move, in place. Returns
+    Starts from `work.u` and `q` (4,), of which the first `size` coordinates move, in place. Its
+    Reynolds numbers are those at `speed` times `lightness`: at the time scale of the film. Returns
     residual, Newton steps, whether the residual is small by the rule of `convergence`, and its
     rounding level, which is looked at where the tolerance is not met soon.
     """
     wedge = 0.5 * film.ring.slope * speed
-    flux = (abs(wedge) + film.ring.scale) * film.nodes.weights.max()
+    flux = (abs(wedge) + film.ring.scale) * film.nodes.widest
     total = 0.0
     for a in range(size):
         total += load[a] * load[a]
     force_scale = max(np.sqrt(total), 0.5e-3 * film.ring.scale * film.ring.area)
-    step = np.zeros(4)
+    step = work.step
+    for a in range(4):
+        step[a] = 0.0
+    turn(film, work, speed, lightness)
     spent, last = 0, 0.0
     place(film, work, q)
     while True:
@@ -215,35 +220,30 @@ def newton(film, work, q, load, size, speed, rate, tolerance, max_iterations):
         spent += 1
         if residual > _FALLS * last:
             matrix(film, work, wedge, rate)
-            if not factorise(film.lanes, work.band, work.columns.shape[0]):
+            if not factorise_any(work.band, work.columns.shape[0]):
                 return residual, spent, False, rounding
             last = residual
         else:
             last = 0.0  # once
-        if size > 2:
-            substitute_all(film.lanes, work.band, work.columns)
-        else:
-            substitute(film.lanes, work.band, work.columns)
+        substitute_all(work.band, work.columns, 1 + size)
         if size > 0:
             _shaft_step(film, work, load, size, step)
         _advance(film, work, q, step, size)
 
 
-@njit(cache=True, nogil=True)
-def finish(film, work, q, speed, size, row, stiffness, damping):
-    """Results of a film at rest at `q`: integrals into `row`, and the slopes of the load.
+@once
+def _finish(film, work, q, speed, size, stiffness, damping):
+    """Slopes of the load of a film at rest at `q`.
 
     `stiffness` and `damping` (size, size) are by position (per clearance) and by velocity
     (clearances per second).
     """
-    nx, m = work.u.shape[0], len(film.lanes)
-    place(film, work, q)
+    nx, m = work.u.shape
     wedge = 0.5 * film.ring.slope * speed
-    summarise(film, work, q, wedge, row)
     balance(film, work, wedge, 0.0, size)
     matrix(film, work, wedge, 0.0)
-    factorise(film.lanes, work.band, work.columns.shape[0])
-    substitute_all(film.lanes, work.band, work.columns)
+    factorise_any(work.band, work.columns.shape[0])
+    substitute_all(work.band, work.columns, 1 + size)
     carry(film, work, size)
     for a in range(size):
         for b in range(size):
@@ -268,14 +268,14 @@ def finish(film, work, q, speed, size, row, stiffness, damping):
                 work.columns[row_of, 1 + a] = held * (
                     modes[a] + grown * work.columns[row_of, 1 + a]
                 )
-    substitute_all(film.lanes, work.band, work.columns)
+    substitute_all(work.band, work.columns, 1 + size)
     carry(film, work, size)
     for a in range(size):
         for b in range(size):
             damping[a, b] = -work.carried[1 + b, a]
 
 
-@njit(cache=True, nogil=True)
+@inner
 def keep(work):
     """Make what is current that of the last time."""
     shift(work)
@@ -285,7 +285,7 @@ def keep(work):
             work.liquid[1, i, k] = work.state[FILL, i, k] * work.gap[MEAN, i, k]
 
 
-@njit(cache=True, nogil=True)
+@once
 def _leaves_room(film, work, q, ahead):
     """Whether every place of a rigid gap keeps half of itself, or of the roughness, `ahead`."""
     if film.ring.shaped:
@@ -301,61 +301,79 @@ def _leaves_room(film, work, q, ahead):
     return True
 
 
-@njit(cache=True, nogil=True)
-def march(
-    film, work, q, size, time, load, line, speed, tolerance, max_iterations, rows, warmth, states
-):
-    """Implicit steps of second order (BDF2 of variable step) through all of `time`.
+@once
+def _lay_at(work, line, n, to, q, given):
+    """Bend of the shaft, and its tilt in `q` if that is `given`, between the times n − 1 and n."""
+    before = max(n - 1, 0)
+    for a in range(2):
+        work.bend[a] = line[before, 2 + a] + to * (line[n, 2 + a] - line[before, 2 + a])
+        if given:
+            q[2 + a] = line[before, a] + to * (line[n, a] - line[before, a])
 
-    `work.u` and `q` are the film at the first time; `load` (n, 4), `line` (n, 4) its tilt and bend,
-    of which the tilt is given where `size` is 2. A step at which Newton fails is cut, all that is
-    given interpolated. Fills `rows` (n, RESULTS), and `states` as `slow_heat` does, and returns how
-    many of them.
+
+@outer
+def solve(
+    film, work, q, size, time, load, line, speed, tolerance, max_iterations, rows, slopes, warmth,
+    states,
+):  # fmt: skip
+    """A film at rest, or through time: one function, as compiling takes its time for each.
+
+    Of a single time the film at rest is sought from `work.u` and `q`, of which the first `size`
+    coordinates move; `slopes` (2, s, s) with s > 0 take stiffness and damping as `_finish` does.
+    Of more times `work.u` and `q` are the film at the first; from there implicit steps of second
+    order (BDF2 of variable step) go through them. A step at which Newton fails is cut, all that is
+    given interpolated.
+
+    `load` (n, 4), `line` (n, 4) tilt and bend; in motion the tilt is given where `size` is 2.
+    Fills `rows` (n, RESULTS), and `states` as `slow_heat` does, and returns how many of them.
     """
-    place(film, work, q)
-    keep(work)
-    before, new, given = q.copy(), q.copy(), np.zeros(4)
-    step_before, thin, light = 0.0, 1.0, 1.0
-    for n in range(1, time.size):
-        whole = time[n] - time[n - 1]
-        if warmth.on:
+    before, new, given = work.places[0], work.places[1], work.places[2]
+    resting = time.size == 1
+    step_before, thin, light = 0.0, states[0, THIN], 1.0
+    if warmth.on:
+        light = lighter(warmth, states, 0)
+    if not resting:
+        place(film, work, q)
+        keep(work)
+        summarise(film, work, q, 0.5 * film.ring.slope * thin * speed[0], rows[0])
+    for n in range(0 if resting else 1, time.size):
+        last = max(n - 1, 0)
+        whole = time[n] - time[last]
+        if warmth.on and not resting:
             thin = slow_heat(warmth, states, n, whole, speed, rows, at.DISSIPATION, at.NORMAL)
             light = lighter(warmth, states, n)
         share, done, spent = 1.0, 0.0, 0
         while done < 1.0:
             to = min(1.0, done + share)
-            step = (to - done) * whole
-            rate, weight, weight_before, ratio = two_steps(step, step_before)
-            for a in range(2):
-                work.bend[a] = line[n - 1, 2 + a] + to * (line[n, 2 + a] - line[n - 1, 2 + a])
-            new[:] = q
-            if size < 4:
-                for a in range(2):
-                    new[2 + a] = line[n - 1, a] + to * (line[n, a] - line[n - 1, a])
-            ahead = False
-            if step_before > 0.0:
-                for a in range(size):
-                    new[a] = q[a] + ratio * (q[a] - before[a])
-                ahead = film.give > 0.0 or _leaves_room(film, work, q, new)
-                if not ahead:
-                    for a in range(size):
-                        new[a] = q[a]
-            predict(work, ratio, ahead, thin * weight, thin * weight_before)
+            step, rate = (to - done) * whole, 0.0
             for a in range(4):
-                given[a] = load[n - 1, a] + to * (load[n, a] - load[n - 1, a])
-            turning = speed[n - 1] + to * (speed[n] - speed[n - 1])
-            turn(film, work, turning, light / thin)
-            omega = thin * turning
-            residual, iterations, converged, rounding = newton(
-                film, work, new, given, size, omega, thin * rate, tolerance, max_iterations
-            )
+                new[a] = q[a]
+                given[a] = load[last, a] + to * (load[n, a] - load[last, a])
+            _lay_at(work, line, n, to, new, size < 4 and not resting)
+            if not resting:
+                rate, weight, weight_before, ratio = two_steps(step, step_before)
+                ahead = False
+                if step_before > 0.0:
+                    for a in range(size):
+                        new[a] = q[a] + ratio * (q[a] - before[a])
+                    ahead = film.give > 0.0 or _leaves_room(film, work, q, new)
+                    if not ahead:
+                        for a in range(size):
+                            new[a] = q[a]
+                predict(work, ratio, ahead, thin * weight, thin * weight_before)
+            omega = thin * (speed[last] + to * (speed[n] - speed[last]))
+            residual, iterations, converged, rounding = _newton(
+                film, work, new, given, size, omega, light / (thin * thin), thin * rate,
+                tolerance, max_iterations,
+            )  # fmt: skip
             spent += iterations
+            if converged or resting:
+                for a in range(4):
+                    before[a], q[a] = q[a], new[a]
+                done = to
             if converged:
                 keep(work)
-                before[:] = q
-                q[:] = new
                 step_before = step
-                done = to
                 share = min(2.0 * share, 1.0)
             elif share > SMALLEST:
                 share *= 0.5
@@ -369,5 +387,7 @@ def march(
             for a in range(4):
                 rows[n, a] = new[a]
             return n + 1
+        if slopes.shape[1] > 0:
+            _finish(film, work, q, omega, slopes.shape[1], slopes[0], slopes[1])
         summarise(film, work, q, 0.5 * film.ring.slope * omega, rows[n])
     return time.size

@@ -11,10 +11,10 @@ with the cells fixed to the shell. `film` and `work` are those of `reduced_film`
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from loadflow.journal.cavitation import DFILL, DLOAD, DP, DSLACK, FILL, LOAD, SLACK, P
 from loadflow.journal.film._kernels import apply_law
+from loadflow.journal.models._compile import inner
 from loadflow.journal.models.reduced_film import (
     DISSIPATION,
     FED,
@@ -27,7 +27,7 @@ from loadflow.journal.models.reduced_film import (
 )
 
 
-@njit(cache=True, nogil=True)
+@inner
 def place(film, work, x, y):
     """Evaluate law and gap at the unknowns and the position (x, y)."""
     apply_law(film.ring.law, film.ring.numbers, film.ring.scale, work.u, work.state)
@@ -37,7 +37,7 @@ def place(film, work, x, y):
         work.gap_face[i] = film.ring.base_face[i] - face
 
 
-@njit(cache=True, nogil=True)
+@inner
 def balance(film, work, wedge, rate):
     """Residual of the cells and its derivatives by the position into `columns`, after `place`.
 
@@ -104,7 +104,7 @@ def balance(film, work, wedge, rate):
     return largest, film.ring.area * fx, film.ring.area * fy
 
 
-@njit(cache=True, nogil=True)
+@inner
 def magnitudes(film, work, wedge, rate):
     """Magnitude of the largest terms of `balance`, after it: in a cell, and in the load, N.
 
@@ -136,10 +136,10 @@ def magnitudes(film, work, wedge, rate):
             largest = max(largest, total + abs(work.state[SLACK, i, k]))
             peak = max(peak, abs(work.state[LOAD, i, k]))
     lost = 1.0 + 3.0 / max(narrow, 1e-16)
-    return largest * lost, film.ring.area * 2.0 * np.pi * axial.weights.sum() * peak * lost
+    return largest * lost, film.ring.area * 2.0 * np.pi * axial.width * peak * lost
 
 
-@njit(cache=True, nogil=True)
+@inner
 def matrix(film, work, wedge, rate):
     """Band matrix of the derivatives of the residual by the unknowns."""
     nx, m = work.u.shape[0], len(film.lanes)
@@ -179,7 +179,7 @@ def matrix(film, work, wedge, rate):
             band[base_r + k, mid - shift] -= by_l
 
 
-@njit(cache=True, nogil=True)
+@inner
 def hold_grooves(film, columns):
     """Leave the pressure of grooves as it is, after `balance`; returns the largest residual."""
     m, largest = len(film.lanes), 0.0
@@ -187,80 +187,25 @@ def hold_grooves(film, columns):
         base = film.ring.order[i] * m
         for row in range(base, base + m):
             if film.ring.groove[i]:
-                columns[row, :3] = 0.0
+                columns[row, 0], columns[row, 1], columns[row, 2] = 0.0, 0.0, 0.0
             largest = max(largest, abs(columns[row, 0]))
     return largest
 
 
-@njit(cache=True, nogil=True)
-def hold_grooves_in(film, band):
+@inner
+def hold_grooves_in(ring, band):
     """The same in the band matrix, after `matrix`."""
-    m = len(film.lanes)
-    for i in range(film.ring.groove.size):
-        if film.ring.groove[i]:
-            base = film.ring.order[i] * m
-            band[base : base + m] = 0.0
-            band[base : base + m, 2 * m] = 1.0
+    m = (band.shape[1] - 1) // 4
+    for i in range(ring.groove.size):
+        if ring.groove[i]:
+            base = ring.order[i] * m
+            for row in range(base, base + m):
+                for column in range(band.shape[1]):
+                    band[row, column] = 0.0
+                band[row, 2 * m] = 1.0
 
 
-@njit(cache=True, nogil=True)
-def factorise(lanes, band, n):
-    """LU of the first `n` rows of the band matrix in place, without pivoting.
-
-    The columns of the balance are diagonally dominant but for the axial terms, which are positive
-    definite, so that the pivots need no search. `lanes` is a tuple as long as there are points
-    across, so that the compiler knows how long the loops are. Returns False if it breaks down.
-    """
-    mid = 2 * len(lanes)
-    for j in range(n):
-        pivot = band[j, mid]
-        if not abs(pivot) > 0.0:  # NaN too
-            return False
-        inverse = 1.0 / pivot
-        for i in range(1, mid + 1):  # there are rows behind the last one
-            factor = band[j + i, mid - i] * inverse
-            band[j + i, mid - i] = factor
-            for k in range(1, mid + 1):
-                band[j + i, mid - i + k] -= factor * band[j, mid + k]
-        band[j, mid] = inverse
-    return True
-
-
-@njit(cache=True, nogil=True)
-def substitute(lanes, band, columns):
-    """Solve for the first three `columns` (n, …) in place with the factors of `factorise`."""
-    mid, n = 2 * len(lanes), columns.shape[0]
-    for i in range(min(mid, n)):
-        for k in range(mid - i, mid):
-            for c in range(3):
-                columns[i, c] -= band[i, k] * columns[i - mid + k, c]
-    for i in range(mid, n):
-        a, b, c = columns[i, 0], columns[i, 1], columns[i, 2]
-        for k in range(mid):
-            factor, row = band[i, k], i - mid + k
-            a -= factor * columns[row, 0]
-            b -= factor * columns[row, 1]
-            c -= factor * columns[row, 2]
-        columns[i, 0], columns[i, 1], columns[i, 2] = a, b, c
-    for i in range(n - 1, -1, -1):
-        a, b, c = columns[i, 0], columns[i, 1], columns[i, 2]
-        if i + mid < n:
-            for k in range(1, mid + 1):
-                factor, row = band[i, mid + k], i + k
-                a -= factor * columns[row, 0]
-                b -= factor * columns[row, 1]
-                c -= factor * columns[row, 2]
-        else:
-            for k in range(1, n - i):
-                factor, row = band[i, mid + k], i + k
-                a -= factor * columns[row, 0]
-                b -= factor * columns[row, 1]
-                c -= factor * columns[row, 2]
-        pivot = band[i, mid]
-        columns[i, 0], columns[i, 1], columns[i, 2] = a * pivot, b * pivot, c * pivot
-
-
-@njit(cache=True, nogil=True)
+@inner
 def carried(film, work):
     """Load that each of the columns carries, (fx, fy) of each: a 3 × 2 tuple of scalars."""
     nx, m = work.u.shape[0], len(film.lanes)
@@ -285,14 +230,14 @@ def carried(film, work):
     return (f * fx0, f * fy0), (f * fx1, f * fy1), (f * fx2, f * fy2)
 
 
-@njit(cache=True, nogil=True)
+@inner
 def summarise(film, work, x, y, wedge, row):
     """Integrals over the half film into `row`, after `place` at (x, y); units of this module."""
     nx, m = work.u.shape[0], len(film.lanes)
     axial = film.axial
     p = work.state[LOAD]
     peak, dissipation, shear, outflow, liquid, volume = -np.inf, 0.0, 0.0, 0.0, 0.0, 0.0
-    half_width = axial.weights.sum() + axial.end_weight
+    half_width = axial.width + axial.end_weight
     for i in range(nx):
         right = i + 1 if i + 1 < nx else 0
         h = work.gap[i]
@@ -328,7 +273,7 @@ def summarise(film, work, x, y, wedge, row):
     row[FED] = fed(film, work, wedge) if film.ring.shaped else 0.0
 
 
-@njit(cache=True, nogil=True)
+@inner
 def fed(film, work, wedge):
     """Flow from the grooves into the half film, less what flows back, after `place`."""
     nx, m = work.u.shape[0], len(film.lanes)
@@ -350,7 +295,7 @@ def fed(film, work, wedge):
     return total
 
 
-@njit(cache=True, nogil=True)
+@inner
 def narrowest(film, x, y):
     """Narrowest gap around a shaft at (x, y), in clearances; at cells and faces, if shaped."""
     if not film.ring.shaped:

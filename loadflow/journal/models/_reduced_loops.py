@@ -7,20 +7,19 @@ function that calls `newton`, so there is one.
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from loadflow.journal.cavitation import FILL, LOAD
+from loadflow.journal.models._band_kernels import factorise, substitute
+from loadflow.journal.models._compile import inner, outer
 from loadflow.journal.models._reduced_kernels import (
     balance,
     carried,
-    factorise,
     hold_grooves,
     hold_grooves_in,
     magnitudes,
     matrix,
     narrowest,
     place,
-    substitute,
     summarise,
 )
 from loadflow.journal.models.reduced_film import (
@@ -32,18 +31,18 @@ from loadflow.journal.models.reduced_film import (
     X,
     Y,
 )
-from loadflow.journal.models.slow_heat import slow_heat
+from loadflow.journal.models.slow_heat import THIN, slow_heat
 from loadflow.numerics import convergence
 
 STEP_LIMIT = 0.5  # change of the film over its pressure, up to which the shaft goes all the way
 SMALLEST = 1.0 / 256  # of a given step, to which a step that fails may be cut
 LATE = 8  # Newton steps after which a residual is asked whether it is that of rounding
 COARSEST = convergence.COARSEST
-rounding_level = njit(cache=True, nogil=True)(convergence.rounding_level)
-is_small = njit(cache=True, nogil=True)(convergence.is_small)
+rounding_level = inner(convergence.rounding_level)
+is_small = inner(convergence.is_small)
 
 
-@njit(cache=True, nogil=True)
+@inner
 def limited(x, y, dx, dy):
     """Position after a step, of which the narrowest gap keeps at least a third of its height.
 
@@ -61,7 +60,7 @@ def limited(x, y, dx, dy):
     return length * np.cos(turn), length * np.sin(turn)
 
 
-@njit(cache=True, nogil=True)
+@inner
 def shaft_step(film, work, x, y, gx, gy):
     """Position after a Newton step that carries the missing load (gx, gy).
 
@@ -90,7 +89,7 @@ def shaft_step(film, work, x, y, gx, gy):
     return limited(x, y, dx, dy)
 
 
-@njit(cache=True, nogil=True)
+@inner
 def clear(ring, work, dx, dy):
     """Share of a step, of which every gap keeps at least a third of its height."""
     share = 1.0
@@ -104,7 +103,7 @@ def clear(ring, work, dx, dy):
     return share
 
 
-@njit(cache=True, nogil=True)
+@outer
 def newton(film, work, x, y, fx, fy, speed, rate, tolerance, max_iterations):
     """Film and shaft at which the load (fx, fy) is carried; one implicit step if rate > 0.
 
@@ -114,7 +113,7 @@ def newton(film, work, x, y, fx, fy, speed, rate, tolerance, max_iterations):
     """
     nx, m = work.u.shape
     wedge = 0.5 * film.ring.slope * speed
-    flux = (abs(wedge) + film.ring.scale) * film.axial.weights.max()
+    flux = (abs(wedge) + film.ring.scale) * film.axial.widest
     force_scale = max(np.hypot(fx, fy), 0.5e-3 * film.ring.scale * film.ring.area)
     spent = 0
     while True:
@@ -136,7 +135,7 @@ def newton(film, work, x, y, fx, fy, speed, rate, tolerance, max_iterations):
         spent += 1
         matrix(film, work, wedge, rate)
         if film.ring.shaped:
-            hold_grooves_in(film, work.band)
+            hold_grooves_in(film.ring, work.band)
         if not factorise(film.lanes, work.band, work.columns.shape[0]):
             return x, y, residual, spent, False, rounding
         substitute(film.lanes, work.band, work.columns)
@@ -154,7 +153,7 @@ def newton(film, work, x, y, fx, fy, speed, rate, tolerance, max_iterations):
                 )
 
 
-@njit(cache=True, nogil=True)
+@outer
 def finish(film, work, x, y, speed, row, stiffness, damping):
     """Results of a film at rest at (x, y): integrals into `row`, and the slopes of the load.
 
@@ -169,7 +168,7 @@ def finish(film, work, x, y, speed, row, stiffness, damping):
     matrix(film, work, wedge, 0.0)
     if film.ring.shaped:
         hold_grooves(film, work.columns)
-        hold_grooves_in(film, work.band)
+        hold_grooves_in(film.ring, work.band)
     factorise(film.lanes, work.band, work.columns.shape[0])
     substitute(film.lanes, work.band, work.columns)
     _, by_x, by_y = carried(film, work)
@@ -188,7 +187,7 @@ def finish(film, work, x, y, speed, row, stiffness, damping):
         damping[axis, 0], damping[axis, 1] = -by_vx[axis], -by_vy[axis]
 
 
-@njit(cache=True, nogil=True)
+@inner
 def shift(work):
     """Make the unknowns those of the last time, and what were these those of the time before."""
     nx, m = work.u.shape
@@ -199,7 +198,7 @@ def shift(work):
             work.liquid[2, i, k] = work.liquid[1, i, k]
 
 
-@njit(cache=True, nogil=True)
+@inner
 def keep(work):
     """Make what is current that of the last time."""
     shift(work)
@@ -209,7 +208,7 @@ def keep(work):
             work.liquid[1, i, k] = work.state[FILL, i, k] * work.gap[i]
 
 
-@njit(cache=True, nogil=True)
+@inner
 def two_steps(step, before):
     """Rate of an implicit step (BDF2 of variable step), weights of the last two times, and ratio.
 
@@ -222,7 +221,7 @@ def two_steps(step, before):
     return rate, (1.0 + ratio) / step, -ratio * ratio / (1.0 + ratio) / step, ratio
 
 
-@njit(cache=True, nogil=True)
+@inner
 def predict(work, ratio, extrapolate, weight, weight_before):
     """Unknowns to start a step from, and the storage of earlier times."""
     nx, m = work.u.shape
@@ -237,7 +236,7 @@ def predict(work, ratio, extrapolate, weight, weight_before):
             )
 
 
-@njit(cache=True, nogil=True)
+@outer
 def march(film, work, x, y, time, force, speed, tolerance, max_iterations, rows, warmth, states):
     """Implicit steps of second order (BDF2 of variable step) through all of `time`.
 
@@ -248,6 +247,7 @@ def march(film, work, x, y, time, force, speed, tolerance, max_iterations, rows,
     place(film, work, x, y)
     keep(work)
     x_before, y_before = x, y
+    summarise(film, work, x, y, 0.5 * film.ring.slope * states[0, THIN] * speed[0], rows[0])
     step_before, thin = 0.0, 1.0
     for n in range(1, time.size):
         whole = time[n] - time[n - 1]

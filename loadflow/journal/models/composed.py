@@ -19,19 +19,19 @@ from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
 from loadflow.journal.models import composed_film as at
-from loadflow.journal.models._composed_gap_kernels import turn
-from loadflow.journal.models._composed_kernels import summarise
-from loadflow.journal.models._composed_loops import finish, march, newton
+from loadflow.journal.models._composed_loops import solve
 from loadflow.journal.models.composed_model import LEVELS, ComposedFilm, build
 from loadflow.journal.models.model import Steps
 from loadflow.journal.models.ring import no_start, stopped
-from loadflow.journal.models.slow_heat import THIN, cooled, lighter, slow_states
+from loadflow.journal.models.slow_heat import COLD, THIN, cooled, slow_states, standing_states
 from loadflow.journal.rows import operating_columns
 from loadflow.journal.solvers.estimate import NEAR, OFF_THE_BORE
 from loadflow.numerics.convergence import Limits
 
 Array = NDArray[np.float64]
 
+_AT_REST = np.zeros(1)  # one time
+_NO_SLOPES = np.zeros((2, 0, 0))
 _MISSED = 0.6  # of the load where the shaft touches: above 0.46 the grid had a film in no draw
 
 
@@ -93,26 +93,32 @@ def _equilibria(
     places = model.estimates(force, speed, lines)
     both = 4 if model.whole else 2
     stiffness, damping = np.zeros((count, both, both)), np.zeros((count, both, both))
-    none = np.zeros(count, dtype=bool)
+    none, slopes = np.zeros(count, dtype=bool), np.zeros((2, both, both))
+
+    def at_rest(place: Array, n: int, size: int, slopes: Array) -> Array:
+        """Row of load `n` at rest; `place` moves in `size` coordinates to where it is carried."""
+        this, row = slice(n, n + 1), np.zeros((1, at.RESULTS))
+        solve(
+            film, work, place, size, _AT_REST, loads[this], lines[this], speed[this],
+            control.tolerance, control.max_iterations, row, slopes, COLD, standing_states(1),
+        )  # fmt: skip
+        return row[0]
+
     last: int | None = None
     for n in range(count):
         spent, converged, residual, rounding = 0, False, np.inf, 0.0
-        work.bend[:] = lines[n, 2:]
         work.liquid[:] = 0.0
-        turn(film, work, speed[n], 1.0)
         if speed[n] == 0.0 and options.contact is None and loads[n].any():
             rows[n, at.RESIDUAL] = np.inf
             continue  # no film without rotation and squeeze
-        for place, first in _starts(model, places, last, n, rows, speed[n], control):
-            residual, iterations, answered, rounding = newton(
-                film, work, place, loads[n], model.size, speed[n], 0.0,
-                control.tolerance, control.max_iterations,
-            )  # fmt: skip
-            spent += iterations
-            converged = answered and (not options.may_grade or model.resolves(place))
+        for place, first in _starts(model, places, last, n, rows, at_rest):
+            row = at_rest(place, n, model.size, slopes)
+            residual, iterations, answered, rounding = row[at.RESIDUAL :]
+            spent += int(iterations)
+            converged = answered > 0.0 and (not options.may_grade or model.resolves(place))
             none[n] = first and _MISSED < residual < 1.0 and model.touches(place)
             if converged:
-                finish(film, work, place, speed[n], both, rows[n], stiffness[n], damping[n])
+                rows[n], stiffness[n], damping[n] = row, *slopes
                 work.last[:] = work.u
                 last = n
             if answered or none[n]:
@@ -203,30 +209,27 @@ def _path(
     rub = 0.0 if options.contact is None else options.contact.coefficient * bearing.radius
     share = 0.5 if model.whole else 1.0
     warmth, states = slow_states(options, model.units, share, rub, steps.temperature, time.size)
-    limits = control.tolerance, 2 * control.max_iterations
-    thin, light = float(states[0, THIN]), lighter(warmth, states, 0) if warmth.on else 1.0
-    turning = speed[0] * thin
-    turn(film, work, speed[0], light / thin)
+
+    def run(place: Array, size: int, count: int, iterations: int) -> int:
+        """Solve from a place through the first samples; returns how many have been."""
+        return int(
+            solve(
+                film, work, place, size, time[:count], loads[:count], lines[:count], speed[:count],
+                control.tolerance, iterations, rows[:count], _NO_SLOPES, warmth, states[:count],
+            )
+        )  # fmt: skip
+
     first = place.copy()
-    residual, iterations, converged, rounding = newton(
-        film, work, first, loads[0], size, turning, 0.0, *limits
-    )
-    if not converged and steps.start is None:
+    run(first, size, 1, 2 * control.max_iterations)
+    if not rows[0, at.CONVERGED] and steps.start is None:
         first = begin()
         work.u[:] = model.cold()
         for moving in (0, size):  # the film first
-            residual, iterations, converged, rounding = newton(
-                film, work, first, loads[0], moving, turning, 0.0, *limits
-            )
-    if not converged:
-        found = residual, rounding, iterations
+            run(first, moving, 1, 2 * control.max_iterations)
+    if not rows[0, at.CONVERGED]:
+        found = tuple(rows[0, [at.RESIDUAL, at.ROUNDING, at.ITERATIONS]])
         raise no_start(force[0], speed[0], float(np.hypot(*first[:2])), found)
-    summarise(film, work, first, 0.5 * film.ring.slope * turning, rows[0])
-    rows[0, at.RESIDUAL :] = residual, iterations, converged, rounding
-    solved = march(
-        film, work, first, model.size, time, loads, lines, speed,
-        control.tolerance, control.max_iterations, rows, warmth, states,
-    )  # fmt: skip
+    solved = run(first, model.size, time.size, control.max_iterations) if time.size > 1 else 1
     last = solved - 1
     if not rows[last, at.CONVERGED]:
         found = tuple(rows[last, [at.RESIDUAL, at.ROUNDING, at.ITERATIONS]])
@@ -245,8 +248,7 @@ def _starts(
     last: int | None,
     n: int,
     rows: Array,
-    speed: float,
-    control: Limits,
+    at_rest: Callable[[Array, int, int, Array], Array],
 ) -> Iterator[tuple[Array, bool]]:
     """Positions to start load `n` from, and which is the first; sets the unknowns of each.
 
@@ -268,10 +270,7 @@ def _starts(
         work.u[:] = model.cold()
         place = places[n].copy()
         place[:2] *= share
-        newton(
-            model.film, work, place, np.zeros(4), 0, speed, 0.0,
-            control.tolerance, control.max_iterations,
-        )  # fmt: skip
+        at_rest(place, n, 0, _NO_SLOPES)
         yield place, False
 
 

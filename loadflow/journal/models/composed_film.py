@@ -127,8 +127,6 @@ class Composed(NamedTuple):
     ----------
     ring : Ring
         Cells around, and what fills them.
-    lanes, points : tuple of int
-        As long as there are inner points across, and all of them: lengths that the compiler knows.
     nodes : Nodes
         Points across.
     give : float
@@ -142,8 +140,6 @@ class Composed(NamedTuple):
     """
 
     ring: Ring
-    lanes: tuple[int, ...]
-    points: tuple[int, ...]
     nodes: Nodes
     give: float
     rough: Rough
@@ -190,6 +186,14 @@ class ComposedWork(NamedTuple):
         Derivative of `touch` by the pressure at the points, N/Pa, on a shell that gives way.
     numbers : array (2,)
         Reynolds number of a gap of the clearance, and over its critical value.
+    step : array (4,)
+        Newton step of the shaft.
+    modes : array (3, 4)
+        Sums of `_composed_gap_kernels.touch`.
+    block : array (m m,)
+        Axial part of the matrix of a column of cells.
+    places : array (3, 4)
+        Position at the time before the last, the next one, and its load.
     """
 
     u: Array
@@ -212,6 +216,10 @@ class ComposedWork(NamedTuple):
     system: Array
     pressed: Array
     numbers: Array
+    step: Array
+    modes: Array
+    block: Array
+    places: Array
 
 
 def make_work(around: int, nodes: Nodes) -> ComposedWork:
@@ -239,4 +247,8 @@ def make_work(around: int, nodes: Nodes) -> ComposedWork:
         system=np.zeros((4, 5)),
         pressed=np.zeros((4, *shape)),
         numbers=np.zeros(2),
+        step=np.zeros(4),
+        modes=np.zeros((3, 4)),
+        block=np.zeros(inner * inner),
+        places=np.zeros((3, 4)),
     )

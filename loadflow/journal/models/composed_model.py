@@ -262,8 +262,7 @@ def build(
     if bearing.shape.segments:
         ring = lobed(ring, bearing, options.cells[0])
     film = Composed(
-        ring, (0,) * nodes.slopes.shape[1], (0,) * nodes.z.size,
-        nodes, _give(bearing, options), _rough(bearing, options.contact, whole, units),
+        ring, nodes, _give(bearing, options), _rough(bearing, options.contact, whole, units),
         _yielding(bearing, options, whole, nodes.slopes.shape[1]), _regime(bearing, options),
     )  # fmt: skip
     return ComposedFilm(bearing, options, line, units, film, make_work(ring.width.size, nodes))

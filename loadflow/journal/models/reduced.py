@@ -25,7 +25,6 @@ from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
 from loadflow.journal.models import composed, grid
 from loadflow.journal.models import reduced_film as at
-from loadflow.journal.models._reduced_kernels import summarise
 from loadflow.journal.models._reduced_loops import finish, march, newton
 from loadflow.journal.models.grid import solve_on_grid
 from loadflow.journal.models.model import Steps
@@ -172,8 +171,6 @@ def orbit(
     if not converged:
         found = residual, rounding, iterations
         raise no_start(force[0], speed[0], float(np.hypot(x, y)), found)
-    turning = 0.5 * reduced.ring.slope * speed[0] * states[0, THIN]
-    summarise(reduced, work, x, y, turning, rows[0])
     rows[0, at.RESIDUAL :] = residual, iterations, converged, rounding
     solved = march(
         reduced, work, x, y, time, force, speed, control.tolerance, control.max_iterations, rows,

@@ -63,6 +63,17 @@ class Warmth(NamedTuple):
     light: float
 
 
+COLD = Warmth(False, 0.0, np.ones((2, 2)), 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
+"""Of a film whose temperature is not followed."""
+
+
+def standing_states(count: int) -> Array:
+    """States (count, STATES) of a film whose viscosity stays as it is."""
+    states = np.zeros((count, STATES))
+    states[:, THIN] = 1.0
+    return states
+
+
 def slow_states(
     options: Film, film: DiscreteFilm, share: float, rub: float, start: float, count: int
 ) -> tuple[Warmth, Array]:
@@ -83,11 +94,10 @@ def slow_states(
     count : int
         Number of times.
     """
-    states = np.zeros((count, STATES))
-    states[:, THIN] = 1.0
+    states = standing_states(count)
     heat = cast("Heat | None", options.heat)  # the other kind is refused in motion
     if heat is None or heat.capacity is None:
-        return Warmth(False, 0.0, np.ones((2, 2)), 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0), states
+        return COLD, states
     states[0, TEMPERATURE] = start
     states[0, THIN] = float(heat.liquid.viscosity(start)) / film.viscosity
     clearance = film.relative_clearance * film.radius

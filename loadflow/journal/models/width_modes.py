@@ -31,6 +31,8 @@ class Axial(NamedTuple):
         q at mid-plane is middle · q.
     end_weight : float
         Width that belongs to the bearing end itself.
+    width, widest : float
+        Sum of the weights, and largest one.
     """
 
     points: Array
@@ -39,6 +41,8 @@ class Axial(NamedTuple):
     leak: Array
     middle: Array
     end_weight: float
+    width: float
+    widest: float
 
 
 @lru_cache(maxsize=8)
@@ -69,6 +73,8 @@ def lobatto(half_width: float, nodes: int) -> Axial:
         leak=2.0 * from_values.sum(axis=0) / half_width,
         middle=from_values[0].copy(),
         end_weight=half_width * end,
+        width=half_width * float(weights.sum()),
+        widest=half_width * float(weights.max()),
     )
 
 
@@ -87,20 +93,27 @@ class Nodes(NamedTuple):
         ∫ f dz = weights · f.
     slopes : array (l, m)
         ∂q at all points from its values.
+    pairs : array (l, m m)
+        Products of two of these slopes at each point, times its weight.
     ends : array (e,)
         Sense of the outward direction at each end: −1 or 1.
     fine : array (f, m)
         Values at places close by each other, from those at the points.
     highest : array (g, m)
         Share of the highest polynomials L_{n+1} − L_{n−1} of Legendre's, an even and an odd one.
+    width, widest : float
+        Sum of the weights, and largest one.
     """
 
     z: Array
     weights: Array
     slopes: Array
+    pairs: Array
     ends: Array
     fine: Array
     highest: Array
+    width: float
+    widest: float
 
 
 _FINE = 41  # places across the width at which the largest pressure is sought
@@ -117,10 +130,12 @@ def whole_width(half_width: float, points: int) -> Nodes:
     return Nodes(
         z=half_width * zeta[order],
         weights=half_width * weights[order],
-        slopes=np.ascontiguousarray(slopes[np.ix_(order, inner)]) / half_width,
+        **_slopes(slopes[np.ix_(order, inner)] / half_width, half_width * weights[order]),
         ends=np.array([-1.0, 1.0]),
         fine=np.ascontiguousarray(fine[:, inner]),
         highest=_shares(zeta[inner], np.arange(1, points + 1))[-2:],
+        width=half_width * float(weights.sum()),
+        widest=half_width * float(weights.max()),
     )
 
 
@@ -137,11 +152,22 @@ def half_width_nodes(half_width: float, points: int) -> Nodes:
     return Nodes(
         z=half_width * zeta[order],
         weights=half_width * weights[order],
-        slopes=np.ascontiguousarray(even[order]) / half_width,
+        **_slopes(even[order] / half_width, half_width * weights[order]),
         ends=np.array([1.0]),
         fine=np.ascontiguousarray(fine[:, inner] + fine[:, mirror]),
         highest=_shares(zeta[inner], 2 * np.arange(points) + 1)[-1:],
+        width=half_width * float(weights[order].sum()),
+        widest=half_width * float(weights[order].max()),
     )
+
+
+def _slopes(slopes: Array, weights: Array) -> dict[str, Array]:
+    """`Nodes.slopes` and their products at points with `weights` (l,)."""
+    pairs = weights[:, None, None] * slopes[:, :, None] * slopes[:, None, :]
+    return {
+        "slopes": np.ascontiguousarray(slopes),
+        "pairs": pairs.reshape(len(slopes), -1),
+    }
 
 
 def at_places(points: int, whole: bool, places: Array) -> Array:

@@ -1,0 +1,124 @@
+"""Compiled: linear systems of a film with few unknowns across the width.
+
+The cells around are folded, so that the matrix has a band of two columns of cells on each side.
+`lanes` is as long as there are points across: a tuple where the compiler is to know how long the
+loops are.
+"""
+
+from __future__ import annotations
+
+from loadflow.journal.models._compile import inner
+
+
+@inner
+def factorise(lanes, band, n):
+    """LU of the first `n` rows of the band matrix in place, without pivoting.
+
+    The columns of the balance are diagonally dominant but for the axial terms, which are positive
+    definite, so that the pivots need no search. Returns False if it breaks down.
+    """
+    mid = 2 * len(lanes)
+    for j in range(n):
+        pivot = band[j, mid]
+        if not abs(pivot) > 0.0:  # NaN too
+            return False
+        inverse = 1.0 / pivot
+        for i in range(1, mid + 1):  # there are rows behind the last one
+            factor = band[j + i, mid - i] * inverse
+            band[j + i, mid - i] = factor
+            for k in range(1, mid + 1):
+                band[j + i, mid - i + k] -= factor * band[j, mid + k]
+        band[j, mid] = inverse
+    return True
+
+
+@inner
+def substitute(lanes, band, columns):
+    """Solve for the first three `columns` (n, …) in place with the factors of `factorise`."""
+    mid, n = 2 * len(lanes), columns.shape[0]
+    for i in range(min(mid, n)):
+        for k in range(mid - i, mid):
+            for c in range(3):
+                columns[i, c] -= band[i, k] * columns[i - mid + k, c]
+    for i in range(mid, n):
+        a, b, c = columns[i, 0], columns[i, 1], columns[i, 2]
+        for k in range(mid):
+            factor, row = band[i, k], i - mid + k
+            a -= factor * columns[row, 0]
+            b -= factor * columns[row, 1]
+            c -= factor * columns[row, 2]
+        columns[i, 0], columns[i, 1], columns[i, 2] = a, b, c
+    for i in range(n - 1, -1, -1):
+        a, b, c = columns[i, 0], columns[i, 1], columns[i, 2]
+        if i + mid < n:
+            for k in range(1, mid + 1):
+                factor, row = band[i, mid + k], i + k
+                a -= factor * columns[row, 0]
+                b -= factor * columns[row, 1]
+                c -= factor * columns[row, 2]
+        else:
+            for k in range(1, n - i):
+                factor, row = band[i, mid + k], i + k
+                a -= factor * columns[row, 0]
+                b -= factor * columns[row, 1]
+                c -= factor * columns[row, 2]
+        pivot = band[i, mid]
+        columns[i, 0], columns[i, 1], columns[i, 2] = a * pivot, b * pivot, c * pivot
+
+
+@inner
+def substitute_all(band, columns, count):
+    """Solve for the first `count` of five `columns` in place, three or all: as `substitute`.
+
+    Two sums for each column: the next term of one need not wait for that of the other.
+    """
+    mid, n = (band.shape[1] - 1) // 2, columns.shape[0]
+    for step in range(2 * n):
+        forward = step < n
+        i = step if forward else 2 * n - 1 - step
+        first = max(mid - i, 0) if forward else mid + 1
+        last = mid if forward else mid + 1 + min(mid, n - 1 - i)
+        row = i - mid + first
+        a, b, c, d, e = columns[i, 0], columns[i, 1], columns[i, 2], 0.0, 0.0
+        if count > 3:
+            d, e = columns[i, 3], columns[i, 4]
+        p, q, r, s, t = 0.0, 0.0, 0.0, 0.0, 0.0
+        if (last - first) % 2 == 1:
+            factor = band[i, first]
+            p -= factor * columns[row, 0]
+            q -= factor * columns[row, 1]
+            r -= factor * columns[row, 2]
+            if count > 3:
+                s -= factor * columns[row, 3]
+                t -= factor * columns[row, 4]
+            first, row = first + 1, row + 1
+        for k in range(first, last, 2):
+            factor, other = band[i, k], band[i, k + 1]
+            a -= factor * columns[row, 0]
+            b -= factor * columns[row, 1]
+            c -= factor * columns[row, 2]
+            p -= other * columns[row + 1, 0]
+            q -= other * columns[row + 1, 1]
+            r -= other * columns[row + 1, 2]
+            if count > 3:
+                d -= factor * columns[row, 3]
+                e -= factor * columns[row, 4]
+                s -= other * columns[row + 1, 3]
+                t -= other * columns[row + 1, 4]
+            row += 2
+        pivot = 1.0 if forward else band[i, mid]
+        columns[i, 0], columns[i, 1] = (a + p) * pivot, (b + q) * pivot
+        columns[i, 2] = (c + r) * pivot
+        if count > 3:
+            columns[i, 3], columns[i, 4] = (d + s) * pivot, (e + t) * pivot
+
+
+@inner
+def factorise_any(band, n):
+    """`factorise` for as many points across as the `band` is for."""
+    points = (band.shape[1] - 1) // 4
+    if points == 4:
+        return factorise((0, 0, 0, 0), band, n)
+    if points == 6:
+        return factorise((0, 0, 0, 0, 0, 0), band, n)
+    return factorise(band[0, :points], band, n)
