@@ -333,9 +333,10 @@ PRESSED = np.array([4e4, 5e3])
     ids=["aligned", "pattern", "standing"],
 )
 def test_asperities_on_a_yielding_shell_are_those_of_the_grid(speed, line, more):
-    film = replace(RUBBING, **more)
+    """Both on 240 cells around: what a soft shell drags over a face differs, and so on fewer."""
+    film = replace(RUBBING, grid=(240, 80), **more)
     grid = SMALL.equilibrium(PRESSED, speed, film, **line)
-    few = SMALL.equilibrium(PRESSED, speed, replace(film, rung="reduced"), **line)
+    few = SMALL.equilibrium(PRESSED, speed, replace(film, rung="reduced", grid=(240, 40)), **line)
     assert grid.contact_share > 0.25
     for name, bound in (("eccentricity_ratio", 2e-4), ("minimum_film", 1e-3),
                         ("maximum_pressure", 8e-3), ("contact_share", 4e-3),
@@ -397,7 +398,7 @@ TILTED = {"tilt": (0.0, 2e-5)}
 def test_a_tilted_end_on_a_yielding_shell_is_within_the_error_of_the_cells():
     grid = SMALL.equilibrium(PRESSED, 0.3, RUBBING, **TILTED)
     few = SMALL.equilibrium(PRESSED, 0.3, replace(RUBBING, rung="reduced"), **TILTED)
-    assert grid.contact_share > 0.25
+    assert grid.contact_share > 0.2
     for name in ("eccentricity_ratio", "minimum_film", "maximum_pressure"):
         away = abs(getattr(few, name) - getattr(grid, name))
         assert away < getattr(grid.grid_error, name) < 0.2 * getattr(grid, name), name

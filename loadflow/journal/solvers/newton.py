@@ -147,6 +147,7 @@ class _Check:
         return self.solution(u, position, linear, False, iterations)
 
 
+@np.errstate(over="ignore", invalid="ignore")  # of an iteration that diverges
 def solve_film(
     film: DiscreteFilm,
     u: Array,
@@ -175,6 +176,7 @@ def solve_film(
     return check.unanswered(u, position, linear, iteration)
 
 
+@np.errstate(over="ignore", invalid="ignore")  # of an iteration that diverges
 def solve_equilibrium(
     film: DiscreteFilm,
     force: Array,
