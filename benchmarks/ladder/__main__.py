@@ -67,9 +67,9 @@ absolute. They say what a coarser model changes, not how well the finest one fit
 rung is **dominated** if another one is cheaper and nowhere less accurate.
 
 Beside another code, ROSS 3.1, whose film is compiled, a static point with stiffness and damping
-takes 1/5 … 1/13 of its time at its coarser meshes and 1/60 … 1/80 at its default, with no larger
-error of ε, K and C; on tilting pads 1/43 at its coarsest ([table](journal.md), `python -m
-benchmarks.peers.ross`).
+takes 1/8 … 1/25 of its time at its coarser meshes and 1/116 … 1/165 at its default (in three of
+four bearings), with no larger error of ε, K and C; on tilting pads 1/89 at its coarsest
+([table](journal.md), `python -m benchmarks.peers.ross`).
 """
 
 RELATIVE = {"reduction": "film solutions, relative"}

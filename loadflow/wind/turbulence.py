@@ -92,7 +92,8 @@ def kaimal(
         Ready factors of this grid, for many seeds and speeds (only with "fast").
     oversampled : int
         How many times as fast as `dt` asks for the noise is drawn. The field is then that of the
-        step dt / oversampled, gust for gust, without its fluctuations above 1 / (2 dt).
+        step dt / oversampled, gust for gust, without its fluctuations above 1 / (2 dt); of an odd
+        number only where the Fourier transform takes both lengths as they are.
 
     Returns
     -------
@@ -232,7 +233,9 @@ def _components(
     time = sample_times(duration, dt)
     if not (isinstance(oversampled, Integral) and oversampled >= 1):
         raise InputError(f"oversampled = {oversampled} must be a whole number >= 1")
-    period = scipy.fft.next_fast_len(len(time), real=True)
+    # of two halves, so that a field of twice the step has the same frequencies
+    halves = 1 if oversampled % 2 == 0 else 2
+    period = halves * scipy.fft.next_fast_len(-(-len(time) // halves), real=True)
     drawn = oversampled * period // 2 + 1
     frequency = np.arange(period // 2 + 1) / (period * dt)
     decay = coherence_decay(frequency, wind_speed, factors.length_scale)

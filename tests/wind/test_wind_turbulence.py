@@ -134,6 +134,14 @@ def test_a_longer_step_is_the_same_wind_without_what_is_faster(oversampled):
         np.testing.assert_allclose(oversampled * ours, spectrum, rtol=0, atol=2e-4 * period**0.5)
 
 
+@pytest.mark.parametrize("duration", [30.0, 100.0, 150.0])
+def test_half_the_step_is_the_same_wind_of_every_duration(duration):
+    options = {"duration": duration, "radius": RADIUS, "angles": ANGLES, "length_scale": LENGTH}
+    fine = kaimal(V, SIGMA, dt=0.05, seed=4, **options).u[::2]
+    coarse = kaimal(V, SIGMA, dt=0.1, seed=4, oversampled=2, **options).u
+    assert np.std(coarse - fine) < 0.15 * np.std(fine)  # what is faster than 5 Hz
+
+
 def test_independent_lateral_components_share_nothing_between_points():
     field = make(3, lateral="independent")
     coherent = make(3)
