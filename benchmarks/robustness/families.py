@@ -267,16 +267,22 @@ def thrust(point: Point) -> Callable[[], Any]:
     return lambda: bearing.equilibrium(force=force, speed=point.speed, film=film)
 
 
-def cone(point: Point) -> Callable[[], Any]:
-    """Whole rings and segments of cones under the force of a film at some place."""
+def _cone_of(point: Point) -> tuple[ConicalBearing, Film]:
+    """A whole ring or segments of a cone, and their film."""
     rng, start, half = point.rng, 0.5 * point.diameter, point.rng.uniform(0.2, 0.9)
     gap = powers(rng, 5e-5, 5e-4) * start
     pads = {} if rng.random() < 0.5 else {"pads": int(rng.integers(4, 10)), "pad_angle": 0.5}
     slant = (start, start * rng.uniform(1.2, 1.6))
     bearing = ConicalBearing(half_angle=half, slant=slant, clearance=gap, **pads)
     grid = (24, 8) if pads else (60, 10)
-    film = Film(Lubricant(point.viscosity), **(point.film | {"grid": grid, "inlet": None}))
-    aside = rng.uniform(0.1, 0.85) * gap / np.cos(half)
+    return bearing, Film(Lubricant(point.viscosity), **(point.film | {"grid": grid, "inlet": None}))
+
+
+def cone(point: Point) -> Callable[[], Any]:
+    """Whole rings and segments of cones under the force of a film at some place."""
+    bearing, film = _cone_of(point)
+    gap = bearing.clearance
+    aside = point.rng.uniform(0.1, 0.85) * gap / np.cos(bearing.half_angle)
     place = (aside * np.cos(point.angle), aside * np.sin(point.angle), -0.1 * gap)
 
     def work() -> Any:
@@ -316,20 +322,15 @@ def heat(point: Point) -> Callable[[], Any]:
 
 def pair(point: Point) -> Callable[[], Any]:
     """Two cones against each other, one locating bearing, under the load of both films."""
-    rng, start, half = point.rng, 0.5 * point.diameter, point.rng.uniform(0.2, 0.9)
-    gap = powers(rng, 5e-5, 5e-4) * start
-    pads = {} if rng.random() < 0.5 else {"pads": int(rng.integers(4, 10)), "pad_angle": 0.5}
-    slant = (start, start * rng.uniform(1.2, 1.6))
-    cone = ConicalBearing(half_angle=half, slant=slant, clearance=gap, **pads)
-    distance = start * rng.uniform(0.5, 3.0)
+    cone, film = _cone_of(point)
+    rng, gap, half = point.rng, cone.clearance, cone.half_angle
+    distance = 0.5 * point.diameter * rng.uniform(0.5, 3.0)
     bearing = ConicalPair(cone, cone, distance, arrangement="OX"[rng.integers(2)])
-    grid = (24, 8) if pads else (60, 10)
-    film = Film(Lubricant(point.viscosity), **(point.film | {"grid": grid, "inlet": None}))
     axial = rng.uniform(-0.8, 0.8)
     aside = rng.uniform(0.1, 0.85) * gap * (1.0 - abs(axial)) / np.cos(half)
     shift = aside * np.cos(point.angle), aside * np.sin(point.angle), axial * gap / np.sin(half)
     free, way = rng.random() < 0.5, rng.uniform(-np.pi, np.pi)
-    lean = rng.uniform(0.0, 0.3) * gap * (1.0 - abs(axial)) / (0.5 * distance + slant[1])
+    lean = rng.uniform(0.0, 0.3) * gap * (1.0 - abs(axial)) / (0.5 * distance + cone.slant[1])
     tilt = lean * np.array([np.cos(way), np.sin(way)]) * (0.3 if free else 0.0)
 
     def work() -> Any:

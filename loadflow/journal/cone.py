@@ -30,7 +30,7 @@ from loadflow.journal.pad_results import ConicalResult, common
 from loadflow.journal.pads import Pads, Pivot, even_pads, finite
 from loadflow.journal.solvers.assembly import BODY, Assembly, AssemblyState, Member
 from loadflow.journal.solvers.assembly_error import relative_errors
-from loadflow.journal.solvers.assembly_search import Chart, around, search
+from loadflow.journal.solvers.assembly_search import Chart, around, at_once, search
 from loadflow.journal.surfaces import FLAT, Cone, Cut
 from loadflow.numerics.convergence import Limits
 from loadflow.numerics.fields import require
@@ -192,16 +192,12 @@ class ConicalBearing(PadBearing, ConicalFilms[ConicalResult]):
         speed: float,
     ) -> AssemblyState:
         """Equilibrium from one of `starts`, or from all around."""
-        if not wanted[:3].any():
-            return assembly.equilibrium(starts, wanted, free, limits)
-        quick = assembly.solve(starts[0], wanted, free, limits)
-        if quick.converged:
+        quick = at_once(assembly, starts, wanted, free, limits)
+        if quick is not None:
             return quick
         chart = Chart(self.clearance, self.half_angle, starts[0].position[3:])
         more = around(assembly, chart, lambda x: self._started(assembly, x, speed), wanted)
         found = search(assembly, chart, chain(starts, more), wanted, SHIFTS, limits)
-        if found is None:
-            return quick
         if found.converged and free.size > SHIFTS.size:
             return assembly.equilibrium([found, *starts], wanted, free, limits)
         return found

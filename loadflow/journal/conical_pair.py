@@ -27,7 +27,7 @@ from loadflow.journal.pad_bearing import (
 from loadflow.journal.pad_results import ConicalResult, PairResult
 from loadflow.journal.pads import finite
 from loadflow.journal.solvers.assembly import BODY, Assembly, AssemblyState
-from loadflow.journal.solvers.assembly_search import PairChart, between, search
+from loadflow.journal.solvers.assembly_search import PairChart, at_once, between, search
 from loadflow.numerics.convergence import Limits
 from loadflow.numerics.fields import require
 
@@ -168,10 +168,8 @@ class ConicalPair(ConicalFilms[PairResult]):
         speed: float,
     ) -> AssemblyState:
         """Equilibrium from one of `starts`, or from all between the cones."""
-        if not wanted[:3].any():
-            return assembly.equilibrium(starts, wanted, free, limits)
-        quick = assembly.solve(starts[0], wanted, free, limits)
-        if quick.converged:
+        quick = at_once(assembly, starts, wanted, free, limits)
+        if quick is not None:
             return quick
         chart = self._chart(starts[0].position[3:], free.size > SHIFTS.size)
         found = search(assembly, chart, starts[:1], wanted, free, limits)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, ClassVar, Literal, Self
 
 import numpy as np
@@ -153,3 +155,26 @@ class RollingGeometry(ABC):
         """Dynamic equivalent reference load P_ref = C/L10r^(1/p), N."""
         life = self.reference_life(found)
         return np.asarray(self.rated_capacity / life ** (1 / self.life_exponent))
+
+
+@dataclass(frozen=True, kw_only=True)
+class OneClearance(RollingGeometry):
+    """Geometry of rows of one contact angle and one clearance, which fits and heat change."""
+
+    if TYPE_CHECKING:  # fields of each kind, with bounds and defaults of their own
+        contact_angle: float
+        clearance: float
+
+    @property
+    def nominal_angle(self) -> float:
+        """Contact angle of a row from the radial plane, rad."""
+        return self.contact_angle
+
+    @property
+    def clearance_share(self) -> float:
+        """Share of the clearance that lies along the normals of both contacts."""
+        return math.cos(self.contact_angle)
+
+    def opened(self, gap: float) -> Self:
+        """Return the bearing with `gap`, m, more along the normal of each contact."""
+        return replace(self, clearance=self.clearance + 2 * gap / self.clearance_share)

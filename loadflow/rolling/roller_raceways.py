@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
-from typing import Annotated, ClassVar, Literal, Self
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 from annotated_types import Ge, Gt, Le
@@ -15,7 +15,7 @@ from loadflow.errors import InputError
 from loadflow.numerics.fields import check_choice, check_fields
 from loadflow.rolling.contact_forces import ContactForces
 from loadflow.rolling.contacts import Array, Contacts, Raceway
-from loadflow.rolling.geometry import RollingGeometry
+from loadflow.rolling.geometry import OneClearance
 from loadflow.rolling.rating import capacity, life, modified_life, safety
 from loadflow.tribology.hertz import (
     STEEL_MODULUS,
@@ -28,7 +28,7 @@ from loadflow.tribology.hertz import (
 
 
 @dataclass(frozen=True, kw_only=True)
-class RollerRaceways(RollingGeometry):
+class RollerRaceways(OneClearance):
     """Rollers, cut into slices, between the raceways of two rings.
 
     Attributes
@@ -214,16 +214,6 @@ class RollerRaceways(RollingGeometry):
     def element_diameter(self) -> float:
         """Diameter of the rollers, m."""
         return self.roller_diameter
-
-    @property
-    def nominal_angle(self) -> float:
-        """Contact angle of a row from the radial plane, rad."""
-        return self.contact_angle
-
-    def opened(self, gap: float) -> Self:
-        """Return the bearing with `gap`, m, more along the normal of each contact."""
-        more = 2 * gap / math.cos(self.contact_angle)
-        return replace(self, clearance=self.clearance + more)
 
     @property
     def groups(self) -> tuple[int, ...]:

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from loadflow.errors import SolverError
 from loadflow.journal import (
     Contact,
     Film,
@@ -15,6 +16,7 @@ from loadflow.journal import (
     Lubricant,
     ThickShell,
 )
+from loadflow.journal.film import shell_contact
 from loadflow.tribology import AsperityContact
 
 BEARING = JournalBearing(diameter=0.2, width=0.1, relative_clearance=1e-3)
@@ -131,6 +133,16 @@ def test_contact_presses_a_shell_open_around():
     still = BEARING.equilibrium(FORCE, 0.0, AROUND)
     assert float(still.contact_share) == pytest.approx(1.0, abs=1e-6)
     assert float(still.shell_deformation) > 0.05 * BEARING.clearance
+
+
+def test_a_shell_whose_growth_is_not_found_is_no_answer(monkeypatch):
+    monkeypatch.setattr(shell_contact, "_STEPS", 1)
+    coarse = replace(AROUND, grid=(48, 8))
+    assert not BEARING.equilibrium(FORCE, SPEED, coarse, strict=False).converged
+    with pytest.raises(SolverError):
+        BEARING.equilibrium(FORCE, SPEED, coarse)
+    monkeypatch.undo()
+    assert BEARING.equilibrium(FORCE, SPEED, coarse, strict=False).converged
 
 
 @pytest.mark.parametrize("tilt", [{}, pytest.param({"tilt": TILT}, marks=pytest.mark.slow)])

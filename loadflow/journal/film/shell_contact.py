@@ -24,6 +24,7 @@ Array = NDArray[np.float64]
 
 _STEPS, _HALVINGS = 80, 8
 _EXACT = 1e-13  # of growth and roughness, what is left of the balance of a shell
+_ENOUGH = 1e-9  # the same, beyond which there is no growth that fits
 
 
 class ShellContact(YieldingNodeLoad):
@@ -57,19 +58,20 @@ class ShellContact(YieldingNodeLoad):
         """Growth of the cells (nx, nz), clearances, under `pressure` of the film, Pa.
 
         `unit` is the growth of the gap, clearances, over that of the shell, m. What follows from
-        it, `grows` and `by_place`, is that of this state.
+        it, `grows` and `by_place`, is that of this state. NaN where no growth fits the pressure:
+        the film then has no balance, either.
         """
         self._unit_growth = unit
         alone = unit * self._compliance.growth(pressure)
         modes = self._modes
         rigid = (modes.gaps(position, self._gap.curvature) - self._summits).ravel()
-        growth = alone if unit == 0.0 else self._shell.growth
+        growth = self._shell.growth if unit and np.isfinite(self._shell.growth).all() else alone
         pressed, slope = self._asperities(rigid, growth)
         missing = alone + unit * self._compliance.growth(pressed) - growth
         for _ in range(_STEPS):
-            least = _EXACT * max(float(np.abs(growth).max()), self._roughness)
+            size = max(float(np.abs(growth).max()), self._roughness)
             left = float(np.abs(missing).max())
-            if left <= least or not np.isfinite(left):
+            if left <= _EXACT * size or not np.isfinite(left):
                 break
             self._linearise(slope)
             step, share = self._solved(missing[None])[0], 1.0
@@ -83,7 +85,8 @@ class ShellContact(YieldingNodeLoad):
             growth = trial
         self._linearise(slope)
         self._follow(slope)
-        return np.asarray(growth)
+        fits = float(np.abs(missing).max()) <= _ENOUGH * size
+        return np.asarray(growth) if fits else np.full_like(growth, np.nan)
 
     def grows(self, pressure: Array) -> Array:
         """Growth (l, nx, nz), clearances, by a change of the film's `pressure`, Pa."""

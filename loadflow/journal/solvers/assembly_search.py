@@ -145,6 +145,23 @@ class PairChart:
                 yield self.position(x)
 
 
+def at_once(
+    assembly: Assembly,
+    starts: list[AssemblyState],
+    wanted: Array,
+    free: NDArray[np.int64],
+    limits: Limits,
+) -> AssemblyState | None:
+    """Equilibrium by Newton's method from the first of `starts`, from all without a force.
+
+    None where the load `wanted` (5,) has to be sought by size and direction.
+    """
+    if not wanted[:3].any():
+        return assembly.equilibrium(starts, wanted, free, limits)
+    quick = assembly.solve(starts[0], wanted, free, limits)
+    return quick if quick.converged else None
+
+
 def between(
     assembly: Assembly,
     chart: PairChart,

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
-from typing import Annotated, ClassVar, Literal, Self
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 from annotated_types import Gt, Le
@@ -110,10 +110,10 @@ class SlewingBearing(BallRaceways, BearingOfBalls):
             self.osculation_ratio,
         )
 
-    def opened(self, gap: float) -> Self:
-        """Return the bearing with `gap`, m, more along the normal of each contact."""
-        more = 2 * gap / math.sin(self.contact_angle)
-        return replace(self, clearance=self.clearance + more)
+    @property
+    def clearance_share(self) -> float:
+        """Share of the axial clearance that lies along the normals of both contacts."""
+        return math.sin(self.contact_angle)
 
     def ring_coupling(self, element_angle: float = 0.0) -> PointCoupling:
         """How balls feel flexible rings, the first one of each row at an azimuth, rad."""

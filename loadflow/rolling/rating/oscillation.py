@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from loadflow.rolling.geometry import RollingGeometry
 
 Array = NDArray[np.float64]
-Mounting = Literal["rigid", "pitch", "yaw, tubular tower", "yaw, four-leg tower"]
+MountedOn = Literal["rigid", "pitch", "yaw, tubular tower", "yaw, four-leg tower"]
 
 MOUNTING_FACTORS: dict[str, float] = {
     "rigid": 1.0,
@@ -42,7 +42,7 @@ IDLE_TORQUES = {
 class _Swinging:
     """What every kind of oscillation has: what the bearing is mounted on."""
 
-    mounting: Mounting
+    mounting: MountedOn
 
     def __post_init__(self) -> None:
         check_fields(self)
@@ -82,7 +82,7 @@ class Oscillation(_Swinging):
 
     amplitude: Annotated[float, Gt(0), Le(2 * math.pi)]
     frequency: Annotated[float, Gt(0)]
-    mounting: Mounting = "rigid"
+    mounting: MountedOn = "rigid"
     idle_torque: Annotated[float, Ge(0)] = 0.0
     kind: Literal["stated"] = "stated"
 
@@ -168,7 +168,7 @@ class PitchMotion(_Swinging):
     """
 
     threshold: Annotated[float, Gt(0), Le(0.1)] = math.radians(0.1)
-    mounting: Mounting = "pitch"
+    mounting: MountedOn = "pitch"
     idle_torque: Annotated[float, Ge(0)] = 0.0
     kind: Literal["pitch"] = "pitch"
 
