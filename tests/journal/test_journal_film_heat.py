@@ -173,7 +173,7 @@ def test_stiffness_is_the_slope_of_the_force_at_the_same_viscosities():
     statics = Statics(LOBES, options, Line(), SPEED)
     equation = EnergyEquation(statics.film, statics.gap, options.heat)
     half = state.film_temperature[:, state.film_temperature.shape[1] // 2 :]
-    equation.thicken(half)
+    equation.thicken(half.ravel())
     place, step, columns = state.eccentricity / LOBES.clearance, 1e-5, []
     for way in np.eye(2):
         ends = []

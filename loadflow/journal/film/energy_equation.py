@@ -29,6 +29,7 @@ from loadflow.journal.film import _kernels as coefficient
 from loadflow.journal.film.energy_balance import FRESH, Flows, HeatBalance, Volumes, sparse
 from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.gap_warm import AcrossFilm, WarmGap
+from loadflow.journal.film.ring_growth import RingExpansion
 from loadflow.journal.film.surface_temperatures import Across, Surfaces
 from loadflow.journal.heat import HOTTEST, FilmHeat
 
@@ -120,15 +121,53 @@ class EnergyEquation:
         self._skew: Array | float = 0.0
         clearance = film.relative_clearance * film.radius
         self._surfaces = Surfaces.of(heat, np.full(self.size, clearance))
+        grows = heat.growth is not None
+        self._expansion = RingExpansion(heat, film.mesh, film.radius) if grows else None
 
-    def thicken(self, temperature: Array) -> None:
-        """Give the film the viscosity of its cells at `temperature` (nx, nz), K."""
+    def state(self, warmth: Warmth | None) -> Array:
+        """Temperatures, K, by which the film is as it is; without `warmth` those of cold oil.
+
+        Those of the cells, and of a shaft that grows.
+        """
+        if warmth is None:
+            cold = self.heat.inlet_temperature
+            cells, shaft = np.full(self.film.mesh.shape, cold), self.heat.shaft_temperature or cold
+        else:
+            cells, shaft = warmth.cells, warmth.shaft
+        return cells.ravel() if self._expansion is None else np.append(cells, shaft)
+
+    def cells_of(self, state: Array) -> Array:
+        """Temperatures of the cells (nx, nz) in a `state`, K."""
+        shape = self.film.mesh.shape
+        return state[: shape[0] * shape[1]].reshape(shape)
+
+    def thicken(self, state: Array) -> None:
+        """Give the film the viscosity and the growth of its cells at the temperatures `state`."""
+        temperature = self.cells_of(state)
         plain = self.heat.liquid.viscosity(temperature) / self.film.viscosity
         every = AcrossFilm(plain, plain.copy(), np.ones_like(plain))
+        if self._expansion is not None:
+            self._shaft = float(state[-1])
         across = self._viscosity(temperature[self.wet], self._shaft, self._skew)
         for all_, wet in zip(every, across.film):
             all_[self.wet] = wet
         self.gap.thicken(every)
+        if self._expansion is not None:
+            shell = temperature.copy()
+            shell[self.wet] = self._surfaces.shell.at(shell[self.wet], self._shaft, self._skew)
+            growth = self._expansion.of(shell, self._shaft)
+            self.gap.grow(growth / (self.film.relative_clearance * self.film.radius))
+
+    @property
+    def growth(self) -> Array:
+        """Growth of the gap of the cells by heat, (nx, nz), m."""
+        return self.gap.growth * (self.film.relative_clearance * self.film.radius)
+
+    @property
+    def mean_growth(self) -> float:
+        """The same on average over the cells, m."""
+        mesh = self.film.mesh
+        return float(np.average(self.growth, weights=np.outer(mesh.dx, mesh.dz)))
 
     def solve(self, u: Array, position: Array, guess: Array) -> Warmth:
         """Temperatures of the film at `u` and `position`.

@@ -23,7 +23,7 @@ from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.heat import HOTTEST, FilmHeat
 from loadflow.journal.line import Line
 from loadflow.journal.rows import field_row, static_row
-from loadflow.journal.solvers.newton import Solution
+from loadflow.journal.solvers.newton import Solution, no_film
 from loadflow.journal.solvers.statics import Statics
 from loadflow.numerics.anderson import Anderson
 from loadflow.numerics.convergence import Limits
@@ -75,7 +75,7 @@ def warm_rows(
     statics, equation = _prepared(bearing, options, line, float(np.abs(speeds).max()))
     each = replace(control, strict=False)
     rows = []
-    last: tuple[Solution, Array] | None = None
+    last: tuple[Solution, Warmth] | None = None
     for index, (load, omega) in enumerate(zip(loads, speeds.tolist())):
 
         def film_of(before: Solution | None, index: int = index, omega: float = omega) -> Solution:
@@ -88,7 +88,7 @@ def warm_rows(
             why = found.why or statics.message(found.solution, load)
             raise SolverError(f"load {index}: {why}")
         if found.converged and found.warmth is not None:
-            last = found.solution, found.warmth.cells
+            last = found.solution, found.warmth
         rows.append(_row(bearing, statics, equation, load, found, line.whirl))
     return rows
 
@@ -116,6 +116,7 @@ def warm_fields(
             why = found.why or statics.message(found.solution)
             raise SolverError(f"film {index}: {why}")
         row = field_row(statics.film, statics.gap, _flagged(found))
+        row["eccentricity_ratio"] /= 1.0 + equation.mean_growth / bearing.clearance
         rows.append(row | _heat_columns(equation, found))
     return rows, statics.film.mesh.z * bearing.radius
 
@@ -131,18 +132,21 @@ def _prepared(
 
 
 def _coupled(
-    equation: EnergyEquation, film_of: FilmOf, last: tuple[Solution, Array] | None
+    equation: EnergyEquation, film_of: FilmOf, last: tuple[Solution, Warmth] | None
 ) -> _Warm:
     """Film and temperatures that agree, from those of the `last` load or from cold oil."""
     film = equation.film
-    cold = np.full(film.mesh.shape, equation.heat.inlet_temperature)
-    before, now = (None, cold) if last is None else last
+    cold = equation.state(None)
+    before, now = (None, cold) if last is None else (last[0], equation.state(last[1]))
     good, warmth, residual = cold, None, np.inf
     method, halved, spent = Anderson(_DEPTH), 0, 0
     best, share, nearest, too_hot = np.inf, 1.0, (now, now), 0
     for iteration in range(1, TRIES + 1):
         equation.thicken(now)
-        solution = film_of(before)
+        try:
+            solution, seized = film_of(before), ""
+        except SolverError as error:  # the shaft has grown into its shell
+            solution, seized = no_film(film), str(error)
         spent += solution.iterations
         solution = replace(solution, iterations=spent)
         if not solution.converged:
@@ -153,16 +157,17 @@ def _coupled(
             before, now = None, 0.5 * (now + good)
             continue
         try:
-            warmth = equation.solve(solution.u, solution.position, now)
+            warmth = equation.solve(solution.u, solution.position, equation.cells_of(now))
         except SolverError as error:
             return _Warm(solution, None, residual, iteration, False, str(error))
+        found = equation.state(warmth)
         before, good = solution, now
-        residual = float(np.abs(warmth.cells - now).max())
-        too_hot = too_hot + 1 if float(min(now.max(), warmth.cells.max())) > HOTTEST else 0
+        residual = float(np.abs(found - now).max())
+        too_hot = too_hot + 1 if float(min(now.max(), found.max())) > HOTTEST else 0
         if too_hot > _TOO_HOT:
             break
         if residual < best:
-            best, nearest, share = residual, (now, warmth.cells), min(1.0, 2.0 * share)
+            best, nearest, share = residual, (now, found), min(1.0, 2.0 * share)
         if residual <= TOLERANCE:
             hottest = max(warmth.hottest, float(warmth.cells.max()))
             hot = f"the film gets hotter than {HOTTEST} K: {hottest:.4g} K"
@@ -170,7 +175,7 @@ def _coupled(
             return _Warm(solution, warmth, residual, iteration, fine, "" if fine else hot)
         if iteration >= _ACCELERATED and residual > _NEAR:
             method.forget()
-            now = now + _SHORT * (warmth.cells - now)
+            now = now + _SHORT * (found - now)
             continue
         if (
             iteration < _ACCELERATED and residual > _WORSE * best
@@ -180,12 +185,11 @@ def _coupled(
             now = nearest[0] + share * (nearest[1] - nearest[0])
             continue
         share = share if iteration < _ACCELERATED else _SHORT
-        relaxed = now + share * (warmth.cells - now)
-        now = method.next(now.ravel(), relaxed.ravel()).reshape(now.shape)
-        low, high = warmth.cells.min() - 5.0, warmth.cells.max() + 5.0
+        now = method.next(now, now + share * (found - now))
+        low, high = found.min() - 5.0, found.max() + 5.0
         now = np.clip(now, low, min(high, HOTTEST + 100.0))
-    why = ""
-    if warmth is not None:
+    why = seized
+    if warmth is not None and not seized:
         why = f"temperatures: {residual:.3g} K left after {iteration} fields"
     if too_hot:
         why = f"the film gets hotter than {HOTTEST} K"
@@ -209,9 +213,30 @@ def _row(
     heat, film = equation.heat, equation.film
     mean = heat.inlet_temperature if found.warmth is None else found.warmth.mean
     row = static_row(bearing, film, statics.gap, load, heat.lubricant(mean), _flagged(found), whirl)
+    if heat.growth is not None:
+        row |= _grown(row, bearing, equation, found)
     angle, z = film.mesh.angle, film.mesh.z * bearing.radius
     both = z if z[0] < 0 else np.concatenate([-z[::-1], z])
     return row | _heat_columns(equation, found) | {"angle": angle, "z": both}
+
+
+def _grown(
+    row: dict[str, Any], bearing: JournalGeometry, equation: EnergyEquation, found: _Warm
+) -> dict[str, Any]:
+    """What a `row` says in clearances, in those that shaft and shell have as warm as they are."""
+    if not found.converged:
+        return {"clearance": np.nan}
+    share = 1.0 + equation.mean_growth / bearing.clearance
+    reynolds = row["reynolds_number"] * share
+    critical = row["critical_reynolds_number"] / np.sqrt(share)
+    return {
+        "clearance": share * bearing.clearance,
+        "eccentricity_ratio": row["eccentricity_ratio"] / share,
+        "sommerfeld_number": row["sommerfeld_number"] * share**2,
+        "reynolds_number": reynolds,
+        "critical_reynolds_number": critical,
+        "laminar": reynolds < critical,
+    }
 
 
 def _heat_columns(equation: EnergyEquation, found: _Warm) -> dict[str, Any]:
@@ -221,10 +246,11 @@ def _heat_columns(equation: EnergyEquation, found: _Warm) -> dict[str, Any]:
     said: dict[str, Any]
     if warmth is None:
         field, grooves = np.full(film.mesh.shape, np.nan), np.full((equation.grooves, 2), np.nan)
-        shell = field
+        shell = growth = field
         said = dict.fromkeys(_NUMBERS, np.nan)
     else:
         field, grooves, shell = warmth.cells, warmth.grooves, warmth.shell
+        growth = equation.growth
         said = {
             "friction_power": warmth.friction,
             "temperature": warmth.mean,
@@ -237,10 +263,13 @@ def _heat_columns(equation: EnergyEquation, found: _Warm) -> dict[str, Any]:
             "heat_imbalance": warmth.imbalance,
         }
     if film.mesh.half:
-        field, shell = (np.concatenate([x[:, ::-1], x], axis=1) for x in (field, shell))
+        field, shell, growth = (
+            np.concatenate([x[:, ::-1], x], axis=1) for x in (field, shell, growth)
+        )
     return said | {
         "film_temperature": field,
         "surface_temperature": shell,
+        "thermal_growth": growth,
         "film_viscosity": np.asarray(oil.viscosity(field)),
         "trailing_temperature": grooves[:, 0],
         "leading_temperature": grooves[:, 1],
