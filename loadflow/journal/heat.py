@@ -289,6 +289,13 @@ class FilmHeat(_Entering):
         these and midway; the film then conducts to the surfaces by its own conductivity, and
         `shell_transfer` and `shaft_transfer` are from there on. 4: on a cubic, whose first moment
         the flow carries on, too: heat of the surfaces takes its way to the middle of the film.
+    growth : RingGrowth, optional
+        Expansion of shaft and shell; left out, the gap is the same at all temperatures.
+    stiffness : {"frozen", "settled"}
+        Temperatures at which the load is differentiated by the place of the shaft. "frozen": those
+        that the film has, for motion faster than it warms, such as vibration. "settled": those in
+        balance at every place, for slow drift; by differences of films with their heat, four of
+        them more for an aligned shaft. Damping is always that at frozen temperatures.
 
     Raises
     ------
@@ -313,6 +320,7 @@ class FilmHeat(_Entering):
     shaft_temperature: Annotated[float, Gt(200)] | None = None
     points: Literal[1, 3, 4] = 1
     growth: RingGrowth | None = None
+    stiffness: Literal["frozen", "settled"] = "frozen"
     kind: Literal["film"] = "film"
 
     over_area: ClassVar[bool] = True

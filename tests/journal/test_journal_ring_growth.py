@@ -195,3 +195,37 @@ def test_a_scene_has_the_growth_of_a_ring():
     assert again.heat == section.heat
     with pytest.raises(InputError, match=r"journal\.heat\.growth\.outer_diameter"):
         make_journal(base | {"heat": {"kind": "film", "growth": {}}}, "journal")
+
+
+@pytest.mark.parametrize("growth", [None, RING])
+def test_a_settled_stiffness_is_the_slope_of_the_force_with_its_temperatures(growth):
+    options = film(growth=growth, stiffness="settled")
+    state = LOBES.equilibrium(LOAD, SPEED, options)
+    frozen = LOBES.equilibrium(LOAD, SPEED, film(growth=growth))
+    step, columns = 2e-7, []
+    for way in np.eye(2):
+        ends = [
+            LOBES.pressure(state.eccentricity + sign * step * way, SPEED, options).force
+            for sign in (1.0, -1.0)
+        ]
+        columns.append((ends[0] - ends[1]) / (2.0 * step))
+    expected = np.array(columns).T
+    np.testing.assert_allclose(state.stiffness, expected, atol=2e-3 * np.abs(expected).max())
+    apart = np.abs(frozen.stiffness - expected).max()
+    assert apart > 0.02 * np.abs(expected).max()
+    np.testing.assert_allclose(state.damping, frozen.damping, rtol=1e-6)
+
+
+def test_a_settled_stiffness_with_tilt_has_its_moments_and_pads_refuse_it():
+    grid = (40, 8)
+    settled, frozen = (
+        LOBES.equilibrium(LOAD, SPEED, film(grid, stiffness=kind), tilt=(1e-4, 0.0)).stiffness
+        for kind in ("settled", "frozen")
+    )
+    assert settled.shape == (4, 4)
+    for block in (np.s_[:2, :2], np.s_[2:, 2:]):
+        apart = np.abs(settled[block] - frozen[block]).max() / np.abs(frozen[block]).max()
+        assert 1e-3 < apart < 0.5
+    pads = JournalBearing(**SIZE, shape=TiltingPads(4, 1.2))
+    with pytest.raises(InputError, match=r"heat\.stiffness = 'settled'"):
+        pads.equilibrium(LOAD, SPEED, film(stiffness="settled"))

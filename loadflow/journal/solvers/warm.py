@@ -23,7 +23,7 @@ from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.heat import HOTTEST, FilmHeat
 from loadflow.journal.line import Line
 from loadflow.journal.rows import field_row, static_row
-from loadflow.journal.solvers.newton import Solution, no_film
+from loadflow.journal.solvers.newton import Solution, no_film, solve_film
 from loadflow.journal.solvers.statics import Statics
 from loadflow.numerics.anderson import Anderson
 from loadflow.numerics.convergence import Limits
@@ -40,6 +40,7 @@ _ACCELERATED, _SHORT = 20, 0.3  # fields after which only this share of each cha
 _NEAR = 0.5  # change, K, below which the method is trusted again
 _WORSE = 1.5  # of the smallest change so far, that from which the next field goes back
 _TOO_HOT = 10  # fields in a row above the largest temperature, after which none is tried
+_STEP = 2e-3  # of the narrowest gap, by which the shaft moves for a settled stiffness
 _HALVINGS = 12  # steps of the temperature that are halved before the film is given up
 
 
@@ -87,10 +88,52 @@ def warm_rows(
         if not found.converged and control.strict:
             why = found.why or statics.message(found.solution, load)
             raise SolverError(f"load {index}: {why}")
+        row = _row(bearing, statics, equation, load, found, line.whirl)
         if found.converged and found.warmth is not None:
             last = found.solution, found.warmth
-        rows.append(_row(bearing, statics, equation, load, found, line.whirl))
+            if equation.heat.stiffness == "settled":
+                row["stiffness"] = _settled_stiffness(bearing, statics, equation, last, control)
+        rows.append(row)
     return rows
+
+
+def _settled_stiffness(
+    bearing: JournalGeometry,
+    statics: Statics,
+    equation: EnergyEquation,
+    last: tuple[Solution, Warmth],
+    control: Limits,
+) -> Array:
+    """Stiffness, N/m, of a shaft that moves so slowly that the temperatures follow.
+
+    Raises
+    ------
+    loadflow.errors.SolverError
+        If ``control.strict``, a film beside the equilibrium has no temperatures; else all are NaN.
+    """
+    film, size = statics.film, statics.gap.size
+    step = _STEP * film.narrowest(last[0].u, last[0].position)
+    limits = control.tolerance, film.newton_steps(control.max_iterations)
+    columns = np.empty((size, size))
+    for way in range(size):
+        ends = []
+        for sign in (1.0, -1.0):
+            place = last[0].position.copy()
+            place[way] += sign * step
+
+            def film_of(before: Solution | None, place: Array = place) -> Solution:
+                start = film.start() if before is None else before.u
+                return solve_film(film, start, place, np.zeros(size), *limits)
+
+            found = _coupled(equation, film_of, last)
+            if not found.converged:
+                if control.strict:
+                    raise SolverError(f"no temperatures beside the equilibrium: {found.why}")
+                return np.full((size, size), np.nan)
+            ends.append(found.solution.linear.load)
+        columns[:, way] = (ends[0] - ends[1]) / (2.0 * step)
+    lengths = np.where(np.arange(size) < 2, 1.0, film.radius)  # those of tilts are arms
+    return columns * np.outer(lengths, lengths) / bearing.clearance
 
 
 def warm_fields(
