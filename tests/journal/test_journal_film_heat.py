@@ -264,10 +264,6 @@ def test_a_scene_has_either_kind_of_heat():
     for more, words in (
         ({"heat": {"kind": "film", "transfer": 5.0}}, r"journal\.heat\.transfer: unknown key"),
         ({"heat": {"kind": "oven"}}, "kind must be one of balance, film"),
-        (
-            {"heat": {"kind": "film"}, "motion": "transient"},
-            "no rung serves for an energy",
-        ),
         ({"heat": {"kind": "film"}, "rung": "reduced"}, '"grid" for an energy equation'),
         ({"heat": {"kind": "film"}, "cavitation": "reynolds"}, "a law that conserves mass"),
     ):

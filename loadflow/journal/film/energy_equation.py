@@ -15,6 +15,7 @@ q_in.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -170,14 +171,16 @@ class EnergyEquation:
         return float(np.average(self.growth, weights=np.outer(mesh.dx, mesh.dz)))
 
     def solve(self, u: Array, position: Array, guess: Array) -> Warmth:
-        """Temperatures of the film at `u` and `position`.
+        """Temperatures of the film at unknowns `u` and `position`, as `solve_mean` of one."""
+        return self.solve_mean([(u, position, self.film.speed)], guess)
+
+    def solve_mean(self, films: Sequence[tuple[Array, Array, float]], guess: Array) -> Warmth:
+        """Temperatures in balance with the mean of the heat that some films make and carry.
 
         Parameters
         ----------
-        u : array (nx, nz)
-            Unknowns of the film.
-        position : array (m,)
-            Of the shaft, clearances.
+        films : sequence of (array (nx, nz), array (m,), float)
+            Unknowns of the film, position of the shaft in clearances, and speed, rad/s.
         guess : array (nx, nz)
             Temperatures to start from, K.
 
@@ -186,21 +189,29 @@ class EnergyEquation:
         loadflow.errors.SolverError
             No temperature is found.
         """
-        flows, shear, pumped = self._given(u, position)
         heat, film = self.heat, self.film
         clearance = film.relative_clearance * film.radius
-        self._surfaces = Surfaces.of(heat, clearance * self.gap.films[self.wet])
+        unit = film.mirrors * film.viscosity * film.radius**4 / clearance
+        each: list[Flows] = []
+        gaps, sheared, pumped = (np.zeros(self.size) for _ in range(3))
+        for u, position, speed in films:
+            film.set_speed(speed)
+            own, shear, lost = self._given(u, position)
+            each.append(own)
+            sheared += unit * speed**2 * shear / len(films)
+            pumped += lost / len(films)
+            gaps += clearance * self.gap.films[self.wet] / len(films)
+        flows = Flows.mean(each)
+        self._surfaces = Surfaces.of(heat, gaps)
         volumes, size = self.volumes, self.size
         matrix, rhs = HeatBalance(heat, volumes, self._surfaces, flows).linear()
         t = np.full(volumes.unknowns, heat.inlet_temperature)
         t[:size] = guess[self.wet]
         t[volumes.shaft] = float(np.average(t[:size], weights=volumes.area))
         t[volumes.count :] = self._skew
-        drag = film.mirrors * film.viscosity * film.speed**2 * film.radius**4
-        drag /= clearance
         residual = np.inf
         for _ in range(_STEPS):
-            source, slopes = self._sources(t, drag * shear, pumped)
+            source, slopes = self._sources(t, sheared, pumped)
             missing = matrix @ t - rhs - source
             largest = max(float(np.abs(source).max()), 1e-300)
             residual = float(np.abs(missing[:size]).max()) / largest
@@ -218,7 +229,7 @@ class EnergyEquation:
         else:
             raise SolverError(f"temperatures of the film: change {np.abs(step).max():.3g} K left")
         self._shaft, self._skew = float(t[volumes.shaft]), volumes.skew(t)
-        return self._told(t, flows, drag * shear, pumped, residual)
+        return self._told(t, flows, sheared, pumped, residual)
 
     # --- inside ----------------------------------------------------------------------------------
     def _sources(self, t: Array, sheared: Array, pumped: Array) -> tuple[Array, csc_matrix]:

@@ -32,6 +32,8 @@ from loadflow.numerics.fields import require
 Array = NDArray[np.float64]
 FilmOf = Callable[["Solution | None"], Solution]
 """The film at given viscosities, from the last solution."""
+HeatOf = Callable[[Array], Warmth]
+"""Temperatures in balance with the film last solved, from a first guess (nx, nz)."""
 
 TOLERANCE, TRIES = 1e-7, 100
 """Largest change of a temperature that is left, K, and the fields of temperature tried."""
@@ -45,7 +47,7 @@ _HALVINGS = 12  # steps of the temperature that are halved before the film is gi
 
 
 @dataclass(frozen=True)
-class _Warm:
+class WarmFilm:
     """A film with its temperatures; the change (K) that is left of them; how many were tried."""
 
     solution: Solution
@@ -82,9 +84,9 @@ def warm_rows(
         def film_of(before: Solution | None, index: int = index, omega: float = omega) -> Solution:
             return statics.solve(index, loads[index], omega, before, each)
 
-        found = _coupled(equation, film_of, last)
+        found = coupled(equation, film_of, last)
         if not found.converged and last is not None:
-            found = _coupled(equation, film_of, None)
+            found = coupled(equation, film_of, None)
         if not found.converged and control.strict:
             why = found.why or statics.message(found.solution, load)
             raise SolverError(f"load {index}: {why}")
@@ -125,7 +127,7 @@ def _settled_stiffness(
                 start = film.start() if before is None else before.u
                 return solve_film(film, start, place, np.zeros(size), *limits)
 
-            found = _coupled(equation, film_of, last)
+            found = coupled(equation, film_of, last)
             if not found.converged:
                 if control.strict:
                     raise SolverError(f"no temperatures beside the equilibrium: {found.why}")
@@ -154,7 +156,7 @@ def warm_fields(
         def film_of(before: Solution | None, index: int = index, omega: float = omega) -> Solution:
             return statics.hold(index, places[index], velocities[index], omega, control)
 
-        found = _coupled(equation, film_of, None)
+        found = coupled(equation, film_of, None)
         if not found.converged and control.strict:
             why = found.why or statics.message(found.solution)
             raise SolverError(f"film {index}: {why}")
@@ -174,10 +176,16 @@ def _prepared(
     return statics, EnergyEquation(statics.film, gap, heat)
 
 
-def _coupled(
-    equation: EnergyEquation, film_of: FilmOf, last: tuple[Solution, Warmth] | None
-) -> _Warm:
-    """Film and temperatures that agree, from those of the `last` load or from cold oil."""
+def coupled(
+    equation: EnergyEquation,
+    film_of: FilmOf,
+    last: tuple[Solution, Warmth] | None,
+    heat_of: HeatOf | None = None,
+) -> WarmFilm:
+    """Film and temperatures that agree, from those of the `last` load or from cold oil.
+
+    `heat_of` has the temperatures of a film, by default those in balance with it alone.
+    """
     film = equation.film
     cold = equation.state(None)
     before, now = (None, cold) if last is None else (last[0], equation.state(last[1]))
@@ -200,9 +208,13 @@ def _coupled(
             before, now = None, 0.5 * (now + good)
             continue
         try:
-            warmth = equation.solve(solution.u, solution.position, equation.cells_of(now))
+            cells = equation.cells_of(now)
+            if heat_of is None:
+                warmth = equation.solve(solution.u, solution.position, cells)
+            else:
+                warmth = heat_of(cells)
         except SolverError as error:
-            return _Warm(solution, None, residual, iteration, False, str(error))
+            return WarmFilm(solution, None, residual, iteration, False, str(error))
         found = equation.state(warmth)
         before, good = solution, now
         residual = float(np.abs(found - now).max())
@@ -215,7 +227,7 @@ def _coupled(
             hottest = max(warmth.hottest, float(warmth.cells.max()))
             hot = f"the film gets hotter than {HOTTEST} K: {hottest:.4g} K"
             fine = hottest < HOTTEST
-            return _Warm(solution, warmth, residual, iteration, fine, "" if fine else hot)
+            return WarmFilm(solution, warmth, residual, iteration, fine, "" if fine else hot)
         if iteration >= _ACCELERATED and residual > _NEAR:
             method.forget()
             now = now + _SHORT * (found - now)
@@ -236,10 +248,10 @@ def _coupled(
         why = f"temperatures: {residual:.3g} K left after {iteration} fields"
     if too_hot:
         why = f"the film gets hotter than {HOTTEST} K"
-    return _Warm(solution, warmth, residual, iteration, False, why)
+    return WarmFilm(solution, warmth, residual, iteration, False, why)
 
 
-def _flagged(found: _Warm) -> Solution:
+def _flagged(found: WarmFilm) -> Solution:
     """The film, converged only with its temperatures."""
     return replace(found.solution, converged=found.converged)
 
@@ -249,7 +261,7 @@ def _row(
     statics: Statics,
     equation: EnergyEquation,
     load: Array,
-    found: _Warm,
+    found: WarmFilm,
     whirl: float,
 ) -> dict[str, Any]:
     """One row of `FilmHeatEquilibrium`."""
@@ -264,7 +276,7 @@ def _row(
 
 
 def _grown(
-    row: dict[str, Any], bearing: JournalGeometry, equation: EnergyEquation, found: _Warm
+    row: dict[str, Any], bearing: JournalGeometry, equation: EnergyEquation, found: WarmFilm
 ) -> dict[str, Any]:
     """What a `row` says in clearances, in those that shaft and shell have as warm as they are."""
     if not found.converged:
@@ -282,7 +294,7 @@ def _grown(
     }
 
 
-def _heat_columns(equation: EnergyEquation, found: _Warm) -> dict[str, Any]:
+def _heat_columns(equation: EnergyEquation, found: WarmFilm) -> dict[str, Any]:
     """What a result says of its temperatures; NaN where there are none."""
     film, oil = equation.film, equation.heat.liquid
     warmth = found.warmth if found.converged else None
