@@ -254,8 +254,8 @@ class JournalBearing(JournalGeometry):
             mean friction and flow of the series; with `FilmHeat` the temperatures over its area are
             those of the mean heat of films at rest under loads of the series. "map" and the
             historical methods add ``in_range``, whether they cover the path; "butenschoen" and
-            "holland" know no pressure, flow or fill. An elastic shell has no inertia; the result then has its
-            `shell_deformation`.
+            "holland" know no pressure, flow or fill. An elastic shell has no inertia; the result
+            then has its `shell_deformation`.
         control : Control, optional
             How hard to solve; by default to 1e-8 in 30 Newton steps per time step.
         start : array_like (2,), optional
