@@ -85,7 +85,7 @@ REASONS = ("touches", "carries no load", "starved", "carries no more", "half-spe
 REASONS += ("find no tilt", "a cone presses the shaft away", "the film gets hotter than")
 REASONS += ("no heat balance below 423.15 K; at 423",)
 SEEDS = {"cylinder": 1, "shaped": 2, "supply": 3, "line": 4, "shell": 5, "orbit": 6}
-SEEDS |= {"contact": 7, "thrust": 8, "cone": 9, "pair": 10, "heat": 11}
+SEEDS |= {"contact": 7, "thrust": 8, "cone": 9, "pair": 10, "heat": 11, "touching": 12}
 
 
 @dataclass
@@ -251,6 +251,19 @@ def contact(point: Point) -> Callable[[], Any]:
     return line(point) if rng.random() < 0.5 else point.solve
 
 
+def touching(point: Point) -> Callable[[], Any]:
+    """Rough surfaces under loads that press them together, half of them tilted."""
+    number = powers(point.rng, 20.0, 300.0)
+    point.load *= number / point.number
+    point.number = number
+    size = powers(point.rng, 3e-3, 3e-2) * point.gap
+    rough = AsperityContact(
+        roughness=size, contact_modulus=115e9, factor=powers(point.rng, 1e-4, 1e-2)
+    )
+    point.film["contact"] = Contact(rough)
+    return line(point) if point.rng.random() < 0.5 else point.solve
+
+
 def thrust(point: Point) -> Callable[[], Any]:
     """Rings of 3 … 8 lands or tilting pads under what they carry at some film."""
     rng, count, outer = point.rng, int(point.rng.integers(3, 9)), 0.5 * point.diameter
@@ -367,6 +380,7 @@ FAMILIES: dict[str, Callable[[Point], Callable[[], Any]]] = {
     "line": line,
     "shell": shell,
     "contact": contact,
+    "touching": touching,
     "thrust": thrust,
     "cone": cone,
     "heat": heat,

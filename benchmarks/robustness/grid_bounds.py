@@ -3,15 +3,17 @@
 python -m benchmarks.robustness.grid_bounds [--draws N] [--first I] [--json FILE] [FAMILY …]
 
 The draws are those of `benchmarks.robustness.families`. The error is 4/3 of the difference from
-twice as many cells each way, as of the second order. For each family: draws with both answers, the
-share of them in which `Equilibrium.grid_error` holds the error of each quantity, the median of
-bound over error, and of h_min how many are more than 25 % off with and without `resolved`.
+twice as many cells each way, as of the second order; "touching" takes those draws in which
+asperities carry. For each family: draws with both answers, the share of them in which
+`Equilibrium.grid_error`, or the attributes of a path, hold the error of each quantity, the median
+of bound over error, and of h_min how many are more than 25 % off with and without `resolved`.
 """
 
 from __future__ import annotations
 
 import json
 import warnings
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -23,6 +25,7 @@ from loadflow.journal.grid_bounds import BOUNDED, UNRESOLVED
 
 QUANTITIES = BOUNDED[1:]
 _RICHARDSON = 4.0 / 3.0
+_TOUCHES = 0.01  # share of the load on asperities from which surfaces touch
 
 
 def apart(name: str, one: float, other: float) -> float:
@@ -42,6 +45,8 @@ def compare(family: str, number: int) -> dict[str, Any] | None:
         finer = work()
     except LoadflowError:
         return None
+    if family == "touching" and not state.contact_share > _TOUCHES:
+        return None
     row = {
         name: (
             float(getattr(state.grid_error, name)),
@@ -53,11 +58,35 @@ def compare(family: str, number: int) -> dict[str, Any] | None:
     return row | {"resolved": bool(state.resolved), "off": off / float(finer.minimum_film)}
 
 
+def compare_path(number: int) -> dict[str, Any] | None:
+    """Bounds and errors of one path on the grid, of narrowest film and largest pressure."""
+    paths = []
+    for finer in (1, 2):
+        point = draw_point(np.random.default_rng([SEEDS["orbit"], number]))
+        around, across = min(point.film["grid"], (60, 12))
+        point.film["grid"] = (finer * around, finer * across)
+        try:
+            paths.append(FAMILIES["orbit"](point)())
+        except LoadflowError:
+            return None
+    if "resolved" not in paths[0].attrs:  # another rung
+        return None
+    film = [float(path.minimum_film.min()) for path in paths]
+    peak = [float(path.maximum_pressure.max()) for path in paths]
+    row = {
+        f"{name}": (paths[0].attrs[f"{name}_grid_error"], _RICHARDSON * abs(one - other))
+        for name, (one, other) in (("minimum_film", film), ("maximum_pressure", peak))
+    }
+    off = abs(film[0] - film[1]) / film[1]
+    return row | {"resolved": bool(paths[0].attrs["resolved"]), "off": off}
+
+
 def run(family: str, numbers: range) -> dict[str, Any]:
     """Shares of one family."""
-    rows = [row for number in numbers if (row := compare(family, number)) is not None]
+    asked = compare_path if family == "orbit" else partial(compare, family)
+    rows = [row for number in numbers if (row := asked(number)) is not None]
     row: dict[str, Any] = {"draws": len(rows)}
-    for name in QUANTITIES:
+    for name in [name for name in QUANTITIES if name in rows[0]]:
         bound, error = np.array([one[name] for one in rows]).T
         known = error > 1e-12 * np.abs(bound)
         row[name] = {
@@ -76,7 +105,7 @@ def run(family: str, numbers: range) -> dict[str, Any]:
 def main() -> None:
     """Draw and print the shares."""
     parser = arguments(__doc__)
-    every = ["cylinder", "shaped", "supply", "line", "shell", "contact"]
+    every = ["cylinder", "shaped", "supply", "line", "shell", "contact", "touching", "orbit"]
     parser.add_argument("families", nargs="*", default=every, metavar="FAMILY")
     parser.add_argument("--draws", type=int, default=200)
     parser.add_argument("--first", type=int, default=0)

@@ -291,7 +291,10 @@ class JournalBearing(JournalGeometry):
             supply_power, total_fill, groove_flow, groove_pressure, residual, iterations; steps
             where they adapt.
             Attributes: ``mass_balance``, what entered the film less what left and what stayed, over
-            what left; of a closed orbit ``closure`` and ``periods``.
+            what left; of a closed orbit ``closure`` and ``periods``; on "grid" bounds of what the
+            cells do to the narrowest film, m, and the largest pressure, Pa,
+            ``minimum_film_grid_error`` and ``maximum_pressure_grid_error``, and ``resolved``, 0
+            where they do not resolve the film.
 
         Raises
         ------

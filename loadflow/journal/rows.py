@@ -138,9 +138,9 @@ def _common_row(
     """What both have; `balanced` is the stiffness that held the shaft, None at a given position."""
     clearance = film.relative_clearance * film.radius
     row: dict[str, Any] = summary(film, solution.u, solution.position)
-    row["relative_grid_error"] = relative_errors(
-        film, gap, solution.position, balanced, solution.free, solution.linear.load
-    )
+    rubbing = row.get("contact_power", 0.0) / max(row["friction_power"], 1e-300)
+    carried = solution.free, solution.linear.load, rubbing
+    row["relative_grid_error"] = relative_errors(film, gap, solution.position, balanced, *carried)
     shaft, lengths = film.gap.shaft, np.ones(film.gap.shaft)
     lengths[2:] = film.radius  # of the degrees of freedom: those of tilts are arms
     rows = np.arange(film.gap.size)[solution.free]

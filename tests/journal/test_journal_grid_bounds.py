@@ -10,6 +10,7 @@ from loadflow.errors import ValidityWarning
 from loadflow.journal import (
     ConicalBearing,
     ConicalPair,
+    Contact,
     Film,
     GasMixture,
     Groove,
@@ -23,6 +24,7 @@ from loadflow.journal import (
     Supply,
     ThrustBearing,
 )
+from loadflow.tribology import AsperityContact
 
 OIL = Lubricant(0.03)
 SIZE = {"diameter": 0.2, "width": 0.1, "relative_clearance": 1e-3}
@@ -121,6 +123,55 @@ def test_bounds_do_not_depend_on_the_company_in_a_batch():
         both.relative_grid_error[1], alone.relative_grid_error, rtol=1e-6, atol=1e-12
     )
     assert {part.name for part in dataclasses.fields(both.grid_error)} == set(vars(both.grid_error))
+
+
+PATHS = {
+    "turns": ({"cavitation": GasMixture(5e4), "edge_pressure": 1e5}, {}, 0.25),
+    "closed": ({}, {"periodic": True}, 0.25),
+    "touches": (
+        {"contact": Contact(AsperityContact(roughness=2e-6, contact_modulus=1e11, factor=1e-3))},
+        {},
+        0.7,
+    ),
+}
+
+
+@pytest.mark.parametrize("kind", PATHS)
+def test_a_path_bounds_the_error_of_its_cells(kind):
+    film, more, within = PATHS[kind]
+    time = np.linspace(0.0, 2 * np.pi / 100.0, 17)
+    load = LOAD + 4e3 * np.stack([np.cos(100.0 * time), np.sin(100.0 * time)], axis=-1)
+    load[-1] = load[0]
+    speed = 100.0 if kind != "touches" else 4.0
+    own, fine = (
+        BEARING.orbit(time, load, speed, Film(OIL, grid=size, **film), **more)
+        for size in ((48, 8), (120, 20))
+    )
+    for name, extreme in (("minimum_film", np.min), ("maximum_pressure", np.max)):
+        values = [float(extreme(path[name])) for path in (own, fine)]
+        bounds = [path.attrs[f"{name}_grid_error"] for path in (own, fine)]
+        assert 0.0 < abs(values[0] - values[1]) < bounds[0], name
+        assert bounds[1] < 0.5 * bounds[0]
+    assert own.attrs["minimum_film_grid_error"] < within * float(own.minimum_film.min())
+    assert own.attrs["resolved"] == (within == 0.25)
+
+
+def test_a_path_says_that_its_cells_do_not_resolve_it():
+    time = np.linspace(0.0, 0.2, 9)
+    load = np.tile((6e4, 0.0), (9, 1))
+    lobes = JournalBearing(**SIZE, shape=Lobes(2, preload=0.6))
+    path = lobes.orbit(time, load, 100.0, Film(OIL, GasMixture(5e4), 1e5, grid=(24, 4)))
+    assert path.attrs["resolved"] == 0
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("family", ["orbit", "touching"])
+def test_bounds_of_paths_and_of_rough_films_hold_in_95_of_100_draws(family):
+    row = run(family, range(7000, 7100))
+    held = {name: part["held"] for name, part in row.items() if isinstance(part, dict)}
+    assert row["draws"] > 40
+    assert min(held.values()) >= 0.9, held  # of 95 %, with this few draws
+    assert row["far_off_untold"] <= 1
 
 
 @pytest.mark.slow

@@ -25,6 +25,7 @@ _TURN = 2.5  # of the attitude, of the way of the shaft: it turns more readily t
 _SHEAR, _DRAG = 1.0 / 30.0, 0.3  # of friction, of all of them and of the change of the gap
 # where the unknowns lie on nodes and the film ends on the edges; the whole gap may close there
 _NODES, _CLOSES = 1.25, 1.5
+_LITTLE = 1e-6  # of the load, the least that a film beside asperities is taken to carry
 _REGULAR = 1e-12  # determinant of a stiffness, over its largest entry squared, that is not 0
 _FLOW, _OPEN = 1.0 / 3.0, 2.0  # of the side flow, of all of them and of what moves and opens
 
@@ -36,6 +37,7 @@ def relative_errors(
     stiffness: Array | None,
     free: slice | NDArray[np.int64],
     load: Array,
+    rubbing: float = 0.0,
 ) -> Array:
     """Relative bounds of a film last placed where it was solved, in the order of `BOUNDED`.
 
@@ -50,7 +52,9 @@ def relative_errors(
     free : slice or array of int
         Degrees of freedom in balance.
     load : array (m,)
-        What the film carries, N.
+        What film and asperities carry, N.
+    rubbing : float
+        Share of asperities in the friction.
     """
     width = np.hypot(gap.around[0], gap.around[1])
     share, missing, peak, _ = pressure_error(film, width, film.mesh.dz, 1.0)
@@ -78,10 +82,20 @@ def relative_errors(
         out[1], out[2] = outward / far, _TURN * np.hypot(outward, sideways) / far
     if gap.open_share is not None:  # rough surfaces keep a gap between them as their planes close
         closer *= float(gap.open_share.min())
+    whole, shifted, touch = float(np.hypot(*load[:2])), 0.0, None
+    if film.contact is not None and whole > 0.0:  # what the film leaves, asperities take
+        touch = film.contact.at(position)
+        lubricated = max(float(np.hypot(*(load - touch.load)[:2])), _LITTLE * whole)
+        closer *= 1.0 + float(np.hypot(*touch.load[:2])) / whole
+        # a film that carries little may do so in one spot
+        shifted = missing * whole / lubricated**2
     pressed = _LOAD * share * growth  # what an elastic shell opens with the pressure
     out[3], out[4] = (closer + pressed) / narrow, peak
     out[5] = _SHEAR * share + _DRAG * out[3]
     out[6] = _FLOW * share + _OPEN * (out[1] + out[3])
+    out[4] += shifted
+    if touch is not None and rubbing > 0.0:
+        out[5] += rubbing * missing / touch.normal
     return out
 
 

@@ -109,8 +109,11 @@ def orbit(
     else:
         past = marcher.begin(float(time[0]), first)
         begun = orbit_row(discrete, first, 0)  # at the speed and bend of the first time
-        rows, end = march(marcher, past, time, forces, speed, _lines(bearing, line, time.size))
-        rows, ends, about = [begun, *rows], (past[-1], end[-1]), {}
+        lines = _lines(bearing, line, time.size)
+        rows, end, extremes = march(marcher, past, time, forces, speed, lines)
+        discrete.set_speed(float(speed[0]))
+        extremes.see(begun, first)
+        rows, ends, about = [begun, *rows], (past[-1], end[-1]), extremes.bounds()
     values = columns_of(rows)
     if steps.step == "given":
         del values["steps"]

@@ -95,11 +95,11 @@ def close_orbit(
     # both states are within a clearance; every step of the period adds its roundings
     rounding = rounding_level(float(time.size))
     for number in range(1, max_periods + 1):
-        rows, end = march(marcher, past, time, force, speed)
+        rows, end, extremes = march(marcher, past, time, force, speed)
         following = [replace(p, time=p.time - period) for p in end[-2:]]
         last, residual = residual, _distance(marcher, past[-1], following[-1])
         if is_small(residual, closure, rounding):
-            about = {"closure": residual, "periods": number}
+            about = {"closure": residual, "periods": number} | extremes.bounds()
             return [rows[-1], *rows], (past[-1], end[-1]), about
         if method == "direct" and len(past) == len(following):
             if residual > 2 * last:

@@ -15,6 +15,7 @@ from loadflow.journal.film.gap_shaped import ShapedGap
 from loadflow.journal.film.integrals import summary
 from loadflow.journal.rows import attitude_angle
 from loadflow.journal.solvers.newton import Motion, Solution, solve_equilibrium
+from loadflow.journal.solvers.orbit_error import Extremes
 from loadflow.numerics.convergence import unresolved
 from loadflow.quantities import FILM
 
@@ -183,8 +184,8 @@ def march(
     force: Array,
     speed: Array,
     lines: Array | None = None,
-) -> tuple[list[dict[str, Any]], list[Past]]:
-    """Rows of the orbit at every time after the first, and the history at the last.
+) -> tuple[list[dict[str, Any]], list[Past], Extremes]:
+    """Rows of the orbit at every time after the first, the history at the last, and extremes.
 
     `lines` (n, 4) are tilt and bend of the shaft where they are given.
 
@@ -193,7 +194,7 @@ def march(
     SolverError
         A step fails even when cut.
     """
-    rows = []
+    rows, extremes = [], Extremes(marcher.film)
     for i in range(1, time.size):
         before = (force[i - 1], float(speed[i - 1]))
         now = float(time[i])
@@ -206,7 +207,8 @@ def march(
                 + unresolved(solution.residual, solution.rounding, solution.iterations)
             )
         rows.append(orbit_row(marcher.film, solution, steps))
-    return rows, past
+        extremes.see(rows[-1], solution)
+    return rows, past, extremes
 
 
 def orbit_row(film: DiscreteFilm, solution: Solution, steps: int) -> dict[str, Any]:
