@@ -18,6 +18,7 @@ import loadflow
 ROOT = Path(loadflow.__file__).parent
 
 FLOORS = (
+    ("__main__",),
     ("cli",),
     ("running",),
     ("planning",),

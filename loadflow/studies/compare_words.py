@@ -25,7 +25,7 @@ def conclusion(judged: Sequence[Judged]) -> str:
             f"{least.title}, which breaks {_listed(least.broken) or 'none that is known'}."
         )
     best = good[0]
-    text = f"{count}; of these {_told(best)}"
+    text = f"{count}; of these, {_told(best)}"
     others = [one for one in good if one.kind != best.kind]
     if others:
         return f"{text}; the best {others[0].kind} bearings, {_told(others[0])}."
