@@ -34,7 +34,7 @@ from loadflow.studies.compare_result import (
 )
 from loadflow.studies.compare_risks import rolling_risks, wear
 from loadflow.studies.compare_tilt import carries_thrust, shaft_tilt
-from loadflow.studies.compare_words import bearings, conclusion, drawn, facts, kind_of
+from loadflow.studies.compare_words import bearings, conclusion, drawn, facts, kind_of, references
 from loadflow.studies.run_lifetime import energy_per_year, known_shares
 from loadflow.studies.seed_intervals import Groups, interval, joint_life
 from loadflow.verdict import Verdict, from_dataset
@@ -142,6 +142,7 @@ def judged(run: Finished, folder: Path) -> Judged:
         bearings=bearings(run.scene, run.rooms),
         folder=run.folder.relative_to(folder).as_posix(),
         unanswered=dict(run.manifest.get("failures", {})),
+        references=references(run.rooms),
     )
 
 

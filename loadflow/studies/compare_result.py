@@ -92,6 +92,8 @@ class Judged:
         Of its run, relative to that of the comparison.
     unanswered : dict
         Parts without an answer.
+    references : str
+        Numbers of others that its models are held against.
     """
 
     name: str
@@ -108,6 +110,7 @@ class Judged:
     bearings: list[dict[str, Any]]
     folder: str
     unanswered: dict[str, str] = field(default_factory=dict)
+    references: str = ""
 
     @property
     def broken(self) -> list[Verdict]:
@@ -137,6 +140,7 @@ class Judged:
             "bearings": self.bearings,
             "folder": self.folder,
             "unanswered": self.unanswered,
+            "references": self.references,
         }
 
 
