@@ -133,6 +133,7 @@ FILM: dict[str, Quantity] = {
     "surface_temperature": Quantity(
         "T", "K", "temperature of the surface of the shell at each cell"
     ),
+    "thermal_growth": Quantity("", "m", "growth of the gap of each cell by heat"),
     "film_viscosity": Quantity("η", "Pa s", "viscosity in each cell"),
     "pressure": Quantity("p", "Pa", "film pressure, absolute"),
     "fill": Quantity("F", "1", "share of liquid in each cell"),

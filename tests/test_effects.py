@@ -157,6 +157,14 @@ def test_indicators_grow_with_what_they_stand_for():
     assert size(film.HEAT, "friction power", **thick) > size(film.HEAT, "friction power", **thin)
     assert size(film.TILT, "minimum film", **thin) > size(film.TILT, "minimum film", **thick)
     assert size(film.CONTACT, "minimum film", **thick) == 0.0
+    held, free = (
+        {"journal": {"heat": {"growth": {"shell_expansion": expansion}}}}
+        for expansion in (0.0, 11.7e-6)
+    )
+    assert size(film.GROWTH, "minimum film", **free) == 0.0  # steel in steel, as warm
+    assert size(film.GROWTH, "minimum film", **held) > 0.1
+    stated = {"journal": {"heat": {}}}
+    assert 0.0 < size(film.GROWTH, "minimum film", **stated) < 0.5
     worn = {"journal": {"lubricant": {"viscosity": 2e-5}}}
     assert size(film.CONTACT, "minimum film", **worn) > 0.0
     soft = {"journal": {"shell": {"kind": "local", "compliance": 1e-10}}}

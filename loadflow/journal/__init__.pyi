@@ -29,6 +29,7 @@ from .grid_error import grid_error as grid_error
 from .heat import FilmHeat as FilmHeat
 from .heat import Growth as Growth
 from .heat import Heat as Heat
+from .heat import RingGrowth as RingGrowth
 from .heat_results import FilmHeatEquilibrium as FilmHeatEquilibrium
 from .heat_results import FilmHeatField as FilmHeatField
 from .housings import Feet as Feet

@@ -251,10 +251,11 @@ class JournalBearing(JournalGeometry):
             As in `equilibrium`; laws with fill keep it in cells fixed to the shell, so that their
             mesh is uniform and without an inlet line. With `Heat` the result has the `temperature`
             of the film: one that follows its heat balance where heat is stored, else that of the
-            mean friction and flow of the series. "map" and the historical methods add
-            ``in_range``, whether they cover the path; "butenschoen" and "holland" know no pressure,
-            flow or fill. An elastic shell has no inertia; the result then has its
-            `shell_deformation`.
+            mean friction and flow of the series; with `FilmHeat` the temperatures over its area are
+            those of the mean heat of films at rest under loads of the series. "map" and the
+            historical methods add ``in_range``, whether they cover the path; "butenschoen" and
+            "holland" know no pressure, flow or fill. An elastic shell has no inertia; the result
+            then has its `shell_deformation`.
         control : Control, optional
             How hard to solve; by default to 1e-8 in 30 Newton steps per time step.
         start : array_like (2,), optional
@@ -314,7 +315,7 @@ class JournalBearing(JournalGeometry):
         steps = Steps(place, step, step_tolerance, periodic, closure, max_periods)
         line = Line.of(shape, moment=moment, tilt=tilt, bend=bend)
         model = model_of("in_motion", film, self, line, steps)
-        if film.heat is not None:
+        if film.heat is not None and not film.heat.over_area:
             return warm_orbit(model, self, film, times, loads, speeds, line, limits, steps)
         return model.orbit(self, film, times, loads, speeds, line, limits, steps)
 

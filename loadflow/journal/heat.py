@@ -211,6 +211,54 @@ class Heat(_Entering):
 
 
 @dataclass(frozen=True)
+class RingGrowth:
+    """Expansion of shaft and shell by which the gap grows from place to place.
+
+    The shaft, which turns, grows by its one temperature, R α_shaft (T_shaft − T_ref). The shell is
+    a ring whose bore has the temperatures of the film's surface there; in its wall they obey
+    Laplace's equation, with the transfer of `FilmHeat.shell_transfer` at its outside. Its bore
+    moves as in plane thermal stress, order by order around. Outside free, the mean order widens it
+    by the mean temperature of the wall, orders from 2 on bend it without stress [Boley and Weiner
+    1960], hot places inward; the first only moves the bore, from whose centre the place of the
+    shaft is told. The bearing's own clearance is the one at `reference_temperature`.
+
+    Attributes
+    ----------
+    outer_diameter : float
+        Of the ring, m, above that of the bore.
+    held : bool
+        Whether the outside of the ring is held in place all round, by a stiff housing that does not
+        warm: the bore can then only grow inward. The first order counts, from the housing's middle.
+    shaft_expansion, shell_expansion : float
+        α, of steel by default, 1/K.
+    conductivity : float
+        Of the shell, W/(m K).
+    poisson_ratio : float
+        ν of the shell; only of one that is held.
+    reference_temperature : float
+        K.
+
+    Examples
+    --------
+    >>> from loadflow.journal import FilmHeat, RingGrowth
+    >>> heat = FilmHeat("iso-vg-68", growth=RingGrowth(outer_diameter=0.4))
+    >>> heat.growth.held
+    False
+    """
+
+    outer_diameter: Annotated[float, Gt(0)]
+    held: bool = False
+    shaft_expansion: Annotated[float, Ge(0), Le(1e-4)] = 11.7e-6
+    shell_expansion: Annotated[float, Ge(0), Le(1e-4)] = 11.7e-6
+    conductivity: Annotated[float, Gt(0)] = 50.0
+    poisson_ratio: Annotated[float, Ge(0), Le(0.5)] = 0.3
+    reference_temperature: Annotated[float, Gt(200)] = 293.15
+
+    def __post_init__(self) -> None:
+        check_fields(self)
+
+
+@dataclass(frozen=True)
 class FilmHeat(_Entering):
     """Oil and cooling of a film whose temperature changes over its area, and across the gap.
 
@@ -241,6 +289,13 @@ class FilmHeat(_Entering):
         these and midway; the film then conducts to the surfaces by its own conductivity, and
         `shell_transfer` and `shaft_transfer` are from there on. 4: on a cubic, whose first moment
         the flow carries on, too: heat of the surfaces takes its way to the middle of the film.
+    growth : RingGrowth, optional
+        Expansion of shaft and shell; left out, the gap is the same at all temperatures.
+    stiffness : {"frozen", "settled"}
+        Temperatures at which the load is differentiated by the place of the shaft. "frozen": those
+        that the film has, for motion faster than it warms, such as vibration. "settled": those in
+        balance at every place, for slow drift; by differences of films with their heat, four of
+        them more for an aligned shaft. Damping is always that at frozen temperatures.
 
     Raises
     ------
@@ -264,6 +319,8 @@ class FilmHeat(_Entering):
     shell_temperature: Annotated[float, Gt(200)] = 293.15
     shaft_temperature: Annotated[float, Gt(200)] | None = None
     points: Literal[1, 3, 4] = 1
+    growth: RingGrowth | None = None
+    stiffness: Literal["frozen", "settled"] = "frozen"
     kind: Literal["film"] = "film"
 
     over_area: ClassVar[bool] = True

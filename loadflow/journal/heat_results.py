@@ -39,6 +39,7 @@ class _OverArea:
     film_temperature: Array = field(default_factory=_no_cells)
     film_viscosity: Array = field(default_factory=_no_cells)
     surface_temperature: Array = field(default_factory=_no_cells)
+    thermal_growth: Array = field(default_factory=_no_cells)
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -74,6 +75,9 @@ class FilmHeatEquilibrium(_OverArea, WarmEquilibrium):
         Of the cells, full width, K and Pa s; in a groove that of the oil which it gives.
     surface_temperature : array (…, nx, nz)
         Of the surface of the shell there, K: that of the film but with three points across it.
+    thermal_growth : array (…, nx, nz)
+        Growth of the gap there by the expansion of shaft and shell, m; 0 without `growth`. With it
+        `clearance` is the mean that is left, to which `eccentricity_ratio` refers.
     angle, z : array (…, nx), (…, nz)
         Angles of the cell centres, rad, and their axial places from mid-plane, m.
     heat_residual : array (…)

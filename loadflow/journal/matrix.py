@@ -16,7 +16,7 @@ from loadflow.journal.cavitation import LAWS, GasMixture
 from loadflow.journal.contact import Contact
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
-from loadflow.journal.heat import FilmHeat, Heat
+from loadflow.journal.heat import FilmHeat, Heat, RingGrowth
 from loadflow.journal.line import Line
 from loadflow.journal.lubricant import Lubricant
 from loadflow.journal.models.model import Steps, Verb, why_not
@@ -78,6 +78,9 @@ PARTS: dict[str, Part] = _LAWS | {
     "heat": Part("heat", {"lubricant": None, "heat": Heat("iso-vg-68")}),
     "heat, stored": Part("heat", {"lubricant": None, "heat": Heat("iso-vg-68", capacity=1e5)}),
     "heat over the area": Part("heat", {"lubricant": None, "heat": FilmHeat("iso-vg-68")}),
+    "growth over the area": Part(
+        "heat", {"lubricant": None, "heat": FilmHeat("iso-vg-68", growth=RingGrowth(0.3))}
+    ),
     "contact": Part("contact", {"contact": _ROUGH}),
     "turbulence": Part("flow", {"turbulence": Turbulence(begin=0.0, end=0.0)}),
 }

@@ -28,7 +28,8 @@ _INNER = {
     **dict.fromkeys(("groove_flow", "groove_pressure"), ("groove",)),
     **dict.fromkeys(("pressure", "fill", "deformation", "gap"), ("around", "across")),
     **dict.fromkeys(
-        ("film_temperature", "film_viscosity", "surface_temperature"), ("around", "across")
+        ("film_temperature", "film_viscosity", "surface_temperature", "thermal_growth"),
+        ("around", "across"),
     ),
     **dict.fromkeys(("leading_temperature", "trailing_temperature"), ("mixing groove",)),
     "pad_tilt": ("pad",),

@@ -127,7 +127,7 @@ RUNGS: dict[str, Rung] = {
             "grid",
             f"{_MODELS}.grid",
             frozenset(_BORES | {"contact", "turbulence", "heat", "film_heat"}),
-            _WARMING | _BORES | {"contact", "turbulence", "step", "periodic"},
+            _WARMING | _BORES | {"film_heat", "contact", "turbulence", "step", "periodic"},
             frozenset(_BORES | {"contact", "turbulence", "film_heat"}),
         ),
     )

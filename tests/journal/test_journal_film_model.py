@@ -123,8 +123,9 @@ def test_heat_is_refused_where_no_model_has_it():
     film = Film(heat=Heat(), **WORDS)
     with pytest.raises(InputError, match="heat = "):
         BEARING.pressure((0.0, 0.0), 100.0, film)
+    fast = Film(heat=FilmHeat(), **WORDS | {"rung": "reduced"})
     with pytest.raises(InputError, match="heat = "):
-        BEARING.orbit([0.0, 0.1], [LOAD, LOAD], 100.0, Film(heat=FilmHeat(), **WORDS))
+        BEARING.orbit([0.0, 0.1], [LOAD, LOAD], 100.0, fast)
 
 
 def test_a_film_may_be_part_of_a_set():

@@ -6,6 +6,7 @@ Numbered volumes: the cells, the grooves, the shaft. Each has a temperature; of 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -36,6 +37,13 @@ class Flows:
     sink: Numbers
     flow: Array
     drag: Array
+
+    @classmethod
+    def mean(cls, each: Sequence[Flows]) -> Flows:
+        """Mean of some flows; none is set off against another that goes the other way."""
+        joined = (np.concatenate(parts) for parts in zip(*(vars(one).values() for one in each)))
+        source, sink, flow, drag = joined
+        return cls(source, sink, flow / len(each), drag / len(each))
 
     def sums(self, by: Numbers, weights: Array, count: int) -> Array:
         """Sum of `weights` over the flows of each of `count` volumes; those of fresh oil aside."""

@@ -15,6 +15,7 @@ q_in.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -29,6 +30,7 @@ from loadflow.journal.film import _kernels as coefficient
 from loadflow.journal.film.energy_balance import FRESH, Flows, HeatBalance, Volumes, sparse
 from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.gap_warm import AcrossFilm, WarmGap
+from loadflow.journal.film.ring_growth import RingExpansion
 from loadflow.journal.film.surface_temperatures import Across, Surfaces
 from loadflow.journal.heat import HOTTEST, FilmHeat
 
@@ -120,25 +122,65 @@ class EnergyEquation:
         self._skew: Array | float = 0.0
         clearance = film.relative_clearance * film.radius
         self._surfaces = Surfaces.of(heat, np.full(self.size, clearance))
+        grows = heat.growth is not None
+        self._expansion = RingExpansion(heat, film.mesh, film.radius) if grows else None
 
-    def thicken(self, temperature: Array) -> None:
-        """Give the film the viscosity of its cells at `temperature` (nx, nz), K."""
+    def state(self, warmth: Warmth | None) -> Array:
+        """Temperatures, K, by which the film is as it is; without `warmth` those of cold oil.
+
+        Those of the cells, and of a shaft that grows.
+        """
+        if warmth is None:
+            cold = self.heat.inlet_temperature
+            cells, shaft = np.full(self.film.mesh.shape, cold), self.heat.shaft_temperature or cold
+        else:
+            cells, shaft = warmth.cells, warmth.shaft
+        return cells.ravel() if self._expansion is None else np.append(cells, shaft)
+
+    def cells_of(self, state: Array) -> Array:
+        """Temperatures of the cells (nx, nz) in a `state`, K."""
+        shape = self.film.mesh.shape
+        return state[: shape[0] * shape[1]].reshape(shape)
+
+    def thicken(self, state: Array) -> None:
+        """Give the film the viscosity and the growth of its cells at the temperatures `state`."""
+        temperature = self.cells_of(state)
         plain = self.heat.liquid.viscosity(temperature) / self.film.viscosity
         every = AcrossFilm(plain, plain.copy(), np.ones_like(plain))
+        if self._expansion is not None:
+            self._shaft = float(state[-1])
         across = self._viscosity(temperature[self.wet], self._shaft, self._skew)
         for all_, wet in zip(every, across.film):
             all_[self.wet] = wet
         self.gap.thicken(every)
+        if self._expansion is not None:
+            shell = temperature.copy()
+            shell[self.wet] = self._surfaces.shell.at(shell[self.wet], self._shaft, self._skew)
+            growth = self._expansion.of(shell, self._shaft)
+            self.gap.grow(growth / (self.film.relative_clearance * self.film.radius))
+
+    @property
+    def growth(self) -> Array:
+        """Growth of the gap of the cells by heat, (nx, nz), m."""
+        return self.gap.growth * (self.film.relative_clearance * self.film.radius)
+
+    @property
+    def mean_growth(self) -> float:
+        """The same on average over the cells, m."""
+        mesh = self.film.mesh
+        return float(np.average(self.growth, weights=np.outer(mesh.dx, mesh.dz)))
 
     def solve(self, u: Array, position: Array, guess: Array) -> Warmth:
-        """Temperatures of the film at `u` and `position`.
+        """Temperatures of the film at unknowns `u` and `position`, as `solve_mean` of one."""
+        return self.solve_mean([(u, position, self.film.speed)], guess)
+
+    def solve_mean(self, films: Sequence[tuple[Array, Array, float]], guess: Array) -> Warmth:
+        """Temperatures in balance with the mean of the heat that some films make and carry.
 
         Parameters
         ----------
-        u : array (nx, nz)
-            Unknowns of the film.
-        position : array (m,)
-            Of the shaft, clearances.
+        films : sequence of (array (nx, nz), array (m,), float)
+            Unknowns of the film, position of the shaft in clearances, and speed, rad/s.
         guess : array (nx, nz)
             Temperatures to start from, K.
 
@@ -147,21 +189,29 @@ class EnergyEquation:
         loadflow.errors.SolverError
             No temperature is found.
         """
-        flows, shear, pumped = self._given(u, position)
         heat, film = self.heat, self.film
         clearance = film.relative_clearance * film.radius
-        self._surfaces = Surfaces.of(heat, clearance * self.gap.films[self.wet])
+        unit = film.mirrors * film.viscosity * film.radius**4 / clearance
+        each: list[Flows] = []
+        gaps, sheared, pumped = (np.zeros(self.size) for _ in range(3))
+        for u, position, speed in films:
+            film.set_speed(speed)
+            own, shear, lost = self._given(u, position)
+            each.append(own)
+            sheared += unit * speed**2 * shear / len(films)
+            pumped += lost / len(films)
+            gaps += clearance * self.gap.films[self.wet] / len(films)
+        flows = Flows.mean(each)
+        self._surfaces = Surfaces.of(heat, gaps)
         volumes, size = self.volumes, self.size
         matrix, rhs = HeatBalance(heat, volumes, self._surfaces, flows).linear()
         t = np.full(volumes.unknowns, heat.inlet_temperature)
         t[:size] = guess[self.wet]
         t[volumes.shaft] = float(np.average(t[:size], weights=volumes.area))
         t[volumes.count :] = self._skew
-        drag = film.mirrors * film.viscosity * film.speed**2 * film.radius**4
-        drag /= clearance
         residual = np.inf
         for _ in range(_STEPS):
-            source, slopes = self._sources(t, drag * shear, pumped)
+            source, slopes = self._sources(t, sheared, pumped)
             missing = matrix @ t - rhs - source
             largest = max(float(np.abs(source).max()), 1e-300)
             residual = float(np.abs(missing[:size]).max()) / largest
@@ -179,7 +229,7 @@ class EnergyEquation:
         else:
             raise SolverError(f"temperatures of the film: change {np.abs(step).max():.3g} K left")
         self._shaft, self._skew = float(t[volumes.shaft]), volumes.skew(t)
-        return self._told(t, flows, drag * shear, pumped, residual)
+        return self._told(t, flows, sheared, pumped, residual)
 
     # --- inside ----------------------------------------------------------------------------------
     def _sources(self, t: Array, sheared: Array, pumped: Array) -> tuple[Array, csc_matrix]:

@@ -1,4 +1,4 @@
-"""Gap of an elastic shell: that of `ShapedGap`, grown cell by cell."""
+"""Gap that grows cell by cell, by heat or by the pressure on an elastic shell."""
 
 from __future__ import annotations
 
@@ -19,12 +19,10 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 
-class ElasticGap(ShapedGap):
+class GrowingGap(ShapedGap):
     """Gap ``H = H_0(θ, z) + W − Σ q_j N_j(θ, z)`` with a growth W of each cell.
 
-    Between cell centres the growth runs straight. What the surfaces drag over a face is that of its
-    gap, and the more of the cell it comes from the more the pressure there widens it: on faces, the
-    gap of a soft shell would let the pressure swing from cell to cell.
+    Between cell centres the growth runs straight.
 
     Parameters
     ----------
@@ -44,6 +42,35 @@ class ElasticGap(ShapedGap):
         self._ends_deform = ends_deform
         self._to_spots = self.between(self.layout.angle, self.layout.spots_z)
         self.growth = np.zeros(mesh.shape)
+
+    def grow(self, growth: Array) -> None:
+        """Let the gaps of the cells grow by `growth` (nx, nz), clearances."""
+        self.growth = growth
+        sides = np.stack([growth[side] for side in self._sides], axis=1)
+        own = self.own_share[:, :, None]
+        self._face_gap = self._rigid_face + own * sides + (1.0 - own) * sides[:, ::-1]
+        self._cell_gap = self._rigid_cell + growth
+
+    def gaps(self, position: Array) -> Array:
+        """Gap at the sampled places, in clearances; the growth runs straight between cells."""
+        gaps = super().gaps(position)
+        return gaps + self._to_spots.of(self.growth) if self.growth.any() else gaps
+
+    def between(self, angle: Array, z: Array) -> Between:
+        """Growth on straight lines between the cells, at `angle` (n,), rad, and `z` (l,)."""
+        return Between(_around(angle, self.mesh), _across(z, self.mesh, self._ends_deform))
+
+
+class ElasticGap(GrowingGap):
+    """Gap of a `GrowingGap` that pressure widens.
+
+    What the surfaces drag over a face is that of its gap, and the more of the cell it comes from
+    the more the pressure there widens it: on faces, the gap of a soft shell would let the pressure
+    swing from cell to cell.
+    """
+
+    def __init__(self, mesh: ShapedMesh, bore: Bore, ends_deform: bool) -> None:
+        super().__init__(mesh, bore, ends_deform)
         self.blend = np.zeros((4, mesh.shape[0] + 1, mesh.shape[1]))
         self.advected = np.zeros(self.blend.shape[1:])
 
@@ -59,22 +86,6 @@ class ElasticGap(ShapedGap):
             self._cell, self._cell_gap, *self.moved, self.surfaces, self.mesh.closed,
             self.advected, self.coef, self._by_x, self._by_y, self.blend,
         )  # fmt: skip
-
-    def grow(self, growth: Array) -> None:
-        """Let the gaps of the cells grow by `growth` (nx, nz), clearances."""
-        self.growth = growth
-        sides = np.stack([growth[side] for side in self._sides], axis=1)
-        own = self.own_share[:, :, None]
-        self._face_gap = self._rigid_face + own * sides + (1.0 - own) * sides[:, ::-1]
-        self._cell_gap = self._rigid_cell + growth
-
-    def gaps(self, position: Array) -> Array:
-        """Gap at the sampled places, in clearances; the growth runs straight between cells."""
-        return super().gaps(position) + self._to_spots.of(self.growth)
-
-    def between(self, angle: Array, z: Array) -> Between:
-        """Growth on straight lines between the cells, at `angle` (n,), rad, and `z` (l,)."""
-        return Between(_around(angle, self.mesh), _across(z, self.mesh, self._ends_deform))
 
     @property
     def widths(self) -> Array:

@@ -1,4 +1,4 @@
-"""Gap of a film whose viscosity differs from cell to cell: that of `ShapedGap`, weighed by it."""
+"""Gap of a film whose viscosity differs from cell to cell, weighed by it; it may grow with heat."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 
 from loadflow.journal.film import _kernels as row
 from loadflow.journal.film._gap_kernels import faces_across
+from loadflow.journal.film.gap_elastic import GrowingGap
 from loadflow.journal.film.gap_layout import Bore
 from loadflow.journal.film.gap_mesh import ShapedMesh
-from loadflow.journal.film.gap_shaped import ShapedGap
 
 Array = NDArray[np.float64]
 
@@ -32,7 +32,7 @@ class AcrossFilm(NamedTuple):
     drag: Array
 
 
-class WarmGap(ShapedGap):
+class WarmGap(GrowingGap):
     """Gap whose coefficients hold the viscosity of each cell over that of the film.
 
     Around, the flow between two cell centres passes the mean viscosity of its way; across, two
@@ -46,10 +46,7 @@ class WarmGap(ShapedGap):
     """
 
     def __init__(self, mesh: ShapedMesh, bore: Bore) -> None:
-        super().__init__(mesh, bore, along=True)
-        columns = np.arange(mesh.shape[0])
-        first, last = (columns[-1], 0) if mesh.closed else (0, columns[-1])
-        self._sides = np.append(first, columns), np.append(columns, last)
+        super().__init__(mesh, bore, ends_deform=True)
         self.thicken(AcrossFilm(*(np.ones(mesh.shape) for _ in range(3))))
 
     def thicken(self, across: AcrossFilm) -> None:

@@ -21,7 +21,7 @@ from loadflow.journal.solvers.periodic import (
     close_orbit,
 )
 from loadflow.journal.solvers.static_rows import equilibrium_rows, field_rows
-from loadflow.journal.solvers.statics import orbit_start
+from loadflow.journal.solvers.statics import Statics, orbit_start
 from loadflow.journal.solvers.transient import (
     Marcher,
     march,
@@ -30,8 +30,10 @@ from loadflow.journal.solvers.transient import (
     orbit_row,
 )
 from loadflow.journal.solvers.warm import warm_fields, warm_rows
+from loadflow.journal.solvers.warm_mean import SlowHeat, slow_heat
 from loadflow.numerics.convergence import Limits
 from loadflow.numerics.fields import require
+from loadflow.quantities import FILM
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -85,8 +87,14 @@ def orbit(
         )
         require(still, "tilt, bend", "of a closed orbit", "the same all the time")
     first_limits = replace(limits, max_iterations=2 * limits.max_iterations)
+    slow: list[SlowHeat] = []  # temperatures over the area, which the motion does not change
+
+    def warm(statics: Statics) -> None:
+        slow.append(slow_heat(statics, force, speed, first_limits))
+
+    prepare = None if film.heat is None else warm
     statics, first, forces = orbit_start(
-        bearing, film, force, speed, line, steps.start, first_limits
+        bearing, film, force, speed, line, steps.start, first_limits, prepare
     )
     discrete = statics.film
     if steps.periodic and statics.gap.axisymmetric and not discrete.lifts:
@@ -107,7 +115,19 @@ def orbit(
     if steps.step == "given":
         del values["steps"]
     about["mass_balance"] = mass_balance(*ends, rows, time)
-    return orbit_dataset(values, time, force, speed, bearing.clearance).assign_attrs(about)
+    path = orbit_dataset(values, time, force, speed, bearing.clearance).assign_attrs(about)
+    return path if not slow else _warm(path, slow[0], bearing.clearance)
+
+
+def _warm(path: xr.Dataset, slow: SlowHeat, clearance: float) -> xr.Dataset:
+    """The path with the temperature of its film."""
+    grown = 1.0 + slow.equation.mean_growth / clearance
+    ratio = path["eccentricity_ratio"]
+    warm = np.full(path.sizes["time"], slow.warmth.mean)
+    return path.assign(
+        temperature=("time", warm, FILM["temperature"].attributes),
+        eccentricity_ratio=(ratio / grown).assign_attrs(ratio.attrs),
+    ).assign_attrs(slow.said)
 
 
 def _lines(bearing: JournalGeometry, line: Line, count: int) -> Array | None:

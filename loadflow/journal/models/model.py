@@ -198,6 +198,9 @@ def _pairs(
     growth = getattr(film.heat, "growth", None)
     one = "None on a map, which has one clearance"
     yield "heat.growth", growth, growth is not None and film.rung == "map", one
+    yield "heat.growth", growth, pads and over_area, "None for pads, whose backs are not held"
+    settled = getattr(film.heat, "stiffness", "") == "settled"
+    yield "heat.stiffness", "settled", settled and pads, '"frozen" for pads that tilt'
     yield "shell", film.shell, pads, "None for pads, whose backs are not held"
     yield "shell", film.shell, over_area, "None with heat over the area"
     yield "contact", film.contact, pads, "None for pads that tilt"

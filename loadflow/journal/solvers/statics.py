@@ -9,7 +9,7 @@ surrounds an aligned shaft, else also tilts of the shaft and of pads.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import cached_property
 from typing import cast
@@ -62,10 +62,12 @@ def orbit_start(
     line: Line,
     start: Array | None,
     control: Limits,
+    prepare: Callable[[Statics], None] | None = None,
 ) -> tuple[Statics, Solution, Array]:
     """Film, first state and generalised loads (n, m) of an orbit.
 
-    It begins at `start`, in clearances, or at the equilibrium of the first load.
+    It begins at `start`, in clearances, or at the equilibrium of the first load; what there is to
+    `prepare` of the film comes before.
 
     Raises
     ------
@@ -79,6 +81,8 @@ def orbit_start(
     statics = Statics(bearing, options, line, float(np.abs(speeds).max()))
     require(not statics.gap.pads.size, "shape", bearing.shape.kind, "a fixed bore for an orbit")
     forces = statics.raise_scale(loads)
+    if prepare is not None:
+        prepare(statics)
     omega = float(speeds[0])
     if start is None:
         first = statics.solve(0, loads[0], omega, None, control)

@@ -23,7 +23,7 @@ from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.heat import HOTTEST, FilmHeat
 from loadflow.journal.line import Line
 from loadflow.journal.rows import field_row, static_row
-from loadflow.journal.solvers.newton import Solution
+from loadflow.journal.solvers.newton import Solution, no_film, solve_film
 from loadflow.journal.solvers.statics import Statics
 from loadflow.numerics.anderson import Anderson
 from loadflow.numerics.convergence import Limits
@@ -32,6 +32,8 @@ from loadflow.numerics.fields import require
 Array = NDArray[np.float64]
 FilmOf = Callable[["Solution | None"], Solution]
 """The film at given viscosities, from the last solution."""
+HeatOf = Callable[[Array], Warmth]
+"""Temperatures in balance with the film last solved, from a first guess (nx, nz)."""
 
 TOLERANCE, TRIES = 1e-7, 100
 """Largest change of a temperature that is left, K, and the fields of temperature tried."""
@@ -40,11 +42,12 @@ _ACCELERATED, _SHORT = 20, 0.3  # fields after which only this share of each cha
 _NEAR = 0.5  # change, K, below which the method is trusted again
 _WORSE = 1.5  # of the smallest change so far, that from which the next field goes back
 _TOO_HOT = 10  # fields in a row above the largest temperature, after which none is tried
+_STEP = 2e-3  # of the narrowest gap, by which the shaft moves for a settled stiffness
 _HALVINGS = 12  # steps of the temperature that are halved before the film is given up
 
 
 @dataclass(frozen=True)
-class _Warm:
+class WarmFilm:
     """A film with its temperatures; the change (K) that is left of them; how many were tried."""
 
     solution: Solution
@@ -75,22 +78,64 @@ def warm_rows(
     statics, equation = _prepared(bearing, options, line, float(np.abs(speeds).max()))
     each = replace(control, strict=False)
     rows = []
-    last: tuple[Solution, Array] | None = None
+    last: tuple[Solution, Warmth] | None = None
     for index, (load, omega) in enumerate(zip(loads, speeds.tolist())):
 
         def film_of(before: Solution | None, index: int = index, omega: float = omega) -> Solution:
             return statics.solve(index, loads[index], omega, before, each)
 
-        found = _coupled(equation, film_of, last)
+        found = coupled(equation, film_of, last)
         if not found.converged and last is not None:
-            found = _coupled(equation, film_of, None)
+            found = coupled(equation, film_of, None)
         if not found.converged and control.strict:
             why = found.why or statics.message(found.solution, load)
             raise SolverError(f"load {index}: {why}")
+        row = _row(bearing, statics, equation, load, found, line.whirl)
         if found.converged and found.warmth is not None:
-            last = found.solution, found.warmth.cells
-        rows.append(_row(bearing, statics, equation, load, found, line.whirl))
+            last = found.solution, found.warmth
+            if equation.heat.stiffness == "settled":
+                row["stiffness"] = _settled_stiffness(bearing, statics, equation, last, control)
+        rows.append(row)
     return rows
+
+
+def _settled_stiffness(
+    bearing: JournalGeometry,
+    statics: Statics,
+    equation: EnergyEquation,
+    last: tuple[Solution, Warmth],
+    control: Limits,
+) -> Array:
+    """Stiffness, N/m, of a shaft that moves so slowly that the temperatures follow.
+
+    Raises
+    ------
+    loadflow.errors.SolverError
+        If ``control.strict``, a film beside the equilibrium has no temperatures; else all are NaN.
+    """
+    film, size = statics.film, statics.gap.size
+    step = _STEP * film.narrowest(last[0].u, last[0].position)
+    limits = control.tolerance, film.newton_steps(control.max_iterations)
+    columns = np.empty((size, size))
+    for way in range(size):
+        ends = []
+        for sign in (1.0, -1.0):
+            place = last[0].position.copy()
+            place[way] += sign * step
+
+            def film_of(before: Solution | None, place: Array = place) -> Solution:
+                start = film.start() if before is None else before.u
+                return solve_film(film, start, place, np.zeros(size), *limits)
+
+            found = coupled(equation, film_of, last)
+            if not found.converged:
+                if control.strict:
+                    raise SolverError(f"no temperatures beside the equilibrium: {found.why}")
+                return np.full((size, size), np.nan)
+            ends.append(found.solution.linear.load)
+        columns[:, way] = (ends[0] - ends[1]) / (2.0 * step)
+    lengths = np.where(np.arange(size) < 2, 1.0, film.radius)  # those of tilts are arms
+    return columns * np.outer(lengths, lengths) / bearing.clearance
 
 
 def warm_fields(
@@ -111,11 +156,12 @@ def warm_fields(
         def film_of(before: Solution | None, index: int = index, omega: float = omega) -> Solution:
             return statics.hold(index, places[index], velocities[index], omega, control)
 
-        found = _coupled(equation, film_of, None)
+        found = coupled(equation, film_of, None)
         if not found.converged and control.strict:
             why = found.why or statics.message(found.solution)
             raise SolverError(f"film {index}: {why}")
         row = field_row(statics.film, statics.gap, _flagged(found))
+        row["eccentricity_ratio"] /= 1.0 + equation.mean_growth / bearing.clearance
         rows.append(row | _heat_columns(equation, found))
     return rows, statics.film.mesh.z * bearing.radius
 
@@ -130,19 +176,28 @@ def _prepared(
     return statics, EnergyEquation(statics.film, gap, heat)
 
 
-def _coupled(
-    equation: EnergyEquation, film_of: FilmOf, last: tuple[Solution, Array] | None
-) -> _Warm:
-    """Film and temperatures that agree, from those of the `last` load or from cold oil."""
+def coupled(
+    equation: EnergyEquation,
+    film_of: FilmOf,
+    last: tuple[Solution, Warmth] | None,
+    heat_of: HeatOf | None = None,
+) -> WarmFilm:
+    """Film and temperatures that agree, from those of the `last` load or from cold oil.
+
+    `heat_of` has the temperatures of a film, by default those in balance with it alone.
+    """
     film = equation.film
-    cold = np.full(film.mesh.shape, equation.heat.inlet_temperature)
-    before, now = (None, cold) if last is None else last
+    cold = equation.state(None)
+    before, now = (None, cold) if last is None else (last[0], equation.state(last[1]))
     good, warmth, residual = cold, None, np.inf
     method, halved, spent = Anderson(_DEPTH), 0, 0
     best, share, nearest, too_hot = np.inf, 1.0, (now, now), 0
     for iteration in range(1, TRIES + 1):
         equation.thicken(now)
-        solution = film_of(before)
+        try:
+            solution, seized = film_of(before), ""
+        except SolverError as error:  # the shaft has grown into its shell
+            solution, seized = no_film(film), str(error)
         spent += solution.iterations
         solution = replace(solution, iterations=spent)
         if not solution.converged:
@@ -153,24 +208,29 @@ def _coupled(
             before, now = None, 0.5 * (now + good)
             continue
         try:
-            warmth = equation.solve(solution.u, solution.position, now)
+            cells = equation.cells_of(now)
+            if heat_of is None:
+                warmth = equation.solve(solution.u, solution.position, cells)
+            else:
+                warmth = heat_of(cells)
         except SolverError as error:
-            return _Warm(solution, None, residual, iteration, False, str(error))
+            return WarmFilm(solution, None, residual, iteration, False, str(error))
+        found = equation.state(warmth)
         before, good = solution, now
-        residual = float(np.abs(warmth.cells - now).max())
-        too_hot = too_hot + 1 if float(min(now.max(), warmth.cells.max())) > HOTTEST else 0
+        residual = float(np.abs(found - now).max())
+        too_hot = too_hot + 1 if float(min(now.max(), found.max())) > HOTTEST else 0
         if too_hot > _TOO_HOT:
             break
         if residual < best:
-            best, nearest, share = residual, (now, warmth.cells), min(1.0, 2.0 * share)
+            best, nearest, share = residual, (now, found), min(1.0, 2.0 * share)
         if residual <= TOLERANCE:
             hottest = max(warmth.hottest, float(warmth.cells.max()))
             hot = f"the film gets hotter than {HOTTEST} K: {hottest:.4g} K"
             fine = hottest < HOTTEST
-            return _Warm(solution, warmth, residual, iteration, fine, "" if fine else hot)
+            return WarmFilm(solution, warmth, residual, iteration, fine, "" if fine else hot)
         if iteration >= _ACCELERATED and residual > _NEAR:
             method.forget()
-            now = now + _SHORT * (warmth.cells - now)
+            now = now + _SHORT * (found - now)
             continue
         if (
             iteration < _ACCELERATED and residual > _WORSE * best
@@ -180,19 +240,18 @@ def _coupled(
             now = nearest[0] + share * (nearest[1] - nearest[0])
             continue
         share = share if iteration < _ACCELERATED else _SHORT
-        relaxed = now + share * (warmth.cells - now)
-        now = method.next(now.ravel(), relaxed.ravel()).reshape(now.shape)
-        low, high = warmth.cells.min() - 5.0, warmth.cells.max() + 5.0
+        now = method.next(now, now + share * (found - now))
+        low, high = found.min() - 5.0, found.max() + 5.0
         now = np.clip(now, low, min(high, HOTTEST + 100.0))
-    why = ""
-    if warmth is not None:
+    why = seized
+    if warmth is not None and not seized:
         why = f"temperatures: {residual:.3g} K left after {iteration} fields"
     if too_hot:
         why = f"the film gets hotter than {HOTTEST} K"
-    return _Warm(solution, warmth, residual, iteration, False, why)
+    return WarmFilm(solution, warmth, residual, iteration, False, why)
 
 
-def _flagged(found: _Warm) -> Solution:
+def _flagged(found: WarmFilm) -> Solution:
     """The film, converged only with its temperatures."""
     return replace(found.solution, converged=found.converged)
 
@@ -202,29 +261,51 @@ def _row(
     statics: Statics,
     equation: EnergyEquation,
     load: Array,
-    found: _Warm,
+    found: WarmFilm,
     whirl: float,
 ) -> dict[str, Any]:
     """One row of `FilmHeatEquilibrium`."""
     heat, film = equation.heat, equation.film
     mean = heat.inlet_temperature if found.warmth is None else found.warmth.mean
     row = static_row(bearing, film, statics.gap, load, heat.lubricant(mean), _flagged(found), whirl)
+    if heat.growth is not None:
+        row |= _grown(row, bearing, equation, found)
     angle, z = film.mesh.angle, film.mesh.z * bearing.radius
     both = z if z[0] < 0 else np.concatenate([-z[::-1], z])
     return row | _heat_columns(equation, found) | {"angle": angle, "z": both}
 
 
-def _heat_columns(equation: EnergyEquation, found: _Warm) -> dict[str, Any]:
+def _grown(
+    row: dict[str, Any], bearing: JournalGeometry, equation: EnergyEquation, found: WarmFilm
+) -> dict[str, Any]:
+    """What a `row` says in clearances, in those that shaft and shell have as warm as they are."""
+    if not found.converged:
+        return {"clearance": np.nan}
+    share = 1.0 + equation.mean_growth / bearing.clearance
+    reynolds = row["reynolds_number"] * share
+    critical = row["critical_reynolds_number"] / np.sqrt(share)
+    return {
+        "clearance": share * bearing.clearance,
+        "eccentricity_ratio": row["eccentricity_ratio"] / share,
+        "sommerfeld_number": row["sommerfeld_number"] * share**2,
+        "reynolds_number": reynolds,
+        "critical_reynolds_number": critical,
+        "laminar": reynolds < critical,
+    }
+
+
+def _heat_columns(equation: EnergyEquation, found: WarmFilm) -> dict[str, Any]:
     """What a result says of its temperatures; NaN where there are none."""
     film, oil = equation.film, equation.heat.liquid
     warmth = found.warmth if found.converged else None
     said: dict[str, Any]
     if warmth is None:
         field, grooves = np.full(film.mesh.shape, np.nan), np.full((equation.grooves, 2), np.nan)
-        shell = field
+        shell = growth = field
         said = dict.fromkeys(_NUMBERS, np.nan)
     else:
         field, grooves, shell = warmth.cells, warmth.grooves, warmth.shell
+        growth = equation.growth
         said = {
             "friction_power": warmth.friction,
             "temperature": warmth.mean,
@@ -237,10 +318,13 @@ def _heat_columns(equation: EnergyEquation, found: _Warm) -> dict[str, Any]:
             "heat_imbalance": warmth.imbalance,
         }
     if film.mesh.half:
-        field, shell = (np.concatenate([x[:, ::-1], x], axis=1) for x in (field, shell))
+        field, shell, growth = (
+            np.concatenate([x[:, ::-1], x], axis=1) for x in (field, shell, growth)
+        )
     return said | {
         "film_temperature": field,
         "surface_temperature": shell,
+        "thermal_growth": growth,
         "film_viscosity": np.asarray(oil.viscosity(field)),
         "trailing_temperature": grooves[:, 0],
         "leading_temperature": grooves[:, 1],

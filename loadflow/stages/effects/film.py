@@ -10,7 +10,7 @@ from pydantic import ValidationError
 
 from loadflow.data import gains
 from loadflow.errors import InputError
-from loadflow.journal import Heat, Turbulence
+from loadflow.journal import FilmHeat, Growth, Heat, RingGrowth, Turbulence
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.shaft.beam import ShaftSection
@@ -33,6 +33,9 @@ HOLLOW = 0.9
 
 ROUGHNESS = 1.1e-6
 """Of both surfaces of a journal bearing together, m: ground shaft, machined bearing."""
+
+SHELL_SHARE = 0.9
+"""Rise of a shell above its surroundings over that of its film, where none is stated."""
 
 MODEL_OIL = "mineral-vg-320"
 """Oil by whose law a lubricant thins of which only the viscosity is stated."""
@@ -176,6 +179,64 @@ HEAT = Effect(
     indicator=_heat,
     out="no journal.heat; the run warns where it would matter",
     needs="a table journal.heat with the oil and the temperature at which it enters",
+)
+
+
+# --- growth of the clearance -----------------------------------------------------------------
+
+
+def _growth(at: Situation) -> Sizes:
+    """Growth of the clearance by shaft and shell as warm as their film: R α ΔT of each, over it.
+
+    The film of the heat balance, adiabatic, at the mean load. Without a growth that is stated,
+    shaft and shell are of steel, and the rise of the shell is `SHELL_SHARE` of that of the film.
+    """
+    found = []
+    for name in at.scene.journal.bearings:
+        own, film = at.scene.journal.at(name), at.film(name, share=0.0)
+        heat = own.heat or Heat()
+        carried = 2.0 * heat.lubricant(heat.inlet_temperature).density * HEAT_CAPACITY
+        warm = heat.inlet_temperature + film.friction_power / (carried * film.side_flow)
+        radius, ambient = own.geometry.radius, _surroundings(heat)
+        growth = heat.growth
+        if isinstance(growth, RingGrowth):
+            shell = np.full_like(warm, ambient) if growth.held else 0.5 * (warm + ambient)
+            cold = growth.reference_temperature
+            wider = growth.shell_expansion * (shell - cold) - growth.shaft_expansion * (warm - cold)
+            wider = radius * wider
+        else:
+            wider = (growth or Growth(shell_share=SHELL_SHARE)).radial(warm, ambient, radius)
+        share = np.minimum(np.abs(wider) / own.geometry.clearance, 1.0)
+        narrower = 1.0 - 0.5 * share  # So falls with the square of the clearance
+        eccentricity = narrower ** (-2.0 * gains()["journal"]["eccentricity ratio"]) - 1.0
+        sizes = _worst(film, eccentricity, 0.3 * eccentricity, float(np.nanmax(share)))
+        found.append({**sizes, "minimum film": float(np.nanmax(share))})
+    return _largest(found)
+
+
+def _surroundings(heat: Heat | FilmHeat) -> float:
+    """Temperature outside of shaft and shell, K."""
+    return heat.shell_temperature if isinstance(heat, FilmHeat) else heat.ambient_temperature
+
+
+def _grown(scene: Scene, on: bool) -> Scene | None:
+    """The scene with a clearance that stays; growth is there where it is stated."""
+    heat = scene.journal.heat
+    if heat is None or heat.growth is None:
+        return None if on else scene
+    return scene if on else with_settings(scene, "journal", {"heat": replace(heat, growth=None)})
+
+
+GROWTH = Effect(
+    "growth of the clearance",
+    model="journal",
+    keys=("journal.heat",),
+    is_on=lambda scene: scene.journal.heat is not None and scene.journal.heat.growth is not None,
+    switched=_grown,
+    indicator=_growth,
+    out="no journal.heat.growth: the clearance is the same at all temperatures",
+    needs="a table journal.heat.growth with the expansion of shaft and shell",
+    concerns=lambda scene: scene.journal.heat is not None,
 )
 
 

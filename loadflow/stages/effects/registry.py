@@ -16,6 +16,7 @@ EFFECTS: list[Effect] = [
     shaft.STIFFNESS,
     film.MOTION,
     film.HEAT,
+    film.GROWTH,
     film.TILT,
     film.SHELL,
     film.CONTACT,

@@ -1,0 +1,116 @@
+"""Temperatures over the area of a film in motion: those of the mean heat of a series of loads.
+
+A bearing warms over minutes and hours while its load changes in seconds, so that in motion the
+temperatures stay: those at which the heat that films at rest under loads spread over the series
+make on average is the heat that they carry off on average.
+"""
+
+from __future__ import annotations
+
+import warnings
+from dataclasses import dataclass, replace
+from typing import cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from loadflow.errors import SolverError, ValidityWarning
+from loadflow.journal.film.energy_equation import EnergyEquation, Warmth
+from loadflow.journal.film.gap_warm import WarmGap
+from loadflow.journal.heat import FilmHeat
+from loadflow.journal.solvers.newton import Solution, no_film
+from loadflow.journal.solvers.statics import Statics
+from loadflow.journal.solvers.warm import coupled
+from loadflow.numerics.convergence import Limits
+
+Array = NDArray[np.float64]
+
+SAMPLES = 16
+"""Loads of a series, spread evenly over it, whose mean heat gives the temperatures."""
+
+LEFT_OUT = 0.1
+"""Share of these without a film at rest above which a warning says so."""
+
+
+@dataclass(frozen=True)
+class SlowHeat:
+    """Temperatures that a film keeps in motion; what is left of them, K, and fields tried."""
+
+    equation: EnergyEquation
+    warmth: Warmth
+    residual: float
+    iterations: int
+
+    @property
+    def said(self) -> dict[str, float]:
+        """What an orbit says of them; `mean_growth` where shaft and shell grow, m."""
+        warmth, equation = self.warmth, self.equation
+        numbers: dict[str, float] = {
+            "maximum_temperature": max(warmth.hottest, float(warmth.cells.max())),
+            "shaft_temperature": warmth.shaft,
+            "heat_imbalance": warmth.imbalance,
+            "heat_residual": self.residual,
+            "heat_iterations": self.iterations,
+        }
+        if equation.heat.growth is not None:
+            numbers["mean_growth"] = equation.mean_growth
+        return numbers
+
+
+def slow_heat(statics: Statics, loads: Array, speeds: Array, control: Limits) -> SlowHeat:
+    """Bring the film of `statics` to the temperatures of a series of loads (n, 2).
+
+    Parameters
+    ----------
+    statics : Statics
+        With an energy equation over the area of its film; keeps viscosity and growth.
+    loads, speeds : array (n, 2), (n,)
+        N, rad/s.
+    control : Limits
+        How hard to solve each film.
+
+    Raises
+    ------
+    loadflow.errors.SolverError
+        No temperatures, or none of the loads has a film at rest.
+
+    Warns
+    -----
+    loadflow.errors.ValidityWarning
+        More than `LEFT_OUT` of the loads have no film at rest.
+    """
+    equation = EnergyEquation(
+        statics.film, cast("WarmGap", statics.gap), cast("FilmHeat", statics.options.heat)
+    )
+    some = np.unique(np.linspace(0, len(loads) - 1, SAMPLES).round().astype(int)).tolist()
+    each = replace(control, strict=False)
+    found: dict[int, Solution] = {}
+
+    def film_of(before: Solution | None) -> Solution:
+        spent, worst = 0, no_film(statics.film)
+        for index in some:
+            last = None if before is None else found.get(index)
+            solution = statics.solve(index, loads[index], float(speeds[index]), last, each)
+            spent += solution.iterations
+            found.pop(index, None)
+            if solution.converged:
+                found[index] = worst = solution
+        return replace(worst, iterations=spent)
+
+    def heat_of(cells: Array) -> Warmth:
+        films = [(one.u, one.position, float(speeds[index])) for index, one in found.items()]
+        return equation.solve_mean(films, cells)
+
+    warm = coupled(equation, film_of, None, heat_of)
+    if not warm.converged or warm.warmth is None:
+        why = warm.why or "no load of the series has a film at rest"
+        raise SolverError(f"orbit cannot start: {why}")
+    if len(found) < (1.0 - LEFT_OUT) * len(some):
+        warnings.warn(
+            f"temperatures of the film: at rest {len(some) - len(found)} of {len(some)} loads of "
+            "the series have none; they are those of the others",
+            ValidityWarning,
+            stacklevel=5,
+        )
+    equation.thicken(equation.state(warm.warmth))
+    return SlowHeat(equation, warm.warmth, warm.residual, warm.iterations)
