@@ -17,7 +17,7 @@ from typing import cast
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.errors import InputError, SolverError
+from loadflow.errors import InputError
 from loadflow.journal.film.discretise import cylindrical_film, is_cylindrical, shaped_film
 from loadflow.journal.film.film import EVERY, DiscreteFilm
 from loadflow.journal.film.gap import BoreGap
@@ -38,6 +38,7 @@ from loadflow.journal.solvers.messages import narrowest_place, why_unsolved
 from loadflow.journal.solvers.newton import Solution, no_film, solve_equilibrium, solve_film
 from loadflow.journal.solvers.other_loads import solve_from_other_loads
 from loadflow.journal.solvers.pads import film_on_pads, solve_with_pads, unload_other_pads
+from loadflow.journal.solvers.transient import OrbitStopped
 from loadflow.numerics.convergence import Limits
 from loadflow.numerics.fields import require
 
@@ -82,10 +83,12 @@ def orbit_start(
     omega = float(speeds[0])
     if start is None:
         first = statics.solve(0, loads[0], omega, None, control)
+        if not first.converged and statics.gap.axisymmetric:
+            first = statics.settled(0, loads[0], omega, control)
     else:
         first = statics.hold(0, start, np.zeros(2), omega, control, name="start")
     if not first.converged:
-        raise SolverError(f"orbit cannot start: {statics.message(first, loads[0])}")
+        raise OrbitStopped(f"orbit cannot start: {statics.message(first, loads[0])}")
     return statics, first, forces
 
 
@@ -276,6 +279,20 @@ class Statics:
             return self._checked(solve_film(film, film.start(), position, moving, *limits))
         pads = self._on_pads(gap.converging(position, omega))
         return self._checked(film_on_pads(film, self._shaped, position, moving, pads, *limits))
+
+    def settled(self, index: int, load: Array, omega: float, control: Limits) -> Solution:
+        """Equilibrium on this mesh, by way of that on one that follows the gap."""
+        force = self._force(index, load)
+        free = replace(self.options, grading="auto", inlet="auto")
+        _, solution = Statics(self.bearing, free, self.line, self.rate).resolve(
+            index, load, omega, None, control
+        )
+        if not solution.converged:
+            return solution
+        film = self.film
+        film.set_speed(omega)
+        limits = control.tolerance, film.newton_steps(control.max_iterations)
+        return self._checked(solve_from_held(film, force, solution.position, *limits))
 
     def message(self, solution: Solution, load: Array | None = None) -> str:
         """Why there is no answer for `load`, or at the position given, with numbers."""
