@@ -15,6 +15,7 @@ from loadflow.journal.line import Line
 from loadflow.journal.models.finer_orbit import on_enough_cells
 from loadflow.journal.models.model import Steps
 from loadflow.journal.rows import columns_of
+from loadflow.journal.solvers.orbit_start import orbit_start
 from loadflow.journal.solvers.periodic import (
     Method,
     check_half_speed_whirl,
@@ -22,7 +23,6 @@ from loadflow.journal.solvers.periodic import (
     close_orbit,
 )
 from loadflow.journal.solvers.static_rows import equilibrium_rows, field_rows
-from loadflow.journal.solvers.statics import orbit_start
 from loadflow.journal.solvers.transient import (
     Marcher,
     march,

@@ -45,10 +45,10 @@ def has_touched(film: DiscreteFilm, solution: Solution) -> bool:
     """Whether the steps of the load have ended at a rigid bore, or at the end of its contact."""
     if film.contact is not None and not solution.residual < 1.0:
         return False  # what is missing is no rest of the load
-    return not film.elastic and _meets(film, solution.position)
+    return not film.elastic and meets(film, solution.position)
 
 
-def _meets(film: DiscreteFilm, position: Array) -> bool:
+def meets(film: DiscreteFilm, position: Array) -> bool:
     """Whether the shaft at `position` meets a rigid bore, or its law of contact ends there."""
     if film.contact is None:
         return film.gap.narrowest(position) < TOUCHING
@@ -165,7 +165,7 @@ def solve_from_held(
             if film.gap.narrowest(state.position) < _NO_FILM:
                 break
     missing = (1.0 - share) * math.hypot(*(force - first)[free]) / film.load_scale(force)
-    if _meets(film, trial.position):  # what the steps have come to
+    if meets(film, trial.position):  # what the steps have come to
         state = replace(state, position=trial.position)
     return replace(
         state, converged=False, iterations=spent, residual=missing, rounding=trial.rounding
