@@ -89,7 +89,7 @@ SLOW = 2.0  # s
 GRIDS = ((48, 8), (60, 12), (60, 20), (96, 16))
 REASONS = ("touches", "carries no load", "starved", "carries no more", "half-speed whirl")
 REASONS += ("find no tilt", "a cone presses the shaft away", "the film gets hotter than")
-REASONS += ("no heat balance below 423.15 K; at 423",)
+REASONS += ("no heat balance below 423.15 K; at 423", "no heat balance: at")
 SEEDS = {"cylinder": 1, "shaped": 2, "supply": 3, "line": 4, "shell": 5, "orbit": 6}
 SEEDS |= {"contact": 7, "thrust": 8, "cone": 9, "pair": 10, "heat": 11}
 
