@@ -311,32 +311,54 @@ def _lay_at(work, line, n, to, q, given):
             q[2 + a] = line[before, a] + to * (line[n, a] - line[before, a])
 
 
+@once
+def _set_out(film, work, q, begin):
+    """Make the film at `q` that of the last time; from the third time on, one before it, too.
+
+    What they hold follows from the unknowns, so that these and the way of the shaft are all that
+    there is to going on.
+    """
+    if begin > 1:
+        for i in range(work.u.shape[0]):
+            for k in range(work.u.shape[1]):
+                work.trial[i, k], work.u[i, k] = work.last[i, k], work.before[i, k]
+        work.bend[0], work.bend[1] = work.past[0], work.past[1]
+        place(film, work, work.places[0])
+        keep(work)
+        for i in range(work.u.shape[0]):
+            for k in range(work.u.shape[1]):
+                work.u[i, k] = work.trial[i, k]
+        work.bend[0], work.bend[1] = work.past[2], work.past[3]
+    place(film, work, q)
+    keep(work)
+
+
 @outer
 def solve(
-    film, work, q, size, time, load, line, speed, tolerance, max_iterations, rows, slopes, warmth,
-    states,
+    film, work, q, size, begin, time, load, line, speed, tolerance, max_iterations, rows, slopes,
+    warmth, states,
 ):  # fmt: skip
     """A film at rest, or through time: one function, as compiling takes its time for each.
 
-    Of a single time the film at rest is sought from `work.u` and `q`, of which the first `size`
-    coordinates move; `slopes` (2, s, s) with s > 0 take stiffness and damping as `_finish` does.
-    Of more times `work.u` and `q` are the film at the first; from there implicit steps of second
-    order (BDF2 of variable step) go through them. A step at which Newton fails is cut, all that is
-    given interpolated.
+    With `begin` 0 the film at rest at the first time is sought from `work.u` and `q`, of which the
+    first `size` coordinates move; `slopes` (2, s, s) with s > 0 take stiffness and damping as
+    `_finish` does. From a later one on implicit steps of second order (BDF2 of variable step) go
+    through all times from there: from the film of `work.u` and `q`, at rest at the first time, or
+    from that of `work.last` and `q` after that of `work.before` and `work.places[0]`. A step at
+    which Newton fails is cut, all that is given interpolated.
 
     `load` (n, 4), `line` (n, 4) tilt and bend; in motion the tilt is given where `size` is 2.
     Fills `rows` (n, RESULTS), and `states` as `slow_heat` does, and returns how many of them.
     """
     before, new, given = work.places[0], work.places[1], work.places[2]
-    resting = time.size == 1
+    resting = begin == 0
     step_before, thin, light = 0.0, states[0, THIN], 1.0
     if warmth.on:
         light = lighter(warmth, states, 0)
     if not resting:
-        place(film, work, q)
-        keep(work)
-        summarise(film, work, q, 0.5 * film.ring.slope * thin * speed[0], rows[0])
-    for n in range(0 if resting else 1, time.size):
+        _set_out(film, work, q, begin)
+        step_before = work.past[4]
+    for n in range(begin, 1 if resting else time.size):
         last = max(n - 1, 0)
         whole = time[n] - time[last]
         if warmth.on and not resting:
@@ -373,7 +395,10 @@ def solve(
                 done = to
             if converged:
                 keep(work)
+                for a in range(2):
+                    work.past[a], work.past[2 + a] = work.past[2 + a], work.bend[a]
                 step_before = step
+                work.past[4] = step
                 share = min(2.0 * share, 1.0)
             elif share > SMALLEST:
                 share *= 0.5

@@ -194,6 +194,8 @@ class ComposedWork(NamedTuple):
         Axial part of the matrix of a column of cells.
     places : array (3, 4)
         Position at the time before the last, the next one, and its load.
+    past : array (5,)
+        Bend of the shaft at the time before the last, at the last; the step between them, s.
     """
 
     u: Array
@@ -220,6 +222,7 @@ class ComposedWork(NamedTuple):
     modes: Array
     block: Array
     places: Array
+    past: Array
 
 
 def make_work(around: int, nodes: Nodes) -> ComposedWork:
@@ -251,4 +254,5 @@ def make_work(around: int, nodes: Nodes) -> ComposedWork:
         modes=np.zeros((3, 4)),
         block=np.zeros(inner * inner),
         places=np.zeros((3, 4)),
+        past=np.zeros(5),
     )
