@@ -10,7 +10,7 @@ import numpy as np
 
 from loadflow.journal.cavitation import DLOAD, FILL, LOAD
 from loadflow.journal.models import composed_film as at
-from loadflow.journal.models._band_kernels import factorise_any, substitute_all
+from loadflow.journal.models._band_kernels import factorise_any, substitute_all, substitute_one
 from loadflow.journal.models._compile import inner, once, outer
 from loadflow.journal.models._composed_gap_kernels import (
     MEAN,
@@ -26,6 +26,7 @@ from loadflow.journal.models._composed_kernels import (
     carry,
     magnitudes,
     matrix,
+    slopes_of_balance,
     summarise,
 )
 from loadflow.journal.models._reduced_loops import (
@@ -43,7 +44,8 @@ from loadflow.journal.models.slow_heat import THIN, lighter, slow_heat
 
 _KEPT = 0.3  # share of the narrowest gap that a step of the shaft leaves
 _ROOM = 1.0 / 2**20  # share of a step below which an elastic shell has no room for it
-_FALLS = 0.01  # ratio of residuals below which the next step takes the factors of the last one
+_FALLS = 0.1  # ratio of residuals below which the next step takes the factors of the last one
+_ALIKE = 0.1  # difference of two rates of which one goes with the factors of the other
 
 
 @once
@@ -187,6 +189,9 @@ def _newton(film, work, q, load, size, speed, lightness, rate, tolerance, max_it
     Reynolds numbers are those at `speed` times `lightness`: at the time scale of the film. Returns
     residual, Newton steps, whether the residual is small by the rule of `convergence`, and its
     rounding level, which is looked at where the tolerance is not met soon.
+
+    Factors that are there take the first step: those of the last time bring a film in motion as
+    far as new ones would from there, and new ones of the film after it nearly all of the way.
     """
     wedge = 0.5 * film.ring.slope * speed
     flux = (abs(wedge) + film.ring.scale) * film.nodes.widest
@@ -198,10 +203,10 @@ def _newton(film, work, q, load, size, speed, lightness, rate, tolerance, max_it
     for a in range(4):
         step[a] = 0.0
     turn(film, work, speed, lightness)
-    spent, last = 0, 0.0
+    spent, last = 0, np.inf
     place(film, work, q)
     while True:
-        residual = balance(film, work, wedge, rate, size) / flux
+        residual = balance(film, work, wedge, rate) / flux
         touch(film, work, q)
         missing = 0.0
         for a in range(size):
@@ -218,14 +223,17 @@ def _newton(film, work, q, load, size, speed, lightness, rate, tolerance, max_it
         if done or answered:
             return residual, spent, answered, rounding
         spent += 1
-        if residual > _FALLS * last:
+        if work.kept[0] > 0.0 and residual < _FALLS * last and spent != 2:
+            substitute_one(work.band, work.columns)
+        else:
+            slopes_of_balance(film, work, wedge, rate, size)
             matrix(film, work, wedge, rate)
+            work.kept[0] = 0.0
             if not factorise_any(work.band, work.columns.shape[0]):
                 return residual, spent, False, rounding
-            last = residual
-        else:
-            last = 0.0  # once
-        substitute_all(work.band, work.columns, 1 + size)
+            substitute_all(work.band, work.columns, 1 + size)
+            work.kept[0], work.kept[1] = 1.0, rate
+        last = residual
         if size > 0:
             _shaft_step(film, work, load, size, step)
         _advance(film, work, q, step, size)
@@ -240,7 +248,8 @@ def _finish(film, work, q, speed, size, stiffness, damping):
     """
     nx, m = work.u.shape
     wedge = 0.5 * film.ring.slope * speed
-    balance(film, work, wedge, 0.0, size)
+    balance(film, work, wedge, 0.0)
+    slopes_of_balance(film, work, wedge, 0.0, size)
     matrix(film, work, wedge, 0.0)
     factorise_any(work.band, work.columns.shape[0])
     substitute_all(work.band, work.columns, 1 + size)
@@ -353,6 +362,7 @@ def solve(
     before, new, given = work.places[0], work.places[1], work.places[2]
     resting = begin == 0
     step_before, thin, light = 0.0, states[0, THIN], 1.0
+    work.kept[0] = 0.0
     if warmth.on:
         light = lighter(warmth, states, 0)
     if not resting:
@@ -383,6 +393,8 @@ def solve(
                         for a in range(size):
                             new[a] = q[a]
                 predict(work, ratio, ahead, thin * weight, thin * weight_before)
+                if not ahead or abs(thin * rate - work.kept[1]) > _ALIKE * work.kept[1]:
+                    work.kept[0] = 0.0
             omega = thin * (speed[last] + to * (speed[n] - speed[last]))
             residual, iterations, converged, rounding = _newton(
                 film, work, new, given, size, omega, light / (thin * thin), thin * rate,
@@ -402,6 +414,7 @@ def solve(
                 share = min(2.0 * share, 1.0)
             elif share > SMALLEST:
                 share *= 0.5
+                work.kept[0] = 0.0
             else:
                 break
         rows[n, at.RESIDUAL] = residual

@@ -196,6 +196,9 @@ class ComposedWork(NamedTuple):
         Position at the time before the last, the next one, and its load.
     past : array (5,)
         Bend of the shaft at the time before the last, at the last; the step between them, s.
+    kept : array (2,)
+        Whether `band` holds factors, and `columns` what they make of the derivatives by the
+        position; the rate of these, 1/s.
     """
 
     u: Array
@@ -223,6 +226,7 @@ class ComposedWork(NamedTuple):
     block: Array
     places: Array
     past: Array
+    kept: Array
 
 
 def make_work(around: int, nodes: Nodes) -> ComposedWork:
@@ -255,4 +259,5 @@ def make_work(around: int, nodes: Nodes) -> ComposedWork:
         block=np.zeros(inner * inner),
         places=np.zeros((3, 4)),
         past=np.zeros(5),
+        kept=np.zeros(2),
     )
