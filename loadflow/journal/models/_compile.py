@@ -12,14 +12,18 @@ from functools import partial
 
 from numba import njit
 
-outer = partial(njit, cache=True, nogil=True, error_model="numpy", _nrt=False)()
+outer = partial(
+    njit, cache=True, nogil=True, error_model="numpy", fastmath={"contract"}, _nrt=False
+)()
 """Of a function that Python calls; compiling it takes most of the time, so there are few."""
 
 inner = partial(
-    njit, cache=True, nogil=True, error_model="numpy", _nrt=False,
+    njit, cache=True, nogil=True, error_model="numpy", fastmath={"contract"}, _nrt=False,
     no_cpython_wrapper=True, no_cfunc_wrapper=True,
 )()  # fmt: skip
 """Of a function that compiled ones alone call."""
 
-once = partial(njit, nogil=True, error_model="numpy", _nrt=False, inline="always")()
+once = partial(
+    njit, nogil=True, error_model="numpy", fastmath={"contract"}, _nrt=False, inline="always"
+)()
 """Of a function that is called at one place alone, of which it becomes a part."""

@@ -24,7 +24,7 @@ from loadflow.journal.film.integrals import Integrals, in_units
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
-from loadflow.journal.models import composed, grid
+from loadflow.journal.models import composed, composed_path, grid
 from loadflow.journal.models import reduced_film as at
 from loadflow.journal.models._reduced_loops import finish, march, newton
 from loadflow.journal.models.finer_orbit import on_enough_cells
@@ -175,7 +175,7 @@ def _path(
         return place
 
     if composed.composes(options, line):
-        values = composed.orbit(
+        values = composed_path.orbit(
             bearing, options, time, force, speed, line, control, steps, first_position
         )
         return orbit_dataset(values, time, force, speed, bearing.clearance)
