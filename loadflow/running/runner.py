@@ -191,7 +191,8 @@ def _run(
     log.info("loadflow %s, %s, %d workers", loadflow.__version__, folder, where.workers)
     refined = refinements(folder, scene)
     begun = time.perf_counter()
-    compiles = partial(compile_for_pilot, where=where, say=say)
+    expected = partial(make_plan, scene, refined)
+    compiles = partial(compile_for_pilot, expected=expected, where=where, say=say)
     pilot_verdict = known_verdict(folder, scene) or pilot(
         scene, say, where.outcomes, before=compiles
     )

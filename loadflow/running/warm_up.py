@@ -4,8 +4,9 @@ every process at once.
 numba keeps compiled kernels on the disk, but what they are compiled for is known only when they
 are called. So the questions of the pilot are asked of a load case in miniature first: one process
 simulates a second of it, while another takes made-up loads through films, and the first that is
-free through contacts. The plan's own stages follow in the same way. What is compiled there, all
-workers then load. Marks beside numba's files tell the next run that this is done.
+free through contacts, or through stages that no question is about. The plan's own stages follow in
+the same way. What is compiled there, all workers then load. Marks beside numba's files tell the
+next run that this is done.
 """
 
 from __future__ import annotations
@@ -49,23 +50,32 @@ SAMPLES = 160
 DURATION = 1.0
 """Length of the simulated series after its run-in, s."""
 
-
 Say = Callable[[str, int, int], None]
 
 WHAT = "compiling kernels, once on this machine"
 """What is said of it, beside how many of its jobs are done."""
 
+OTHER = "other"
+"""Job of the stages after the loads."""
 
-def compile_for_pilot(questions: Questions, where: Executor, say: Say) -> None:
+
+def compile_for_pilot(
+    questions: Questions, expected: Callable[[], Plan], where: Executor, say: Say
+) -> None:
     """Compile what the questions of a pilot call, each model in a process of its own.
 
-    The models of a pilot are nearly all that the load cases need as well: that of `compile_kernels`
-    then loads most of it.
+    One more job takes the stages that no question is about, by the plan that is `expected` before
+    the pilot. What the plan after the pilot calls beside these, `compile_kernels` compiles.
     """
     scene, models = questions.scene, questions.models
     rungs = [one.text_of(scene) for name in models for one in STAGES[name].models]
-    work = partial(_asked_in_miniature, questions=questions)
-    _compile(work, models, _marks((rungs, sorted(questions.effects))), where, say)
+    marks = _marks((rungs, sorted(questions.effects), scene.results))
+    if _is_done(marks, where):
+        return
+    with tempfile.TemporaryDirectory(prefix="loadflow-") as place:
+        rest = {OTHER: Path(place) / OTHER}
+        work = partial(_for_pilot, questions=questions, plan=expected(), folders=rest)
+        _compile(work, (*models, OTHER), marks, where, say)
 
 
 def compile_kernels(plan: Plan, where: Executor, say: Say) -> None:
@@ -74,23 +84,31 @@ def compile_kernels(plan: Plan, where: Executor, say: Say) -> None:
     It gains nothing in a single process, which compiles a kernel when it first calls it, nor for a
     cluster, whose machines have files of their own.
     """
-    jobs = ("loads", "other") if plan.scene.loads.source == "simulate" else ("other",)
+    jobs = ("loads", OTHER) if plan.scene.loads.source == "simulate" else (OTHER,)
     needed = [(step.name, step.rung) for step in plan.steps]
+    marks = _marks((needed, sorted(plan.left_out)))
+    if _is_done(marks, where):
+        return
     with tempfile.TemporaryDirectory(prefix="loadflow-") as place:
         folders = {job: Path(place) / job for job in jobs}
         work = partial(_in_miniature, plan=plan, folders=folders)
-        _compile(work, jobs, _marks((needed, sorted(plan.left_out))), where, say)
+        _compile(work, jobs, marks, where, say)
+
+
+def _is_done(marks: list[Path], where: Executor) -> bool:
+    """Whether there is nothing to do: a mark tells it, or the place is none for it."""
+    if any(mark.exists() for mark in marks):
+        return True
+    if where.workers < 2 or not where.shares_disk:
+        log.info("kernels are compiled as they are needed, about a minute on a new machine")
+        return True
+    return False
 
 
 def _compile(
     work: Callable[[str], str], jobs: tuple[str, ...], marks: list[Path], where: Executor, say: Say
 ) -> None:
-    """Have all jobs done, unless a mark tells that they were."""
-    if any(mark.exists() for mark in marks):
-        return
-    if where.workers < 2 or not where.shares_disk:
-        log.info("kernels are compiled as they are needed, about a minute on a new machine")
-        return
+    """Have all jobs done, and mark that they are."""
     log.info("%s: %s", WHAT, ", ".join(jobs))
     begun = time.perf_counter()
     say(WHAT, 0, len(jobs))
@@ -102,6 +120,15 @@ def _compile(
         with suppress(OSError):
             mark.touch()
             break
+
+
+def _for_pilot(job: str, questions: Questions, plan: Plan, folders: dict[str, Path]) -> str:
+    """Do one job of `compile_for_pilot`."""
+    if job != OTHER:
+        return _asked_in_miniature(job, questions)
+    asked = set(questions.models) - {"loads", "shaft"}  # which the others need, and are soon done
+    steps = tuple(step for step in plan.steps if step.name not in asked)
+    return _in_miniature(job, replace(plan, steps=steps), folders)
 
 
 def _asked_in_miniature(model: str, questions: Questions) -> str:
