@@ -572,7 +572,7 @@ def before(place, base, section):
     return _BEFORE[key]
 
 
-ALONE = {"heat.kind", "oscillation.kind", "contact", "shell"} | {
+ALONE = {"heat.kind", "oscillation.kind", "contact", "shell", "roller_model", "inertia"} | {
     f"bearings.{key}"
     for key in (
         "N2.kind",
@@ -586,8 +586,9 @@ ALONE = {"heat.kind", "oscillation.kind", "contact", "shell"} | {
     )
 }
 """Keys of which no other value goes with the scene: a kind says which other keys a table has,
-asperities on a shell that gives way have no model on the rung, and pads with lands neither tilt nor
-have a second profile."""
+asperities on a shell that gives way have no model on the rung, pads with lands neither tilt nor
+have a second profile, balls have no slices, and rollers no inertia that counts
+(`tests/rolling/test_elements_in_scenes.py` shows what these two change)."""
 
 WALKS = [(name, section) for name, sections in READERS.items() for section in sections]
 

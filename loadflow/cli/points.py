@@ -284,13 +284,14 @@ def rolling(
         "clearance": clearance,
         "hardness": hardness,
     }
-    rings = {"inner_ring": inner_ring, "outer_ring": outer_ring, "wall": wall}
+    rings, inertia = {"inner_ring": inner_ring, "outer_ring": outer_ring, "wall": wall}, False
     given = {name: value for name, value in (measures | rings).items() if value is not None}
     options = ", ".join(f"--{name.replace('_', '-')}" for name in given)
     if scene is not None:
         if given:
             raise InputError(f"--scene brings bearing and rings: leave out {options}")
-        found = bearing_of_scene(scene, bearing)
+        part = bearing_of_scene(scene, bearing)
+        found, inertia = (part.modelled, part.ring_model), part.inertia
     elif bearing is not None:
         raise InputError("--bearing names a bearing of a scene: give --scene")
     else:
@@ -302,5 +303,7 @@ def rolling(
         lubrication = Lubrication(
             oil=lubricant(oil), temperature=temperature_c + 273.15, cleanliness=cleanliness
         )
-    answer = rolling_point(*found, force, moment, speed=speed, lubrication=lubrication)
+    answer = rolling_point(
+        *found, force, moment, speed=speed, lubrication=lubrication, inertia=inertia
+    )
     print_quantities(answer, as_json)

@@ -124,6 +124,17 @@ class RollingGeometry(ABC):
         """
         raise InputError(f"mounting: a {type(self).__name__} has more than one clearance")
 
+    # --- of bearings with rollers ----------------------------------------------------------------
+    def with_whole_rollers(self) -> Self:
+        """Return the bearing with rollers of one slice, without profile and tilt.
+
+        Raises
+        ------
+        InputError
+            If it has no rollers.
+        """
+        raise InputError(f"whole rollers: a {type(self).__name__} has none")
+
     # --- the same unless a kind says otherwise ---------------------------------------------------
     @property
     def rib_guided(self) -> bool:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal, Self
 
 import numpy as np
 from annotated_types import Ge, Gt, Le
@@ -127,6 +127,10 @@ class RollerRaceways(OneClearance):
             A row of rollers is no bearing by itself.
         """
         raise InputError(f"{type(self).__name__}: a row of a bearing, no bearing by itself")
+
+    def with_whole_rollers(self) -> Self:
+        """Return the rows with rollers of one slice, without profile and tilt."""
+        return replace(self, slices=1)
 
     @property
     def tracks(self) -> int:

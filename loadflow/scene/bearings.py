@@ -171,6 +171,10 @@ class FurtherBearing(BaseModel):
     ``rings = "flexible"`` takes `inner_ring` and `outer_ring`; one that is left out is rigid. With
     an ``oscillation`` it swings, as pitch and yaw bearings do, in place of turning with the rotor.
     With a `mounting` its clearance follows fits and temperatures.
+
+    ``roller_model = "whole"`` takes each roller as one contact, without its profile and its tilt.
+    ``inertia = true`` counts centrifugal force and gyroscopic moment of the balls, between rigid
+    rings; stiffnesses for the shaft and for rotor dynamics are those without them.
     """
 
     model_config = SECTION
@@ -180,6 +184,8 @@ class FurtherBearing(BaseModel):
     rings: Literal["rigid", "flexible"] = "rigid"
     inner_ring: Ring | None = None
     outer_ring: Ring | None = None
+    roller_model: Literal["sliced", "whole"] = "sliced"
+    inertia: bool = False
     oscillation: Swing | None = None
     mounting: Mounting | None = None
     limits: RollingLimits = RollingLimits()
@@ -198,6 +204,31 @@ class FurtherBearing(BaseModel):
             cold = self.mounting.reference_temperature
             self.mounting.gap_growth(self.geometry, cold, cold)
         return self
+
+    @model_validator(mode="after")
+    def _elements_fit(self) -> Self:
+        kind = self.geometry.kind
+        if self.roller_model == "whole" and self.geometry.element != "roller":
+            raise ValueError(f'roller_model = "whole": a {kind} bearing has no rollers')
+        if self.inertia and not self.can_have_inertia:
+            known = ", ".join(kind for kind, cls in KINDS.items() if cls.element_inertia)
+            raise ValueError(
+                f"inertia: that of balls is modelled in bearings of kind {known} with rigid rings "
+                f'that turn with the rotor; this one is of kind {kind}, rings = "{self.rings}"'
+                f"{', and swings' if self.oscillation else ''}"
+            )
+        return self
+
+    @property
+    def can_have_inertia(self) -> bool:
+        """Whether the inertia of its elements can be counted."""
+        return self.geometry.element_inertia and self.rings == "rigid" and self.oscillation is None
+
+    @property
+    def modelled(self) -> RollingBearing:
+        """The geometry with its rollers in slices, or whole."""
+        whole = self.roller_model == "whole"
+        return self.geometry.with_whole_rollers() if whole else self.geometry
 
     @property
     def idle_torque(self) -> float:
@@ -225,7 +256,7 @@ class FurtherBearing(BaseModel):
         if not self.geometry.flexible_rings:
             known = ", ".join(kind for kind, cls in KINDS.items() if cls.flexible_rings)
             raise InputError(f"rings of a {self.geometry.kind} bearing are rigid; not of {known}")
-        return around(self.geometry, self.inner_ring, self.outer_ring)
+        return around(self.modelled, self.inner_ring, self.outer_ring)
 
 
 class Rolling(FurtherBearing):

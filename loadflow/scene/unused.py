@@ -90,7 +90,7 @@ def _all(scene: Scene) -> Iterator[tuple[str, str]]:
             yield f"loads.{key}", reason
     yield from _of_shaft(scene)
     yield from _of_thrust(scene) if "thrust" not in unread else ()
-    yield from _of_mountings(scene) if "rolling" not in unread else ()
+    yield from _of_each_rolling(scene) if "rolling" not in unread else ()
     for section, rules in (
         ("reduction", _of_reduction),
         ("journal", _of_journal),
@@ -330,10 +330,12 @@ def _of_rolling(scene: Scene) -> Iterator[tuple[str, str]]:
                 yield key, 'rings = "rigid"'
 
 
-def _of_mountings(scene: Scene) -> Iterator[tuple[str, str]]:
-    """Keys of the mountings of rolling bearings, which stand in a list after the first one."""
+def _of_each_rolling(scene: Scene) -> Iterator[tuple[str, str]]:
+    """Keys of any of the rolling bearings, which stand in a list after the first one."""
     for number, part in enumerate(scene.rolling.bearings.values(), -1):
         where = "rolling" if number < 0 else f"rolling.further.{number}"
+        if part.geometry.element != "roller":
+            yield f"{where}.roller_model", f"a {part.geometry.kind} bearing has no rollers"
         for key, reason in unused_of(part.mounting, part.geometry) if part.mounting else ():
             yield f"{where}.mounting.{key}", reason
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 Rows = NDArray[np.int64]
 
-_SHADES = 1e-6  # of its size, by which a column must vary to matter
+_SHADES = 1e-6  # of the largest, by which a column or a direction must vary to matter
 
 
 def evened(values: Floats) -> Floats:
@@ -46,9 +46,18 @@ def nearest(places: Floats, known: Floats) -> Rows:
 def interpolation(known: Floats, values: Floats) -> Callable[[Floats], Floats]:
     """Function from places (n, d) to values (n, m), through `values` (k, m) at `known` (k, d).
 
-    By cubic radial basis functions, which give straight functions exactly; k > d is needed.
+    By cubic radial basis functions, which give straight functions exactly; k > d is needed. Along
+    directions in which the known places hardly differ the function does not change: two columns
+    that say the same, or one that no longer varies among these places, leave no system to solve.
     """
     from scipy.interpolate import RBFInterpolator
 
-    function: Callable[[Floats], Floats] = RBFInterpolator(known, values, kernel="cubic")
-    return function
+    middle = known.mean(axis=0)
+    _, spread, axes = np.linalg.svd(known - middle, full_matrices=False)
+    varies = axes[spread > _SHADES * spread[0]].T
+    function = RBFInterpolator((known - middle) @ varies, values, kernel="cubic")
+
+    def at(places: Floats) -> Floats:
+        return np.asarray(function((places - middle) @ varies))
+
+    return at

@@ -10,7 +10,8 @@ import numpy as np
 import xarray as xr
 
 from loadflow.errors import SolverError
-from loadflow.rolling import FrictionOptions, RollingBearing, roller_slip
+from loadflow.rolling import FrictionOptions, roller_slip
+from loadflow.scene.bearings import FurtherBearing
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
 from loadflow.stages.frames import to_rolling
@@ -67,12 +68,11 @@ def losses(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
         )
         try:
             warm, temperature = at_work(part, scene.friction, load, moment, turning)
-            bearing = warm.geometry
-            options = friction_options(scene.friction, bearing, part.idle_torque)
+            options = friction_options(scene.friction, warm.modelled, part.idle_torque)
             options = replace(options, temperature=temperature)
-            follow = _FOLLOW[bearing.friction_model]
+            follow = _FOLLOW[part.geometry.friction_model]
             turned = to_rolling(load), to_rolling(moment)[:, :2]
-            found.append(follow(bearing, *turned, time, turning, options))
+            found.append(follow(warm, *turned, time, turning, options))
             temperatures.append(temperature)
         except SolverError as error:
             raise SolverError(f"bearing {name}: {error}") from error
@@ -95,7 +95,7 @@ def losses(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
 
 
 def _rollers(
-    bearing: RollingBearing,
+    part: FurtherBearing,
     force: np.ndarray,
     moment: np.ndarray,
     time: np.ndarray,
@@ -103,7 +103,7 @@ def _rollers(
     options: FrictionOptions,
 ) -> dict[str, np.ndarray]:
     """What is kept of a roller bearing, its rollers followed one by one."""
-    result: Any = bearing.equilibrium(force, moment)
+    result: Any = part.modelled.equilibrium(force, moment)
     found = roller_slip(result, time, speed, options)
     return {
         "friction_power": found.friction.power,
@@ -116,7 +116,7 @@ def _rollers(
 
 
 def _balls(
-    bearing: RollingBearing,
+    part: FurtherBearing,
     force: np.ndarray,
     moment: np.ndarray,
     time: np.ndarray,
@@ -127,7 +127,8 @@ def _balls(
     parts = []
     for start in range(0, speed.size, CHUNK):
         some = slice(start, start + CHUNK)
-        result = bearing.equilibrium(force[some], moment[some])
+        spun = speed[some] if part.inertia else None
+        result = part.modelled.equilibrium(force[some], moment[some], speed=spun)
         found = result.friction(speed[some], options)
         least = least_film_parameter(found.film_parameter, result.ball_forces)
         slip = found.losses["differential slip"] + found.losses["spin"]
@@ -139,9 +140,9 @@ def _balls(
     return dict(zip(KEPT, (np.concatenate(values) for values in zip(*parts))))
 
 
-def _unknown(bearing: RollingBearing, *_: Any) -> dict[str, np.ndarray]:
+def _unknown(part: FurtherBearing, *_: Any) -> dict[str, np.ndarray]:
     raise SolverError(
-        f"no model of friction for the contacts of a {type(bearing).__name__}; "
+        f"no model of friction for the contacts of a {type(part.geometry).__name__}; "
         "rolling.friction_torque_loads estimates its torque from the loads"
     )
 

@@ -145,7 +145,7 @@ def warm_bearing(
 def _solved(name: str, part: FurtherBearing, loads: xr.Dataset) -> Any:
     """Equilibrium of a bearing under all samples of `loads`, or the one that they are."""
     try:
-        return rest(part, loads["force"].values, loads["moment"].values)
+        return rest(part, *(loads[name].values for name in ("force", "moment", "speed")))
     except SolverError as error:
         raise SolverError(f"bearing {name}: {error}") from error
 
@@ -219,7 +219,7 @@ def _design_safety(
     hardest = np.argsort(answer.static_safety)[:_HARDEST]
     some = reduced.isel(sample=hardest)
     force, moment = (factor * some[name].values for name in ("force", "moment"))
-    designed = rest(part, force, moment, strict=False)
+    designed = rest(part, force, moment, some["speed"].values, strict=False)
     safety = np.where(designed.converged, designed.static_safety, np.nan)
     if np.isnan(safety).any():
         return np.nan, float(some["time"].values[np.argmax(np.isnan(safety))])

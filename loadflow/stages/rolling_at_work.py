@@ -19,11 +19,22 @@ MOST = 250
 """Samples of a load case whose mean friction decides on the temperature of a bearing."""
 
 
-def rest(part: FurtherBearing, force: np.ndarray, moment: np.ndarray, strict: bool = True) -> Any:
-    """Equilibrium of a bearing, with its rings, under loads (..., 3) in the frame of the cube."""
-    bearing = part.geometry
+def rest(
+    part: FurtherBearing,
+    force: Floats,
+    moment: Floats,
+    speed: Floats | None = None,
+    *,
+    strict: bool = True,
+) -> Any:
+    """Equilibrium of a bearing, with its rings, under loads (..., 3) in the frame of the cube.
+
+    `speed` (...), rad/s, is that of the inertia of its balls, if the scene has it counted; without
+    a speed they rest.
+    """
     load = to_rolling(force), to_rolling(moment)[..., :2]
-    return bearing.equilibrium(*load, rings=part.ring_model, strict=strict)
+    turning = speed if part.inertia else None
+    return part.modelled.equilibrium(*load, rings=part.ring_model, speed=turning, strict=strict)
 
 
 def as_stated(part: FurtherBearing, options: Friction) -> FurtherBearing:
@@ -72,7 +83,7 @@ def at_work(
     some = np.unique(np.linspace(0, speed.size - 1, count).round().astype(int))
 
     def warm(temperature: float) -> Any:
-        return rest(part.at_work(temperature, ambient), force[some], moment[some])
+        return rest(part.at_work(temperature, ambient), force[some], moment[some], speed[some])
 
     balance = balanced_temperature(
         warm if part.mounting is not None else answer if every else warm(ambient),
@@ -81,7 +92,7 @@ def at_work(
         options.conductance,
         ambient,
         weights=None if weight is None else weight[some],
-        model=part.geometry.losses,
+        model=part.modelled.losses,
     )
     return part.at_work(balance.temperature, ambient), balance.temperature
 

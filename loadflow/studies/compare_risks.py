@@ -189,4 +189,5 @@ def _equilibrium(scene: Scene, place: str, some: xr.Dataset) -> Any:
     force, moment = (
         some[name].transpose("sample", "axis").values.astype(float) for name in ("force", "moment")
     )
-    return rest(bearing_at_work(scene, place, some), force, moment, strict=False)
+    speed = some["speed"].values
+    return rest(bearing_at_work(scene, place, some), force, moment, speed, strict=False)

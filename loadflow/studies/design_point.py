@@ -356,7 +356,7 @@ class _Turned:
             used[name].transpose("sample", ...).values
             for name in ("force", "moment", "speed", "weight")
         )
-        answer = rest(part, force, moment, strict=False)
+        answer = rest(part, force, moment, speed, strict=False)
         if not np.all(answer.converged):
             raise SolverError("no equilibrium of a rolling bearing under a load of the spectrum")
         lost = answer.friction(speed, friction_options(options, part.geometry))
@@ -394,7 +394,7 @@ def _static(part: FurtherBearing, samples: xr.Dataset) -> float:
     force, moment = (
         factor * some[name].transpose("sample", "axis").values for name in ("force", "moment")
     )
-    answer = rest(part, force, moment, strict=False)
+    answer = rest(part, force, moment, some["speed"].values, strict=False)
     return float(np.where(answer.converged, answer.static_safety, 0.0).min())
 
 

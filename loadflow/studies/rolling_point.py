@@ -19,7 +19,7 @@ from loadflow.rolling import (
 )
 from loadflow.rolling.rating.life import life_hours
 from loadflow.rolling.rating.static import HOURS_20_YEARS
-from loadflow.scene.bearings import around, standing_ring
+from loadflow.scene.bearings import FurtherBearing, around, standing_ring
 from loadflow.scene.scene import read_scene
 from loadflow.stages.rolling import KEPT
 from loadflow.stages.rolling_at_work import as_stated
@@ -71,8 +71,8 @@ def slewing_bearing(
     return bearing, around(bearing, inner, outer)
 
 
-def bearing_of_scene(path: Path, name: str | None) -> tuple[RollingBearing, Rings]:
-    """Return a rolling bearing of a scene, its first if no `name` is given, and its rings.
+def bearing_of_scene(path: Path, name: str | None) -> FurtherBearing:
+    """Return a rolling bearing of a scene, its first if no `name` is given.
 
     With a mounting it has its clearance at the temperature of the section ``[friction]``.
 
@@ -86,8 +86,7 @@ def bearing_of_scene(path: Path, name: str | None) -> tuple[RollingBearing, Ring
     name = name or next(iter(bearings))
     if name not in bearings:
         raise InputError(f"{path}: no rolling bearing {name!r}; there are {', '.join(bearings)}")
-    part = as_stated(bearings[name], scene.friction)
-    return part.geometry, part.ring_model
+    return as_stated(bearings[name], scene.friction)
 
 
 def rolling_point(
@@ -98,10 +97,12 @@ def rolling_point(
     *,
     speed: float | None = None,
     lubrication: Lubrication | None = None,
+    inertia: bool = False,
 ) -> xr.Dataset:
     """Return what a bearing does under one `force` (N), `moment` (N m), turning at `speed` (rad/s).
 
-    With a `lubrication`, the modified life of ISO 281 at that speed too.
+    With a `lubrication`, the modified life of ISO 281 at that speed too; with `inertia`, under the
+    inertia of its balls at that speed.
 
     Raises
     ------
@@ -113,7 +114,9 @@ def rolling_point(
     """
     if speed is not None and not (math.isfinite(speed) and speed):
         raise InputError(f"speed: must be finite and not 0 for a life in hours, got {speed:g}")
-    r = bearing.equilibrium(force, moment, rings=rings)
+    if inertia and speed is None:
+        raise InputError("the inertia of the balls needs a speed: give --speed-rpm")
+    r = bearing.equilibrium(force, moment, rings=rings, speed=speed if inertia else None)
     rows = {name: (getattr(r, name), units, meaning) for name, (units, meaning) in KEPT.items()}
     solver = {name: rows.pop(name) for name in ("converged", "residual", "iterations")}
     stiffness = np.diag(r.stiffness)

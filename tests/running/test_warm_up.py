@@ -4,8 +4,8 @@ import pytest
 from small_run import small_scene
 
 from loadflow.cube import check_case
-from loadflow.planning.plan import make_plan
 from loadflow.planning.pilot import Questions
+from loadflow.planning.plan import make_plan
 from loadflow.running.warm_up import compile_for_pilot, compile_kernels, made_up_loads
 
 

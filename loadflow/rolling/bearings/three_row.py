@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal, Self
 
 import numpy as np
 from annotated_types import Gt, Le
@@ -78,6 +78,11 @@ class ThreeRowRollerBearing(RollingBearing):
             replace(self.retaining, contact_angle=math.pi / 2),
             replace(self.radial, contact_angle=0.0),
         )
+
+    def with_whole_rollers(self) -> Self:
+        """Return the bearing with rollers of one slice, without profile and tilt."""
+        rows = ("support", "retaining", "radial")
+        return replace(self, **{name: getattr(self, name).with_whole_rollers() for name in rows})
 
     @property
     def pitch_diameter(self) -> float:

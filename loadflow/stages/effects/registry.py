@@ -22,6 +22,7 @@ EFFECTS: list[Effect] = [
     film.TURBULENCE,
     film.SUPPLY,
     rolling.RINGS,
+    rolling.SLICED,
     rolling.CENTRIFUGAL,
 ]
 
