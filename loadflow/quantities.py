@@ -41,6 +41,7 @@ READABLE = {
     "rad": (180 / math.pi, "°"),
     "m^3/s": (6e4, "l/min"),
     "m3/s": (6e4, "l/min"),  # of files of former versions
+    "1e6 revolution": (1.0, "Mrev"),
     "1": (1.0, "–"),
     "": (1.0, "–"),
 }

@@ -1,9 +1,12 @@
 """Commands to begin with: init, list, and the order of the help."""
 
 import json
+import subprocess
+import sys
 
 import pytest
 
+import loadflow
 from loadflow.cli import GROUPS, main
 from loadflow.cli.base import app
 from loadflow.cli.lists import LISTS
@@ -16,6 +19,12 @@ def call(capsys, *arguments, code=0):
         main(arguments)
     assert (stop.value.code or 0) == code
     return capsys.readouterr()
+
+
+def test_the_package_run_as_a_module_is_the_command_line():
+    arguments = [sys.executable, "-m", "loadflow", "--version"]
+    told = subprocess.run(arguments, capture_output=True, text=True, check=True)
+    assert told.stdout == f"loadflow {loadflow.__version__}\n"
 
 
 def test_init_writes_a_scene_that_is_valid(tmp_path, capsys):

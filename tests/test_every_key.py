@@ -285,6 +285,7 @@ OTHERS = {
     "rolling.inner_ring": [
         {"section": {"width": 0.1, "height": 0.15}, "radius": 0.9},
         {"section": {"width": 0.1, "height": 0.3}, "radius": 0.5},
+        {"section": {"width": 0.07, "height": 0.3}, "radius": 0.535},
     ],
     "rolling.mounting": [{"inner_share": 1.2}],
     "rolling.mounting.row_distance": ["seats"],
@@ -301,7 +302,10 @@ OTHERS = {
     "rolling.outer_ring.supports": [
         [{"radius": 0.7, "height": -0.15, "thickness": 0.05, "length": 0.3}],
     ],
-    "rolling.outer_ring": [{"section": {"width": 0.1, "height": 0.15}, "radius": 1.1}],
+    "rolling.outer_ring": [
+        {"section": {"width": 0.1, "height": 0.15}, "radius": 1.1},
+        {"section": {"width": 0.07, "height": 0.3}, "radius": 0.665},
+    ],
 }
 """Values that no rule finds: names, files, tables."""
 

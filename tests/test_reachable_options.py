@@ -39,7 +39,8 @@ FOUND = {
 
 BUILT = {
     "journal": "Control Cycle DoubleThrustBearing Film JournalGeometry WornBearing",
-    "rolling": "FlexibleRings FrictionOptions Inertia Lubrication RingProfile RingSections",
+    "rolling": "CompliantRing FiniteElementRing FlexibleRings FrictionOptions Inertia Lubrication "
+    "RingProfile RingSections SolidRing",
     "shaft": "CoupledBearing Disc LineSupport Seated ShaftLine",
     "tribology": "ConformalWear FrictionPair",
     "rotor": "RotorOptions",
@@ -54,9 +55,6 @@ LIBRARY_ONLY = {
     "RectangularThrustBearing": "the plane slider of the literature, no bearing of a rotor shaft",
     "UnitBearing": "the dimensionless film, for studies of the Sommerfeld number",
     "ConductingCouette": "closed form of a warm film, a reference",
-    "CompliantRing": "a ring given by influence coefficients of another program",
-    "FiniteElementRing": "a ring of any section in (r, z); scenes have beams of ring sections",
-    "SolidRing": "a ring of any section in solid elements; scenes have beams of ring sections",
 }
 """What only Python reaches, and why."""
 

@@ -22,9 +22,10 @@ from loadflow.report.charts import thinned
 from loadflow.report.page import ASSETS
 from loadflow.report.run_charts import over_wind_speed
 from loadflow.running.answers_page import answer_row
-from loadflow.running.report_page import _spread, report_is_current, write_report
+from loadflow.running.report_page import _spread, _verdict_table, report_is_current, write_report
 from loadflow.scene.scene import make_scene
 from loadflow.studies.tolerances import Band
+from loadflow.verdict import Verdict, to_dataset
 
 
 @pytest.fixture(scope="module")
@@ -187,6 +188,7 @@ def test_answers_have_a_unit_that_fits_on_value_and_interval():
     kept = {"result": "journal.film", "bearing": "N", "error": 0.03}
     pressure = Answer(quantity="p", unit="Pa", value=2e7, low=1.9e7, high=2.1e7, **kept)
     ratio = Answer(quantity="e", unit="1", value=0.8, low=0.7, high=0.81, **kept)
+    assert answer_row(pressure)[1] == "journal N"
     assert answer_row(pressure)[2:4] == ["20 MPa", "19 … 21 MPa"]
     assert answer_row(ratio)[2:4] == ["0.8", "0.7 … 0.81"]
     banded = replace(pressure, band=Band(-0.1, 0.2, {"clearance": 0.2}))
@@ -260,6 +262,15 @@ async def until_true(browser, code, seconds=30):
     while not await browser.evaluate(code):
         assert time.monotonic() < end, code
         await asyncio.sleep(0.2)
+
+
+def test_films_of_verdicts_stand_in_micrometres_and_ratios_without_a_unit():
+    film = Verdict("journal N", "smallest film", 1.857e-4, 1.38e-5, "at least", "m")
+    ratio = Verdict("journal N", "eccentricity ratio ε", 0.75, 0.95, "at most")
+    table = to_dataset([film, ratio])
+    [shown] = _verdict_table({"verdicts": table})
+    assert shown.rows[0][2:5] == ["185.7 µm", "≥ 13.8 µm", "171.9 µm"]
+    assert shown.rows[1][2:5] == ["0.75", "≤ 0.95", "0.2"]
 
 
 def test_a_long_series_is_drawn_with_its_extremes():

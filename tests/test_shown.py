@@ -1,5 +1,6 @@
 """Results that show themselves: figures, tables for notebooks, rooms, the accessor of cubes."""
 
+import inspect
 import subprocess
 import sys
 
@@ -14,8 +15,12 @@ from loadflow import plots
 from loadflow.cube import make_cube
 from loadflow.errors import InputError
 from loadflow.journal import (
+    ConicalBearing,
+    ConicalPair,
     Contact,
+    DoubleThrustBearing,
     FilmHeat,
+    Heat,
     JournalBearing,
     LocalShell,
     Lubricant,
@@ -23,10 +28,17 @@ from loadflow.journal import (
     ThrustBearing,
 )
 from loadflow.journal.film_model import Film
+from loadflow.numerics.shown import Shown
 from loadflow.quantities import FILM, ROLLING
 from loadflow.reduction import damage_equivalent_load
 from loadflow.report import figures
-from loadflow.rolling import BallBearing, RollerBearing, SlewingBearing
+from loadflow.rolling import (
+    BallBearing,
+    RingSections,
+    RollerBearing,
+    SlewingBearing,
+    axial_expansion,
+)
 from loadflow.studies.statistics import statistic_records
 from loadflow.tribology import AsperityContact
 
@@ -173,6 +185,77 @@ def test_rolling_bearings_and_pads_show_themselves_as_well():
     )
     shown = pads.pressure(gap=1e-4, speed=10.0, film=Film(lubricant=OIL))._repr_html_()
     assert "minimum film thickness" in shown
+
+
+def results():
+    """One of each public class of results, by its name."""
+    cone = ConicalBearing(half_angle=0.5, slant=(1.0, 1.3), clearance=2e-4)
+    pair = ConicalPair(cone, cone, distance=1.0, clearance=2e-4)
+    lands = ThrustBearing(6, 0.5, 1.0, pad_angle=0.785, taper=1e-4)
+    collar = DoubleThrustBearing(lands, lands, play=4e-4)
+    pads, thick = Film(OIL, grid=(20, 10)), Film(Lubricant(0.1), inlet=None, grid=(40, 10))
+    warm = Film(None, heat=Heat(oil="iso-vg-68", inlet_temperature=313.15), grid=(36, 8))
+    hot = Film(
+        None,
+        MassConserving(),
+        edge_pressure=1e4,
+        heat=FilmHeat("iso-vg-68", inlet_temperature=313.15),
+        grid=(36, 8),
+    )
+    rings = RingSections(
+        outer_outside=1.3, outer_inside=1.05, inner_outside=0.95, inner_inside=0.7, height=0.2
+    )
+    found = [
+        BEARING.equilibrium((5e3, 0.0), [40.0, 60.0], OIL, grid=(36, 8)),
+        BEARING.equilibrium((5e3, 0.0), 40.0, warm),
+        BEARING.equilibrium((5e3, 0.0), 40.0, hot),
+        BEARING.pressure((7e-5, 3e-5), 50.0, OIL, grid=(36, 8)),
+        BEARING.pressure((7e-5, 3e-5), 50.0, hot),
+        lands.equilibrium(1e6, 10.0, pads),
+        collar.equilibrium(1e6, 10.0, pads),
+        cone.pressure((5e-5, 0.0, 0.0), 10.0, thick),
+        pair.equilibrium((1e5, 0.0, 5e4), (0.0, 0.0), 1.0, thick),
+        ROLLERS.equilibrium(force=(2e3, 0.0, 0.0)),
+        axial_expansion(RING, [5e4, 1e5], rings),
+    ]
+    return {type(one).__name__: one for one in found}
+
+
+def classes_of_results():
+    """Public classes that are named as results are, or show themselves, of all rooms."""
+    rooms = [getattr(lf, name) for name in dir(lf) if inspect.ismodule(getattr(lf, name))]
+    public = {one for room in rooms for one in vars_of(room) if inspect.isclass(one)}
+    named = ("Result", "Equilibrium", "Field")
+    return {
+        one.__name__ for one in public
+        if one.__module__.startswith("loadflow.") and not inspect.isabstract(one)
+        and (issubclass(one, Shown) or one.__name__.endswith(named))
+    }  # fmt: skip
+
+
+def vars_of(room):
+    return [getattr(room, name) for name in dir(room) if not name.startswith("_")]
+
+
+BASES = {"PadResult"}  # what all bearings of pads answer; none answers it alone
+WINDS = {"Field"}  # a field of wind, no result of a solver
+
+
+def test_every_public_result_shows_draws_and_labels_itself():
+    known = results()
+    assert classes_of_results() - BASES - WINDS == {*known}
+    for name, one in known.items():
+        first = repr(one).splitlines()[0]
+        assert name in first
+        assert " object at 0x" not in repr(one)
+        assert one._repr_html_().count("<tr>") > 3, name
+        drawing = one.plot()
+        assert any(axis.has_data() for axis in drawing.axes), name
+        assert plots.to_svg(drawing).startswith("<svg"), name
+        data = one.to_dataset()
+        assert data.data_vars, name
+        for variable, values in data.data_vars.items():
+            assert {"units", "long_name"} <= {*values.attrs}, (name, variable)
 
 
 # --- rooms ----------------------------------------------------------------------------------------

@@ -1,10 +1,11 @@
 """Which physics matters when: docs/physics.md and its figures.
 
-``sizes`` lets the pilot measure every effect on single wind speeds of three turbines, ``scenes``
-asks the plan of ten scenes what it keeps, ``runs`` makes small whole runs from the coarsest models
+``sizes`` lets the pilot measure every effect on single wind speeds of three turbines, ``elements``
+that of rollers in slices, in a bearing that the scenes of ``sizes`` do not have, ``scenes`` asks
+the plan of ten scenes what it keeps, ``runs`` makes small whole runs from the coarsest models
 to all that there is and holds their answers against the last. What is measured is kept beside the
 page in ``docs/figures/physics.json``, so that each part may be measured alone; without a part the
-page is written anew from there: ``python -m benchmarks.ladder.physics [sizes] [scenes] [runs]``.
+page is written anew from there: ``python -m benchmarks.ladder.physics [PART …]``.
 """
 
 from __future__ import annotations
@@ -118,6 +119,30 @@ def sizes() -> Iterator[dict[str, Any]]:
                     "sizes": verdict.sizes,
                     "refused": verdict.refused,
                 }
+
+
+def elements() -> Iterator[dict[str, Any]]:
+    """Measured size of profile and tilt of rollers in a sized tapered pair, as `sizes`."""
+    for turbine in TURBINES:
+        bearing = machine(turbine)["candidates"]["tapered-pair"]["M"]
+        places = {"bearings": {"M": bearing}, "shaft": {"moment": {}}}
+        for speed in SPEEDS:
+            loads = {"wind_speeds": [speed], "rung": "tables"} | SHORT
+            made = {"name": "physics", "turbine": {"name": turbine}, "results": RESULTS[2:]}
+            scene = Scene.model_validate(made | places | {"loads": loads, "accuracy": 0.02})
+            verdict = pilot(scene, effort=THOROUGH)
+            assert verdict is not None
+            rollers = {name: verdict.sizes[name] for name in verdict.sizes if "rollers" in name}
+            yield {"turbine": turbine, "speed": speed, "sizes": rollers}
+
+
+def joined(kept: dict[str, Any]) -> list[dict[str, Any]]:
+    """Sizes of all effects, that of rollers in slices among them."""
+    more = {(one["turbine"], one["speed"]): one["sizes"] for one in kept.get("elements", [])}
+    return [
+        one | {"sizes": one["sizes"] | more.get((one["turbine"], one["speed"]), {})}
+        for one in kept["sizes"]
+    ]
 
 
 # --- ten scenes, and what the plan keeps ----------------------------------------------------------
@@ -353,7 +378,7 @@ def draw_front(found: list[dict[str, Any]]) -> None:
     plt.close(figure)
 
 
-PARTS = {"sizes": sizes, "scenes": scenes, "runs": runs}
+PARTS = {"sizes": sizes, "elements": elements, "scenes": scenes, "runs": runs}
 """What is measured."""
 
 SIZES = "## Size over wind speed and turbine"
@@ -387,6 +412,7 @@ def main() -> None:
             found.append(one)
             KEPT.write_text(json.dumps(kept_so_far() | {part: found}, indent=1), encoding="utf-8")
     kept = kept_so_far()
+    kept["sizes"] = joined(kept)
     told = [
         f"{text}\n\n{table(kept[part])}"
         for part, text, table in (("sizes", SIZES, size_table), ("scenes", SCENES, scene_table))

@@ -1,7 +1,11 @@
 """Draw journal bearings of every family over the documented ranges, and count what comes of them.
 
 python -m benchmarks.robustness.families [--draws N] [--first I] [--cap S] [--show] [FAMILY …]
+python -m benchmarks.robustness.families --keep [--draws N] [--cap S] [--show] [FAMILY …]
 
+With `--keep` each family goes on with N numbers from the first that was not drawn yet, and the
+counts are added to tests/hard/families.json after every 25, so that 10,000 of each come together
+over several nights; `python -m benchmarks.robustness.hard_cases --tables` brings them to the page.
 Each draw follows from its family and number alone, so that `--first I --draws 1 --show` repeats
 one. What is counted: answered (converged and finite), reason (an error that says why there can be
 no answer: contact, starvation, standstill, unfit input), unfound (an error that only says that no
@@ -39,11 +43,13 @@ import warnings
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from benchmarks.common import arguments
+from benchmarks.robustness import kept
 from loadflow.errors import InputError, LoadflowError
 from loadflow.journal import (
     Arc,
@@ -83,7 +89,7 @@ SLOW = 2.0  # s
 GRIDS = ((48, 8), (60, 12), (60, 20), (96, 16))
 REASONS = ("touches", "carries no load", "starved", "carries no more", "half-speed whirl")
 REASONS += ("find no tilt", "a cone presses the shaft away", "the film gets hotter than")
-REASONS += ("no heat balance below 423.15 K; at 423",)
+REASONS += ("no heat balance below 423.15 K; at 423", "no heat balance: at")
 SEEDS = {"cylinder": 1, "shaped": 2, "supply": 3, "line": 4, "shell": 5, "orbit": 6}
 SEEDS |= {"contact": 7, "thrust": 8, "cone": 9, "pair": 10, "heat": 11, "touching": 12}
 
@@ -418,8 +424,10 @@ def outcome(work: Callable[[], Any], cap: float = 0.0) -> tuple[str, str]:
     return ("answered", "") if finite else ("raw", "an answer that is not finite")
 
 
-def run(family: str, numbers: range, show: bool, cap: float = 0.0) -> dict[str, Any]:
-    """Counts of one family."""
+def run(
+    family: str, numbers: range, show: bool, cap: float = 0.0, compiled: bool = False
+) -> dict[str, Any]:
+    """Counts of one family; the first draw is neither timed nor ended unless all is compiled."""
     counts: Counter[str] = Counter()
     longest = total = 0.0
     for number in numbers:
@@ -427,9 +435,10 @@ def run(family: str, numbers: range, show: bool, cap: float = 0.0) -> dict[str, 
         point = draw_point(rng)
         work = FAMILIES[family](point)
         begin = time.process_time()
-        kind, text = outcome(work, cap if number > numbers.start else 0.0)
+        timed = compiled or number > numbers.start
+        kind, text = outcome(work, cap if timed else 0.0)
         spent = time.process_time() - begin
-        if number > numbers.start:  # the first one may compile
+        if timed:
             longest, total = max(longest, spent), total + spent
             counts["slow"] += spent > SLOW
         counts[kind] += 1
@@ -440,7 +449,8 @@ def run(family: str, numbers: range, show: bool, cap: float = 0.0) -> dict[str, 
             head += f"{point.width / point.diameter:.2f}, {law}, {point.film['grid']}, {more}"
             print(f"{head}, {spent:.1f} s: {text}", flush=True)
     names = ("answered", "reason", "unfound", "raw", "late", "slow")
-    row: dict[str, Any] = {"draws": len(numbers)} | {name: counts[name] for name in names}
+    row: dict[str, Any] = {"draws": len(numbers), "cap": cap}
+    row |= {name: counts[name] for name in names}
     return row | {"mean": round(total / len(numbers), 3), "longest": round(longest, 2)}
 
 
@@ -449,20 +459,24 @@ def main() -> None:
     parser = arguments(__doc__)
     parser.add_argument("families", nargs="*", default=list(FAMILIES), metavar="FAMILY")
     parser.add_argument("--draws", type=int, default=200)
-    parser.add_argument("--first", type=int, default=0)
+    parser.add_argument("--first", type=int, help="number of the first draw; 0 if not given")
     parser.add_argument("--cap", type=float, default=0.0, help="seconds of processor time a draw")
     parser.add_argument("--show", action="store_true", help="every draw without an answer")
     parser.add_argument("--json", metavar="FILE", help="write the counts there")
+    parser.add_argument("--keep", action="store_true", help="go on, and add to the kept counts")
     asked = parser.parse_args()
     unknown = set(asked.families) - set(FAMILIES)
     if unknown:
         sys.exit(f"unknown families: {', '.join(sorted(unknown))}; known: {', '.join(FAMILIES)}")
+    if asked.keep and (asked.first is not None or asked.json):
+        sys.exit("--keep goes on where a family ends, in its own file: leave --first and --json")
     warnings.simplefilter("ignore")
-    rows = {}
+    rows: dict[str, Any] = {}
     for family in asked.families:
-        rows[family] = run(
-            family, range(asked.first, asked.first + asked.draws), asked.show, asked.cap
-        )
+        draw = partial(run, family, show=asked.show, cap=asked.cap)
+        first = asked.first or 0
+        numbers = range(first, first + asked.draws)
+        rows[family] = kept.keep(family, asked.draws, draw) if asked.keep else draw(numbers)
         print(f"{family}: {rows[family]}", flush=True)
     if asked.json:
         with open(asked.json, "w", encoding="utf-8") as file:

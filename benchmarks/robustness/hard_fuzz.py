@@ -1,9 +1,10 @@
 """Draw 10,000 cases of every solver: writes tests/hard/draws.json.
 
-python -m benchmarks.robustness.hard_fuzz [TEST …]
+python -m benchmarks.robustness.hard_fuzz [--seed N] [TEST …]
 
 TEST is part of the name of a test of tests/hard/test_fuzz*.py; what is not asked for keeps its old
-row. The draws follow from a seed. A quarter of an hour on one core.
+row. The draws follow from a seed. With a seed of its own, which was not drawn yet, the counts are
+added to those that are kept. A quarter of an hour on one core.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ import re
 import subprocess
 import sys
 import time
+from typing import Any
 
 from benchmarks.common import ROOT, arguments
 
@@ -25,11 +27,11 @@ DRAWN = re.compile(r"(\d+) passing, (\d+) failing, and (\d+) invalid")
 UNANSWERED = re.compile(r"([\d.]+)%, no answer")
 
 
-def draw(file: str, test: str) -> dict[str, float]:
+def draw(file: str, test: str, seed: int = SEED) -> dict[str, Any]:
     """Run one test at length: draws, failures, share without an answer, seconds."""
     begin = time.perf_counter()
     command = [sys.executable, "-m", "pytest", "-n0", "-q", "-W", "ignore::UserWarning"]
-    options = [f"--hypothesis-seed={SEED}", "--hypothesis-show-statistics"]
+    options = [f"--hypothesis-seed={seed}", "--hypothesis-show-statistics"]
     done = subprocess.run(
         [*command, *options, f"{HARD / file}::{test}"],
         capture_output=True,
@@ -44,6 +46,7 @@ def draw(file: str, test: str) -> dict[str, float]:
     if failing:
         print(done.stdout)
     return {
+        "seeds": [seed],
         "draws": passing,
         "failing": failing,
         "refused": float(share.group(1)) / 100 if share else 0.0,
@@ -51,14 +54,32 @@ def draw(file: str, test: str) -> dict[str, float]:
     }
 
 
-def main(asked: list[str]) -> None:
+def joined(kept: dict[str, Any], more: dict[str, Any]) -> dict[str, Any]:
+    """Return the counts of two runs with seeds of their own as those of one.
+
+    Raises
+    ------
+    ValueError
+        A seed is in both: the same draws would count twice.
+    """
+    if twice := set(kept["seeds"]) & set(more["seeds"]):
+        raise ValueError(f"seeds {sorted(twice)} were drawn before")
+    sums = {name: kept[name] + more[name] for name in ("seeds", "draws", "failing", "seconds")}
+    parts = [row["refused"] * row["draws"] for row in (kept, more)]
+    return sums | {"refused": sum(parts) / sums["draws"]}
+
+
+def main(asked: list[str], seed: int | None) -> None:
     """Draw, and keep the counts."""
     rows = json.loads(DRAWS.read_text(encoding="utf-8")) if DRAWS.exists() else {}
     for path in sorted(HARD.glob("test_fuzz*.py")):
         for test in re.findall(r"^def (test_\w+)", path.read_text(encoding="utf-8"), re.MULTILINE):
             if asked and not any(part in test for part in asked):
                 continue
-            rows[test] = draw(path.name, test)
+            if seed is not None and seed in rows[test]["seeds"]:
+                sys.exit(f"{test}: seed {seed} was drawn before")
+            found = draw(path.name, test, SEED if seed is None else seed)
+            rows[test] = found if seed is None else joined(rows[test], found)
             print(test, rows[test], flush=True)
             DRAWS.write_text(json.dumps(rows, indent=1) + "\n", encoding="utf-8")
 
@@ -66,4 +87,6 @@ def main(asked: list[str]) -> None:
 if __name__ == "__main__":
     parser = arguments(__doc__)
     parser.add_argument("tests", nargs="*", metavar="TEST")
-    main(parser.parse_args().tests)
+    parser.add_argument("--seed", type=int, help="another seed, whose draws are added")
+    options = parser.parse_args()
+    main(options.tests, options.seed)

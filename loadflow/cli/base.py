@@ -55,29 +55,11 @@ CubeFile = Annotated[
 TurbineName = Annotated[str, typer.Option(help="Turbine: a name, or a file.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON, for a machine to read.")]
 
-CaseList = Annotated[
-    Path | None,
-    typer.Option("--cases", help="List of cases: CSV with file, dlc, wind_speed, seed, weight."),
-]
-NamePattern = Annotated[
-    str | None,
-    typer.Option("--pattern", help="How names tell the case: 'run_{dlc}_{wind_speed}_{seed}'."),
-]
-OwnChannels = Annotated[
-    str | None,
-    typer.Option(
-        "--channels",
-        help="Channels by component: a TOML file, or 'speed=Omega, hub_force_x=-#23'.",
-    ),
-]
-GaugeDistance = Annotated[
-    float | None,
-    typer.Option("--gauge-distance", help="From the rotor apex to the shaft strain gauge, m."),
-]
-FrameOfChannels = Annotated[
-    str | None,
-    typer.Option("--frame", help="Frame of the y and z channels: auto, fixed or rotating."),
-]
+OutFolder = Annotated[Path, typer.Option("--out", help="Folder for runs.")]
+RunName = Annotated[str | None, typer.Option(help="Name of the run; default: the scene's.")]
+Workers = Annotated[int, typer.Option(min=0, help="Processes; 0: one for each core.")]
+Scheduler = Annotated[str | None, typer.Option(help="Dask scheduler, tcp://host:port.")]
+OtherSettings = Annotated[bool, typer.Option(help="Replace parts of other settings.")]
 
 Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace a file that is there.")]
 

@@ -9,12 +9,12 @@ import typer
 
 from loadflow.cli.base import (
     AsJson,
-    CaseList,
-    FrameOfChannels,
-    GaugeDistance,
-    NamePattern,
+    OtherSettings,
+    OutFolder,
     Overwrite,
-    OwnChannels,
+    RunName,
+    Scheduler,
+    Workers,
     app,
     check_free,
     out,
@@ -22,11 +22,13 @@ from loadflow.cli.base import (
     print_rows,
 )
 from loadflow.cli.progress import progress
-from loadflow.cli.scenes import LoadFiles, SceneFile, read, reading_of
+from loadflow.cli.reading import AS_STATED, Reading, reads_load_files
+from loadflow.cli.scenes import LoadFiles, SceneFile, read
 from loadflow.errors import InputError, LoadflowError
 
 
 @app.command()
+@reads_load_files
 def compare(
     scene: SceneFile,
     loads: LoadFiles = None,
@@ -34,16 +36,12 @@ def compare(
         list[str] | None,
         typer.Option("--candidate", help="Name of one to compare, may be repeated; default all."),
     ] = None,
-    out_folder: Annotated[Path, typer.Option("--out", help="Folder for runs.")] = Path("runs"),
-    name: Annotated[str | None, typer.Option(help="Name of the run; default: the scene's.")] = None,
-    workers: Annotated[int, typer.Option(min=0, help="Processes; 0: one for each core.")] = 0,
-    scheduler: Annotated[str | None, typer.Option(help="Dask scheduler, tcp://host:port.")] = None,
-    overwrite: Annotated[bool, typer.Option(help="Replace parts of other settings.")] = False,
-    cases: CaseList = None,
-    pattern: NamePattern = None,
-    channels: OwnChannels = None,
-    gauge_distance: GaugeDistance = None,
-    frame: FrameOfChannels = None,
+    out_folder: OutFolder = Path("runs"),
+    name: RunName = None,
+    workers: Workers = 0,
+    scheduler: Scheduler = None,
+    overwrite: OtherSettings = False,
+    reading: Reading = AS_STATED,
     as_json: AsJson = False,
 ) -> None:
     """Journal or rolling? Compare bearings for the same places under the same loads.
@@ -53,7 +51,6 @@ def compare(
     from loadflow.running.comparison import compare as carry_out
     from loadflow.running.executor import usable_cores
 
-    reading = reading_of(cases, pattern, channels, gauge_distance, frame)
     with progress(quiet=as_json) as show:
         found = carry_out(
             read(scene, loads, name, **reading),

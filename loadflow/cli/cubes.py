@@ -3,18 +3,13 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, cast
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from loadflow.cli.base import (
     AsJson,
-    CaseList,
-    FrameOfChannels,
-    GaugeDistance,
-    NamePattern,
     Overwrite,
-    OwnChannels,
     TurbineName,
     app,
     caught_warnings,
@@ -25,6 +20,7 @@ from loadflow.cli.base import (
     print_rows,
 )
 from loadflow.cli.progress import progress
+from loadflow.cli.reading import AS_STATED, Reading, reads_load_files
 from loadflow.errors import InputError
 
 if TYPE_CHECKING:
@@ -34,6 +30,7 @@ CUBES = (".h5", ".nc")
 
 
 @app.command()
+@reads_load_files
 def convert(
     files: Annotated[
         list[str], typer.Argument(help="Load files, folders of them or patterns, or load cubes.")
@@ -46,11 +43,7 @@ def convert(
     step: Annotated[
         float | None, typer.Option(help="Bring all series to this time step, s.")
     ] = None,
-    cases: CaseList = None,
-    pattern: NamePattern = None,
-    channels: OwnChannels = None,
-    gauge_distance: GaugeDistance = None,
-    frame: FrameOfChannels = None,
+    reading: Reading = AS_STATED,
     names: Annotated[
         bool, typer.Option("--list", help="Only show which case each name says; nothing is read.")
     ] = False,
@@ -68,7 +61,7 @@ def convert(
     from loadflow.readers import read_loads
 
     if names:
-        _list_names(files, pattern, cases, as_json)
+        _list_names(files, reading["pattern"], reading["cases"], as_json)
         return
     if output is None:
         raise InputError("-o/--output is missing: the file to write; or --list to see the names")
@@ -84,11 +77,7 @@ def convert(
             cube = read_loads(
                 files,
                 turbine=turbine,
-                cases=cases,
-                pattern=pattern,
-                channels=channels,
-                gauge_distance=gauge_distance,
-                frame=cast(Any, frame or "auto"),
+                **reading | {"frame": reading["frame"] or "auto"},
                 quiet=True,
             )
     if step is not None:
@@ -105,7 +94,7 @@ def convert(
         out.print(f"warning  {warning}", soft_wrap=True, highlight=False, markup=False)
 
 
-def _list_names(files: list[str], pattern: str | None, cases: Path | None, as_json: bool) -> None:
+def _list_names(files: list[str], pattern: str | None, cases: str | None, as_json: bool) -> None:
     from loadflow.readers import list_names
 
     fields = ("dlc", "wind_speed", "seed")

@@ -9,18 +9,19 @@ import typer
 
 from loadflow.cli.base import (
     AsJson,
-    CaseList,
-    FrameOfChannels,
-    GaugeDistance,
-    NamePattern,
-    OwnChannels,
+    OtherSettings,
+    OutFolder,
+    RunName,
+    Scheduler,
+    Workers,
     app,
     out,
     print_json,
     print_rows,
 )
 from loadflow.cli.progress import progress
-from loadflow.cli.scenes import LoadFiles, SceneFile, read, reading_of
+from loadflow.cli.reading import AS_STATED, Reading, reads_load_files
+from loadflow.cli.scenes import LoadFiles, SceneFile, read
 from loadflow.errors import InputError
 
 if TYPE_CHECKING:
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
 
 
 @app.command()
+@reads_load_files
 def design(
     scene: SceneFile,
     loads: LoadFiles = None,
@@ -51,23 +53,18 @@ def design(
             "--crown", help="Search the crown of journal bearings alone, as [design.crown] says."
         ),
     ] = False,
-    out_folder: Annotated[Path, typer.Option("--out", help="Folder for runs.")] = Path("runs"),
-    name: Annotated[str | None, typer.Option(help="Name of the run; default: the scene's.")] = None,
-    workers: Annotated[int, typer.Option(min=0, help="Processes; 0: one for each core.")] = 0,
-    scheduler: Annotated[str | None, typer.Option(help="Dask scheduler, tcp://host:port.")] = None,
-    overwrite: Annotated[bool, typer.Option(help="Replace parts of other settings.")] = False,
-    cases: CaseList = None,
-    pattern: NamePattern = None,
-    channels: OwnChannels = None,
-    gauge_distance: GaugeDistance = None,
-    frame: FrameOfChannels = None,
+    out_folder: OutFolder = Path("runs"),
+    name: RunName = None,
+    workers: Workers = 0,
+    scheduler: Scheduler = None,
+    overwrite: OtherSettings = False,
+    reading: Reading = AS_STATED,
     as_json: AsJson = False,
 ) -> None:
     """Search the best bearing: least friction with enough margin under the loads of the scene."""
     from loadflow.running.designing import design as carry_out
     from loadflow.running.executor import usable_cores
 
-    reading = reading_of(cases, pattern, channels, gauge_distance, frame)
     asked = _with_options(read(scene, loads, name, **reading), candidate, key, margin)
     means: dict[str, Any] = {
         "out": out_folder,

@@ -11,17 +11,18 @@ from rich.table import Table
 
 from loadflow.cli.base import (
     AsJson,
-    CaseList,
-    FrameOfChannels,
-    GaugeDistance,
-    NamePattern,
-    OwnChannels,
+    OtherSettings,
+    OutFolder,
+    RunName,
+    Scheduler,
+    Workers,
     app,
     err,
     out,
     print_json,
 )
 from loadflow.cli.progress import log_shown, progress
+from loadflow.cli.reading import AS_STATED, Reading, reads_load_files
 from loadflow.errors import InputError, LoadflowError
 
 SceneFile = Annotated[Path, typer.Argument(help="Scene, a TOML file.", show_default=False)]
@@ -41,37 +42,17 @@ def read(path: Path, loads: list[str] | None, name: str | None = None, **reading
     return scene if name is None else with_name(scene, name)
 
 
-def reading_of(
-    cases: Path | None,
-    pattern: str | None,
-    channels: str | None,
-    gauge_distance: float | None,
-    frame: str | None,
-) -> dict[str, Any]:
-    """How load files are read, as keys of `[loads]`; None where the scene is not overruled."""
-    return {
-        "cases": None if cases is None else str(cases),
-        "pattern": pattern,
-        "channels": channels,
-        "gauge_distance": gauge_distance,
-        "frame": frame,
-    }
-
-
 @app.command()
+@reads_load_files
 def run(
     scene: SceneFile,
     loads: LoadFiles = None,
-    out_folder: Annotated[Path, typer.Option("--out", help="Folder for runs.")] = Path("runs"),
-    name: Annotated[str | None, typer.Option(help="Name of the run; default: the scene's.")] = None,
-    workers: Annotated[int, typer.Option(min=0, help="Processes; 0: one for each core.")] = 0,
-    scheduler: Annotated[str | None, typer.Option(help="Dask scheduler, tcp://host:port.")] = None,
-    overwrite: Annotated[bool, typer.Option(help="Replace parts of other settings.")] = False,
-    cases: CaseList = None,
-    pattern: NamePattern = None,
-    channels: OwnChannels = None,
-    gauge_distance: GaugeDistance = None,
-    frame: FrameOfChannels = None,
+    out_folder: OutFolder = Path("runs"),
+    name: RunName = None,
+    workers: Workers = 0,
+    scheduler: Scheduler = None,
+    overwrite: OtherSettings = False,
+    reading: Reading = AS_STATED,
     profile: Annotated[
         bool, typer.Option("--profile", help="Write and print where the time went.")
     ] = False,
@@ -86,7 +67,6 @@ def run(
         from loadflow.running.executor import usable_cores
         from loadflow.running.runner import run as carry_out
 
-        reading = reading_of(cases, pattern, channels, gauge_distance, frame)
         result = carry_out(
             read(scene, loads, name, **reading),
             out=out_folder,
@@ -144,15 +124,12 @@ def _print_profile(path: Path) -> None:
 
 
 @app.command()
+@reads_load_files
 def plan(
     scene: SceneFile,
     loads: LoadFiles = None,
-    out_folder: Annotated[Path, typer.Option("--out", help="Folder for runs.")] = Path("runs"),
-    cases: CaseList = None,
-    pattern: NamePattern = None,
-    channels: OwnChannels = None,
-    gauge_distance: GaugeDistance = None,
-    frame: FrameOfChannels = None,
+    out_folder: OutFolder = Path("runs"),
+    reading: Reading = AS_STATED,
     measure: Annotated[
         bool, typer.Option("--pilot", help="Measure the effects on a few samples first.")
     ] = False,
@@ -165,7 +142,6 @@ def plan(
     from loadflow.running.folder import finished_parts, known_verdict, refinements, results_of
     from loadflow.scene.unused import unused_keys, unused_warnings
 
-    reading = reading_of(cases, pattern, channels, gauge_distance, frame)
     wanted = read(scene, loads, **reading)
     folder = out_folder / wanted.name
     verdict = known_verdict(folder, wanted)

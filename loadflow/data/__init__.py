@@ -1,7 +1,8 @@
 """Package data: polars, reference tables, speed and error of the rungs.
 
 ``ladder.json`` and ``gains.json`` are written by ``python -m benchmarks.ladder``,
-``seed_scatter.json`` by ``python -m benchmarks.references.seed_scatter RUN``.
+``seed_scatter.json`` by ``python -m benchmarks.references.seed_scatter RUN``, ``evidence.json`` by
+``python tests/validation/test_tables.py``.
 """
 
 from __future__ import annotations
@@ -28,6 +29,13 @@ def gains() -> dict[str, dict[str, float]]:
 def seed_scatter() -> dict[str, Any]:
     """Return how far answers of the main job scatter with one seed of each wind speed."""
     return _read("seed_scatter.json")
+
+
+@cache
+def evidence() -> dict[str, dict[str, int]]:
+    """Return how many numbers of each table of `loadflow validate` are held against what."""
+    found: dict[str, dict[str, int]] = _read("evidence.json")
+    return found
 
 
 def _read(name: str) -> Any:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import Any, ClassVar, Unpack
+from typing import TYPE_CHECKING, Any, ClassVar, Unpack
 
 from loadflow.errors import SolverError
 from loadflow.journal.film.cell_error import drag_error
@@ -13,18 +13,37 @@ from loadflow.journal.grid_bounds import UNRESOLVED, PadError
 from loadflow.journal.lubricant import Lubricant
 from loadflow.journal.pad_bearing import AT_REST, asked, limits_of
 from loadflow.journal.pad_results import (
-    AXIAL_BOTH,
+    _PADS,
     PadResult,
     Shows,
     Table,
     ThrustResult,
+    drawn,
     of_both,
 )
 from loadflow.journal.pads import finite
 from loadflow.journal.thrust import ThrustBearing
 from loadflow.numerics.fields import require
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 _ROUNDS = 60
+
+_BOTH: Table = {
+    "force": ((), "N", "force along the axis, > 0 on the front row"),
+    "gap": ((), "m", "film of the front row"),
+    "stiffness": ((), "N/m", "axial stiffness"),
+    "damping": ((), "N s/m", "axial damping"),
+} | {
+    name: _PADS[name]
+    for name in (
+        "minimum_film", "maximum_pressure", "friction_torque", "friction_power", "speed",
+        "converged", "residual", "iterations", "resolved",
+    )
+}  # fmt: skip
+"""What two rows of pads on both sides of a collar answer."""
+
 _CLOSED = 1e-4  # of the play: the thinnest film that is tried
 
 
@@ -73,7 +92,7 @@ class DoubleThrustResult(Shows):
     residual: float
     iterations: int
 
-    _table: ClassVar[Table] = AXIAL_BOTH
+    _table: ClassVar[Table] = _BOTH
 
     @property
     def grid_error(self) -> PadError:
@@ -88,6 +107,10 @@ class DoubleThrustResult(Shows):
         """Whether the cells resolve both films."""
         thin = self.grid_error.minimum_film < UNRESOLVED * self.minimum_film
         return thin and self.front.resolved and self.back.resolved
+
+    def plot(self) -> Figure:
+        """Draw the pressure over the pads of both rows, seen along the axis."""
+        return drawn(front=self.front, back=self.back)
 
     to_dataset = PadResult.to_dataset
     __repr__ = PadResult.__repr__

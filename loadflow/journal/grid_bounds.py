@@ -132,10 +132,21 @@ def warn_if_unresolved(columns: dict[str, Array]) -> None:
         return
     worst = np.where(missed[:, None], bounds, 0.0)[:, _MATTER]
     case, which = np.unravel_index(int(np.argmax(worst)), worst.shape)
+    name, share = BOUNDED[_MATTER[int(which)]], float(worst[case, which])
     warnings.warn(
-        f"the cells do not resolve the film of {np.count_nonzero(missed)} of "
-        f"{found.size} loads: {BOUNDED[_MATTER[int(which)]]} of number {case} may be off by "
-        f"{100 * worst[case, which]:.0f} %; a finer grid or grading resolves it",
+        f"the cells do not resolve the film of {np.count_nonzero(missed)} of {found.size} loads: "
+        f"{_off_by(name, share, int(case), columns)}; a finer grid or grading resolves it",
         ValidityWarning,
         stacklevel=3,
     )
+
+
+def _off_by(name: str, share: float, case: int, columns: dict[str, Array]) -> str:
+    """How far a result may be off, in words: a share of what nearly cancels would say nothing."""
+    told = f"{name} of number {case}"
+    if share < 1.0:
+        return f"{told} may be off by {100 * share:.0f} %"
+    if name == "force" and "force" in columns:
+        size = float(np.linalg.norm(np.asarray(columns["force"])[case]))
+        return f"{told} nearly cancels: {size:.3g} N, known to {share * size:.2g} N"
+    return f"{told} is not bounded, it may be off by more than itself"

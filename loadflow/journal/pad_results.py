@@ -15,6 +15,7 @@ from loadflow.quantities import FILM, GRID_ERROR, Quantity
 
 if TYPE_CHECKING:
     import xarray as xr
+    from matplotlib.figure import Figure
 
 Array = NDArray[np.float64]
 Table = dict[str, tuple[tuple[str, ...], str, str]]
@@ -173,6 +174,18 @@ class PadResult(Shows):
         bounds = vars(self.grid_error).items()
         data |= {n + GRID_ERROR: ((), x, FILM[n + GRID_ERROR].attributes) for n, x in bounds}
         return xr.Dataset(data)
+
+    def plot(self) -> Figure:
+        """Draw the pressure over each pad, seen along the axis.
+
+        Examples
+        --------
+        >>> from loadflow.journal import Lubricant, ThrustBearing
+        >>> bearing = ThrustBearing(6, 0.5, 1.0, pad_angle=0.785, taper=1e-4)
+        >>> len(bearing.pressure(1e-4, 10.0, Lubricant(0.05), grid=(20, 10)).plot().axes)
+        2
+        """
+        return drawn(pads=self)
 
     def __repr__(self) -> str:
         """The numbers on a line each; arrays of more than five by their shape."""
@@ -370,8 +383,19 @@ class PairResult(Shows):
         """Whether the cells resolve both films."""
         return self.left.resolved and self.right.resolved
 
+    def plot(self) -> Figure:
+        """Draw the pressure over both cones."""
+        return drawn(left=self.left, right=self.right)
+
     to_dataset = PadResult.to_dataset
     __repr__ = PadResult.__repr__
+
+
+def drawn(**results: PadResult) -> Figure:
+    """Pressures of films of pads beside each other, each under its name."""
+    from loadflow import plots
+
+    return plots.pads({k: (one.angle, one.place, one.pressure) for k, one in results.items()})
 
 
 def of_both(one: PadResult, other: PadResult) -> PadError:
@@ -383,21 +407,6 @@ def of_both(one: PadResult, other: PadResult) -> PadError:
         max(a.maximum_pressure, b.maximum_pressure),
         a.friction_power + b.friction_power,
     )
-
-
-AXIAL_BOTH: Table = {
-    "force": ((), "N", "force along the axis, > 0 on the front row"),
-    "gap": ((), "m", "film of the front row"),
-    "stiffness": ((), "N/m", "axial stiffness"),
-    "damping": ((), "N s/m", "axial damping"),
-} | {
-    name: _PADS[name]
-    for name in (
-        "minimum_film", "maximum_pressure", "friction_torque", "friction_power", "speed",
-        "converged", "residual", "iterations", "resolved",
-    )
-}  # fmt: skip
-"""What two rows of pads on both sides of a collar answer."""
 
 
 def common(described: dict[str, Any]) -> dict[str, Any]:

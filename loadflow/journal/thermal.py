@@ -36,6 +36,11 @@ the temperatures (m,), K, by which their bearing has grown."""
 TOLERANCE, TRIES = 1e-6, 40
 """What is left of a heat balance, K, and the temperatures that are tried."""
 
+_AHEAD = 10.0
+"""Where a film warms so much that its balance lies this many times farther than the temperature at
+which it carries the load no more, none is looked for between them.
+"""
+
 _JUMP = 1e-3
 """By how much, K, friction may warm a film more on one mesh than on another: a balance that jumps
 over zero where the mesh changes has its temperature there, and keeps what is left as its residual.
@@ -84,10 +89,17 @@ def warm_film(
     found = state["converged"] & ((warmth.residual <= tolerance) | warmth.jumps)
     if strict and not found.all():
         worst = int(np.argmin(found))
-        raise SolverError(
+        head = (
             f"load {worst}, {np.hypot(*force[worst]):.4g} N at {speed[worst]:.4g} rad/s: no heat "
-            f"balance below {HOTTEST} K; at {warmth.temperature[worst]:.4g} K it is off by "
-            f"{warmth.residual[worst]:.2g} K"
+        )
+        at, left = warmth.temperature[worst], warmth.residual[worst]
+        if np.isfinite(warmth.fails[worst]):
+            raise SolverError(
+                f"{head}balance: at {at:.6g} K the film still warms by {left:.3g} K, and at "
+                f"{warmth.fails[worst]:.6g} K it carries the load no more"
+            )
+        raise SolverError(
+            f"{head}balance below {HOTTEST} K; at {at:.4g} K it is off by {left:.2g} K"
         )
     return warmth.said_of(answered_rows(found, state), heat)
 
@@ -96,13 +108,15 @@ def warm_film(
 class _Warmth:
     """Temperatures that were found, (n,), K; what is left of their balance, K; and the tries.
 
-    `jumps` says where the balance steps over zero, by less than `_JUMP`.
+    `jumps` says where the balance steps over zero, by less than `_JUMP`; `fails` is the temperature
+    at which a film that warms up to there carries its load no more, K, else infinite.
     """
 
     temperature: Array
     residual: Array
     iterations: int
     jumps: NDArray[np.bool_]
+    fails: Array
 
     def said_of(self, film: Columns, heat: Heat) -> Columns:
         """The film with its temperatures."""
@@ -158,6 +172,8 @@ class _Balance:
         low, high = np.full(count, cold), np.full(count, HOTTEST)
         warm, residual = np.full(count, heat.inlet_temperature), np.full(count, np.inf)
         before: tuple[Array, Array] | None = None
+        reach, excess_low = np.full(count, -np.inf), np.zeros(count)  # of the balance, at `low`
+        fails = np.full(count, np.inf)
         active, tries = np.arange(count), 0
         while active.size and tries < max_iterations:
             here = warm[active]
@@ -167,7 +183,11 @@ class _Balance:
             residual[active] = np.where(lost, np.inf, np.abs(excess))
             low[active] = np.where(excess > 0, here, low[active])
             high[active] = np.where((excess < 0) | lost, here, high[active])
+            fails[active] = np.where(excess < 0, np.inf, np.where(lost, here, fails[active]))
             slope = -1.0 - heat.liquid.steepness(here) * np.maximum(excess + here - cold, 0.0)
+            warms = excess > 0
+            reach[active] = np.where(warms, -excess / slope, reach[active])
+            excess_low[active] = np.where(warms, excess, excess_low[active])
             if before is not None:
                 with np.errstate(divide="ignore", invalid="ignore"):
                     secant = (excess - before[1][active]) / (here - before[0][active])
@@ -181,15 +201,21 @@ class _Balance:
                 here,
                 np.where(inside, step, 0.5 * (low[active] + high[active])),
             )
-            apart = high[active] - low[active] > 1e-12 * HOTTEST
-            active = active[(residual[active] > tolerance) & apart]
+            width = high[active] - low[active]
+            hopeless = np.isfinite(fails[active]) & (reach[active] > _AHEAD * width)
+            active = active[(residual[active] > tolerance) & (width > 1e-12 * HOTTEST) & ~hopeless]
         shape = self.speed.shape
+        fails = np.where((reach > _AHEAD * (high - low)) & (residual > tolerance), fails, np.inf)
+        warm, residual = (
+            np.where(np.isfinite(fails), *both) for both in ((low, warm), (excess_low, residual))
+        )
         jumps = (high - low <= 1e-12 * HOTTEST) & (residual <= _JUMP)
         return _Warmth(
             np.broadcast_to(warm, shape).copy(),
             np.broadcast_to(residual, shape).copy(),
             tries,
             np.broadcast_to(jumps, shape).copy(),
+            np.broadcast_to(fails, shape).copy(),
         )
 
     def _excess(self, temperature: Array, active: NDArray[np.int64]) -> Array:

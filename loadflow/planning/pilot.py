@@ -77,11 +77,46 @@ def in_turn(
         yield item, work(item)
 
 
+@dataclass(frozen=True)
+class Questions:
+    """What a pilot is to measure.
+
+    Attributes
+    ----------
+    scene : Scene
+        With the models of the run.
+    effects : tuple of str
+        Their names.
+    duration : float
+        Length of a simulated case, s, where the case itself is longer.
+    cases : tuple of Case
+        Those that are looked at.
+    """
+
+    scene: Scene
+    effects: tuple[str, ...]
+    duration: float
+    cases: tuple[Case, ...]
+
+    @property
+    def models(self) -> tuple[str, ...]:
+        """Models that have an effect to measure, in the order in which they are probed."""
+        found = {effect.model for effect in EFFECTS if effect.name in self.effects}
+        return tuple(model for model in PROBES if model in found)
+
+    def of_model(self, model: str, duration: float) -> Questions:
+        """Those of one model alone, on a simulated case of `duration`, s."""
+        names = tuple(one.name for one in EFFECTS if one.model == model)
+        ours = tuple(name for name in self.effects if name in names)
+        return replace(self, effects=ours, duration=duration)
+
+
 def pilot(
     scene: Scene,
     say: Report = lambda stage, done, total: None,
     outcomes: Outcomes = in_turn,
     effort: Effort | None = None,
+    before: Callable[[Questions], None] = lambda questions: None,
 ) -> EffectVerdict | None:
     """Measure the effects of a scene.
 
@@ -96,6 +131,8 @@ def pilot(
         what came of it, in any order. A case that came to nothing is left out of the verdict.
     effort : Effort, optional
         How much is measured; None: what goes with the expected time of the run.
+    before : callable
+        Called with the questions before they are asked: a runner compiles what they call.
 
     Returns
     -------
@@ -118,11 +155,13 @@ def pilot(
     if not effects:
         return None
     looked_at = hardest(scene, cases)[: effort.cases]
+    questions = Questions(chosen, tuple(effects), effort.duration, tuple(looked_at))
+    before(questions)
     say("pilot", 0, len(looked_at))
-    measured: dict[Case, _Found] = {}
-    work = partial(_measure, chosen, tuple(effects), effort.duration)
+    measured: dict[Case, Found] = {}
+    work = partial(measure, questions)
     for done, (case, outcome) in enumerate(outcomes(work, looked_at), 1):
-        if isinstance(outcome, _Found):
+        if isinstance(outcome, Found):
             measured[case] = outcome
         say("pilot", done, len(looked_at))
     found = [measured[case] for case in looked_at if case in measured]
@@ -179,7 +218,7 @@ def _worth_measuring(scene: Scene, chosen: Scene, cases: tuple[Case, ...]) -> It
 
 
 @dataclass(frozen=True)
-class _Found:
+class Found:
     """Of one case: sizes by effect, the effects that cannot be on, and the processor time, s."""
 
     sizes: Mapping[str, Sizes]
@@ -188,15 +227,25 @@ class _Found:
 
 
 @threadpool_limits.wrap(limits=1)
-def _measure(chosen: Scene, names: tuple[str, ...], duration: float, case: Case) -> _Found:
-    """Switch the effects of these names on one case; a process of its own knows them by name."""
+def measure(questions: Questions, case: Case, given: Mapping[str, Any] | None = None) -> Found:
+    """Switch the effects on one case; a process of its own knows them by name.
+
+    Parameters
+    ----------
+    questions : Questions
+        What is measured; its cases are not looked at.
+    case : Case
+        On which.
+    given : mapping, optional
+        Series by stage that are there already, and are not computed.
+    """
     started = time.process_time()
     by_name = {effect.name: effect for effect in EFFECTS}
-    effects = [by_name[name] for name in names]
-    scene, case = _short(chosen, case, duration)
+    effects = [by_name[name] for name in questions.effects]
+    scene, case = _short(questions.scene, case, questions.duration)
     sizes: dict[str, Sizes] = {}
     refused: dict[str, str] = {}
-    inputs: dict[str, Any] = {}
+    inputs: dict[str, Any] = dict(given or {})
     for model, probe in PROBES.items():
         ours = [effect for effect in effects if effect.model == model]
         if not ours:
@@ -228,7 +277,7 @@ def _measure(chosen: Scene, names: tuple[str, ...], duration: float, case: Case)
                 refused[effect.name] = with_it
             elif not isinstance(left, str):
                 sizes[effect.name] = _changes(with_it, left)
-    return _Found(sizes, refused, time.process_time() - started)
+    return Found(sizes, refused, time.process_time() - started)
 
 
 def _short(scene: Scene, case: Case, duration: float) -> tuple[Scene, Case]:

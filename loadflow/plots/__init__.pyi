@@ -3,6 +3,7 @@ from .journal import coefficients as coefficients
 from .journal import film_series as film_series
 from .journal import gap_around as gap_around
 from .journal import orbit as orbit
+from .journal import pads as pads
 from .journal import pressure as pressure
 from .journal import pressure_around as pressure_around
 from .journal import stribeck as stribeck

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
@@ -144,6 +146,40 @@ def pressure(
         last = drawing.add_subplot(1, columns, 3, projection="polar")
         _around(last, theta, heights[:, _middle(z)] * 1e6)
         last.set_title("gap in the middle, µm")
+    return drawing
+
+
+def pads(films: Mapping[str, tuple[ArrayLike, ArrayLike, ArrayLike]]) -> Figure:
+    """Draw the pressure over the pads of thrust and conical bearings, seen along the axis.
+
+    Parameters
+    ----------
+    films : mapping
+        By title: angle of the nodes (pads, n), rad; their distance (m,) from the axis or the apex,
+        m; pressure (pads, n, m), Pa.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> angle = [[0.0, 0.2, 0.4], [1.0, 1.2, 1.4]]
+    >>> len(pads({"front": (angle, [0.5, 0.6], np.full((2, 3, 2), 1e6))}).axes)
+    2
+    """
+    drawing, axes = figure(
+        1, len(films), height=3.6, squeeze=False, subplot_kw={"projection": "polar"}
+    )
+    largest = max(float(np.max(np.asarray(values))) for _, _, values in films.values()) / 1e6
+    for axis, (title, (angle, place, values)) in zip(axes[0], films.items()):
+        for theta, own in zip(np.asarray(angle, dtype=float), np.asarray(values, dtype=float)):
+            shown = axis.pcolormesh(
+                theta, np.asarray(place, dtype=float), own.T / 1e6, cmap="viridis",
+                shading="gouraud", vmin=0.0, vmax=largest,
+            )  # fmt: skip
+        axis.set(title=title, rlim=(0.0, float(np.max(np.asarray(place)))))
+        axis.set_theta_zero_location("S")
+        axis.grid(False)
+        axis.set_yticks([])
+    drawing.colorbar(shown, ax=list(axes[0]), label="pressure, MPa")
     return drawing
 
 

@@ -11,6 +11,7 @@ import numpy as np
 import xarray as xr
 from cycler import cycler
 from matplotlib.axes import Axes
+from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 
 from loadflow.quantities import fitting_unit
@@ -121,6 +122,7 @@ def to_svg(drawing: Figure) -> str:
     buffer = io.StringIO()
     with mpl.rc_context({**STYLE, "svg.fonttype": "none", "svg.hashsalt": "loadflow"}):
         _laid_out(drawing)
-        drawing.savefig(buffer, format="svg", dpi=110, metadata=NOTHING)
+        drawing.set_dpi(110)
+        FigureCanvasSVG(drawing).print_svg(buffer, metadata=NOTHING)  # savefig draws it twice
     text = buffer.getvalue()
     return text[text.index("<svg") :]

@@ -13,6 +13,7 @@ import numpy as np
 from numba import njit
 
 from loadflow.numerics import convergence
+from loadflow.numerics.linked import LINKED
 from loadflow.rolling.contacts import (
     FREE,
     GAP,
@@ -35,7 +36,7 @@ stalled = njit(cache=True, nogil=True)(convergence.stalled)
 _REORDER = {"reassoc", "contract", "nsz"}
 
 
-@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER)
+@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER, **LINKED)
 def _add_points(q, cos, sin, line, spatial, gradient, hessian):
     """Add all point contacts of one kind (free of branches); returns energy and sum of forces.
 
@@ -137,7 +138,7 @@ def _add_points(q, cos, sin, line, spatial, gradient, hessian):
     return energy, total
 
 
-@njit(forceinline=True, nogil=True, error_model="numpy")
+@njit(forceinline=True, nogil=True, error_model="numpy", **LINKED)
 def _add_lines(q, cos, sin, line, gradient, hessian):
     """Add all line contacts of one kind; returns energy and sum of forces.
 
@@ -254,7 +255,7 @@ def cholesky_solve(matrix, shift, rhs, factor, out):
     return smallest
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(nogil=True, error_model="numpy", **LINKED)
 def _start(load, cos, sin, spans, table, law, compliance, scale, cap, q):
     """Cold start: the displacement along `compliance · load` whose energy balances its work."""
     exponent = 1.5 if law == POINT else 10.0 / 9.0
@@ -294,7 +295,7 @@ def _start(load, cos, sin, spans, table, law, compliance, scale, cap, q):
         q[a] *= amplitude
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(nogil=True, error_model="numpy", **LINKED)
 def _newton(
     q,
     load,

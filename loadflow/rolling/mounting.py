@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Literal, TypeVar
+from typing import TYPE_CHECKING, Annotated, Literal, Protocol, TypeVar
 
 from annotated_types import Ge, Gt, Le
 
@@ -15,11 +15,73 @@ from loadflow.tribology.hertz import STEEL_MODULUS, STEEL_POISSON
 
 if TYPE_CHECKING:
     from loadflow.rolling.geometry import RollingGeometry
+    from loadflow.rolling.rings.section import RingSection
 
 _Bearing = TypeVar("_Bearing", bound="RollingGeometry")
 
 STEEL_EXPANSION = 11.7e-6
 """α of steel, 1/K."""
+_ASTRAY = 0.25
+"""Share of a ring's wall by which a seat may lie beside its face: sections stated by their moments
+have a wall only as a rectangle of the same moments."""
+
+
+class SectionedRing(Protocol):
+    """A ring of which the section is known, as `RingBeam` and `MeshedRing`."""
+
+    @property
+    def section(self) -> RingSection:
+        """Constants of the section."""
+
+    @property
+    def radius(self) -> float | None:
+        """Of its centroid, m."""
+
+    @property
+    def elastic_modulus(self) -> float:
+        """Pa."""
+
+    @property
+    def poisson_ratio(self) -> float:
+        """Of the ring."""
+
+
+@dataclass(frozen=True)
+class _Tube:
+    """A ring as a thick-walled cylinder: diameters m, modulus Pa."""
+
+    inside: float
+    outside: float
+    modulus: float = STEEL_MODULUS
+    poisson: float = STEEL_POISSON
+
+    @property
+    def thin(self) -> float:
+        return (self.inside / self.outside) ** 2
+
+    @property
+    def widening(self) -> float:
+        """Growth of the bore per pressure in it, m/Pa."""
+        thin = self.thin
+        return self.inside / self.modulus * ((1 + thin) / (1 - thin) + self.poisson)
+
+    @property
+    def narrowing(self) -> float:
+        """Shrinking of the outer diameter per pressure on it, m/Pa."""
+        thin = self.thin
+        return self.outside / self.modulus * ((1 + thin) / (1 - thin) - self.poisson)
+
+    def widened(self, diameter: float) -> float:
+        """Growth of a diameter within the wall per pressure in the bore, m/Pa."""
+        share = self.thin / (self.modulus * (1 - self.thin))
+        inner = (1 - self.poisson) * diameter
+        return share * (inner + (1 + self.poisson) * self.outside**2 / diameter)
+
+    def narrowed(self, diameter: float) -> float:
+        """Shrinking of a diameter within the wall per pressure from outside, m/Pa."""
+        share = 1 / (self.modulus * (1 - self.thin))
+        outer = (1 - self.poisson) * diameter
+        return share * (outer + (1 + self.poisson) * self.inside**2 / diameter)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -28,7 +90,8 @@ class Mounting:
 
     Rings, rolling elements, shaft and housing expand each with its own temperature, and what an
     interference leaves of itself at these temperatures widens the inner ring and presses the outer
-    one together (thick-walled cylinders of Lamé, as in [Harris and Kotzalas], ch. 3). A part is
+    one together (thick-walled cylinders of Lamé, as in [Harris and Kotzalas], ch. 3). A ring
+    reaches from its seat to its raceway, or, where its section is given, over all of it. A part is
     warmer than the surroundings by its share of what the bearing is; its temperature may be given
     instead.
 
@@ -115,7 +178,14 @@ class Mounting:
                 f"got {self.housing_outside:g}"
             )
 
-    def at_work(self, bearing: _Bearing, temperature: float, ambient: float) -> _Bearing:
+    def at_work(
+        self,
+        bearing: _Bearing,
+        temperature: float,
+        ambient: float,
+        inner_ring: SectionedRing | None = None,
+        outer_ring: SectionedRing | None = None,
+    ) -> _Bearing:
         """Return the bearing with the clearance that it has when it is warm.
 
         Parameters
@@ -124,15 +194,18 @@ class Mounting:
             With its clearance at the reference temperature, not mounted.
         temperature, ambient : float
             Of the bearing (its rolling elements and oil) and of the surroundings, K.
+        inner_ring, outer_ring : RingBeam or MeshedRing, optional
+            Whose sections the fits stretch, in place of walls that end at the raceways.
 
         Raises
         ------
         InputError
-            A seat within the raceways, or a kind of bearing that has more than one clearance.
+            A seat within the raceways or beside the section of its ring, or a kind of bearing that
+            has more than one clearance.
         SolverError
             If the bearing has no such clearance: its balls would be clamped or fall out.
         """
-        gap = self.gap_growth(bearing, temperature, ambient)
+        gap = self.gap_growth(bearing, temperature, ambient, inner_ring, outer_ring)
         try:
             return bearing.opened(gap)
         except InputError as error:
@@ -140,7 +213,14 @@ class Mounting:
                 f"at {temperature:.4g} K contacts open by {gap:.3g} m: {error}"
             ) from error
 
-    def gap_growth(self, bearing: RollingGeometry, temperature: float, ambient: float) -> float:
+    def gap_growth(
+        self,
+        bearing: RollingGeometry,
+        temperature: float,
+        ambient: float,
+        inner_ring: SectionedRing | None = None,
+        outer_ring: SectionedRing | None = None,
+    ) -> float:
         """By how much the gap along the normal of a contact grows, over both raceways, m.
 
         The raceways move with their rings: in the radial direction by strain and fit, along the
@@ -151,7 +231,8 @@ class Mounting:
         cos, sin = math.cos(angle), math.sin(angle)
         smaller = bearing.pitch_diameter - element * cos
         larger = bearing.pitch_diameter + element * cos
-        widened, narrowed = self._fits(smaller, larger, rises)
+        widened = self._widened(smaller, rises, inner_ring)
+        narrowed = self._narrowed(larger, rises, outer_ring)
         strain, other = self.expansion * outer, self.expansion * inner
         radial = 0.5 * (larger * strain - narrowed - smaller * other - widened)
         apart = strain - other
@@ -176,35 +257,61 @@ class Mounting:
             for given, share in stated
         )
 
-    def _fits(self, smaller: float, larger: float, rises: tuple[float, ...]) -> tuple[float, float]:
-        """Growth of the inner and shrinking of the outer raceway by the fits, on the diameter, m.
+    def _widened(
+        self, raceway: float, rises: tuple[float, ...], ring: SectionedRing | None
+    ) -> float:
+        """Growth of the inner raceway's diameter by its fit, m; none of a seat that grows loose."""
+        inner, _, shaft, _ = rises
+        if (bore := self.bore) is None:
+            return 0.0
+        _check_seat("bore", bore < raceway, bore, f"< {raceway:g} m, the inner raceway")
+        tube = _Tube(bore, raceway)
+        if ring is not None:
+            tube = _Tube(bore, _faces(ring, "bore", bore)[1], *_steel(ring))
+        left = self.inner_interference + bore * (
+            self.shaft_expansion * shaft - self.expansion * inner
+        )
+        wall = (self.shaft_bore / bore) ** 2
+        within = bore / STEEL_MODULUS * ((1 + wall) / (1 - wall) - STEEL_POISSON)
+        pressure = max(left, 0.0) / (tube.widening + within)
+        return pressure * tube.widened(min(raceway, tube.outside))
 
-        Seats that open as they grow warm are loose and do nothing.
-        """
-        inner, outer, shaft, housing = rises
-        widened = narrowed = 0.0
-        if (bore := self.bore) is not None:
-            _check_seat("bore", bore < smaller, bore, f"< {smaller:g} m, the inner raceway")
-            left = self.inner_interference + bore * (
-                self.shaft_expansion * shaft - self.expansion * inner
-            )
-            thin, wall = (bore / smaller) ** 2, (self.shaft_bore / bore) ** 2
-            ring = bore / STEEL_MODULUS * ((1 + thin) / (1 - thin) + STEEL_POISSON)
-            within = bore / STEEL_MODULUS * ((1 + wall) / (1 - wall) - STEEL_POISSON)
-            pressure = max(left, 0.0) / (ring + within)
-            widened = pressure * 2 * thin * smaller / (STEEL_MODULUS * (1 - thin))
-        if (outside := self.outside) is not None:
-            _check_seat("outside", outside > larger, outside, f"> {larger:g} m, the outer raceway")
-            left = self.outer_interference + outside * (
-                self.expansion * outer - self.housing_expansion * housing
-            )
-            thin = (larger / outside) ** 2
-            wall = (outside / (self.housing_outside or math.inf)) ** 2
-            ring = outside / STEEL_MODULUS * ((1 + thin) / (1 - thin) - STEEL_POISSON)
-            around = outside / self.housing_modulus * ((1 + wall) / (1 - wall) + STEEL_POISSON)
-            pressure = max(left, 0.0) / (ring + around)
-            narrowed = pressure * 2 * larger / (STEEL_MODULUS * (1 - thin))
-        return widened, narrowed
+    def _narrowed(
+        self, raceway: float, rises: tuple[float, ...], ring: SectionedRing | None
+    ) -> float:
+        """Shrinking of the outer raceway's diameter by its fit, m."""
+        _, outer, _, housing = rises
+        if (outside := self.outside) is None:
+            return 0.0
+        _check_seat("outside", outside > raceway, outside, f"> {raceway:g} m, the outer raceway")
+        tube = _Tube(raceway, outside)
+        if ring is not None:
+            tube = _Tube(_faces(ring, "outside", outside)[0], outside, *_steel(ring))
+        left = self.outer_interference + outside * (
+            self.expansion * outer - self.housing_expansion * housing
+        )
+        wall = (outside / (self.housing_outside or math.inf)) ** 2
+        around = outside / self.housing_modulus * ((1 + wall) / (1 - wall) + STEEL_POISSON)
+        pressure = max(left, 0.0) / (tube.narrowing + around)
+        return pressure * tube.narrowed(max(raceway, tube.inside))
+
+
+def _faces(ring: SectionedRing, name: str, seat: float) -> tuple[float, float]:
+    """Inner and outer diameter of a ring, m, whose seat is where a mounting has it."""
+    section, middle = ring.section, 2 * (ring.radius or 0.0)
+    # radial side of the rectangle with the same area and moment; of a rectangle its own
+    side = math.sqrt(12 * section.inertia_axial / section.area)
+    faces = middle - side, middle + side
+    face = faces[0] if name == "bore" else faces[1]
+    _check_seat(
+        name, abs(seat - face) <= 2 * _ASTRAY * side, seat,
+        f"the face of the ring's section, {face:g} m",
+    )  # fmt: skip
+    return faces
+
+
+def _steel(ring: SectionedRing) -> tuple[float, float]:
+    return ring.elastic_modulus, ring.poisson_ratio
 
 
 def unused_of(mounting: Mounting, bearing: RollingGeometry) -> Iterator[tuple[str, str]]:

@@ -6,7 +6,7 @@ e_r = −sin ψ y + cos ψ z, in the sense of rotation e_t = −cos ψ y − sin
 
 import numpy as np
 
-from ._compile import kernel, once, section
+from ._compile import inner_once, inner_section, kernel, section
 from .aero._kernels import inflow_lag, section_force, solve
 from .control._kernels import brake, control
 from .slots import (
@@ -49,7 +49,7 @@ from .structure._kernels import (
 )
 
 
-@section
+@inner_section
 def ring_of(rings, radius):
     """Place of the last but one of the `rings` (n,) that a radius reaches; any n, no search where
     they are equidistant.
@@ -101,7 +101,7 @@ def turbulence(inflow, time, y, z):
     return u, v, w
 
 
-@section
+@inner_section
 def wind_at(m, inflow, step, time, x, y, z):
     """Wind (X, Y, Z) in the ground frame, tower dam included, at a point relative to the hub."""
     height = max(m.hub_height + z, 1.0)
@@ -157,7 +157,7 @@ def tabulated_induction(m, i, pitch, normal, tangential):
     return a, swirl
 
 
-@section
+@inner_section
 def oblique(m, state):
     """Angle of the wind to the shaft, and its direction (y, z) across over the tip's radius."""
     across = np.sqrt(state[S_Y] ** 2 + state[S_Z] ** 2)
@@ -167,7 +167,7 @@ def oblique(m, state):
     return np.arctan2(across, state[S_AXIAL]), state[S_Y] / length, state[S_Z] / length
 
 
-@section
+@inner_section
 def skewed(m, a, r_y, r_z, angle, along_y, along_z):
     """Induction factor redistributed over the disc under oblique inflow (Pitt and Peters)."""
     if angle == 0.0 or a <= 0:
@@ -176,7 +176,7 @@ def skewed(m, a, r_y, r_z, angle, along_y, along_z):
     return a * (1 + m.skew_factor * turn * (r_y * along_y + r_z * along_z))
 
 
-@once
+@inner_once
 def momentum_share(m, speed, state):
     """Share of the induction that momentum theory gives: none up to a tip speed ratio of 1, where
     a rotor at standstill or idling has no helical wake, all of it from 2 on.
@@ -188,7 +188,7 @@ def momentum_share(m, speed, state):
     return 0.5 * (1 - np.cos(np.pi * excess / wind)) if excess > 0 else 0.0
 
 
-@once
+@inner_once
 def blade_aerodynamics(
     m, inflow, step, time, azimuth, pitch, speed, tilt, drift, motion, state, guess, wake, induced,
     dt, force,

@@ -48,7 +48,7 @@ def answer_row(one: Answer, banded: bool = False) -> list[str]:
     )
     return [
         one.quantity,
-        one.bearing,
+        f"{one.result.partition('.')[0]} {one.bearing}",  # as verdicts name it
         value + unit,
         "one seed" if np.isnan(one.low) else f"{low} … {high}{unit}",
         *([_band(one.band, factor, ends, unit)] if banded else []),

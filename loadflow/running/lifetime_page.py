@@ -100,13 +100,13 @@ def _series(
     wanted: set[str],
     force_of: ForceOf,
 ) -> Iterator[BearingSeries]:
+    columns = (table[name].values.tolist() for name in ("case", "dlc", "wind_speed"))
+    known = {case: {"dlc": dlc, "wind_speed": wind} for case, dlc, wind in zip(*columns)}
     for case in answered(folder, "shaft", shares):
         loads = read_variables(folder / "loads" / f"{case}.h5", ("speed",))
         time, speed = loads["time"].values, loads["speed"].values.astype(float)
         forces = force_of(case).transpose("bearing", "time", "axis")
-        row = table.sel(case=case)
-        labels = {name: row[name].item() for name in ("dlc", "wind_speed")}
         for name, force in zip(forces["bearing"].values.tolist(), forces.values.astype(float)):
             if not wanted or name in wanted:
-                labels_of = labels | {"weight": shares[case]}
+                labels_of = known[case] | {"weight": shares[case]}
                 yield BearingSeries(case, name, labels_of, time, speed, force, 0.0 * force)

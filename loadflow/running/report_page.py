@@ -240,15 +240,22 @@ def _verdict_table(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
     yield Table("Verdicts", [*heads, "remarks"], rows, bad)
 
 
+_FILMS = 1e-2  # m: lengths below are told in µm, as films are everywhere
+
+
 def _verdict_row(verdict: Verdict) -> list[str]:
     limit, at = "", verdict.case
-    factor, unit = fitting_unit(verdict.unit, largest(verdict.value, verdict.limit))
+    size = largest(verdict.value, verdict.limit)
+    film = verdict.unit == "m" and size < _FILMS
+    factor, unit = (1e6, "µm") if film else fitting_unit(verdict.unit, size)
+    unit = "" if unit == "–" else unit
     if np.isfinite(verdict.limit):
-        limit = f"{'≤' if verdict.sense == 'at most' else '≥'} {factor * verdict.limit:.4g} {unit}"
+        sign = "≤" if verdict.sense == "at most" else "≥"
+        limit = f"{sign} {factor * verdict.limit:.4g} {unit}".rstrip()
     if np.isfinite(verdict.time):
         at += f", {verdict.time:.1f} s"
     value, margin = (
-        "-" if np.isnan(number) else f"{factor * number:.4g} {unit}"
+        "-" if np.isnan(number) else f"{factor * number:.4g} {unit}".rstrip()
         for number in (verdict.value, verdict.margin)
     )
     said = (limit, margin, verdict.answer, at, verdict.source, verdict.note)

@@ -41,7 +41,7 @@ from loadflow.running.lock import locked
 from loadflow.running.profile import COMPILING, Profile
 from loadflow.running.report_page import write_report
 from loadflow.running.result import Run, collect
-from loadflow.running.warm_up import compile_kernels
+from loadflow.running.warm_up import compile_for_pilot, compile_kernels
 from loadflow.running.whole import finish_stages
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
@@ -191,7 +191,11 @@ def _run(
     log.info("loadflow %s, %s, %d workers", loadflow.__version__, folder, where.workers)
     refined = refinements(folder, scene)
     begun = time.perf_counter()
-    pilot_verdict = known_verdict(folder, scene) or pilot(scene, say, where.outcomes)
+    expected = partial(make_plan, scene, refined)
+    compiles = partial(compile_for_pilot, expected=expected, where=where, say=say)
+    pilot_verdict = known_verdict(folder, scene) or pilot(
+        scene, say, where.outcomes, before=compiles
+    )
     if profile:
         profile.add_wall("pilot", time.perf_counter() - begun)
     while True:

@@ -2,9 +2,11 @@
 every process at once.
 
 numba keeps compiled kernels on the disk, but what they are compiled for is known only when they
-are called. So the plan's own stages are run on a load case in miniature: one process simulates a
-second of it, while another takes made-up loads through all the other stages; what is compiled
-there, all workers then load. A mark beside numba's files tells the next run that this is done.
+are called. So the questions of the pilot are asked of a load case in miniature first: one process
+simulates a second of it, while another takes made-up loads through films, and the first that is
+free through contacts, or through stages that no question is about. The plan's own stages follow in
+the same way. What is compiled there, all workers then load. Marks beside numba's files tell the
+next run that this is done.
 """
 
 from __future__ import annotations
@@ -28,13 +30,17 @@ import xarray as xr
 
 import loadflow
 from loadflow.cube import make_case
+from loadflow.planning.pilot import Questions, measure
 from loadflow.planning.plan import Plan
 from loadflow.running.cases import do_case, is_ready, open_inputs
+from loadflow.running.compiling import few_collections
 from loadflow.running.executor import Executor
 from loadflow.running.folder import part_file
 from loadflow.running.parts import save_part
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
+from loadflow.stages.probes import PROBES
+from loadflow.stages.registry import STAGES
 
 log = logging.getLogger("loadflow.run")
 
@@ -44,35 +50,99 @@ SAMPLES = 160
 DURATION = 1.0
 """Length of the simulated series after its run-in, s."""
 
+Say = Callable[[str, int, int], None]
 
-def compile_kernels(plan: Plan, where: Executor, say: Callable[[str, int, int], None]) -> None:
+WHAT = "compiling kernels, once on this machine"
+"""What is said of it, beside how many of its jobs are done."""
+
+OTHER = "other"
+"""Job of the stages after the loads."""
+
+
+def compile_for_pilot(
+    questions: Questions, expected: Callable[[], Plan], where: Executor, say: Say
+) -> None:
+    """Compile what the questions of a pilot call, each model in a process of its own.
+
+    One more job takes the stages that no question is about, by the plan that is `expected` before
+    the pilot. What the plan after the pilot calls beside these, `compile_kernels` compiles.
+    """
+    scene, models = questions.scene, questions.models
+    rungs = [one.text_of(scene) for name in models for one in STAGES[name].models]
+    marks = _marks((rungs, sorted(questions.effects), scene.results))
+    if _is_done(marks, where):
+        return
+    with tempfile.TemporaryDirectory(prefix="loadflow-") as place:
+        rest = {OTHER: Path(place) / OTHER}
+        work = partial(_for_pilot, questions=questions, plan=expected(), folders=rest)
+        _compile(work, (*models, OTHER), marks, where, say)
+
+
+def compile_kernels(plan: Plan, where: Executor, say: Say) -> None:
     """Compile what the stages of a plan need, where that has not been done on this machine.
 
     It gains nothing in a single process, which compiles a kernel when it first calls it, nor for a
     cluster, whose machines have files of their own.
     """
-    if (marks := _marks(plan)) and any(mark.exists() for mark in marks):
+    jobs = ("loads", OTHER) if plan.scene.loads.source == "simulate" else (OTHER,)
+    needed = [(step.name, step.rung) for step in plan.steps]
+    marks = _marks((needed, sorted(plan.left_out)))
+    if _is_done(marks, where):
         return
-    if where.workers < 2 or not where.shares_disk:
-        log.info("kernels are compiled as they are needed, about a minute on a new machine")
-        return
-    log.info("compiling kernels, once on this machine; about a minute")
-    begun = time.perf_counter()
-    jobs = ["loads", "other"] if plan.scene.loads.source == "simulate" else ["other"]
-    what = "compiling, once on this machine"
-    say(what, 0, len(jobs))
     with tempfile.TemporaryDirectory(prefix="loadflow-") as place:
         folders = {job: Path(place) / job for job in jobs}
         work = partial(_in_miniature, plan=plan, folders=folders)
-        for done, (_, told) in enumerate(where.outcomes(work, jobs), 1):
-            if told:
-                log.info("in miniature: %s", told)
-            say(what, done, len(jobs))
-    log.info("compiled in %.0f s", time.perf_counter() - begun)
+        _compile(work, jobs, marks, where, say)
+
+
+def _is_done(marks: list[Path], where: Executor) -> bool:
+    """Whether there is nothing to do: a mark tells it, or the place is none for it."""
+    if any(mark.exists() for mark in marks):
+        return True
+    if where.workers < 2 or not where.shares_disk:
+        log.info("kernels are compiled as they are needed, about a minute on a new machine")
+        return True
+    return False
+
+
+def _compile(
+    work: Callable[[str], str], jobs: tuple[str, ...], marks: list[Path], where: Executor, say: Say
+) -> None:
+    """Have all jobs done, and mark that they are."""
+    log.info("%s: %s", WHAT, ", ".join(jobs))
+    begun = time.perf_counter()
+    say(WHAT, 0, len(jobs))
+    for done, (job, told) in enumerate(where.outcomes(work, jobs), 1):
+        seconds = time.perf_counter() - begun
+        log.info("in miniature: %s after %.0f s%s", job, seconds, f"; {told}" if told else "")
+        say(WHAT, done, len(jobs))
     for mark in marks:
         with suppress(OSError):
             mark.touch()
             break
+
+
+def _for_pilot(job: str, questions: Questions, plan: Plan, folders: dict[str, Path]) -> str:
+    """Do one job of `compile_for_pilot`."""
+    if job != OTHER:
+        return _asked_in_miniature(job, questions)
+    asked = set(questions.models) - {"loads", "shaft"}  # which the others need, and are soon done
+    steps = tuple(step for step in plan.steps if step.name not in asked)
+    return _in_miniature(job, replace(plan, steps=steps), folders)
+
+
+def _asked_in_miniature(model: str, questions: Questions) -> str:
+    """Ask those of one model on a case in miniature."""
+    given = {}
+    try:
+        case = questions.cases[0]
+        ours = questions.of_model(model, DURATION)
+        if PROBES[model].reads:
+            given["loads"] = made_up_loads(questions.scene, case)
+        with few_collections():
+            return "; ".join(measure(ours, case, given).refused.values())
+    except Exception as error:
+        return f"{type(error).__name__}: {error}"
 
 
 def _in_miniature(job: str, plan: Plan, folders: dict[str, Path]) -> str:
@@ -83,19 +153,20 @@ def _in_miniature(job: str, plan: Plan, folders: dict[str, Path]) -> str:
     for step in small.of_scope("case"):
         (folder / step.name).mkdir(parents=True)
     try:
-        if job == "loads":
-            steps = tuple(step for step in small.steps if not step.needs)
-            told = do_case(case, scene, steps, folder).failures
-            return "; ".join(told.values())
-        first = next(step for step in small.steps if not step.needs)
-        series = made_up_loads(scene, case)
-        save_part(series, part_file(folder, first.name, case), first.digest)
-        failed = do_case(case, scene, tuple(small.of_scope("case")), folder).failures
-        for step in small.of_scope("run"):
-            if is_ready(step, case, folder):
-                inputs = {case.name: open_inputs(step, case, folder)}
-                step.stage.run(scene, [case], inputs)
-        return "; ".join(failed.values())
+        with few_collections():
+            if job == "loads":
+                steps = tuple(step for step in small.steps if not step.needs)
+                told = do_case(case, scene, steps, folder).failures
+                return "; ".join(told.values())
+            first = next(step for step in small.steps if not step.needs)
+            series = made_up_loads(scene, case)
+            save_part(series, part_file(folder, first.name, case), first.digest)
+            failed = do_case(case, scene, tuple(small.of_scope("case")), folder).failures
+            for step in small.of_scope("run"):
+                if is_ready(step, case, folder):
+                    inputs = {case.name: open_inputs(step, case, folder)}
+                    step.stage.run(scene, [case], inputs)
+            return "; ".join(failed.values())
     except Exception as error:
         return f"{type(error).__name__}: {error}"
 
@@ -136,16 +207,15 @@ def made_up_loads(scene: Scene, case: Case) -> xr.Dataset:
     return series.assign_coords(weight=case.weight, tripped=np.nan).astype("float32")
 
 
-def _marks(plan: Plan) -> list[Path]:
+def _marks(needed: object) -> list[Path]:
     """Where the mark of these kernels may be, in the order in which numba chooses its folder."""
     root = Path(loadflow.__file__).parent
     told = hashlib.sha256()
     for file in sorted(root.rglob("*.py")):
         found = file.stat()
         told.update(f"{file.relative_to(root)} {found.st_size} {found.st_mtime_ns}".encode())
-    needed = [(step.name, step.rung) for step in plan.steps]
     machine = (platform.machine(), platform.processor(), sys.version, version("numba"))
-    told.update(repr((needed, sorted(plan.left_out), machine)).encode())
+    told.update(repr((needed, machine)).encode())
     name = f"loadflow-{told.hexdigest()[:24]}.compiled"
     if chosen := os.environ.get("NUMBA_CACHE_DIR"):
         return [Path(chosen) / name]

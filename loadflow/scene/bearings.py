@@ -170,7 +170,8 @@ class FurtherBearing(BaseModel):
 
     ``rings = "flexible"`` takes `inner_ring` and `outer_ring`; one that is left out is rigid. With
     an ``oscillation`` it swings, as pitch and yaw bearings do, in place of turning with the rotor.
-    With a `mounting` its clearance follows fits and temperatures.
+    With a `mounting` its clearance follows fits, which stretch the sections of flexible rings, and
+    temperatures.
 
     ``roller_model = "whole"`` takes each roller as one contact, without its profile and its tilt.
     ``inertia = true`` counts centrifugal force and gyroscopic moment of the balls, between rigid
@@ -202,7 +203,7 @@ class FurtherBearing(BaseModel):
     def _has_seats(self) -> Self:
         if self.mounting is not None:
             cold = self.mounting.reference_temperature
-            self.mounting.gap_growth(self.geometry, cold, cold)
+            self.mounting.gap_growth(self.geometry, cold, cold, *self._sections)
         return self
 
     @model_validator(mode="after")
@@ -245,8 +246,16 @@ class FurtherBearing(BaseModel):
         """
         if self.mounting is None:
             return self
-        warm = self.mounting.at_work(self.geometry, temperature, ambient)
+        sections = self._sections if self.rings == "flexible" else ()
+        warm = self.mounting.at_work(self.geometry, temperature, ambient, *sections)
         return self.model_copy(update={"geometry": warm})
+
+    @property
+    def _sections(self) -> tuple[RingBeam | MeshedRing | None, RingBeam | MeshedRing | None]:
+        """Rings with sections of their own, inner and outer; one given by its matrix has none."""
+        rings = self.inner_ring, self.outer_ring
+        inner, outer = (None if isinstance(ring, MatrixRing) else ring for ring in rings)
+        return inner, outer
 
     @property
     def ring_model(self) -> Literal["rigid"] | FlexibleRings:

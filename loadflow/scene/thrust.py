@@ -122,6 +122,11 @@ class AxialBearing(Section, BaseModel):
 
     @property
     @abstractmethod
+    def clearance(self) -> float:
+        """Film, m, where the bearing is centred and its pads leave the least."""
+
+    @property
+    @abstractmethod
     def words(self) -> str:
         """What it is."""
 
@@ -192,6 +197,11 @@ class ThrustCollar(AxialBearing):
         return 0.5 * (self.geometry.inner_radius + self.geometry.outer_radius)
 
     @property
+    def clearance(self) -> float:
+        """Half of the play, m."""
+        return 0.5 * self.play
+
+    @property
     def words(self) -> str:
         """What it is."""
         row = self.geometry
@@ -260,6 +270,12 @@ class ConePair(AxialBearing):
         return 0.5 * sum(cone.slant) * math.sin(cone.half_angle)
 
     @property
+    def clearance(self) -> float:
+        """Normal to the cones, m."""
+        pair = self.geometry
+        return pair.left.clearance if pair.clearance is None else pair.clearance
+
+    @property
     def words(self) -> str:
         """What it is."""
         pads = self.geometry.left.pads
@@ -270,11 +286,10 @@ class ConePair(AxialBearing):
     def measures(self) -> str:
         """Its measures, in words."""
         cone, pair = self.geometry.left, self.geometry
-        clearance = cone.clearance if pair.clearance is None else pair.clearance
         return (
             f"mean D {2e3 * self.radius:.0f} mm, B {1e3 * (cone.slant[1] - cone.slant[0]):.0f} mm "
             f"along the cone, {math.degrees(cone.half_angle):.0f}°, {1e3 * pair.distance:.0f} mm "
-            f"apart, clearance {1e6 * clearance:.0f} µm, {self.lubricant.viscosity:.3g} Pa s"
+            f"apart, clearance {1e6 * self.clearance:.0f} µm, {self.lubricant.viscosity:.3g} Pa s"
         )
 
     def normal_load(self, force: Array, moment: Array) -> Array:

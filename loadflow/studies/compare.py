@@ -23,10 +23,18 @@ from loadflow.studies.compare_margins import (
     rolling_losses,
     row_shares,
 )
-from loadflow.studies.compare_result import QUANTITIES, Comparison, Judged, Number, plain
+from loadflow.studies.compare_pads import clearance_used
+from loadflow.studies.compare_result import (
+    QUANTITIES,
+    Comparison,
+    Judged,
+    Number,
+    plain,
+    without,
+)
 from loadflow.studies.compare_risks import rolling_risks, wear
 from loadflow.studies.compare_tilt import carries_thrust, shaft_tilt
-from loadflow.studies.compare_words import bearings, conclusion, drawn, facts, kind_of
+from loadflow.studies.compare_words import bearings, conclusion, drawn, facts, kind_of, references
 from loadflow.studies.run_lifetime import energy_per_year, known_shares
 from loadflow.studies.seed_intervals import Groups, interval, joint_life
 from loadflow.verdict import Verdict, from_dataset
@@ -118,13 +126,13 @@ def judged(run: Finished, folder: Path) -> Judged:
     """
     verdicts = tuple(from_dataset(run.tables["verdicts"])) if "verdicts" in run.tables else ()
     margin = margin_of(run.scene, run.folder, run.tables, verdicts)
-    numbers = dict(_numbers(run, verdicts, margin))
+    numbers = without(run.rooms) | dict(_numbers(run, verdicts, margin))
     return Judged(
         name=run.name,
         title=run.title or run.name,
         source=run.source,
         kind=kind_of(run.rooms),
-        numbers={key: numbers[key] for key in QUANTITIES if key in numbers},
+        numbers={key: numbers[key] for key in QUANTITIES},
         verdicts=verdicts,
         thrust=carries_thrust(run.scene, run.tables),
         governs=margin.governs,
@@ -134,6 +142,7 @@ def judged(run: Finished, folder: Path) -> Judged:
         bearings=bearings(run.scene, run.rooms),
         folder=run.folder.relative_to(folder).as_posix(),
         unanswered=dict(run.manifest.get("failures", {})),
+        references=references(run.rooms),
     )
 
 
@@ -185,8 +194,6 @@ def _of_journal(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[st
         yield key, _mean(run, whole, share, groups, unit)
     yield "mixed_time", _mixed_time(run, table, share, groups)
     yield "wear", wear(run.scene, _bores(run), table, groups)
-    if "rolling" not in run.tables:
-        yield from _without(_OF_ROLLING, "no rolling elements")
     yield from _lost(run, table, table["lost_power"], "")
 
 
@@ -206,21 +213,11 @@ def _of_pads(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[str, 
     if beside:
         return
     if film.place:
-        yield "film_to_roughness", _over_roughness(film, run.scene.thrust.bearings[film.place])
+        bearing = run.scene.thrust.bearings[film.place]
+        yield "film_to_roughness", _over_roughness(film, bearing)
+        yield "eccentricity_ratio", clearance_used(film, bearing)
     yield "mixed_time", _mixed_time(run, table, share, groups)
-    yield from _without(_OF_ROLLING, "no rolling elements")
-    yield "wear", Number(math.nan, "µm", note="not computed for films of pads")
     yield from _lost(run, table, table["lost_power"], "")
-
-
-_OF_ROLLING = ("row_share", "row_overload", "viscosity_ratio", "minimum_load", "standstill")
-_OF_FILMS = ("mixed_time", "wear", "minimum_film")
-
-
-def _without(keys: Sequence[str], why: str) -> Iterator[tuple[str, Number]]:
-    """Rows that make no sense for a kind of bearing, with the reason."""
-    for key in keys:
-        yield key, Number(math.nan, QUANTITIES[key][1], note=f"n/a: {why}")
 
 
 def _bores(run: Finished) -> dict[str, xr.Dataset]:
@@ -275,8 +272,6 @@ def _of_rolling(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[st
         )  # fmt: skip
     yield from _rows(run)
     yield from rolling_risks(run.scene, run.folder, table, share)
-    if not {"journal", "thrust"} & {*run.tables}:
-        yield from _without(_OF_FILMS, "no film bearing")
     losses = rolling_losses(run.scene, run.folder)
     if losses is not None:
         speed = losses.speed * 30 / np.pi

@@ -21,6 +21,7 @@ from loadflow.studies.compare_factor import (
     loads_at,
     pressure_factor,
 )
+from loadflow.studies.compare_result import Number
 from loadflow.studies.compare_seeds import of_extreme, power_of_load
 
 
@@ -55,6 +56,18 @@ def pad_margins(bearing: AnyAxial, folder: Path, place: str, table: xr.Dataset) 
         power = power_of_load(partial(value, oil=1.0), factor, WIDEST)
         drawn = of_extreme(table[name], extreme, factor, power)
         yield Margin(factor, place, case, told, change, drawn)
+
+
+def clearance_used(film: Number, bearing: AnyAxial) -> Number:
+    """Share of the clearance that the smallest film of a bearing, µm, leaves: 1 − h_min/c."""
+    own = {name: 1.0 - 1e-6 * getattr(film, name) / bearing.clearance for name in _SIDES}
+    return replace(
+        film, value=own["value"], low=own["high"], high=own["low"], unit="–", error=math.nan,
+        limit=math.nan, holds=None, note="1 − h_min/c, with the clearance c of the centred cones",
+    )  # fmt: skip
+
+
+_SIDES = ("value", "low", "high")
 
 
 def value_of(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from typing import Any
 
@@ -92,6 +92,8 @@ class Judged:
         Of its run, relative to that of the comparison.
     unanswered : dict
         Parts without an answer.
+    references : str
+        Numbers of others that its models are held against.
     """
 
     name: str
@@ -108,6 +110,7 @@ class Judged:
     bearings: list[dict[str, Any]]
     folder: str
     unanswered: dict[str, str] = field(default_factory=dict)
+    references: str = ""
 
     @property
     def broken(self) -> list[Verdict]:
@@ -137,6 +140,7 @@ class Judged:
             "bearings": self.bearings,
             "folder": self.folder,
             "unanswered": self.unanswered,
+            "references": self.references,
         }
 
 
@@ -167,6 +171,38 @@ QUANTITIES: dict[str, tuple[str, str]] = {
     "wear": ("wear of the shell by starts, stops and faults of the life", "µm"),
 }
 """What is compared: its name and unit, in the order of the table."""
+
+
+_FILMS = ("minimum_film", "film_to_roughness", "eccentricity_ratio", "film_pressure", "mixed_time")
+_ROLLING = ("static_safety", "contact_pressure", "modified_life", "rating_life", "film_parameter",
+    "viscosity_ratio", "minimum_load", "standstill")  # fmt: skip
+_ROWS = ("row_share", "row_overload")
+_FED = ("oil_flow", "pump", "wear")
+
+
+def without(rooms: Sequence[str]) -> dict[str, Number]:
+    """Every quantity as bearings of some rooms have it who do not compute it: none, and why.
+
+    Examples
+    --------
+    >>> without(["journal"])["rating_life"].note
+    'n/a: no rolling elements'
+    >>> without(["thrust"])["pump"].note
+    'n/a: not computed for films of pads'
+    """
+    why = dict.fromkeys(QUANTITIES, "no model of it for these bearings")
+    why |= dict.fromkeys(_ROWS, "no bearing with several rows takes the thrust")
+    why |= dict.fromkeys(("thrust_film", "thrust_pressure"), "no thrust collar beside journals")
+    if "rolling" not in rooms:
+        why |= dict.fromkeys((*_ROLLING, *_ROWS), "no rolling elements")
+    if not {"journal", "thrust"} & {*rooms}:
+        why |= dict.fromkeys((*_FILMS, *_FED), "no film bearing")
+    elif "journal" not in rooms:
+        why |= dict.fromkeys(_FED, "not computed for films of pads")
+    return {
+        key: Number(math.nan, unit, note=f"n/a: {why[key]}")
+        for key, (_, unit) in QUANTITIES.items()
+    }
 
 
 def named_quantities() -> dict[str, dict[str, str]]:

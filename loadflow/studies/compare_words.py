@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 import xarray as xr
 
+from loadflow.data import evidence
 from loadflow.scene.scene import Scene
 from loadflow.studies.compare_result import Judged
 from loadflow.studies.seed_intervals import Groups
@@ -17,35 +19,44 @@ from loadflow.verdict import Verdict
 def conclusion(judged: Sequence[Judged]) -> str:
     """One sentence: how many hold, which loses least, what the other kind does."""
     good = [one for one in judged if one.holds]
-    count = f"{len(good)} of {len(judged)} candidates hold all limits on these loads"
     if not good:
         least = max(judged, key=lambda one: _or_zero(one.numbers["load_factor"].value))
         return (
-            f"None of the {len(judged)} candidates holds all limits on these loads; nearest is "
-            f"{least.title}, which breaks {_listed(least.broken) or 'none that is known'}."
+            f"None of the {len(judged)} candidates holds all limits on these loads; nearest are "
+            f"{_named(least)}, which break {_listed(least.broken) or 'none that is known'}."
         )
     best = good[0]
-    text = f"{count}; of these {_told(best)}"
+    hold = "holds" if len(good) == 1 else "hold"
+    least_of = "these, " if len(good) == 1 else "of these, "
+    text = (
+        f"{len(good)} of {len(judged)} candidates {hold} all limits on these loads; {least_of}"
+        f"{_told(best, least=len(good) > 1)}"
+    )
     others = [one for one in good if one.kind != best.kind]
     if others:
-        return f"{text}; the best {others[0].kind} bearings, {_told(others[0])}."
+        return f"{text}; the best {_told(others[0])}."
     other = [one for one in judged if one.kind != best.kind]
     if other:
         nearest = max(other, key=lambda one: _or_zero(one.numbers["load_factor"].value))
-        what = _listed(nearest.broken) or "has parts without an answer"
-        return f"{text}; no {nearest.kind} bearings hold: {nearest.title} breaks {what}."
+        what = _listed(nearest.broken) or "parts without an answer"
+        return f"{text}; no {nearest.kind} bearings hold, the nearest ({nearest.title}) for {what}."
     return f"{text}."
 
 
-def _told(one: Judged) -> str:
+def _named(one: Judged) -> str:
+    return f"{one.kind} bearings ({one.title})"
+
+
+def _told(one: Judged, least: bool = False) -> str:
     energy, factor = one.numbers["energy"], one.numbers["load_factor"]
-    lost = (
-        f"lose {energy.value:.3g} MWh a year"
-        if math.isfinite(energy.value)
-        else "lose no one knows what"
-    )
+    if not math.isfinite(energy.value):
+        lost = "lose no one knows what,"
+    elif least:
+        lost = f"lose least, {energy.value:.3g} MWh a year,"
+    else:
+        lost = f"lose {energy.value:.3g} MWh a year,"
     need = ", but need a thrust bearing of their own" if one.thrust.startswith("none") else ""
-    return f"{one.title} {lost} with loads to spare by a factor of {factor.value:.3g}{need}"
+    return f"{_named(one)} {lost} with loads to spare by a factor of {factor.value:.3g}{need}"
 
 
 def _listed(verdicts: Sequence[Verdict]) -> str:
@@ -83,6 +94,7 @@ def facts(scene: Scene, runs: Sequence[Mapping[str, xr.Dataset]]) -> dict[str, s
             + ("; with so few seeds they are too narrow" if 1 < few < 6 else "")
             + ("; one seed has none" if few == 1 else "")
         ),
+        "References behind the loads": references(["loads"]),
         "Lubricant of rolling bearings": f"{scene.friction.lubricant}, "
         f"{scene.friction.temperature - 273.15:.0f} °C, {scene.friction.cleanliness}",
     }
@@ -135,6 +147,42 @@ def bearings(scene: Scene, rooms: Sequence[str]) -> list[dict[str, Any]]:
                 }
             )
     return found
+
+
+_BEHIND = {
+    "journal": ("journal", "film_charts", "film_heat", "supply", "shell", "mixed", "stribeck"),
+    "thrust": ("thrust",),
+    "rolling": ("rolling", "rings", "friction", "friction_rig"),
+    "loads": ("wind", "loads", "turbines", "towers", "shaft"),
+}
+"""Tables of `loadflow validate` that stand behind a room."""
+
+
+def references(rooms: Sequence[str]) -> str:
+    """Numbers of others that the models of some rooms are held against, by what they are.
+
+    Examples
+    --------
+    >>> references(["thrust"])
+    '60 in closed form (thrust)'
+    """
+    tables = [name for room in rooms for name in _BEHIND[room]]
+    known = evidence()
+    total = Counter[str]()
+    for name in tables:
+        total.update(known[name])
+    told = [f"{total[kind]} {words}" for kind, words in _HELD.items() if total[kind]]
+    missed = f"; {total['missed']} of them missed" if total["missed"] else ""
+    return f"{', '.join(told)}{missed} ({', '.join(tables)})"
+
+
+_HELD = {
+    "measured elsewhere": "measured elsewhere",
+    "another code": "by another code",
+    "closed form": "in closed form",
+    "print of the source": "as the source prints",
+}
+"""Kinds of evidence that say something about the world, in words."""
 
 
 def kind_of(rooms: Sequence[str]) -> str:

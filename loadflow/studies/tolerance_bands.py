@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 import xarray as xr
 
+from loadflow.errors import SolverError
 from loadflow.journal import Equilibrium
 from loadflow.rolling.rating.modified_life import viscosity_ratio
 from loadflow.scene.as_built import AsBuilt
@@ -181,13 +182,8 @@ def _of_films(journal: Journal, spectrum: xr.DataTree) -> dict[str, float]:
         thin, hard = int(np.argmin(film)), int(np.argmax(pressure))
         heavier = _at(options, samples.isel(sample=[thin, hard]), _HEAVIER)
         thinner, higher = heavier.minimum_film[0] / film[thin], pressure[hard]
-        steps = np.log(thinner), np.log(heavier.maximum_pressure[1] / higher)
         reserves = film[thin] / options.least_film, options.limits.pressure_at(0.0) / higher
-        margins += [
-            float(reserve ** (math.log(_HEAVIER) / abs(step)))
-            for reserve, step in zip(reserves, steps)
-            if math.isfinite(step) and step != 0
-        ]
+        margins += _margins(reserves, (thinner, heavier.maximum_pressure[1] / higher))
         films.append(float(film[thin]))
         rough.append(films[-1] / options.contact_film)
         pressures.append(float(higher))
@@ -214,6 +210,20 @@ def _at(options: Journal, samples: xr.Dataset, factor: float = 1.0) -> Equilibri
     force = factor * samples["force"].transpose("sample", "axis").values
     line = shaft_line(options, samples)
     return equilibria(options, force, samples["speed"].values, **line)
+
+
+def _margins(reserves: Sequence[float], grown: Sequence[float]) -> list[float]:
+    """Factors on the load to each limit, by the power of the load that answers follow.
+
+    `reserves` are what is left to the limits, `grown` what a load `_HEAVIER` makes of the answers,
+    as factors both.
+    """
+    pairs = ((reserve, np.log(one)) for reserve, one in zip(reserves, grown))
+    return [
+        float(reserve ** (math.log(_HEAVIER) / abs(step)))
+        for reserve, step in pairs
+        if math.isfinite(step) and step != 0
+    ]
 
 
 def _mean(values: np.ndarray, weight: np.ndarray) -> float:
@@ -257,7 +267,7 @@ def _of_pads(
     bearings: Mapping[str, AnyAxial], spectrum: xr.DataTree, beside: Mapping[str, float]
 ) -> dict[str, float]:
     """Films of pads; what they lose is added to that of the journal bearings beside them."""
-    films, pressures, rough, power = [], [], [], 0.0
+    films, pressures, rough, margins, power = [], [], [], [], 0.0
     for place, bearing in bearings.items():
         samples = spectrum[place].to_dataset()
         force, moment = (
@@ -275,17 +285,47 @@ def _of_pads(
         power += float(samples["weight"].sum()) * (
             _mean(answer["friction_power"].values, weight) / max(weight.sum(), 1e-300)
         )
-        films.append(float(np.nan_to_num(answer["minimum_film"]).min()))
+        film = np.nan_to_num(answer["minimum_film"].values)
+        films.append(float(film.min()))
         rough.append(films[-1] / bearing.contact_film)
         pressures.append(float(np.nanmax(answer["maximum_pressure"].values)))
+        margins += _margins_of_pads(bearing, place, some, answer)
+    margin = min(margins, default=math.nan)
     if beside:
         lost = {name: beside[name] + power for name in ("friction", "energy")}
+        lost["load_factor"] = float(np.nanmin([beside["load_factor"], margin]))
         return {"thrust_film": min(films), "thrust_pressure": max(pressures)} | lost
     return {
         "minimum_film": min(films),
         "film_to_roughness": min(rough),
         "film_pressure": max(pressures),
+        "load_factor": margin,
         "friction": power,
         "energy": power,
         "tilt": 1.0 / max(min(films), 1e-300),
     }
+
+
+def _margins_of_pads(
+    bearing: AnyAxial, place: str, some: xr.Dataset, answer: xr.Dataset
+) -> list[float]:
+    """Factors on the load to the limits of film and pressure; none where surfaces touch."""
+    if (answer["in_contact"] > 0).any():
+        return []
+    film, pressure = (answer[name].values for name in ("minimum_film", "maximum_pressure"))
+    thin, hard = int(np.nanargmin(film)), int(np.nanargmax(pressure))
+    hardest = some.isel(sample=[thin, hard])
+    loads = {name: _HEAVIER * hardest[name] for name in ("force", "moment")}
+    try:
+        heavier = solved(bearing, place, hardest.assign(loads))
+    except SolverError:  # no film carries as much
+        return []
+    limits = bearing.limits
+    allowed = limits.pressure_at(limits.material[0][0])
+    return _margins(
+        (film[thin] / bearing.least_film, allowed / pressure[hard]),
+        (
+            heavier["minimum_film"].values[0] / film[thin],
+            heavier["maximum_pressure"].values[1] / pressure[hard],
+        ),
+    )

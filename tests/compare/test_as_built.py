@@ -37,6 +37,7 @@ def spectrum(places, moment=0.0):
         {
             "force": (axes, np.outer([1.0, 0.8, 0.6, 0.9], [2e5, 0.0, -1.2e6])),
             "moment": (axes, np.outer(np.ones(count), [0.0, moment, 0.0])),
+            "time": ("sample", np.arange(4.0)),
             "speed": ("sample", [1.2, 1.2, 0.9, 1.0]),
             "weight": ("sample", [0.25, 0.25, 0.25, 0.25]),
             "load_factor": ("sample", np.full(count, 1.35)),
@@ -54,8 +55,13 @@ def spectrum(places, moment=0.0):
 
 def built(**sections):
     scene = make_scene({"name": "t", "shaft": {"two_point": {}, "moment": {}}, **sections})
-    rooms = {room: getattr(scene, room) for room in ("journal", "rolling") if room in sections}
-    places = ["N", "N2"] if "journal" in rooms else [*scene.rolling.geometries]
+    rooms = {
+        room: getattr(scene, room) for room in ("journal", "rolling", "thrust") if room in sections
+    }
+    if "thrust" in rooms:
+        places = [*scene.thrust.bearings]
+    else:
+        places = ["N", "N2"] if "journal" in rooms else [*scene.rolling.geometries]
     return Built(Candidate(**rooms), scene.friction, spectrum(places))
 
 
@@ -123,6 +129,23 @@ def test_the_margin_of_a_film_follows_its_power_of_the_load():
     assert 0.9 < power < 2.0  # the pressure of a film grows faster than its load
     rougher = only(journal(), roughness=0.25).ends[1]
     assert cheap_numbers(rougher)["load_factor"] <= cheap_numbers(journal())["load_factor"]
+
+
+def cones(**limits):
+    cone = {"half_angle": 0.5, "slant": [1.6, 2.6], "clearance": 2e-4}
+    pair = {"distance": 3.2, "left": cone}
+    data = {"kind": "conical-pair", "lubricant": {"viscosity": 0.2}, "geometry": pair}
+    return built(thrust={"bearings": {"M": data | {"limits": limits}}})
+
+
+def test_the_margin_of_cones_follows_its_power_of_the_load():
+    """As that of journal bearings: twice the pressure allowed, the loads by 2 over its power."""
+    low, high = (cheap_numbers(cones(material=[[400.0, p]], minimum_film=1e-7)) for p in (2e6, 4e6))
+    power = math.log(2.0) / math.log(high["load_factor"] / low["load_factor"])
+    assert 0.3 < power < 2.0
+    oils = only(cones(), viscosity=0.1)
+    thin, thick = (cheap_numbers(end)["load_factor"] for end in oils.ends)
+    assert thin < cheap_numbers(oils.stated)["load_factor"] < thick
 
 
 def test_a_shaft_that_lies_askew_thins_the_film_and_0_leaves_it():

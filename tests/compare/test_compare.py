@@ -31,7 +31,8 @@ from loadflow.running.comparison import (
 from loadflow.scene.candidate import Candidate
 from loadflow.scene.scene import make_scene
 from loadflow.studies.compare_margins import rolling_losses
-from loadflow.studies.compare_result import QUANTITIES
+from loadflow.studies.compare_pads import clearance_used
+from loadflow.studies.compare_result import QUANTITIES, Number
 from loadflow.studies.compare_risks import wear
 from loadflow.studies.seed_intervals import Groups, interval, joint_life
 
@@ -119,6 +120,28 @@ def test_rolling_bearings_have_skidding_films_and_standstill_journal_bearings_a_
     for key in ("minimum_load", "viscosity_ratio", "standstill", "row_share", "wear"):
         assert math.isnan(film[key].value), key
         assert film[key].note.startswith("n/a"), key
+
+
+def test_every_cell_has_a_number_or_a_reason(found):
+    for one in found.comparison.candidates:
+        assert [*one.numbers] == [*QUANTITIES]
+        for key, number in one.numbers.items():
+            assert math.isfinite(number.value) or number.note, (one.name, key)
+            assert number.unit == QUANTITIES[key][1], key
+    film, rolling = (by_name(found)[name] for name in ("journal-cylindrical", "two-spherical"))
+    assert film.numbers["rating_life"].note == "n/a: no rolling elements"
+    assert rolling.numbers["film_pressure"].note == "n/a: no film bearing"
+    page = found.page.read_text(encoding="utf-8")
+    assert QUANTITIES["thrust_film"][0] not in page  # no candidate has a collar
+
+
+def test_what_a_film_leaves_of_the_clearance_of_cones_is_their_eccentricity_ratio():
+    cone = {"half_angle": 0.5, "slant": [1.6, 2.6], "clearance": 2e-4}
+    pair = {"kind": "conical-pair", "geometry": {"distance": 3.2, "left": cone}}
+    scene = make_scene({"name": "c", "shaft": {"moment": {}}, "bearings": {"M": pair}})
+    found = clearance_used(Number(50.0, "µm", 40.0, 60.0), scene.thrust.bearings["M"])
+    assert (found.value, found.low, found.high) == pytest.approx((0.75, 0.7, 0.8))
+    assert (found.unit, found.limit != found.limit, found.holds) == ("–", True, None)
 
 
 def test_wear_is_that_of_the_followed_contour_with_an_interval_by_what_each_start_rubs():

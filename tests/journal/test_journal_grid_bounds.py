@@ -78,6 +78,18 @@ def test_cells_that_do_not_resolve_the_gap_are_told():
     assert "1 not resolved" in repr(coarse)
 
 
+def test_a_force_that_nearly_cancels_is_told_with_what_it_is_known_to():
+    lobes = JournalBearing(0.2, 0.1, 1e-3, shape=Lobes(2, preload=0.4))
+    film = Film(OIL, Guembel(), 1e5, grid=(40, 8))
+    with pytest.warns(ValidityWarning) as told:
+        found = lobes.pressure((1e-9, 0.0), 100.0, film)
+    said = str(told[0].message)
+    assert "%" not in said
+    assert f"force of number 0 nearly cancels: {np.hypot(*found.force):.3g} N" in said
+    assert f"known to {found.grid_error.force:.2g} N" in said
+    assert found.grid_error.force > 100.0 * np.hypot(*found.force)
+
+
 PADS = {
     "lands": ThrustBearing(6, 0.5, 1.0, pad_angle=0.785, taper=1e-4, wedge=0.75),
     "tilting pads": ThrustBearing(6, 0.5, 1.0, pad_angle=0.785, pivot=Pivot(0.58)),

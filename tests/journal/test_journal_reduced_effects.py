@@ -20,7 +20,7 @@ from loadflow.journal import (
     Reynolds,
     ThickShell,
 )
-from loadflow.journal.models import composed_model, reduced
+from loadflow.journal.models import composed_model, composed_path, reduced
 from loadflow.journal.models.width_modes import half_width_nodes, lobatto, whole_width
 from loadflow.tribology import AsperityContact
 
@@ -369,27 +369,75 @@ def test_what_it_does_not_know_is_named():
 
 def test_moments_of_little_load_on_a_path_ask_for_no_more_points(monkeypatch):
     """A load that swings through next to nothing around a tilted shaft, as gusts make it."""
-    from loadflow.journal.models import composed
-
     levels = []
 
     def spy(*given):
         levels.append(given[-1])
         return composed_model.build(*given)
 
-    monkeypatch.setattr(composed, "build", spy)
+    monkeypatch.setattr(composed_path, "build", spy)
     time = np.linspace(0.0, 6.0, 241)
     load = np.stack([8e5 + 1e6 * np.sin(4.0 * time), 1e5 * np.cos(3.0 * time)], axis=-1)
     line = {"tilt": np.tile(0.4 * UNIT, (241, 2))}
     few = BEARING.orbit(time, load, SPEED, REDUCED, **line)
     assert levels == [0]
-    monkeypatch.setattr(composed, "LEVELS", composed_model.LEVELS[1:])
+    monkeypatch.setattr(composed_path, "LEVELS", composed_model.LEVELS[1:])
     fine = BEARING.orbit(time, load, SPEED, REDUCED, **line)
     assert levels == [0, 1]
     assert float(few.minimum_film.min()) == pytest.approx(float(fine.minimum_film.min()), rel=5e-4)
     assert float(few.maximum_pressure.max()) == pytest.approx(
         float(fine.maximum_pressure.max()), rel=5e-4
     )
+
+
+def gust(samples):
+    """Half a minute, in the middle of which the shaft tilts until an end is close to the bore."""
+    time = np.linspace(0.0, 30.0, samples)
+    near = np.exp(-(((time - 12.0) / 0.7) ** 2))
+    load = np.stack([2e6 + 3e5 * np.sin(0.8 * time), 2e5 * np.cos(0.7 * time)], axis=-1)
+    return time, load, UNIT * np.stack([0.1 + 0.05 * np.sin(time), -0.7 * near], axis=-1)
+
+
+@pytest.mark.filterwarnings("error::loadflow.errors.ValidityWarning")
+def test_more_points_across_go_on_from_the_film_so_far(monkeypatch):
+    """Of a path that asks for them in its middle alone; gas and oil stay where they are."""
+    time, load, tilt = gust(601)
+    samples = {}
+    goes_on = composed_path._March.goes_on
+
+    def counted(march, state, level, begin, end):
+        samples.setdefault(level, set()).update(range(begin, end))
+        return goes_on(march, state, level, begin, end)
+
+    monkeypatch.setattr(composed_path._March, "goes_on", counted)
+    few = BEARING.orbit(time, load, SPEED, REDUCED, tilt=tilt)
+    assert samples[0] == set(range(1, 601))
+    assert 0 < len(samples[1]) < 150
+    assert all(9.0 < time[n] < 15.0 for n in samples[1])
+    monkeypatch.setattr(composed_path, "LEVELS", composed_model.LEVELS[1:])
+    fine = BEARING.orbit(time, load, SPEED, REDUCED, tilt=tilt)
+    monkeypatch.setattr(composed_path, "LEVELS", composed_model.LEVELS[:1])
+    with pytest.warns(ValidityWarning, match="not resolved at .* first at t = 11"):
+        coarse = BEARING.orbit(time, load, SPEED, REDUCED, tilt=tilt)
+    for name in ANSWERS:
+        assert apart(few, fine, name) < 5e-4, name
+    assert apart(coarse, fine, "minimum_film") > 5e-3
+    assert apart(coarse, fine, "maximum_pressure") > 1e-2
+
+
+@pytest.mark.parametrize("effect", ["tilt and bend", "moment", "shell", "contact"])
+def test_a_path_in_stretches_is_the_path_in_one(effect, monkeypatch):
+    """What a step knows of the two before it goes with the film, where steps are cut, too."""
+    film, line = EFFECTS[effect]
+    load = LOAD.copy()
+    load[15:] *= 3.0  # at a blow
+    heat = Heat(**OIL, capacity=3e3, start_temperature=313.15)
+    film = replace(REDUCED, lubricant=None, heat=heat, **film)
+    whole = BEARING.orbit(TIME, load, SPEED, film, tolerance=1e-11, **line)
+    monkeypatch.setattr(composed_path, "_LONG", 4)
+    parts = BEARING.orbit(TIME, load, SPEED, film, tolerance=1e-11, **line)
+    for name in (*ANSWERS, "temperature"):
+        assert apart(parts, whole, name) < 1e-9, name
 
 
 TILTED = {"tilt": (0.0, 2e-5)}

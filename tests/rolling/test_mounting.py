@@ -6,13 +6,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import xarray as xr
+from pydantic import ValidationError
 
 from loadflow.errors import InputError, SolverError
 from loadflow.rolling import (
     BallBearing,
     CrossedRollerBearing,
     FrictionOptions,
+    MeshedRing,
     Mounting,
+    RingBeam,
+    RingSection,
     RollerBearing,
     RollerRaceways,
     SlewingBearing,
@@ -21,9 +25,11 @@ from loadflow.rolling import (
 )
 from loadflow.rolling.friction import balanced_temperature
 from loadflow.rolling.mounting import unused_of
+from loadflow.scene.bearings import FurtherBearing
 from loadflow.scene.scene import make_scene
 from loadflow.stages import rolling as stage
 from loadflow.tribology import lubricant
+from loadflow.tribology.hertz import STEEL_MODULUS, STEEL_POISSON
 
 ALPHA = 11.7e-6
 ROW = RollerBearing(rollers=24, roller_diameter=0.04, roller_length=0.06, pitch_diameter=0.54)
@@ -146,6 +152,95 @@ def test_seats_that_do_not_fit_are_refused_by_name():
     three = ThreeRowRollerBearing(support=axial, retaining=axial, radial=axial)
     with pytest.raises(InputError, match="more than one clearance"):
         Mounting().gap_growth(three, 300.0, 300.0)
+
+
+def pressed(tubes, interference):
+    """Growth of diameters by the fit of two tubes (d_in, d_out, E, ν), by Lamé's constants.
+
+    σ_r = A - B/r² of each: no load inside the inner and outside the outer one, one pressure and the
+    interference between them.
+    """
+
+    def moved(which, diameter):
+        _, _, modulus, poisson = tubes[which]
+        row = np.zeros(4)
+        row[2 * which] = (1 - poisson) * diameter / modulus
+        row[2 * which + 1] = (1 + poisson) / modulus * 4 / diameter
+        return row
+
+    def stress(which, diameter):
+        row = np.zeros(4)
+        row[2 * which : 2 * which + 2] = 1.0, -4 / diameter**2
+        return row
+
+    (inside, seat, *_), (_, outside, *_) = tubes
+    hollow = stress(0, inside) if inside else np.array([0.0, 1.0, 0.0, 0.0])
+    equations = [
+        hollow, stress(1, outside), stress(0, seat) - stress(1, seat),
+        moved(1, seat) - moved(0, seat),
+    ]  # fmt: skip
+    constants = np.linalg.solve(np.array(equations), [0.0, 0.0, 0.0, interference])
+    return lambda which, diameter: moved(which, diameter) @ constants
+
+
+def test_a_fit_stretches_the_section_that_a_ring_has():
+    """An inner ring with shoulders above its raceway, and of another steel than the shaft."""
+    ring = RingBeam(
+        section=RingSection.rectangle(0.07, 0.1), radius=0.235,
+        elastic_modulus=1.9e11, poisson_ratio=0.27,
+    )  # fmt: skip
+    fit = Mounting(bore=0.4, inner_interference=1e-4, shaft_bore=0.1)
+    got = fit.at_work(ROW, 293.15, 293.15, inner_ring=ring).clearance
+    steel = STEEL_MODULUS, STEEL_POISSON
+    grown = pressed(((0.1, 0.4, *steel), (0.4, 0.54, 1.9e11, 0.27)), 1e-4)
+    assert got == pytest.approx(-grown(1, 0.5), rel=1e-9)
+    stiffer = replace(ring, elastic_modulus=STEEL_MODULUS, poisson_ratio=STEEL_POISSON)
+    lost = [-fit.at_work(ROW, 293.15, 293.15, inner_ring=r).clearance for r in (None, stiffer)]
+    assert lost[1] < 0.99 * lost[0]
+
+
+def test_an_outer_ring_is_pressed_together_over_its_own_wall():
+    """Stated by its faces, with its raceway in the wall; the housing is the tube around it."""
+    ring = MeshedRing(inside=0.56, outside=0.66, bottom=-0.05, top=0.05, held="back")
+    fit = Mounting(outside=0.66, outer_interference=1e-4, housing_outside=0.9)
+    got = fit.at_work(ROW, 293.15, 293.15, outer_ring=ring).clearance
+    steel = STEEL_MODULUS, STEEL_POISSON
+    grown = pressed(((0.56, 0.66, *steel), (0.66, 0.9, *steel)), 1e-4)
+    assert got == pytest.approx(grown(0, 0.58), rel=1e-9)
+
+
+def test_a_section_that_ends_at_the_raceway_is_that_of_a_ring_without_one():
+    ring = RingBeam(section=RingSection.rectangle(0.05, 0.1), radius=0.225)
+    fit = Mounting(bore=0.4, inner_interference=1e-4, shaft_bore=0.2)
+    grown = [fit.gap_growth(ROW, 293.15, 293.15, inner_ring=each) for each in (None, ring)]
+    assert grown[1] == pytest.approx(grown[0], rel=1e-12)
+
+
+def test_a_seat_that_is_not_at_the_face_of_its_ring_is_refused_by_name():
+    ring = RingBeam(section=RingSection.rectangle(0.05, 0.1), radius=0.225)
+    with pytest.raises(InputError, match=r"bore: must be the face of the ring's section, 0\.4 m"):
+        Mounting(bore=0.3).gap_growth(ROW, 300.0, 300.0, inner_ring=ring)
+    with pytest.raises(InputError, match=r"outside: must be the face .* section, 0\.68 m"):
+        Mounting(outside=0.8).gap_growth(ROW, 300.0, 300.0, outer_ring=replace(ring, radius=0.315))
+
+
+def test_scenes_take_the_sections_of_flexible_rings_and_no_others():
+    ring = {"section": {"width": 0.07, "height": 0.1}, "radius": 0.235}
+    stated = {
+        "bearing": "N2", "inner_ring": ring, "mounting": {"bore": 0.4, "inner_interference": 1e-4},
+        "geometry": {"kind": "roller", "rollers": 40, "roller_diameter": 0.04,
+                     "roller_length": 0.06, "pitch_diameter": 0.54, "clearance": 0.0},
+    }  # fmt: skip
+
+    def lost(**more):
+        part = FurtherBearing.model_validate(stated | more)
+        return -part.at_work(293.15, 293.15).geometry.clearance
+
+    assert lost(rings="rigid") == lost(inner_ring=None)
+    assert lost(rings="flexible") < 0.99 * lost(rings="rigid")
+    astray = {"bore": 0.3, "inner_interference": 1e-4}
+    with pytest.raises(ValidationError, match="bore: must be the face of the ring's section"):
+        lost(rings="rigid", mounting=astray)
 
 
 def test_balls_without_room_left_are_refused_with_the_temperature():

@@ -4,8 +4,9 @@ import pytest
 from small_run import small_scene
 
 from loadflow.cube import check_case
+from loadflow.planning.pilot import Questions
 from loadflow.planning.plan import make_plan
-from loadflow.running.warm_up import compile_kernels, made_up_loads
+from loadflow.running.warm_up import compile_for_pilot, compile_kernels, made_up_loads
 
 
 class TwoWorkers:
@@ -38,6 +39,19 @@ def test_all_stages_take_the_case_in_miniature_and_it_is_done_once(plan, tmp_pat
     assert len(list((tmp_path / "kernels").glob("*.compiled"))) == 1
     compile_kernels(plan, where, lambda *what: told.append(what))
     assert len(where.jobs) == 1
+
+
+def test_questions_of_a_pilot_are_asked_in_miniature_each_model_by_itself(plan, tmp_path):
+    """The stages that no question is about are one more job; all are done once."""
+    questions = Questions(
+        plan.scene, ("motion of the film", "centrifugal load of the balls"), 60.0, plan.cases[:1]
+    )
+    where, told = TwoWorkers(), []
+    for _ in range(2):
+        compile_for_pilot(questions, lambda: plan, where, lambda *what: told.append(what))
+    assert where.jobs == [("journal", ""), ("rolling", ""), ("other", "")]
+    assert [what[1:] for what in told] == [(0, 3), (1, 3), (2, 3), (3, 3)]
+    assert len(list((tmp_path / "kernels").glob("*.compiled"))) == 1
 
 
 def test_a_process_alone_compiles_when_it_calls(plan, tmp_path):

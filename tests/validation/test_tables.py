@@ -1,5 +1,6 @@
 """Every printed number that `loadflow validate` shows is within its stated tolerance."""
 
+import json
 from collections import Counter
 from dataclasses import replace
 from pathlib import Path
@@ -7,11 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from loadflow import validation
+from loadflow import data, validation
+from loadflow.data import evidence
 from loadflow.errors import InputError
 from loadflow.validation import _slewing_refused, rings, turbines
 
 PAGE = Path(__file__).parents[2] / "docs" / "validation.md"
+DATA = Path(data.__file__).parent / "evidence.json"
 BEGIN, END = "<!-- counts: begin -->\n", "<!-- counts: end -->"
 
 
@@ -24,9 +27,20 @@ def line_of(name, rows):
     return f"| {name} | " + " | ".join(str(cell or "–") for cell in cells) + " |"
 
 
+def counts_of(rows):
+    """The same for the data of the package: what there is none of is left out."""
+    found = Counter(row.evidence for row in rows)
+    found.update("refused" if r.refused else "missed" if r.missed else "" for r in rows)
+    return {
+        kind: found[kind] for kind in (*validation.EVIDENCE, "refused", "missed") if found[kind]
+    }
+
+
 def write_counts():
-    """Bring the counts of the page up to the rows."""
+    """Bring the counts of the page and of the package up to the rows."""
     tables = {f"`{name}`": [*validation.all_checks(name)] for name in validation.names()}
+    counted = {name.strip("`"): counts_of(rows) for name, rows in tables.items()}
+    DATA.write_text(json.dumps(counted, indent=1) + "\n", encoding="utf-8")
     tables["all"] = [row for rows in tables.values() for row in rows]
     heads = ["table", "numbers", *validation.EVIDENCE, "of these refused", "missed"]
     lines = ["| " + " | ".join(heads) + " |", "|---" * len(heads) + "|"]
@@ -44,6 +58,7 @@ def test_every_printed_number_is_within_its_tolerance(name):
     assert {row.evidence for row in rows} <= set(validation.EVIDENCE)
     counted = line_of(f"`{name}`", rows)
     assert counted in PAGE.read_text(encoding="utf-8"), "python tests/validation/test_tables.py"
+    assert counts_of(rows) == evidence()[name], "python tests/validation/test_tables.py"
     assert not bad, "\n".join(f"{row} deviates by {row.deviation:+.3g}" for row in bad)
 
 

@@ -97,6 +97,10 @@ class RoughGap(CylindricalGap):
         """Narrowest mean gap over the clearance; 0 beyond where the law of contact ends."""
         return self.rough.mean(1.0 - math.hypot(*position))
 
+    def until_end(self, position: Array) -> float:
+        """How far the mean planes still may come, clearances, where the law of contact ends."""
+        return 1.0 - math.hypot(*position) + self.rough.deepest
+
 
 class RoughShapedGap(ShapedGap):
     """Gap of any shape between rough surfaces.
@@ -130,6 +134,10 @@ class RoughShapedGap(ShapedGap):
     def narrowest(self, position: Array) -> float:
         """Narrowest mean gap over the clearance; 0 beyond where the law of contact ends."""
         return self.rough.mean(float(self.gaps(position).min()))
+
+    def until_end(self, position: Array) -> float:
+        """How far the mean planes still may come, clearances, where the law of contact ends."""
+        return float(self.gaps(position).min()) + self.rough.deepest
 
 
 class RoughElasticGap(ElasticGap):

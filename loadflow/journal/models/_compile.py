@@ -4,22 +4,27 @@ A film and its work arrays are tuples of some fifty arrays. To count references 
 each over from Python, and to raise where a number is divided by zero took half of the time, of
 compiling and of running. So nothing here counts references (`_nrt`: it may not allocate), a
 division by zero gives infinity or NaN, which Newton's loop looks for, and what compiled functions
-alone call has no way in from Python. A function is compiled again in each that calls it, so levels
-are few.
+alone call has no way in from Python and no machine code of its own. A function is compiled again in
+each that calls it, so levels are few.
 """
 
 from functools import partial
 
 from numba import njit
 
-outer = partial(njit, cache=True, nogil=True, error_model="numpy", _nrt=False)()
+from loadflow.numerics.linked import LINKED
+
+outer = partial(
+    njit, cache=True, nogil=True, error_model="numpy", fastmath={"contract"}, _nrt=False
+)()
 """Of a function that Python calls; compiling it takes most of the time, so there are few."""
 
 inner = partial(
-    njit, cache=True, nogil=True, error_model="numpy", _nrt=False,
-    no_cpython_wrapper=True, no_cfunc_wrapper=True,
-)()  # fmt: skip
+    njit, nogil=True, error_model="numpy", fastmath={"contract"}, _nrt=False, **LINKED
+)()
 """Of a function that compiled ones alone call."""
 
-once = partial(njit, nogil=True, error_model="numpy", _nrt=False, inline="always")()
+once = partial(
+    njit, nogil=True, error_model="numpy", fastmath={"contract"}, _nrt=False, inline="always"
+)()
 """Of a function that is called at one place alone, of which it becomes a part."""

@@ -32,10 +32,10 @@ from loadflow.journal.models._reduced_kernels import hold_grooves_in
 
 
 @inner
-def balance(film, work, wedge, rate, size):
-    """Residual of the cells and its derivatives by `size` coordinates into `columns`.
+def balance(film, work, wedge, rate):
+    """Residual of the cells into the first of the `columns`, after `place`; the largest of it.
 
-    After `place`; also fills `work.load`. Returns the largest residual.
+    Also fills `work.load`, and `work.slope` for `matrix` and `slopes`.
     """
     nx, m = work.u.shape
     points = film.nodes.z.size
@@ -46,7 +46,6 @@ def balance(film, work, wedge, rate, size):
     fx, fy, mx, my = 0.0, 0.0, 0.0, 0.0
     for i in range(nx):
         base = film.ring.order[i] * m
-        c, s = film.ring.cos[i], film.ring.sin[i]
         step = film.ring.width[i]
         squeeze = film.ring.slope * step
         load, turn = 0.0, 0.0
@@ -56,9 +55,6 @@ def balance(film, work, wedge, rate, size):
                 held * (rate * fill[i, k] * gap[MEAN, i, k] - work.liquid[0, i, k])
                 + work.state[SLACK, i, k]
             )
-            falls = -held * rate * fill[i, k] * gap[OPEN, i, k]
-            columns[base + k, 1] = falls
-            columns[base + k, 3] = falls * z[k]
             load += weights[k] * work.state[LOAD, i, k]
             turn += weights[k] * work.state[LOAD, i, k] * z[k]
         for k in range(points):
@@ -66,11 +62,56 @@ def balance(film, work, wedge, rate, size):
             for j in range(m):
                 slope += slopes[k, j] * (p[i, j] - film.ring.p_edge)
             work.slope[i, k] = slope
-            flow = step * weights[k] * slope
-            by_gap = -flow * work.gap_slope[i, k]
-            flow *= gap[CUBE, i, k]
+            flow = step * weights[k] * slope * gap[CUBE, i, k]
             for j in range(m):
                 columns[base + j, 0] += slopes[k, j] * flow
+        fx += load * film.ring.load_x[i]
+        fy += load * film.ring.load_y[i]
+        mx -= turn * film.ring.load_y[i]
+        my += turn * film.ring.load_x[i]
+    for i in range(nx):  # face between cell i and the next one
+        right = i + 1 if i + 1 < nx else 0
+        base = film.ring.order[i] * m
+        base_r = film.ring.order[right] * m
+        upwind = i if wedge > 0 else right
+        for k in range(m):
+            rise = (p[right, k] - p[i, k]) / film.ring.apart[i]
+            drag = wedge * fill[upwind, k]
+            flow = weights[k] * (drag * face[DRAG, i, k] - face[FLOW, i, k] * rise)
+            columns[base + k, 0] += flow
+            columns[base_r + k, 0] -= flow
+    if film.ring.shaped:
+        _hold_grooves(film, columns, 0, 1)
+    largest = 0.0
+    for row in range(columns.shape[0]):
+        largest = max(largest, abs(columns[row, 0]))
+    unit = film.ring.area
+    work.load[0], work.load[1] = unit * fx, unit * fy
+    work.load[2], work.load[3] = unit * mx, unit * my
+    return largest
+
+
+@inner
+def slopes_of_balance(film, work, wedge, rate, size):
+    """Derivatives of the residual by `size` coordinates into the further columns, after it."""
+    nx, m = work.u.shape
+    points = film.nodes.z.size
+    z, weights, slopes = film.nodes.z, film.nodes.weights, film.nodes.slopes
+    p, fill, columns, gap, face = (
+        work.state[P], work.state[FILL], work.columns, work.gap, work.face,
+    )  # fmt: skip
+    for i in range(nx):
+        base = film.ring.order[i] * m
+        c, s = film.ring.cos[i], film.ring.sin[i]
+        step = film.ring.width[i]
+        squeeze = film.ring.slope * step
+        for k in range(m):
+            falls = -squeeze * weights[k] * rate * fill[i, k] * gap[OPEN, i, k]
+            columns[base + k, 1] = falls
+            columns[base + k, 3] = falls * z[k]
+        for k in range(points):
+            by_gap = -step * weights[k] * work.slope[i, k] * work.gap_slope[i, k]
+            for j in range(m):
                 columns[base + j, 1] += slopes[k, j] * by_gap
             if size > 2:
                 for j in range(m):
@@ -82,10 +123,6 @@ def balance(film, work, wedge, rate, size):
             if size > 2:
                 columns[base + k, 3] = -s * by_turn
                 columns[base + k, 4] = c * by_turn
-        fx += load * film.ring.load_x[i]
-        fy += load * film.ring.load_y[i]
-        mx -= turn * film.ring.load_y[i]
-        my += turn * film.ring.load_x[i]
     for i in range(nx):  # face between cell i and the next one
         right = i + 1 if i + 1 < nx else 0
         base = film.ring.order[i] * m
@@ -93,13 +130,10 @@ def balance(film, work, wedge, rate, size):
         upwind = i if wedge > 0 else right
         c, s = film.ring.cos_face[i], film.ring.sin_face[i]
         for k in range(m):
-            w = weights[k]
             rise = (p[right, k] - p[i, k]) / film.ring.apart[i]
             drag = wedge * fill[upwind, k]
-            flow = w * (drag * face[DRAG, i, k] - face[FLOW, i, k] * rise)
-            by_gap = -w * (drag * face[DRAG_SLOPE, i, k] - face[FLOW_SLOPE, i, k] * rise)
-            columns[base + k, 0] += flow
-            columns[base_r + k, 0] -= flow
+            by_gap = drag * face[DRAG_SLOPE, i, k] - face[FLOW_SLOPE, i, k] * rise
+            by_gap *= -weights[k]
             columns[base + k, 1] += by_gap * c
             columns[base_r + k, 1] -= by_gap * c
             columns[base + k, 2] += by_gap * s
@@ -111,14 +145,7 @@ def balance(film, work, wedge, rate, size):
                 columns[base + k, 4] += by_gap * c
                 columns[base_r + k, 4] -= by_gap * c
     if film.ring.shaped:
-        _hold_grooves(film, columns)
-    largest = 0.0
-    for row in range(columns.shape[0]):
-        largest = max(largest, abs(columns[row, 0]))
-    unit = film.ring.area
-    work.load[0], work.load[1] = unit * fx, unit * fy
-    work.load[2], work.load[3] = unit * mx, unit * my
-    return largest
+        _hold_grooves(film, columns, 1, 5)
 
 
 @once
@@ -222,14 +249,14 @@ def matrix(film, work, wedge, rate):
 
 
 @once
-def _hold_grooves(film, columns):
-    """Leave the pressure of grooves as it is."""
+def _hold_grooves(film, columns, first, last):
+    """Leave the pressure of grooves as it is, in the columns from `first` to `last`."""
     m = columns.shape[0] // film.ring.groove.size
     for i in range(film.ring.groove.size):
         if film.ring.groove[i]:
             base = film.ring.order[i] * m
             for row in range(base, base + m):
-                for column in range(columns.shape[1]):
+                for column in range(first, last):
                     columns[row, column] = 0.0
 
 

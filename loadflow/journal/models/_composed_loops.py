@@ -10,7 +10,7 @@ import numpy as np
 
 from loadflow.journal.cavitation import DLOAD, FILL, LOAD
 from loadflow.journal.models import composed_film as at
-from loadflow.journal.models._band_kernels import factorise_any, substitute_all
+from loadflow.journal.models._band_kernels import factorise_any, substitute_all, substitute_one
 from loadflow.journal.models._compile import inner, once, outer
 from loadflow.journal.models._composed_gap_kernels import (
     MEAN,
@@ -26,6 +26,7 @@ from loadflow.journal.models._composed_kernels import (
     carry,
     magnitudes,
     matrix,
+    slopes_of_balance,
     summarise,
 )
 from loadflow.journal.models._reduced_loops import (
@@ -43,7 +44,8 @@ from loadflow.journal.models.slow_heat import THIN, lighter, slow_heat
 
 _KEPT = 0.3  # share of the narrowest gap that a step of the shaft leaves
 _ROOM = 1.0 / 2**20  # share of a step below which an elastic shell has no room for it
-_FALLS = 0.01  # ratio of residuals below which the next step takes the factors of the last one
+_FALLS = 0.1  # ratio of residuals below which the next step takes the factors of the last one
+_ALIKE = 0.1  # difference of two rates of which one goes with the factors of the other
 
 
 @once
@@ -187,6 +189,9 @@ def _newton(film, work, q, load, size, speed, lightness, rate, tolerance, max_it
     Reynolds numbers are those at `speed` times `lightness`: at the time scale of the film. Returns
     residual, Newton steps, whether the residual is small by the rule of `convergence`, and its
     rounding level, which is looked at where the tolerance is not met soon.
+
+    Factors that are there take the first step: those of the last time bring a film in motion as
+    far as new ones would from there, and new ones of the film after it nearly all of the way.
     """
     wedge = 0.5 * film.ring.slope * speed
     flux = (abs(wedge) + film.ring.scale) * film.nodes.widest
@@ -198,10 +203,10 @@ def _newton(film, work, q, load, size, speed, lightness, rate, tolerance, max_it
     for a in range(4):
         step[a] = 0.0
     turn(film, work, speed, lightness)
-    spent, last = 0, 0.0
+    spent, last = 0, np.inf
     place(film, work, q)
     while True:
-        residual = balance(film, work, wedge, rate, size) / flux
+        residual = balance(film, work, wedge, rate) / flux
         touch(film, work, q)
         missing = 0.0
         for a in range(size):
@@ -218,14 +223,17 @@ def _newton(film, work, q, load, size, speed, lightness, rate, tolerance, max_it
         if done or answered:
             return residual, spent, answered, rounding
         spent += 1
-        if residual > _FALLS * last:
+        if work.kept[0] > 0.0 and residual < _FALLS * last and spent != 2:
+            substitute_one(work.band, work.columns)
+        else:
+            slopes_of_balance(film, work, wedge, rate, size)
             matrix(film, work, wedge, rate)
+            work.kept[0] = 0.0
             if not factorise_any(work.band, work.columns.shape[0]):
                 return residual, spent, False, rounding
-            last = residual
-        else:
-            last = 0.0  # once
-        substitute_all(work.band, work.columns, 1 + size)
+            substitute_all(work.band, work.columns, 1 + size)
+            work.kept[0], work.kept[1] = 1.0, rate
+        last = residual
         if size > 0:
             _shaft_step(film, work, load, size, step)
         _advance(film, work, q, step, size)
@@ -240,7 +248,8 @@ def _finish(film, work, q, speed, size, stiffness, damping):
     """
     nx, m = work.u.shape
     wedge = 0.5 * film.ring.slope * speed
-    balance(film, work, wedge, 0.0, size)
+    balance(film, work, wedge, 0.0)
+    slopes_of_balance(film, work, wedge, 0.0, size)
     matrix(film, work, wedge, 0.0)
     factorise_any(work.band, work.columns.shape[0])
     substitute_all(work.band, work.columns, 1 + size)
@@ -311,32 +320,55 @@ def _lay_at(work, line, n, to, q, given):
             q[2 + a] = line[before, a] + to * (line[n, a] - line[before, a])
 
 
+@once
+def _set_out(film, work, q, begin):
+    """Make the film at `q` that of the last time; from the third time on, one before it, too.
+
+    What they hold follows from the unknowns, so that these and the way of the shaft are all that
+    there is to going on.
+    """
+    if begin > 1:
+        for i in range(work.u.shape[0]):
+            for k in range(work.u.shape[1]):
+                work.trial[i, k], work.u[i, k] = work.last[i, k], work.before[i, k]
+        work.bend[0], work.bend[1] = work.past[0], work.past[1]
+        place(film, work, work.places[0])
+        keep(work)
+        for i in range(work.u.shape[0]):
+            for k in range(work.u.shape[1]):
+                work.u[i, k] = work.trial[i, k]
+        work.bend[0], work.bend[1] = work.past[2], work.past[3]
+    place(film, work, q)
+    keep(work)
+
+
 @outer
 def solve(
-    film, work, q, size, time, load, line, speed, tolerance, max_iterations, rows, slopes, warmth,
-    states,
+    film, work, q, size, begin, time, load, line, speed, tolerance, max_iterations, rows, slopes,
+    warmth, states,
 ):  # fmt: skip
     """A film at rest, or through time: one function, as compiling takes its time for each.
 
-    Of a single time the film at rest is sought from `work.u` and `q`, of which the first `size`
-    coordinates move; `slopes` (2, s, s) with s > 0 take stiffness and damping as `_finish` does.
-    Of more times `work.u` and `q` are the film at the first; from there implicit steps of second
-    order (BDF2 of variable step) go through them. A step at which Newton fails is cut, all that is
-    given interpolated.
+    With `begin` 0 the film at rest at the first time is sought from `work.u` and `q`, of which the
+    first `size` coordinates move; `slopes` (2, s, s) with s > 0 take stiffness and damping as
+    `_finish` does. From a later one on implicit steps of second order (BDF2 of variable step) go
+    through all times from there: from the film of `work.u` and `q`, at rest at the first time, or
+    from that of `work.last` and `q` after that of `work.before` and `work.places[0]`. A step at
+    which Newton fails is cut, all that is given interpolated.
 
     `load` (n, 4), `line` (n, 4) tilt and bend; in motion the tilt is given where `size` is 2.
     Fills `rows` (n, RESULTS), and `states` as `slow_heat` does, and returns how many of them.
     """
     before, new, given = work.places[0], work.places[1], work.places[2]
-    resting = time.size == 1
+    resting = begin == 0
     step_before, thin, light = 0.0, states[0, THIN], 1.0
+    work.kept[0] = 0.0
     if warmth.on:
         light = lighter(warmth, states, 0)
     if not resting:
-        place(film, work, q)
-        keep(work)
-        summarise(film, work, q, 0.5 * film.ring.slope * thin * speed[0], rows[0])
-    for n in range(0 if resting else 1, time.size):
+        _set_out(film, work, q, begin)
+        step_before = work.past[4]
+    for n in range(begin, 1 if resting else time.size):
         last = max(n - 1, 0)
         whole = time[n] - time[last]
         if warmth.on and not resting:
@@ -361,6 +393,8 @@ def solve(
                         for a in range(size):
                             new[a] = q[a]
                 predict(work, ratio, ahead, thin * weight, thin * weight_before)
+                if not ahead or abs(thin * rate - work.kept[1]) > _ALIKE * work.kept[1]:
+                    work.kept[0] = 0.0
             omega = thin * (speed[last] + to * (speed[n] - speed[last]))
             residual, iterations, converged, rounding = _newton(
                 film, work, new, given, size, omega, light / (thin * thin), thin * rate,
@@ -373,10 +407,14 @@ def solve(
                 done = to
             if converged:
                 keep(work)
+                for a in range(2):
+                    work.past[a], work.past[2 + a] = work.past[2 + a], work.bend[a]
                 step_before = step
+                work.past[4] = step
                 share = min(2.0 * share, 1.0)
             elif share > SMALLEST:
                 share *= 0.5
+                work.kept[0] = 0.0
             else:
                 break
         rows[n, at.RESIDUAL] = residual

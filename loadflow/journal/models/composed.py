@@ -6,24 +6,25 @@ across the width: a shaft that tilts or bends takes polynomials over the whole o
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.errors import SolverError, ValidityWarning
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
 from loadflow.journal.models import composed_film as at
 from loadflow.journal.models._composed_loops import solve
-from loadflow.journal.models.composed_model import LEVELS, ComposedFilm, build
-from loadflow.journal.models.model import Steps
-from loadflow.journal.models.ring import no_start, stopped
-from loadflow.journal.models.slow_heat import COLD, THIN, cooled, slow_states, standing_states
+from loadflow.journal.models.composed_model import (
+    LEVELS,
+    ComposedFilm,
+    build,
+    contact_share,
+    warn_unresolved,
+)
+from loadflow.journal.models.slow_heat import COLD, standing_states
 from loadflow.journal.rows import operating_columns
 from loadflow.journal.solvers.estimate import NEAR, OFF_THE_BORE
 from loadflow.numerics.convergence import Limits
@@ -63,18 +64,8 @@ def equilibrium(
                 answer[name][again[solved]] = values[solved]
             left[again] = still | ~solved
     if (left & found).any():
-        _warn(left & found, f"load {int((left & found).argmax())}")
+        warn_unresolved(left & found, f"load {int((left & found).argmax())}")
     return answer, found, none
-
-
-def _warn(left: NDArray[np.bool_], first: str) -> None:
-    """Warn of what is `left` (n,), of which `first` is the first."""
-    warnings.warn(
-        f'rung "reduced": the pressure at a bearing end is not resolved at {left.sum()} of '
-        f'{left.size} samples, first at {first}; "grid" with enough cells across does',
-        ValidityWarning,
-        stacklevel=5,
-    )
 
 
 def _equilibria(
@@ -99,7 +90,7 @@ def _equilibria(
         """Row of load `n` at rest; `place` moves in `size` coordinates to where it is carried."""
         this, row = slice(n, n + 1), np.zeros((1, at.RESULTS))
         solve(
-            film, work, place, size, _AT_REST, loads[this], lines[this], speed[this],
+            film, work, place, size, 0, _AT_REST, loads[this], lines[this], speed[this],
             control.tolerance, control.max_iterations, row, slopes, COLD, standing_states(1),
         )  # fmt: skip
         return row[0]
@@ -137,109 +128,8 @@ def _equilibria(
         "damping": damping * scale,
     }
     if options.contact is not None:
-        answer["contact_share"] = _share(answer["contact_force"], force)
+        answer["contact_share"] = contact_share(answer["contact_force"], force)
     return answer, rows[:, at.CONVERGED] > 0, model.unresolved_across(rows), none
-
-
-def orbit(
-    bearing: JournalGeometry,
-    options: Film,
-    time: Array,
-    force: Array,
-    speed: Array,
-    line: Line,
-    control: Limits,
-    steps: Steps,
-    begin: Callable[[], Array],
-) -> dict[str, Any]:
-    """Variables of the path over time.
-
-    `begin` finds the first position (4,) where none is given and the film alone does not.
-
-    Raises
-    ------
-    loadflow.errors.SolverError
-        No equilibrium to start from, or a step that fails even when cut to 1/256.
-
-    Warns
-    -----
-    loadflow.errors.ValidityWarning
-        A pressure that changes more across the width than the polynomials do; names the time.
-    """
-    given = bearing, options, time, force, speed, line, control, steps, begin
-    for level in LEVELS[:-1]:
-        try:
-            values, left = _path(*given, level)
-        except SolverError:
-            continue
-        if not left.any():
-            return values
-    values, left = _path(*given, LEVELS[-1])
-    if left.any():
-        _warn(left, f"t = {time[left.argmax()]:.6g} s")
-    return values
-
-
-def _path(
-    bearing: JournalGeometry,
-    options: Film,
-    time: Array,
-    force: Array,
-    speed: Array,
-    line: Line,
-    control: Limits,
-    steps: Steps,
-    begin: Callable[[], Array],
-    level: int,
-) -> tuple[dict[str, Any], NDArray[np.bool_]]:
-    """Variables of the path over time, and at which samples they ask for more points across."""
-    model = build(bearing, options, speed, line, level)
-    raised = float(np.hypot(*force.T).max()) / (bearing.width * bearing.diameter)
-    model.units.raise_scale(raised)
-    film = model.film._replace(ring=model.film.ring._replace(scale=model.units.scale))
-    model = replace(model, film=film)
-    work, rows = model.work, np.zeros((time.size, at.RESULTS))
-    lines, loads = model.lines(time.size), model.loads(force)
-    work.bend[:] = lines[0, 2:]
-    work.u[:] = model.cold()
-    place = model.estimates(force[:1], speed[:1], lines[:1])[0]
-    size = model.size if steps.start is None else 0
-    if steps.start is not None:
-        place[:2] = steps.start
-    rub = 0.0 if options.contact is None else options.contact.coefficient * bearing.radius
-    share = 0.5 if model.whole else 1.0
-    warmth, states = slow_states(options, model.units, share, rub, steps.temperature, time.size)
-
-    def run(place: Array, size: int, count: int, iterations: int) -> int:
-        """Solve from a place through the first samples; returns how many have been."""
-        return int(
-            solve(
-                film, work, place, size, time[:count], loads[:count], lines[:count], speed[:count],
-                control.tolerance, iterations, rows[:count], _NO_SLOPES, warmth, states[:count],
-            )
-        )  # fmt: skip
-
-    first = place.copy()
-    run(first, size, 1, 2 * control.max_iterations)
-    if not rows[0, at.CONVERGED] and steps.start is None:
-        first = begin()
-        work.u[:] = model.cold()
-        for moving in (0, size):  # the film first
-            run(first, moving, 1, 2 * control.max_iterations)
-    if not rows[0, at.CONVERGED]:
-        found = tuple(rows[0, [at.RESIDUAL, at.ROUNDING, at.ITERATIONS]])
-        raise no_start(force[0], speed[0], float(np.hypot(*first[:2])), found)
-    solved = run(first, model.size, time.size, control.max_iterations) if time.size > 1 else 1
-    last = solved - 1
-    if not rows[last, at.CONVERGED]:
-        found = tuple(rows[last, [at.RESIDUAL, at.ROUNDING, at.ITERATIONS]])
-        ratio = float(np.hypot(rows[last, at.X], rows[last, at.Y]))
-        raise stopped(time[last], force[last], speed[last], ratio, found)
-    values = model.results(rows, speed * states[:, THIN], lines)
-    values |= {"x": rows[:, at.X], "y": rows[:, at.Y]}
-    if options.contact is not None:
-        values["contact_share"] = _share(values["contact_force"], force)
-    return cooled(warmth, states, values), model.unresolved_on_path(rows, force)
 
 
 def _starts(
@@ -272,10 +162,3 @@ def _starts(
         place[:2] *= share
         at_rest(place, n, 0, _NO_SLOPES)
         yield place, False
-
-
-def _share(carried: Array, force: Array) -> Array:
-    """Part of loads (n, 2) that asperities carry along them, over their size; 0 without load."""
-    size = (force * force).sum(axis=-1)
-    along = (carried * force).sum(axis=-1)
-    return np.where(size > 0.0, along / np.where(size > 0.0, size, 1.0), 0.0)

@@ -194,6 +194,11 @@ class ComposedWork(NamedTuple):
         Axial part of the matrix of a column of cells.
     places : array (3, 4)
         Position at the time before the last, the next one, and its load.
+    past : array (5,)
+        Bend of the shaft at the time before the last, at the last; the step between them, s.
+    kept : array (2,)
+        Whether `band` holds factors, and `columns` what they make of the derivatives by the
+        position; the rate of these, 1/s.
     """
 
     u: Array
@@ -220,6 +225,8 @@ class ComposedWork(NamedTuple):
     modes: Array
     block: Array
     places: Array
+    past: Array
+    kept: Array
 
 
 def make_work(around: int, nodes: Nodes) -> ComposedWork:
@@ -251,4 +258,6 @@ def make_work(around: int, nodes: Nodes) -> ComposedWork:
         modes=np.zeros((3, 4)),
         block=np.zeros(inner * inner),
         places=np.zeros((3, 4)),
+        past=np.zeros(5),
+        kept=np.zeros(2),
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any, cast
@@ -10,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicHermiteSpline
 
+from loadflow.errors import ValidityWarning
 from loadflow.journal.contact import Contact
 from loadflow.journal.film._rough_kernels import NO_CONTACT
 from loadflow.journal.film.asperity_load import CylinderLoad
@@ -186,16 +188,19 @@ class ComposedFilm:
         """
         return rows[:, at.HIGHEST] > _UNRESOLVED
 
-    def unresolved_on_path(self, rows: Array, force: Array) -> NDArray[np.bool_]:
+    def unresolved_on_path(
+        self, rows: Array, force: Array, typical: float | None = None
+    ) -> NDArray[np.bool_]:
         """The same of the samples of a path under `force` (n, 2), N.
 
         What hardly loads the film, between samples that do, needs no more points: the share that
-        is missed there counts against the mean pressure of the path.
+        is missed there counts against the mean pressure of the path. Where `rows` are but a part
+        of that, `typical` is no more than it, Pa.
         """
         specific = np.hypot(*force.T) / (self.bearing.width * self.bearing.diameter)
         pressure = np.maximum(rows[:, at.PEAK] - self.film.ring.p_edge, specific)
-        share = pressure / np.maximum(pressure, pressure.mean())
-        return rows[:, at.HIGHEST] * share > _UNRESOLVED
+        share = pressure / np.maximum(pressure, pressure.mean() if typical is None else typical)
+        return np.asarray(rows[:, at.HIGHEST] * share > _UNRESOLVED)
 
     def results(self, rows: Array, speed: Array, lines: Array) -> dict[str, Any]:
         """Rows of the compiled loops, in SI units and named as in `Equilibrium`."""
@@ -266,6 +271,23 @@ def build(
         _yielding(bearing, options, whole, nodes.slopes.shape[1]), _regime(bearing, options),
     )  # fmt: skip
     return ComposedFilm(bearing, options, line, units, film, make_work(ring.width.size, nodes))
+
+
+def warn_unresolved(left: NDArray[np.bool_], first: str) -> None:
+    """Warn of what is `left` (n,), of which `first` is the first."""
+    warnings.warn(
+        f'rung "reduced": the pressure at a bearing end is not resolved at {left.sum()} of '
+        f'{left.size} samples, first at {first}; "grid" with enough cells across does',
+        ValidityWarning,
+        stacklevel=5,
+    )
+
+
+def contact_share(carried: Array, force: Array) -> Array:
+    """Part of loads (n, 2) that asperities carry along them, over their size; 0 without load."""
+    size = (force * force).sum(axis=-1)
+    along = (carried * force).sum(axis=-1)
+    return np.where(size > 0.0, along / np.where(size > 0.0, size, 1.0), 0.0)
 
 
 def _give(bearing: JournalGeometry, options: Film) -> float:

@@ -12,8 +12,10 @@ from loadflow.errors import SolverError
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
+from loadflow.journal.models.finer_orbit import on_enough_cells
 from loadflow.journal.models.model import Steps
 from loadflow.journal.rows import columns_of
+from loadflow.journal.solvers.orbit_start import orbit_start
 from loadflow.journal.solvers.periodic import (
     Method,
     check_half_speed_whirl,
@@ -21,7 +23,7 @@ from loadflow.journal.solvers.periodic import (
     close_orbit,
 )
 from loadflow.journal.solvers.static_rows import equilibrium_rows, field_rows
-from loadflow.journal.solvers.statics import Statics, orbit_start
+from loadflow.journal.solvers.statics import Statics
 from loadflow.journal.solvers.transient import (
     Marcher,
     march,
@@ -40,6 +42,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
+_MOST_AROUND = 240  # cells, of an orbit that stops on fewer
 _TOLERANCE, _STEPS = 1e-10, 60  # of a load that a coarser model leaves to the grid
 
 
@@ -80,6 +83,26 @@ def orbit(
     steps: Steps,
 ) -> xr.Dataset:
     """Path of the shaft by implicit steps, or its closed path."""
+
+    def path(film: Film) -> xr.Dataset:
+        return _path(bearing, film, time, force, speed, line, limits, steps)
+
+    if not film.law.keeps_fill:
+        return path(film)
+    return on_enough_cells(film, path, _MOST_AROUND)
+
+
+def _path(
+    bearing: JournalGeometry,
+    film: Film,
+    time: Array,
+    force: Array,
+    speed: Array,
+    line: Line,
+    limits: Limits,
+    steps: Steps,
+) -> xr.Dataset:
+    """The orbit on the cells of its film."""
     if steps.periodic:
         check_period(time, force, speed)
         still = all(

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from loadflow.errors import SolverError
 from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.gap_layout import Bore
 from loadflow.journal.film.gap_shaped import ShapedGap
@@ -23,9 +24,10 @@ from loadflow.journal.film.integrals import Integrals, in_units
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
-from loadflow.journal.models import composed, grid
+from loadflow.journal.models import composed, composed_path, grid
 from loadflow.journal.models import reduced_film as at
 from loadflow.journal.models._reduced_loops import finish, march, newton
+from loadflow.journal.models.finer_orbit import on_enough_cells
 from loadflow.journal.models.grid import solve_on_grid
 from loadflow.journal.models.model import Steps
 from loadflow.journal.models.reduced_film import Reduced, Work, make_work
@@ -41,7 +43,7 @@ from loadflow.journal.models.slow_heat import THIN, cooled, slow_states
 from loadflow.journal.models.width_modes import lobatto
 from loadflow.journal.rows import answered_rows, operating_columns, without_supply
 from loadflow.journal.solvers.estimate import NEAR, OFF_THE_BORE, SHARES
-from loadflow.journal.solvers.transient import orbit_dataset
+from loadflow.journal.solvers.transient import OrbitStopped, orbit_dataset
 from loadflow.numerics.convergence import Limits
 
 if TYPE_CHECKING:
@@ -52,6 +54,7 @@ Array = NDArray[np.float64]
 
 stores_heat = True  # of `loadflow.journal.warm_orbit`: the temperature follows in the same loop
 
+_MOST_AROUND = 480  # cells, of an orbit that stops on fewer
 POINTS = 3  # across the half width; the largest pressure moves by 0.4 % at most with more of them
 
 
@@ -133,23 +136,46 @@ def orbit(
     Raises
     ------
     SolverError
-        No equilibrium to start from, or a step that fails even when cut to 1/256.
+        No equilibrium to start from, or a step that fails even when cut to 1/256, also on twice the
+        cells around.
     """
+
+    def path(film: Film) -> xr.Dataset:
+        return _path(bearing, film, time, force, speed, line, control, steps)
+
+    return on_enough_cells(options, path, _MOST_AROUND)
+
+
+def _path(
+    bearing: JournalGeometry,
+    options: Film,
+    time: Array,
+    force: Array,
+    speed: Array,
+    line: Line,
+    control: Limits,
+    steps: Steps,
+) -> xr.Dataset:
+    """The orbit on the cells of its film."""
     time, force, speed = (np.array(values) for values in (time, force, speed))
 
     def first_position() -> Array:
         """First position (4,) by the grid."""
-        first = grid.equilibrium(
-            bearing, options.isothermal(), force[:1], speed[:1], line.at(np.array([0])),
-            replace(control, strict=True),
-        )  # fmt: skip
+        try:
+            first = grid.equilibrium(
+                bearing, options.isothermal(), force[:1], speed[:1], line.at(np.array([0])),
+                replace(control, strict=True),
+            )  # fmt: skip
+        except SolverError as error:
+            why = str(error).removeprefix("load 0: ")
+            raise OrbitStopped(f"orbit cannot start: {why}") from error
         unit = bearing.radius / bearing.clearance
         place = np.append(first["eccentricity"][0] / bearing.clearance, np.zeros(2))
         place[2:] = first["tilt"][0] * unit if not line.straight else 0.0
         return place
 
     if composed.composes(options, line):
-        values = composed.orbit(
+        values = composed_path.orbit(
             bearing, options, time, force, speed, line, control, steps, first_position
         )
         return orbit_dataset(values, time, force, speed, bearing.clearance)
@@ -163,14 +189,27 @@ def orbit(
         first = first_position()[:2]
     rows = np.zeros((time.size, at.RESULTS))
     warmth, states = slow_states(options, film, 1.0, 0.0, steps.temperature, time.size)
-    begin = reduced._replace(free=start is None)
+    begun = speed[0] * states[0, THIN]
+    many = control.tolerance, 2 * control.max_iterations
+    freed, held = reduced._replace(free=start is None), reduced._replace(free=False)
+    fx, fy = force[0]
     x, y, residual, iterations, converged, rounding = newton(
-        begin, work, first[0], first[1], force[0, 0], force[0, 1], speed[0] * states[0, THIN], 0.0,
-        control.tolerance, 2 * control.max_iterations,
-    )  # fmt: skip
+        freed, work, first[0], first[1], fx, fy, begun, 0.0, *many
+    )
+    if not converged and start is None:  # near where the grid has its own, with their film solved
+        first = first_position()[:2]
+        for share in (1.0, *OFF_THE_BORE):
+            work.u[:] = _cold(film, reduced)
+            x, y = share * first
+            newton(held, work, x, y, 0.0, 0.0, begun, 0.0, *many)
+            x, y, residual, iterations, converged, rounding = newton(
+                freed, work, x, y, fx, fy, begun, 0.0, *many
+            )
+            if converged:
+                break
     if not converged:
-        found = residual, rounding, iterations
-        raise no_start(force[0], speed[0], float(np.hypot(x, y)), found)
+        missed = residual, rounding, iterations
+        raise no_start(force[0], speed[0], float(np.hypot(x, y)), missed)
     rows[0, at.RESIDUAL :] = residual, iterations, converged, rounding
     solved = march(
         reduced, work, x, y, time, force, speed, control.tolerance, control.max_iterations, rows,
@@ -178,9 +217,9 @@ def orbit(
     )  # fmt: skip
     last = solved - 1
     if not rows[last, at.CONVERGED]:
-        found = tuple(rows[last, [at.RESIDUAL, at.ROUNDING, at.ITERATIONS]])
+        missed = tuple(rows[last, [at.RESIDUAL, at.ROUNDING, at.ITERATIONS]])
         ratio = float(np.hypot(rows[last, at.X], rows[last, at.Y]))
-        raise stopped(time[last], force[last], speed[last], ratio, found)
+        raise stopped(time[last], force[last], speed[last], ratio, missed)
     values = _results(bearing, film, rows, speed * states[:, THIN])
     values = cooled(warmth, states, values) | {"x": rows[:, at.X], "y": rows[:, at.Y]}
     return orbit_dataset(values, time, force, speed, bearing.clearance)

@@ -8,7 +8,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.errors import SolverError
 from loadflow.journal.film.discretise import build_film
 from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.gap_layout import Bore
@@ -18,6 +17,7 @@ from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.solvers.estimate import closed_form_position
 from loadflow.journal.solvers.messages import no_equilibrium, not_found
+from loadflow.journal.solvers.transient import OrbitStopped
 from loadflow.numerics.convergence import unresolved
 
 Array = NDArray[np.float64]
@@ -154,7 +154,7 @@ def estimates(bearing: JournalGeometry, film: DiscreteFilm, force: Array, speed:
 
 def no_start(
     force: Array, speed: float, ratio: float, found: tuple[float, float, float]
-) -> SolverError:
+) -> OrbitStopped:
     """Say that an orbit has no equilibrium to start from.
 
     Parameters
@@ -165,14 +165,14 @@ def no_start(
         Residual, its rounding level, and Newton steps.
     """
     why = not_found(*found, ratio)
-    return SolverError(f"orbit cannot start: {no_equilibrium(force, speed, why)}")
+    return OrbitStopped(f"orbit cannot start: {no_equilibrium(force, speed, why)}")
 
 
 def stopped(
     time: float, force: Array, speed: float, ratio: float, found: tuple[float, float, float]
-) -> SolverError:
+) -> OrbitStopped:
     """Say at which load an orbit stops; parameters as those of `no_start`."""
-    return SolverError(
+    return OrbitStopped(
         f"orbit stops at t = {time:.6g} s: F = ({force[0]:.6g}, {force[1]:.6g}) N, "
         f"ω = {speed:.6g} rad/s, ε = {ratio:.6g}; {unresolved(*found)}"
     )

@@ -184,6 +184,14 @@ def at_places(points: int, whole: bool, places: Array) -> Array:
     return np.ascontiguousarray(values[:, inner] + values[:, 2 * points + 1 - inner])
 
 
+@lru_cache(maxsize=8)
+def between_points(points: int, others: int, whole: bool) -> Array:
+    """Values at other points from those at `points`, (others, points), of what is 0 at the ends."""
+    zeta, _ = _lobatto_rule(others + 1 if whole else 2 * others + 1)
+    places = zeta[1:-1] if whole else zeta[others + 1 : -1]
+    return at_places(points, whole, places)
+
+
 def _shares(zeta: Array, degrees: NDArray[np.int64]) -> Array:
     """Shares of L_{n+1} − L_{n−1} of the `degrees` n in what has given values at the points."""
     unit = np.eye(int(degrees[-1]) + 2)

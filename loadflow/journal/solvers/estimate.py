@@ -15,6 +15,7 @@ from loadflow.journal.solvers.pad_estimate import on_pads
 from loadflow.tribology.film import butenschoen
 
 if TYPE_CHECKING:
+    from loadflow.journal.film.asperity_load import AsperityLoad
     from loadflow.journal.film.film import DiscreteFilm
     from loadflow.journal.film.gap import BoreGap
     from loadflow.journal.film.gap_shaped import ShapedGap
@@ -110,7 +111,9 @@ _FINE = 0.05  # of the roughness, to which asperities are asked where they carry
 def closer_of(film: DiscreteFilm, load: Array, position: Array) -> Array:
     """Start of rough surfaces: the closed form, or where asperities alone carry, if that is nearer.
 
-    Together they carry more than either, so that the shaft lies less far out than in both.
+    Together they carry more than either, so that the shaft lies less far out than in both. A shaft
+    that is tilted or bent meets the shell on other sides, too: also towards the closed form it goes
+    no farther than to where asperities carry as much as the load.
 
     Parameters
     ----------
@@ -124,25 +127,41 @@ def closer_of(film: DiscreteFilm, load: Array, position: Array) -> Array:
     size, asperities = math.hypot(*load), film.contact
     if asperities is None or size == 0.0:
         return position
-    place = position.copy()
+    straight = _until_pressed(film, asperities, position, load / size, size)
+    far = math.hypot(*position[:2])
+    if math.isinf(straight):
+        return position
+    if film.speed != 0.0 and 0.0 < far < straight:
+        way = position[:2] / far
+        return _at(position, min(far, _until_pressed(film, asperities, position, way, size)) * way)
+    return _at(position, straight * load / size)
+
+
+def _until_pressed(
+    film: DiscreteFilm, asperities: AsperityLoad, held: Array, way: Array, size: float
+) -> float:
+    """Eccentricity ratio along `way` up to which asperities carry less than `size`, N."""
 
     def carries(ratio: float) -> bool:
-        place[:2] = ratio * load / size
+        place = _at(held, ratio * way)
         if not film.gap.narrowest(place) > 0.0:
             return True
-        return float(asperities.at(place).load[:2] @ load) >= size * size
+        return math.hypot(*asperities.at(place).load[:2]) >= size
 
     low, high = 0.0, 1.0
     while not carries(high) and high < _FAR:
         low, high = high, 2.0 * high
     if high >= _FAR:
-        return position
+        return math.inf
     while high - low > _FINE * film.gap.roughness:
         middle = 0.5 * (low + high)
         low, high = (low, middle) if carries(middle) else (middle, high)
-    place[:2] = low * load / size
-    nearer = film.speed != 0.0 and math.hypot(*position[:2]) < low
-    return position if nearer else place
+    return low
+
+
+def _at(held: Array, place: Array) -> Array:
+    """The position `held`, at another eccentricity."""
+    return np.append(place, held[2:])
 
 
 @lru_cache(maxsize=32)

@@ -4,13 +4,18 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.journal.film.film import EVERY, DiscreteFilm
 from loadflow.journal.film.gap import KEPT
+from loadflow.journal.film.gap_rough import RoughGap, RoughShapedGap
 from loadflow.journal.solvers.newton import Solution, no_film, solve_equilibrium, solve_film
+
+if TYPE_CHECKING:
+    from loadflow.journal.film.gap import BoreGap
 
 Array = NDArray[np.float64]
 
@@ -25,6 +30,7 @@ _STEPS_SHORT, _BUDGET = (
     14,
     10,
 )  # Newton steps of each, and of all in multiples of those of a solution
+_EASED = (0.9, 0.5, 0.1)  # of the way to the first position, at which a lighter film is sought
 _FEW = 7  # Newton steps below which the next of these steps is twice as long
 _FIRST_GAP = 0.02  # in clearances, that the first position leaves in the shell at rest
 _BACK = 0.7  # share of a step, or of the way, that is tried next
@@ -36,9 +42,20 @@ APART = 1e-6  # gap, in clearances, below which an elastic shell has met the sha
 
 
 def has_touched(film: DiscreteFilm, solution: Solution) -> bool:
-    """Whether the steps of the load have ended at a rigid bore."""
-    smooth = film.contact is None and not film.elastic
-    return smooth and film.gap.narrowest(solution.position) < TOUCHING
+    """Whether the steps of the load have ended at a rigid bore, or at the end of its contact."""
+    if film.contact is not None and not solution.residual < 1.0:
+        return False  # what is missing is no rest of the load
+    return not film.elastic and meets(film, solution.position)
+
+
+def meets(film: DiscreteFilm, position: Array) -> bool:
+    """Whether the shaft at `position` meets a rigid bore, or its law of contact ends there."""
+    if film.contact is None:
+        return film.gap.narrowest(position) < TOUCHING
+    gap = film.gap
+    return isinstance(gap, (RoughGap, RoughShapedGap)) and gap.until_end(position) < TOUCHING * max(
+        gap.rough.deepest, gap.roughness
+    )
 
 
 def solve_in_load_steps(
@@ -122,6 +139,8 @@ def solve_from_held(
     straight to `force`, in steps as long as Newton's method follows.
     """
     state = solve_film(film, film.start(), position, 0.0 * position, tolerance, max_iterations)
+    if film.contact is not None:
+        state = _eased(film, force, state, tolerance, max_iterations, free)
     if not state.converged:
         return state
     first, spent, share, stride = state.linear.load, state.iterations, 0.0, _STRIDE
@@ -146,11 +165,37 @@ def solve_from_held(
             if film.gap.narrowest(state.position) < _NO_FILM:
                 break
     missing = (1.0 - share) * math.hypot(*(force - first)[free]) / film.load_scale(force)
-    if film.gap.narrowest(trial.position) < TOUCHING:  # what the steps have come to
+    if meets(film, trial.position):  # what the steps have come to
         state = replace(state, position=trial.position)
     return replace(
         state, converged=False, iterations=spent, residual=missing, rounding=trial.rounding
     )
+
+
+def _eased(
+    film: DiscreteFilm,
+    force: Array,
+    state: Solution,
+    tolerance: float,
+    max_iterations: int,
+    free: slice | NDArray[np.int64],
+) -> Solution:
+    """Film of rough surfaces no nearer to the shell than where it carries no more than `force`.
+
+    Pressed together farther they have pressures from which no step leads back.
+    """
+    wanted, spent = math.hypot(*force[free]), state.iterations
+    if state.converged and math.hypot(*state.linear.load[free]) <= wanted:
+        return state
+    far = state.position
+    wide = cast("BoreGap", film.gap).widest(far, free)
+    for share in _EASED:
+        place = wide + share * (far - wide)
+        state = solve_film(film, film.start(), place, 0.0 * place, tolerance, max_iterations)
+        spent += state.iterations
+        if state.converged and math.hypot(*state.linear.load[free]) <= wanted:
+            break
+    return replace(state, iterations=spent)
 
 
 def solve_by_approach(

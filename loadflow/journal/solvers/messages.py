@@ -72,9 +72,12 @@ def why_unsolved(
             return head + _most(film, gap, load)
     if has_touched(film, solution) and not gap.axisymmetric:
         left = 100 * min(solution.residual, 1.0)
+        touch, both = "the shaft touches the bore", "the film carries"
+        if film.contact is not None:
+            touch, both = f"{touch} beyond the law of contact", "film and asperities carry"
         return (
-            f"{head}the shaft touches the bore, {narrowest_place(bearing, gap, solution.position)},"
-            f" before the film carries the last {left:.3g} % of the load"
+            f"{head}{touch}, {narrowest_place(bearing, gap, solution.position)},"
+            f" before {both} the last {left:.3g} % of the load"
         )
     return head + _unsolved(bearing, film, gap, solution, "no equilibrium found")
 

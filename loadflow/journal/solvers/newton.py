@@ -21,6 +21,7 @@ _LATE = 8  # Newton steps after which longer steps are asked whether rounding ma
 _PRESSED = 1e-13  # narrowest gap, in clearances, that is none
 _HELD = 1e-5  # share of it that pads must be let go, where they would tilt the other way
 _STUCK = 1e-3  # share of a Newton step that must be left by an elastic shell
+_PRESSING = 4  # steps in a row of which asperities leave less, after which their law has ended
 
 
 @dataclass(frozen=True)
@@ -198,6 +199,7 @@ def solve_equilibrium(
     pads = film.gap.pads.size > 0
     old = (motion.volume_rate, motion.volume)
     check, change, moving = _Check(film, tolerance, motion, force, free), math.inf, motion.moves
+    pressing = 0
     for iteration in range(1, max_iterations + 1):
         velocity = motion.velocity(position)
         damped = moving or change < _NEARLY
@@ -214,7 +216,8 @@ def solve_equilibrium(
         target, weights, share = _moved(film, u, linear, position, step, motion)
         way = math.hypot(*(target - position).tolist())
         stuck = pads and way < _HELD * math.hypot(*step)
-        if share < _STUCK or stuck or not math.isfinite(way):
+        pressing = pressing + 1 if film.contact and way < _STUCK * math.hypot(*step) else 0
+        if share < _STUCK or stuck or pressing > _PRESSING or not math.isfinite(way):
             break
         change = max(film.correct(u, linear.columns, weights), way / max(gap, _PRESSED))
         position, gap = target, film.gap.narrowest(target)

@@ -9,7 +9,7 @@ surrounds an aligned shaft, else also tilts of the shaft and of pads.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 from functools import cached_property
 from typing import cast
@@ -17,7 +17,7 @@ from typing import cast
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.errors import InputError, SolverError
+from loadflow.errors import InputError
 from loadflow.journal.film.discretise import cylindrical_film, is_cylindrical, shaped_film
 from loadflow.journal.film.film import EVERY, DiscreteFilm
 from loadflow.journal.film.gap import BoreGap
@@ -38,8 +38,8 @@ from loadflow.journal.solvers.messages import narrowest_place, why_unsolved
 from loadflow.journal.solvers.newton import Solution, no_film, solve_equilibrium, solve_film
 from loadflow.journal.solvers.other_loads import solve_from_other_loads
 from loadflow.journal.solvers.pads import film_on_pads, solve_with_pads, unload_other_pads
+from loadflow.journal.solvers.path import solve_along_path
 from loadflow.numerics.convergence import Limits
-from loadflow.numerics.fields import require
 
 Array = NDArray[np.float64]
 Rows = NDArray[np.int64]
@@ -52,45 +52,6 @@ _SAME = 0.02  # angle, rad, by which the place of the narrowest gap must have mo
 _HOPELESS = 0.8  # of the load, missing as the shaft touches: on no mesh the film carries it
 _NARROW = 0.2  # narrowest gap, in clearances, above which no mesh but that is tried
 _FLOATING = 0.5  # share of the way to the bore at which a shaft is sought that its supply carries
-
-
-def orbit_start(
-    bearing: JournalGeometry,
-    options: Film,
-    loads: Array,
-    speeds: Array,
-    line: Line,
-    start: Array | None,
-    control: Limits,
-    prepare: Callable[[Statics], None] | None = None,
-) -> tuple[Statics, Solution, Array]:
-    """Film, first state and generalised loads (n, m) of an orbit.
-
-    It begins at `start`, in clearances, or at the equilibrium of the first load; what there is to
-    `prepare` of the film comes before.
-
-    Raises
-    ------
-    loadflow.errors.InputError
-        Pads that tilt; a start outside the bore.
-    loadflow.errors.SolverError
-        No film to start from.
-    """
-    if is_cylindrical(bearing, options, line):
-        options = options.for_history()
-    statics = Statics(bearing, options, line, float(np.abs(speeds).max()))
-    require(not statics.gap.pads.size, "shape", bearing.shape.kind, "a fixed bore for an orbit")
-    forces = statics.raise_scale(loads)
-    if prepare is not None:
-        prepare(statics)
-    omega = float(speeds[0])
-    if start is None:
-        first = statics.solve(0, loads[0], omega, None, control)
-    else:
-        first = statics.hold(0, start, np.zeros(2), omega, control, name="start")
-    if not first.converged:
-        raise SolverError(f"orbit cannot start: {statics.message(first, loads[0])}")
-    return statics, first, forces
 
 
 class Statics:
@@ -241,6 +202,8 @@ class Statics:
             solution = self._in_steps(force, estimate, pads, limits)
             fixed = not (film.elastic or gap.pads.size)
             if fixed and not (solution.converged or has_touched(film, solution)):
+                solution = self._along_path(force, estimate, limits, pads, solution)
+            if fixed and not (solution.converged or has_touched(film, solution)):
                 solution = self._by_other_loads(force, estimate, limits) or solution
         return self._checked(replace(solution, estimate=estimate))
 
@@ -280,6 +243,20 @@ class Statics:
             return self._checked(solve_film(film, film.start(), position, moving, *limits))
         pads = self._on_pads(gap.converging(position, omega))
         return self._checked(film_on_pads(film, self._shaped, position, moving, pads, *limits))
+
+    def settled(self, index: int, load: Array, omega: float, control: Limits) -> Solution:
+        """Equilibrium on this mesh, by way of that on one that follows the gap."""
+        force = self._force(index, load)
+        free = replace(self.options, grading="auto", inlet="auto")
+        _, solution = Statics(self.bearing, free, self.line, self.rate).resolve(
+            index, load, omega, None, control
+        )
+        if not solution.converged:
+            return solution
+        film = self.film
+        film.set_speed(omega)
+        limits = control.tolerance, film.newton_steps(control.max_iterations)
+        return self._checked(solve_from_held(film, force, solution.position, *limits))
 
     def message(self, solution: Solution, load: Array | None = None) -> str:
         """Why there is no answer for `load`, or at the position given, with numbers."""
@@ -389,6 +366,27 @@ class Statics:
         if gap.narrowest(position) > 0.0:
             state = solve_film(film, film.start(), position, np.zeros(gap.size), 1e-6, 30)
             yield state.u, position
+
+    def _along_path(
+        self,
+        force: Array,
+        estimate: Array,
+        limits: tuple[float, int],
+        pads: Rows,
+        reached: Solution,
+    ) -> Solution:
+        """Equilibrium beyond a fold of the load, or the end of the path at the shell."""
+        film = self.film
+        if film.pockets.free.size or film.speed == 0.0:
+            return reached
+        still = np.zeros(self.gap.size)
+        held = solve_film(film, film.start(), estimate, still, *limits)
+        if not held.converged:
+            return reached
+        found = solve_along_path(film, force, held, *limits, free=self._free(pads))
+        spent = reached.iterations + held.iterations + found.iterations
+        ended = found.converged or has_touched(film, found)
+        return replace(found if ended else reached, iterations=spent)
 
     def _by_other_loads(
         self, force: Array, estimate: Array, limits: tuple[float, int]

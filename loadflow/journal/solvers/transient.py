@@ -29,6 +29,10 @@ _SAFETY = 0.8  # of the step that the error would allow
 _FINEST = 1.0 / 65536  # of a given step, to which one that is not accurate may be cut
 
 
+class OrbitStopped(SolverError):
+    """A step of an orbit, or its first film, that is not found however short the step is."""
+
+
 @dataclass(frozen=True)
 class Past:
     """What a step needs of an earlier time: position, unknowns, liquid in the cells.
@@ -191,7 +195,7 @@ def march(
 
     Raises
     ------
-    SolverError
+    OrbitStopped
         A step fails even when cut.
     """
     rows, extremes = [], Extremes(marcher.film)
@@ -201,7 +205,7 @@ def march(
         both = None if lines is None else (lines[i - 1], lines[i])
         solution, past, steps = marcher.step(past, now, force[i], float(speed[i]), before, both)
         if not solution.converged:
-            raise SolverError(
+            raise OrbitStopped(
                 f"orbit stops at t = {now:.6g} s: F = ({force[i, 0]:.6g}, {force[i, 1]:.6g}) N, "
                 f"ω = {speed[i]:.6g} rad/s, ε = {math.hypot(*solution.position[:2]):.6g}; "
                 + unresolved(solution.residual, solution.rounding, solution.iterations)

@@ -43,7 +43,9 @@ _NEAR = 0.5  # change, K, below which the method is trusted again
 _WORSE = 1.5  # of the smallest change so far, that from which the next field goes back
 _TOO_HOT = 10  # fields in a row above the largest temperature, after which none is tried
 _STEP = 2e-3  # of the narrowest gap, by which the shaft moves for a settled stiffness
-_HALVINGS = 12  # steps of the temperature that are halved before the film is given up
+_HALVINGS = 4  # steps of the temperature that are halved before the film is given up
+_WARMS = 10.0  # K, that a film must still warm by where it is lost, to have no temperature at all
+_MOST_AROUND = 240  # cells, of a film that is not found on fewer
 
 
 @dataclass(frozen=True)
@@ -56,6 +58,11 @@ class WarmFilm:
     iterations: int
     converged: bool
     why: str = ""
+
+    @property
+    def lost(self) -> bool:
+        """Whether there is no film at the temperatures that were tried last."""
+        return not (self.converged or self.solution.converged)
 
 
 def warm_rows(
@@ -77,25 +84,44 @@ def warm_rows(
     """
     statics, equation = _prepared(bearing, options, line, float(np.abs(speeds).max()))
     each = replace(control, strict=False)
+    around, across = options.cells
+    finer = replace(options, grid=(2 * around, across)) if 2 * around <= _MOST_AROUND else None
     rows = []
     last: tuple[Solution, Warmth] | None = None
     for index, (load, omega) in enumerate(zip(loads, speeds.tolist())):
 
-        def film_of(before: Solution | None, index: int = index, omega: float = omega) -> Solution:
-            return statics.solve(index, loads[index], omega, before, each)
+        def found_on(
+            statics: Statics,
+            equation: EnergyEquation,
+            last: tuple[Solution, Warmth] | None,
+            index: int = index,
+            omega: float = omega,
+        ) -> WarmFilm:
+            def film_of(before: Solution | None) -> Solution:
+                return statics.solve(index, loads[index], omega, before, each)
 
-        found = coupled(equation, film_of, last)
+            return coupled(equation, film_of, last)
+
+        found = found_on(statics, equation, last)
         if not found.converged and last is not None:
-            found = coupled(equation, film_of, None)
+            found = found_on(statics, equation, None)
+        used = statics, equation
+        if found.lost and finer is not None:
+            on_more = _prepared(bearing, finer, line, float(np.abs(speeds).max()))
+            better = found_on(*on_more, None)
+            if better.converged or not better.lost or found.warmth is None:
+                found, used = better, on_more
         if not found.converged and control.strict:
-            why = found.why or statics.message(found.solution, load)
+            why = _no_warmth(found) or used[0].message(found.solution, load)
             raise SolverError(f"load {index}: {why}")
-        row = _row(bearing, statics, equation, load, found, line.whirl)
+        row = _row(bearing, *used, load, found, line.whirl)
         if found.converged and found.warmth is not None:
-            last = found.solution, found.warmth
+            warm = found.solution, found.warmth
             if equation.heat.stiffness == "settled":
-                row["stiffness"] = _settled_stiffness(bearing, statics, equation, last, control)
-        rows.append(row)
+                row["stiffness"] = _settled_stiffness(bearing, *used, warm, control)
+            if used[0] is statics:
+                last = warm
+        rows.append(row if used[0] is statics else _at_angles(row, statics.film.mesh.angle))
     return rows
 
 
@@ -136,6 +162,28 @@ def _settled_stiffness(
         columns[:, way] = (ends[0] - ends[1]) / (2.0 * step)
     lengths = np.where(np.arange(size) < 2, 1.0, film.radius)  # those of tilts are arms
     return columns * np.outer(lengths, lengths) / bearing.clearance
+
+
+def _no_warmth(found: WarmFilm) -> str:
+    """Why there are no temperatures; where there is no film, the film says why."""
+    if found.lost and found.residual < np.inf and found.residual > _WARMS:
+        return (
+            f"no heat balance: at temperatures from which it still warms by {found.residual:.3g} K "
+            "the film carries the load no more"
+        )
+    return found.why
+
+
+def _at_angles(row: dict[str, Any], angle: Array) -> dict[str, Any]:
+    """The row of a film on more cells, its fields at the angles (nx,) of those asked for."""
+    own = row["angle"]
+
+    def moved(field: Array) -> Array:
+        columns = [np.interp(angle, own, values, period=2.0 * np.pi) for values in field.T]
+        return np.stack(columns, axis=1)
+
+    names = ("film_temperature", "surface_temperature", "thermal_growth", "film_viscosity")
+    return row | {name: moved(row[name]) for name in names} | {"angle": angle}
 
 
 def warm_fields(

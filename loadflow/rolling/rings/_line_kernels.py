@@ -13,6 +13,7 @@ import math
 import numpy as np
 from numba import njit
 
+from loadflow.numerics.linked import LINKED
 from loadflow.rolling._line_law import ninth_root
 
 ARM, GAP, STIFFNESS = range(3)
@@ -21,7 +22,7 @@ ARM, GAP, STIFFNESS = range(3)
 _REORDER = {"reassoc", "contract", "nsz"}
 
 
-@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER)
+@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER, **LINKED)
 def line_contacts(shift, table, push, slope, across, slant):
     """Fill push (2 row, roller), slope, across and slant (row, roller) of rollers by their shift.
 
@@ -59,7 +60,7 @@ def line_contacts(shift, table, push, slope, across, slant):
     return 9.0 / 19.0 * energy, total
 
 
-@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER)
+@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER, **LINKED)
 def line_rows(basis, slope, across, slant, rows):
     """Fill the rows whose squares are the tangent; returns how many."""
     balls, size = slope.shape[1], basis.shape[2]
@@ -94,7 +95,7 @@ def slice_forces(shift, table):
     return force
 
 
-@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER)
+@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER, **LINKED)
 def _row_forces(middle, turn, arm, gap, stiffness, force):
     """Fill the force of one slice of each roller of a row."""
     for j in range(force.shape[0]):

@@ -16,6 +16,7 @@ import math
 import numpy as np
 from numba import njit
 
+from loadflow.numerics.linked import LINKED
 from loadflow.rolling._kernels import rounding_level, stalled
 from loadflow.rolling.contacts import FREE, GAP, NORMAL_R, NORMAL_Z, POINT, STIFFNESS
 from loadflow.rolling.rings._line_kernels import line_contacts, line_rows
@@ -36,7 +37,7 @@ def _root(stretch, cubic):
     return root
 
 
-@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER)
+@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER, **LINKED)
 def dot(a, b):
     """Sum of products; loops rather than array expressions, which take seconds to compile."""
     total = 0.0
@@ -54,7 +55,7 @@ def largest_product(a, b):
     return most
 
 
-@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER)
+@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER, **LINKED)
 def _spread(x, waves, amount, shift):
     """Fill the `shift` (3 kind, ball) of all contacts by the unknowns `x`.
 
@@ -88,7 +89,7 @@ def _spread(x, waves, amount, shift):
             line[j] += odd[j]
 
 
-@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER)
+@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER, **LINKED)
 def _gather(push, waves, amount, pull):
     """Add the forces `push` (3 kind, ball) of all contacts to those on the unknowns."""
     trig, owner, wave, amplitude, cosines, balls = waves
@@ -115,7 +116,7 @@ def _gather(push, waves, amount, pull):
         pull[owner[i]] += dot(amplitude[i], amount[wave[i]])
 
 
-@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER)
+@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER, **LINKED)
 def _contacts(shift, table, local, push, slope, across):
     """Fill push (3 kind, ball), slope along and across (kind, ball) of contacts by their shift.
 
@@ -198,7 +199,7 @@ def evaluate(x, waves, law):
     return shift, push, slope, across, slant, pull
 
 
-@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER)
+@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER, **LINKED)
 def _rows(basis, push, slope, across, rows):
     """Fill the rows of points whose squares are the tangent; returns how many."""
     balls, size = push.shape[1], basis.shape[2]
@@ -225,7 +226,7 @@ def _rows(basis, push, slope, across, rows):
     return k
 
 
-@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER)
+@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER, **LINKED)
 def _squares(rows, count, hessian):
     """Lower half of rowsᵀ rows, eight rows at a time.
 

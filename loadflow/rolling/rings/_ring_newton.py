@@ -10,6 +10,7 @@ import math
 import numpy as np
 from numba import njit
 
+from loadflow.numerics.linked import LINKED
 from loadflow.rolling._kernels import cholesky_solve, is_small, rounding_level, stalled
 from loadflow.rolling._kernels import solve_series as rigid_series
 from loadflow.rolling.rings._ring_kernels import (
@@ -30,7 +31,7 @@ _PATIENCE = 20.0
 _PAIRS = 8  # steps remembered
 
 
-@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER)
+@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER, **LINKED)
 def _factorise(matrix):
     """Replace the lower half of a positive definite matrix by its Cholesky factor."""
     for a in range(matrix.shape[0]):
@@ -41,7 +42,7 @@ def _factorise(matrix):
             matrix[a, b] = math.sqrt(value) if a == b else value / matrix[b, b]
 
 
-@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER)
+@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER, **LINKED)
 def _solve(factor, rhs):
     """Replace `rhs` by the solution with a matrix given by its Cholesky factor."""
     for a in range(rhs.shape[0]):
@@ -55,7 +56,7 @@ def _solve(factor, rhs):
             rhs[k] -= factor[a, k] * rhs[a]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(nogil=True, error_model="numpy", **LINKED)
 def _condense(basis, push, slope, across, slant, factor, solved, condensed):
     """Tangent with the modes eliminated.
 
@@ -77,7 +78,7 @@ def _condense(basis, push, slope, across, slant, factor, solved, condensed):
             condensed[a, b] = hessian[a, b] - dot(hessian[a, 5:], solved[b])
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(nogil=True, error_model="numpy", **LINKED)
 def _free(basis, push, slope, across):
     """Whether the contacts leave a motion without resistance.
 
@@ -109,7 +110,7 @@ def _free(basis, push, slope, across):
     return True
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(nogil=True, error_model="numpy", **LINKED)
 def _free_lines(basis, slope, across, slant):
     """Whether line contacts leave a motion without resistance."""
     rigid, rest, step, small = np.zeros((5, 5)), np.zeros(5), np.zeros(5), np.zeros((5, 5))
@@ -124,7 +125,7 @@ def _free_lines(basis, slope, across, slant):
     return cholesky_solve(rigid, 0.0, rest, small, step) <= 1e-12
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(nogil=True, error_model="numpy", **LINKED)
 def _direction(rest, factor, solved, condensed, cap, small, step):
     """Fill `step` by Newton's, with a Levenberg shift where the rigid part is singular.
 
@@ -154,7 +155,7 @@ def _direction(rest, factor, solved, condensed, cap, small, step):
     return largest, pivot
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(nogil=True, error_model="numpy", **LINKED)
 def _secant(rest, factor, solved, condensed, cap, small, moves, changes, held, step):
     """Fill `step` by the kept tangent, put right by the last `held` steps (limited-memory BFGS).
 
@@ -172,7 +173,7 @@ def _secant(rest, factor, solved, condensed, cap, small, moves, changes, held, s
             step[a] += more * moves[p, a]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(nogil=True, error_model="numpy", **LINKED)
 def _remember(moves, changes, held):
     """Drop the oldest pair if there is no room; returns the place of the next one."""
     if held < moves.shape[0]:
@@ -183,7 +184,7 @@ def _remember(moves, changes, held):
     return held - 1
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(nogil=True, error_model="numpy", **LINKED)
 def _newton(
     x, load, waves, basis, law, reach, cap, tolerance, limit, factor, solved, condensed,
     moves, changes, held, known,
@@ -293,7 +294,7 @@ def _longest(shift):
     return most
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(nogil=True, error_model="numpy", **LINKED)
 def _between(x, step, shift, far, damping, trial, between):
     """Fill the state and the shift of the contacts part of a step away."""
     for a in range(x.shape[0]):
@@ -303,7 +304,7 @@ def _between(x, step, shift, far, damping, trial, between):
             between[s, j] = shift[s, j] + damping * far[s, j]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(nogil=True, error_model="numpy", **LINKED)
 def _predict(loads, states, i, past, x):
     """Fill `x` with where case `i` may lie: as the case before, or in line with `past` ones.
 

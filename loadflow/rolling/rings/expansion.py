@@ -6,8 +6,9 @@ widen or shrink alike all round, no twist of the section and no support by the s
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import numpy as np
 from annotated_types import Gt
@@ -15,8 +16,14 @@ from numpy.typing import ArrayLike
 
 from loadflow.errors import InputError
 from loadflow.numerics.fields import check_fields
+from loadflow.numerics.shown import Shown
+from loadflow.quantities import Quantity
 from loadflow.rolling.contacts import Array
 from loadflow.rolling.raceways import BallRaceways
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.figure import Figure
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -59,8 +66,8 @@ class RingSections:
                 raise InputError(f"{ring}_outside: must be > {inside:g} m, got {outside:g}")
 
 
-@dataclass(frozen=True)
-class ExpansionResult:
+@dataclass(frozen=True, repr=False)
+class ExpansionResult(Shown):
     """Axial equilibrium with expanding rings; arrays over the load cases.
 
     Attributes
@@ -75,6 +82,8 @@ class ExpansionResult:
         Widening of the outer and shrinking of the inner ring on the radius, together, m.
     residual : ndarray
         Gap left in the closure of the groove centres over their distance R₀.
+    force : ndarray
+        Axial force, N.
 
     Examples
     --------
@@ -93,6 +102,46 @@ class ExpansionResult:
     displacement: Array
     expansion: Array
     residual: Array
+    force: Array
+
+    def shown_quantities(self) -> Mapping[str, Quantity]:
+        """Quantities of rings that expand."""
+        return _SHOWN
+
+    def to_dataset(self) -> xr.Dataset:
+        """The result over ``case``, with units."""
+        import xarray as xr
+
+        return xr.Dataset(
+            {n: ("case", np.atleast_1d(getattr(self, n)), q.attributes) for n, q in _SHOWN.items()}
+        )
+
+    def plot(self) -> Figure:
+        """Draw displacement and contact angle over the axial force."""
+        from loadflow import plots
+
+        data = self.to_dataset().sortby("force")
+        drawing, axes = plots.figure(1, 2, height=3.0)
+        load, unit = plots.readable(data["force"])
+        for axis, name in zip(axes, ("displacement", "contact_angle")):
+            values, shown = plots.readable(data[name])
+            axis.plot(load, values, "o-", ms=3)
+            axis.set(xlabel=f"axial force, {unit}", ylabel=f"{_SHOWN[name].meaning}, {shown}")
+        return drawing
+
+    def __repr__(self) -> str:
+        cases = np.size(self.force)
+        return f"<ExpansionResult of {cases} load case(s), residual {np.max(self.residual):.1e}>"
+
+
+_SHOWN = {
+    "force": Quantity("F_a", "N", "axial force"),
+    "ball_force": Quantity("Q", "N", "force on each ball"),
+    "contact_angle": Quantity("α", "rad", "contact angle at work"),
+    "displacement": Quantity("δ_a", "m", "axial displacement of the inner ring"),
+    "expansion": Quantity("Δr", "m", "widening of both rings on the radius"),
+    "residual": Quantity("", "1", "gap left between groove centres over their distance"),
+}
 
 
 def axial_expansion(
@@ -167,7 +216,8 @@ def axial_expansion(
     alpha = (low + high) / 2
     gap, force, approach, widening = closure(alpha)
     shift = (free + approach) * np.sin(alpha) - free * np.sin(nominal)
-    return ExpansionResult(force, alpha, np.sign(load) * shift, widening, np.abs(gap) / free)
+    residual = np.abs(gap) / free
+    return ExpansionResult(force, alpha, np.sign(load) * shift, widening, residual, load)
 
 
 def _softness(bearing: BallRaceways, sections: RingSections, flexible: str, rings: str) -> float:

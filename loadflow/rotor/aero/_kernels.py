@@ -7,7 +7,7 @@ hub loss, Buhl's correction at high induction.
 
 import numpy as np
 
-from .._compile import kernel, section
+from .._compile import inner_kernel, kernel, section
 from ..slots import S_AXIAL
 from ._airfoil_kernels import coefficients, polar
 
@@ -65,7 +65,7 @@ def induction(m, i, angle, pitch, normal, tangential):
     return residual, a, swirl
 
 
-@kernel
+@inner_kernel
 def _root(m, i, low, high, f_low, f_high, pitch, normal, tangential):
     """False position with Anderson and Björck's weights; ends in bisection if it must."""
     for step in range(60):
@@ -121,7 +121,7 @@ def solve(m, i, pitch, normal, tangential, guess):
     return np.arctan2(normal, tangential), 0.0, 0.0
 
 
-@kernel
+@inner_kernel
 def inflow_lag(m, i, normal, tangential, a, swirl, state, dt, induced):
     """Induction factors that lag behind their quasi-steady values by two time constants.
 

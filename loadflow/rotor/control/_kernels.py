@@ -8,6 +8,8 @@ a jump between them.
 import numpy as np
 from numba import njit
 
+from loadflow.numerics.linked import LINKED
+
 from .. import slots as k
 from .constants import EMERGENCY, EVENTS, FAULT, IDLE, PARK, RUN, START, STOP
 
@@ -44,7 +46,7 @@ def control_torque(c, speed, surplus):
     return min(torque, c.maximum_torque)
 
 
-@njit(cache=True, nogil=True)
+@njit(nogil=True, **LINKED)
 def supervise(c, schedule, state, generator_speed, time, dt):
     """Move the state machine and the floor of the pitch on by one step."""
     mode = state[k.S_STATE]
@@ -84,7 +86,7 @@ def supervise(c, schedule, state, generator_speed, time, dt):
             state[k.S_STATE] = PARK
 
 
-@njit(cache=True, nogil=True)
+@njit(nogil=True, **LINKED)
 def schedule_pitch(c, state, dt):
     """Move the lowest pitch of power production on: by the schedule over the power."""
     share = 1 - np.exp(-dt * c.schedule_rate)
@@ -95,7 +97,7 @@ def schedule_pitch(c, state, dt):
         state[k.S_LOWEST] = np.interp(state[k.S_POWER], c.scheduled_power, c.scheduled_pitch)
 
 
-@njit(cache=True, nogil=True)
+@njit(nogil=True, **LINKED)
 def generator(c, schedule, state, dt):
     """Generator torque of the next step."""
     mode = state[k.S_STATE]
@@ -109,7 +111,7 @@ def generator(c, schedule, state, dt):
     state[k.S_TORQUE] += min(max(change, -c.torque_rate * dt), c.torque_rate * dt)
 
 
-@njit(cache=True, nogil=True)
+@njit(nogil=True, **LINKED)
 def collective_pitch(c, schedule, state, dt):
     """Collective pitch of the next step: proportional and integral on speed, above the floor."""
     pitch, floor = state[k.S_PITCH], max(state[k.S_FLOOR], state[k.S_LOWEST])
@@ -129,7 +131,7 @@ def collective_pitch(c, schedule, state, dt):
     state[k.S_PITCH] += min(max(change, -c.pitch_rate * dt), c.pitch_rate * dt)
 
 
-@njit(cache=True, nogil=True)
+@njit(nogil=True, **LINKED)
 def individual_pitch(c, state, moment_y, moment_z, dt):
     """Integrate the tilt and yaw moments of the rotor into two pitch angles that counter them."""
     state[k.S_TILT] += c.individual_gain * moment_y * dt
@@ -143,7 +145,7 @@ def individual_pitch(c, state, moment_y, moment_z, dt):
         state[k.S_YAW] *= limit / size
 
 
-@njit(cache=True, nogil=True)
+@njit(nogil=True, **LINKED)
 def move_blades(c, schedule, state, pitch, dt):
     """Let the actuator of each blade follow; that of the last blade may be stuck."""
     stuck = (
@@ -162,7 +164,7 @@ def move_blades(c, schedule, state, pitch, dt):
             pitch[b] += np.sign(change) * c.pitch_rate * dt
 
 
-@njit(cache=True, nogil=True)
+@njit(nogil=True, **LINKED)
 def brake(c, state, dt):
     """Torque that the shaft brake can hold in the next step, N m at the rotor."""
     mode = state[k.S_STATE]

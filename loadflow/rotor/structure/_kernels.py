@@ -7,7 +7,7 @@ modes over as they answer to the frame, the frame is solved, the blades follow.
 
 import numpy as np
 
-from .._compile import kernel, once, section
+from .._compile import inner_kernel, inner_once, inner_section, kernel, once
 
 GRAVITY = 9.80665
 TORSION_LAG = 0.05
@@ -16,14 +16,14 @@ MOST_TORSION = 0.5
 """Largest elastic turn of a section, rad: beyond, quasi-static torsion has no meaning."""
 
 
-@section
+@inner_section
 def blade_axes(sine, cosine, vector):
     """A vector of the shaft frame in the axes (x, r, t) of a blade."""
     y, z = vector[1], vector[2]
     return vector[0], cosine * z - sine * y, -cosine * y - sine * z
 
 
-@section
+@inner_section
 def place(m, i, motion, cone_s, cone_c):
     """Section i in the axes (x, r, t) of its blade."""
     radius = m.radius[i] - motion[i, 5]
@@ -122,7 +122,7 @@ def torsion(m, b, dt, speed, azimuth, drift, gravity, force, motion, turned):
         turned[i] += share * (wanted - turned[i])
 
 
-@once
+@inner_once
 def nacelle_motion(m, h, v, drift, gravity):
     """Speed of the apex and rate of rotation of the nacelle, `drift` (6,), and `gravity` (3,), in
     the shaft frame, which tilts with the nacelle; returns its tilt.
@@ -144,7 +144,7 @@ def nacelle_motion(m, h, v, drift, gravity):
     return m.tilt + turn_y
 
 
-@section
+@inner_section
 def carried(reach, along, out, turn):
     """Motion of a point that moves with the apex and turns with the axes; `reach` (6,)."""
     return (
@@ -154,7 +154,7 @@ def carried(reach, along, out, turn):
     )
 
 
-@section
+@inner_section
 def free_acceleration(speed, rate, motion, i, cone_s, cone_c, out, turn):
     """Acceleration (x, r, t) of section i while neither modes nor frame accelerate: centripetal,
     Coriolis and gyroscopic; `rate` (3,): that of the rotation of the nacelle.
@@ -169,7 +169,7 @@ def free_acceleration(speed, rate, motion, i, cone_s, cone_c, out, turn):
     )
 
 
-@once
+@inner_once
 def solve_in_place(system, right):
     """Gaussian elimination with row pivots of a few equations, for all columns of `right` (n, k).
 
@@ -200,7 +200,7 @@ def solve_in_place(system, right):
             right[k, j] = total / system[k, k]
 
 
-@kernel
+@inner_kernel
 def blade_equations(
     m, b, dt, speed, azimuth, shape, drift, gravity, force, motion, q, v, acc, answer, inertia, load
 ):
@@ -278,7 +278,7 @@ def blade_equations(
             answer[k, 1 + j] = -answer[k, 1 + j]
 
 
-@kernel
+@inner_kernel
 def frame_acceleration(m, dt, controlled, held, inertia, load, gravity, h, v, acc):
     """Acceleration of the coordinates of the frame (h,), with those of the blades eliminated.
 
@@ -321,7 +321,7 @@ def frame_acceleration(m, dt, controlled, held, inertia, load, gravity, h, v, ac
     return out
 
 
-@once
+@inner_once
 def step_on(dt, new, q, v, acc):
     """Newmark step (constant mean acceleration) to the acceleration `new`, in place."""
     for k in range(q.size):
@@ -330,7 +330,7 @@ def step_on(dt, new, q, v, acc):
         acc[k] = new[k]
 
 
-@once
+@inner_once
 def blade_root(m, b, speed, azimuth, shape, drift, gravity, jerk, force, motion, acc, total, own):
     """Add what one blade applies to the hub at the apex: aerodynamics, weight and inertia.
 

@@ -1,0 +1,5 @@
+"""``python -m loadflow`` is the command line."""
+
+from loadflow.cli import main
+
+main()

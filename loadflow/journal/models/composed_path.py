@@ -1,0 +1,221 @@
+"""A reduced film with effects through time, with as many points across as each stretch asks for.
+
+Most of a path is resolved by few points. A stretch that asks for more is gone through again with
+these, from the film that has come so far: its unknowns are taken between the points, so that gas
+and oil stay where they are in the gap.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from loadflow.journal.film_model import Film
+from loadflow.journal.geometry import JournalGeometry
+from loadflow.journal.line import Line
+from loadflow.journal.models import composed_film as at
+from loadflow.journal.models._composed_loops import solve
+from loadflow.journal.models.composed_model import (
+    LEVELS,
+    ComposedFilm,
+    build,
+    contact_share,
+    warn_unresolved,
+)
+from loadflow.journal.models.model import Steps
+from loadflow.journal.models.ring import no_start, stopped
+from loadflow.journal.models.slow_heat import THIN, Warmth, cooled, slow_states
+from loadflow.journal.models.width_modes import between_points
+from loadflow.numerics.convergence import Limits
+
+Array = NDArray[np.float64]
+
+_NO_SLOPES = np.zeros((2, 0, 0))
+_STRETCH = 24  # samples that take more points together
+_LONG = 240  # samples that are tried with few; calls of fewer cost
+
+
+class _State(NamedTuple):
+    """Film and shaft at the last time, and at the one before; shapes as in `ComposedWork`."""
+
+    level: int
+    last: Array
+    before: Array
+    place: Array
+    place_before: Array
+    past: Array
+
+
+@dataclass(frozen=True)
+class _Drive:
+    """What drives a path, its limits, and its films, one for each level that has been asked for."""
+
+    bearing: JournalGeometry
+    options: Film
+    time: Array
+    force: Array
+    speed: Array
+    line: Line
+    control: Limits
+    films: dict[int, ComposedFilm] = field(default_factory=dict)
+
+    @property
+    def specific_load(self) -> Array:
+        """Loads over width and diameter (n,), Pa."""
+        area = self.bearing.width * self.bearing.diameter
+        return np.asarray(np.hypot(*self.force.T) / area)
+
+    def film(self, level: int) -> ComposedFilm:
+        """The film with the points across of a level."""
+        if level not in self.films:
+            model = build(self.bearing, self.options, self.speed, self.line, level)
+            model.units.raise_scale(float(self.specific_load.max()))
+            film = model.film._replace(ring=model.film.ring._replace(scale=model.units.scale))
+            self.films[level] = replace(model, film=film)
+        return self.films[level]
+
+
+class _March:
+    """The loops over what drives a path, and the rows that they fill."""
+
+    def __init__(self, drive: _Drive, steps: Steps) -> None:
+        self.drive, self.start = drive, steps.start
+        self.model = model = drive.film(LEVELS[0])
+        contact = drive.options.contact
+        rub = 0.0 if contact is None else contact.coefficient * drive.bearing.radius
+        share = 0.5 if model.whole else 1.0
+        self.warmth: Warmth
+        self.warmth, self.states = slow_states(
+            drive.options, model.units, share, rub, steps.temperature, drive.time.size
+        )
+        self.rows = np.zeros((drive.time.size, at.RESULTS))
+        self.lines, self.loads = model.lines(drive.time.size), model.loads(drive.force)
+        self.typical = float(drive.specific_load.mean())
+
+    def solve(self, level: int, place: Array, size: int, begin: int, end: int, most: int) -> bool:
+        """Solve for the samples `begin` … `end`, and whether all have been; moves `place`."""
+        model, drive = self.drive.film(level), self.drive
+        solved = solve(
+            model.film, model.work, place, size, begin, drive.time[:end], self.loads[:end],
+            self.lines[:end], drive.speed[:end], drive.control.tolerance, most, self.rows[:end],
+            _NO_SLOPES, self.warmth, self.states[:end],
+        )  # fmt: skip
+        return bool(self.rows[solved - 1, at.CONVERGED])
+
+    def resolved(self, level: int, begin: int, end: int) -> bool:
+        """Whether the points of a level resolve the samples `begin` … `end`, or are the most."""
+        some = slice(begin, end)
+        rows, force = self.rows[some], self.drive.force[some]
+        missed = self.model.unresolved_on_path(rows, force, self.typical)
+        return level == LEVELS[-1] or not missed.any()
+
+    def begins(self, level: int, begin: Callable[[], Array]) -> _State | None:
+        """The film at the first time, and where the shaft is; None where it is not found."""
+        model, most = self.drive.film(level), 2 * self.drive.control.max_iterations
+        work, size = model.work, model.size if self.start is None else 0
+        work.bend[:] = self.lines[0, 2:]
+        work.u[:] = model.cold()
+        place = model.estimates(self.drive.force[:1], self.drive.speed[:1], self.lines[:1])[0]
+        if self.start is not None:
+            place[:2] = self.start
+        found = self.solve(level, place, size, 0, 1, most)
+        if not found and self.start is None:
+            place[:] = begin()
+            work.u[:] = model.cold()
+            for moving in (0, size):  # the film first
+                found = self.solve(level, place, moving, 0, 1, most)
+        bend = self.lines[0, 2:]
+        past = np.concatenate([bend, bend, [0.0]])
+        return _State(level, work.u.copy(), work.u.copy(), place, place, past) if found else None
+
+    def goes_on(self, state: _State, level: int, begin: int, end: int) -> _State | None:
+        """The film after the samples `begin` … `end`; None where it is not found."""
+        model = self.drive.film(level)
+        work, place = model.work, state.place.copy()
+        work.last[:] = self._moved(state.last, state.level, level)
+        work.before[:] = self._moved(state.before, state.level, level)
+        work.u[:] = work.last
+        work.places[0], work.past[:], work.bend[:] = state.place_before, state.past, state.past[2:4]
+        most = self.drive.control.max_iterations
+        if not self.solve(level, place, model.size, begin, end, most):
+            return None
+        copies = (work.last, work.before, place, work.places[0], work.past)
+        return _State(level, *(values.copy() for values in copies))
+
+    def _moved(self, unknowns: Array, level: int, other: int) -> Array:
+        """Unknowns (nx, m) at the points of another level."""
+        if level == other:
+            return unknowns
+        there, edge = self.drive.film(other), self.model.cold()[0, 0]
+        across = between_points(unknowns.shape[1], there.work.u.shape[1], there.whole)
+        return np.asarray(edge + (unknowns - edge) @ across.T)
+
+
+def orbit(
+    bearing: JournalGeometry,
+    options: Film,
+    time: Array,
+    force: Array,
+    speed: Array,
+    line: Line,
+    control: Limits,
+    steps: Steps,
+    begin: Callable[[], Array],
+) -> dict[str, Any]:
+    """Variables of the path over time.
+
+    `begin` finds the first position (4,) where none is given and the film alone does not.
+
+    Raises
+    ------
+    loadflow.errors.SolverError
+        No equilibrium to start from, or a step that fails even when cut to 1/256.
+
+    Warns
+    -----
+    loadflow.errors.ValidityWarning
+        A pressure that changes more across the width than the polynomials do; names the time.
+    """
+    march = _March(_Drive(bearing, options, time, force, speed, line, control), steps)
+    model, rows = march.model, march.rows
+    for level in LEVELS:
+        state = march.begins(level, begin)
+        if state is not None and march.resolved(level, 0, 1):
+            break
+    if state is None:
+        ratio = float(np.hypot(rows[0, at.X], rows[0, at.Y]))
+        raise no_start(force[0], speed[0], ratio, _found(rows[0]))
+    done, looked_at = 1, 0
+    while done < time.size:
+        end, after = min(done + _LONG, time.size), None
+        if state.level == LEVELS[0] and done >= looked_at:
+            after, looked_at = march.goes_on(state, LEVELS[0], done, end), end
+        if after is None or not march.resolved(LEVELS[0], done, end):
+            end = min(done + _STRETCH, end)
+            for level in LEVELS:
+                after = march.goes_on(state, level, done, end)
+                if after is not None and march.resolved(level, done, end):
+                    break
+        if after is None:
+            last = done + int(np.argmin(rows[done:end, at.CONVERGED]))
+            ratio = float(np.hypot(rows[last, at.X], rows[last, at.Y]))
+            raise stopped(time[last], force[last], speed[last], ratio, _found(rows[last]))
+        done, state = end, after
+    left = model.unresolved_on_path(rows, force)
+    if left.any():
+        warn_unresolved(left, f"t = {time[left.argmax()]:.6g} s")
+    values = model.results(rows, speed * march.states[:, THIN], march.lines)
+    values |= {"x": rows[:, at.X], "y": rows[:, at.Y]}
+    if options.contact is not None:
+        values["contact_share"] = contact_share(values["contact_force"], force)
+    return cooled(march.warmth, march.states, values)
+
+
+def _found(row: Array) -> tuple[float, float, float]:
+    """Residual, its rounding level, and Newton steps of a row."""
+    residual, rounding, iterations = row[[at.RESIDUAL, at.ROUNDING, at.ITERATIONS]].tolist()
+    return residual, rounding, iterations

@@ -1,0 +1,49 @@
+"""Orbits whose shaft comes nearer to the shell than the cells around resolve."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import TYPE_CHECKING, cast
+
+from loadflow.errors import SolverError
+from loadflow.journal.film_model import Film
+from loadflow.journal.solvers.transient import OrbitStopped
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+def on_enough_cells(options: Film, path: Callable[[Film], xr.Dataset], most: int) -> xr.Dataset:
+    """The orbit on the cells of a film, or where it stops on them, on more of them around.
+
+    On cells fixed to the shell the gap may close between two of them, and no film is left to carry
+    the load; which cells an orbit took says its attribute `cells_around`.
+
+    Parameters
+    ----------
+    options : Film
+        With the cells that are asked for.
+    path : callable
+        The orbit of such a film.
+    most : int
+        Cells around, to which they are doubled.
+
+    Raises
+    ------
+    OrbitStopped
+        As on the cells that are asked for.
+    """
+    around, across = options.cells
+    stop: OrbitStopped | None = None
+    while True:
+        try:
+            found = path(options if stop is None else replace(options, grid=(around, across)))
+            return found.assign_attrs(cells_around=around)
+        except SolverError as error:
+            if stop is None and not isinstance(error, OrbitStopped):
+                raise
+            stop = stop or cast("OrbitStopped", error)
+        if 2 * around > most:
+            raise stop
+        around *= 2

@@ -1,0 +1,138 @@
+"""Loads that Newton's method misses from its first position: found another way, or shown absent.
+
+Draws of `benchmarks.robustness.families`, each named by what it needs.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from benchmarks.robustness import families
+from loadflow.errors import SolverError
+from loadflow.journal import Lubricant
+from loadflow.journal.models import grid
+from loadflow.journal.solvers.newton import solve_film
+from loadflow.journal.solvers.statics import Statics
+
+
+def drawn(family: str, number: int) -> Any:
+    """A draw of a family, to be solved by calling it."""
+    rng = np.random.default_rng([families.SEEDS[family], number])
+    point = families.draw_point(rng)
+    return point, families.FAMILIES[family](point)
+
+
+@pytest.mark.parametrize("number", [79, 102, 106, 221, 323, 424])
+def test_tilted_rough_shafts_start_where_no_asperities_hold_them(number):
+    point, solve = drawn("contact", number)
+    answer = solve()
+    assert answer.converged
+    again = point.bearing.pressure(
+        answer.eccentricity, point.speed, Lubricant(point.viscosity), **point.film
+    )
+    # the film at the position found carries the load: the same balance, asked the other way
+    assert again.force == pytest.approx(point.force, rel=1e-6, abs=1e-6 * point.load)
+
+
+@pytest.mark.parametrize(
+    ("family", "number"), [("contact", 47), ("contact", 104), ("line", 205), ("line", 465)]
+)
+def test_a_load_is_refused_only_where_no_position_carries_it(monkeypatch, family, number):
+    _, solve = drawn(family, number)
+    with pytest.raises(SolverError, match=r"the shaft touches the bore.*before") as told:
+        solve()
+    assert ("beyond the law of contact" in str(told.value)) == (family == "contact")
+    assert _winding(monkeypatch, solve) == 0
+
+
+def test_the_winding_number_tells_a_load_that_is_carried(monkeypatch):
+    """What the test above rests on can fail: of a load with an answer it is one."""
+    assert _winding(monkeypatch, drawn("contact", 106)[1]) == 1
+
+
+def _winding(monkeypatch: Any, solve: Any) -> int:
+    """Turns of what is missing of the load as the shaft goes round next to contact."""
+    given: dict[str, Any] = {}
+
+    class Given(Exception):
+        pass
+
+    def keep(*arguments: Any) -> Any:
+        names = ("bearing", "options", "loads", "speeds", "line", "control")
+        given.update(zip(names, arguments))
+        raise Given
+
+    with monkeypatch.context() as patch:
+        patch.setattr(grid, "equilibrium_rows", keep)
+        with pytest.raises(Given):
+            solve()
+    omega, load = float(given["speeds"][0]), given["loads"][0]
+    statics = Statics(given["bearing"], given["options"], given["line"], abs(omega))
+    statics.raise_scale(given["loads"])
+    film, gap = statics.film, statics.gap
+    film.set_speed(omega)
+    held = statics._held(0)
+    deepest = gap.rough.deepest if film.contact is not None else 0.0
+
+    def missing(angle: float) -> np.ndarray:
+        way, place = np.array([math.cos(angle), math.sin(angle)]), held.copy()
+        low, high = 0.0, 4.0
+        while high - low > 1e-9:
+            middle = 0.5 * (low + high)
+            place[:2] = middle * way
+            low, high = (middle, high) if gap.gaps(place).min() > 1e-6 - deepest else (low, middle)
+        place[:2] = low * way
+        found = solve_film(film, film.start(), place, 0.0 * place, 1e-10, film.newton_steps(300))
+        assert found.converged
+        return found.linear.load[:2] - load
+
+    def turned(a: float, at_a: np.ndarray, b: float, at_b: np.ndarray) -> float:
+        turn = math.atan2(at_a[0] * at_b[1] - at_a[1] * at_b[0], float(at_a @ at_b))
+        if abs(turn) < 1.2 or b - a < 1e-4:
+            return turn
+        middle = 0.5 * (a + b)
+        at = missing(middle)
+        return turned(a, at_a, middle, at) + turned(middle, at, b, at_b)
+
+    angles = np.linspace(0.0, 2.0 * math.pi, 73)
+    found = [missing(angle) for angle in angles]
+    turns = zip(angles, found, angles[1:], found[1:])
+    return round(sum(turned(*pair) for pair in turns) / (2.0 * math.pi))
+
+
+@pytest.mark.parametrize("number", [49, 96, 271, 392, 408, 468])
+def test_orbits_on_few_unknowns_start_where_the_grid_does(number):
+    _, orbit = drawn("orbit", number)
+    path = orbit()
+    assert path["residual"].max() < 1e-6
+    assert (path["minimum_film"] > 0.0).all()
+
+
+@pytest.mark.parametrize(("number", "around"), [(117, 120), (234, 120), (342, 96), (483, 120)])
+def test_orbits_that_stop_between_cells_go_on_more_of_them(number, around):
+    _, orbit = drawn("orbit", number)
+    path = orbit()
+    assert path.attrs["cells_around"] == around
+    assert (path["minimum_film"] > 0.0).all()
+
+
+def test_a_film_that_is_lost_as_it_warms_is_told_at_once():
+    with pytest.raises(SolverError, match=r"no heat balance: at .* still warms by .* no more"):
+        drawn("heat", 245)[1]()
+
+
+@pytest.mark.parametrize("number", [107, 326])
+def test_a_warm_film_that_its_cells_lose_is_found_on_more(number):
+    point, solve = drawn("heat", number)
+    answer = solve()
+    assert answer.converged
+    assert abs(answer.heat_imbalance) < 1e-6
+    around, across = point.film["grid"]
+    cells = np.shape(answer.film_temperature)
+    assert cells[1] == across
+    assert cells[0] >= around  # grooves between lobes have cells of their own
+    assert cells[0] < 2 * around
