@@ -228,6 +228,7 @@ def test_a_browser_draws_every_chart_zooms_sorts_and_prints(page, tmp_path):
         async with Browser(tmp_path / "profile") as browser:
             await browser.open(page.as_uri())
             await browser.shows("Journal bearing", "Provenance")
+            await until_true(browser, "document.readyState === 'complete'")  # all charts are there
             count = await browser.evaluate(COUNT)
             for width in (400, 1600):
                 await browser.call(
