@@ -137,7 +137,14 @@ def _mark(entry: Entry) -> str:
 
 def _errors(rungs: Rungs) -> Iterator[str]:
     first = next(iter(rungs.values()))
-    yield f"\nReference: {first['reference']}.\n\nCases: {first['cases']}.\n"
+    yield f"\nReference: {first['reference']}.\n"
+    others: dict[str, list[str]] = {}
+    for name, entry in rungs.items():
+        if entry["reference"] != first["reference"]:
+            others.setdefault(entry["reference"], []).append(name)
+    for reference, names in others.items():
+        yield f"Reference of {' and '.join(names)}: {reference}.\n"
+    yield f"Cases: {first['cases']}.\n"
     yield "| rung | quantity | largest error | 95 % below | worst case |"
     yield "|---|---|---:|---:|---|"
     for name, entry in rungs.items():

@@ -30,6 +30,8 @@ CHOSEN: list[dict[str, Any]] = [
     {"rung": "reduced", "grid": (60, 20), "step": 0.05},
     {"rung": "reduced", "grid": (60, 20)},
     {"rung": "reduced", "grid": (120, 20)},
+    {"rung": "reduced", "grid": (240, 20)},
+    {"rung": "reduced", "grid": (480, 20)},
     {"rung": "grid", "grid": (60, 20)},
     {"rung": "grid", "grid": (120, 40)},
     {"rung": "map", "grid": (60, 20)},
@@ -38,37 +40,36 @@ MODELS = {
     rung_key(Scene(name="film"), "journal", motion="transient", **keys): keys for keys in CHOSEN
 }
 INCLUDES = {"map": "squeeze; fill steady in the frame that turns with the eccentricity"}
-REFERENCE = {"rung": "reduced"}
+REFERENCE: dict[str, Any] = {"rung": "reduced"}
+FINEST = 480  # cells around of the reference; of rungs with half as many and more, twice that
 STEPS = {"map": 4000, "reduced": 4000, "grid": 40}  # to take times on
 
 
 def measure_orbit(bench: Bench) -> Rungs:
     options = bench.scene.journal
     windows = dict(_windows(bench, bench.setting.window))
-    reference, coarser = (
-        {where: solve(options, *series, **REFERENCE | grid) for where, series in windows.items()}
-        for grid in ({"grid": (480, 20)}, {"grid": (240, 20)})
-    )
-    doubt = Errors()
-    for where in windows:
-        compare(doubt, where, coarser[where], reference[where])
-    about = (
-        "the rung reduced on 480 cells around, every sample; against 240 it moves by "
-        + sentence(doubt.summary(), "eccentricity ratio", "maximum pressure", "friction power")
-        + "; how far finer cells across agree with it shows at grid, 120x40"
-    )
+    finest = {
+        cells: {
+            where: solve(options, *series, **REFERENCE | {"grid": (cells, 20)})
+            for where, series in windows.items()
+        }
+        for cells in (FINEST // 2, FINEST, 2 * FINEST)
+    }
+    about = {cells: _about(finest, cells) for cells in (FINEST, 2 * FINEST)}
     length = next(iter(windows.values()))[0].size
     rungs: Rungs = {}
     for name, keys in MODELS.items():
-        errors = Errors()
+        errors, cells = Errors(), FINEST
+        if keys["rung"] == "reduced" and keys["grid"][0] >= FINEST // 2:
+            cells = 2 * FINEST
         for where, series in windows.items():
-            compare(errors, where, solve(options, *series, **keys), reference[where])
+            compare(errors, where, solve(options, *series, **keys), finest[cells][where])
         found = errors.summary()
         rungs[name] = {
             **({} if name in BY_NAME else {"settings": keys}),
             "includes": [INCLUDES.get(name, "squeeze and history of the fill"), ALIGNED],
             "seconds_per_sample": rounded(_seconds(bench, keys)),
-            "reference": about,
+            "reference": about[cells],
             "cases": (
                 f"{on_cases(bench)}; 1 seed, bearings N and N2, {length} steps of 0.025 s around "
                 "the largest load of each"
@@ -79,6 +80,18 @@ def measure_orbit(bench: Bench) -> Rungs:
             ),
         }
     return with_ratios(rungs, "grid, 120x40")
+
+
+def _about(finest: dict[int, dict[str, xr.Dataset]], cells: int) -> str:
+    """What a reference of so many cells around is, and how far it moves from half of them."""
+    doubt = Errors()
+    for where, reference in finest[cells].items():
+        compare(doubt, where, finest[cells // 2][where], reference)
+    return (
+        f"the rung reduced on {cells} cells around, every sample; against {cells // 2} it moves by "
+        + sentence(doubt.summary(), "eccentricity ratio", "maximum pressure", "friction power")
+        + "; how far finer cells across agree with it shows at grid, 120x40"
+    )
 
 
 def _windows(bench: Bench, steps: int) -> Iterator[tuple[str, tuple[np.ndarray, ...]]]:
