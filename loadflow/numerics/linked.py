@@ -3,7 +3,7 @@
 numba makes machine code of every function and, once more, of each function that calls it, as these
 have it inside them. The first of the two nobody runs where Python does not call the function, and
 it takes a fifth of the time of compiling. `LINKED` leaves it out: such a function is kept as LLVM's
-code, optimised as ever, from which its callers are linked; the callers are the same, bit by bit.
+code, optimised as ever, from which its callers are linked.
 """
 
 from __future__ import annotations
