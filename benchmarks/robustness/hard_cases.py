@@ -38,6 +38,7 @@ FAMILIES = {
     "pair": "pairs of cones, half of them free to tilt",
     "heat": "heat: one temperature of the film, or one of each place",
     "orbit": 'orbits, a third on "reduced"',
+    "touching": "asperities that carry a good part of the load",
 }
 """What the page calls the families of draws."""
 
