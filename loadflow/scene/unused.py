@@ -334,7 +334,7 @@ def _of_each_rolling(scene: Scene) -> Iterator[tuple[str, str]]:
     """Keys of any of the rolling bearings, which stand in a list after the first one."""
     for number, part in enumerate(scene.rolling.bearings.values(), -1):
         where = "rolling" if number < 0 else f"rolling.further.{number}"
-        if part.geometry.element != "roller":
+        if part.geometry.element != "roller" and "roller_model" in part.model_fields_set:
             yield f"{where}.roller_model", f"a {part.geometry.kind} bearing has no rollers"
         for key, reason in unused_of(part.mounting, part.geometry) if part.mounting else ():
             yield f"{where}.mounting.{key}", reason

@@ -44,7 +44,7 @@ def test_all_stages_take_the_case_in_miniature_and_it_is_done_once(plan, tmp_pat
 def test_questions_of_a_pilot_are_asked_in_miniature_each_model_by_itself(plan, tmp_path):
     """The stages that no question is about are one more job; all are done once."""
     questions = Questions(
-        plan.scene, ("motion of the film", "centrifugal load of the balls"), 60.0, plan.cases[:1]
+        plan.scene, ("motion of the film", "inertia of the balls"), 60.0, plan.cases[:1]
     )
     where, told = TwoWorkers(), []
     for _ in range(2):

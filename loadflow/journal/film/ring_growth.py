@@ -117,7 +117,7 @@ def ring_factor(n: int, outer: float, biot: float, held: bool, nu: float) -> flo
     >>> from loadflow.journal.film.ring_growth import ring_factor
     >>> round(ring_factor(0, 2.0, 0.0, held=False, nu=0.3), 12)  # as warm all through
     1.0
-    >>> round(ring_factor(3, 1.0001, 0.0, held=False, nu=0.3), 4)  # −1/(n² − 1)
+    >>> round(ring_factor(3, 1.0001, 0.0, held=False, nu=0.3), 3)  # −1/(n² − 1)
     -0.125
     """
     if held:
