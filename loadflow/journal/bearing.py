@@ -294,7 +294,8 @@ class JournalBearing(JournalGeometry):
             what left; of a closed orbit ``closure`` and ``periods``; on "grid" bounds of what the
             cells do to the narrowest film, m, and the largest pressure, Pa,
             ``minimum_film_grid_error`` and ``maximum_pressure_grid_error``, and ``resolved``, 0
-            where they do not resolve the film.
+            where they do not resolve the film; where the cells are fixed to the shell
+            ``cells_around``, more than asked for if the path stops between these.
 
         Raises
         ------

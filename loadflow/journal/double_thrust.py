@@ -13,7 +13,7 @@ from loadflow.journal.grid_bounds import UNRESOLVED, PadError
 from loadflow.journal.lubricant import Lubricant
 from loadflow.journal.pad_bearing import AT_REST, asked, limits_of
 from loadflow.journal.pad_results import (
-    _PADS,
+    PADS,
     PadResult,
     Shows,
     Table,
@@ -36,7 +36,7 @@ _BOTH: Table = {
     "stiffness": ((), "N/m", "axial stiffness"),
     "damping": ((), "N s/m", "axial damping"),
 } | {
-    name: _PADS[name]
+    name: PADS[name]
     for name in (
         "minimum_film", "maximum_pressure", "friction_torque", "friction_power", "speed",
         "converged", "residual", "iterations", "resolved",

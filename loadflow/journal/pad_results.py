@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 Table = dict[str, tuple[tuple[str, ...], str, str]]
 
-_PADS: Table = {
+PADS: Table = {
     "normal_force": (("pad",), "N", "pressure above that at the edges, over each pad"),
     "load_share": (("pad",), "1", "share of each pad in the sum of the normal forces"),
     "pad_tilt": (("pad", "pad_axis"), "rad", "tilt of each pad about generator and motion"),
@@ -149,7 +149,7 @@ class PadResult(Shows):
     iterations: int
     relative_grid_error: Array
 
-    _table: ClassVar[Table] = _PADS
+    _table: ClassVar[Table] = PADS
 
     @property
     def grid_error(self) -> PadError:
@@ -243,7 +243,7 @@ class ThrustResult(PadResult):
     stiffness: float
     damping: float
 
-    _table: ClassVar[Table] = _PADS | {
+    _table: ClassVar[Table] = PADS | {
         "force": ((), "N", "axial force of all pads"),
         "moment": (("axis",), "N m", "moment of the runner on the pads about both axes"),
         "gap": ((), "m", "film over the lands on the axis"),
@@ -287,7 +287,7 @@ class ConicalResult(PadResult):
     pad_forces: Array
     centre: Array
 
-    _table: ClassVar[Table] = _PADS | {
+    _table: ClassVar[Table] = PADS | {
         "force": (("space",), "N", "force of the shaft on the bearing"),
         "moment": (("axis",), "N m", "moment of the shaft on the bearing about both axes"),
         "eccentricity": (("space",), "m", "shaft relative to the bearing"),
@@ -366,7 +366,7 @@ class PairResult(Shows):
         "stiffness": (("load", "motion"), "N/m, N, N m", "load per motion"),
         "damping": (("load", "motion"), "N s/m, N s, N m s", "load per velocity"),
     } | {
-        name: _PADS[name]
+        name: PADS[name]
         for name in (
             "minimum_film", "maximum_pressure", "friction_torque", "friction_power", "speed",
             "converged", "residual", "iterations", "resolved",

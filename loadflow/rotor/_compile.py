@@ -5,7 +5,7 @@ each section, took two thirds of the time of a run; so what works on one section
 counts none (`_nrt`: it may not allocate), and division by zero gives infinity or NaN, without a
 branch that raises. The loop is checked for finite results afterwards.
 
-What Python never calls, tests included, has no machine code of its own (`inner_kernel`, …).
+What Python never calls, tests included, has no way in from there (`inner_kernel`, …).
 """
 
 from functools import partial
@@ -14,18 +14,18 @@ from numba import njit
 
 from loadflow.numerics.linked import LINKED
 
-kernel = partial(njit, cache=True, nogil=True, error_model="numpy")()
+_plain = partial(njit, nogil=True, error_model="numpy")
+_section = partial(_plain, forceinline=True, _nrt=False)
+_once = partial(_plain, _nrt=False)
+
+kernel = _plain(cache=True)
 """Of a function that is called once for each blade, or less, and allocates."""
 
-section = partial(njit, cache=True, nogil=True, error_model="numpy", forceinline=True, _nrt=False)()
+section = _section(cache=True)
 """Of a function that is called for each section at each step."""
 
-once = partial(njit, cache=True, nogil=True, error_model="numpy", _nrt=False)()
+once = _once(cache=True)
 """Of a function that is called once for each blade, or less, and allocates nothing."""
 
-inner_kernel = partial(njit, nogil=True, error_model="numpy", **LINKED)()
-inner_section = partial(
-    njit, nogil=True, error_model="numpy", forceinline=True, _nrt=False, **LINKED
-)()
-inner_once = partial(njit, nogil=True, error_model="numpy", _nrt=False, **LINKED)()
+inner_kernel, inner_section, inner_once = _plain(**LINKED), _section(**LINKED), _once(**LINKED)
 """The same of functions that compiled ones alone call."""

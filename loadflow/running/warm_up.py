@@ -64,8 +64,10 @@ def compile_for_pilot(
 ) -> None:
     """Compile what the questions of a pilot call, each model in a process of its own.
 
-    One more job takes the stages that no question is about, by the plan that is `expected` before
-    the pilot. What the plan after the pilot calls beside these, `compile_kernels` compiles.
+    The rotor comes first, as it takes longest; all that is asked needs its loads, even where no
+    question is about them. One more job takes the stages that no question is about, by the plan
+    that is `expected` before the pilot. What the plan after the pilot calls beside these,
+    `compile_kernels` compiles.
     """
     scene, models = questions.scene, questions.models
     rungs = [one.text_of(scene) for name in models for one in STAGES[name].models]
@@ -73,9 +75,11 @@ def compile_for_pilot(
     if _is_done(marks, where):
         return
     with tempfile.TemporaryDirectory(prefix="loadflow-") as place:
-        rest = {OTHER: Path(place) / OTHER}
+        rest = {job: Path(place) / job for job in ("loads", OTHER)}
         work = partial(_for_pilot, questions=questions, plan=expected(), folders=rest)
-        _compile(work, (*models, OTHER), marks, where, say)
+        simulated = scene.loads.source == "simulate" and "loads" not in models
+        first = ("loads",) if simulated else ()
+        _compile(work, (*first, *models, OTHER), marks, where, say)
 
 
 def compile_kernels(plan: Plan, where: Executor, say: Say) -> None:
@@ -124,7 +128,7 @@ def _compile(
 
 def _for_pilot(job: str, questions: Questions, plan: Plan, folders: dict[str, Path]) -> str:
     """Do one job of `compile_for_pilot`."""
-    if job != OTHER:
+    if job in questions.models:
         return _asked_in_miniature(job, questions)
     asked = set(questions.models) - {"loads", "shaft"}  # which the others need, and are soon done
     steps = tuple(step for step in plan.steps if step.name not in asked)

@@ -90,10 +90,9 @@ def relative_errors(
         # a film that carries little may do so in one spot
         shifted = missing * whole / lubricated**2
     pressed = _LOAD * share * growth  # what an elastic shell opens with the pressure
-    out[3], out[4] = (closer + pressed) / narrow, peak
+    out[3], out[4] = (closer + pressed) / narrow, peak + shifted
     out[5] = _SHEAR * share + _DRAG * out[3]
     out[6] = _FLOW * share + _OPEN * (out[1] + out[3])
-    out[4] += shifted
     if touch is not None and rubbing > 0.0:
         out[5] += rubbing * missing / touch.normal
     return out

@@ -63,7 +63,7 @@ def _heated(n: int, rising: float, falling: float, x: float, outer: float) -> tu
         warm = rising + falling * log
         u = rising * x / 2 + falling * x * (2 * log - 1) / 4
         return warm, _Motion(u, 0.0, rising / 2 + falling * (2 * log + 1) / 4, 0.0)
-    unit = rising / outer**-1.0 / (4 * (n + 1))  # (x/outer)^n, its motion (x/outer)^(n + 1)
+    unit = rising * outer / (4 * (n + 1))  # (x/outer)^n, its motion (x/outer)^(n + 1)
     first = _power(n + 1, (n + 2) * unit, -n * unit, x, outer)
     warm = rising * (x / outer) ** n + falling * x**-n
     if n > 1:

@@ -4,8 +4,8 @@ A film and its work arrays are tuples of some fifty arrays. To count references 
 each over from Python, and to raise where a number is divided by zero took half of the time, of
 compiling and of running. So nothing here counts references (`_nrt`: it may not allocate), a
 division by zero gives infinity or NaN, which Newton's loop looks for, and what compiled functions
-alone call has no way in from Python and no machine code of its own. A function is compiled again in
-each that calls it, so levels are few.
+alone call has no way in from Python. A function is compiled again in each that calls it, so levels
+are few.
 """
 
 from functools import partial
@@ -14,17 +14,14 @@ from numba import njit
 
 from loadflow.numerics.linked import LINKED
 
-outer = partial(
-    njit, cache=True, nogil=True, error_model="numpy", fastmath={"contract"}, _nrt=False
-)()
+# "contract": a product and a sum may be rounded once, in one instruction
+_plain = partial(njit, nogil=True, error_model="numpy", fastmath={"contract"}, _nrt=False)
+
+outer = _plain(cache=True)
 """Of a function that Python calls; compiling it takes most of the time, so there are few."""
 
-inner = partial(
-    njit, nogil=True, error_model="numpy", fastmath={"contract"}, _nrt=False, **LINKED
-)()
+inner = _plain(**LINKED)
 """Of a function that compiled ones alone call."""
 
-once = partial(
-    njit, nogil=True, error_model="numpy", fastmath={"contract"}, _nrt=False, inline="always"
-)()
+once = _plain(inline="always")
 """Of a function that is called at one place alone, of which it becomes a part."""

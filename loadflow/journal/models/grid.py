@@ -15,7 +15,7 @@ from loadflow.journal.line import Line
 from loadflow.journal.models.finer_orbit import on_enough_cells
 from loadflow.journal.models.model import Steps
 from loadflow.journal.rows import columns_of
-from loadflow.journal.solvers.orbit_start import orbit_start
+from loadflow.journal.solvers.orbit_start import orbit_film, orbit_start
 from loadflow.journal.solvers.periodic import (
     Method,
     check_half_speed_whirl,
@@ -23,7 +23,6 @@ from loadflow.journal.solvers.periodic import (
     close_orbit,
 )
 from loadflow.journal.solvers.static_rows import equilibrium_rows, field_rows
-from loadflow.journal.solvers.statics import Statics
 from loadflow.journal.solvers.transient import (
     Marcher,
     march,
@@ -32,7 +31,7 @@ from loadflow.journal.solvers.transient import (
     orbit_row,
 )
 from loadflow.journal.solvers.warm import warm_fields, warm_rows
-from loadflow.journal.solvers.warm_mean import SlowHeat, slow_heat
+from loadflow.journal.solvers.warm_mean import MeanHeat, mean_heat
 from loadflow.numerics.convergence import Limits
 from loadflow.numerics.fields import require
 from loadflow.quantities import FILM
@@ -110,15 +109,10 @@ def _path(
         )
         require(still, "tilt, bend", "of a closed orbit", "the same all the time")
     first_limits = replace(limits, max_iterations=2 * limits.max_iterations)
-    slow: list[SlowHeat] = []  # temperatures over the area, which the motion does not change
-
-    def warm(statics: Statics) -> None:
-        slow.append(slow_heat(statics, force, speed, first_limits))
-
-    prepare = None if film.heat is None else warm
-    statics, first, forces = orbit_start(
-        bearing, film, force, speed, line, steps.start, first_limits, prepare
-    )
+    statics, forces = orbit_film(bearing, film, force, speed, line)
+    # temperatures over the area, which the motion does not change
+    warmth = None if film.heat is None else mean_heat(statics, force, speed, first_limits)
+    first = orbit_start(statics, force[0], float(speed[0]), steps.start, first_limits)
     discrete = statics.film
     if steps.periodic and statics.gap.axisymmetric and not discrete.lifts:
         check_half_speed_whirl(time, force, speed)
@@ -142,18 +136,18 @@ def _path(
         del values["steps"]
     about["mass_balance"] = mass_balance(*ends, rows, time)
     path = orbit_dataset(values, time, force, speed, bearing.clearance).assign_attrs(about)
-    return path if not slow else _warm(path, slow[0], bearing.clearance)
+    return path if warmth is None else _warm(path, warmth, bearing.clearance)
 
 
-def _warm(path: xr.Dataset, slow: SlowHeat, clearance: float) -> xr.Dataset:
+def _warm(path: xr.Dataset, heat: MeanHeat, clearance: float) -> xr.Dataset:
     """The path with the temperature of its film."""
-    grown = 1.0 + slow.equation.mean_growth / clearance
+    grown = 1.0 + heat.equation.mean_growth / clearance
     ratio = path["eccentricity_ratio"]
-    warm = np.full(path.sizes["time"], slow.warmth.mean)
+    warm = np.full(path.sizes["time"], heat.warmth.mean)
     return path.assign(
         temperature=("time", warm, FILM["temperature"].attributes),
         eccentricity_ratio=(ratio / grown).assign_attrs(ratio.attrs),
-    ).assign_attrs(slow.said)
+    ).assign_attrs(heat.said)
 
 
 def _lines(bearing: JournalGeometry, line: Line, count: int) -> Array | None:

@@ -220,8 +220,13 @@ def _prepared(
     """Film and energy equation."""
     require(options.shell is None, "shell", options.shell, "None with heat over the area")
     statics = Statics(bearing, options, line, rate)
-    gap, heat = cast("WarmGap", statics.gap), cast("FilmHeat", options.heat)
-    return statics, EnergyEquation(statics.film, gap, heat)
+    return statics, energy_of(statics)
+
+
+def energy_of(statics: Statics) -> EnergyEquation:
+    """Energy equation of a film with heat over its area."""
+    gap, heat = cast("WarmGap", statics.gap), cast("FilmHeat", statics.options.heat)
+    return EnergyEquation(statics.film, gap, heat)
 
 
 def coupled(

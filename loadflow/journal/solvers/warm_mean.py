@@ -9,18 +9,15 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import dataclass, replace
-from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import SolverError, ValidityWarning
 from loadflow.journal.film.energy_equation import EnergyEquation, Warmth
-from loadflow.journal.film.gap_warm import WarmGap
-from loadflow.journal.heat import FilmHeat
 from loadflow.journal.solvers.newton import Solution, no_film
 from loadflow.journal.solvers.statics import Statics
-from loadflow.journal.solvers.warm import coupled
+from loadflow.journal.solvers.warm import coupled, energy_of
 from loadflow.numerics.convergence import Limits
 
 Array = NDArray[np.float64]
@@ -33,7 +30,7 @@ LEFT_OUT = 0.1
 
 
 @dataclass(frozen=True)
-class SlowHeat:
+class MeanHeat:
     """Temperatures that a film keeps in motion; what is left of them, K, and fields tried."""
 
     equation: EnergyEquation
@@ -57,7 +54,7 @@ class SlowHeat:
         return numbers
 
 
-def slow_heat(statics: Statics, loads: Array, speeds: Array, control: Limits) -> SlowHeat:
+def mean_heat(statics: Statics, loads: Array, speeds: Array, control: Limits) -> MeanHeat:
     """Bring the film of `statics` to the temperatures of a series of loads (n, 2).
 
     Parameters
@@ -79,9 +76,7 @@ def slow_heat(statics: Statics, loads: Array, speeds: Array, control: Limits) ->
     loadflow.errors.ValidityWarning
         More than `LEFT_OUT` of the loads have no film at rest.
     """
-    equation = EnergyEquation(
-        statics.film, cast("WarmGap", statics.gap), cast("FilmHeat", statics.options.heat)
-    )
+    equation = energy_of(statics)
     some = np.unique(np.linspace(0, len(loads) - 1, SAMPLES).round().astype(int)).tolist()
     each = replace(control, strict=False)
     found: dict[int, Solution] = {}
@@ -113,4 +108,4 @@ def slow_heat(statics: Statics, loads: Array, speeds: Array, control: Limits) ->
             stacklevel=5,
         )
     equation.thicken(equation.state(warm.warmth))
-    return SlowHeat(equation, warm.warmth, warm.residual, warm.iterations)
+    return MeanHeat(equation, warm.warmth, warm.residual, warm.iterations)
