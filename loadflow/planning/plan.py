@@ -159,7 +159,7 @@ def make_plan(
         choice.scene,
         tuple(steps.values()),
         cases,
-        _left_out(choice.scene, needed),
+        _left_out(choice.scene, scene, needed),
         choice.reasons,
         choice.errors,
         choice.met,
@@ -199,7 +199,7 @@ def _in_order(names: set[str]) -> list[str]:
 
 def _effects(wanted: Scene, choice: Choice, needed: set[str]) -> Iterator[EffectInPlan]:
     verdict = choice.estimates.verdict
-    for effect in concerned(choice.scene, _in_order(needed)):
+    for effect in concerned(wanted, _in_order(needed)):
         kept = effect.is_on(choice.scene)
         if not wanted.asks or not effect.is_open(wanted):
             why = AS_GIVEN
@@ -218,12 +218,12 @@ def _effects(wanted: Scene, choice: Choice, needed: set[str]) -> Iterator[Effect
         )
 
 
-def _left_out(scene: Scene, needed: set[str]) -> dict[str, str]:
-    """Why stages, and effects of those that run, are left out."""
+def _left_out(scene: Scene, wanted: Scene, needed: set[str]) -> dict[str, str]:
+    """Why stages, and effects of those that run, are left out of what was `wanted`."""
     why = {name: "no wanted result needs it" for name in STAGES if name not in needed}
     for name in _in_order(needed):
         why |= STAGES[name].left_out(scene)
-    off = (one for one in concerned(scene, _in_order(needed)) if not one.is_on(scene))
+    off = (one for one in concerned(wanted, _in_order(needed)) if not one.is_on(scene))
     return why | {effect.name: effect.out for effect in off}
 
 
