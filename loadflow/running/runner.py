@@ -21,7 +21,7 @@ from loadflow.errors import LoadflowError, SolverError
 from loadflow.planning import verification as check
 from loadflow.planning.choice import can_refine
 from loadflow.planning.effects import EffectVerdict
-from loadflow.planning.pilot import pilot
+from loadflow.planning.pilot import Questions, pilot
 from loadflow.planning.plan import Plan, make_plan
 from loadflow.running.cases import (
     Outcome,
@@ -190,14 +190,21 @@ def _run(
 ) -> Run:
     log.info("loadflow %s, %s, %d workers", loadflow.__version__, folder, where.workers)
     refined = refinements(folder, scene)
+    compiled = 0.0
+
+    def compiles(questions: Questions) -> None:
+        nonlocal compiled
+        started = time.perf_counter()
+        compile_for_pilot(questions, partial(make_plan, scene, refined), where, say)
+        compiled = time.perf_counter() - started
+
     begun = time.perf_counter()
-    expected = partial(make_plan, scene, refined)
-    compiles = partial(compile_for_pilot, expected=expected, where=where, say=say)
     pilot_verdict = known_verdict(folder, scene) or pilot(
         scene, say, where.outcomes, before=compiles
     )
     if profile:
-        profile.add_wall("pilot", time.perf_counter() - begun)
+        profile.add_wall(COMPILING, compiled)
+        profile.add_wall("pilot", time.perf_counter() - begun - compiled)
     while True:
         started = time.perf_counter()
         plan = make_plan(scene, refined, pilot_verdict)
