@@ -165,7 +165,7 @@ def test_grooves_of_a_round_bore_and_a_tilted_shaft_grow_too():
 
 def test_a_shaft_that_grows_into_its_shell_is_told():
     held = film(growth=replace(RING, held=True))
-    with pytest.raises(SolverError, match=r"touches the bore|gets hotter|no heat balance"):
+    with pytest.raises(SolverError, match="touches the bore"):
         LOBES.equilibrium(LOAD, SPEED, held)
     state = LOBES.equilibrium([LOAD, LOAD], SPEED, held, strict=False)
     assert not state.converged.any()

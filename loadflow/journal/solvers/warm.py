@@ -50,7 +50,10 @@ _MOST_AROUND = 240  # cells, of a film that is not found on fewer
 
 @dataclass(frozen=True)
 class WarmFilm:
-    """A film with its temperatures; the change (K) that is left of them; how many were tried."""
+    """A film with its temperatures; the change (K) that is left of them; how many were tried.
+
+    `why` there are none; `seized`: the shaft has grown into its shell.
+    """
 
     solution: Solution
     warmth: Warmth | None
@@ -58,6 +61,7 @@ class WarmFilm:
     iterations: int
     converged: bool
     why: str = ""
+    seized: bool = False
 
     @property
     def lost(self) -> bool:
@@ -166,7 +170,7 @@ def _settled_stiffness(
 
 def _no_warmth(found: WarmFilm) -> str:
     """Why there are no temperatures; where there is no film, the film says why."""
-    if found.lost and found.residual < np.inf and found.residual > _WARMS:
+    if found.lost and not found.seized and _WARMS < found.residual < np.inf:
         return (
             f"no heat balance: at temperatures from which it still warms by {found.residual:.3g} K "
             "the film carries the load no more"
@@ -301,7 +305,7 @@ def coupled(
         why = f"temperatures: {residual:.3g} K left after {iteration} fields"
     if too_hot:
         why = f"the film gets hotter than {HOTTEST} K"
-    return WarmFilm(solution, warmth, residual, iteration, False, why)
+    return WarmFilm(solution, warmth, residual, iteration, False, why, bool(seized))
 
 
 def _flagged(found: WarmFilm) -> Solution:
