@@ -3,6 +3,7 @@
 import json
 import subprocess
 import sys
+from typing import get_args
 
 import pytest
 
@@ -10,6 +11,8 @@ import loadflow
 from loadflow.cli import GROUPS, main
 from loadflow.cli.base import app
 from loadflow.cli.lists import LISTS
+from loadflow.rolling.bearings.arrangements import ARRANGEMENTS
+from loadflow.scene.results import Result
 from loadflow.scene.scene import read_scene
 from loadflow.scene.templates import template_text, templates
 
@@ -55,6 +58,32 @@ def test_every_list_has_rows_as_wide_as_its_heads(name, capsys):
 def test_lists_are_listed_and_an_unknown_one_is_refused(capsys):
     assert set(json.loads(call(capsys, "list", "--json").out)) == set(LISTS)
     assert "turbines" in call(capsys, "list", "magic", code=2).err
+    assert "did you mean oils?" in call(capsys, "list", "oil", code=2).err
+
+
+def test_every_kind_of_bearing_and_every_result_is_said_in_words():
+    _, bearings = LISTS["bearings"]()
+    assert all(told for _, _, told, _ in bearings)
+    assert {name for what, name, *_ in bearings if what == "rolling.arrangement"} == {*ARRANGEMENTS}
+    _, results = LISTS["results"]()
+    assert {name for name, *_ in results} == {*get_args(Result)}
+
+
+@pytest.mark.parametrize(
+    ("lines", "meant"),
+    [
+        ('[turbine]\nname = "nrel-5m"', "nrel-5mw"),
+        ('[friction]\nlubricant = "iso-vg-20"', "iso-vg-220"),
+        ('[rolling]\narrangement = "two-sferical"', "two-spherical"),
+        ('[rolling]\narangement = "two-spherical"', "arrangement"),
+        ('[bearings.N]\nkind = "jornal"', "journal"),
+        ("[candidates.two-sferical]", "two-spherical"),
+    ],
+)
+def test_a_name_of_a_scene_that_is_nearly_right_is_told(lines, meant, tmp_path, capsys):
+    path = tmp_path / "scene.toml"
+    path.write_text(lines)
+    assert f"did you mean {meant}?" in call(capsys, "scene", str(path), code=2).err
 
 
 def test_every_command_has_its_group_and_run_comes_first():

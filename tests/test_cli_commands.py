@@ -349,11 +349,17 @@ def test_rolling_takes_a_bearing_and_its_rings_from_a_scene(loadflow, tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "says"),
     [
-        (["seeds", "CUBE", "--variable", "hub_moment.q"], "no variable 'hub_moment.q'; there are"),
+        (
+            ["seeds", "CUBE", "--variable", "hub_moment.q"],
+            "no variable 'hub_moment.q'; did you mean hub_moment.z? There are",
+        ),
         (["seeds", "CUBE", "--alpha", 2], "alpha = 2.0; allowed: 0 < alpha < 1"),
         (["seeds", "CUBE", "--method", "best"], "as-printed"),
         (["seeds", "gone.h5"], "gone.h5: no such load cube"),
-        (["reduce", "CUBE", "-o", "OUT", "--bearing", "N7"], "no bearing 'N7'; there are N, N2"),
+        (
+            ["reduce", "CUBE", "-o", "OUT", "--bearing", "N7"],
+            "no bearing 'N7'; did you mean N? There are N, N2",
+        ),
         (["reduce", "CUBE", "-o", "OUT", "--size", 3], "size = 3.0"),
         (["reduce", "CUBE", "-o", "OUT", "--pick", "best"], "extremes"),
         (["reduce", "CUBE"], "Missing option"),
@@ -370,7 +376,7 @@ def test_rolling_takes_a_bearing_and_its_rings_from_a_scene(loadflow, tmp_path):
         (["journal", *JOURNAL, "--series", "gone.txt"], "gone.txt"),
         (
             ["journal", *JOURNAL, "--series", "gone.txt", "--speed-rpm", 12],
-            "leave out --force-… and --speed-rpm",
+            "--speed-rpm: no effect here: --series brings its own loads",
         ),
         (
             ["journal", *JOURNAL, "--diameter", -3, "--force-x", 1, "--speed-rpm", 1],

@@ -315,6 +315,13 @@ def test_a_spectrum_holds_the_variance_of_the_series(cube):
         assert power == pytest.approx(float(series.var()), rel=0.25)  # windows of a short series
 
 
+def test_the_left_of_one_who_looks_downwind_is_the_left_of_the_page():
+    drawing = plots.clearance_circle([[0.1, 0.5]], [10.0])  # down, to the left
+    axis = drawing.axes[0]
+    middle = axis.transData.transform((0.0, 0.0))
+    assert np.all(axis.transData.transform(axis.collections[0].get_offsets()[0]) < middle)
+
+
 def test_a_cube_draws_its_channels(cube):
     drawing = cube.lf.plot("speed", "hub_moment.y")
     assert [axis.get_ylabel() for axis in drawing.axes] == ["speed,\n1/min", "hub_moment.y,\nMN m"]

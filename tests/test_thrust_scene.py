@@ -152,6 +152,17 @@ def test_a_collar_that_stands_or_turns_backward_carries_nothing():
         collar.equilibrium(1e6, -1.2, FILM)
 
 
+def test_a_part_goes_on_where_a_load_is_neither_carried_nor_in_contact_for_certain():
+    # flat pads that find no tilt as thin as the surfaces are rough
+    scene = make_scene({"shaft": SHAFT, "bearings": PLACES | {"N2": [JOURNAL, COLLAR | {
+        "geometry": {**SOFT, "pivot": {"share": 0.3}}}]}})  # fmt: skip
+    collar = scene.thrust.bearings["N2"]
+    with pytest.raises(SolverError):
+        collar.solve(np.array([0.0, 0.0, 1e5]), np.zeros(3), 1.0)
+    assert not collar.touches(np.array([0.0, 0.0, 1e5]), 1.0)
+    assert collar.touches(np.array([0.0, 0.0, 1e5]), 0.0)
+
+
 def test_a_pair_of_tapered_segments_is_symmetric_and_in_balance():
     """Inlets of both cones are those of the shaft's rotation: no load leaves it in the middle."""
     cone = ConicalBearing(0.5, (1.59, 2.59), 2e-4, pads=10, pad_angle=0.58, profile=Taper(8e-5))

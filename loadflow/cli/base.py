@@ -14,6 +14,7 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
+from loadflow.cli.stated import App, refuse, stated
 from loadflow.errors import InputError, ValidityWarning
 
 if TYPE_CHECKING:
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
 
     from loadflow.cube import Cube
 
-app = typer.Typer(
+app = App(
     help="From wind and load series to the main bearing of a wind turbine.",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
@@ -61,6 +62,10 @@ Workers = Annotated[int, typer.Option(min=0, help="Processes; 0: one for each co
 Scheduler = Annotated[str | None, typer.Option(help="Dask scheduler, tcp://host:port.")]
 OtherSettings = Annotated[bool, typer.Option(help="Replace parts of other settings.")]
 
+Verbose = Annotated[
+    bool, typer.Option("--verbose", "-v", help="Show what else a run.log holds, such as each case.")
+]
+
 Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace a file that is there.")]
 
 WIDEST = 4  # values of one quantity that fit a line of a table; more are for --json
@@ -73,6 +78,20 @@ def open_checked(path: Path) -> Cube:
     cube = open_cube(path)
     check_cube(cube, source=str(path))
     return cube
+
+
+def check_workers() -> None:
+    """Refuse a number of processes beside a cluster, which has its own."""
+    if stated("scheduler"):
+        refuse("a cluster has its own", "workers")
+
+
+def check_turbine(cube: Cube) -> None:
+    """Refuse a turbine beside a cube that has the forces of its bearings."""
+    from loadflow.cube import iter_cases
+
+    if all("force" in case for _, case in iter_cases(cube)):
+        refuse("the cube has the forces of its bearings", "turbine")
 
 
 def check_free(path: Path, overwrite: bool) -> None:

@@ -14,17 +14,20 @@ from loadflow.cli.base import (
     Overwrite,
     RunName,
     Scheduler,
+    Verbose,
     Workers,
     app,
     check_free,
+    check_workers,
     out,
     print_json,
     print_rows,
 )
-from loadflow.cli.progress import progress
+from loadflow.cli.progress import log_shown, progress
 from loadflow.cli.reading import AS_STATED, Reading, reads_load_files
-from loadflow.cli.scenes import LoadFiles, SceneFile, read
+from loadflow.cli.scenes import LoadFiles, SceneFile, read, tell_unused
 from loadflow.errors import InputError, LoadflowError
+from loadflow.numerics.fields import none_such
 
 
 @app.command()
@@ -42,18 +45,22 @@ def compare(
     scheduler: Scheduler = None,
     overwrite: OtherSettings = False,
     reading: Reading = AS_STATED,
+    verbose: Verbose = False,
     as_json: AsJson = False,
 ) -> None:
     """Journal or rolling? Compare bearings for the same places under the same loads.
 
     The candidates are those of the scene, or those that are sized for its turbine.
     """
+    check_workers()
     from loadflow.running.comparison import compare as carry_out
     from loadflow.running.executor import usable_cores
 
-    with progress(quiet=as_json) as show:
+    asked = read(scene, loads, name, **reading)
+    tell_unused(asked)
+    with progress(quiet=as_json) as show, log_shown(verbose):
         found = carry_out(
-            read(scene, loads, name, **reading),
+            asked,
             out=out_folder,
             candidates=candidate,
             workers=workers or usable_cores(),
@@ -127,7 +134,7 @@ def list_known(
             print_rows(("loadflow list …", ""), rows)
         return
     if what not in LISTS:
-        raise InputError(f"no list {what!r}; there are {', '.join(LISTS)}")
+        raise InputError(none_such("list", [what], LISTS))
     heads, found = LISTS[what]()
     if as_json:
         print_json([dict(zip(heads, row)) for row in found])

@@ -11,6 +11,7 @@ from loadflow.cli.base import (
     AsJson,
     Overwrite,
     TurbineName,
+    Verbose,
     app,
     caught_warnings,
     check_free,
@@ -19,8 +20,9 @@ from loadflow.cli.base import (
     print_json,
     print_rows,
 )
-from loadflow.cli.progress import progress
-from loadflow.cli.reading import AS_STATED, Reading, reads_load_files
+from loadflow.cli.progress import log_shown, progress
+from loadflow.cli.reading import AS_STATED, READING, Reading, reads_load_files
+from loadflow.cli.stated import refuse
 from loadflow.errors import InputError
 
 if TYPE_CHECKING:
@@ -61,6 +63,10 @@ def convert(
     from loadflow.readers import read_loads
 
     if names:
+        refuse(
+            "--list only shows names",
+            "output", "turbine", "step", "channels", "gauge_distance", "frame", "overwrite",
+        )  # fmt: skip
         _list_names(files, reading["pattern"], reading["cases"], as_json)
         return
     if output is None:
@@ -69,6 +75,7 @@ def convert(
     told: list[str] = []
     paths = [Path(name) for name in files]
     if all(path.suffix in CUBES or _holds_cubes(path) for path in paths):
+        refuse("load cubes say themselves what is in them", "turbine", *READING)
         cubes = [open_checked(path) for path in paths]
         parts = [case for cube in cubes for _, case in iter_cases(cube)]
         cube = cubes[0] if len(cubes) == 1 else make_cube(parts)
@@ -160,6 +167,7 @@ def loads(
     ] = None,
     steady: Annotated[bool, typer.Option("--steady", help="Steady extreme wind.")] = False,
     overwrite: Overwrite = False,
+    verbose: Verbose = False,
     as_json: AsJson = False,
 ) -> None:
     """Simulate the hub loads of a turbine in its design load cases, from power to standstill."""
@@ -177,7 +185,7 @@ def loads(
     }
     settings |= {} if duration is None else {"duration": duration}
     settings |= {} if rung is None else {"rung": rung}
-    with progress(quiet=as_json) as show:
+    with progress(quiet=as_json) as show, log_shown(verbose):
         cube = simulate_cube(turbine, wind_speed, seed or [1], settings, progress=show)
     save_cube(cube, output)
     lengths = {name: case.sizes["time"] * step for name, case in iter_cases(cube)}

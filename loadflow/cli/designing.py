@@ -13,15 +13,18 @@ from loadflow.cli.base import (
     OutFolder,
     RunName,
     Scheduler,
+    Verbose,
     Workers,
     app,
+    check_workers,
     out,
     print_json,
     print_rows,
 )
-from loadflow.cli.progress import progress
+from loadflow.cli.progress import log_shown, progress
 from loadflow.cli.reading import AS_STATED, Reading, reads_load_files
-from loadflow.cli.scenes import LoadFiles, SceneFile, read
+from loadflow.cli.scenes import LoadFiles, SceneFile, read, tell_unused
+from loadflow.cli.stated import refuse
 from loadflow.errors import InputError
 
 if TYPE_CHECKING:
@@ -59,13 +62,16 @@ def design(
     scheduler: Scheduler = None,
     overwrite: OtherSettings = False,
     reading: Reading = AS_STATED,
+    verbose: Verbose = False,
     as_json: AsJson = False,
 ) -> None:
     """Search the best bearing: least friction with enough margin under the loads of the scene."""
+    check_workers()
     from loadflow.running.designing import design as carry_out
     from loadflow.running.executor import usable_cores
 
     asked = _with_options(read(scene, loads, name, **reading), candidate, key, margin)
+    tell_unused(asked)
     means: dict[str, Any] = {
         "out": out_folder,
         "workers": workers or usable_cores(),
@@ -73,9 +79,10 @@ def design(
         "overwrite": overwrite,
     }
     if crown or asked.design.crown is not None:
-        _crown(asked, means, as_json)
+        refuse("the crown alone is searched", "key", "margin")
+        _crown(asked, means, verbose, as_json)
         return
-    with progress(quiet=as_json) as show:
+    with progress(quiet=as_json) as show, log_shown(verbose):
         found = carry_out(asked, progress=show, **means)
     designs = found.designs
     if as_json:
@@ -90,12 +97,12 @@ def design(
         out.print(f"scene  {found.scene}", soft_wrap=True)
 
 
-def _crown(asked: Scene, means: dict[str, Any], as_json: bool) -> None:
+def _crown(asked: Scene, means: dict[str, Any], verbose: bool, as_json: bool) -> None:
     """Search the crowns, and print them."""
     from loadflow.running.crowning import crown as carry_out
     from loadflow.studies.crowning import HEADS
 
-    with progress(quiet=as_json) as show:
+    with progress(quiet=as_json) as show, log_shown(verbose):
         found = carry_out(asked, progress=show, **means)
     if as_json:
         told = [one.as_dict() for one in found.crowns]
@@ -118,7 +125,8 @@ def _with_options(
     told |= {} if margin is None else {"margin": margin}
     if keys:
         told["keys"] = dict(map(_variation, keys))
-        told.pop("maps", None)
+        varied = {*told["keys"]}
+        told["maps"] = [pair for pair in told.get("maps", []) if varied.issuperset(pair)]
     try:
         return scene.model_copy(update={"design": Design.model_validate(told)})
     except ValidationError as error:

@@ -13,11 +13,13 @@ from loadflow.cli.base import (
     CubeFile,
     TurbineName,
     app,
+    check_turbine,
     open_checked,
     out,
     print_json,
     print_rows,
 )
+from loadflow.cli.stated import refuse
 from loadflow.errors import InputError
 
 
@@ -69,7 +71,10 @@ def statistics(
 
     series = open_checked(cube)
     if bearings:
+        check_turbine(series)
         series = bearing_cube(series, turbine, str(cube))
+    else:
+        refuse("it is that of bearing forces; give --bearings", "turbine")
     records = statistic_records(series, variable or [], str(cube))
     extremes = contemporaneous_extremes(series, source=str(cube))
     page = write_statistics(records, extremes, output, cube.name) if output else None
@@ -127,6 +132,13 @@ def lifetime(
     )
     from loadflow.turbines import load_turbine
 
+    source = open_checked(cube)
+    if weights is Weights.given:
+        refuse(
+            "--weights given takes the shares of the cube",
+            "wind_class", "weibull_shape", "per_year",
+        )  # fmt: skip
+        check_turbine(source)
     plant = load_turbine(turbine)
     options = LifetimeOptions(
         years=years,
@@ -140,7 +152,7 @@ def lifetime(
         tail=tail.value,
         block=block,
     )
-    series = iter_bearings(open_checked(cube), bearing or [], turbine, str(cube))
+    series = iter_bearings(source, bearing or [], turbine, str(cube))
     lives = list(lifetimes(series, options))
     page = write_lifetime(lives, options, output, cube.name)
     warnings = share_warnings(lives)

@@ -43,11 +43,21 @@ def friction_pairs() -> Rows:
 
 
 def bearings() -> Rows:
-    """Kinds of bearing, for kind, and the sized candidates of each turbine."""
+    """Kinds of bearing, arrangements for rolling.arrangement, sized candidates of each turbine."""
+    from loadflow.journal import JournalBearing
+    from loadflow.rolling import KINDS
+    from loadflow.rolling.bearings.arrangements import ARRANGEMENTS, main_bearings
     from loadflow.scene.candidates import candidates_of, machine_names
-    from loadflow.scene.places import PLACE_KINDS
+    from loadflow.scene.places import FOUR_POINT, PLACE_KINDS
+    from loadflow.scene.thrust import ConicalPair, ThrustCollar
 
-    rows: list[Row] = [("kind", kind, "", "") for kind in PLACE_KINDS]
+    films = (JournalBearing, ThrustCollar, ConicalPair)
+    known = dict(zip(PLACE_KINDS, films)) | KINDS | {FOUR_POINT: KINDS["slewing"]}
+    rows: list[Row] = [("kind", kind, _first_line(known[kind]), "") for kind in PLACE_KINDS]
+    for name in ARRANGEMENTS:
+        parts = main_bearings(name).items()
+        told = ", ".join(f"{place}: {bearing.kind}" for place, bearing in parts)
+        rows.append(("rolling.arrangement", name, told, "assumed, for 5 MW"))
     for turbine in machine_names():
         for name, one in candidates_of(turbine).items():
             rows.append((turbine, name, one.get("title", ""), one.get("source", "")))
@@ -90,11 +100,17 @@ def load_cases() -> Rows:
 
 def results() -> Rows:
     """Results, for results."""
-    from typing import get_args
+    from loadflow.scene.results import BY_NAME, RESULTS
 
-    from loadflow.scene.scene import Result
+    rows: list[Row] = [
+        (name, told, "where it is named" if name in BY_NAME else "by default")
+        for name, told in RESULTS.items()
+    ]
+    return ("result", "what it is", "computed"), rows
 
-    return ("result",), [(name,) for name in get_args(Result)]
+
+def _first_line(kind: type) -> str:
+    return (kind.__doc__ or "").strip().splitlines()[0]
 
 
 def scenes() -> Rows:

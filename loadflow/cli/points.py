@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from loadflow.cli.base import AsJson, app, out, print_json, print_quantities, print_rows
+from loadflow.cli.stated import refuse
 from loadflow.errors import InputError
 
 if TYPE_CHECKING:
@@ -138,6 +139,13 @@ def journal(
     from loadflow.studies.journal_film import journal_film
     from loadflow.studies.journal_point import journal_point, journal_series
 
+    if oil is None:
+        refuse("the oil has one viscosity; give --oil", "inlet_temperature_c", "transfer")
+    if not groove_angle_deg:
+        refuse(
+            "say where the grooves are: --groove-angle-deg, once for each",
+            "groove_arc_deg", "groove_length", "supply_pressure",
+        )  # fmt: skip
     bearing, film = journal_film(
         scene,
         sets or [],
@@ -173,8 +181,7 @@ def journal(
         )
         return
     if series is not None:
-        if force_x is not None or force_y or speed_rpm is not None:
-            raise InputError("--series brings its own loads: leave out --force-… and --speed-rpm")
+        refuse("--series brings its own loads", "force_x", "force_y", "speed_rpm")
         answer = journal_series(series, bearing, film)
     elif force_x is None or speed_rpm is None:
         raise InputError("give --force-x and --speed-rpm, or a parameter file with --series")
@@ -295,7 +302,11 @@ def rolling(
     elif bearing is not None:
         raise InputError("--bearing names a bearing of a scene: give --scene")
     else:
+        if rows in (None, 1):
+            refuse("the bearing has one row; give --rows", "row_spacing")
         found = slewing_bearing(**given)
+    if oil is None:
+        refuse("they count with an oil; give --oil", "temperature_c", "cleanliness")
     force, moment = (force_x, force_y, force_z), (moment_x, moment_y)
     speed = None if speed_rpm is None else speed_rpm * math.pi / 30
     lubrication = None

@@ -13,11 +13,13 @@ from loadflow.cli.base import (
     CubeFile,
     TurbineName,
     app,
+    check_turbine,
     open_checked,
     out,
     print_json,
     print_rows,
 )
+from loadflow.cli.stated import refuse
 from loadflow.errors import InputError
 
 if TYPE_CHECKING:
@@ -93,9 +95,14 @@ def seeds(
     from loadflow.studies.seeds import HEADS, as_row, count_different, groupings, seed_verdicts
     from loadflow.studies.seeds_page import write_seed_page
 
+    if not output:
+        refuse("only the page tells it; give -o", "margin", "uncertainty")
     series = open_checked(cube)
     if bearings:
+        check_turbine(series)
         series = bearing_cube(series, turbine, str(cube))
+    else:
+        refuse("it is that of bearing forces; give --bearings", "turbine")
     options: dict[str, Any] = {"alpha": alpha, "method": method.value, "source": str(cube)}
     verdicts = seed_verdicts(series, variable or [], **options)
     groups = groupings(series, verdicts)
@@ -178,6 +185,12 @@ def reduce_series(
     default suspension on two points.
     """
     source = open_checked(cube)
+    check_turbine(source)
+    for kind, options_of in _OF_METHOD.items():
+        if method is not kind:
+            refuse(f"give --method {kind.value}", *options_of)
+    if order:
+        refuse("--order says which harmonics there are", "additional")
     where: dict[str, Any] = {"bearings": bearing or [], "turbine": turbine, "source": str(cube)}
     if method is Kind.stationary:
         _stationary(source, output, where, _journal(scene) if film or scene else None, as_json)
@@ -190,6 +203,13 @@ def reduce_series(
         where |= {"between": between, "grid": grid.value}
         asked = {"phase": phase, "journal": _journal(scene) if film or scene else None}
         _histogram(source, output, where | asked, histogram, as_json)
+
+
+_OF_METHOD = {
+    Kind.histogram: ("size", "pick", "rounding", "classes", "phase", "between", "grid", "seed"),
+    Kind.periodic: ("bounds", "additional", "order"),
+}
+"""Options that one method alone reads."""
 
 
 def _journal(scene: Path | None) -> Journal:

@@ -11,8 +11,11 @@ from contextlib import contextmanager
 from rich.markup import escape
 
 from loadflow.cli.base import err
+from loadflow.running.telling import TimeLeft
 
 Show = Callable[[str, int, int], None]
+
+log = logging.getLogger("loadflow.run")
 
 EVERY = 60.0
 """Time between two lines of a stage that goes on, s."""
@@ -40,26 +43,35 @@ def _bars() -> Iterator[Show]:
         BarColumn,
         MofNCompleteColumn,
         Progress,
+        ProgressColumn,
+        Task,
         TaskID,
         TextColumn,
         TimeElapsedColumn,
-        TimeRemainingColumn,
     )
+    from rich.text import Text
+
+    class Left(ProgressColumn):
+        def render(self, task: Task) -> Text:
+            return Text(_told(task.fields["left"]), style="progress.remaining")
 
     columns = [
         TextColumn("{task.description:<12}"),
         BarColumn(),
         MofNCompleteColumn(),
         TimeElapsedColumn(),
-        TimeRemainingColumn(),
+        Left(),
     ]
     with Progress(*columns, console=err) as bars:
-        tasks: dict[str, TaskID] = {}
+        tasks: dict[str, tuple[TaskID, TimeLeft]] = {}
 
         def show(stage: str, done: int, total: int) -> None:
             if stage not in tasks:
-                tasks[stage] = bars.add_task(stage, total=total)
-            bars.update(tasks[stage], completed=done, total=total)
+                left = TimeLeft()
+                tasks[stage] = bars.add_task(stage, total=total, left=left), left
+            task, left = tasks[stage]
+            left.show(stage, done, total)
+            bars.update(task, completed=done, total=total)
 
         yield show
 
@@ -69,14 +81,15 @@ class _Lines:
 
     def __init__(self) -> None:
         self._started = self._told = time.monotonic()
-        self._stage, self._begun, self._first, self._done, self._total = "", self._told, 0, 0, 0
+        self._stage, self._done, self._total, self._left = "", 0, 0, TimeLeft()
         self._ended = threading.Event()
         threading.Thread(target=self._tick, daemon=True).start()
 
     def show(self, stage: str, done: int, total: int) -> None:
         begins = stage != self._stage
         if begins:
-            self._stage, self._begun, self._first = stage, time.monotonic(), done
+            self._stage, self._left = stage, TimeLeft()
+        self._left.show(stage, done, total)
         self._done, self._total = done, total
         if begins or done == total:
             self._tell()
@@ -91,17 +104,19 @@ class _Lines:
 
     def _tell(self) -> None:
         now = self._told = time.monotonic()
-        left = ""
-        if self._first < self._done < self._total:
-            rate = (now - self._begun) / (self._done - self._first)
-            left = f", about {_clock(rate * (self._total - self._done))} left"
+        left = _told(self._left)
         far = f"{self._done} of {self._total}" if self._total > 1 else ""
         far = far or ("done" if self._done else "…")
         err.print(
-            f"{_clock(now - self._started)}  {self._stage}: {far}{left}",
+            f"{_clock(now - self._started)}  {self._stage}: {far}{left and f', {left}'}",
             soft_wrap=True,
             highlight=False,
         )
+
+
+def _told(left: TimeLeft) -> str:
+    seconds = left.seconds()
+    return "" if seconds is None else f"about {_clock(seconds)} left"
 
 
 def _clock(seconds: float) -> str:
@@ -113,13 +128,15 @@ def _clock(seconds: float) -> str:
 def log_shown(verbose: bool) -> Iterator[None]:
     """Show the warnings of a run as they come; with `verbose` all that its log file holds."""
     handler = _Console(logging.INFO if verbose else logging.WARNING)
-    log = logging.getLogger("loadflow.run")
     propagates, log.propagate = log.propagate, False
+    level = log.level
     log.addHandler(handler)
+    log.setLevel(handler.level)
     try:
         yield
     finally:
         log.removeHandler(handler)
+        log.setLevel(level)
         log.propagate = propagates
 
 

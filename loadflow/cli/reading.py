@@ -45,6 +45,10 @@ _OPTIONS: dict[str, Any] = {
 }
 
 
+READING = tuple(_OPTIONS)
+"""Names of these options."""
+
+
 def reads_load_files(command: Callable[..., None]) -> Callable[..., None]:
     """Give a command the options of how load files are read in place of its parameter `reading`."""
     types = get_type_hints(command, include_extras=True)

@@ -15,15 +15,19 @@ from loadflow.cli.base import (
     OutFolder,
     RunName,
     Scheduler,
+    Verbose,
     Workers,
     app,
+    check_workers,
     err,
     out,
     print_json,
 )
 from loadflow.cli.progress import log_shown, progress
 from loadflow.cli.reading import AS_STATED, Reading, reads_load_files
+from loadflow.cli.stated import refuse
 from loadflow.errors import InputError, LoadflowError
+from loadflow.numerics.fields import none_such
 
 SceneFile = Annotated[Path, typer.Argument(help="Scene, a TOML file.", show_default=False)]
 LoadFiles = Annotated[
@@ -42,6 +46,14 @@ def read(path: Path, loads: list[str] | None, name: str | None = None, **reading
     return scene if name is None else with_name(scene, name)
 
 
+def tell_unused(scene: Any) -> None:
+    """Print what of a scene has no effect."""
+    from loadflow.scene.unused import unused_warnings
+
+    for warning in unused_warnings(scene):
+        err.print(f"warning: {warning}", soft_wrap=True, markup=False)
+
+
 @app.command()
 @reads_load_files
 def run(
@@ -56,12 +68,11 @@ def run(
     profile: Annotated[
         bool, typer.Option("--profile", help="Write and print where the time went.")
     ] = False,
-    verbose: Annotated[
-        bool, typer.Option("--verbose", "-v", help="Show what the run writes into its run.log.")
-    ] = False,
+    verbose: Verbose = False,
     as_json: AsJson = False,
 ) -> None:
     """Carry a scene out; a run that was killed goes on where it was."""
+    check_workers()
     with progress(quiet=as_json) as show, log_shown(verbose):
         show(f"reading {scene}", 0, 1)
         from loadflow.running.executor import usable_cores
@@ -103,6 +114,10 @@ def run(
 def _print_profile(path: Path) -> None:
     """Print where the time of a run went."""
     found = json.loads(path.read_text(encoding="utf-8"))
+    where = Table("all processes", "time, s", "share", box=None)
+    for name, row in sorted(found["where"].items(), key=lambda item: -item[1]["share"]):
+        where.add_row(name, f"{row['process_seconds']:.1f}", f"{100 * row['share']:.0f} %")
+    out.print(where)
     phases = Table("phase", "time, s", "share", box=None)
     for phase, row in found["phases"].items():
         phases.add_row(phase, f"{row['wall_seconds']:.1f}", f"{100 * row['share']:.0f} %")
@@ -133,6 +148,7 @@ def plan(
     measure: Annotated[
         bool, typer.Option("--pilot", help="Measure the effects on a few samples first.")
     ] = False,
+    verbose: Verbose = False,
     as_json: AsJson = False,
 ) -> None:
     """Show which stages, models and effects a scene needs, their expected time and error."""
@@ -142,11 +158,13 @@ def plan(
     from loadflow.running.folder import finished_parts, known_verdict, refinements, results_of
     from loadflow.scene.unused import unused_keys, unused_warnings
 
+    if not measure:
+        refuse("only --pilot works long", "verbose")
     wanted = read(scene, loads, **reading)
     folder = out_folder / wanted.name
     verdict = known_verdict(folder, wanted)
     if verdict is None and measure:
-        with progress(quiet=as_json) as show:
+        with progress(quiet=as_json) as show, log_shown(verbose):
             verdict = pilot(wanted, show)
     made = make_plan(wanted, refinements(folder, wanted), verdict)
     there = finished_parts(folder, made)
@@ -239,6 +257,7 @@ def show_scene(
 ) -> None:
     """Check a scene; with --show print it as resolved, in the form of today."""
     if schema:
+        refuse("--schema is that of all scenes", "scene", "show")
         import json
 
         from loadflow.scene.schema import json_schema
@@ -248,7 +267,6 @@ def show_scene(
     if scene is None:
         raise InputError("give a scene, or --schema")
     from loadflow.scene.scene import former_sections
-    from loadflow.scene.unused import unused_warnings
 
     resolved = read(scene, None)
     print(resolved.to_toml() if show else f"{scene}: valid")
@@ -259,8 +277,7 @@ def show_scene(
             "prints it",
             soft_wrap=True, markup=False,
         )  # fmt: skip
-    for warning in unused_warnings(resolved):
-        err.print(f"warning: {warning}", soft_wrap=True, markup=False)
+    tell_unused(resolved)
 
 
 @app.command()
@@ -290,7 +307,7 @@ def bench(
 
     known = ladder()
     if unknown := set(stages or []) - set(known):
-        raise InputError(f"no stage {', '.join(sorted(unknown))}; there are {', '.join(known)}")
+        raise InputError(none_such("stage", sorted(unknown), known))
     chosen = {stage: known[stage] for stage in stages or known}
     if as_json:
         print_json(chosen)
@@ -323,7 +340,7 @@ def validate(
 
     known = validation.names()
     if unknown := set(names or []) - set(known):
-        raise InputError(f"no table {', '.join(sorted(unknown))}; there are {', '.join(known)}")
+        raise InputError(none_such("table", sorted(unknown), known))
     if folder and not names:
         raise InputError("--folder: name the table whose numbers need the files, e.g. turbines")
     tables = names or known

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from loadflow.cli.base import AsJson, app, print_quantities
+from loadflow.cli.stated import every_but, refuse
 from loadflow.errors import InputError
 
 if TYPE_CHECKING:
@@ -67,7 +68,10 @@ def thrust(
     }
     more: dict[str, Any] = {"taper": taper, "wedge": wedge}
     if step is not None:
+        refuse("--step takes the place of the wedge", "taper", "wedge")
         more = {"profile": {"kind": "step", "height": step}}
+    elif not taper:
+        refuse("the wedge has no depth; give --taper", "wedge")
     if pivot is not None:
         more |= {"pivot": {"share": pivot}}
     told = {"play": play, "edge_pressure": edge_pressure, "grid": grid}
@@ -125,6 +129,8 @@ def cone(
             one["profile"] = {"kind": "taper", "taper": taper, "wedge": wedge}
     elif taper or pad_angle_deg is not None:
         raise InputError("--taper and --pad-angle-deg are of segments: give --pads")
+    if not taper:
+        refuse("the wedge has no depth; give --taper", "wedge")
     told = {"edge_pressure": edge_pressure, "grid": grid}
     geometry: dict[str, Any] = {"distance": distance, "left": None}
     if any(value is not None for value in one.values()):
@@ -133,6 +139,13 @@ def cone(
     found = _bearing("conical-pair", scene, bearing, geometry, more, viscosity, told)
     force, moment = (force_x, force_y, force_z), (moment_x, moment_y)
     print_quantities(thrust_point(found, force, moment, speed_rpm * math.pi / 30), as_json)
+
+
+_LOADS = (
+    *("scene", "bearing", "as_json", "speed_rpm", "force", "force_x", "force_y", "force_z"),
+    *("moment_x", "moment_y"),
+)
+"""Parameters that go with a bearing of a scene."""
 
 
 def _bearing(
@@ -149,8 +162,7 @@ def _bearing(
 
     given = {name: value for name, value in geometry.items() if value is not None}
     if scene is not None:
-        if given or viscosity is not None:
-            raise InputError("--scene brings bearing and film: leave out its measures")
+        refuse("--scene brings bearing and film", *every_but(*_LOADS))
         return bearing_of_scene(scene, place, kind)
     if place is not None:
         raise InputError("--bearing names a bearing of a scene: give --scene")

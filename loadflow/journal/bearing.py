@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING, Any, Literal, Unpack
 
 import numpy as np
@@ -12,7 +13,7 @@ from loadflow.errors import InputError
 from loadflow.journal.film.discretise import operating_points
 from loadflow.journal.film_model import Film, Keywords, film_and_control
 from loadflow.journal.geometry import JournalGeometry
-from loadflow.journal.grid_bounds import warn_if_unresolved
+from loadflow.journal.grid_bounds import warn_if_path_unresolved, warn_if_unresolved
 from loadflow.journal.heat import FilmHeat, Heat
 from loadflow.journal.heat_results import FilmHeatEquilibrium, FilmHeatField
 from loadflow.journal.line import Line
@@ -286,16 +287,21 @@ class JournalBearing(JournalGeometry):
         Returns
         -------
         xarray.Dataset
-            Over ``time`` (and ``axis``, ``groove``): eccentricity_ratio, eccentricity,
+            Over ``time`` (and ``axis``, ``groove``, ``pad``): eccentricity_ratio, eccentricity,
             attitude_angle, minimum_film, maximum_pressure, friction_power, side_flow, supply_flow,
             supply_power, total_fill, groove_flow, groove_pressure, residual, iterations; steps
-            where they adapt.
+            where they adapt; pad_tilt where pads tilt, 0 of those that no film holds.
             Attributes: ``mass_balance``, what entered the film less what left and what stayed, over
             what left; of a closed orbit ``closure`` and ``periods``; on "grid" bounds of what the
             cells do to the narrowest film, m, and the largest pressure, Pa,
             ``minimum_film_grid_error`` and ``maximum_pressure_grid_error``, and ``resolved``, 0
             where they do not resolve the film; where the cells are fixed to the shell
             ``cells_around``, more than asked for if the path stops between these.
+
+        Warns
+        -----
+        ValidityWarning
+            The cells do not resolve the narrowest film of the path.
 
         Raises
         ------
@@ -319,9 +325,12 @@ class JournalBearing(JournalGeometry):
         steps = Steps(place, step, step_tolerance, periodic, closure, max_periods)
         line = Line.of(shape, moment=moment, tilt=tilt, bend=bend)
         model = model_of("in_motion", film, self, line, steps)
+        follow = model.orbit
         if film.heat is not None and not film.heat.over_area:
-            return warm_orbit(model, self, film, times, loads, speeds, line, limits, steps)
-        return model.orbit(self, film, times, loads, speeds, line, limits, steps)
+            follow = partial(warm_orbit, model)
+        path = follow(self, film, times, loads, speeds, line, limits, steps)
+        warn_if_path_unresolved(path)
+        return path
 
 
 def _hottest(heat: Heat | FilmHeat, temperatures: Array) -> Lubricant:

@@ -28,8 +28,9 @@ from loadflow.journal.pad_bearing import (
 )
 from loadflow.journal.pad_results import ConicalResult, common
 from loadflow.journal.pads import Pads, Pivot, even_pads, finite
-from loadflow.journal.solvers.assembly import BODY, Assembly, AssemblyState, Member
+from loadflow.journal.solvers.assembly import Assembly
 from loadflow.journal.solvers.assembly_error import relative_errors
+from loadflow.journal.solvers.assembly_member import BODY, AssemblyState, Member
 from loadflow.journal.solvers.assembly_search import Chart, around, at_once, search
 from loadflow.journal.surfaces import FLAT, Cone, Cut
 from loadflow.numerics.convergence import Limits

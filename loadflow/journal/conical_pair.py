@@ -26,7 +26,8 @@ from loadflow.journal.pad_bearing import (
 )
 from loadflow.journal.pad_results import ConicalResult, PairResult
 from loadflow.journal.pads import finite
-from loadflow.journal.solvers.assembly import BODY, Assembly, AssemblyState
+from loadflow.journal.solvers.assembly import Assembly
+from loadflow.journal.solvers.assembly_member import BODY, AssemblyState
 from loadflow.journal.solvers.assembly_search import PairChart, at_once, between, search
 from loadflow.numerics.convergence import Limits
 from loadflow.numerics.fields import require

@@ -6,11 +6,15 @@ import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import ValidityWarning
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 Array = NDArray[np.float64]
 
@@ -141,12 +145,41 @@ def warn_if_unresolved(columns: dict[str, Array]) -> None:
     )
 
 
+def warn_if_path_unresolved(path: xr.Dataset) -> None:
+    """Warn of a `path` whose attributes say that its cells do not resolve its narrowest film.
+
+    As at rest, nothing is said of asperities that carry there.
+
+    Warns
+    -----
+    loadflow.errors.ValidityWarning
+        Says when, and the bound.
+    """
+    if path.attrs.get("resolved", 1):
+        return
+    films = path["minimum_film"].values
+    at = int(np.nanargmin(films))
+    if "contact_share" in path and float(path["contact_share"][at]) > 0.0:
+        return
+    share = float(path.attrs["minimum_film_grid_error"] / films[at])
+    warnings.warn(
+        f"the cells do not resolve the film of the path: minimum_film at t = "
+        f"{float(path['time'][at]):.6g} s {_may_be_off(share)}; a finer grid resolves it",
+        ValidityWarning,
+        stacklevel=3,
+    )
+
+
+def _may_be_off(share: float) -> str:
+    if share < 1.0:
+        return f"may be off by {100 * share:.0f} %"
+    return "is not bounded, it may be off by more than itself"
+
+
 def _off_by(name: str, share: float, case: int, columns: dict[str, Array]) -> str:
     """How far a result may be off, in words: a share of what nearly cancels would say nothing."""
     told = f"{name} of number {case}"
-    if share < 1.0:
-        return f"{told} may be off by {100 * share:.0f} %"
-    if name == "force" and "force" in columns:
+    if share >= 1.0 and name == "force" and "force" in columns:
         size = float(np.linalg.norm(np.asarray(columns["force"])[case]))
         return f"{told} nearly cancels: {size:.3g} N, known to {share * size:.2g} N"
-    return f"{told} is not bounded, it may be off by more than itself"
+    return f"{told} {_may_be_off(share)}"

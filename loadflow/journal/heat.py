@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Annotated, ClassVar, Literal
 
@@ -17,6 +18,10 @@ Array = NDArray[np.float64]
 
 HOTTEST = 423.15
 """Largest temperature of the film that is looked for, K; oils and white metal end before."""
+
+
+_OF_CONTACTS = ("base", "critical_stress", "critical_pressure", "limiting_slope")
+"""Fields of an oil that films under the pressure of rolling contacts know."""
 
 
 @dataclass(frozen=True)
@@ -38,6 +43,13 @@ class _Entering:
     def _temperatures(self) -> tuple[str, ...]:
         """Names of the fields that are temperatures."""
         return ("inlet_temperature",)
+
+    def idle(self) -> Iterator[tuple[str, str]]:
+        """Fields without effect beside the others, and why."""
+        named = isinstance(self.oil, str)
+        for name in () if named else ("pressure_coefficient", "pressure_law", *_OF_CONTACTS):
+            if hasattr(self.oil, name):
+                yield f"oil.{name}", "films of journal bearings have the viscosity without pressure"
 
     @property
     def liquid(self) -> Oil | ExponentialOil:
@@ -88,6 +100,19 @@ class Growth:
 
     def __post_init__(self) -> None:
         check_fields(self)
+
+    def idle(self) -> Iterator[tuple[str, str]]:
+        """Fields without effect beside the others, and why."""
+        for part in ("shaft", "shell"):
+            if getattr(self, f"{part}_temperature") is not None:
+                yield f"{part}_share", f"{part}_temperature is given"
+
+    @property
+    def knows_ambient(self) -> bool:
+        """Whether shaft or shell is cooler or warmer than the film by the surroundings."""
+        parts = ("shaft", "shell")
+        free = [part for part in parts if getattr(self, f"{part}_temperature") is None]
+        return any(getattr(self, f"{part}_share") != 1 for part in free)
 
     def radial(self, temperature: ArrayLike, ambient: float, radius: float) -> Array:
         """Growth of the radial clearance, m, of a film at `temperature`, K, on a shaft, m."""
@@ -156,6 +181,19 @@ class Heat(_Entering):
             value = getattr(self, name)
             apart = self.capacity is None or value is None
             require(apart, name, value, "None with capacity: what is stored has one clearance")
+
+    def idle(self) -> Iterator[tuple[str, str]]:
+        """Fields without effect beside the others, and why."""
+        yield from super().idle()
+        cool = self.growth is not None and self.growth.knows_ambient
+        if self.transfer == 0 and self.sump_transfer is None and not cool:
+            yield (
+                "ambient_temperature",
+                "no heat passes to it, and shaft and shell are told without",
+            )
+        if isinstance(self.oil, ExponentialOil):
+            yield "oil.constant_specific_heat", "heat_capacity is that of the oil"
+            yield "oil.constant_conductivity", "the balance of a whole film conducts nothing"
 
     def _temperatures(self) -> tuple[str, ...]:
         """Names of the fields that are temperatures."""
@@ -254,6 +292,11 @@ class RingGrowth:
     poisson_ratio: Annotated[float, Ge(0), Le(0.5)] = 0.3
     reference_temperature: Annotated[float, Gt(200)] = 293.15
 
+    def idle(self) -> Iterator[tuple[str, str]]:
+        """Fields without effect beside the others, and why."""
+        if not self.held:
+            yield "poisson_ratio", "held is false: a free ring has no stress along its wall"
+
     def __post_init__(self) -> None:
         check_fields(self)
 
@@ -324,6 +367,16 @@ class FilmHeat(_Entering):
     kind: Literal["film"] = "film"
 
     over_area: ClassVar[bool] = True
+
+    def idle(self) -> Iterator[tuple[str, str]]:
+        """Fields without effect beside the others, and why."""
+        yield from super().idle()
+        if self.shell_transfer == 0:
+            yield "shell_temperature", "shell_transfer is 0"
+        if self.shell_transfer == 0 and self.growth is not None:
+            yield "growth.conductivity", "shell_transfer is 0: the wall is as warm as the bore"
+        if isinstance(self.oil, ExponentialOil) and self.points == 1:
+            yield "oil.constant_conductivity", "points = 1: nothing is conducted across the film"
 
     def _temperatures(self) -> tuple[str, ...]:
         """Names of the fields that are temperatures."""

@@ -12,12 +12,8 @@ from loadflow.errors import InputError
 from loadflow.journal.film_model import Control, Film, Keywords, film_and_control
 from loadflow.journal.lubricant import Lubricant
 from loadflow.journal.pads import Pads, check_film, finite
-from loadflow.journal.solvers.assembly import (
-    BODY,
-    Assembly,
-    AssemblyState,
-    raise_not_converged,
-)
+from loadflow.journal.solvers.assembly import Assembly, raise_not_converged
+from loadflow.journal.solvers.assembly_member import BODY, AssemblyState
 from loadflow.journal.solvers.assembly_orbit import series
 from loadflow.numerics.convergence import Limits
 

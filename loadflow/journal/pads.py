@@ -16,13 +16,8 @@ from loadflow.journal.film.groove_pressure import Pockets
 from loadflow.journal.film.surface_film import SurfaceFilm
 from loadflow.journal.film_model import Control, Film
 from loadflow.journal.pad_results import orbit_dataset
-from loadflow.journal.solvers.assembly import (
-    BODY,
-    Assembly,
-    AssemblyState,
-    Member,
-    raise_not_converged,
-)
+from loadflow.journal.solvers.assembly import Assembly, raise_not_converged
+from loadflow.journal.solvers.assembly_member import BODY, AssemblyState, Member
 from loadflow.journal.solvers.assembly_orbit import march
 from loadflow.journal.supply import Supply
 from loadflow.journal.surfaces import FLAT, Profile, Surface
@@ -232,7 +227,7 @@ class Pads:
         for member, own, found in zip(
             assembly.members[members], state.members[members], every, strict=True
         ):
-            place = assembly.place(member, own, state.position)
+            place = member.place(own, state.position)
             row = member.film.summary(own.u, place)
             tilting = 2 if self.tilting else 0
             for load in found:

@@ -7,7 +7,7 @@ calculated contour, recesses. All of it widens the gap where it is positive.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Annotated, Literal, NamedTuple
@@ -325,6 +325,13 @@ class Recess:
         require(0 < self.arc <= _TURN, "arc", self.arc, "rad, 0 < arc ≤ 2π")
         require(self.depth > 0, "depth", self.depth, "m, > 0")
         require(self.length is None or self.length > 0, "length", self.length, "m, > 0")
+        placed = self.length is not None or self.z == 0
+        require(placed, "z", self.z, "0 across the full width; give the length of a shorter one")
+
+    def idle(self) -> Iterator[tuple[str, str]]:
+        """Fields without effect beside the others, and why."""
+        if self.arc >= _TURN:
+            yield "angle", "the recess runs round"
 
     def added(self, angle: Array, z: Array, width: float) -> Array:
         """Growth of the gap at `angle` (n,) and `z` (m,) of a bearing of `width`, (n, m), m."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Annotated, Literal
 
@@ -175,6 +176,13 @@ class Groove:
             require(self.length is not None, "length", self.length, "the diameter of a circle, m")
             require(self.arc == 0, "arc", self.arc, "0 for a circle, whose length is its diameter")
 
+    def idle(self) -> Iterator[tuple[str, str]]:
+        """Fields without effect beside the others, and why."""
+        if self.restrictor is not None and self.restrictor.given_flow is not None:
+            yield "pressure", "its flow is given, whatever the pressure"
+        if self.arc >= _TURN:
+            yield "angle", "the groove runs round"
+
 
 @dataclass(frozen=True)
 class Pump:
@@ -213,6 +221,11 @@ class Pump:
         )
         falling = all(a >= b for a, b in zip(self.pressure, self.pressure[1:]))
         require(falling, "pressure", self.pressure, "Pa, not increasing with flow")
+
+    def idle(self) -> Iterator[tuple[str, str]]:
+        """Fields without effect beside the others, and why."""
+        if len(self.flow) == 1:
+            yield "flow", "one point is a constant pressure, whatever the flow"
 
     def at(self, flow: float) -> tuple[float, float]:
         """Pressure at `flow` (m³/s), Pa, and its slope."""

@@ -9,6 +9,7 @@ the factor (r/R)², R the reference radius. The cylinder is the surface on which
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal, NamedTuple, Protocol
 
@@ -302,6 +303,11 @@ class Taper:
         require(0 <= self.taper < math.inf, "taper", self.taper, "m, ≥ 0 and finite")
         require(0 < self.wedge <= 1, "wedge", self.wedge, "share of the pad's angle, 0 < … ≤ 1")
 
+    def idle(self) -> Iterator[tuple[str, str]]:
+        """Fields without effect beside the others, and why."""
+        if self.taper == 0:
+            yield "wedge", "taper is 0"
+
     @property
     def kinks(self) -> tuple[float, ...]:
         """The end of the wedge."""
@@ -343,6 +349,11 @@ class Step:
     def __post_init__(self) -> None:
         require(0 <= self.height < math.inf, "height", self.height, "m, ≥ 0 and finite")
         require(0 < self.share < 1, "share", self.share, "share of the pad's length, 0 … 1")
+
+    def idle(self) -> Iterator[tuple[str, str]]:
+        """Fields without effect beside the others, and why."""
+        if self.height == 0:
+            yield "share", "height is 0"
 
     @property
     def kinks(self) -> tuple[float, ...]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, Unpack
 
@@ -24,8 +25,9 @@ from loadflow.journal.pad_bearing import (
 )
 from loadflow.journal.pad_results import ThrustResult, common
 from loadflow.journal.pads import LIFTS, Pads, Pivot, even_pads, finite
-from loadflow.journal.solvers.assembly import BODY, Assembly, AssemblyState
+from loadflow.journal.solvers.assembly import Assembly
 from loadflow.journal.solvers.assembly_error import relative_errors
+from loadflow.journal.solvers.assembly_member import BODY, AssemblyState
 from loadflow.journal.surfaces import Cone, Cut, Strip, Surface, Taper
 from loadflow.numerics.convergence import Limits
 from loadflow.numerics.fields import require
@@ -36,6 +38,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 _AXIAL = np.array([2])
+_WEDGE = 0.75  # of a pad's length, if nothing is said
 _ROUNDS = 12  # gaps tried for a first one
 _NEAR = 1.5  # ratio of load and force up to which a gap is near enough for Newton
 _LOAD_NUMBER = 0.05  # W h²/(η U L² B) of an ordinary pad, for the first gap of all
@@ -339,7 +342,7 @@ class ThrustBearing(_PadThrust):
     outer_radius: float
     pad_angle: float
     taper: float = 0.0
-    wedge: float = 0.75
+    wedge: float = _WEDGE
     first_pad: float = 0.0
     profile: Cut | None = None
     pivot: Pivot | None = None
@@ -353,6 +356,12 @@ class ThrustBearing(_PadThrust):
         Taper(self.taper, self.wedge)
         if self.profile is not None:
             require(self.taper == 0, "taper", self.taper, "0 where a profile is given")
+            require(self.wedge == _WEDGE, "wedge", self.wedge, "left out where a profile is given")
+
+    def idle(self) -> Iterator[tuple[str, str]]:
+        """Fields without effect beside the others, and why."""
+        if self.taper == 0:
+            yield "wedge", "taper is 0"
 
     @property
     def row(self) -> Pads:
@@ -395,7 +404,7 @@ class RectangularThrustBearing(_PadThrust):
     length: float
     width: float
     taper: float = 0.0
-    wedge: float = 0.75
+    wedge: float = _WEDGE
     first_pad: float = 0.0
     profile: Cut | None = None
     pivot: Pivot | None = None
@@ -408,6 +417,7 @@ class RectangularThrustBearing(_PadThrust):
         Taper(self.taper, self.wedge)
         if self.profile is not None:
             require(self.taper == 0, "taper", self.taper, "0 where a profile is given")
+            require(self.wedge == _WEDGE, "wedge", self.wedge, "left out where a profile is given")
 
     @property
     def row(self) -> Pads:

@@ -98,6 +98,32 @@ def shown(value: Any) -> str:
 def unknown_key(name: str, known: Iterable[str]) -> str:
     """Say that a key is unknown, which one may be meant, and which are known there."""
     names = sorted(known)
-    near = difflib.get_close_matches(name, names, n=1, cutoff=0.6)
-    meant = f"; did you mean {near[0]}?" if near else ""
-    return f"unknown key{meant}" + (f"; known here: {', '.join(names)}" if names else "")
+    return f"unknown key{meant(name, names)}" + (
+        f"; known here: {', '.join(names)}" if names else ""
+    )
+
+
+def meant(name: str, known: Iterable[str]) -> str:
+    """Say which of some names may be meant by one that is none of them; empty where none is near.
+
+    Examples
+    --------
+    >>> meant("two-sferical", ["two-spherical", "four-point"])
+    '; did you mean two-spherical?'
+    """
+    near = difflib.get_close_matches(name, [*known], n=1, cutoff=0.6)
+    return f"; did you mean {near[0]}?" if near else ""
+
+
+def none_such(what: str, names: Iterable[str], known: Iterable[str]) -> str:
+    """Say that there is nothing of some names, which one may be meant, and which there are.
+
+    Examples
+    --------
+    >>> none_such("list", ["turbine"], ["turbines", "oils"])
+    "no list 'turbine'; did you mean turbines? There are turbines, oils"
+    """
+    there, asked = [*known], [*names]
+    near = "".join(dict.fromkeys(meant(one, there) for one in asked))
+    told = ", ".join(map(repr, asked))
+    return f"no {what} {told}{near}{' There' if near else '; there'} are {', '.join(there)}"

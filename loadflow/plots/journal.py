@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
 from loadflow.errors import InputError
-from loadflow.plots.style import figure, readable
+from loadflow.plots.style import envelope, figure, readable
 
 
 def film_series(samples: xr.Dataset) -> Figure:
@@ -35,9 +35,9 @@ def film_series(samples: xr.Dataset) -> Figure:
     panels = (("eccentricity_ratio", None), ("minimum_film", "µm"), ("maximum_pressure", None))
     for axis, (name, unit) in zip(axes, panels):
         values, shown = readable(samples[name], unit)
-        axis.plot(samples["time"], values, lw=0.7)
+        envelope(axis, samples["time"].values, values, name)
         said = samples[name].attrs["long_name"]
-        axis.set_ylabel(said if shown == "–" else f"{said},\n{shown}")
+        axis.set_title(said if shown == "–" else f"{said}, {shown}")
     reduced = samples.attrs.get("motion") == "quasi-static"
     axes[2].set_xlabel("time, s (reduced series)" if reduced else "time, s")
     return drawing
@@ -59,7 +59,7 @@ def orbit(samples: xr.Dataset) -> Figure:
     >>> film = Film(Lubricant(0.03), rung="reduced", inlet=None)
     >>> path = bearing.orbit([0, 0.01, 0.02], [[5e3, 0]] * 3, 100.0, film)
     >>> orbit(path).axes[0].get_xlabel()
-    'lateral / clearance'
+    'to the left (y) / clearance'
     """
     across = next(dim for dim in samples["eccentricity"].dims if samples.sizes[dim] == 2)
     place = samples["eccentricity"].transpose(..., across).values.reshape(-1, 2)
@@ -73,7 +73,7 @@ def orbit(samples: xr.Dataset) -> Figure:
 
 
 def clearance_circle(place: ArrayLike, film: ArrayLike | None = None) -> Figure:
-    """Draw places of the shaft centre over the clearance, seen downwind.
+    """Draw places of the shaft centre over the clearance, looking downwind.
 
     Parameters
     ----------
@@ -98,9 +98,9 @@ def clearance_circle(place: ArrayLike, film: ArrayLike | None = None) -> Figure:
     else:
         points = axis.scatter(left, -down, s=size, c=film, cmap="plasma_r", rasterized=many)
         drawing.colorbar(points, ax=axis, label="smallest film, µm")
-    axis.set(aspect="equal", xlabel="lateral / clearance", ylabel="vertical / clearance")
-    axis.set_title("shaft centre, seen downwind (left is right of the page)")
-    axis.invert_xaxis()
+    axis.set(aspect="equal", xlabel="to the left (y) / clearance", ylabel="up (z) / clearance")
+    axis.set_title("shaft centre, looking downwind")
+    axis.invert_xaxis()  # the left of one who looks downwind is the left of the page
     return drawing
 
 

@@ -78,7 +78,7 @@ def envelope(axis: Axes, x: np.ndarray, y: np.ndarray, label: str, bins: int = 1
         axis.plot(x, y, lw=0.8, label=label)
         return
     edges = np.linspace(0, y.size, bins, endpoint=False).astype(int)
-    low, high = np.minimum.reduceat(y, edges), np.maximum.reduceat(y, edges)
+    low, high = np.fmin.reduceat(y, edges), np.fmax.reduceat(y, edges)  # NaN: no sample at all
     axis.plot(np.repeat(x[edges], 2), np.column_stack([low, high]).ravel(), lw=0.7, label=label)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -21,17 +21,27 @@ GROUPS = (
 )  # fmt: skip
 """Rows of the table, in groups."""
 
+AT_MOST = frozenset(
+    ("eccentricity_ratio", "film_pressure", "thrust_pressure", "contact_pressure", "tilt", "wear")
+)
+"""Rows whose limit must not be exceeded; the limits of others must be reached."""
+
 
 @dataclass(frozen=True)
 class Cell:
-    """A cell of the table: the value, what is known of its error, and where it is from."""
+    """A cell of the table: the value, what is known of its error, and where it is from.
+
+    `link` leads to the extreme in the depth of the page.
+    """
 
     value: str
     around: str = ""
     band: str = ""
     limit: str = ""
     where: str = ""
+    note: str = ""
     state: str = ""
+    link: str = ""
 
 
 def write_comparison(path: Path, data: Mapping[str, Any]) -> Path:
@@ -70,7 +80,7 @@ def _row(key: str, data: Mapping[str, Any]) -> tuple[str, str, list[Cell]] | Non
     """Name, unit and cells of a quantity; None where no candidate has it, or could have it."""
     about = data["quantities"][key]
     numbers = [one["numbers"].get(key) for one in data["candidates"]]
-    cells = [_cell(number) for number in numbers]
+    cells = [_cell(number, key, one["name"]) for number, one in zip(numbers, data["candidates"])]
     if all(cell.value == "" or _makes_no_sense(number) for cell, number in zip(cells, numbers)):
         return None
     return about["name"], about["unit"], cells
@@ -81,14 +91,15 @@ def _makes_no_sense(number: Mapping[str, Any] | None) -> bool:
     return number is not None and number["value"] is None and number["note"].startswith("n/a: no ")
 
 
-def _cell(number: Mapping[str, Any] | None) -> Cell:
+def _cell(number: dict[str, Any] | None, key: str, candidate: str) -> Cell:
     if number is None or (number["value"] is None and not number["note"]):
         return Cell("")
     if number["value"] is None:
         return Cell("–", where=number["note"])
     error = "" if number["error"] is None else f"± {100 * number['error']:.2g} % by models"
     seeds = "" if number["low"] is None else _by_seeds(number)
-    limit = "" if number["limit"] is None else f"limit {short(number['limit'])}"
+    sign = "≤" if key in AT_MOST else "≥"
+    limit = "" if number["limit"] is None else f"limit {sign} {short(number['limit'])}"
     state = {True: "good", False: "bad", None: ""}[number["holds"]]
     band = (
         ""
@@ -97,7 +108,9 @@ def _cell(number: Mapping[str, Any] | None) -> Cell:
         f"most by {number['tolerance']}"
     )
     around = ", ".join(part for part in (seeds, error) if part)
-    return Cell(short(number["value"]), around, band, limit, _where(number), state)
+    link = f"#{candidate}.{key}" if _is_extreme(number) else ""
+    where, note = _where(number | {"note": ""}), number["note"]
+    return Cell(short(number["value"]), around, band, limit, where, note, state, link)
 
 
 def _by_seeds(number: Mapping[str, Any]) -> str:
@@ -153,18 +166,28 @@ def _verdict(verdict: Mapping[str, Any]) -> dict[str, str]:
     }
 
 
-def _extremes(one: Mapping[str, Any], data: Mapping[str, Any]) -> list[tuple[str, str, str, str]]:
-    """Extremes with bearing, load case and time."""
-    return [
-        (
-            data["quantities"][key]["name"],
-            f"{short(number['value'])} {number['unit']}",
-            f"{number['place']}, {number['case']}",
-            "" if number["time"] is None else f"{number['time']:.2f} s",
-        )
-        for key, number in one["numbers"].items()
-        if number["case"] and number["value"] is not None
-    ]
+def _is_extreme(number: Mapping[str, Any]) -> bool:
+    """Whether a number is that of one load case."""
+    return bool(number["case"]) and number["value"] is not None
+
+
+def _extremes(
+    one: Mapping[str, Any], data: Mapping[str, Any]
+) -> Iterator[tuple[str, tuple[str, ...]]]:
+    """Name for links, and cells, of each extreme: with bearing, load case and time."""
+    for key, number in one["numbers"].items():
+        if _is_extreme(number):
+            unit = "" if number["unit"] == "–" else number["unit"]
+            yield (
+                f"{one['name']}.{key}",
+                (
+                    data["quantities"][key]["name"],
+                    f"{short(number['value'])} {unit}".rstrip(),
+                    number["place"],
+                    number["case"],
+                    "" if number["time"] is None else f"{number['time']:.2f} s",
+                ),
+            )
 
 
 def _check(check: Mapping[str, Any]) -> dict[str, str]:

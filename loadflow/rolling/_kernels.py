@@ -395,9 +395,10 @@ def _newton(
         if not accepted:
             break
         energy = new_energy
-        q[:] = q_new
-        gradient[:] = trial
-        hessian[:, :] = h_new
+        for a in range(5):  # rows at a time take far longer to compile
+            q[a], gradient[a] = q_new[a], trial[a]
+            for b in range(5):
+                hessian[a, b] = h_new[a, b]
     # every contact rounds its own approach: what that leaves in a component need not cancel around
     # the ring, and is bounded by Cauchy–Schwarz; a direction without stiffness feels nothing
     approach = 0.0
@@ -426,7 +427,7 @@ def solve_series(
     residual, iterations = np.zeros(n), np.zeros(n, np.int64)
     converged, singular = np.zeros(n, np.bool_), np.zeros(n, np.bool_)
     rounding = np.zeros(n)
-    q = np.zeros(5)
+    q, load = np.zeros(5), np.zeros(5)
     for i in range(n):
         warm = i % chunk > 0 and converged[i - 1] and not singular[i - 1]
         ok, res, count, free = False, 0.0, 0, False
@@ -434,13 +435,16 @@ def solve_series(
             if attempt == 0 and not warm:
                 continue
             factor = 1.0 if attempt < 2 else 10.0 ** (12 - attempt)
+            for a in range(5):
+                load[a] = factor * loads[i, a]
             ok, res, more, free, rounding[i] = _newton(
-                q, factor * loads[i], cos, sin, spans, table, law, spatial, scale, cap, tolerance,
+                q, load, cos, sin, spans, table, law, spatial, scale, cap, tolerance,
                 limit, compliance, attempt == 1 or attempt == 2, stiffness[i],
             )  # fmt: skip
             count += more
             if ok and (attempt == 1 or (attempt == 0 and not free)):
                 break
-        displacement[i] = q
+        for a in range(5):
+            displacement[i, a] = q[a]
         converged[i], residual[i], iterations[i], singular[i] = ok, res, count, free
     return displacement, stiffness, converged, residual, iterations, singular, rounding

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, ClassVar, Literal, Self
 
@@ -175,6 +176,12 @@ class OneClearance(RollingGeometry):
     if TYPE_CHECKING:  # fields of each kind, with bounds and defaults of their own
         contact_angle: float
         clearance: float
+        rows: int
+
+    def idle(self) -> Iterator[tuple[str, str]]:
+        """Fields without effect beside the others, and why."""
+        if self.rows == 1:
+            yield "row_spacing", "the bearing has one row"
 
     @property
     def nominal_angle(self) -> float:

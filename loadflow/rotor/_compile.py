@@ -27,5 +27,10 @@ section = _section(cache=True)
 once = _once(cache=True)
 """Of a function that is called once for each blade, or less, and allocates nothing."""
 
+part = _plain(cache=True, inline="always")
+"""Of a function that is called at one place alone, of which it becomes a part: it is neither
+compiled by itself nor handed a machine. That place counts no references, either.
+"""
+
 inner_kernel, inner_section, inner_once = _plain(**LINKED), _section(**LINKED), _once(**LINKED)
 """The same of functions that compiled ones alone call."""

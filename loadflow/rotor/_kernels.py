@@ -6,7 +6,8 @@ e_r = −sin ψ y + cos ψ z, in the sense of rotation e_t = −cos ψ y − sin
 
 import numpy as np
 
-from ._compile import inner_once, inner_section, kernel, section
+from ._compile import inner_once, inner_section, kernel, part
+from .aero._airfoil_kernels import angle_of
 from .aero._kernels import inflow_lag, section_force, solve
 from .control._kernels import brake, control
 from .slots import (
@@ -43,13 +44,14 @@ from .structure._kernels import (
     frame_acceleration,
     nacelle_motion,
     place,
+    predicted,
     step_on,
     torsion,
     turned_shapes,
 )
 
 
-@inner_section
+@part
 def ring_of(rings, radius):
     """Place of the last but one of the `rings` (n,) that a radius reaches; any n, no search where
     they are equidistant.
@@ -63,7 +65,18 @@ def ring_of(rings, radius):
     return i
 
 
-@section
+@inner_section
+def interpolated(box, k, i, j, j_next, late, outer, turn):
+    """Value between two planes, rings and angles of a box."""
+    rest = 1.0 - turn
+    early = (1.0 - outer) * (rest * box[k, i, j] + turn * box[k, i, j_next])
+    early += outer * (rest * box[k, i + 1, j] + turn * box[k, i + 1, j_next])
+    after = (1.0 - outer) * (rest * box[k + 1, i, j] + turn * box[k + 1, i, j_next])
+    after += outer * (rest * box[k + 1, i + 1, j] + turn * box[k + 1, i + 1, j_next])
+    return (1.0 - late) * early + late * after
+
+
+@part
 def turbulence(inflow, time, y, z):
     """Fluctuation (u, v, w) at a point of the rotor plane: linear in time, radius and angle."""
     count, _, angles = inflow.u.shape
@@ -76,28 +89,18 @@ def turbulence(inflow, time, y, z):
     width = inflow.box_radius[i + 1] - inflow.box_radius[i]
     outer = min((radius - inflow.box_radius[i]) / width, 1.0)
 
-    around = np.arctan2(-y, z) * (angles / (2 * np.pi))
+    around = angle_of(-y, z) * (angles / (2 * np.pi))
     around += angles if around < 0.0 else 0.0
     j = max(min(int(around), angles - 1), 0)
     turn = around - j
     j_next = j + 1 if j + 1 < angles else 0
 
-    u = v = w = 0.0
-    for plane, ring, angle, share in (
-        (k, i, j, (1 - late) * (1 - outer) * (1 - turn)),
-        (k, i, j_next, (1 - late) * (1 - outer) * turn),
-        (k, i + 1, j, (1 - late) * outer * (1 - turn)),
-        (k, i + 1, j_next, (1 - late) * outer * turn),
-        (k + 1, i, j, late * (1 - outer) * (1 - turn)),
-        (k + 1, i, j_next, late * (1 - outer) * turn),
-        (k + 1, i + 1, j, late * outer * (1 - turn)),
-        (k + 1, i + 1, j_next, late * outer * turn),
-    ):
-        u += share * inflow.u[plane, ring, angle]
-        if inflow.v.shape[0] > 0:
-            v += share * inflow.v[plane, ring, angle]
-        if inflow.w.shape[0] > 0:
-            w += share * inflow.w[plane, ring, angle]
+    u = interpolated(inflow.u, k, i, j, j_next, late, outer, turn)
+    v = w = 0.0
+    if inflow.v.shape[0] > 0:
+        v = interpolated(inflow.v, k, i, j, j_next, late, outer, turn)
+    if inflow.w.shape[0] > 0:
+        w = interpolated(inflow.w, k, i, j, j_next, late, outer, turn)
     return u, v, w
 
 
@@ -129,13 +132,13 @@ def wind_at(m, inflow, step, time, x, y, z):
     return wind_x, wind_y, wind_z
 
 
-@section
+@part
 def tabulated_induction(m, i, pitch, normal, tangential):
     """Induction factors from the table over inflow angle and pitch; solved outside of it."""
     if not m.slows[i]:
         return 0.0, 0.0
     speed = np.sqrt(normal * normal + tangential * tangential)
-    angle = np.arctan2(normal, tangential)
+    angle = angle_of(normal, tangential)
     p = (angle - m.table_angle[0]) / m.table_angle[1]
     q = (pitch - m.table_pitch[0]) / m.table_pitch[1]
     _, rows, columns, _ = m.table.shape
@@ -157,32 +160,32 @@ def tabulated_induction(m, i, pitch, normal, tangential):
     return a, swirl
 
 
-@inner_section
-def oblique(m, state):
+@part
+def oblique(skew_factor, tip_radius, state):
     """Angle of the wind to the shaft, and its direction (y, z) across over the tip's radius."""
     across = np.sqrt(state[S_Y] ** 2 + state[S_Z] ** 2)
-    if m.skew_factor == 0 or across < 1e-6 or state[S_AXIAL] < 0.1:
+    if skew_factor == 0 or across < 1e-6 or state[S_AXIAL] < 0.1:
         return 0.0, 0.0, 0.0
-    length = across * m.tip_radius
+    length = across * tip_radius
     return np.arctan2(across, state[S_AXIAL]), state[S_Y] / length, state[S_Z] / length
 
 
-@inner_section
-def skewed(m, a, r_y, r_z, angle, along_y, along_z):
+@part
+def skewed(skew_factor, a, r_y, r_z, angle, along_y, along_z):
     """Induction factor redistributed over the disc under oblique inflow (Pitt and Peters)."""
     if angle == 0.0 or a <= 0:
         return a
     turn = np.tan(0.5 * min((0.6 * a + 1) * angle, 1.5))
-    return a * (1 + m.skew_factor * turn * (r_y * along_y + r_z * along_z))
+    return a * (1 + skew_factor * turn * (r_y * along_y + r_z * along_z))
 
 
-@inner_once
-def momentum_share(m, speed, state):
+@part
+def momentum_share(tip_radius, speed, state):
     """Share of the induction that momentum theory gives: none up to a tip speed ratio of 1, where
     a rotor at standstill or idling has no helical wake, all of it from 2 on.
     """
     wind = np.sqrt(state[S_AXIAL] ** 2 + state[S_Y] ** 2 + state[S_Z] ** 2)
-    excess = abs(speed) * m.tip_radius - wind
+    excess = abs(speed) * tip_radius - wind
     if excess >= wind:
         return 1.0
     return 0.5 * (1 - np.cos(np.pi * excess / wind)) if excess > 0 else 0.0
@@ -203,11 +206,11 @@ def blade_aerodynamics(
     cone_s, cone_c = np.sin(m.cone), np.cos(m.cone)
     tilt_s, tilt_c = np.sin(tilt), np.cos(tilt)
     count = m.radius.size
-    momentum = momentum_share(m, speed, state)
-    skew, skew_y, skew_z = oblique(m, state)
+    momentum = momentum_share(m.tip_radius, speed, state)
+    skew, skew_y, skew_z = oblique(m.skew_factor, m.tip_radius, state)
     mean_x = mean_y = mean_z = 0.0
     for i in range(count):
-        along, out, turn = place(m, i, motion, cone_s, cone_c)
+        along, out, turn = place(m.radius, i, motion, cone_s, cone_c)
         y, z = -sine * out - cosine * turn, cosine * out - sine * turn
         ground_x, ground_z = along * tilt_c + z * tilt_s, z * tilt_c - along * tilt_s
         wind_x, wind_y, wind_z = wind_at(m, inflow, step, time, ground_x, y, ground_z)
@@ -239,7 +242,7 @@ def blade_aerodynamics(
             a, swirl = a * momentum, swirl * momentum
         if m.dynamic_inflow:
             a, swirl = inflow_lag(m, i, normal, tangential, a, swirl, state, dt, induced[i])
-        a = skewed(m, a, y, z, skew, skew_y, skew_z)
+        a = skewed(m.skew_factor, a, y, z, skew, skew_y, skew_z)
         # rotation of the rotor turns an inclined section about its span
         f_normal, f_tangential, couple = section_force(
             m, i, twisted + motion[i, 6], -speed * bend_s, normal, tangential, a, swirl, dt, wake[i]
@@ -256,14 +259,15 @@ def blade_aerodynamics(
 
 @kernel
 def march(
-    m, c, schedule, inflow, dt, steps, start, controlled, state, blade_pitch, q, v, acc,
+    m, c, schedule, inflow, dt, steps, start, fresh, controlled, state, blade_pitch, q, v, acc,
     h, h_rate, h_acc, guess, wake, induced, torsions, out,
 ):  # fmt: skip
     """March the rotor; `state` (SLOTS,), `blade_pitch` (blades,), `q`, `v`, `acc` (blades, k), `h`,
     `h_rate`, `h_acc` (h,; place 0, the generator, is in `state`), `guess`, `wake`, `induced`,
     `torsions` (blades, n; without sections if no blade twists) go on.
 
-    Not `controlled`: speed and pitch stay. `out` (steps, COLUMNS + blades) is filled.
+    `fresh`: wake and induced speed are steady at first. Not `controlled`: speed and pitch stay.
+    `out` (steps, COLUMNS + blades) is filled.
     """
     sections, modes, count, twist = m.radius.size, q.shape[1], h.size, m.frame.twist
     shape = np.zeros((m.blades, sections, modes, 4))
@@ -271,33 +275,39 @@ def march(
     force = np.zeros((m.blades, sections, 4))
     twists = torsions.shape[1] > 0
     answer = np.zeros((m.blades, modes, 1 + count))
+    q_ahead, v_ahead, bend = np.empty(modes), np.empty(modes), np.empty(modes)
+    ahead, rate_ahead, new = np.empty(count), np.empty(count), np.empty(count)
     inertia, load = np.zeros((count, count)), np.zeros(count)
     drift, gravity, jerk = np.zeros(6), np.zeros(3), np.zeros(6)
     total, own = np.zeros(6), np.zeros(6)
-    fresh = 1 if np.all(wake == 0.0) and np.all(induced == 0.0) else 0
     for step in range(steps):
         time = start + step * dt
-        since = dt if fresh == 0 or step > 0 else 0.0
-        ahead, rate_ahead = h + dt * h_rate + 0.5 * dt * dt * h_acc, h_rate + dt * h_acc
-        tilt = nacelle_motion(m, ahead, rate_ahead, drift, gravity)
+        since = 0.0 if fresh and step == 0 else dt
+        predicted(dt, h, h_rate, h_acc, ahead, rate_ahead)
+        tilt = nacelle_motion(m.frame, m.tilt, ahead, rate_ahead, drift, gravity)
         speed = state[S_SPEED] + rate_ahead[twist]
         turned = state[S_AZIMUTH] + ahead[twist]
-        mean = np.zeros(3)
-        inertia[:], load[:] = 0.0, 0.0
+        mean_x = mean_y = mean_z = 0.0
+        for j in range(count):
+            load[j] = 0.0
+            for n in range(count):
+                inertia[j, n] = 0.0
         for b in range(m.blades):
             azimuth = turned + 2 * np.pi * b / m.blades
             pitch = blade_pitch[b] + m.pitch_offset[b]
             turned_shapes(m, pitch, shape[b])
-            q_ahead = q[b] + dt * v[b] + 0.5 * dt * dt * acc[b]
-            deflection(m, pitch, shape[b], q_ahead, v[b] + dt * acc[b], motion)
+            predicted(dt, q[b], v[b], acc[b], q_ahead, v_ahead)
+            deflection(m, pitch, shape[b], q_ahead, v_ahead, motion)
             if twists:
-                motion[:, 7] = torsions[b]
+                for i in range(sections):
+                    motion[i, 7] = torsions[b, i]
             wind = blade_aerodynamics(
                 m, inflow, step, time, azimuth, pitch, speed, tilt, drift, motion, state, guess[b],
                 wake[b], induced[b], since, force[b],
             )  # fmt: skip
-            for axis in range(3):
-                mean[axis] += wind[axis] / m.blades
+            mean_x += wind[0] / m.blades
+            mean_y += wind[1] / m.blades
+            mean_z += wind[2] / m.blades
             if twists:
                 torsion(
                     m, b, since, speed, azimuth, drift, gravity, force[b], motion, torsions[b]
@@ -306,29 +316,33 @@ def march(
                 m, b, dt, speed, azimuth, shape[b], drift, gravity, force[b], motion, q[b], v[b],
                 acc[b], answer[b], inertia, load,
             )  # fmt: skip
-        state[S_AXIAL], state[S_Y], state[S_Z] = mean[0], mean[1], mean[2]
+        state[S_AXIAL], state[S_Y], state[S_Z] = mean_x, mean_y, mean_z
 
         held = 0.0
         if controlled:
             held = brake(c, state, dt)
             load[0] -= m.gear_ratio * state[S_TORQUE]
         h_rate[0] = state[S_SPEED]
-        new = frame_acceleration(m, dt, controlled, held, inertia, load, gravity, h, h_rate, h_acc)
-        rate = new[0]
-        jerk[:] = 0.0
+        found = frame_acceleration(
+            m.frame, m.hub_mass, dt, controlled, held, inertia, load, gravity, h, h_rate, h_acc
+        )
+        rate = found[0, 0]
+        for axis in range(6):
+            jerk[axis] = total[axis] = 0.0
         for j in range(count):
+            new[j] = found[j, 0] if j > 0 else 0.0
             for axis in range(6):
-                jerk[axis] += m.frame.reach[j, axis] * new[j]
-        new[0] = h_rate[0] = 0.0
+                jerk[axis] += m.frame.reach[j, axis] * found[j, 0]
+        h_rate[0] = 0.0
         step_on(dt, new, h, h_rate, h_acc)
 
-        total[:] = 0.0
         for b in range(m.blades):
             azimuth = turned + 2 * np.pi * b / m.blades
             pitch = blade_pitch[b] + m.pitch_offset[b]
-            bend = answer[b, :, 0].copy()
-            for j in range(count):
-                bend += answer[b, :, 1 + j] * (rate if j == 0 else new[j])
+            for k in range(modes):
+                bend[k] = answer[b, k, 0]
+                for j in range(count):
+                    bend[k] += answer[b, k, 1 + j] * found[j, 0]
             step_on(dt, bend, q[b], v[b], acc[b])
             deflection(m, pitch, shape[b], q[b], v[b], motion)
             if b == 0:

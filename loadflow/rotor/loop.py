@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from contextlib import suppress
 from dataclasses import dataclass, fields
 
 import numpy as np
@@ -133,14 +132,12 @@ def run(
         If a value is not finite or the rotor exceeds 10 rad/s.
     """
     out = np.full((steps, k.COLUMNS + m.blades), np.nan)
-    # solving for accelerations refuses infinite loads: the steps that are left out stay NaN
-    with suppress(np.linalg.LinAlgError):
-        kernels.march(
-            m, c, schedule, inflow, dt, steps, start, controlled, state.scalars, state.pitch,
-            state.modes, state.mode_speed, state.mode_acceleration, state.frame, state.frame_speed,
-            state.frame_acceleration, state.inflow_angle, state.wake, state.induced, state.torsion,
-            out,
-        )  # fmt: skip
+    fresh = not (state.wake.any() or state.induced.any())
+    kernels.march(
+        m, c, schedule, inflow, dt, steps, start, fresh, controlled, state.scalars, state.pitch,
+        state.modes, state.mode_speed, state.mode_acceleration, state.frame, state.frame_speed,
+        state.frame_acceleration, state.inflow_angle, state.wake, state.induced, state.torsion, out,
+    )  # fmt: skip
     bad = ~np.isfinite(out).all(axis=1) | (np.abs(out[:, k.SPEED]) > 10)
     if bad.any():
         step = int(np.argmax(bad))

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from loadflow.errors import InputError
+from loadflow.numerics.watch import part_of_work
 from loadflow.turbines import Turbine, load_turbine
 from loadflow.wind import Condition, Field, WindOptions, condition, inflow
 from loadflow.wind.cases import STANDING, Event, wind_range
@@ -213,7 +214,9 @@ def simulate_condition(
     if field is None and case.sigma > 0:
         start = _MARGIN
         length = run_in + case.duration + 2 * _MARGIN
-        field = inflow(replace(case, duration=length), wind_machine(plant), winds, seed=base_seed)
+        whole = replace(case, duration=length)
+        with part_of_work("wind"):
+            field = inflow(whole, wind_machine(plant), winds, seed=base_seed)
     lost, kept = round(run_in / dt), round(case.duration / dt)
     time = dt * np.arange(-lost, kept, dtype=np.float64)
     out = run(

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from loadflow.errors import InputError
+from loadflow.numerics.fields import none_such
 from loadflow.scene.candidates import candidates_of
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Candidate, Scene, make_scene
@@ -150,5 +151,5 @@ def chosen_of(known: dict[str, Candidate], names: list[str] | None) -> dict[str,
     if names is None:
         return known
     if unknown := [name for name in names if name not in known]:
-        raise InputError(f"no candidate {', '.join(unknown)}; there are {', '.join(known)}")
+        raise InputError(none_such("candidate", unknown, known))
     return {name: known[name] for name in names}

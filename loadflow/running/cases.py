@@ -11,6 +11,7 @@ from typing import Any, TypeVar
 
 from loadflow.cube.hdf5 import read_whole
 from loadflow.errors import InputError, SolverError
+from loadflow.numerics.watch import watched
 from loadflow.planning.plan import Plan, Step
 from loadflow.running.compiling import Compiling
 from loadflow.running.folder import part_file
@@ -33,6 +34,8 @@ class Outcome:
     seconds, compiling, writing, processor : dict
         By stage, s: in all, of it in the compilation of kernels, of it in writing the part; and the
         processor time, which other work on the machine does not lengthen as it does the others.
+    parts : dict
+        By stage, s: what its rooms name of it, the wind of the loads.
     failures : dict
         Why a part has no answer, by part.
     traces : list of str
@@ -45,6 +48,7 @@ class Outcome:
     processor: dict[str, float] = field(default_factory=dict)
     failures: dict[str, str] = field(default_factory=dict)
     traces: list[str] = field(default_factory=list)
+    parts: dict[str, dict[str, float]] = field(default_factory=dict)
 
 
 def do_case(case: Case, scene: Scene, steps: tuple[Step, ...], folder: Path) -> Outcome:
@@ -62,7 +66,7 @@ def do_case(case: Case, scene: Scene, steps: tuple[Step, ...], folder: Path) -> 
         if target.exists() or not is_ready(step, case, folder):
             continue
         begun, worked = time.perf_counter(), time.process_time()
-        with Compiling() as compiling:
+        with Compiling() as compiling, watched() as parts:
             try:
                 result = step.stage.run(scene, case, open_inputs(step, case, folder))
             except SolverError as error:
@@ -78,7 +82,7 @@ def do_case(case: Case, scene: Scene, steps: tuple[Step, ...], folder: Path) -> 
         _export(step, case, result, folder)  # before the part, which says that all is done
         save_part(result, target, step.digest)
         written = time.perf_counter()
-        done.seconds[name] = written - begun
+        done.seconds[name], done.parts[name] = written - begun, parts
         done.compiling[name] = compiling.seconds
         done.writing[name] = written - answered
         done.processor[name] = time.process_time() - worked

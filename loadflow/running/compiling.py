@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import gc
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Self
 
@@ -12,9 +12,16 @@ from numba.core import event
 
 
 class Compiling(event.Listener):
-    """Seconds that this process spends on compiling kernels while the block runs."""
+    """Seconds that this process spends on compiling kernels while the block runs.
 
-    def __init__(self) -> None:
+    Parameters
+    ----------
+    began : callable
+        Called when the first kernel is compiled, none where all are on the disk.
+    """
+
+    def __init__(self, began: Callable[[], None] = lambda: None) -> None:
+        self._began, self._has_begun = began, False
         self.seconds = 0.0
         self._depth = 0
         self._since = 0.0
@@ -30,6 +37,9 @@ class Compiling(event.Listener):
         """Begin to count with the outermost kernel: it compiles those that it calls."""
         if self._depth == 0:
             self._since = time.perf_counter()
+            if not self._has_begun:
+                self._has_begun = True
+                self._began()
         self._depth += 1
 
     def on_end(self, event: event.Event) -> None:

@@ -100,7 +100,7 @@ class RunView:
         values, unit = readable(data)
         drawing, axis = figure(height=3.0)
         envelope(axis, series["time"].values, np.asarray(values), name)
-        axis.set(xlabel="time, s", ylabel=f"{name}, {unit}")
+        axis.set(xlabel="time, s", title=f"{name}, {unit}")
         return drawing
 
     def film_figure(self, case: str, bearing: str) -> Figure | None:
@@ -129,7 +129,7 @@ class RunView:
         for axis, name in zip(axes, ("maximum_force", "maximum_pressure")):
             values, unit = readable(found[name])
             axis.plot(found["time"], values, ".", ms=2)
-            axis.set_ylabel(f"{found[name].attrs['long_name']},\n{unit}")
+            axis.set_title(f"{found[name].attrs['long_name']}, {unit}")
         axes[-1].set_xlabel("time, s (reduced series)")
         return drawing
 
@@ -170,7 +170,7 @@ def application(folder: str | Path) -> Callable[[], Any]:
         if pn.state.location is not None:  # ?case=…&tab=1 opens what a link means
             pn.state.location.sync(case, {"value": "case"})
             pn.state.location.sync(tabs, {"active": "tab"})
-        return pn.Column(head, case, tabs, width=1000)
+        return pn.Column(head, case, tabs, sizing_mode="stretch_width", max_width=1000)
 
     return page
 

@@ -19,6 +19,7 @@ import numpy as np
 from loadflow import __version__
 from loadflow.cube import open_cube
 from loadflow.errors import InputError, LoadflowError
+from loadflow.numerics.fields import none_such
 from loadflow.report.design_page import write_design
 from loadflow.running.candidates import candidates_for
 from loadflow.running.comparison import (
@@ -167,8 +168,9 @@ def chosen_candidate(scene: Scene) -> tuple[str, Candidate]:
     elif name is None and len(own) == 1 and not scene.candidates:
         name = own[0]
     if name is None or name not in known:
-        said = "which candidate?" if name is None else f"no candidate {name!r};"
-        raise InputError(f"design.candidate: {said} there are {', '.join(known)}")
+        which = f"which candidate? There are {', '.join(known)}"
+        said = which if name is None else none_such("candidate", [name], known)
+        raise InputError(f"design.candidate: {said}")
     return name, known[name]
 
 

@@ -38,10 +38,16 @@ from loadflow.running.folder import (
     save_result,
 )
 from loadflow.running.lock import locked
-from loadflow.running.profile import COMPILING, Profile
+from loadflow.running.profile import COMPILING, LOAD_CASES, Profile
 from loadflow.running.report_page import write_report
 from loadflow.running.result import Run, collect
-from loadflow.running.warm_up import compile_for_pilot, compile_kernels
+from loadflow.running.telling import Task, times_left
+from loadflow.running.warm_up import (
+    adopt,
+    compile_for_pilot,
+    compile_kernels,
+    told_as_called,
+)
 from loadflow.running.whole import finish_stages
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
@@ -195,13 +201,14 @@ def _run(
     def compiles(questions: Questions) -> None:
         nonlocal compiled
         started = time.perf_counter()
-        compile_for_pilot(questions, partial(make_plan, scene, refined), where, say)
+        compile_for_pilot(questions, partial(make_plan, scene, refined), where, say, folder)
         compiled = time.perf_counter() - started
 
     begun = time.perf_counter()
-    pilot_verdict = known_verdict(folder, scene) or pilot(
-        scene, say, where.outcomes, before=compiles
-    )
+    with told_as_called(where, say):
+        pilot_verdict = known_verdict(folder, scene) or pilot(
+            scene, say, where.outcomes, before=compiles
+        )
     if profile:
         profile.add_wall(COMPILING, compiled)
         profile.add_wall("pilot", time.perf_counter() - begun - compiled)
@@ -209,7 +216,9 @@ def _run(
         started = time.perf_counter()
         plan = make_plan(scene, refined, pilot_verdict)
         manifest = prepare(folder, scene, plan, refined, overwrite, pilot_verdict)
-        timing, failures = _carry_out(plan, folder, where, say, profile, pilot_verdict)
+        adopt(folder, plan)
+        with told_as_called(where, say):
+            timing, failures = _carry_out(plan, folder, where, say, profile, pilot_verdict)
         begun = time.perf_counter()
         tree = collect(plan, folder, where)
         save_result(folder, tree, plan)
@@ -254,9 +263,10 @@ def _carry_out(
     log.info("%d load cases, %d of them finished", len(plan.cases), done)
     begun = time.perf_counter()
     if len(todo) > 1:
-        compile_kernels(plan, where, say)
+        compile_kernels(plan, where, say, folder)
     compiled = time.perf_counter()
-    say("load cases", done, len(plan.cases))
+    left = iter(_expected(plan, todo, where.workers))
+    say(next(left), done, len(plan.cases))
     work = partial(do_case, scene=plan.scene, steps=tuple(plan.of_scope("case")), folder=folder)
     for case, outcome in where.outcomes(work, todo):
         done += 1
@@ -265,10 +275,10 @@ def _carry_out(
             log.error("%s: %s", case.name, outcome.reason, extra=ONLY_LOGGED)
         else:
             _note(case, outcome, timing, failures, profile)
-        say("load cases", done, len(plan.cases))
+        say(next(left), done, len(plan.cases))
     if profile:
         profile.add_wall(COMPILING, compiled - begun)
-        profile.add_wall("load cases", time.perf_counter() - compiled)
+        profile.add_wall(LOAD_CASES, time.perf_counter() - compiled)
     if plan.cases and not any((folder / "loads").glob("*.h5")):
         raise SolverError("no load case could be answered:\n" + _lines(failures))
     _check_there(plan, folder, failures)
@@ -281,6 +291,16 @@ def _carry_out(
     if profile:
         profile.add_wall("stages over all cases", time.perf_counter() - begun)
     return timing, failures
+
+
+def _expected(plan: Plan, cases: list[Case], workers: int) -> list[str]:
+    """What is said before any case is done, and after each: it knows what the ladder does."""
+    seconds = sum(step.seconds or 0.0 for step in plan.of_scope("case"))
+    if seconds == 0.0 or not all(case.steps for case in plan.cases):
+        return [LOAD_CASES] * (len(cases) + 1)
+    each = seconds / sum(case.steps for case in plan.cases)
+    left = times_left([each * case.steps for case in cases], workers)
+    return [Task(LOAD_CASES, rest) for rest in left]
 
 
 def _note(

@@ -3,10 +3,10 @@ every process at once.
 
 numba keeps compiled kernels on the disk, but what they are compiled for is known only when they
 are called. So the questions of the pilot are asked of a load case in miniature first: one process
-simulates a second of it, while another takes made-up loads through films, and the first that is
-free through contacts, or through stages that no question is about. The plan's own stages follow in
-the same way. What is compiled there, all workers then load. Marks beside numba's files tell the
-next run that this is done.
+simulates the first load case of the run, while another takes made-up loads through films, and the
+first that is free through contacts, or through stages that no question is about. The plan's own
+stages follow in the same way. What is compiled there, all workers then load. Marks beside numba's
+files tell the next run that this is done.
 """
 
 from __future__ import annotations
@@ -15,14 +15,16 @@ import hashlib
 import logging
 import os
 import platform
+import shutil
 import sys
 import tempfile
 import time
-from collections.abc import Callable
-from contextlib import suppress
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from dataclasses import replace
 from functools import partial
 from importlib.metadata import version
+from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -33,10 +35,11 @@ from loadflow.cube import make_case
 from loadflow.planning.pilot import Questions, measure
 from loadflow.planning.plan import Plan
 from loadflow.running.cases import do_case, is_ready, open_inputs
-from loadflow.running.compiling import few_collections
+from loadflow.running.compiling import Compiling, few_collections
 from loadflow.running.executor import Executor
 from loadflow.running.folder import part_file
-from loadflow.running.parts import save_part
+from loadflow.running.parts import digest_of, is_sound, save_part
+from loadflow.running.telling import Task, times_left
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
 from loadflow.stages.probes import PROBES
@@ -48,26 +51,37 @@ SAMPLES = 160
 """Length of the made-up series: enough for the reduction to keep a few samples."""
 
 DURATION = 1.0
-"""Length of the simulated series after its run-in, s."""
+"""Length of a series that questions are asked of, after its run-in, s."""
+
+SECONDS = {"journal": 40.0, "loads": 25.0, "rolling": 20.0, "shaft": 1.0}
+"""Expected processor time of the jobs, s; `QUICK` of the others. Tells how much is left."""
+
+QUICK = 5.0
 
 Say = Callable[[str, int, int], None]
 
 WHAT = "compiling kernels, once on this machine"
 """What is said of it, beside how many of its jobs are done."""
 
+AS_CALLED = "compiling kernels as they are called, about a minute, once on this machine"
+"""What a process alone says of it."""
+
 OTHER = "other"
 """Job of the stages after the loads."""
 
+EARLY = ".early-"
+"""Begins the name of a folder, in that of the run, of loads simulated before models are decided."""
+
 
 def compile_for_pilot(
-    questions: Questions, expected: Callable[[], Plan], where: Executor, say: Say
+    questions: Questions, expected: Callable[[], Plan], where: Executor, say: Say, folder: Path
 ) -> None:
     """Compile what the questions of a pilot call, each model in a process of its own.
 
-    The rotor comes first, as it takes longest; all that is asked needs its loads, even where no
-    question is about them. One more job takes the stages that no question is about, by the plan
-    that is `expected` before the pilot. What the plan after the pilot calls beside these,
-    `compile_kernels` compiles.
+    The rotor comes first: all that is asked needs its loads, even where no question is about them.
+    It is compiled by the loads of a case of the run, which are kept in `folder` for `adopt`. One
+    more job takes the stages that no question is about, by the plan that is `expected` before the
+    pilot. What the plan after the pilot calls beside these, `compile_kernels` compiles.
     """
     scene, models = questions.scene, questions.models
     rungs = [one.text_of(scene) for name in models for one in STAGES[name].models]
@@ -75,51 +89,81 @@ def compile_for_pilot(
     if _is_done(marks, where):
         return
     with tempfile.TemporaryDirectory(prefix="loadflow-") as place:
-        rest = {job: Path(place) / job for job in ("loads", OTHER)}
-        work = partial(_for_pilot, questions=questions, plan=expected(), folders=rest)
-        simulated = scene.loads.source == "simulate" and "loads" not in models
-        first = ("loads",) if simulated else ()
-        _compile(work, (*first, *models, OTHER), marks, where, say)
+        early = Path(tempfile.mkdtemp(prefix=EARLY, dir=folder))
+        folders = {"loads": early, OTHER: Path(place)}
+        work = partial(_for_pilot, questions=questions, plan=expected(), folders=folders)
+        simulated = ("loads",) if scene.loads.source == "simulate" else ()
+        _compile(work, {*simulated, *models, OTHER}, marks, where, say)
 
 
-def compile_kernels(plan: Plan, where: Executor, say: Say) -> None:
+@contextmanager
+def told_as_called(where: Executor, say: Say) -> Iterator[None]:
+    """Say once that kernels are being compiled, where a process alone does so between its work."""
+    if where.workers > 1:
+        yield
+        return
+    with Compiling(began=lambda: say(AS_CALLED, 0, 1)) as compiling:
+        yield
+    if compiling.seconds:
+        say(AS_CALLED, 1, 1)
+
+
+def adopt(folder: Path, plan: Plan) -> None:
+    """Take the early parts into the run where its plan has their settings; drop the others."""
+    for early in folder.glob(f"{EARLY}*"):
+        if early.is_symlink():
+            continue
+        for step, case in product(plan.of_scope("case"), plan.cases):
+            part, target = part_file(early, step.name, case), part_file(folder, step.name, case)
+            fits = part.is_file() and digest_of(part) == step.digest and is_sound(part)
+            if fits and not target.exists():
+                part.replace(target)
+        shutil.rmtree(early, ignore_errors=True)
+
+
+def compile_kernels(plan: Plan, where: Executor, say: Say, folder: Path) -> None:
     """Compile what the stages of a plan need, where that has not been done on this machine.
 
-    It gains nothing in a single process, which compiles a kernel when it first calls it, nor for a
-    cluster, whose machines have files of their own.
+    The rotor is compiled by the loads of the first case in `folder` that lacks them. A single
+    process compiles a kernel when it first calls it, and machines of a cluster have files of their
+    own: neither gains by this.
     """
-    jobs = ("loads", OTHER) if plan.scene.loads.source == "simulate" else (OTHER,)
+    jobs = {"loads", OTHER} if plan.scene.loads.source == "simulate" else {OTHER}
     needed = [(step.name, step.rung) for step in plan.steps]
     marks = _marks((needed, sorted(plan.left_out)))
     if _is_done(marks, where):
         return
     with tempfile.TemporaryDirectory(prefix="loadflow-") as place:
-        folders = {job: Path(place) / job for job in jobs}
-        work = partial(_in_miniature, plan=plan, folders=folders)
+        folders = {"loads": folder, OTHER: Path(place)}
+        work = partial(_of_plan, plan=plan, folders=folders)
         _compile(work, jobs, marks, where, say)
 
 
 def _is_done(marks: list[Path], where: Executor) -> bool:
-    """Whether there is nothing to do: a mark tells it, or the place is none for it."""
-    if any(mark.exists() for mark in marks):
-        return True
-    if where.workers < 2 or not where.shares_disk:
-        log.info("kernels are compiled as they are needed, about a minute on a new machine")
-        return True
-    return False
+    """Whether there is nothing to do: a mark tells it, or the place is none for it.
+
+    A process alone compiles a kernel when it first calls it, see `told_as_called`.
+    """
+    return where.workers < 2 or not where.shares_disk or any(mark.exists() for mark in marks)
 
 
 def _compile(
-    work: Callable[[str], str], jobs: tuple[str, ...], marks: list[Path], where: Executor, say: Say
+    work: Callable[[str], str], jobs: set[str], marks: list[Path], where: Executor, say: Say
 ) -> None:
-    """Have all jobs done, and mark that they are."""
-    log.info("%s: %s", WHAT, ", ".join(jobs))
+    """Have all jobs done, and mark that they are.
+
+    The loads begin, so that a case of the run has its loads soon; then the longest job comes first.
+    """
+    seconds = {job: SECONDS.get(job, QUICK) for job in jobs}
+    in_order = sorted(jobs, key=lambda job: (job != "loads", -seconds[job], job))
+    left = times_left([seconds[job] for job in in_order], where.workers)
+    log.info("%s: %s", WHAT, ", ".join(in_order))
     begun = time.perf_counter()
-    say(WHAT, 0, len(jobs))
-    for done, (job, told) in enumerate(where.outcomes(work, jobs), 1):
-        seconds = time.perf_counter() - begun
-        log.info("in miniature: %s after %.0f s%s", job, seconds, f"; {told}" if told else "")
-        say(WHAT, done, len(jobs))
+    say(Task(WHAT, left[0]), 0, len(jobs))
+    for done, (job, told) in enumerate(where.outcomes(work, in_order), 1):
+        took = time.perf_counter() - begun
+        log.info("compiled: %s after %.0f s%s", job, took, f"; {told}" if told else "")
+        say(Task(WHAT, left[done]), done, len(jobs))
     for mark in marks:
         with suppress(OSError):
             mark.touch()
@@ -128,11 +172,12 @@ def _compile(
 
 def _for_pilot(job: str, questions: Questions, plan: Plan, folders: dict[str, Path]) -> str:
     """Do one job of `compile_for_pilot`."""
-    if job in questions.models:
-        return _asked_in_miniature(job, questions)
+    told = _asked_in_miniature(job, questions) if job in questions.models else ""
+    if told or job not in folders:
+        return told
     asked = set(questions.models) - {"loads", "shaft"}  # which the others need, and are soon done
     steps = tuple(step for step in plan.steps if step.name not in asked)
-    return _in_miniature(job, replace(plan, steps=steps), folders)
+    return _of_plan(job, replace(plan, steps=steps), folders)
 
 
 def _asked_in_miniature(model: str, questions: Questions) -> str:
@@ -149,30 +194,40 @@ def _asked_in_miniature(model: str, questions: Questions) -> str:
         return f"{type(error).__name__}: {error}"
 
 
-def _in_miniature(job: str, plan: Plan, folders: dict[str, Path]) -> str:
-    """Run stages on a case in miniature; what fails there is told by the run itself."""
-    folder = folders[job]
+def _of_plan(job: str, plan: Plan, folders: dict[str, Path]) -> str:
+    """Run stages on one case; what fails here is told by the run itself."""
+    try:
+        with few_collections():
+            do = _first_loads if job == "loads" else _in_miniature
+            return "; ".join(do(plan, folders[job]).values())
+    except Exception as error:
+        return f"{type(error).__name__}: {error}"
+
+
+def _first_loads(plan: Plan, folder: Path) -> dict[str, str]:
+    """Simulate the first case whose loads are not in the folder; return failures."""
+    first = next(step for step in plan.steps if not step.needs)
+    (folder / first.name).mkdir(parents=True, exist_ok=True)
+    lacking = (case for case in plan.cases if not part_file(folder, first.name, case).exists())
+    case = next(lacking, None)
+    return {} if case is None else do_case(case, plan.scene, (first,), folder).failures
+
+
+def _in_miniature(plan: Plan, folder: Path) -> dict[str, str]:
+    """Take made-up loads through the stages of a plan; return failures."""
     scene, case = _short(plan.scene), plan.cases[0]
     small = replace(plan, scene=scene, cases=(case,))
     for step in small.of_scope("case"):
         (folder / step.name).mkdir(parents=True)
-    try:
-        with few_collections():
-            if job == "loads":
-                steps = tuple(step for step in small.steps if not step.needs)
-                told = do_case(case, scene, steps, folder).failures
-                return "; ".join(told.values())
-            first = next(step for step in small.steps if not step.needs)
-            series = made_up_loads(scene, case)
-            save_part(series, part_file(folder, first.name, case), first.digest)
-            failed = do_case(case, scene, tuple(small.of_scope("case")), folder).failures
-            for step in small.of_scope("run"):
-                if is_ready(step, case, folder):
-                    inputs = {case.name: open_inputs(step, case, folder)}
-                    step.stage.run(scene, [case], inputs)
-            return "; ".join(failed.values())
-    except Exception as error:
-        return f"{type(error).__name__}: {error}"
+    first = next(step for step in small.steps if not step.needs)
+    series = made_up_loads(scene, case)
+    save_part(series, part_file(folder, first.name, case), first.digest)
+    failed = do_case(case, scene, tuple(small.of_scope("case")), folder).failures
+    for step in small.of_scope("run"):
+        if is_ready(step, case, folder):
+            inputs = {case.name: open_inputs(step, case, folder)}
+            step.stage.run(scene, [case], inputs)
+    return failed
 
 
 def _short(scene: Scene) -> Scene:

@@ -115,6 +115,12 @@ class Design(Section, BaseModel):
     seed: Annotated[int, Field(ge=0)] = 0
     crown: Crowning | None = None
 
+    def idle(self) -> Iterator[tuple[str, str]]:
+        """Keys without effect beside the others, and why."""
+        for name in type(self).model_fields if self.crown is not None else ():
+            if name not in ("candidate", "classes", "crown"):
+                yield name, "with design.crown the crown alone is searched"
+
     @field_validator("keys", mode="before")
     @classmethod
     def _flat(cls, keys: Any) -> Any:

@@ -85,8 +85,12 @@ def _warmed(journal: dict[str, Any], ambient: float, cold: bool) -> dict[str, An
     heat = journal.get("heat")
     if not isinstance(heat, dict):
         return dict(journal)
-    around = {"balance": "ambient_temperature", "film": "shell_temperature"}
-    name = around.get(heat.get("kind", "balance"))
-    known = {} if name is None else {name: ambient}
+    # only where heat goes there: elsewhere it would be a key without effect that no scene states
+    around: dict[Any, tuple[str, tuple[str, ...]]] = {
+        "balance": ("ambient_temperature", ("transfer", "sump_transfer", "growth")),
+        "film": ("shell_temperature", ("shell_transfer",)),
+    }
+    name, paths = around.get(heat.get("kind", "balance"), ("", ()))
+    known = {name: ambient} if any(heat.get(path) not in (None, 0) for path in paths) else {}
     known |= {"inlet_temperature": ambient} if cold else {}
     return journal | {"heat": known | heat}

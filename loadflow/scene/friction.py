@@ -6,6 +6,7 @@ from typing import Annotated
 
 from pydantic import BaseModel, Field, field_validator
 
+from loadflow.numerics.fields import meant
 from loadflow.rolling.friction import Churning
 from loadflow.scene.section import Section
 
@@ -64,6 +65,7 @@ class Friction(Section, BaseModel):
     def _known(cls, name: str) -> str:
         from loadflow.tribology import lubricant_names
 
-        if name not in lubricant_names():
-            raise ValueError(f"must be one of {', '.join(lubricant_names())}")
+        known = lubricant_names()
+        if name not in known:
+            raise ValueError(f"must be one of {', '.join(known)}, got {name!r}{meant(name, known)}")
         return name

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import Annotated, Any, Literal, Self
 
 import numpy as np
@@ -18,7 +19,7 @@ from loadflow.journal import (
     Supply,
     Turbulence,
 )
-from loadflow.journal.heat import Heat
+from loadflow.journal.heat import FilmHeat, Heat
 from loadflow.journal.line import Line
 from loadflow.journal.models.model import Verb, why_not
 from loadflow.journal.shells import Shell
@@ -139,6 +140,12 @@ class Journal(Section, BaseModel):
                 f"< the radial clearance {self.geometry.clearance:g} m"
             )
         return self
+
+    def idle(self) -> Iterator[tuple[str, str]]:
+        """Keys without effect beside the others, and why."""
+        grooved = self.supply is not None and self.supply.grooves
+        if isinstance(self.heat, FilmHeat) and not grooved and not self.geometry.shape.segments:
+            yield "heat.carry_over", "the bore has no groove that hot oil runs into"
 
     @property
     def contact_film(self) -> float:

@@ -67,7 +67,8 @@ def _known(location: Location, place: list[int | str], defaults: Mapping[str, An
     data: Any = defaults
     for part in place[:-1]:
         data = data.get(part) if isinstance(data, Mapping) else None
-    return list(data) if isinstance(data, Mapping) else []
+    found = list(data) if isinstance(data, Mapping) else []
+    return [*found, "arrangement"] if place[:-1] == ["rolling"] else found
 
 
 _TAGS: dict[int | str, Mapping[str, Any]] = {"geometry": KINDS, "heat": HEATS}

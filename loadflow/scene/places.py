@@ -11,6 +11,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from loadflow.numerics.fields import meant
 from loadflow.rolling import KINDS
 
 JOURNAL = "journal"
@@ -22,9 +23,10 @@ AXIAL = (COLLAR, "conical-pair")
 
 FOUR_POINT = "four-point"
 _REGISTERED = {FOUR_POINT: "slewing"}
-_WRITTEN = {registered: written for written, registered in _REGISTERED.items()}
+WRITTEN = {registered: written for written, registered in _REGISTERED.items()}
+"""Kinds of rolling bearings that scenes write in another word than the package has."""
 
-PLACE_KINDS = (JOURNAL, *AXIAL, *(_WRITTEN.get(kind, kind) for kind in KINDS))
+PLACE_KINDS = (JOURNAL, *AXIAL, *(WRITTEN.get(kind, kind) for kind in KINDS))
 """What `kind` a bearing of a scene may have."""
 
 SHARED = ("motion", "step", "tilt", "rung", "grid", "grading")
@@ -85,7 +87,8 @@ def sections_of(places: Any, where: Location = ("bearings",)) -> Sections:
         told = ".".join(map(str, location))
         kind = data.pop("kind", None)
         if kind not in (*PLACE_KINDS, *KINDS):
-            raise ValueError(f"{told}.kind = {kind!r}: must be one of {', '.join(PLACE_KINDS)}")
+            allowed = ", ".join(PLACE_KINDS) + meant(str(kind), PLACE_KINDS)
+            raise ValueError(f"{told}.kind = {kind!r}: must be one of {allowed}")
         if kind == JOURNAL:
             _add_journal(found, place, location, data)
         elif kind in AXIAL:
@@ -117,7 +120,7 @@ def places_of(
             data = {k: v for k, v in part.items() if k != "bearing"}
             geometry = {**data.pop("geometry")}
             kind = geometry.pop("kind")
-            told = {"kind": _WRITTEN.get(kind, kind), "geometry": geometry} | data
+            told = {"kind": WRITTEN.get(kind, kind), "geometry": geometry} | data
             found.setdefault(part["bearing"], []).append(told)
     axial = thrust or {"bearings": {}}
     of_collars = {"rung": axial["rung"]} if "rung" in axial else {}

@@ -23,6 +23,20 @@ Result = Literal[
     "thrust.film",
 ]
 
+RESULTS: dict[Result, str] = {
+    "loads.statistics": "Statistics, extremes and equivalent loads of every load case.",
+    "seeds.equality": "Which seeds of a wind speed are equal, and so may be merged.",
+    "reduction.histogram": "Reduced series of speed and load for each bearing.",
+    "journal.film": "Film, pressure, friction and flow of journal bearings over the series.",
+    "journal.dynamics": "Vibration of the shaft in its films: frequencies, damping, stability.",
+    "journal.wear": "Wear of bores over the starts, stops and faults of a lifetime.",
+    "rolling.loads": "Forces and pressures of the rolling elements, static safety.",
+    "rolling.life": "Rating life and modified life.",
+    "rolling.friction": "Friction, film parameter and slip of rolling bearings.",
+    "thrust.film": "Films of thrust collars and pairs of cones.",
+}
+"""Every result, in words."""
+
 BY_NAME: tuple[Result, ...] = ("journal.dynamics", "journal.wear")
 """Results that are computed only where a scene asks for them by name."""
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from dataclasses import MISSING, fields, is_dataclass
 from functools import reduce
 from operator import or_
 from typing import Annotated, Any
@@ -27,6 +28,50 @@ class Section(BaseModel):
         """Keys whose value is not the default, also of a scene written with all its defaults."""
         known = type(self).model_fields
         return {name for name in known if getattr(self, name) != known[name].default}
+
+
+Keys = tuple[str | int, ...]
+"""Keys down to a part of a scene."""
+
+
+def keys_of(part: Any) -> dict[str, Any]:
+    """Keys of a section, or fields of a dataclass, with their defaults; none of plain values."""
+    if isinstance(part, BaseModel):
+        return {name: field.default for name, field in type(part).model_fields.items()}
+    if is_dataclass(part):
+        return {field.name: field.default for field in fields(part) if field.init}
+    return {}
+
+
+def parts_of(value: Any, keys: Keys = ()) -> Iterator[tuple[Keys, Any]]:
+    """Yield every section and dataclass in a value, at any depth, with the keys down to it."""
+    inside: Any = ()
+    if known := keys_of(value):
+        yield keys, value
+        inside = [(name, getattr(value, name)) for name in known]
+    elif isinstance(value, Mapping):
+        inside = value.items()
+    elif isinstance(value, list | tuple):
+        inside = enumerate(value)
+    for name, part in inside:
+        yield from parts_of(part, (*keys, name))
+
+
+def idle_keys(value: Any, keys: Keys = ()) -> Iterator[tuple[Keys, str]]:
+    """Yield what is set at any depth of a value and has no effect beside the rest, and why.
+
+    The method ``idle`` of a class says which of its fields the others leave without effect, by
+    name, or by names with dots of fields of its parts. Fields that have their defaults are no news.
+    """
+    for where, part in parts_of(value, keys):
+        for name, reason in part.idle() if hasattr(part, "idle") else ():
+            owner, (*tables, last) = part, name.split(".")
+            for table in tables:
+                owner = owner[int(table)] if table.isdecimal() else getattr(owner, table)
+            default = keys_of(owner)[last]
+            if default is MISSING or getattr(owner, last) != default:
+                names = (int(table) if table.isdecimal() else table for table in tables)
+                yield (*where, *names, last), reason
 
 
 def kind_of(value: Any, usual: str | None = None) -> str | None:

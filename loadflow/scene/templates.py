@@ -9,6 +9,7 @@ from pathlib import Path
 
 import loadflow
 from loadflow.errors import InputError
+from loadflow.numerics.fields import none_such
 
 
 def _folder() -> Traversable:
@@ -42,7 +43,7 @@ def template_text(template: str, name: str) -> str:
     """
     known = templates()
     if template not in known:
-        raise InputError(f"no scene {template!r}; there are {', '.join(known)}")
+        raise InputError(none_such("scene", [template], known))
     if not re.fullmatch(r"[A-Za-z0-9_.-]+", name):
         raise InputError(f"name = {name!r}: letters, digits, '_', '.' and '-' only")
     text = _folder().joinpath(f"{template}.toml").read_text(encoding="utf-8")

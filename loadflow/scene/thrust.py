@@ -18,7 +18,7 @@ from pydantic import (
     model_validator,
 )
 
-from loadflow.errors import InputError
+from loadflow.errors import InputError, SolverError
 from loadflow.journal import (
     ConicalPair,
     DoubleThrustBearing,
@@ -239,11 +239,17 @@ class ThrustCollar(AxialBearing):
         return self.model_copy(update={"play": play})
 
     def touches(self, force: Array, speed: float) -> bool:
-        """At standstill, or where a film as thin as the roughness carries less."""
+        """At standstill, or where a film as thin as the roughness carries less.
+
+        Not for certain where pads find no such film: then the sample has no answer.
+        """
         row = self.geometry if force[2] >= 0 else self.back or self.geometry
         if speed == 0.0:
             return True
-        carried = row.pressure(self.contact_film, speed, self.film_model).force
+        try:
+            carried = row.pressure(self.contact_film, speed, self.film_model).force
+        except SolverError:
+            return False
         return bool(carried < abs(float(force[2])))
 
     @model_validator(mode="after")

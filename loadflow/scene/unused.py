@@ -5,15 +5,18 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
-from loadflow.journal import Heat
+from loadflow.journal import FilmHeat, Heat
 from loadflow.journal.rungs import RUNGS
+from loadflow.journal.surfaces import Reversed
 from loadflow.rolling import RollerBearing, SphericalRollerBearing
 from loadflow.rolling.friction import Churning
 from loadflow.rolling.mounting import unused_of
 from loadflow.scene.bearings import FurtherBearing
+from loadflow.scene.journal import Journal
 from loadflow.scene.loads import Loads
+from loadflow.scene.places import SHARED
 from loadflow.scene.scene import Scene, make_scene
-from loadflow.scene.section import Section
+from loadflow.scene.section import Section, idle_keys, keys_of
 from loadflow.turbines import load_turbine
 from loadflow.turbines.files import scaled_name
 from loadflow.wind.cases import LOAD_CASES, STANDING, LoadCase
@@ -88,13 +91,15 @@ def _all(scene: Scene) -> Iterator[tuple[str, str]]:
     for key, reason in _of_loads(scene):
         if key in scene.loads.changed:
             yield f"loads.{key}", reason
+    for name in type(scene).model_fields:
+        for keys, reason in idle_keys(getattr(scene, name), (name,)) if name not in unread else ():
+            yield ".".join(map(str, keys)), reason
     yield from _of_shaft(scene)
     yield from _of_thrust(scene) if "thrust" not in unread else ()
     yield from _of_each_rolling(scene) if "rolling" not in unread else ()
     for section, rules in (
         ("reduction", _of_reduction),
         ("journal", _of_journal),
-        ("rolling", _of_rolling),
         ("friction", _of_friction),
         ("dynamics", _of_dynamics),
         ("wear", _of_wear),
@@ -116,7 +121,7 @@ def _differs(scene: Scene, section: str, key: str) -> bool:
     part = getattr(scene, section)
     *tables, last = key.split(".")
     for table in tables:
-        part = getattr(part, table)
+        part = part[table] if isinstance(part, dict) else getattr(part, table)
     return last in part.changed if isinstance(part, Section) else bool(getattr(part, last))
 
 
@@ -133,8 +138,13 @@ def _of_environment(scene: Scene) -> Iterator[tuple[str, str]]:
     gives = sheds or any(heat.gives_off for heat in warm)
     if not (gives or scene.environment.cold_start):
         yield "temperature", "no bearing gives heat off to its surroundings, or starts cold"
-    if not warm and not rolls:
+    around = scene.environment.temperature
+    cold = any(heat.inlet_temperature == around for heat in warm)
+    cold = cold or (rolls and scene.friction.temperature == around)
+    if not cold:
         why = "no film has a heat balance with an oil, and no result of a rolling bearing is wanted"
+        if warm or rolls:
+            why = "films and rolling bearings state the temperature of their oil"
         yield "cold_start", why
         if scene.environment.cold_start and not gives:
             yield "temperature", why
@@ -274,6 +284,17 @@ def _of_reduction(scene: Scene) -> Iterator[tuple[str, str]]:
 
 def _of_journal(scene: Scene) -> Iterator[tuple[str, str]]:
     journal = scene.journal
+    yield from _of_film(scene, journal)
+    for place in journal.own:
+        if place not in journal.bearings:
+            yield "own", f"bearings leaves {place} out"
+        for key, reason in _of_film(scene, journal.at(place)):
+            if key.split(".")[0] not in SHARED:
+                yield f"own.{place}.{key}", reason
+
+
+def _of_film(scene: Scene, journal: Journal) -> Iterator[tuple[str, str]]:
+    """Keys of the journal bearing, or of one place."""
     if journal.tilt and not any(_tilts(scene, name) for name in journal.bearings):
         yield (
             "tilt",
@@ -288,6 +309,10 @@ def _of_journal(scene: Scene) -> Iterator[tuple[str, str]]:
     if journal.heat is None:
         for key in ("limits.oil", "limits.oil_hours", "limits.temperature"):
             yield key, "the temperature of the film is not computed; give journal.heat"
+    feels = any(support.stiffness == "journal" for support in scene.shaft.coupled.values())
+    read = feels or "journal.dynamics" in scene.results
+    if isinstance(journal.heat, FilmHeat) and journal.heat.stiffness != "frozen" and not read:
+        yield "heat.stiffness", "only journal.dynamics, or a shaft that feels its films, reads it"
     if not journal.in_motion:
         yield "step", "only a film in motion goes from step to step"
     if isinstance(journal.heat, Heat) and not journal.in_motion:
@@ -314,30 +339,27 @@ def _starts(dlc: str) -> bool:
     return dlc in LOAD_CASES and LOAD_CASES[dlc].stands_or_starts
 
 
-def _of_rolling(scene: Scene) -> Iterator[tuple[str, str]]:
-    geometry = scene.rolling.geometry
-    if getattr(geometry, "rows", None) == 1 and getattr(geometry, "row_spacing", 0.0) != 0.0:
-        yield "geometry.row_spacing", "the bearing has one row"
-    if not geometry.flexible_rings:
-        for key in ("inner_ring", "outer_ring"):
-            if getattr(scene.rolling, key) is not None:
-                yield key, f"a {geometry.kind} bearing has rigid rings only"
-    elif scene.rolling.rings == "rigid" and (
-        not scene.asks or "rings" in scene.rolling.model_fields_set
-    ):
-        for key in ("inner_ring", "outer_ring"):
-            if getattr(scene.rolling, key) is not None:
-                yield key, 'rings = "rigid"'
-
-
 def _of_each_rolling(scene: Scene) -> Iterator[tuple[str, str]]:
     """Keys of any of the rolling bearings, which stand in a list after the first one."""
     for number, part in enumerate(scene.rolling.bearings.values(), -1):
         where = "rolling" if number < 0 else f"rolling.further.{number}"
         if part.geometry.element != "roller" and "roller_model" in part.model_fields_set:
             yield f"{where}.roller_model", f"a {part.geometry.kind} bearing has no rollers"
+        for ring, reason in _of_rings(scene, part):
+            yield f"{where}.{ring}", reason
         for key, reason in unused_of(part.mounting, part.geometry) if part.mounting else ():
             yield f"{where}.mounting.{key}", reason
+
+
+def _of_rings(scene: Scene, part: FurtherBearing) -> Iterator[tuple[str, str]]:
+    reason = ""
+    if not part.geometry.flexible_rings:
+        reason = f"a {part.geometry.kind} bearing has rigid rings only"
+    elif part.rings == "rigid" and (not scene.asks or "rings" in part.model_fields_set):
+        reason = 'rings = "rigid"'
+    for key in ("inner_ring", "outer_ring") if reason else ():
+        if getattr(part, key) not in (None, keys_of(part)[key]):
+            yield key, reason
 
 
 def _mounted(scene: Scene) -> bool:
@@ -390,6 +412,10 @@ def _of_thrust(scene: Scene) -> Iterator[tuple[str, str]]:
             yield where, _NO_START
         rows = (("geometry", one.geometry), ("back", one.back)) if one.kind == "thrust" else ()
         for key, row in rows:
+            where = f"thrust.bearings.{place}.{key}.profile"
+            against = row is not None and row.pivot is None and isinstance(row.profile, Reversed)
+            if simulated and against:
+                yield where, "it is cut against the sense of rotation: the pads carry nothing"
             if row is not None and row.first_pad:
                 where = f"thrust.bearings.{place}.{key}.first_pad"
                 yield where, "the collar stays aligned, so that all pads carry alike"

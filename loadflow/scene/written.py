@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
+from loadflow.numerics.fields import meant
 from loadflow.scene.candidates import ABOUT, TOLERANCES, candidates_of
 from loadflow.scene.own_shaft import own_shaft
 from loadflow.scene.places import Location, sections_of
@@ -98,7 +99,7 @@ def _candidate(name: str, stated: Any, turbine: str) -> Any:
         if name not in known:
             raise ValueError(
                 f"candidates.{name}: says nothing, and is none of those sized for {turbine}: "
-                f"{', '.join(known) or 'there are none'}"
+                f"{', '.join(known) or 'there are none'}{meant(name, known)}"
             )
         places, about = _bare(known[name]), {k: known[name][k] for k in ABOUT} | about
     return about | sections_of(places, ("candidates", name)).data

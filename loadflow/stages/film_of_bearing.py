@@ -31,7 +31,8 @@ def follow(
     lying: dict[str, Any] = {
         name: to_film(vectors) for name, vectors in shaft_line(options, bearing).items()
     }
-    return options.geometry.orbit(time, force, speed, options.film_model, start=start, **lying)
+    with unresolved_counted():  # `film_summary` tells of them
+        return options.geometry.orbit(time, force, speed, options.film_model, start=start, **lying)
 
 
 def shaft_line(options: Journal, bearing: xr.Dataset) -> dict[str, np.ndarray]:

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from loadflow.journal.grid_bounds import unresolved_counted
 from loadflow.scene.journal import Journal
 from loadflow.stages.film_temperature import mean_temperature
 
@@ -43,13 +44,14 @@ def film_response(journal: Journal, speed: float) -> Response:
         warm = mean_temperature(journal, mean[None], np.array([speed]))
         held = journal if warm is None else journal.at_temperature(warm)
         phase = np.linspace(0.0, 2.0 * np.pi, SAMPLES + 1)
-        orbit = held.geometry.orbit(
-            phase / (2.0 * np.pi * frequency),
-            mean + np.outer(np.sin(phase), amplitude),
-            speed,
-            replace(held.film_model, rung="grid"),  # the only one that closes an orbit
-            periodic=True,
-        )
+        with unresolved_counted():
+            orbit = held.geometry.orbit(
+                phase / (2.0 * np.pi * frequency),
+                mean + np.outer(np.sin(phase), amplitude),
+                speed,
+                replace(held.film_model, rung="grid"),  # the only one that closes an orbit
+                periodic=True,
+            )
         return float(orbit["eccentricity_ratio"].max())
 
     return response

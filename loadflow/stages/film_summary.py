@@ -9,6 +9,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from loadflow.journal.grid_bounds import UNRESOLVED
+from loadflow.quantities import GRID_ERROR
 from loadflow.scene.cases import Case
 from loadflow.stages.labelling import labelled
 from loadflow.stages.running_time import counted, time_shares
@@ -72,6 +74,7 @@ def extremes(samples: xr.Dataset) -> xr.Dataset:
         if time is not None:
             when = float(time.values[at]) if there else np.nan
             found[f"{name}_time"] = xr.DataArray(when), "s", f"time of the {meaning}"
+    found |= _grid_errors(samples)
     for means, count in ((MEANS, counted(samples)), (SUPPLY, True)):
         for name, (of, units, meaning) in means.items():
             if of in samples:
@@ -89,6 +92,45 @@ def extremes(samples: xr.Dataset) -> xr.Dataset:
         missed = (answered & ~touching & ~samples["resolved"].astype(bool)).sum()
         found["not_resolved"] = missed, "1", "samples whose film the cells do not resolve"
     return labelled(found)
+
+
+def _grid_errors(samples: xr.Dataset) -> dict[str, tuple[xr.DataArray, str, str]]:
+    """Bounds of what the cells do to the extremes: of films at rest each its own, of a path one."""
+    found = {}
+    for name in ("smallest_film", "largest_pressure"):
+        of, which, units, meaning = EXTREMES[name]
+        values, bounds = samples[of].values, samples.get(of + GRID_ERROR)
+        bound = samples.attrs.get(of + GRID_ERROR, np.nan)
+        if bounds is not None and np.isfinite(values).any():
+            bound = bounds.values[int(which(np.where(np.isfinite(values), values, np.nan)))]
+        if bounds is not None or of + GRID_ERROR in samples.attrs:
+            told = f"bound of what the cells do to the {meaning}"
+            found[name + GRID_ERROR] = xr.DataArray(float(bound)), units, told
+    return found
+
+
+def warnings(tree: xr.DataTree) -> list[str]:
+    """Say in which load cases the cells do not resolve the film, and how far off it may be."""
+    if "journal" not in tree.children:
+        return []
+    table, said = tree["journal"].to_dataset(), []
+    if "smallest_film" + GRID_ERROR not in table:
+        return []
+    share = table["smallest_film" + GRID_ERROR] / table["smallest_film"]
+    missed = share >= UNRESOLVED
+    if "not_resolved" in table:
+        missed = missed | (table["not_resolved"] > 0)
+    for bearing in table["bearing"].values:
+        here, off = missed.sel(bearing=bearing), share.sel(bearing=bearing)
+        if not here.any():
+            continue
+        worst = int(np.argmax(np.where(here & off.notnull(), off, -1.0)))
+        said.append(
+            f"journal, bearing {bearing}: the cells do not resolve the film in {int(here.sum())} "
+            f"of {here.size} load cases; the smallest film of {table['case'].values[worst]} is "
+            f"known to {100 * float(off[worst]):.2g} %; a finer journal.grid resolves it"
+        )
+    return said
 
 
 STANDING = 0.01 * np.pi / 30

@@ -10,6 +10,7 @@ import xarray as xr
 
 from loadflow.cube import time_step
 from loadflow.errors import SolverError
+from loadflow.journal.grid_bounds import unresolved_counted
 from loadflow.journal.line import Line
 from loadflow.journal.models.model import why_not
 from loadflow.journal.validity import critical_reynolds_number, reynolds_number
@@ -18,9 +19,9 @@ from loadflow.scene.cases import Case
 from loadflow.scene.journal import Journal
 from loadflow.scene.loads import Loads
 from loadflow.scene.scene import Scene
-from loadflow.stages.film_kept import kept_of
+from loadflow.stages.film_kept import RESOLVED, kept_of
 from loadflow.stages.film_of_bearing import equilibria, follow, shaft_line, surely_touching
-from loadflow.stages.film_summary import summary
+from loadflow.stages.film_summary import summary, warnings
 from loadflow.stages.film_temperature import mean_temperature
 from loadflow.stages.frames import to_film
 from loadflow.stages.labelling import label, of_samples
@@ -122,14 +123,15 @@ def _closing(options: Journal, bearing: str, reduced: xr.Dataset) -> xr.Dataset:
     # the only rung that closes an orbit
     film, moment = replace(held.film_model, rung="grid"), to_film(reduced["moment"].values)
     try:
-        path = held.geometry.orbit(
-            reduced["time"].values,
-            force,
-            speed,
-            film,
-            periodic=True,
-            moment=moment if options.tilt else None,
-        )
+        with unresolved_counted():  # `film_summary` tells of them
+            path = held.geometry.orbit(
+                reduced["time"].values,
+                force,
+                speed,
+                film,
+                periodic=True,
+                moment=moment if options.tilt else None,
+            )
     except SolverError as error:
         raise SolverError(f"bearing {bearing}: {error}") from error
     found, kept = _nothing(options, speed.size), kept_of(options)
@@ -145,6 +147,7 @@ def _closing(options: Journal, bearing: str, reduced: xr.Dataset) -> xr.Dataset:
     _drop_contact(options, found, touching)
     samples = of_samples(found, kept) | _loaded(vectors, touching)
     about = {name: path.attrs[name] for name in ("closure", "periods")} | {"motion": "periodic"}
+    about |= _bounds(path)
     given = reduced[["time", "speed", "weight"]].assign(samples)
     return _placed(held, given, found["eccentricity"]).assign_attrs(about)
 
@@ -165,6 +168,11 @@ def _take_path(found: dict[str, np.ndarray], path: xr.Dataset, places: slice) ->
     found["converged"][places] = True
 
 
+def _bounds(path: xr.Dataset) -> dict[str, float]:
+    """What a path says that its cells do to its extremes, where it does."""
+    return {name: path.attrs[name] for name in RESOLVED if name in path.attrs}
+
+
 def _moving(options: Journal, bearing: str, loads: xr.Dataset, reactions: xr.Dataset) -> xr.Dataset:
     """Film along the series, from the first sample on in which the surfaces need not touch."""
     every = slice(None, None, options.every(time_step(loads)))
@@ -175,12 +183,14 @@ def _moving(options: Journal, bearing: str, loads: xr.Dataset, reactions: xr.Dat
     touching = np.arange(time.size) < begin  # later on, squeeze carries more than a film at rest
     found, kept = _nothing(options, time.size), kept_of(options)
     force, left = to_film(vectors), slice(begin, None)
+    about: dict[str, float] = {}
     if begin < time.size:
         try:
             path = follow(options, loads.isel(time=left), reactions.isel(time=left), start)
         except SolverError as error:
             raise SolverError(f"bearing {bearing}: {error}") from error
         _take_path(found, path, left)
+        about = _bounds(path)
         if "clearance" in found:
             warm = float(path["temperature"].values[0])
             found["clearance"][left] = options.at_temperature(warm).geometry.clearance
@@ -199,7 +209,7 @@ def _moving(options: Journal, bearing: str, loads: xr.Dataset, reactions: xr.Dat
         }
     )
     labels = of_samples(found, kept) | _loaded(vectors, touching) | _lying(options, found)
-    return _placed(options, samples.assign(labels), found["eccentricity"])
+    return _placed(options, samples.assign(labels), found["eccentricity"]).assign_attrs(about)
 
 
 def _lift_off(
@@ -258,7 +268,9 @@ def _placed(options: Journal, samples: xr.Dataset, eccentricity: np.ndarray) -> 
     bearing = options.geometry
     fastest, oil = float(np.abs(samples["speed"]).max()), options.lubricant
     if options.heat is not None:
-        warmest = float(np.nanmax(samples["temperature"], initial=options.heat.inlet_temperature))
+        warmest = float(
+            np.fmax.reduce(samples["temperature"].values, initial=options.heat.inlet_temperature)
+        )
         oil = options.heat.lubricant(warmest)
     reynolds = float(reynolds_number(bearing, fastest, oil))
     return samples.assign(
@@ -369,5 +381,6 @@ STAGE = Stage(
     sections=lambda scene: ("journal",),
     models=(FILM,),
     summarise=summary,
+    warnings=warnings,
     work=_work,
 )

@@ -13,6 +13,7 @@ import xarray as xr
 
 from loadflow.cube import CASE_COORDS, Cube, case_named, iter_cases, open_cube
 from loadflow.errors import InputError
+from loadflow.numerics.watch import part_of_work
 from loadflow.scene.cases import CUBES, Case, wind_of
 from loadflow.scene.given_winds import RUN_IN, given_field
 from loadflow.scene.loads import Loads
@@ -49,7 +50,8 @@ def _simulate(scene: Scene, case: Case) -> xr.Dataset:
     loads, wind, winds, field = scene.loads, wind_of(scene, case), scene.loads.wind_options, None
     if case.wind:
         plant = wind_machine(load_turbine(scene.turbine.name))
-        wind, field = given_field(Path(case.wind), wind, winds, plant, loads.duration)
+        with part_of_work("wind"):
+            wind, field = given_field(Path(case.wind), wind, winds, plant, loads.duration)
     series = simulate_condition(
         scene.turbine.name,
         wind,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,7 @@ import xarray as xr
 
 from loadflow.cube import Cube, iter_cases, make_cube
 from loadflow.errors import InputError
+from loadflow.numerics.fields import none_such
 from loadflow.shaft import TwoPoint, bearing_loads
 from loadflow.stages.frames import to_film
 
@@ -41,7 +43,7 @@ class BearingSeries:
     force: Floats
     moment: Floats
 
-    @property
+    @cached_property  # asked for by each statistic of a lifetime
     def radial(self) -> Floats:
         """Radial force in the frame of the film, shape (n, 2), N."""
         return to_film(self.force)
@@ -160,5 +162,5 @@ def _chosen(loads: xr.Dataset, bearings: Sequence[str]) -> list[Any]:
     """Labels of the wanted bearings."""
     there = [str(label) for label in loads["bearing"].values]
     if unknown := [name for name in bearings if name not in there]:
-        raise InputError(f"no bearing {unknown[0]!r}; there are {', '.join(there)}")
+        raise InputError(none_such("bearing", unknown, there))
     return [label for label in loads["bearing"].values if not bearings or str(label) in bearings]

@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 
 from loadflow.errors import InputError
+from loadflow.numerics.fields import none_such
 
 
 def channel_names(case: xr.Dataset) -> dict[str, list[str]]:
@@ -47,7 +48,7 @@ def choose_channels(
         return [c for c in chosen if c == "speed" or np.any(channel(case, c))]
     unknown = [name for name in wanted if name not in known and name not in every]
     if unknown:
-        raise InputError(f"{source}: no variable {unknown[0]!r}; there are {', '.join(every)}")
+        raise InputError(f"{source}: {none_such('variable', unknown, every)}")
     chosen = [c for name in wanted for c in known.get(name, [name])]
     return list(dict.fromkeys(chosen))
 

@@ -10,14 +10,42 @@ from typing import Any
 import xarray as xr
 
 from loadflow.data import evidence
+from loadflow.scene.places import WRITTEN
 from loadflow.scene.scene import Scene
-from loadflow.studies.compare_result import Judged
+from loadflow.studies.compare_result import QUANTITIES, Judged
 from loadflow.studies.seed_intervals import Groups
 from loadflow.verdict import Verdict
 
 
 def conclusion(judged: Sequence[Judged]) -> str:
-    """One sentence: how many hold, which loses least, what the other kind does."""
+    """How many hold, which loses least, what the other kind does; which risks speak against both.
+
+    The second sentence is missing where no rule of practice is broken.
+    """
+    text, good = _sentence(judged), [one for one in judged if one.holds]
+    shown = [good[0], *[one for one in good if one.kind != good[0].kind][:1]] if good else []
+    risks = [f"{one.title}: {told}" for one in shown if (told := _risks(one))]
+    if not risks:
+        return text
+    return f"{text} What fails before rating life does speaks against {'; '.join(risks)}."
+
+
+def _risks(one: Judged) -> str:
+    """Rules of thumb that a candidate breaks, which no verdict counts."""
+    found = ((key, one.numbers[key]) for key in RISKS if key in one.numbers)
+    return ", ".join(
+        f"{QUANTITIES[key][0]} {number.value:.3g} {number.unit}".removesuffix(" –")
+        + f" (limit {number.limit:.3g})"
+        for key, number in found
+        if number.holds is False
+    )
+
+
+RISKS = ("viscosity_ratio", "minimum_load", "tilt", "wear")
+"""Numbers with a limit of practice that is no verdict of a run."""
+
+
+def _sentence(judged: Sequence[Judged]) -> str:
     good = [one for one in judged if one.holds]
     if not good:
         least = max(judged, key=lambda one: _or_zero(one.numbers["load_factor"].value))
@@ -139,7 +167,7 @@ def bearings(scene: Scene, rooms: Sequence[str]) -> list[dict[str, Any]]:
             found.append(
                 {
                     "place": place,
-                    "kind": bearing.kind,
+                    "kind": WRITTEN.get(bearing.kind, bearing.kind),
                     "measures": f"D_pw {1e3 * bearing.pitch_diameter:.0f} mm, "
                     f"C {bearing.rated_capacity / 1e3:.0f} kN, "
                     f"C₀ {bearing.static_capacity / 1e3:.0f} kN"

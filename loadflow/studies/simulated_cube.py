@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import logging
+import time
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -9,6 +11,8 @@ from loadflow.cube import Cube, make_cube
 from loadflow.scene.cases import list_cases, simulated_case, weighted, wind_class
 from loadflow.scene.scene import make_scene
 from loadflow.stages.loads import hub_loads
+
+log = logging.getLogger("loadflow.run")
 
 
 def simulate_cube(
@@ -56,6 +60,8 @@ def simulate_cube(
         cases = weighted(chosen, wind_class(scene))
     done = []
     for case in cases:
+        started = time.perf_counter()
         done.append(hub_loads(scene, case, {}))
+        log.info("%s: %.1f s", case.name, time.perf_counter() - started)
         progress("loads", len(done), len(cases))
     return make_cube(done)

@@ -319,12 +319,12 @@ def _of_rolling(scene: Scene, table: xr.Dataset, lifetime: xr.Dataset | None) ->
         value, case, _ = _worst(part, "bearing_axial_force", "most")
         if value > _SLIGHT * float(part["bearing_force"].max()):
             carried = bearing.takes_thrust
-            kind = type(bearing).__name__
-            force = f"{value / 1e3:.0f} kN along the shaft"
+            axis = "the shaft" if scene.rolling.bearings[name].oscillation is None else "its axis"
+            force = f"{value / 1e3:.0f} kN along {axis}"
             yield Verdict(
-                subject, "force along the shaft without a bearing", 0.0 if carried else value, 0.0,
+                subject, f"force along {axis} without a bearing", 0.0 if carried else value, 0.0,
                 "at most", "N", "equilibrium of the shaft", case,
-                note=f"{force} is carried by {name}, a {kind}" if carried
+                note=f"{force} is carried by {name}, a {type(bearing).__name__}" if carried
                 else f"none: {force} is carried by no bearing of this arrangement",
             )  # fmt: skip
     if table.sizes["bearing"] > 1:

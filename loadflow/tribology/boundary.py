@@ -15,7 +15,7 @@ from annotated_types import Ge, Gt, Le
 from numpy.typing import NDArray
 
 from loadflow.errors import InputError
-from loadflow.numerics.fields import check_fields
+from loadflow.numerics.fields import check_fields, meant
 from loadflow.tribology.traction import boundary_coefficient
 
 Value = float | NDArray[np.float64]
@@ -93,7 +93,10 @@ def friction_pair(name: str) -> FrictionPair:
     """
     table = _library()
     if name not in table:
-        raise InputError(f"friction_pair: must be one of {', '.join(sorted(table))}, got {name!r}")
+        raise InputError(
+            f"friction_pair: must be one of {', '.join(sorted(table))}, got {name!r}"
+            f"{meant(name, table)}"
+        )
     return FrictionPair(name=name, **table[name])
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from loadflow.errors import InputError
-from loadflow.numerics.fields import unknown_key
+from loadflow.numerics.fields import meant, unknown_key
 
 from .description import turbine_from
 from .schema import Turbine
@@ -73,9 +73,10 @@ def load_turbine(turbine: str | Path | Turbine) -> Turbine:
     path = Path(turbine)
     if path.suffix not in (".toml", *_WINDIO):
         if str(turbine) not in _names():
+            known = turbine_names()
             raise InputError(
-                f"unknown turbine {str(turbine)!r}; known are {', '.join(turbine_names())}, "
-                "or give the path of a .toml or a windIO .yaml file"
+                f"unknown turbine {str(turbine)!r}{meant(str(turbine), known)}; known are "
+                f"{', '.join(known)}, or give the path of a .toml or a windIO .yaml file"
             )
         return _shipped(str(turbine))
     return _unchanged(path.absolute(), _stamps(path))

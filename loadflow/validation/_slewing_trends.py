@@ -104,6 +104,7 @@ def _zones() -> Iterator[Check]:
         1.0,
         float(radial[:, 0].max() / radial[:, 1].max()),
         1e-6,
+        evidence="consistency",  # by symmetry
     )
     # counter-acting loads; balls counted from +y, where the first one stands
     mixed = DRIVE.equilibrium(force=(0, -6500, 8000), moment=(2000, 0), element_angle=math.pi / 2)

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from importlib.resources import files
 
 import numpy as np
+from scipy.interpolate import CubicSpline
 
 from loadflow.tribology import film, film_tables
 from loadflow.validation.check import Check, evidence
@@ -68,16 +70,22 @@ def raimondi_boyd_checks() -> Iterator[Check]:
 def squeeze_path_checks() -> Iterator[Check]:
     """Time of the shaft at rest to sink under a load: the orbit beside the integral of the table.
 
-    t = B D η/(F ψ²) ∫So_V dε; the path of "map" comes from our own film, the table does not.
+    t = B D η/(F ψ²) ∫So_V dε, with ln So_V of the table by a spline over -ln(1 - ε); the path of
+    "map" comes from our own film, the table does not.
     """
     from loadflow.journal import JournalBearing, Lubricant
     from loadflow.journal.film_model import Inlet
 
     paths: tuple[tuple[float, str], ...] = ((0.5, "map"), (0.5, "holland"), (0.25, "map"))
+    table = files("loadflow") / "data" / "reference" / "ref_So_squeeze.csv"
+    text = table.read_text(encoding="utf-8").splitlines()
+    heads = [float(head.split("=")[1]) for head in text[0].split(",")[1:]]
+    signed, *columns = np.array([line.split(",") for line in text[1:]], dtype=float).T
     for width, rung in paths:
         bearing = JournalBearing(diameter=1.0, width=width, relative_clearance=1e-3)
         ratios = np.linspace(0.1, 0.9, 401)
-        numbers = film_tables.tabulated_squeeze(ratios, width)
+        column = CubicSpline(-np.log(1 - signed), np.log(columns[heads.index(width)]))
+        numbers = np.exp(column(-np.log(1 - ratios)))
         integral = float(np.sum(0.5 * (numbers[1:] + numbers[:-1]) * np.diff(ratios)))
         load = 1e5
         expected = integral * bearing.width * 0.05 / (load * 1e-6)

@@ -16,7 +16,6 @@ from loadflow.tribology import (
     ConformalWear,
     WornArc,
     adiabatic_rise,
-    friction_pair,
     greenwood_tripp,
     patir_cheng,
 )
@@ -43,12 +42,13 @@ def checks() -> Iterator[Check]:
     yield from _flow_factors()
     yield from _friction_factors()
     yield from _asperities()
-    yield from _pairs()
     yield from _wear()
     yield from _sheared_films()
 
 
+@evidence("print of the source")
 def _flow_factors() -> Iterator[Check]:
+    """Fits of the source by its printed coefficients, and their value at H = 5 to four digits."""
     for name, c, r, a1, b1, b2, b3, a2, *_, middle in ROWS:
         gamma = float(Fraction(name))
         h = 2.0
@@ -81,9 +81,11 @@ def _friction_factors() -> Iterator[Check]:
         gamma = float(Fraction(name))
         expected = a3 * 2**b4 * math.exp(-2 * b5 + 4 * b6)
         got = float(patir_cheng(2.0, gamma).friction_shear)
-        yield Check(f"Φ_fs(2), γ = {name}", PATIR_CHENG_1979, expected, got, 1e-12)
+        what = f"Φ_fs(2), γ = {name}"
+        yield Check(what, PATIR_CHENG_1979, expected, got, 1e-12, evidence="print of the source")
     expected, got = 1 - 1.40 * math.exp(-1.32), float(patir_cheng(2.0).friction_pressure)
-    yield Check("φ_fp(2), γ = 1", PATIR_CHENG_1979, expected, got, 1e-12)
+    what = "φ_fp(2), γ = 1"
+    yield Check(what, PATIR_CHENG_1979, expected, got, 1e-12, evidence="print of the source")
 
 
 @evidence("consistency")
@@ -97,16 +99,6 @@ def _asperities() -> Iterator[Check]:
         area = float(greenwood_tripp(2.0, u)) * math.pi**2
         got = float(contact.area(u * 1e-6))
         yield Check(f"π² F_2({u:g}), compiled", source, area, got, 1e-8)
-
-
-@evidence("print of the source")
-def _pairs() -> Iterator[Check]:
-    for name, sliding, static in (
-        ("bronze", 0.15, 0.30), ("metal-polymer", 0.0007, 0.15), ("polymer", 0.0035, 0.24),
-    ):  # fmt: skip
-        pair = friction_pair(name)
-        yield Check(f"f_stat, {name}", "Table 3-1", static, pair.static or math.nan, 0)
-        yield Check(f"f_dyn, {name}", "Table 3-1", sliding, pair.sliding or math.nan, 0)
 
 
 def _wear() -> Iterator[Check]:

@@ -20,6 +20,7 @@ from loadflow.cli import main
 from loadflow.errors import InputError
 from loadflow.planning.effects import EffectVerdict
 from loadflow.planning.plan import make_plan
+from loadflow.report.compare_page import _row
 from loadflow.report.sketch import sketch
 from loadflow.running.candidates import candidate_scene, candidates_for
 from loadflow.running.comparison import (
@@ -32,8 +33,9 @@ from loadflow.scene.candidate import Candidate
 from loadflow.scene.scene import make_scene
 from loadflow.studies.compare_margins import rolling_losses
 from loadflow.studies.compare_pads import clearance_used
-from loadflow.studies.compare_result import QUANTITIES, Number
+from loadflow.studies.compare_result import QUANTITIES, Judged, Number, plain
 from loadflow.studies.compare_risks import wear
+from loadflow.studies.compare_words import conclusion
 from loadflow.studies.seed_intervals import Groups, interval, joint_life
 
 BROWSER = next(
@@ -259,6 +261,38 @@ def test_the_page_says_the_conclusion_and_its_links_lead_somewhere(found):
             assert link[1:] in parser.ids
         else:
             assert (found.path / link).exists(), link
+    for one in found.comparison.candidates:  # each number of a load case leads to it
+        for key, number in one.numbers.items():
+            extreme = bool(number.case) and math.isfinite(number.value)
+            assert (f"#{one.name}.{key}" in parser.links) == extreme, key
+
+
+def test_the_conclusion_says_which_risks_speak_against_the_best():
+    known = {"energy": Number(3.0, "MWh"), "load_factor": Number(1.6, "×", limit=1.0, holds=True)}
+    light = {"minimum_load": Number(0.68, "%", limit=2.0, holds=False)}
+    kept = {"minimum_load": Number(8.9, "%", limit=2.0, holds=True)}
+    about = {"source": "", "verdicts": (), "thrust": "N2", "governs": "", "change": "",
+             "models": {}, "checks": [], "bearings": [], "folder": ""}  # fmt: skip
+    skids, rolls = (
+        Judged(name=name, title=name, kind="rolling", numbers=known | own, **about)
+        for name, own in (("two barrels", light), ("pair", kept))
+    )
+    told = conclusion([skids, rolls])
+    assert told.endswith(
+        "speaks against two barrels: smallest load over the dynamic capacity (skidding) 0.68 % "
+        "(limit 2)."
+    )
+    assert "speaks against" not in conclusion([rolls, skids])
+
+
+@pytest.mark.parametrize(
+    ("key", "said"), [("eccentricity_ratio", "limit ≤ 0.95"), ("minimum_film", "limit ≥ 0.95")]
+)
+def test_a_limit_says_on_which_side_of_it_a_number_must_stay(key, said):
+    numbers = {key: plain(vars(Number(0.9, "–", limit=0.95, holds=True)))}
+    data = {"quantities": {key: {"name": key, "unit": "–"}}}
+    _, _, [cell] = _row(key, data | {"candidates": [{"name": "one", "numbers": numbers}]})
+    assert cell.limit == said
 
 
 def test_the_table_and_the_json_hold_the_same_numbers(found):
@@ -285,7 +319,7 @@ def test_the_command_prints_json(cube, tmp_path, capsys):
 
 
 def test_an_unknown_candidate_is_named(cube, tmp_path):
-    with pytest.raises(InputError, match="no candidate magic; there are journal-cylindrical"):
+    with pytest.raises(InputError, match="no candidate 'magic'; there are journal-cylindrical"):
         compare(scene_of(cube), candidates=["magic"], out=tmp_path)
 
 

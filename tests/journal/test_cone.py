@@ -1,6 +1,7 @@
 """Conical bearings against exact series, the cylinder, and themselves."""
 
 import math
+from itertools import chain
 
 import numpy as np
 import pytest
@@ -19,6 +20,8 @@ from loadflow.journal import (
     Reynolds,
     Sommerfeld,
 )
+from loadflow.journal.solvers.assembly_search import Chart, around, search
+from loadflow.numerics.convergence import Limits
 from loadflow.validation import thrust as exact
 
 CONE = ConicalBearing(half_angle=0.52, slant=(1.0, 1.5), clearance=1e-4)
@@ -212,6 +215,20 @@ def test_pair_is_symmetric_and_its_stiffness_the_derivative():
     differences = np.array([(load(at + d) - load(at - d)) / 2e-10 for d in 1e-10 * np.eye(5)]).T
     allowed = 1e-4 * np.abs(found.stiffness).max()
     np.testing.assert_allclose(differences, found.stiffness, atol=allowed)
+
+
+@pytest.mark.parametrize("law", [Guembel(), Reynolds(), MassConserving()])
+def test_a_search_goes_on_from_a_film_without_pressure(law):
+    ring = ConicalBearing(half_angle=0.5, slant=(0.5, 0.7), clearance=1e-4)
+    oil = Film(Lubricant(0.05), law, inlet=None, grid=(24, 8), edge_pressure=1e5)
+    film = ring._assembly(oil, 50.0, 0.0)
+    centred = ring._started(film, np.zeros(5), 50.0)
+    wanted = np.append(ring.pressure((5e-5, 1e-5, 0.0), 50.0, oil).force, np.zeros(2))
+    chart = Chart(ring.clearance, ring.half_angle, np.zeros(2))
+    more = around(film, chart, lambda place: ring._started(film, place, 50.0), wanted)
+    found = search(film, chart, chain([centred], more), wanted, np.arange(3), Limits(1e-10, 60))
+    assert found.converged
+    assert np.sum(film.loads(found)[0], axis=0)[:3] == pytest.approx(wanted[:3], rel=1e-6)
 
 
 @pytest.mark.parametrize(

@@ -36,6 +36,7 @@ def test_a_shaft_comes_to_rest_where_its_warm_film_carries_it(law, heat):
     np.testing.assert_allclose(last.eccentricity, rest.eccentricity, atol=2e-5 * LOBES.clearance)
     assert float(last.minimum_film) == pytest.approx(float(rest.minimum_film), rel=1e-4)
     assert float(last.eccentricity_ratio) == pytest.approx(rest.eccentricity_ratio, abs=1e-4)
+    assert float(last.friction_power) == pytest.approx(float(rest.friction_power), rel=1e-4)
     assert float(last.temperature) == pytest.approx(float(rest.temperature), abs=1e-5)
     assert path.attrs["maximum_temperature"] == pytest.approx(rest.maximum_temperature, abs=1e-4)
     assert path.attrs["heat_imbalance"] < 1e-8

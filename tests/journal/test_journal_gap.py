@@ -356,9 +356,6 @@ def test_what_is_not_modelled_is_refused():
     ):
         with pytest.raises(InputError, match=r'rung = .* "grid" for a shaped bore'):
             call()
-    pads = JournalBearing(**SIZE, shape=SHAPES[4])
-    with pytest.raises(InputError, match="shape = 'tilting pads'"):
-        pads.orbit(TIME, PATH, 10.0, OIL)
 
 
 @pytest.mark.parametrize("share", [0.02, 0.3, 1.0, 5.0, 20.0])

@@ -6,6 +6,8 @@ import xarray as xr
 
 from loadflow.errors import InputError
 from loadflow.scene import make_scene
+from loadflow.scene.cases import Case
+from loadflow.stages import journal as stage
 from loadflow.stages.effects import film
 from loadflow.stages.film_of_bearing import follow
 from loadflow.stages.journal import fast_film
@@ -58,6 +60,41 @@ def test_motion_tilt_heat_and_contact_are_one_scene(rung):
     if rung == "reduced":
         path = follow(journal, loads(), reactions())
         assert {"temperature", "tilt", "moment", "contact_share"} <= set(path)
+
+
+@pytest.mark.parametrize("rung", ["reduced", "grid"])
+def test_a_scene_on_tilting_pads_has_a_film_in_motion(rung):
+    pads = {"kind": "tilting pads", "count": 5, "arc": 1.05, "preload": 0.3}
+    size = {"diameter": 3.0, "width": 2.25, "relative_clearance": 5e-4, "shape": pads}
+    words = {"motion": "transient", "rung": rung, "tilt": True, "geometry": size}
+    journal = make_scene({"journal": words}).journal
+    assert fast_film(journal).rung == "reduced"
+    path = follow(journal, loads(), reactions())
+    assert {"tilt", "moment", "pad_tilt"} <= set(path)
+    assert float(path.residual.max()) < 1e-7
+
+
+@pytest.mark.parametrize("grid", [(24, 4), (60, 12)])
+def test_a_run_tells_of_paths_that_its_cells_do_not_resolve(grid):
+    size = {"diameter": 1.4, "width": 1.3, "relative_clearance": 1e-3}
+    words = {"motion": "transient", "rung": "grid", "grid": grid, "geometry": size}
+    scene = make_scene({"journal": words | {"bearings": ["N"]}, "shaft": {"two_point": {}}})
+    force = np.tile(0.3 * FORCE[0], (TIME.size, 1))
+    light = reactions().assign(force=(("time", "axis"), force)).expand_dims(bearing=["N"])
+    case = Case(dlc="1.1", wind_speed=8.0, seed=1)
+    tree = stage.orbit(scene, case, {"loads": loads(), "shaft": light})
+    table = stage.STAGE.summarise({case: tree})
+    said = stage.STAGE.warnings(xr.DataTree.from_dict({"/journal": table}))
+    share = (table.smallest_film_grid_error / table.smallest_film).item()
+    assert share == tree["N"].attrs["minimum_film_grid_error"] / table.smallest_film.item()
+    if grid == (60, 12):
+        assert share < 0.25
+        assert not said
+    else:
+        assert share >= 0.25
+        assert len(said) == 1
+        assert "bearing N: the cells do not resolve the film in 1 of 1 load cases" in said[0]
+        assert f"is known to {100 * share:.2g} %" in said[0]
 
 
 def test_the_plan_may_have_tilt_and_motion_together():

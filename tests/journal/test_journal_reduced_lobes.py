@@ -15,7 +15,6 @@ from loadflow.journal import (
     Lubricant,
     MassConserving,
     Sommerfeld,
-    TiltingPads,
     Turbulence,
 )
 from loadflow.tribology import AsperityContact
@@ -186,7 +185,6 @@ def test_an_orbit_with_effects_around_lobes_is_that_of_the_grid():
 @pytest.mark.parametrize(
     ("shape", "given", "name"),
     [
-        (TiltingPads(count=4, arc=1.2), {}, "shape"),
         (Lobes(count=2, groove_pressure=3e5), {}, "groove_pressure"),
         (LEMON, {"inlet": "widest gap"}, "inlet"),
     ],

@@ -243,6 +243,19 @@ def test_what_the_film_does_not_know_is_refused():
         LANDS.pressure(1e-4, 10.0, FILM, tilt=(2e-4, 0.0))
 
 
+def test_a_film_near_standstill_is_an_answer_whose_force_goes_with_the_speed():
+    # edges at 1 bar and lands twenty times as deep as the gap: their roundings are most of it
+    lands = ThrustBearing(18, 1.6, 1.9, pad_angle=0.3, taper=8e-5)
+    law = Guembel(cavitation_pressure=0.0)
+    oil = Film(Lubricant(0.05), law, edge_pressure=1e5, inlet=None, grid=(20, 10))
+    whole = lands.pressure(3.8e-6, 1.0, oil).force
+    for speed in (1e-3, 1e-6, 1e-9):
+        found = lands.pressure(3.8e-6, speed, oil)
+        assert found.converged
+        assert found.iterations < 5
+        assert found.force == pytest.approx(whole * speed, rel=1e-4)
+
+
 def test_not_strict_is_flagged_not_raised():
     control = Control(max_iterations=1, strict=False)
     found = LANDS.pressure(1e-4, 10.0, FILM, control=control)

@@ -14,6 +14,7 @@ from loadflow.rolling import (
     FlexibleRings,
     RingBeam,
     RingSection,
+    RollerBearing,
     SlewingBearing,
     Support,
     axial_expansion,
@@ -21,6 +22,7 @@ from loadflow.rolling import (
     legs,
     patch_points,
 )
+from loadflow.rolling.rings import _ring_kernels, _ring_tangent
 from loadflow.rolling.rings.condensation import ring_modes
 from loadflow.rolling.rings.expansion import RingSections
 from loadflow.rolling.rings.patches import PatchPoints
@@ -30,6 +32,10 @@ STEEL = 210e9
 DRIVE = SlewingBearing(
     balls=45, ball_diameter=0.015, pitch_diameter=0.250, groove_radius=0.0078,
     contact_angle=math.pi / 4,
+)  # fmt: skip
+ROLLERS = RollerBearing(
+    rollers=30, rows=2, roller_diameter=0.02, roller_length=0.03, pitch_diameter=0.25,
+    row_spacing=0.06, contact_angle=0.5, clearance=-20e-6,
 )  # fmt: skip
 BLADE = SlewingBearing(
     balls=129, rows=2, ball_diameter=0.040, pitch_diameter=1.9, groove_radius=0.0205,
@@ -333,17 +339,41 @@ def test_waves_around_the_ring_shift_the_contacts_as_the_basis_does(sectors):
     ring = dataclasses.replace(OUTER, supports=(flange(0.15, -0.02, sectors=sectors),))
     modes = ring_modes(DRIVE.ring_coupling(0.03), FlexibleRings(inner=INNER, outer=ring))
     waves = modes.waves
-    shift = np.zeros((modes.size, *waves.amplitude.shape[1:], DRIVE.balls))
+    tracks = np.zeros((modes.size, waves.mixing.shape[1], DRIVE.balls))
     sign = np.where(np.arange(len(waves.trig)) < waves.cosines, 1.0, -1.0)[:, None]
     mirrored = sign * waves.trig[:, DRIVE.balls - waves.trig.shape[1] : 0 : -1]
     trig = np.concatenate([waves.trig, mirrored], axis=1)
-    for owner, wave, amplitude in zip(waves.owner, waves.wave, waves.amplitude):
-        shift[owner] += np.outer(amplitude, trig[wave])
+    for owner, (first, last) in enumerate(zip(waves.first, waves.first[1:])):
+        for wave, track, value in zip(
+            waves.wave[first:last], waves.track[first:last], waves.value[first:last]
+        ):
+            tracks[owner, track] += value * trig[wave]
+    shift = np.einsum("sf,afj->asj", waves.mixing, tracks)
     expected = modes.basis.reshape(3, -1, DRIVE.balls, modes.size).transpose(3, 1, 0, 2)
     error = np.abs(shift.reshape(expected.shape) - expected).max(axis=(1, 2, 3))
     assert (error < 1e-9 * np.abs(expected).max(axis=(1, 2, 3))).all()
     if sectors is None:
-        assert len(waves.owner) < 4 * modes.size  # few waves stand for all contacts
+        assert len(waves.value) < 10 * modes.size  # few waves stand for all contacts
+        assert waves.mixing.shape[1] < len(waves.mixing)  # rigid sections: fewer tracks than fields
+
+
+@pytest.mark.parametrize("kind", ["all round", "legs", "rollers"])
+def test_the_tangent_is_the_slope_of_the_forces_by_waves_and_by_balls(kind):
+    sectors = legs(3, 0.4) if kind == "legs" else None
+    ring = dataclasses.replace(OUTER, supports=(flange(0.15, -0.02, sectors=sectors),))
+    bearing = ROLLERS if kind == "rollers" else DRIVE
+    found = bearing.equilibrium(LOAD[:3], LOAD[3:], rings=FlexibleRings(inner=INNER, outer=ring))
+    modes, (x,) = found.elements.modes, found.elements._unknowns
+    assert (modes.waves.shapes.size == 0) == (kind == "all round")  # both ways are taken
+
+    def contacts(x):
+        return _ring_kernels.evaluate(x, modes.waves, modes.law)
+
+    slope = _ring_tangent.tangent(modes.waves, modes.law.power, *contacts(x)[1:5])
+    steps = np.diag(1e-9 * modes.reach)  # shifts by a nanometre
+    expected = [(contacts(x + d)[5] - contacts(x - d)[5]) / (2 * d.sum()) for d in steps]
+    weight = np.sqrt(np.outer(np.diag(slope), np.diag(slope)))
+    assert np.abs((slope - np.transpose(expected)) / weight).max() < 1e-5
 
 
 def test_a_chunk_does_not_depend_on_the_chunks_before_it():

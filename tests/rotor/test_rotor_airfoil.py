@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from numba import njit
 
 from loadflow.errors import InputError
-from loadflow.rotor.aero._airfoil_kernels import SECTION_STATES, coefficients, polar
+from loadflow.rotor.aero._airfoil_kernels import SECTION_STATES, angle_of, coefficients, polar
 from loadflow.rotor.airfoils import potential_flow, separation
 from loadflow.rotor.machine import machine
 from loadflow.rotor.options import RotorOptions
@@ -151,3 +152,18 @@ def test_flow_is_attached_around_zero_lift_and_separated_far_from_it(name):
         # where the flow is attached, separation would halve the lift
         firm = (split.attached > 0.999) & (angle > np.radians(1))
         assert split.separated[firm] == pytest.approx(0.5 * lift[firm], rel=0.03)
+
+
+def test_angles_are_those_of_arctan2_in_all_directions():
+    @njit
+    def angles(up, along, out):
+        for k in range(up.size):
+            out[k] = angle_of(up[k], along[k])
+
+    turn = np.concatenate([np.linspace(-np.pi, np.pi, 4001), np.geomspace(1e-300, 1e-3, 50)])
+    length = np.geomspace(1e-5, 1e5, turn.size)
+    up, along = length * np.sin(turn), length * np.cos(turn)
+    up[:3], along[:3] = (0.0, 0.0, 2.0), (0.0, -2.0, 0.0)
+    found = np.full(turn.size, np.nan)
+    angles(up, along, found)
+    assert np.abs(found - np.arctan2(up, along)).max() < 1e-12

@@ -15,7 +15,7 @@ TURBINE = load_turbine("nrel-5mw")
 
 def _motion(twist, pitch=0.2):
     m = machine(TURBINE, RotorOptions(bend_twist=twist))
-    shape, motion = np.zeros((17, 3, 4)), np.zeros((17, 7))
+    shape, motion = np.zeros((17, 3, 4)), np.zeros((17, 8))
     turned_shapes(m, pitch, shape)
     q = np.array([3.0, -0.2, 0.5])
     deflection(m, pitch, shape, q, np.zeros(3), motion)

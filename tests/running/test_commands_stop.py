@@ -1,5 +1,6 @@
 """The command `run` from outside: signals, what it tells where, and a cluster."""
 
+import itertools
 import os
 import shutil
 import signal
@@ -15,6 +16,7 @@ from loadflow.errors import InputError, LoadflowError
 from loadflow.running.cases import Outcome
 from loadflow.running.profile import Profile
 from loadflow.running.runner import run
+from loadflow.running.telling import Task, TimeLeft
 
 RESULTS = ("reduction.histogram", "loads.statistics")
 
@@ -106,8 +108,27 @@ def test_the_profile_adds_up_the_processor_time_of_stages():
     assert (row["process_seconds"], row["processor_seconds"]) == (4.0, 1.75)
 
 
+def test_a_profile_says_what_all_processes_did_and_it_adds_up():
+    profile = Profile(started=time.perf_counter() - 20.0)
+    profile.add_wall("pilot", 2.0)
+    profile.add_wall("load cases", 10.0)
+    spent = {"loads": 6.0, "journal": 9.0}
+    none, tenth = dict.fromkeys(spent, 0.0), dict.fromkeys(spent, 0.1)
+    compiling = {"loads": 0.0, "journal": 1.0}
+    profile.add(Outcome(spent, compiling, tenth, none, parts={"loads": {"wind": 2.0}}))
+    found = profile.table(2)
+    took = {name: row["process_seconds"] for name, row in found["where"].items()}
+    assert sum(took.values()) == pytest.approx(2 * found["wall_seconds"], abs=0.01)
+    assert (took["wind"], took["pilot"], took["processes start and wait"]) == (2.0, 4.0, 5.0)
+    assert took["rotor"] == pytest.approx(3.9)
+    assert took["films"] == pytest.approx(7.9)
+    assert took["compiling kernels"] == pytest.approx(1.0)
+
+
 def test_a_stage_that_takes_long_tells_every_minute(monkeypatch, capsys):
+    clock = itertools.count(0.0, 10.0)  # 10 s later whenever it is asked
     monkeypatch.setattr(shown, "EVERY", 0.0)
+    monkeypatch.setattr(shown, "TimeLeft", lambda: TimeLeft(lambda: next(clock)))
     lines = shown._Lines()
     lines.show("load cases", 0, 8)
     lines.show("load cases", 2, 8)
@@ -116,7 +137,28 @@ def test_a_stage_that_takes_long_tells_every_minute(monkeypatch, capsys):
     told = capsys.readouterr().err.splitlines()
     assert told[0].endswith("load cases: 0 of 8")
     assert 2 <= len(told) <= 4
-    assert all("load cases: 2 of 8, about 0:0" in line for line in told[1:])
+    assert all("load cases: 2 of 8, about " in line for line in told[1:])
+
+
+def test_time_left_counts_down_between_jobs_and_goes_by_their_cost():
+    """Of unequal jobs, and not beyond what was expected."""
+    now = [0.0]
+    left = TimeLeft(lambda: now[0])
+    left.show("cases", 0, 4)
+    assert left.seconds() is None
+    now[0] = 60.0
+    left.show("cases", 1, 4)
+    told = []
+    for now[0] in (60.0, 120.0, 300.0):
+        told.append(left.seconds())
+    assert told == [180.0, 120.0, None]
+
+    now[0] = 0.0
+    left = TimeLeft(lambda: now[0])
+    left.show(Task("cases", 100.0), 0, 2)
+    now[0] = 45.0
+    left.show(Task("cases", 10.0), 1, 2)  # a long case of two is done in half of its time
+    assert left.seconds() == pytest.approx(5.0)
 
 
 def test_the_version_is_printed():

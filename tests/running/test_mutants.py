@@ -18,7 +18,7 @@ FILE = Path(load_turbine.__code__.co_filename).parent / "nrel-5mw.toml"
 def test_of_150_mutants_none_escapes(kind):
     met, escaped = mutants.survey(kind, range(150))
     assert escaped == []
-    assert min(met["refused"], met["answered"]) > 5  # neither all good nor all bad
+    assert min(met["refused"], met["answered"]) > 3  # neither all good nor all bad
 
 
 @pytest.mark.slow

@@ -1,12 +1,25 @@
 """Kernels are compiled once, by a case in miniature that every stage can take."""
 
+import numba
 import pytest
 from small_run import small_scene
 
 from loadflow.cube import check_case
+from loadflow.cube.hdf5 import read_whole
 from loadflow.planning.pilot import Questions
 from loadflow.planning.plan import make_plan
-from loadflow.running.warm_up import compile_for_pilot, compile_kernels, made_up_loads
+from loadflow.running.cases import do_case
+from loadflow.running.folder import part_file
+from loadflow.running.parts import digest_of, is_sound, save_part
+from loadflow.running.warm_up import (
+    EARLY,
+    adopt,
+    compile_for_pilot,
+    compile_kernels,
+    made_up_loads,
+    told_as_called,
+)
+from loadflow.scene import make_scene
 
 
 class TwoWorkers:
@@ -33,11 +46,11 @@ def plan(tmp_path, monkeypatch):
 
 def test_all_stages_take_the_case_in_miniature_and_it_is_done_once(plan, tmp_path):
     where, told = TwoWorkers(), []
-    compile_kernels(plan, where, lambda *what: told.append(what))
+    compile_kernels(plan, where, lambda *what: told.append(what), tmp_path)
     assert where.jobs == [("other", "")]  # given loads: nothing to simulate; nothing failed
     assert told[-1][1:] == (1, 1)
     assert len(list((tmp_path / "kernels").glob("*.compiled"))) == 1
-    compile_kernels(plan, where, lambda *what: told.append(what))
+    compile_kernels(plan, where, lambda *what: told.append(what), tmp_path)
     assert len(where.jobs) == 1
 
 
@@ -48,16 +61,18 @@ def test_questions_of_a_pilot_are_asked_in_miniature_each_model_by_itself(plan, 
     )
     where, told = TwoWorkers(), []
     for _ in range(2):
-        compile_for_pilot(questions, lambda: plan, where, lambda *what: told.append(what))
-    assert where.jobs == [("journal", ""), ("rolling", ""), ("other", "")]
+        compile_for_pilot(questions, lambda: plan, where, lambda *what: told.append(what), tmp_path)
+    assert where.jobs == [("journal", ""), ("rolling", ""), ("other", "")]  # the longest first
     assert [what[1:] for what in told] == [(0, 3), (1, 3), (2, 3), (3, 3)]
+    left = [task.left for task, *_ in told]
+    assert left == [40.0, 20.0, 15.0, 0.0]  # s: 40 beside 20 and 5
     assert len(list((tmp_path / "kernels").glob("*.compiled"))) == 1
 
 
 def test_a_process_alone_compiles_when_it_calls(plan, tmp_path):
     where = TwoWorkers()
     where.workers = 1
-    compile_kernels(plan, where, lambda *what: None)
+    compile_kernels(plan, where, lambda *what: None, tmp_path)
     assert where.jobs == []
     assert not list((tmp_path / "kernels").iterdir())
 
@@ -67,3 +82,58 @@ def test_made_up_loads_are_those_of_a_load_case(plan):
     check_case(series)
     assert float(series["hub_force"].sel(axis="z").mean()) == pytest.approx(-1.63e6, rel=0.02)
     assert float(series["speed"].mean()) == pytest.approx(1.267, rel=0.05)
+
+
+def test_a_process_alone_says_that_it_compiles_when_it_does():
+    where, told = TwoWorkers(), []
+    where.workers = 1
+    kernel = numba.njit(lambda x: x + 1)  # not kept on the disk
+    for _ in range(2):
+        with told_as_called(where, lambda *what: told.append(what[1:])):
+            kernel(1)
+            kernel(1)
+    assert told == [(0, 1), (1, 1)]
+
+
+@pytest.fixture
+def simulated(tmp_path):
+    loads = {"wind_speeds": [12.0], "seeds": 2, "duration": 2.0, "rung": "tables"}
+    loads |= {"wind_grid": [3, 8]}
+    return make_plan(make_scene({"name": "s", "results": ["loads.statistics"], "loads": loads}))
+
+
+def test_the_rotor_is_compiled_by_the_first_case_that_lacks_its_loads(
+    simulated, tmp_path, monkeypatch
+):
+    """The part that the run keeps is the one that it would make itself."""
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "kernels"))
+    first = simulated.steps[0]
+    for k, case in enumerate(simulated.cases):
+        folder = tmp_path / f"kernels/{k}"
+        folder.mkdir(parents=True)
+        monkeypatch.setenv("NUMBA_CACHE_DIR", str(folder))  # no mark
+        compile_kernels(simulated, TwoWorkers(), lambda *what: None, tmp_path / "run")
+        made = part_file(tmp_path / "run", "loads", case)
+        assert is_sound(made)
+        assert digest_of(made) == first.digest
+    (tmp_path / "again/loads").mkdir(parents=True)
+    do_case(case, simulated.scene, (first,), tmp_path / "again")
+    assert read_whole(made).identical(read_whole(part_file(tmp_path / "again", "loads", case)))
+
+
+def test_early_parts_are_taken_if_the_plan_has_their_settings(simulated, tmp_path):
+    first, (one, two) = simulated.steps[0], simulated.cases
+    series = made_up_loads(simulated.scene, one)
+    for digest, taken in (("0" * 64, [one]), (first.digest, [one, two])):
+        early = tmp_path / f"{EARLY}1"
+        for place in (early, tmp_path):
+            (place / "loads").mkdir(parents=True, exist_ok=True)
+        save_part(series, part_file(tmp_path, "loads", one), first.digest)  # there already
+        before = part_file(tmp_path, "loads", one).read_bytes()
+        for case in (one, two):
+            save_part(series, part_file(early, "loads", case), digest)
+        adopt(tmp_path, simulated)
+        assert not early.exists()
+        assert part_file(tmp_path, "loads", one).read_bytes() == before
+        there = [case for case in (one, two) if part_file(tmp_path, "loads", case).exists()]
+        assert there == taken

@@ -106,6 +106,13 @@ def test_a_film_of_given_viscosity_cannot_start_cold_which_is_told():
     assert unused_keys(film_of({"transfer": 0.0}, cold_start=True)) == {}
 
 
+def test_a_cold_start_beside_stated_temperatures_of_oil_is_told_to_have_no_effect():
+    stated = film_of({"transfer": 100.0, "inlet_temperature": 313.15}, cold_start=True)
+    told = unused_keys(stated)
+    assert [*told] == ["environment.cold_start"]
+    assert "state the temperature" in told["environment.cold_start"]
+
+
 def test_suspensions_are_named_by_their_integration():
     scene = make_scene({"name": "x", "shaft": {"three_point": {}, "moment": {}}})
     told = {one["name"]: one["integration"] for one in drawn(scene)}

@@ -30,6 +30,7 @@ _REGULAR = 1e-12  # determinant of a stiffness, over its largest entry squared, 
 _FLOW, _OPEN = 1.0 / 3.0, 2.0  # of the side flow, of all of them and of what moves and opens
 
 
+@np.errstate(over="ignore")  # of a film that its cells do not resolve at all
 def relative_errors(
     film: DiscreteFilm,
     gap: BoreGap,

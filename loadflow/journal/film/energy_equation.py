@@ -105,6 +105,7 @@ class EnergyEquation:
 
     def __init__(self, film: DiscreteFilm, gap: WarmGap, heat: FilmHeat) -> None:
         self.film, self.gap, self.heat = film, gap, heat
+        film.sheared_by_fill = True  # heat is made where there is oil, and friction is that heat
         self.wet = ~film.grooved
         self._cells = np.full(film.mesh.shape, FRESH, dtype=np.int64)
         self.size = int(self.wet.sum())

@@ -114,6 +114,7 @@ class DiscreteFilm:
         self._unit = self.mirrors * radius**2  # of loads
         self.ambient: Array | float = 0.0  # of `_load`: what acts outside the film, N
         self.contact: AsperityLoad | None = None  # of rough surfaces, which may touch
+        self.sheared_by_fill = False  # whether friction counts the share of liquid, not the gap
 
     def set_speed(self, speed: float) -> None:
         """Set the speed of the shaft, rad/s."""

@@ -32,9 +32,8 @@ def imbalance(
     frame = film.place(u, position)
     gap, local = film.gap, frame.T @ velocity
     mass = film.storage(gap.coefs[:1], gap.around[None], local, rate)[0]
-    flux = (abs(film.wedge) + film.scale) * film.mesh.area.max()
     outflow = film.balance(film.gap.coef, mass) - old
-    worst = float(np.abs(film.residual(outflow)).max()) / flux
+    worst = float(np.abs(film.residual(outflow)).max()) / _flux(film)
     if film.pockets.free.size:
         worst = max(worst, film.pockets.missing(film.state[P], outflow, film.scale))
     if force is not None:
@@ -48,22 +47,21 @@ def rounding(
     film: DiscreteFilm,
     position: Array,
     velocity: Array,
-    slope: Array,
+    slope: Array | None = None,
     force: Array | None = None,
     free: slice | NDArray[np.int64] = EVERY,
 ) -> float:
     """Level of rounding of `imbalance`, just called, over the same scales.
 
     The gap is a difference of numbers near 1: where it is narrow its coefficients have fewer
-    digits. `slope` (m, m) is the derivative of the load by the position.
+    digits. `slope` (m, m), the derivative of the load by the position, goes with a `force`.
     """
     mesh, gap = film.mesh, film.gap
     mass = film.storage(gap.coefs[:1], gap.around[None], velocity, 0.0)[0]
     terms = _largest_terms(film, mass)
     narrow = min(max(gap.narrowest(position), EPS), 1.0)
-    flux = (abs(film.wedge) + film.scale) * mesh.dz.max()
-    worst = terms * (1.0 + 3.0 / narrow) / flux
-    if force is not None:
+    worst = terms * (1.0 + 3.0 / narrow) / _flux(film)
+    if force is not None and slope is not None:
         scale = film.load_scale(force)
         pressed = float(np.abs(film.state[LOAD]).max()) * 2 * np.pi * mesh.dz.sum()
         reach = np.abs(gap.across).max(axis=1)
@@ -71,6 +69,11 @@ def rounding(
         digits = np.abs(slope).sum(axis=1) * max(1.0, float(np.abs(position).max()))
         worst = max(worst, float((carried + digits)[free].max()) / scale)
     return rounding_level(worst)
+
+
+def _flux(film: DiscreteFilm) -> float:
+    """Scale of what flows through a cell."""
+    return float((abs(film.wedge) + film.scale) * film.mesh.area.max())
 
 
 @np.errstate(over="ignore", invalid="ignore")  # of an iteration that diverges

@@ -61,10 +61,13 @@ def integrals(film: DiscreteFilm) -> Integrals:
         drops[:, end] = np.where(film.grooved[:, end], 0.0, pressure[:, end] - film.p_edge)
     flow = coef[kernel.H3, :-1] * mesh.gz * drops
     gap = coef[kernel.HM, :-1, :cells] * dz
+    sheared = coef[kernel.HINV, :-1, :cells] * dz
+    if film.sheared_by_fill:
+        sheared = sheared * film.state[FILL]
     return Integrals(
         peak=float(pressure.max()),
         dissipation=dissipation + float(np.vdot(flow, drops)),
-        shear=float(np.sum(coef[kernel.HINV, :-1, :cells] * dz, where=~film.grooved)),
+        shear=float(np.sum(sheared, where=~film.grooved)),
         outflow=float(np.maximum(flow[:, [0, -1]], 0.0).sum()),
         fill=float(np.vdot(film.state[FILL], gap) / gap.sum()),
     )

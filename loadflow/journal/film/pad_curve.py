@@ -40,9 +40,14 @@ class PadCurve:
     forces: Array
     lifts: Array
 
+    @property
+    def widest(self) -> float:
+        """Widest gap at which a film holds a pad; 0 if none does."""
+        return float(self.gaps[-1]) if self.gaps.size else 0.0
+
     def holds(self, gap: Array) -> NDArray[np.bool_]:
         """Whether a film holds a pad at each `gap` (k,)."""
-        return np.asarray(gap <= (self.gaps[-1] if self.gaps.size else 0.0))
+        return np.asarray(gap <= self.widest)
 
     def force(self, gap: Array) -> tuple[Array, Array]:
         """Force at each `gap` (k,), and how fast it falls as the gap widens, ≥ 0."""

@@ -399,11 +399,11 @@ def summarise(film, work, q, wedge, row):
         2.0 * film.ring.area * film.nodes.width
     )  # beside asperities a film may carry next to nothing
     row[at.HIGHEST] = left / max(peak - film.ring.p_edge, mean, 1e-3 * film.ring.scale)
-    row[at.FED] = _fed(film, work, wedge) if film.ring.shaped else 0.0
+    row[at.FED] = fed(film, work, wedge) if film.ring.shaped else 0.0
 
 
 @once
-def _fed(film, work, wedge):
+def fed(film, work, wedge):
     """Flow from the grooves into the film, less what flows back, after `place`."""
     nx, m = work.u.shape
     weights, p, fill, face = film.nodes.weights, work.state[P], work.state[FILL], work.face

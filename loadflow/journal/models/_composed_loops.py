@@ -49,7 +49,7 @@ _ALIKE = 0.1  # difference of two rates of which one goes with the factors of th
 
 
 @once
-def _solve(system, size):
+def solve_system(system, size):
     """Solve the linear `system` (size, size + 1) in place with pivots; False if it is singular."""
     for j in range(size):
         best = j
@@ -128,7 +128,7 @@ def _shaft_step(film, work, load, size, step):
         work.system[a, size] = -(load[a] - work.load[a] - work.touch[0, a] + work.carried[0, a])
         for b in range(size):
             work.system[a, b] = work.carried[1 + b, a] - work.touch[1 + a, b]
-    if not _solve(work.system, size):
+    if not solve_system(work.system, size):
         return
     change, peak = 0.0, film.ring.scale
     for i in range(nx):
@@ -311,7 +311,7 @@ def _leaves_room(film, work, q, ahead):
 
 
 @once
-def _lay_at(work, line, n, to, q, given):
+def lay_at(work, line, n, to, q, given):
     """Bend of the shaft, and its tilt in `q` if that is `given`, between the times n − 1 and n."""
     before = max(n - 1, 0)
     for a in range(2):
@@ -381,7 +381,7 @@ def solve(
             for a in range(4):
                 new[a] = q[a]
                 given[a] = load[last, a] + to * (load[n, a] - load[last, a])
-            _lay_at(work, line, n, to, new, size < 4 and not resting)
+            lay_at(work, line, n, to, new, size < 4 and not resting)
             if not resting:
                 rate, weight, weight_before, ratio = two_steps(step, step_before)
                 ahead = False

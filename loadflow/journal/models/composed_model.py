@@ -172,13 +172,17 @@ class ComposedFilm:
 
     def _least(self, positions: Array, bends: Array) -> Array:
         """Narrowest gap (n,) of a rigid shell at `positions` (n, 4), clearances, over the width."""
-        bore, z = Bore.of(self.bearing), self.film.nodes.z
+        centres, bore = self.centres(positions, bends), Bore.of(self.bearing)
+        return bore.narrowest(centres.reshape(-1, 2)).reshape(len(positions), -1).min(axis=1)
+
+    def centres(self, positions: Array, bends: Array) -> Array:
+        """Where shafts at `positions` (n, 4) are seen to be from the points across, (n, l, 2)."""
+        z = self.film.nodes.z
         x, y, tilt_x, tilt_y = positions.T[:, :, None]
         bend_x, bend_y = bends.T[:, :, None]
-        centres = np.stack(
+        return np.stack(
             [x + tilt_y * z + 0.5 * bend_x * z**2, y - tilt_x * z + 0.5 * bend_y * z**2], axis=-1
         )
-        return bore.narrowest(centres.reshape(-1, 2)).reshape(len(positions), -1).min(axis=1)
 
     def unresolved_across(self, rows: Array) -> NDArray[np.bool_]:
         """Whether the polynomials miss the pressure of `rows` (n, RESULTS), as at a bearing end.

@@ -14,17 +14,27 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from loadflow.journal.film.gap_layout import Bore
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
 from loadflow.journal.models import composed_film as at
 from loadflow.journal.models._composed_loops import solve
+from loadflow.journal.models._pad_loops import solve_on_pads
 from loadflow.journal.models.composed_model import (
     LEVELS,
     ComposedFilm,
     build,
     contact_share,
     warn_unresolved,
+)
+from loadflow.journal.models.composed_pads import (
+    Pads,
+    PadWork,
+    first_on_pads,
+    make_pad_work,
+    narrowest_on_pads,
+    pads_of,
 )
 from loadflow.journal.models.model import Steps
 from loadflow.journal.models.ring import no_start, stopped
@@ -40,7 +50,10 @@ _LONG = 240  # samples that are tried with few; calls of fewer cost
 
 
 class _State(NamedTuple):
-    """Film and shaft at the last time, and at the one before; shapes as in `ComposedWork`."""
+    """Film and shaft at the last time, and at the one before; shapes as in `ComposedWork`.
+
+    `tilts` (4, p) and `on` (p,) are those of `PadWork` where pads tilt.
+    """
 
     level: int
     last: Array
@@ -48,6 +61,8 @@ class _State(NamedTuple):
     place: Array
     place_before: Array
     past: Array
+    tilts: Array | None = None
+    on: NDArray[np.bool_] | None = None
 
 
 @dataclass(frozen=True)
@@ -143,8 +158,8 @@ class _March:
         most = self.drive.control.max_iterations
         if not self.solve(level, place, model.size, begin, end, most):
             return None
-        copies = (work.last, work.before, place, work.places[0], work.past)
-        return _State(level, *(values.copy() for values in copies))
+        last, before, earlier = work.last.copy(), work.before.copy(), work.places[0].copy()
+        return _State(level, last, before, place, earlier, work.past.copy())
 
     def _moved(self, unknowns: Array, level: int, other: int) -> Array:
         """Unknowns (nx, m) at the points of another level."""
@@ -153,6 +168,72 @@ class _March:
         there, edge = self.drive.film(other), self.model.cold()[0, 0]
         across = between_points(unknowns.shape[1], there.work.u.shape[1], there.whole)
         return np.asarray(edge + (unknowns - edge) @ across.T)
+
+    def results(self) -> dict[str, Any]:
+        """Variables of the path so far."""
+        speed = self.drive.speed * self.states[:, THIN]
+        return self.model.results(self.rows, speed, self.lines)
+
+
+class _OnPads(_March):
+    """The same on pads that tilt, which begin as those of the grid."""
+
+    def __init__(self, drive: _Drive, steps: Steps) -> None:
+        super().__init__(drive, steps)
+        limits = replace(drive.control, max_iterations=2 * drive.control.max_iterations)
+        film, line = drive.options.isothermal(), drive.line.at(np.array([0]))
+        given = drive.bearing, film, drive.force, drive.speed, line
+        self.first, self.gap = first_on_pads(*given, limits, steps.start)
+        self.tilts = np.zeros((drive.time.size, self.gap.pads.size))
+        self.pads: dict[int, tuple[Pads, PadWork]] = {}
+
+    def pads_at(self, level: int) -> tuple[Pads, PadWork]:
+        """Pads of the film of a level."""
+        if level not in self.pads:
+            model = self.drive.film(level)
+            pads = pads_of(model.film.ring, self.gap, float(model.cold()[0, 0]))
+            self.pads[level] = pads, make_pad_work(model.work.u.shape, self.gap.pads.size)
+        return self.pads[level]
+
+    def solve(self, level: int, place: Array, size: int, begin: int, end: int, most: int) -> bool:
+        model, drive = self.drive.film(level), self.drive
+        solved = solve_on_pads(
+            model.film, model.work, *self.pads_at(level), place, size, begin, drive.time[:end],
+            self.loads[:end], self.lines[:end], drive.speed[:end], drive.control.tolerance, most,
+            self.rows[:end], self.tilts[:end], self.warmth, self.states[:end],
+        )  # fmt: skip
+        return bool(self.rows[solved - 1, at.CONVERGED])
+
+    def begins(self, level: int, begin: Callable[[], Array]) -> _State | None:
+        """The film at the first time, near the place of the grid; None where it is not found."""
+        model, most = self.drive.film(level), 2 * self.drive.control.max_iterations
+        work, (_, pad_work), bend = model.work, self.pads_at(level), self.lines[0, 2:]
+        work.bend[:], work.u[:] = bend, model.cold()
+        place = self.first.place.copy()
+        pad_work.tilts[:], pad_work.on[:] = self.first.tilts, self.first.on
+        sizes = (0, model.size) if self.start is None else (0,)  # the film first
+        if not [self.solve(level, place, size, 0, 1, most) for size in sizes][-1]:
+            return None
+        past = np.concatenate([bend, bend, [0.0]])
+        begun = _State(level, work.u.copy(), work.u.copy(), place, place, past)
+        return begun._replace(tilts=pad_work.tilts.copy(), on=pad_work.on.copy())
+
+    def goes_on(self, state: _State, level: int, begin: int, end: int) -> _State | None:
+        _, pad_work = self.pads_at(level)
+        pad_work.tilts[:], pad_work.on[:] = state.tilts, state.on
+        after = super().goes_on(state, level, begin, end)
+        if after is None:
+            return None
+        return after._replace(tilts=pad_work.tilts.copy(), on=pad_work.on.copy())
+
+    def results(self) -> dict[str, Any]:
+        bearing, some = self.drive.bearing, self.rows[:, : at.TILT_Y + 1]
+        centres = self.model.centres(some, self.lines[:, 2:])
+        least = narrowest_on_pads(bearing, centres, self.tilts)
+        return super().results() | {
+            "minimum_film": least * bearing.clearance,
+            "pad_tilt": self.tilts * bearing.relative_clearance,
+        }
 
 
 def orbit(
@@ -180,7 +261,8 @@ def orbit(
     loadflow.errors.ValidityWarning
         A pressure that changes more across the width than the polynomials do; names the time.
     """
-    march = _March(_Drive(bearing, options, time, force, speed, line, control), steps)
+    drive = _Drive(bearing, options, time, force, speed, line, control)
+    march = (_OnPads if Bore.of(bearing).pads else _March)(drive, steps)
     model, rows = march.model, march.rows
     for level in LEVELS:
         state = march.begins(level, begin)
@@ -208,8 +290,7 @@ def orbit(
     left = model.unresolved_on_path(rows, force)
     if left.any():
         warn_unresolved(left, f"t = {time[left.argmax()]:.6g} s")
-    values = model.results(rows, speed * march.states[:, THIN], march.lines)
-    values |= {"x": rows[:, at.X], "y": rows[:, at.Y]}
+    values = march.results() | {"x": rows[:, at.X], "y": rows[:, at.Y]}
     if options.contact is not None:
         values["contact_share"] = contact_share(values["contact_force"], force)
     return cooled(march.warmth, march.states, values)

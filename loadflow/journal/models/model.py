@@ -181,13 +181,13 @@ def _pairs(
     """What does not go with another part: name, value, whether that is there, words."""
     pads = any(part.tilting for part in bearing.shape.segments)
     if film.rung == "reduced" and bearing.shape.segments:
-        yield "shape", bearing.shape.kind, pads, 'a fixed bore on rung = "reduced"'
         pressure = bearing.shape.groove_pressure
         at_ends = 'that of the bearing ends on rung = "reduced"'
         yield "groove_pressure", pressure, pressure != film.edge_pressure, at_ends
     over_area = film.heat is not None and film.heat.over_area
     if verb == "in_motion":
-        yield "shape", bearing.shape.kind, pads, "a fixed bore for an orbit"
+        one = "that of one temperature for pads in motion"
+        yield "heat", film.heat, pads and over_area, one
         stored = _kind_of_heat(film, verb) == "slow_heat"
         yield (
             "heat",

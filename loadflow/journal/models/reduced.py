@@ -61,7 +61,12 @@ POINTS = 3  # across the half width; the largest pressure moves by 0.4 % at most
 def equilibrium(
     bearing: JournalGeometry, options: Film, force: Array, speed: Array, line: Line, control: Limits
 ) -> dict[str, Any]:
-    """Static equilibria; a load that fails or is not resolved here is solved on the grid."""
+    """Static equilibria; a load that fails or is not resolved here is solved on the grid.
+
+    So are all on pads that tilt: at rest these are of the grid alone.
+    """
+    if Bore.of(bearing).pads:
+        return grid.equilibrium(bearing, options, force, speed, line, control)
     force, speed = np.array(force), np.array(speed)  # of the layout that the kernels know
     if composed.composes(options, line):
         answer, found, none = composed.equilibrium(bearing, options, force, speed, line, control)
@@ -174,7 +179,7 @@ def _path(
         place[2:] = first["tilt"][0] * unit if not line.straight else 0.0
         return place
 
-    if composed.composes(options, line):
+    if Bore.of(bearing).pads or composed.composes(options, line):
         values = composed_path.orbit(
             bearing, options, time, force, speed, line, control, steps, first_position
         )

@@ -16,14 +16,14 @@ from numpy.typing import NDArray
 
 from loadflow.errors import SolverError
 from loadflow.journal.film import _kernels as kernel
-from loadflow.journal.film.film import Linear, SingularFilm
-from loadflow.journal.film.imbalance import imbalance
+from loadflow.journal.film.film import SingularFilm
 from loadflow.journal.film.surface_film import SurfaceFilm
-from loadflow.numerics.convergence import Limits
+from loadflow.journal.solvers.assembly_balance import imbalance
+from loadflow.journal.solvers.assembly_member import BODY, AssemblyState, Member, MemberState
+from loadflow.numerics.convergence import COARSEST, Limits, is_small
 
 Array = NDArray[np.float64]
 
-BODY = 5  # degrees of freedom of the shaft
 _SHIFTS = np.arange(3)
 _QUADRATIC = 1e-7  # a step this small leaves an error near its square
 _STEP_LIMIT = 0.5  # change of the film, over its pressure, beyond which a step is shortened
@@ -36,80 +36,6 @@ _SHORT = 15  # Newton steps of one load step
 _SPENT = 250  # Newton steps after which an equilibrium is given up
 _NOTHING = 1e-6  # share of the scale of pressure that is none
 _PRESSED = 1e-12  # narrowest gap, in clearances, that is none
-
-
-@dataclass(frozen=True)
-class Member:
-    """A film and how it sits.
-
-    Attributes
-    ----------
-    film : SurfaceFilm
-        The film; it keeps the work arrays, so that one film is in one member only.
-    attached : array (m, 5)
-        Position of the film (clearances) by that of the shaft (m, rad) in the axes of the pad.
-    by_pad : array (m, k)
-        Position of the film by the k motions of the pad (m, rad).
-    support : array (k, k)
-        Stiffness of the pad's support, N/m and N m/rad; 0 where the pad tilts freely.
-    normal : array (m,)
-        Position of the film by a shift of the shaft along the normal at the pivot.
-    turns : tuple of array (5, 5)
-        Axes of the shaft as seen by each pad that shares this film because it sees the same gap;
-        one pad, not turned, by default.
-    sense : float
-        −1 where the shaft turns the other way in the axes of the film.
-    """
-
-    film: SurfaceFilm
-    attached: Array
-    by_pad: Array
-    support: Array
-    normal: Array
-    turns: tuple[Array, ...] = (np.eye(BODY),)
-    sense: float = 1.0
-
-    def seen(self, turns: tuple[Array, ...], sense: float) -> Member:
-        """The same, seen by a shaft in other axes."""
-        return replace(self, turns=turns, sense=sense)
-
-    @property
-    def sees(self) -> Array:
-        """Position of the film by that of the shaft in the axes of the bearing, (m, 5)."""
-        return np.asarray(self.attached @ self.turns[0])
-
-    @property
-    def unit(self) -> float:
-        """Unit of the gap, m: work of a load over that of its degree of freedom."""
-        return self.film.relative_clearance * self.film.radius
-
-
-@dataclass(frozen=True)
-class MemberState:
-    """Unknowns of a film, position of its pad, the last linearisation, storage of earlier times."""
-
-    u: Array
-    pad: Array
-    linear: Linear | None = None
-    old: Array | float = 0.0
-
-
-@dataclass(frozen=True)
-class AssemblyState:
-    """Shaft and films: position (m, rad), velocity, states of the films, convergence.
-
-    With a `rate`, 1/s, the films store ``rate · F h`` less `MemberState.old`: an implicit step. Of
-    the shaft, `free` is in balance.
-    """
-
-    position: Array
-    velocity: Array
-    members: tuple[MemberState, ...]
-    converged: bool = False
-    iterations: int = 0
-    residual: float = math.inf
-    rate: float = 0.0
-    free: NDArray[np.int64] = field(default_factory=lambda: np.arange(0))
 
 
 @dataclass(frozen=True)
@@ -162,14 +88,10 @@ class Assembly:
             members.append(replace(own, u=own.u + _NOTHING * film.scale) if empty else own)
         return replace(state, members=tuple(members))
 
-    def place(self, member: Member, state: MemberState, position: Array) -> Array:
-        """Position of a film, in its clearances."""
-        return np.asarray(member.sees @ position - member.by_pad @ state.pad)
-
     def narrowest(self, state: AssemblyState) -> float:
         """Narrowest gap, m."""
         return min(
-            m.unit * m.film.gap.narrowest(self.place(m, s, state.position))
+            m.unit * m.film.gap.narrowest(m.place(s, state.position))
             for m, s in zip(self.members, state.members)
         )
 
@@ -228,7 +150,7 @@ class Assembly:
         """What the shaft applies to every pad of every film at a solved state, N, N m."""
         found = []
         for member, own in zip(self.members, state.members):
-            place = self.place(member, own, state.position)
+            place = member.place(own, state.position)
             load = member.unit * member.film.field(own.u, place)[3]
             found.append([turn.T @ member.attached.T @ load for turn in member.turns])
         return found
@@ -267,8 +189,8 @@ class Assembly:
             if not math.isfinite(change):
                 break
             if change < _QUADRATIC and not damped:
-                residual = self.imbalance(state, force, free)
-                if residual < limits.tolerance:
+                residual, level = imbalance(self.members, self.length, state, force, free)
+                if is_small(residual, limits.tolerance, min(level, COARSEST)):
                     return replace(state, converged=True, iterations=iteration, residual=residual)
         return replace(state, converged=False, iterations=iteration, residual=residual)
 
@@ -276,7 +198,7 @@ class Assembly:
         """The same with the films linearised."""
         members = []
         for member, own in zip(self.members, state.members):
-            place = self.place(member, own, state.position)
+            place = member.place(own, state.position)
             moving = member.sees @ state.velocity
             members.append(
                 replace(
@@ -295,7 +217,7 @@ class Assembly:
         parts = [self._condensed(m, s) for m, s in zip(self.members, state.members)]
         load, stiffness, _ = _sums(self.members, parts)
         for member, own in zip(self.members, state.members):
-            if member.film.gap.gaps(self.place(member, own, state.position)).min() < _PRESSED:
+            if member.film.gap.gaps(member.place(own, state.position)).min() < _PRESSED:
                 return state, math.nan
         change = max(_change(m.film, s) for m, s in zip(self.members, state.members))
         limited, whole = min(1.0, _STEP_LIMIT / max(change, 1e-300)), share
@@ -310,7 +232,7 @@ class Assembly:
         for member, own, part in zip(self.members, state.members, parts):
             pad = limited * part.first + part.follow @ (member.turns[0] @ step)
             move = member.sees @ step - member.by_pad @ pad
-            share = min(share, member.film.gap.share(self.place(member, own, state.position), move))
+            share = min(share, member.film.gap.share(member.place(own, state.position), move))
             moves.append((pad, move))
         members, change = [], 1.0 if limited == 0.0 else 0.0
         for member, own, (pad, move) in zip(self.members, state.members, moves):
@@ -320,37 +242,10 @@ class Assembly:
             u = own.u.copy()
             change = max(change, member.film.correct(u, own.linear.columns, weights))
             members.append(replace(own, u=u, pad=own.pad + share * pad))
-            place = self.place(member, own, state.position)
+            place = member.place(own, state.position)
             change = max(change, float(np.abs(share * move).max()) / gap.narrowest(place))
         position = state.position + share * step
         return replace(state, position=position, members=tuple(members)), change
-
-    def imbalance(self, state: AssemblyState, force: Array, free: NDArray[np.int64]) -> float:
-        """Largest imbalance of cells, pads and shaft, over their scales."""
-        worst, total = 0.0, np.zeros(BODY)
-        arms = np.append(np.ones(3), np.full(2, 1.0 / self.length))
-        least = 0.0
-        for member, own in zip(self.members, state.members):
-            film = member.film
-            place = self.place(member, own, state.position)
-            moving = member.sees @ state.velocity
-            worst = max(worst, imbalance(film, own.u, place, moving, None, state.rate, own.old))
-            load = member.unit * film.field(own.u, place)[3]
-            total += sum(turn.T @ member.attached.T @ load for turn in member.turns)
-            least += 1e-3 * film.scale * film.radius**2
-            if own.pad.size:
-                size = np.abs(member.by_pad).max(axis=0)
-                missing = (member.by_pad.T @ load - member.support @ own.pad) / size
-                pressed = max(
-                    float(np.abs(load).max()), 1e-3 * member.unit * film.scale * film.radius**2
-                )
-                worst = max(worst, float(np.abs(missing).max()) / pressed)
-        if free.size:
-            missing = (arms * (force - total))[free]
-            worst = max(
-                worst, float(np.abs(missing).max()) / max(math.hypot(*(arms * force)), least)
-            )
-        return worst
 
     def equilibrium(
         self,

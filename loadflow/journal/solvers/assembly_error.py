@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.journal.film.cell_error import SurfaceError, drag_error
-from loadflow.journal.solvers.assembly import BODY, Assembly, AssemblyState, Member, MemberState
+from loadflow.journal.solvers.assembly import Assembly
+from loadflow.journal.solvers.assembly_member import BODY, AssemblyState, Member, MemberState
 
 Array = NDArray[np.float64]
 
@@ -55,7 +56,7 @@ def relative_errors(assembly: Assembly, members: slice, state: AssemblyState) ->
 
 def _part(assembly: Assembly, member: Member, own: MemberState, state: AssemblyState) -> _Part:
     """A film, its pad and what its cells leave out."""
-    place = assembly.place(member, own, state.position)
+    place = member.place(own, state.position)
     member.film.place(own.u, place)
     whole, error = np.eye(place.size), SurfaceError(member.film)
     if not own.pad.size or own.linear is None:

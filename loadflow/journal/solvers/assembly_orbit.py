@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import InputError, SolverError
-from loadflow.journal.solvers.assembly import Assembly, AssemblyState
+from loadflow.journal.solvers.assembly import Assembly
+from loadflow.journal.solvers.assembly_member import AssemblyState
 from loadflow.numerics.convergence import Limits
 
 Array = NDArray[np.float64]
@@ -87,7 +88,7 @@ def _past(assembly: Assembly, time: float, state: AssemblyState) -> Past:
     """History of a solved state."""
     stored = []
     for member, own in zip(assembly.members, state.members):
-        member.film.place(own.u, assembly.place(member, own, state.position))
+        member.film.place(own.u, member.place(own, state.position))
         stored.append(member.film.liquid())
     return Past(time, state, tuple(stored))
 

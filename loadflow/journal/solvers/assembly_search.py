@@ -18,7 +18,9 @@ from itertools import chain, product
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.journal.solvers.assembly import BODY, Assembly, AssemblyState
+from loadflow.journal.solvers.assembly import Assembly
+from loadflow.journal.solvers.assembly_balance import imbalance
+from loadflow.journal.solvers.assembly_member import BODY, AssemblyState
 from loadflow.numerics.convergence import Limits
 
 Array = NDArray[np.float64]
@@ -32,6 +34,7 @@ _ALONGS, _ALONG = (0.0, 0.6, -0.6), 1.0 - 1e-9  # ways between two cones
 _ROUGH = Limits(1e-3, 20)  # of these
 _NEAR = 0.02  # distance to the load below which Newton's method takes over
 _DAMPING = 1e-12  # of what the load does not feel
+_FAINT = 1e-12  # share of the load wanted that is none: a film without pressure has no direction
 _WIDEST, _NARROWEST = math.log(1e3), math.log(1e-4)  # gap over the clearance
 
 
@@ -268,15 +271,20 @@ def _search_from(
             spent += end.iterations
             if end.converged:
                 return replace(end, iterations=spent)
-        residual = assembly.imbalance(state, force, free)
+        residual = imbalance(assembly.members, assembly.length, state, force, free)[0]
         if residual < limits.tolerance:
             done = replace(state, converged=True, residual=residual, iterations=spent, free=free)
             return done
         if spent > _SPENT:
             break
         slope = change @ chart.slope(x)
+        if not np.isfinite(slope).all():
+            break
         step = _damped(slope, -distance)
-        step *= min(1.0, _LARGEST / float(np.abs(step).max()))
+        longest = float(np.abs(step).max())
+        if longest == 0.0:
+            break
+        step *= min(1.0, _LARGEST / longest)
         for _ in range(_HALVINGS):
             trial_x = x + step
             if chart.holds(trial_x):
@@ -321,7 +329,7 @@ def _distance(
     load = np.sum([part for pads in assembly.loads(state) for part in pads], axis=0)
     stiffness = assembly.coefficients(state)[0]
     size, wanted = float(np.linalg.norm(load[:3])), float(np.linalg.norm(force[:3]))
-    size = max(size, 1e-300)
+    size = max(size, _FAINT * wanted)
     way = load[:3] / size
     distance = np.append(math.log(size / wanted), way - force[:3] / wanted)
     turn = (np.eye(3) - np.outer(way, way)) @ stiffness[:3] / size

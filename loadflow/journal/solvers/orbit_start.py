@@ -13,7 +13,6 @@ from loadflow.journal.solvers.newton import Solution
 from loadflow.journal.solvers.statics import Statics
 from loadflow.journal.solvers.transient import OrbitStopped
 from loadflow.numerics.convergence import Limits
-from loadflow.numerics.fields import require
 
 Array = NDArray[np.float64]
 
@@ -21,17 +20,10 @@ Array = NDArray[np.float64]
 def orbit_film(
     bearing: JournalGeometry, options: Film, loads: Array, speeds: Array, line: Line
 ) -> tuple[Statics, Array]:
-    """Film of an orbit, and its generalised loads (n, m).
-
-    Raises
-    ------
-    loadflow.errors.InputError
-        Pads that tilt.
-    """
+    """Film of an orbit, and its generalised loads (n, m)."""
     if is_cylindrical(bearing, options, line):
         options = options.for_history()
     statics = Statics(bearing, options, line, float(np.abs(speeds).max()))
-    require(not statics.gap.pads.size, "shape", bearing.shape.kind, "a fixed bore for an orbit")
     return statics, statics.raise_scale(loads)
 
 

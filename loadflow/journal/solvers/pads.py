@@ -119,6 +119,7 @@ def film_on_pads(
     first = solve_film(film, film.start(), position, nothing, *limits)
     if pads.size:
         first = solve_equilibrium(film, nothing, first.u, position, *limits, free=pads)
+    first = replace(first, free=pads)
     if not velocity.any() or not first.converged:
         return first
     every, moving = np.append(np.arange(gap.shaft), pads), velocity.copy()

@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import InputError, SolverError
+from loadflow.journal.solvers.history import Past
 from loadflow.journal.solvers.newton import Solution
-from loadflow.journal.solvers.transient import Marcher, Past, march
+from loadflow.journal.solvers.transient import Marcher, march
 from loadflow.numerics.anderson import Anderson
 from loadflow.numerics.convergence import is_small, rounding_level
 from loadflow.tribology.film import effective_speed
@@ -135,10 +136,11 @@ def _mixed(
 
     guesses = np.split(accelerate.next(packed(past), packed(following)), len(past))
     size = film.gap.size
-    if any(film.gap.narrowest(guess[:size]) <= 0 for guess in guesses):
+    changed = not np.array_equal(past[-1].pads, following[-1].pads)
+    if changed or any(film.gap.narrowest(guess[:size]) <= 0 for guess in guesses):
         accelerate.forget()
         return following
     return [
-        marcher.past(p.time, weight * guess[size:].reshape(p.u.shape), guess[:size])
+        marcher.past(p.time, weight * guess[size:].reshape(p.u.shape), guess[:size], p.pads)
         for p, guess in zip(following, guesses)
     ]

@@ -14,8 +14,11 @@ from loadflow.journal.film.film import EVERY, DiscreteFilm
 from loadflow.journal.film.gap_shaped import ShapedGap
 from loadflow.journal.film.integrals import summary
 from loadflow.journal.rows import attitude_angle
+from loadflow.journal.solvers.history import Past
+from loadflow.journal.solvers.moving_pads import other_pads, with_pads
 from loadflow.journal.solvers.newton import Motion, Solution, solve_equilibrium
 from loadflow.journal.solvers.orbit_error import Extremes
+from loadflow.journal.solvers.pads import unload_other_pads
 from loadflow.numerics.convergence import unresolved
 from loadflow.quantities import FILM
 
@@ -31,24 +34,6 @@ _FINEST = 1.0 / 65536  # of a given step, to which one that is not accurate may 
 
 class OrbitStopped(SolverError):
     """A step of an orbit, or its first film, that is not found however short the step is."""
-
-
-@dataclass(frozen=True)
-class Past:
-    """What a step needs of an earlier time: position, unknowns, liquid in the cells.
-
-    `volume` is the liquid outside grooves, m³, `gain` what enters it at this time, m³/s, and
-    `gained` what has entered so far, m³; `ahead` is the step that its error allows next, s.
-    """
-
-    time: float
-    position: Array
-    u: Array
-    liquid: Array
-    volume: float
-    gain: float
-    gained: float = 0.0
-    ahead: float = math.inf
 
 
 @dataclass(frozen=True)
@@ -69,7 +54,9 @@ class Marcher:
 
     def begin(self, time: float, solution: Solution) -> list[Past]:
         """History that starts at `solution`."""
-        return [self.past(time, solution.u, solution.position)]
+        free = np.arange(self.film.gap.size)[solution.free]
+        pads = np.intersect1d(free, self.film.gap.pads)
+        return [self.past(time, solution.u, solution.position, pads)]
 
     def step(
         self,
@@ -97,14 +84,21 @@ class Marcher:
             load = before[0] + at * (force - before[0])
             self.film.set_speed(before[1] + at * (speed - before[1]))
             line = None if lines is None else lines[0] + at * (lines[1] - lines[0])
+            before_step = past = self._on_pads(past)
             solution = self._try(past, now, load, line)
             spent += solution.iterations
+            if not solution.converged and self.film.gap.pads.size:
+                before_step = self._on_other_pads(past, solution)
+                if before_step is not past:
+                    solution = self._try(before_step, now, load, line)
+                    spent += solution.iterations
             growth = self._growth(past, now, solution.position) if solution.converged else 0.5
             if growth >= _SAFETY:
                 share = (
                     min(growth * (at - done), 1.0) if at < 1.0 else max(growth * (at - done), share)
                 )
-                past = [*past[-2:], self._next(past[-1], now, solution, share * (time - start))]
+                following = self._next(before_step[-1], now, solution, share * (time - start))
+                past = [*before_step[-2:], following]
                 done, steps = at, steps + 1
                 if done >= 1.0:
                     return replace(solution, iterations=spent), past, steps
@@ -158,8 +152,35 @@ class Marcher:
             volume = sum((w * p.liquid for w, p in kept), np.zeros(self.film.mesh.shape))
             motion = Motion(volume_rate=rate, volume=volume)
         return solve_equilibrium(
-            self.film, force, u, position, self.tolerance, self.max_iterations, motion, self.free
-        )
+            self.film, force, u, position, self.tolerance, self.max_iterations, motion,
+            self._moving(last.pads),
+        )  # fmt: skip
+
+    def _moving(self, pads: NDArray[np.int64]) -> slice | NDArray[np.int64]:
+        """Degrees of freedom that move in a step: those of the shaft, and of `pads`."""
+        if not self.film.gap.pads.size:
+            return self.free
+        gap = cast("ShapedGap", self.film.gap)
+        unload_other_pads(self.film, gap, pads)
+        return np.append(np.arange(gap.size)[self.free], pads)
+
+    def _on_other_pads(self, past: list[Past], failed: Solution) -> list[Past]:
+        """The history with other pads under a film than those on which a step has failed."""
+        gap, speed = cast("ShapedGap", self.film.gap), self.film.speed
+        pads = other_pads(gap, past[-1], failed.position, speed)
+        if np.array_equal(pads, past[-1].pads):
+            return past
+        return with_pads(self.film, gap, past, pads, self.past)
+
+    def _on_pads(self, past: list[Past]) -> list[Past]:
+        """The history as it is when pads have come under a film, or have lost theirs."""
+        if not self.film.gap.pads.size:
+            return past
+        gap, last = cast("ShapedGap", self.film.gap), past[-1]
+        pads = gap.converging(last.position, self.film.speed)
+        if np.array_equal(pads, last.pads):
+            return past
+        return with_pads(self.film, gap, past, pads, self.past)
 
     def _laid(self, position: Array, line: Array) -> Array:
         """The position with the given tilt, where that is not free; sets the given bend."""
@@ -170,15 +191,16 @@ class Marcher:
         return gap
 
     def _next(self, last: Past, time: float, solution: Solution, ahead: float) -> Past:
-        new = self.past(time, solution.u, solution.position)
-        gained = last.gained + 0.5 * (last.gain + new.gain) * (time - last.time)
+        new = self.past(time, solution.u, solution.position, last.pads)
+        before = new.gain if math.isnan(last.gain) else last.gain
+        gained = last.gained + 0.5 * (before + new.gain) * (time - last.time)
         return replace(new, gained=gained, ahead=ahead)
 
-    def past(self, time: float, u: Array, position: Array) -> Past:
-        """History of a film with unknowns `u` at `position`."""
+    def past(self, time: float, u: Array, position: Array, pads: NDArray[np.int64]) -> Past:
+        """History of a film with unknowns `u` at `position`, on `pads` if it is on any."""
         self.film.place(u, position)
         volume, gain = self.film.stock()
-        return Past(time, position, u, self.film.liquid(), volume, gain)
+        return Past(time, position, u, self.film.liquid(), volume, gain, pads=pads)
 
 
 def march(
@@ -220,9 +242,11 @@ def orbit_row(film: DiscreteFilm, solution: Solution, steps: int) -> dict[str, A
     row = summary(film, solution.u, solution.position)
     if film.elastic:
         row["shell_deformation"] = float(film.deformation.max())
-    x, y, *tilt = solution.position.tolist()
-    if tilt:
-        row["tilt"] = np.array(tilt) * film.relative_clearance
+    x, y = solution.position[:2].tolist()
+    if film.gap.pads.size:
+        row["pad_tilt"] = solution.position[film.gap.pads] * film.relative_clearance
+    if film.gap.shaft > 2:
+        row["tilt"] = solution.position[2:4] * film.relative_clearance
         frame = film.gap.place(solution.position)
         row["moment"] = film.radius * film.load_of(frame, solution.position)[2:4]
     return row | {
@@ -278,6 +302,7 @@ def orbit_dataset(
             ("time", _VARIABLES),
             (("time", "groove"), _GROOVES),
             (("time", "axis"), _VECTORS),
+            (("time", "pad"), ("pad_tilt",)),
         )
         for name in names
         if name in values

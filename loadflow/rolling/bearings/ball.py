@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import ClassVar, Literal
@@ -99,6 +100,14 @@ class BallBearing(BallRaceways, BearingOfBalls):
             self.gamma,
             self.osculation_ratio,
         )
+
+    def idle(self) -> Iterator[tuple[str, str]]:
+        """Fields without effect beside the others, and why."""
+        yield from super().idle()
+        if self.rows == 1:
+            yield "arrangement", "the bearing has one row"
+        elif self.contact_angle == 0:
+            yield "arrangement", "rows without a contact angle face neither way"
 
     @property
     def row_offset(self) -> float:

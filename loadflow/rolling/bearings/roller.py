@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Annotated, ClassVar, Literal
 
@@ -72,6 +73,14 @@ class RollerBearing(RollerRaceways, BearingOfRollers):
         """Total axial clearance s/tan α of a pair of rows, m; infinite for cylindrical rollers."""
         tan = math.tan(self.contact_angle)
         return self.clearance / tan if tan else math.inf
+
+    def idle(self) -> Iterator[tuple[str, str]]:
+        """Fields without effect beside the others, and why."""
+        yield from super().idle()
+        if self.rows == 1:
+            yield "arrangement", "the bearing has one row"
+        elif self.contact_angle == 0:
+            yield "arrangement", "rows without a contact angle face neither way"
 
     @property
     def row_offset(self) -> float:

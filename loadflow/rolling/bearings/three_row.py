@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
@@ -69,6 +70,13 @@ class ThreeRowRollerBearing(RollingBearing):
             rows = getattr(self, name).rows
             if rows != 1:
                 raise InputError(f"{name}: must have one row, got {rows}")
+
+    def idle(self) -> Iterator[tuple[str, str]]:
+        """Fields without effect beside the others, and why."""
+        for name, angle in (("support", "90°"), ("retaining", "90°"), ("radial", "0")):
+            yield f"{name}.contact_angle", f"the rollers of this row lie at {angle}"
+        for name in ("support", "retaining"):
+            yield f"{name}.clearance", "axial_clearance is that of both axial rows"
 
     @cached_property
     def rows(self) -> tuple[RollerRaceways, RollerRaceways, RollerRaceways]:

@@ -60,25 +60,6 @@ def line_contacts(shift, table, push, slope, across, slant):
     return 9.0 / 19.0 * energy, total
 
 
-@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER, **LINKED)
-def line_rows(basis, slope, across, slant, rows):
-    """Fill the rows whose squares are the tangent; returns how many."""
-    balls, size = slope.shape[1], basis.shape[2]
-    k = 0
-    for i in range(basis.shape[1]):
-        row, j = i // balls, i % balls
-        if slope[row, j] == 0.0:
-            continue
-        along, side, lever = math.sqrt(slope[row, j]), math.sqrt(across[row, j]), slant[row, j]
-        middle, turn = basis[0, i], basis[1, i]
-        first, second = rows[k], rows[k + 1]
-        for a in range(size):
-            first[a] = along * (middle[a] + lever * turn[a])
-            second[a] = side * turn[a]
-        k += 2
-    return k
-
-
 @njit(cache=True, nogil=True, error_model="numpy")
 def slice_forces(shift, table):
     """Force of each slice, (n, row · slice, roller), by the shift (n, row, 2, roller)."""

@@ -19,7 +19,7 @@ from numba import njit
 from loadflow.numerics.linked import LINKED
 from loadflow.rolling._kernels import rounding_level, stalled
 from loadflow.rolling.contacts import FREE, GAP, NORMAL_R, NORMAL_Z, POINT, STIFFNESS
-from loadflow.rolling.rings._line_kernels import line_contacts, line_rows
+from loadflow.rolling.rings._line_kernels import line_contacts
 
 # Sums may be reordered (so that they use vector units); nothing else of fast mathematics.
 _REORDER = {"reassoc", "contract", "nsz"}
@@ -56,31 +56,25 @@ def largest_product(a, b):
 
 
 @njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER, **LINKED)
-def _spread(x, waves, amount, shift):
-    """Fill the `shift` (3 kind, ball) of all contacts by the unknowns `x`.
+def _spread(amount, trig, cosines, shift):
+    """Fill the `shift` (track, ball) by the `amount` (track, wave) of each wave.
 
-    Unknowns to `amount` (wave, 3 kind) of each wave, then waves to balls, four at a time: cosines
-    and sines over half of the ring, whose sum and difference are both halves.
+    Four waves at a time: cosines and sines over half of the ring, whose sum and difference are
+    both halves.
     """
-    trig, owner, wave, amplitude, cosines, balls = waves
-    half = trig.shape[1]
+    half, balls = trig.shape[1], shift.shape[1]
     odd = np.empty(half)
-    amount[:, :] = 0.0
-    for i in range(owner.shape[0]):
-        size, line, part = x[owner[i]], amount[wave[i]], amplitude[i]
-        for s in range(part.shape[0]):
-            line[s] += size * part[s]
     for s in range(shift.shape[0]):
-        line = shift[s]
+        line, size = shift[s], amount[s]
         line[:half] = 0.0
         odd[:] = 0.0
         for t in range(0, cosines, 4):
-            a, b, c, d = amount[t, s], amount[t + 1, s], amount[t + 2, s], amount[t + 3, s]
+            a, b, c, d = size[t], size[t + 1], size[t + 2], size[t + 3]
             ta, tb, tc, td = trig[t], trig[t + 1], trig[t + 2], trig[t + 3]
             for j in range(half):
                 line[j] += a * ta[j] + b * tb[j] + c * tc[j] + d * td[j]
         for t in range(cosines, trig.shape[0], 4):
-            a, b, c, d = amount[t, s], amount[t + 1, s], amount[t + 2, s], amount[t + 3, s]
+            a, b, c, d = size[t], size[t + 1], size[t + 2], size[t + 3]
             ta, tb, tc, td = trig[t], trig[t + 1], trig[t + 2], trig[t + 3]
             for j in range(half):
                 odd[j] += a * ta[j] + b * tb[j] + c * tc[j] + d * td[j]
@@ -90,13 +84,12 @@ def _spread(x, waves, amount, shift):
 
 
 @njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER, **LINKED)
-def _gather(push, waves, amount, pull):
-    """Add the forces `push` (3 kind, ball) of all contacts to those on the unknowns."""
-    trig, owner, wave, amplitude, cosines, balls = waves
-    half = trig.shape[1]
+def gather(values, trig, cosines, amount):
+    """Fill the `amount` (line, wave) with sums of `values` (line, ball) times each wave."""
+    half, balls = trig.shape[1], values.shape[1]
     even, odd = np.empty(half), np.empty(half)
-    for s in range(push.shape[0]):
-        line = push[s]
+    for s in range(values.shape[0]):
+        line, size = values[s], amount[s]
         for j in range(half):
             even[j], odd[j] = line[j], 0.0
         for j in range(1, balls - half + 1):
@@ -111,9 +104,43 @@ def _gather(push, waves, amount, pull):
                 b += folded[j] * tb[j]
                 c += folded[j] * tc[j]
                 d += folded[j] * td[j]
-            amount[t, s], amount[t + 1, s], amount[t + 2, s], amount[t + 3, s] = a, b, c, d
-    for i in range(owner.shape[0]):
-        pull[owner[i]] += dot(amplitude[i], amount[wave[i]])
+            size[t], size[t + 1], size[t + 2], size[t + 3] = a, b, c, d
+
+
+@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER, **LINKED)
+def add_multiple(factor, source, target):
+    """Add `factor` times a line to another."""
+    for j in range(target.shape[0]):
+        target[j] += factor * source[j]
+
+
+@njit(nogil=True, error_model="numpy", **LINKED)
+def mix(mixing, shift, full):
+    """Fill the `full` shift of all fields by that of the tracks."""
+    full[:, :] = 0.0
+    for s in range(full.shape[0]):
+        for f in range(shift.shape[0]):
+            if mixing[s, f] != 0.0:
+                add_multiple(mixing[s, f], shift[f], full[s])
+
+
+@njit(nogil=True, error_model="numpy", **LINKED)
+def _gather_push(push, waves, pull):
+    """Add the forces `push` (field · kind, ball) of all contacts to those on the unknowns."""
+    mixing, first, value = waves.mixing, waves.first, waves.value
+    lumped = np.zeros((mixing.shape[1], push.shape[1]))
+    for s in range(push.shape[0]):
+        for f in range(lumped.shape[0]):
+            if mixing[s, f] != 0.0:
+                add_multiple(mixing[s, f], push[s], lumped[f])
+    amount = np.empty((lumped.shape[0], waves.trig.shape[0]))
+    gather(lumped, waves.trig, waves.cosines, amount)
+    line, place = amount.reshape(amount.size), waves.place
+    for a in range(pull.shape[0]):
+        total = 0.0
+        for e in range(first[a], first[a + 1]):
+            total += value[e] * line[place[e]]
+        pull[a] += total
 
 
 @njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER, **LINKED)
@@ -158,26 +185,34 @@ def _contacts(shift, table, local, push, slope, across):
     return energy, total, upright < 0.0
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
-def shift_of(x, waves, amount, shift):
-    _spread(x, waves, amount, shift)
+@njit(nogil=True, error_model="numpy", **LINKED)
+def shift_of(x, waves, shift):
+    """Fill the `shift` (track, ball) by the unknowns."""
+    amount = np.zeros((shift.shape[0], waves.trig.shape[0]))
+    first, place, value, line = waves.first, waves.place, waves.value, amount.reshape(amount.size)
+    for a in range(x.shape[0]):
+        for e in range(first[a], first[a + 1]):
+            line[place[e]] += x[a] * value[e]
+    _spread(amount, waves.trig, waves.cosines, shift)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
-def forces(x, shift, waves, law, amount, push, slope, across, slant, pull):
+@njit(nogil=True, error_model="numpy", **LINKED)
+def forces(x, shift, waves, law, full, push, slope, across, slant, pull):
     """Energy, sum of forces, and whether a loaded contact lies beyond 90°, at known shifts.
 
-    Fills what `_contacts` or `line_contacts` fills, and the force `pull` on all unknowns.
+    Fills the `full` shift, what `_contacts` or `line_contacts` fills, and the force `pull` on all
+    unknowns.
     """
     beyond = False
+    mix(waves.mixing, shift, full)
     if law.power == POINT:
-        energy, total, beyond = _contacts(shift, law.table, law.local, push, slope, across)
+        energy, total, beyond = _contacts(full, law.table, law.local, push, slope, across)
     else:
-        energy, total = line_contacts(shift, law.table, push, slope, across, slant)
+        energy, total = line_contacts(full, law.table, push, slope, across, slant)
     for a in range(x.shape[0]):
         pull[a] = x[a] if a >= 5 else 0.0
         energy += 0.5 * pull[a] * pull[a]
-    _gather(push, waves, amount, pull)
+    _gather_push(push, waves, pull)
     return energy, total, beyond
 
 
@@ -188,92 +223,23 @@ def evaluate(x, waves, law):
     Returns the shift and push (3 kind, ball) of the contacts, their slopes along and across and
     their slant (kind, ball), and the force on all unknowns.
     """
-    balls, fields = waves[5], waves[3].shape[1]
+    balls, fields, tracks = waves.balls, waves.mixing.shape[0], waves.mixing.shape[1]
     kinds = fields // 3 if law.power == POINT else fields // 2
-    amount = np.zeros((waves[0].shape[0], fields))
-    shift, push = np.zeros((fields, balls)), np.zeros((fields, balls))
+    shift, full, push = (
+        np.zeros((tracks, balls)), np.zeros((fields, balls)), np.zeros((fields, balls)),
+    )  # fmt: skip
     slope, across = np.zeros((kinds, balls)), np.zeros((kinds, balls))
     slant, pull = np.zeros((kinds, balls)), np.zeros(x.shape[0])
-    shift_of(x, waves, amount, shift)
-    forces(x, shift, waves, law, amount, push, slope, across, slant, pull)
-    return shift, push, slope, across, slant, pull
-
-
-@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER, **LINKED)
-def _rows(basis, push, slope, across, rows):
-    """Fill the rows of points whose squares are the tangent; returns how many."""
-    balls, size = push.shape[1], basis.shape[2]
-    k = 0
-    for i in range(basis.shape[1]):
-        kind, j = i // balls, i % balls
-        if slope[kind, j] == 0.0:
-            continue
-        pr, pt, pz = push[3 * kind, j], push[3 * kind + 1, j], push[3 * kind + 2, j]
-        force = math.sqrt(pr * pr + pt * pt + pz * pz)
-        nr, nt, nz = pr / force, pt / force, pz / force
-        flat = math.sqrt(nr * nr + nz * nz)
-        br, bz = -nz / flat, nr / flat  # across, within the plane of the ball
-        along, side = math.sqrt(slope[kind, j]), math.sqrt(across[kind, j])
-        gr, gt, gz = basis[0, i], basis[1, i], basis[2, i]
-        first, second, third = rows[k], rows[k + 1], rows[k + 2]
-        ratio = nt / flat
-        for a in range(size):
-            normal = nr * gr[a] + nz * gz[a]
-            first[a] = along * (normal + nt * gt[a])
-            second[a] = side * (br * gr[a] + bz * gz[a])
-            third[a] = side * (flat * gt[a] - ratio * normal)
-        k += 3
-    return k
-
-
-@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER, **LINKED)
-def _squares(rows, count, hessian):
-    """Lower half of rowsᵀ rows, eight rows at a time.
-
-    By loops, as a library of linear algebra starts threads of its own and waits for them.
-    """
-    size = hessian.shape[0]
-    hessian[:, :] = 0.0
-    for k in range(0, count, 8):
-        r0, r1, r2, r3 = rows[k], rows[k + 1], rows[k + 2], rows[k + 3]
-        r4, r5, r6, r7 = rows[k + 4], rows[k + 5], rows[k + 6], rows[k + 7]
-        for a in range(size):
-            line = hessian[a]
-            c0, c1, c2, c3, c4, c5, c6, c7 = (
-                r0[a], r1[a], r2[a], r3[a], r4[a], r5[a], r6[a], r7[a],
-            )  # fmt: skip
-            for b in range(a + 1):
-                line[b] += (
-                    c0 * r0[b] + c1 * r1[b] + c2 * r2[b] + c3 * r3[b]
-                    + c4 * r4[b] + c5 * r5[b] + c6 * r6[b] + c7 * r7[b]
-                )  # fmt: skip
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def tangent(basis, push, slope, across, slant):
-    """Exact Hessian of the potential; of points with three fields in the basis, of lines two."""
-    fields, contacts, size = basis.shape
-    rows, hessian = np.empty((fields * contacts + 8, size)), np.zeros((size, size))
-    if fields == 3:
-        count = _rows(basis, push, slope, across, rows)
-    else:
-        count = line_rows(basis, slope, across, slant, rows)
-    while count % 8:
-        rows[count, :] = 0.0
-        count += 1
-    _squares(rows, count, hessian)
-    for a in range(size):
-        hessian[a, a] += 1.0 if a >= 5 else 0.0
-        for b in range(a):
-            hessian[b, a] = hessian[a, b]
-    return hessian
+    shift_of(x, waves, shift)
+    forces(x, shift, waves, law, full, push, slope, across, slant, pull)
+    return full, push, slope, across, slant, pull
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def contact_state(states, waves, law):
     """Force and signed angle (from the radial plane) of each point contact, (n, kind, ball)."""
     table = law.table
-    balls, kinds = waves[5], table.shape[0]
+    balls, kinds = waves.balls, table.shape[0]
     force, angle = np.zeros((2, len(states), kinds, balls))
     for i in range(len(states)):
         shift, push, _, _, _, _ = evaluate(states[i], waves, law)

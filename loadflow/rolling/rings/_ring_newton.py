@@ -13,21 +13,23 @@ from numba import njit
 from loadflow.numerics.linked import LINKED
 from loadflow.rolling._kernels import cholesky_solve, is_small, rounding_level, stalled
 from loadflow.rolling._kernels import solve_series as rigid_series
+from loadflow.rolling.contacts import POINT
 from loadflow.rolling.rings._ring_kernels import (
     dot,
     evaluate,
     forces,
     largest_product,
+    mix,
     shift_of,
-    tangent,
 )
+from loadflow.rolling.rings._ring_tangent import tangent
 
 # Sums may be reordered (so that they use vector units); nothing else of fast mathematics.
 _REORDER = {"reassoc", "contract", "nsz"}
 
 
-# Steps with a kept tangent that cost about as much as a new one.
-_PATIENCE = 20.0
+# Steps with a kept tangent that cost about as much as a new one; steps of lines have many slices.
+_PATIENCE_POINTS, _PATIENCE_LINES = 16.0, 4.0
 _PAIRS = 8  # steps remembered
 
 
@@ -57,13 +59,13 @@ def _solve(factor, rhs):
 
 
 @njit(nogil=True, error_model="numpy", **LINKED)
-def _condense(basis, push, slope, across, slant, factor, solved, condensed):
+def _condense(waves, power, push, slope, across, slant, factor, solved, condensed):
     """Tangent with the modes eliminated.
 
     Fills the Cholesky `factor` of the modes, the modes `solved` (5, mode) that follow each rigid
     unknown, and the 5 × 5 tangent that is left.
     """
-    hessian = tangent(basis, push, slope, across, slant)
+    hessian = tangent(waves, power, push, slope, across, slant)
     modes = factor.shape[0]
     for a in range(modes):
         for b in range(modes):
@@ -83,13 +85,15 @@ def _free(basis, push, slope, across):
     """Whether the contacts leave a motion without resistance.
 
     Such a motion leaves the modes at rest, so that the tangent is singular where its rigid part
-    alone is. What contacts resist along their forces nearly always decides; else all of it does.
+    alone is. What contacts resist along their forces nearly always decides, mostly that of each
+    eighth of them; else all of it does.
     """
     balls, rigid, line = push.shape[1], np.zeros((5, 5)), np.zeros(5)
     rest, step, small = np.zeros(5), np.zeros(5), np.zeros((5, 5))
-    for whole in (False, True):
+    for attempt in range(3):
         rigid[:, :] = 0.0
-        for i in range(basis.shape[1]):
+        whole = attempt == 2
+        for i in range(0, basis.shape[1], 8 if attempt == 0 else 1):
             k, j = i // balls, i % balls
             if slope[k, j] == 0.0:
                 continue
@@ -105,7 +109,7 @@ def _free(basis, push, slope, across):
                 for a in range(5):
                     for b in range(a + 1):
                         rigid[a, b] += side * (gr[a] * gr[b] + gt[a] * gt[b] + gz[a] * gz[b])
-        if cholesky_solve(rigid, 0.0, rest, small, step) > 1e-12:
+        if cholesky_solve(rigid, 0.0, rest, small, step) > (1e-6 if attempt == 0 else 1e-12):
             return False
     return True
 
@@ -198,26 +202,28 @@ def _newton(
     steps (`known` says whether a tangent from near `x` is there to begin with), a cap on the step
     of the contacts, and halving until energy or residual falls.
     """
-    fields, balls, size = waves[3].shape[1], waves[5], x.shape[0]
-    kinds = fields // basis.shape[0]
-    amount, small, one = np.zeros((waves[0].shape[0], fields)), np.zeros((5, 5)), np.ones(size)
+    fields, tracks, balls, size = basis.shape[0], waves.mixing.shape[1], waves.balls, x.shape[0]
+    kinds = waves.mixing.shape[0] // fields
+    small, one = np.zeros((5, 5)), np.ones(size)
     # one by one: arrays unpacked from a larger one count as strided, and their loops stay scalar
-    shift, far = np.zeros((fields, balls)), np.zeros((fields, balls))
-    between, push = np.zeros((fields, balls)), np.zeros((fields, balls))
+    shift, far = np.zeros((tracks, balls)), np.zeros((tracks, balls))
+    between, push = np.zeros((tracks, balls)), np.zeros((fields * kinds, balls))
+    full = np.zeros((fields * kinds, balls))
     slope, across, slant = (
         np.zeros((kinds, balls)), np.zeros((kinds, balls)), np.zeros((kinds, balls)),
     )  # fmt: skip
     pull, rest, step, trial = np.zeros(size), np.zeros(size), np.zeros(size), np.zeros(size)
     for a in range(size):
         trial[a] = x[a]
-    shift_of(x, waves, amount, between)
+    shift_of(x, waves, between)
     external = largest_product(load, one)
     iterations, residual, moved, norm, energy = 0, 0.0, 0.0, 0.0, 0.0
     damping, exact, fresh, beyond = 1.0, False, True, False
+    patience = _PATIENCE_POINTS if law.power == POINT else _PATIENCE_LINES
     potential, descent, halvings = 0.0, 0.0, 0
     while True:
         energy, total, beyond = forces(
-            trial, between, waves, law, amount, push, slope, across, slant, pull
+            trial, between, waves, law, full, push, slope, across, slant, pull
         )
         new_norm = 0.0
         for a in range(size):
@@ -242,7 +248,7 @@ def _newton(
             residual = largest_product(rest, reach)
             residual = residual / reference if reference > 0.0 else 0.0
             moved = largest_product(x[:5], one)
-            slow = not fresh and residual * (residual / before) ** _PATIENCE > tolerance
+            slow = not fresh and residual * (residual / before) ** patience > tolerance
             fresh = False
             if residual <= tolerance or iterations == limit:
                 break
@@ -259,12 +265,12 @@ def _newton(
             known, fresh, halvings = False, True, 0
             continue
         if exact:
-            _condense(basis, push, slope, across, slant, factor, solved, condensed)
+            _condense(waves, law.power, push, slope, across, slant, factor, solved, condensed)
             known, held = True, 0
         _secant(rest, factor, solved, condensed, cap, small, moves, changes, held, step)
         iterations += 1
-        shift_of(step, waves, amount, far)
-        longest = _longest(far)
+        shift_of(step, waves, far)
+        longest = _longest(far, waves.mixing, 0.0 if exact else cap, full)
         if exact and stalled(max(longest, largest_product(step[:5], one)), rounding_level(moved)):
             break
         damping = min(1.0, cap / longest) if longest > 0.0 else 1.0
@@ -272,8 +278,8 @@ def _newton(
         _between(x, step, shift, far, damping, trial, between)
     rounding = 0.0
     if residual > tolerance:
-        forces(x, shift, waves, law, amount, push, slope, across, slant, pull)
-        _condense(basis, push, slope, across, slant, factor, solved, condensed)
+        forces(x, shift, waves, law, full, push, slope, across, slant, pull)
+        _condense(waves, law.power, push, slope, across, slant, factor, solved, condensed)
         stiffest, _ = _direction(rest, factor, solved, condensed, cap, small, step)
         rounding = rounding_level(moved * stiffest) / max(external, 1e-4 * total, 1e-300)
     answered = is_small(residual, tolerance, rounding) and not beyond
@@ -284,14 +290,32 @@ def _newton(
     return answered, residual, iterations, singular, rounding, held
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"reassoc", "nsz", "nnan"})
-def _longest(shift):
-    """Largest absolute value."""
+@njit(forceinline=True, nogil=True, error_model="numpy", fastmath={"reassoc", "nsz", "nnan"})
+def _largest(line):
     most = 0.0
-    for s in range(shift.shape[0]):
-        for j in range(shift.shape[1]):
-            most = max(most, abs(shift[s, j]))
+    for j in range(line.shape[0]):
+        most = max(most, abs(line[j]))
     return most
+
+
+@njit(nogil=True, error_model="numpy", **LINKED)
+def _longest(far, mixing, cap, full):
+    """Largest shift of a contact; a bound on it where that is within `cap` and says enough."""
+    most, bound = np.zeros(far.shape[0]), 0.0
+    for f in range(far.shape[0]):
+        most[f] = _largest(far[f])
+    for s in range(mixing.shape[0]):
+        total = 0.0
+        for f in range(far.shape[0]):
+            total += abs(mixing[s, f]) * most[f]
+        bound = max(bound, total)
+    if bound <= cap:
+        return bound
+    bound = 0.0
+    mix(mixing, far, full)
+    for s in range(full.shape[0]):
+        bound = max(bound, _largest(full[s]))
+    return bound
 
 
 @njit(nogil=True, error_model="numpy", **LINKED)
@@ -347,7 +371,7 @@ def solve_series(loads, rigid, waves, basis, law, reach, cap, tolerance, limit, 
     converged, singular = np.zeros(n, np.bool_), np.zeros(n, np.bool_)
     rounding = np.zeros(n)
     x, load, condensed = np.zeros(size), np.zeros(5), np.zeros((5, 5))
-    whole, lying = np.zeros(size), np.zeros((1, 5))
+    whole, lying = np.zeros(size), np.zeros(5)
     factor, solved = np.zeros((size - 5, size - 5)), np.zeros((5, size - 5))
     moves, changes = np.zeros((_PAIRS, size)), np.zeros((_PAIRS, size))
     held = np.int64(0)  # a literal 0 would have the whole iteration compiled a second time
@@ -366,10 +390,12 @@ def solve_series(loads, rigid, waves, basis, law, reach, cap, tolerance, limit, 
             elif attempt == 1:
                 for a in range(5):
                     load[a] = loads[i, a] / scale[a]
-                lying[:, :] = rigid_series(load.reshape((1, 5)), *arguments)[0]
+                found = rigid_series(load.reshape((1, 5)), *arguments)[0]
+                for a in range(5):
+                    lying[a] = found[0, a]
             if attempt == 1 or attempt == 2:
                 for a in range(size):
-                    x[a] = lying[0, a] / scale[a] if a < 5 else 0.0
+                    x[a] = lying[a] / scale[a] if a < 5 else 0.0
             ok, res, more, free, rounding[i], held = _newton(
                 x, whole, waves, basis, law, reach, cap, tolerance, limit, factor, solved,
                 condensed, moves, changes, held, attempt == 0,
@@ -384,11 +410,11 @@ def solve_series(loads, rigid, waves, basis, law, reach, cap, tolerance, limit, 
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def stiffness_series(states, waves, basis, law):
+def stiffness_series(states, waves, law):
     """Tangent (n, 5, 5) of the rigid unknowns, modes eliminated, in each state."""
     n, modes = states.shape[0], states.shape[1] - 5
     stiffness, factor, solved = np.zeros((n, 5, 5)), np.zeros((modes, modes)), np.zeros((5, modes))
     for i in range(n):
         _, push, slope, across, slant, _ = evaluate(states[i], waves, law)
-        _condense(basis, push, slope, across, slant, factor, solved, stiffness[i])
+        _condense(waves, law.power, push, slope, across, slant, factor, solved, stiffness[i])
     return stiffness

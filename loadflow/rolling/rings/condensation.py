@@ -89,7 +89,7 @@ def _condense(factor: Array, coupling: Coupling, modes: int | None) -> tuple[Arr
         # rounding, and either alone would favour a direction
         while modes < len(order) and values[order[modes]] > (1 - _TWIN) * values[order[modes - 1]]:
             modes += 1
-    kept = vectors[:, order[:modes]]
+    kept = _aligned(vectors[:, order[:modes]], values[order[:modes]], along[0])
     scale = np.ones(kept.shape[1])
     local = 0.0
     if len(order) > modes and coupling.sprung:
@@ -102,6 +102,28 @@ def _condense(factor: Array, coupling: Coupling, modes: int | None) -> tuple[Arr
         scale = np.sqrt(np.where(carried > local, 1 - local / np.maximum(carried, 1e-300), 1.0))
     share = np.einsum("am,ab,bm->", kept, energy, kept) / np.trace(energy)
     return kept * scale, local, float(share)
+
+
+def _aligned(modes: Array, values: Array, felt: Array) -> Array:
+    """Turn the two modes of a harmonic so that the second moves nothing where `felt` (ring mode,).
+
+    Any two directions of such a pair do; these are a cosine and a sine from the first contact on,
+    with half as many waves as others.
+    """
+    turned = modes.copy()
+    first = 0
+    while first + 1 < len(values):
+        if values[first + 1] <= (1 - _TWIN) * values[first]:
+            first += 1
+            continue
+        pair = modes[:, first : first + 2]
+        cosine, sine = felt @ pair
+        size = np.hypot(cosine, sine)
+        if size > _TWIN * np.linalg.norm(felt):
+            turned[:, first] = pair @ [cosine / size, sine / size]
+            turned[:, first + 1] = pair @ [-sine / size, cosine / size]
+        first += 2
+    return turned
 
 
 def _felt(direction: Array, factor: Array) -> Array:

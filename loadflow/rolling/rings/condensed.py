@@ -144,49 +144,103 @@ class RingWaves(NamedTuple):
     """What contacts feel of each unknown, as waves over the elements of a row.
 
     Rings that are the same all round have modes of one harmonic each: a few numbers stand for the
-    shifts of all contacts. Other rings have more of them, up to one for each ball. Only what is
-    rounding is left out.
+    shifts of all contacts. Other rings have more of them, up to one for each ball. Sections that
+    stay rigid move all contacts of a ball together, so that few ``tracks`` stand for the fields of
+    all kinds. Only what is rounding is left out.
 
     Attributes
     ----------
     trig : ndarray, shape (wave, half)
         Cosines, then sines, over the balls of one half of the ring, with empty waves up to a
-        multiple of four of each: the other half mirrors them.
-    owner, wave : ndarray of int, shape (part,)
-        Unknown and wave of each part.
-    amplitude : ndarray, shape (part, field · kind)
-        Fields of each kind of contact: the shift (r, θ, z) of points.
-    cosines, balls : int
-        Number of cosines, empty ones included, and of balls.
+        multiple of four of each: the other half mirrors them. All harmonics up to `top`.
+    products : ndarray, shape (wave, half)
+        The same of all harmonics that products of two waves have.
+    first, wave, track, place, value : ndarray
+        Parts of each unknown, from first[unknown] to first[unknown + 1]: wave, track, the place of
+        both in an array (track, wave) in one line, and amplitude.
+    mixing : ndarray, shape (field · kind, track)
+        Fields of each kind of contact, the shift (r, θ, z) of points, in the tracks.
+    shapes : ndarray, shape (track · ball, unknown)
+        Tracks that each ball feels of each unknown, filled up to a multiple of eight; empty where
+        the waves are so few that products of them cost less.
+    cosines, product_cosines : int
+        Number of cosines in both tables, empty ones included.
+    balls, top : int
+        Number of balls, and highest harmonic.
     """
 
     trig: Array
-    owner: NDArray[np.int64]
+    products: Array
+    first: NDArray[np.int64]
     wave: NDArray[np.int64]
-    amplitude: Array
+    track: NDArray[np.int64]
+    place: NDArray[np.uint64]  # unsigned, as kernels look twice at an index that may be negative
+    value: Array
+    mixing: Array
+    shapes: Array
     cosines: int
+    product_cosines: int
     balls: int
+    top: int
 
     @classmethod
     def of(cls, basis: Array, balls: int) -> RingWaves:
         """Split a `basis` (field, kind · ball, unknown)."""
         fields, _, size = basis.shape
         shift = (
-            basis.reshape(fields, -1, balls, size).transpose(1, 0, 2, 3).reshape(-1, balls, size)
+            basis.reshape(fields, -1, balls, size).transpose(3, 2, 1, 0).reshape(size, balls, -1)
         )
-        angle = 2 * np.pi / balls * np.outer(np.arange(balls // 2 + 1), np.arange(balls))
-        trig = np.concatenate([np.cos(angle), np.sin(angle[1 : (balls + 1) // 2])])
-        amplitude = np.einsum("tj,sja->ats", trig / np.square(trig).sum(axis=1)[:, None], shift)
-        seen = np.abs(amplitude).max(axis=2)
-        seen = seen > _ROUNDING * seen.max(axis=1, keepdims=True)
-        used = np.flatnonzero(seen.any(axis=0))
-        owner, wave = np.nonzero(seen[:, used])
-        kept = [used[used <= balls // 2], used[used > balls // 2]]
-        sizes = [-(-len(some) // 4) * 4 for some in kept]
-        half = np.zeros((sum(sizes), balls // 2 + 1))
-        place = np.empty(len(used), np.int64)
-        for some, first in zip(kept, (0, sizes[0])):
-            half[first : first + len(some)] = trig[some, : balls // 2 + 1]
-            place[np.searchsorted(used, some)] = first + np.arange(len(some))
-        parts = np.ascontiguousarray(amplitude[owner, used[wave]])
-        return cls(half, owner, place[wave], parts, sizes[0], balls)
+        largest = np.abs(shift).max(axis=(1, 2), keepdims=True)
+        scaled = shift / np.where(largest > 0, largest, 1.0)  # some bearings slide along their axis
+        mixing = _tracks(scaled.reshape(-1, shift.shape[-1]))
+        shapes = shift @ mixing  # unknown, ball, track
+        trig = _waves(balls // 2, balls)
+        sizes = np.square(trig).sum(axis=1)
+        wave_of = np.where(sizes > 0.5, sizes, np.inf)[:, None]
+        amplitude = np.einsum("tj,ajc->atc", trig / wave_of, shapes)
+        seen = np.abs(amplitude) > _ROUNDING * largest
+        used = np.flatnonzero(seen.any(axis=(0, 2)))
+        split = _padded(balls // 2 + 1)
+        top = int(np.where(used < split, used, used - split + 1).max())
+        owner, wave, track = (np.ascontiguousarray(index) for index in np.nonzero(seen))
+        value, cosines = amplitude[owner, wave, track], _padded(top + 1)
+        first = np.searchsorted(owner, np.arange(size + 1))
+        wave = np.where(wave < split, wave, wave - split + cosines)
+        place = (track * (cosines + _padded(top)) + wave).astype(np.uint64)
+        half, both = balls // 2 + 1, min(2 * top, balls // 2)
+        # products of waves against products of balls; short loops take thrice the time of long ones
+        few = 3 * len(owner) * (2 * top * mixing.shape[1] + size) < shapes.size * size / 2
+        rows = np.zeros((0 if few else -(-shapes[0].size // 8) * 8, size))
+        if not few:
+            rows[: shapes[0].size] = shapes.reshape(size, -1).T
+        return cls(
+            np.ascontiguousarray(_waves(top, balls)[:, :half]),
+            np.ascontiguousarray(_waves(both, balls)[:, :half]),
+            first, wave, track, place, value, mixing, rows, cosines, _padded(both + 1), balls, top,
+        )  # fmt: skip
+
+
+def _padded(count: int) -> int:
+    """Next multiple of four."""
+    return -(-count // 4) * 4
+
+
+def _waves(top: int, balls: int) -> Array:
+    """Cosines 0 … top, then sines 1 … top, each filled up with empty waves, (wave, ball)."""
+    cosines = _padded(top + 1)
+    angle = 2 * np.pi / balls * np.outer(np.arange(top + 1), np.arange(balls))
+    trig = np.zeros((cosines + _padded(top), balls))
+    trig[: top + 1], trig[cosines : cosines + top] = np.cos(angle), np.sin(angle[1:])
+    if 2 * top == balls:
+        trig[cosines + top - 1] = 0.0  # a sine that is zero at every ball
+    return trig
+
+
+def _tracks(shift: Array) -> Array:
+    """Orthonormal directions (column, track) that hold all rows; all columns if none is saved."""
+    _, values, directions = np.linalg.svd(np.linalg.qr(shift, mode="r"))
+    count = int((values > _ROUNDING * values[0]).sum())
+    if count == shift.shape[1]:
+        return np.eye(count)
+    kept = directions[:count].T
+    return np.ascontiguousarray(np.where(np.abs(kept) > _ROUNDING, kept, 0.0))

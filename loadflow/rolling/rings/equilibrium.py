@@ -109,9 +109,7 @@ class FlexibleRingForces:
         """Tangent of the rings' structures, ring modes eliminated, (..., 5, 5); N/m, N, N m/rad."""
         from loadflow.rolling.rings import _ring_newton
 
-        found = _ring_newton.stiffness_series(
-            self._unknowns, self.modes.waves, self.modes.basis, self.modes.law
-        )
+        found = _ring_newton.stiffness_series(self._unknowns, self.modes.waves, self.modes.law)
         scale = self.modes.coupling.contacts.scale
         found /= np.multiply.outer(scale, scale)
         return np.asarray(found.reshape(*self._cases, 5, 5))
@@ -187,7 +185,7 @@ def solve_flexible(
         contacts.unit_compliance(), 1,
     )  # fmt: skip
     x, converged, residual, iterations, singular, rounding = _ring_newton.solve_series(
-        loads * contacts.scale,
+        np.ascontiguousarray(loads * contacts.scale),  # else kernels compile for each order anew
         (rigid, contacts.scale),
         modes.waves,
         modes.basis,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Annotated, Any, ClassVar, Literal
 
@@ -80,6 +81,11 @@ class MeshedRing:
             raise InputError(f"outside: must be > inside {self.inside:g} m, got {self.outside:g}")
         if self.top <= self.bottom:
             raise InputError(f"top: must be > bottom {self.bottom:g} m, got {self.top:g}")
+
+    def idle(self) -> Iterator[tuple[str, str]]:
+        """Fields without effect beside the others, and why."""
+        if self.sectors is not None:
+            yield "resolution", "a ring that is held in sectors is meshed all round"
 
     @property
     def radius(self) -> float:

@@ -225,10 +225,10 @@ class _System:
 
     def tangent(self, x: Array) -> Array:
         """Slope of the elastic force on all unknowns."""
-        from loadflow.rolling.rings import _ring_kernels
+        from loadflow.rolling.rings import _ring_tangent
 
-        _, push, slope, across, slant, _ = self.contact(x)
-        return _ring_kernels.tangent(self.modes.basis, push, slope, across, slant)
+        modes, (_, push, slope, across, slant, _) = self.modes, self.contact(x)
+        return _ring_tangent.tangent(modes.waves, modes.law.power, push, slope, across, slant)
 
     def contact(self, x: Array) -> tuple[Array, ...]:
         """Shift and force of all contacts, slopes along and across, slant, force on unknowns."""

@@ -7,9 +7,9 @@ hub loss, Buhl's correction at high induction.
 
 import numpy as np
 
-from .._compile import inner_kernel, kernel, section
+from .._compile import kernel, part
 from ..slots import S_AXIAL
-from ._airfoil_kernels import coefficients, polar
+from ._airfoil_kernels import angle_of, coefficients, polar
 
 _SMALL = 1e-6
 _HALF_PI = 0.5 * np.pi
@@ -18,7 +18,7 @@ _TOLERANCE = 1e-7  # rad
 _MOMENTUM_LIMIT = 2.0 / 3.0
 
 
-@kernel
+@part
 def loss(m, i, sine):
     """Prandtl's tip and hub loss at section i for |sin φ|."""
     radius = m.radius[i]
@@ -65,7 +65,7 @@ def induction(m, i, angle, pitch, normal, tangential):
     return residual, a, swirl
 
 
-@inner_kernel
+@part
 def _root(m, i, low, high, f_low, f_high, pitch, normal, tangential):
     """False position with Anderson and Björck's weights; ends in bisection if it must."""
     for step in range(60):
@@ -97,16 +97,11 @@ def solve(m, i, pitch, normal, tangential, guess):
     """
     if abs(normal) < 1e-3 or abs(tangential) < 1e-3:
         return np.arctan2(normal, tangential), 0.0, 0.0
-    if guess > _BRACKET + _SMALL and guess < _HALF_PI - _BRACKET - _SMALL:
-        low, high = guess - _BRACKET, guess + _BRACKET
-        f_low = induction(m, i, low, pitch, normal, tangential)[0]
-        f_high = induction(m, i, high, pitch, normal, tangential)[0]
-        if f_low * f_high < 0:
-            angle = _root(m, i, low, high, f_low, f_high, pitch, normal, tangential)
-            _, a, swirl = induction(m, i, angle, pitch, normal, tangential)
-            return angle, a, swirl
-    for bracket in range(3):
-        if bracket == 0:
+    near = guess > _BRACKET + _SMALL and guess < _HALF_PI - _BRACKET - _SMALL
+    for bracket in range(-1 if near else 0, 3):
+        if bracket == -1:
+            low, high = guess - _BRACKET, guess + _BRACKET
+        elif bracket == 0:
             low, high = _SMALL, _HALF_PI - _SMALL
         elif bracket == 1:
             low, high = -0.25 * np.pi, -_SMALL
@@ -121,7 +116,7 @@ def solve(m, i, pitch, normal, tangential, guess):
     return np.arctan2(normal, tangential), 0.0, 0.0
 
 
-@inner_kernel
+@part
 def inflow_lag(m, i, normal, tangential, a, swirl, state, dt, induced):
     """Induction factors that lag behind their quasi-steady values by two time constants.
 
@@ -142,7 +137,7 @@ def inflow_lag(m, i, normal, tangential, a, swirl, state, dt, induced):
             lag[2] += (lag[1] - lag[2]) * slow
             lag[0] = steady
         else:
-            lag[:] = steady
+            lag[0] = lag[1] = lag[2] = steady
     if abs(normal) > 1e-3:
         a = induced[0, 2] / normal
     if abs(tangential) > 1e-3:
@@ -150,7 +145,7 @@ def inflow_lag(m, i, normal, tangential, a, swirl, state, dt, induced):
     return a, swirl
 
 
-@section
+@part
 def section_force(m, i, pitch, turn, normal, tangential, a, swirl, dt, states):
     """Force per length (normal, tangential), N/m, for given induction factors, and the couple per
     length, nose-up, about the axis of a blade that twists, N (0 of one that does not).
@@ -160,7 +155,7 @@ def section_force(m, i, pitch, turn, normal, tangential, a, swirl, dt, states):
     """
     w_normal = normal * (1 - a)
     w_tangential = tangential * (1 + swirl)
-    angle = np.arctan2(w_normal, w_tangential)
+    angle = angle_of(w_normal, w_tangential)
     speed = np.sqrt(w_normal**2 + w_tangential**2)
     chord_angle = m.twist[i] + pitch
     lift, drag = coefficients(m, i, angle - chord_angle, speed, turn, dt, states)

@@ -11,6 +11,7 @@ from numba import njit
 from loadflow.numerics.linked import LINKED
 
 from .. import slots as k
+from .._compile import part
 from .constants import EMERGENCY, EVENTS, FAULT, IDLE, PARK, RUN, START, STOP
 
 _E_STUCK = EVENTS.index("blade stuck")
@@ -46,7 +47,7 @@ def control_torque(c, speed, surplus):
     return min(torque, c.maximum_torque)
 
 
-@njit(nogil=True, **LINKED)
+@part
 def supervise(c, schedule, state, generator_speed, time, dt):
     """Move the state machine and the floor of the pitch on by one step."""
     mode = state[k.S_STATE]
@@ -86,7 +87,22 @@ def supervise(c, schedule, state, generator_speed, time, dt):
             state[k.S_STATE] = PARK
 
 
-@njit(nogil=True, **LINKED)
+@part
+def between(x, places, values):
+    """Linear interpolation, held beyond the ends; `numpy.interp` takes far longer to compile."""
+    last = places.size - 1
+    if last == 0 or x <= places[0]:
+        return values[0]
+    if x >= places[last]:
+        return values[last]
+    j = 0
+    while j < last - 1 and x >= places[j + 1]:
+        j += 1
+    slope = (values[j + 1] - values[j]) / (places[j + 1] - places[j])
+    return slope * (x - places[j]) + values[j]
+
+
+@part
 def schedule_pitch(c, state, dt):
     """Move the lowest pitch of power production on: by the schedule over the power."""
     share = 1 - np.exp(-dt * c.schedule_rate)
@@ -94,10 +110,10 @@ def schedule_pitch(c, state, dt):
     state[k.S_POWER] += share * (power - state[k.S_POWER])
     state[k.S_LOWEST] = c.minimum_pitch
     if state[k.S_STATE] == RUN:
-        state[k.S_LOWEST] = np.interp(state[k.S_POWER], c.scheduled_power, c.scheduled_pitch)
+        state[k.S_LOWEST] = between(state[k.S_POWER], c.scheduled_power, c.scheduled_pitch)
 
 
-@njit(nogil=True, **LINKED)
+@part
 def generator(c, schedule, state, dt):
     """Generator torque of the next step."""
     mode = state[k.S_STATE]
@@ -111,7 +127,7 @@ def generator(c, schedule, state, dt):
     state[k.S_TORQUE] += min(max(change, -c.torque_rate * dt), c.torque_rate * dt)
 
 
-@njit(nogil=True, **LINKED)
+@part
 def collective_pitch(c, schedule, state, dt):
     """Collective pitch of the next step: proportional and integral on speed, above the floor."""
     pitch, floor = state[k.S_PITCH], max(state[k.S_FLOOR], state[k.S_LOWEST])
@@ -131,7 +147,7 @@ def collective_pitch(c, schedule, state, dt):
     state[k.S_PITCH] += min(max(change, -c.pitch_rate * dt), c.pitch_rate * dt)
 
 
-@njit(nogil=True, **LINKED)
+@part
 def individual_pitch(c, state, moment_y, moment_z, dt):
     """Integrate the tilt and yaw moments of the rotor into two pitch angles that counter them."""
     state[k.S_TILT] += c.individual_gain * moment_y * dt
@@ -145,7 +161,7 @@ def individual_pitch(c, state, moment_y, moment_z, dt):
         state[k.S_YAW] *= limit / size
 
 
-@njit(nogil=True, **LINKED)
+@part
 def move_blades(c, schedule, state, pitch, dt):
     """Let the actuator of each blade follow; that of the last blade may be stuck."""
     stuck = (

@@ -24,9 +24,9 @@ def blade_axes(sine, cosine, vector):
 
 
 @inner_section
-def place(m, i, motion, cone_s, cone_c):
-    """Section i in the axes (x, r, t) of its blade."""
-    radius = m.radius[i] - motion[i, 5]
+def place(radii, i, motion, cone_s, cone_c):
+    """Section i, at `radii` (n,), in the axes (x, r, t) of its blade."""
+    radius = radii[i] - motion[i, 5]
     along = -radius * cone_s + motion[i, 0] * cone_c
     out = radius * cone_c + motion[i, 0] * cone_s
     return along, out, motion[i, 1]
@@ -54,23 +54,23 @@ def deflection(m, pitch, shape, q, v, motion):
     `RotorOptions.bend_twist`.
     """
     c, s = np.cos(pitch), np.sin(pitch)
-    motion[:] = 0.0
     for i in range(m.radius.size):
-        motion[i, 0] = -m.prebend[i] * c
-        motion[i, 1] = -m.prebend[i] * s
-        motion[i, 4] = -m.prebend_slope[i] * c
-        bent = swept = 0.0
+        normal, tangential = -m.prebend[i] * c, -m.prebend[i] * s
+        normal_rate = tangential_rate = bent = swept = pull = 0.0
         for k in range(q.size):
-            motion[i, 0] += shape[i, k, 0] * q[k]
-            motion[i, 1] += shape[i, k, 1] * q[k]
-            motion[i, 2] += shape[i, k, 0] * v[k]
-            motion[i, 3] += shape[i, k, 1] * v[k]
+            normal += shape[i, k, 0] * q[k]
+            tangential += shape[i, k, 1] * q[k]
+            normal_rate += shape[i, k, 0] * v[k]
+            tangential_rate += shape[i, k, 1] * v[k]
             bent += shape[i, k, 2] * q[k]
             swept += shape[i, k, 3] * q[k]
             for j in range(q.size):
-                motion[i, 5] += m.shortening[i, k, j] * q[k] * q[j]
-        motion[i, 4] += bent
-        motion[i, 6] = m.bend_twist * bent * swept
+                pull += m.shortening[i, k, j] * q[k] * q[j]
+        motion[i, 0], motion[i, 1] = normal, tangential
+        motion[i, 2], motion[i, 3] = normal_rate, tangential_rate
+        motion[i, 4] = bent - m.prebend_slope[i] * c
+        motion[i, 5], motion[i, 6] = pull, m.bend_twist * bent * swept
+        motion[i, 7] = 0.0
 
 
 @kernel
@@ -88,13 +88,15 @@ def torsion(m, b, dt, speed, azimuth, drift, gravity, force, motion, turned):
     n = m.radius.size
     point = np.empty((n, 3))
     for i in range(n):
-        point[i, 0], point[i, 1], point[i, 2] = place(m, i, motion, cone_s, cone_c)
+        point[i, 0], point[i, 1], point[i, 2] = place(m.radius, i, motion, cone_s, cone_c)
     f_x = f_r = f_t = m_x = m_r = m_t = couple = 0.0
     torque = np.empty(n)
     for i in range(n - 1, -1, -1):
-        x, r, t = point[i]
+        x, r, t = point[i, 0], point[i, 1], point[i, 2]
         inner, outer = max(i - 1, 0), min(i + 1, n - 1)
-        e_x, e_r, e_t = point[outer] - point[inner]
+        e_x = point[outer, 0] - point[inner, 0]
+        e_r = point[outer, 1] - point[inner, 1]
+        e_t = point[outer, 2] - point[inner, 2]
         length = np.sqrt(e_x * e_x + e_r * e_r + e_t * e_t)
         about_x = m_x - (r * f_t - t * f_r)
         about_r = m_r - (t * f_x - x * f_t)
@@ -123,25 +125,26 @@ def torsion(m, b, dt, speed, azimuth, drift, gravity, force, motion, turned):
 
 
 @inner_once
-def nacelle_motion(m, h, v, drift, gravity):
+def nacelle_motion(frame, tilt, h, v, drift, gravity):
     """Speed of the apex and rate of rotation of the nacelle, `drift` (6,), and `gravity` (3,), in
     the shaft frame, which tilts with the nacelle; returns its tilt.
     """
-    drift[:] = 0.0
+    for axis in range(6):
+        drift[axis] = 0.0
     turn_x = turn_y = turn_z = 0.0
     for j in range(h.size):
-        if m.frame.carries[j] == 0.0:
+        if frame.carries[j] == 0.0:
             continue
         for axis in range(6):
-            drift[axis] += m.frame.reach[j, axis] * v[j]
-        turn_x += m.frame.reach[j, 3] * h[j]
-        turn_y += m.frame.reach[j, 4] * h[j]
-        turn_z += m.frame.reach[j, 5] * h[j]
-    x, z = GRAVITY * np.sin(m.tilt), -GRAVITY * np.cos(m.tilt)
+            drift[axis] += frame.reach[j, axis] * v[j]
+        turn_x += frame.reach[j, 3] * h[j]
+        turn_y += frame.reach[j, 4] * h[j]
+        turn_z += frame.reach[j, 5] * h[j]
+    x, z = GRAVITY * np.sin(tilt), -GRAVITY * np.cos(tilt)
     gravity[0] = x - turn_y * z
     gravity[1] = turn_x * z - turn_z * x
     gravity[2] = z + turn_y * x
-    return m.tilt + turn_y
+    return tilt + turn_y
 
 
 @inner_section
@@ -216,58 +219,80 @@ def blade_equations(
     sine, cosine = np.sin(azimuth), np.cos(azimuth)
     g_x, g_r, g_t = blade_axes(sine, cosine, gravity)
     rate = blade_axes(sine, cosine, drift[3:])
-    reach = np.empty((count, 6))
-    for j in range(count):
-        reach[j, 0], reach[j, 1], reach[j, 2] = blade_axes(sine, cosine, m.frame.reach[j, :3])
-        reach[j, 3], reach[j, 4], reach[j, 5] = blade_axes(sine, cosine, m.frame.reach[j, 3:])
-    couple = np.zeros((modes, 1 + count))
-    moved = np.empty((count, 3))
+    mass = s_x = s_r = s_t = j_xx = j_rr = j_tt = j_xr = j_xt = j_rt = 0.0
+    f_x = f_r = f_t = m_x = m_r = m_t = 0.0
+    # sums over the blade: what a motion of the frame does to it depends on nothing else
+    couple, swing = np.zeros((modes, 1 + count)), np.zeros((modes, 6))
     for i in range(m.radius.size):
-        along, out, turn = place(m, i, motion, cone_s, cone_c)
-        a_x, a_r, a_t = free_acceleration(speed, rate, motion, i, cone_s, cone_c, out, turn)
-        mass = m.mass[i] * m.mass_factor[b]
-        f_x = force[i, 0] + mass * (g_x - a_x)
-        f_r = force[i, 1] + mass * (g_r - a_r)
-        f_t = force[i, 2] + mass * (g_t - a_t)
-        normal = f_x * cone_c + f_r * cone_s
-        for j in range(count):
-            moved[j] = carried(reach[j], along, out, turn)
-            load[j] += moved[j, 0] * f_x + moved[j, 1] * f_r + moved[j, 2] * f_t
-            for n in range(j + 1):
-                product = mass * (
-                    moved[j, 0] * moved[n, 0]
-                    + moved[j, 1] * moved[n, 1]
-                    + moved[j, 2] * moved[n, 2]
-                )
-                inertia[j, n] += product
-                if n < j:
-                    inertia[n, j] += product
+        x, r, t = place(m.radius, i, motion, cone_s, cone_c)
+        a_x, a_r, a_t = free_acceleration(speed, rate, motion, i, cone_s, cone_c, r, t)
+        own = m.mass[i] * m.mass_factor[b]
+        own_x = force[i, 0] + own * (g_x - a_x)
+        own_r = force[i, 1] + own * (g_r - a_r)
+        own_t = force[i, 2] + own * (g_t - a_t)
+        f_x, f_r, f_t = f_x + own_x, f_r + own_r, f_t + own_t
+        m_x += r * own_t - t * own_r
+        m_r += t * own_x - x * own_t
+        m_t += x * own_r - r * own_x
+        o_x, o_r, o_t = own * x, own * r, own * t
+        mass, s_x, s_r, s_t = mass + own, s_x + o_x, s_r + o_r, s_t + o_t
+        j_xx, j_rr, j_tt = j_xx + o_x * x, j_rr + o_r * r, j_tt + o_t * t
+        j_xr, j_xt, j_rt = j_xr + o_x * r, j_xt + o_x * t, j_rt + o_r * t
+        normal = own_x * cone_c + own_r * cone_s
         for k in range(modes):
-            couple[k, 0] += shape[i, k, 0] * normal + shape[i, k, 1] * f_t
-            for j in range(count):
-                across = moved[j, 0] * cone_c + moved[j, 1] * cone_s
-                couple[k, 1 + j] += mass * (shape[i, k, 0] * across + shape[i, k, 1] * moved[j, 2])
+            across, along = shape[i, k, 0], shape[i, k, 1]
+            couple[k, 0] += across * normal + along * own_t
+            p_x, p_r, p_t = own * across * cone_c, own * across * cone_s, own * along
+            swing[k, 0] += p_x
+            swing[k, 1] += p_r
+            swing[k, 2] += p_t
+            swing[k, 3] += r * p_t - t * p_r
+            swing[k, 4] += t * p_x - x * p_t
+            swing[k, 5] += x * p_r - r * p_x
+    reach, push = np.empty((count, 6)), np.empty((count, 6))
+    for j in range(count):
+        v_x, v_r, v_t = blade_axes(sine, cosine, m.frame.reach[j, :3])
+        w_x, w_r, w_t = blade_axes(sine, cosine, m.frame.reach[j, 3:])
+        reach[j, 0], reach[j, 1], reach[j, 2] = v_x, v_r, v_t
+        reach[j, 3], reach[j, 4], reach[j, 5] = w_x, w_r, w_t
+        load[j] += v_x * f_x + v_r * f_r + v_t * f_t + w_x * m_x + w_r * m_r + w_t * m_t
+        # momentum and angular momentum of the blade per unit speed of the coordinate
+        push[j, 0] = mass * v_x + w_r * s_t - w_t * s_r
+        push[j, 1] = mass * v_r + w_t * s_x - w_x * s_t
+        push[j, 2] = mass * v_t + w_x * s_r - w_r * s_x
+        push[j, 3] = s_r * v_t - s_t * v_r + (j_rr + j_tt) * w_x - j_xr * w_r - j_xt * w_t
+        push[j, 4] = s_t * v_x - s_x * v_t + (j_tt + j_xx) * w_r - j_rt * w_t - j_xr * w_x
+        push[j, 5] = s_x * v_r - s_r * v_x + (j_xx + j_rr) * w_t - j_xt * w_x - j_rt * w_r
+    for j in range(count):
+        for axis in range(6):
+            for n in range(count):
+                inertia[j, n] += reach[j, axis] * push[n, axis]
+            for k in range(modes):
+                couple[k, 1 + j] += reach[j, axis] * swing[k, axis]
     if modes == 0:
         return
     outward = g_r * cone_c - g_x * cone_s
-    stiffness = m.modal_stiffness + m.mass_factor[b] * (
-        speed**2 * m.centrifugal + outward * m.axial_gravity
-    )
-    system = (
-        m.mass_factor[b] * m.modal_mass + 0.5 * dt * m.modal_damping + 0.25 * dt * dt * stiffness
-    )
-    right = couple.copy()
+    system = np.empty((modes, modes))
     for k in range(modes):
+        for j in range(1 + count):
+            answer[k, j] = couple[k, j]
         # the pull on the blade straightens its prebend
-        right[k, 0] += m.mass_factor[b] * (
+        answer[k, 0] += m.mass_factor[b] * (
             speed**2 * m.prebend_centrifugal[k] + outward * m.prebend_gravity[k]
         )
         for j in range(modes):
+            stiffness = m.modal_stiffness[k, j] + m.mass_factor[b] * (
+                speed**2 * m.centrifugal[k, j] + outward * m.axial_gravity[k, j]
+            )
+            system[k, j] = (
+                m.mass_factor[b] * m.modal_mass[k, j]
+                + 0.5 * dt * m.modal_damping[k, j]
+                + 0.25 * dt * dt * stiffness
+            )
             q_free = q[j] + dt * v[j] + 0.25 * dt * dt * acc[j]
             v_free = v[j] + 0.5 * dt * acc[j]
-            right[k, 0] -= m.modal_damping[k, j] * v_free + stiffness[k, j] * q_free
-    solve_in_place(system, right)
-    answer[:] = right
+            answer[k, 0] -= m.modal_damping[k, j] * v_free + stiffness * q_free
+    solve_in_place(system, answer)
     for j in range(count):
         for k in range(modes):
             load[j] -= couple[k, 1 + j] * answer[k, 0]
@@ -279,46 +304,55 @@ def blade_equations(
 
 
 @inner_kernel
-def frame_acceleration(m, dt, controlled, held, inertia, load, gravity, h, v, acc):
-    """Acceleration of the coordinates of the frame (h,), with those of the blades eliminated.
+def frame_acceleration(f, hub_mass, dt, controlled, held, inertia, load, gravity, h, v, acc):
+    """Acceleration of the coordinates of the frame (h, 1), with those of the blades eliminated.
 
     `load` holds the torque of the generator. The shaft brake holds the generator up to the torque
     `held`, as dry friction; a rotor that is not `controlled` keeps its speed.
     """
     count = load.size
-    f = m.frame
-    system = inertia + f.mass + 0.5 * dt * f.damping + 0.25 * dt * dt * f.stiffness
-    column = (load + f.load).reshape(count, 1)
-    right = column[:, 0]
+    system, right = np.empty((count, count)), np.empty((count, 1))
+    fixed, still = np.empty((count, count)), np.empty((count, 1))
     for j in range(count):
+        right[j, 0] = load[j] + f.load[j]
         for axis in range(3):
-            right[j] += m.hub_mass * f.reach[j, axis] * gravity[axis]
+            right[j, 0] += hub_mass * f.reach[j, axis] * gravity[axis]
+        for n in range(count):
+            system[j, n] = (
+                inertia[j, n]
+                + f.mass[j, n]
+                + 0.5 * dt * f.damping[j, n]
+                + 0.25 * dt * dt * f.stiffness[j, n]
+            )
+            fixed[j, n] = system[j, n] if j > 0 else 0.0
         for n in range(1, count):
             h_free = h[n] + dt * v[n] + 0.25 * dt * dt * acc[n]
             v_free = v[n] + 0.5 * dt * acc[n]
-            right[j] -= f.damping[j, n] * v_free + f.stiffness[j, n] * h_free
-    free = controlled and (held == 0.0 or v[0] != 0.0)
-    if free:
-        right[0] -= np.sign(v[0]) * held
-        solve_in_place(system, column)
-        return right
-    fixed, still = system.copy(), column.copy()
-    fixed[0, :] = 0.0
-    fixed[0, 0] = 1.0
-    still[0, 0] = 0.0
-    solve_in_place(fixed, still)
-    out = still[:, 0]
-    out[0] = 0.0  # exactly
-    if controlled:
+            right[j, 0] -= f.damping[j, n] * v_free + f.stiffness[j, n] * h_free
+        still[j, 0] = right[j, 0] if j > 0 else 0.0
+    if not controlled or (held != 0.0 and v[0] == 0.0):
+        fixed[0, 0] = 1.0
+        solve_in_place(fixed, still)
+        still[0, 0] = 0.0  # exactly
         # torque that the brake would have to take to keep the generator at rest
-        needed = right[0]
+        needed = right[0, 0]
         for j in range(1, count):
-            needed -= system[0, j] * out[j]
-        if abs(needed) > held:
-            right[0] -= np.sign(needed) * held
-            solve_in_place(system, column)
-            out = right
-    return out
+            needed -= system[0, j] * still[j, 0]
+        if not controlled or not abs(needed) > held:
+            return still
+        right[0, 0] -= np.sign(needed) * held
+    else:
+        right[0, 0] -= np.sign(v[0]) * held
+    solve_in_place(system, right)
+    return right
+
+
+@inner_once
+def predicted(dt, q, v, acc, ahead, rate_ahead):
+    """Write where motion and speed would be in a step with the acceleration of the last one."""
+    for k in range(q.size):
+        ahead[k] = q[k] + dt * v[k] + 0.5 * dt * dt * acc[k]
+        rate_ahead[k] = v[k] + dt * acc[k]
 
 
 @inner_once
@@ -343,36 +377,34 @@ def blade_root(m, b, speed, azimuth, shape, drift, gravity, jerk, force, motion,
     g_x, g_r, g_t = blade_axes(sine, cosine, gravity)
     rate = blade_axes(sine, cosine, drift[3:])
     reach = (*blade_axes(sine, cosine, jerk[:3]), *blade_axes(sine, cosine, jerk[3:]))
-    root_x, root_r = -m.hub_radius * cone_s, m.hub_radius * cone_c
-    own_x = own_r = own_t = about_x = about_r = about_t = 0.0
+    f_x = f_r = f_t = m_x = m_r = m_t = 0.0
     for i in range(m.radius.size):
-        along, out, turn = place(m, i, motion, cone_s, cone_c)
+        x, r, t = place(m.radius, i, motion, cone_s, cone_c)
         bend_n = bend_t = 0.0
         for k in range(acc.size):
             bend_n += shape[i, k, 0] * acc[k]
             bend_t += shape[i, k, 1] * acc[k]
-        a_x, a_r, a_t = free_acceleration(speed, rate, motion, i, cone_s, cone_c, out, turn)
-        moved = carried(reach, along, out, turn)
+        a_x, a_r, a_t = free_acceleration(speed, rate, motion, i, cone_s, cone_c, r, t)
+        moved = carried(reach, x, r, t)
         mass = m.mass[i] * m.mass_factor[b]
-        f_x = force[i, 0] + mass * (g_x - a_x - moved[0] - bend_n * cone_c)
-        f_r = force[i, 1] + mass * (g_r - a_r - moved[1] - bend_n * cone_s)
-        f_t = force[i, 2] + mass * (g_t - a_t - moved[2] - bend_t)
-        m_r, m_t = turn * f_x - along * f_t, along * f_r - out * f_x
-        total[0] += f_x
-        total[1] += -sine * f_r - cosine * f_t
-        total[2] += cosine * f_r - sine * f_t
-        total[3] += out * f_t - turn * f_r
-        total[4] += -sine * m_r - cosine * m_t
-        total[5] += cosine * m_r - sine * m_t
-        own_x, own_r, own_t = own_x + f_x, own_r + f_r, own_t + f_t
-        about_x += (out - root_r) * f_t - turn * f_r
-        about_r += turn * f_x - (along - root_x) * f_t
-        about_t += (along - root_x) * f_r - (out - root_r) * f_x
-    own[0], own[1], own[2] = (
-        own_r * cone_c - own_x * cone_s,
-        own_x * cone_c + own_r * cone_s,
-        -own_t,
-    )
+        own_x = force[i, 0] + mass * (g_x - a_x - moved[0] - bend_n * cone_c)
+        own_r = force[i, 1] + mass * (g_r - a_r - moved[1] - bend_n * cone_s)
+        own_t = force[i, 2] + mass * (g_t - a_t - moved[2] - bend_t)
+        f_x, f_r, f_t = f_x + own_x, f_r + own_r, f_t + own_t
+        m_x += r * own_t - t * own_r
+        m_r += t * own_x - x * own_t
+        m_t += x * own_r - r * own_x
+    total[0] += f_x
+    total[1] += -sine * f_r - cosine * f_t
+    total[2] += cosine * f_r - sine * f_t
+    total[3] += m_x
+    total[4] += -sine * m_r - cosine * m_t
+    total[5] += cosine * m_r - sine * m_t
+    own[0] = f_r * cone_c - f_x * cone_s
+    own[1] = f_x * cone_c + f_r * cone_s
+    own[2] = -f_t
+    root_x, root_r = -m.hub_radius * cone_s, m.hub_radius * cone_c
+    about_x, about_r = m_x - root_r * f_t, m_r + root_x * f_t
     own[3] = about_r * cone_c - about_x * cone_s
     own[4] = about_x * cone_c + about_r * cone_s
-    own[5] = -about_t
+    own[5] = root_x * f_r - root_r * f_x - m_t

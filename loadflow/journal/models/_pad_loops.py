@@ -1,0 +1,392 @@
+"""Compiled loops of the reduced film on tilting pads: Newton, and a march through time.
+
+They are those of `_composed_loops` with the tilts of the pads among the unknowns. Grooves of a
+known pressure part the pads, so that the columns of the shaft, taken on one pad alone, are those of
+its tilt, too: nothing more has to be solved for.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from loadflow.journal.cavitation import DLOAD, LOAD
+from loadflow.journal.models import composed_film as at
+from loadflow.journal.models._band_kernels import factorise_any, substitute_all
+from loadflow.journal.models._compile import inner, once, outer
+from loadflow.journal.models._composed_gap_kernels import PLANES, turn
+from loadflow.journal.models._composed_kernels import (
+    balance,
+    fed,
+    magnitudes,
+    matrix,
+    slopes_of_balance,
+    summarise,
+)
+from loadflow.journal.models._composed_loops import keep, lay_at, solve_system
+from loadflow.journal.models._pad_kernels import (
+    BEFORE,
+    LAST,
+    NEXT,
+    STEP,
+    hold_pads,
+    lift_of,
+    place_on_pads,
+    put_on,
+    set_out,
+    spare_state,
+)
+from loadflow.journal.models._reduced_loops import (
+    COARSEST,
+    LATE,
+    SMALLEST,
+    STEP_LIMIT,
+    is_small,
+    predict,
+    rounding_level,
+    two_steps,
+)
+from loadflow.journal.models.slow_heat import THIN, lighter, slow_heat
+from loadflow.journal.solvers.moving_pads import FLAT, NEAR
+
+_KEPT = 0.3  # share of a gap, or of the tilt of a pad, that a step leaves
+_SMALL = 0.03  # tilt of a pad, in clearances, from which it may grow threefold in a step
+
+
+@once
+def _carry(film, work, pads, pad_work, size):
+    """Load of each pad beside that of the edge pressure, and what the columns carry on it."""
+    nx, m = work.u.shape
+    z, weights, columns, unit = film.nodes.z, film.nodes.weights, work.columns, film.ring.area
+    pad_work.load[:] = 0.0
+    pad_work.carried[:] = 0.0
+    for i in range(nx):
+        j = pads.cell[i]
+        if film.ring.groove[i]:
+            continue
+        base = film.ring.order[i] * m
+        c, s = unit * film.ring.load_x[i], unit * film.ring.load_y[i]
+        load, turned = 0.0, 0.0
+        for k in range(m):
+            part = weights[k] * (work.state[LOAD, i, k] - film.ring.p_edge)
+            load += part
+            turned += part * z[k]
+        pad_work.load[j, 0] += load * c
+        pad_work.load[j, 1] += load * s
+        pad_work.load[j, 2] -= turned * s
+        pad_work.load[j, 3] += turned * c
+        for column in range(1 + size):
+            load, turned = 0.0, 0.0
+            for k in range(m):
+                part = weights[k] * work.state[DLOAD, i, k] * columns[base + k, column]
+                load += part
+                turned += part * z[k]
+            pad_work.carried[j, column, 0] += load * c
+            pad_work.carried[j, column, 1] += load * s
+            pad_work.carried[j, column, 2] -= turned * s
+            pad_work.carried[j, column, 3] += turned * c
+
+
+@once
+def _moments(film, work, pads):
+    """Sum of the squared moments of the pads about their pivots, N², over the shaft radius."""
+    m, unit, total, moment, last = work.u.shape[1], film.ring.area, 0.0, 0.0, -1
+    for i in range(work.u.shape[0]):
+        j = pads.cell[i]
+        if j != last:
+            total, moment, last = total + moment * moment, 0.0, j
+        if film.ring.groove[i]:
+            continue
+        load = 0.0
+        for k in range(m):
+            load += film.nodes.weights[k] * (work.state[LOAD, i, k] - film.ring.p_edge)
+        arm = pads.along[j, 0] * film.ring.load_x[i] + pads.along[j, 1] * film.ring.load_y[i]
+        moment += unit * load * arm
+    return total + moment * moment
+
+
+@once
+def _steps(film, work, pads, pad_work, load, size, step):
+    """Newton step (4,) of the shaft, and those of the tilts, shortened where they are too long.
+
+    A pad follows the shaft so that it has no moment: what the load of a pad changes by its tilt is
+    what it changes by the place of the shaft along the tangent.
+    """
+    system, count = pad_work.system, pad_work.on.size
+    step[:] = 0.0
+    for j in range(count):
+        pad_work.tilts[STEP, j] = 0.0
+    for a in range(size):
+        system[a, size] = -load[a]
+        for b in range(size):
+            system[a, b] = 0.0
+    for j in range(count):
+        ex, ey = pads.along[j, 0], pads.along[j, 1]
+        carried, follow = pad_work.carried[j], pad_work.follow[j]
+        own = ex * (pad_work.load[j, 0] - carried[0, 0])
+        own += ey * (pad_work.load[j, 1] - carried[0, 1])
+        follow[0] = own
+        for b in range(size):
+            follow[1 + b] = ex * carried[1 + b, 0] + ey * carried[1 + b, 1]
+        by_tilt = ex * (ex * carried[1, 0] + ey * carried[1, 1])
+        by_tilt += ey * (ex * carried[2, 0] + ey * carried[2, 1])
+        follow[5] = by_tilt
+        for a in range(size):
+            system[a, size] += pad_work.load[j, a] - carried[0, a]
+            turned = 0.0
+            if by_tilt != 0.0:
+                turned = (ex * carried[1, a] + ey * carried[2, a]) / by_tilt
+            system[a, size] -= turned * own
+            for b in range(size):
+                system[a, b] += carried[1 + b, a] - turned * follow[1 + b]
+    if size > 0 and not solve_system(system, size):
+        return
+    change, peak = 0.0, film.ring.scale
+    for i in range(work.u.shape[0]):
+        base = film.ring.order[i] * work.u.shape[1]
+        for k in range(work.u.shape[1]):
+            change = max(change, abs(work.columns[base + k, 0]))
+            peak = max(peak, work.state[LOAD, i, k])
+    excess = max(1.0, change / (peak * STEP_LIMIT))
+    for a in range(size):
+        step[a] = system[a, size]
+    for j in range(count):
+        follow, moves = pad_work.follow[j], 0.0
+        if pad_work.on[j] and follow[5] != 0.0:
+            moves = follow[0]
+            for b in range(size):
+                moves -= follow[1 + b] * step[b]
+            moves /= follow[5]
+        pad_work.tilts[STEP, j] = moves / excess
+    for a in range(size):
+        step[a] /= excess
+
+
+@inner
+def _share(film, work, pads, pad_work, step, kept):
+    """Share of a step of shaft and tilts of which every place keeps `kept` of its gap."""
+    share, ring = 1.0, film.ring
+    for i in range(ring.cos.size):
+        j = pads.cell[i]
+        if j < 0:
+            continue
+        turns = pad_work.tilts[STEP, j]
+        dx, dy = step[0] + turns * pads.along[j, 0], step[1] + turns * pads.along[j, 1]
+        for k in range(film.nodes.z.size):
+            z = film.nodes.z[k]
+            closes = (dx + step[3] * z) * ring.cos[i] + (dy - step[2] * z) * ring.sin[i]
+            left = (1.0 - kept) * work.gap[PLANES, i, k]
+            if closes > 0.0 and share * closes > left:
+                share = left / closes
+    return share
+
+
+@once
+def _advance(film, work, pads, pad_work, q, step):
+    """Move film, shaft and pads by a Newton step, or by the share of it that leaves a film.
+
+    A pad that tilts the other way has no film, and would stay so.
+    """
+    m, tilts = work.u.shape[1], pad_work.tilts
+    share = _share(film, work, pads, pad_work, step, _KEPT)
+    for a in range(4):
+        step[a] *= share
+    for j in range(pad_work.on.size):
+        tilts[STEP, j] *= share
+        if tilts[STEP, j] == 0.0:
+            continue
+        before = lift_of(pads, tilts, NEXT, j, q[0], q[1])
+        after = lift_of(pads, tilts, NEXT, j, q[0] + step[0], q[1] + step[1]) + tilts[STEP, j]
+        sign = -1.0 if before < 0.0 else 1.0
+        most = max(abs(before), _SMALL) / _KEPT
+        tilts[STEP, j] += sign * min(max(sign * after, _KEPT * abs(before)), most) - after
+        tilts[NEXT, j] += tilts[STEP, j]
+    for i in range(work.u.shape[0]):
+        if film.ring.groove[i]:
+            continue
+        j, base = pads.cell[i], film.ring.order[i] * m
+        turns = tilts[STEP, j]
+        dx, dy = step[0] + turns * pads.along[j, 0], step[1] + turns * pads.along[j, 1]
+        for k in range(m):
+            row = base + k
+            change = work.columns[row, 0] + dx * work.columns[row, 1] + dy * work.columns[row, 2]
+            if step[2] != 0.0 or step[3] != 0.0:
+                change += step[2] * work.columns[row, 3] + step[3] * work.columns[row, 4]
+            work.u[i, k] -= change
+    for a in range(4):
+        q[a] += step[a]
+    place_on_pads(film, work, pads, pad_work, q, NEXT)
+
+
+@inner
+def _newton(
+    film, work, pads, pad_work, q, load, size, speed, lightness, rate, tolerance, max_iterations
+):
+    """Film, shaft and pads at which `load` (4,) is carried; as `_composed_loops._newton`."""
+    wedge = 0.5 * film.ring.slope * speed
+    flux = (abs(wedge) + film.ring.scale) * film.nodes.widest
+    total, step, columns = 0.0, work.step, max(size, 2)
+    for a in range(size):
+        total += load[a] * load[a]
+    force_scale = max(np.sqrt(total), 0.5e-3 * film.ring.scale * film.ring.area)
+    turn(film, work, speed, lightness)
+    spent = 0
+    place_on_pads(film, work, pads, pad_work, q, NEXT)
+    while True:
+        residual = balance(film, work, wedge, rate) / flux
+        missing = _moments(film, work, pads)
+        for a in range(size):
+            missing += (load[a] - work.load[a]) ** 2
+        residual = max(residual, np.sqrt(missing) / force_scale)
+        done = residual < tolerance or spent == max_iterations or not residual < np.inf
+        rounding = 0.0
+        if not residual < tolerance and (done or spent >= LATE):
+            cells, forces = magnitudes(film, work, wedge, rate)
+            rounding = rounding_level(max(cells / flux, forces / force_scale))
+        answered = is_small(residual, tolerance, min(rounding, COARSEST))
+        if done or answered:
+            return residual, spent, answered, rounding
+        spent += 1
+        slopes_of_balance(film, work, wedge, rate, columns)
+        matrix(film, work, wedge, rate)
+        if not factorise_any(work.band, work.columns.shape[0]):
+            return residual, spent, False, rounding
+        substitute_all(work.band, work.columns, 1 + columns)
+        _carry(film, work, pads, pad_work, columns)
+        _steps(film, work, pads, pad_work, load, size, step)
+        _advance(film, work, pads, pad_work, q, step)
+
+
+@once
+def _other_pads(work, pads, pad_work, q, reached, speed):
+    """Give and take films as `moving_pads.other_pads` says; whether any has changed."""
+    sense, changed, count = 1 if speed < 0.0 else 0, False, pad_work.on.size
+    spare_state(work, pad_work, True)
+    finite = reached[0] - reached[0] == 0.0 and reached[1] - reached[1] == 0.0
+    for j in range(count):
+        lift = lift_of(pads, pad_work.tilts, NEXT, j, reached[0], reached[1])
+        if finite and pad_work.on[j] and abs(lift) < FLAT:
+            put_on(work, pads, pad_work, q, speed, j, False)
+            changed = True
+    for j in range(0 if changed else count):
+        gap = 1.0 - q[0] * pads.toward[j, 0] - q[1] * pads.toward[j, 1]
+        if not pad_work.on[j] and gap < pads.widest[sense] + NEAR:
+            put_on(work, pads, pad_work, q, speed, j, True)
+            changed = True
+    return changed
+
+
+@once
+def _summed(film, work, pads, pad_work, q, wedge, row):
+    """`summarise`, with the drag on pads without a film, but not what these drag along."""
+    for i in range(pads.cell.size):
+        film.ring.groove[i] = pads.groove[i]
+    summarise(film, work, q, wedge, row)
+    hold_pads(film, pads, pad_work)
+    row[at.FED] = fed(film, work, wedge)
+
+
+@outer
+def solve_on_pads(
+    film, work, pads, pad_work, q, size, begin, time, load, line, speed, tolerance, max_iterations,
+    rows, tilts, warmth, states,
+):  # fmt: skip
+    """As `_composed_loops.solve` without its slopes; fills `tilts` (n, p), too.
+
+    The pads begin at `pad_work.tilts` of the last time, and, from the third time on, of the one
+    before it; those of which `pad_work.on` says so have a film.
+    """
+    before, new, given, own = work.places[0], work.places[1], work.places[2], pad_work.tilts
+    count, resting = pad_work.on.size, begin == 0
+    step_before, thin, light = 0.0, states[0, THIN], 1.0
+    if warmth.on:
+        light = lighter(warmth, states, 0)
+    if resting:
+        hold_pads(film, pads, pad_work)
+    else:
+        set_out(film, work, pads, pad_work, q, begin > 1)
+        step_before = work.past[4]
+    for n in range(begin, 1 if resting else time.size):
+        last = max(n - 1, 0)
+        whole = time[n] - time[last]
+        if warmth.on and not resting:
+            thin = slow_heat(warmth, states, n, whole, speed, rows, at.DISSIPATION, at.NORMAL)
+            light = lighter(warmth, states, n)
+        share, done, spent = 1.0, 0.0, 0
+        other = False  # whether this step is tried on other pads
+        while done < 1.0:
+            to = min(1.0, done + share)
+            step, rate = (to - done) * whole, 0.0
+            omega = thin * (speed[last] + to * (speed[n] - speed[last]))
+            for a in range(4):
+                new[a] = q[a]
+                given[a] = load[last, a] + to * (load[n, a] - load[last, a])
+            lay_at(work, line, n, to, new, size < 4 and not resting)
+            for j in range(count):
+                own[NEXT, j] = own[LAST, j]
+            if not resting:
+                rate, weight, weight_before, ratio = two_steps(step, step_before)
+                ahead = False
+                if step_before > 0.0:
+                    for a in range(4):
+                        work.step[a] = ratio * (q[a] - before[a]) if a < size else 0.0
+                    for j in range(count):
+                        own[STEP, j] = ratio * (own[LAST, j] - own[BEFORE, j])
+                    ahead = _share(film, work, pads, pad_work, work.step, 0.5) == 1.0
+                    for a in range(size if ahead else 0):
+                        new[a] = q[a] + work.step[a]
+                    for j in range(count if ahead else 0):
+                        own[NEXT, j] = own[LAST, j] + own[STEP, j]
+                predict(work, ratio, ahead, thin * weight, thin * weight_before)
+            residual, iterations, converged, rounding = _newton(
+                film, work, pads, pad_work, new, given, size, omega, light / (thin * thin),
+                thin * rate, tolerance, max_iterations,
+            )  # fmt: skip
+            spent += iterations
+            if converged or resting:
+                for a in range(4):
+                    before[a], q[a] = q[a], new[a]
+                for j in range(count):
+                    own[BEFORE, j], own[LAST, j] = own[LAST, j], own[NEXT, j]
+                done = to
+            if converged:
+                keep(work)
+                for a in range(2):
+                    work.past[a], work.past[2 + a] = work.past[2 + a], work.bend[a]
+                step_before = step
+                work.past[4] = step
+                share, other = min(2.0 * share, 1.0), False
+                if done >= 1.0:
+                    _summed(film, work, pads, pad_work, q, 0.5 * film.ring.slope * omega, rows[n])
+                    for j in range(count):
+                        tilts[n, j] = own[LAST, j]
+                changed = False
+                for j in range(count if not resting else 0):
+                    gap = 1.0 - q[0] * pads.toward[j, 0] - q[1] * pads.toward[j, 1]
+                    holds = gap <= pads.widest[1 if omega < 0.0 else 0]
+                    if holds != pad_work.on[j]:
+                        put_on(work, pads, pad_work, q, omega, j, holds)
+                        changed = True
+                if changed:
+                    set_out(film, work, pads, pad_work, q, True)
+            elif resting:
+                pass
+            elif not other and _other_pads(work, pads, pad_work, q, new, omega):
+                other = True
+                set_out(film, work, pads, pad_work, q, step_before > 0.0)
+            elif share > SMALLEST:
+                share *= 0.5
+                if other:
+                    spare_state(work, pad_work, False)
+                other = False
+                set_out(film, work, pads, pad_work, q, step_before > 0.0)
+            else:
+                break
+        rows[n, at.RESIDUAL] = residual
+        rows[n, at.ITERATIONS] = spent
+        rows[n, at.CONVERGED] = converged
+        rows[n, at.ROUNDING] = rounding
+        if not converged:
+            for a in range(4):
+                rows[n, a] = new[a]
+            return n + 1
+    return time.size

@@ -1,0 +1,173 @@
+"""Compiled tangent of the equilibrium with flexible rings.
+
+Words and arrays are those of `loadflow.rolling.rings._ring_kernels`. Contacts that ride on one ball
+resist the shift of its tracks together; how much varies around the ring. Where unknowns are few
+waves each, sums over the balls of what they resist times two waves are those of the sum and the
+difference of both harmonics, and serve all pairs of unknowns.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from loadflow.numerics.linked import LINKED
+from loadflow.rolling.contacts import POINT
+from loadflow.rolling.rings._ring_kernels import add_multiple, gather
+
+# Sums may be reordered (so that they use vector units); nothing else of fast mathematics.
+_REORDER = {"reassoc", "contract", "nsz"}
+
+
+@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER, **LINKED)
+def _add_squares(along, weight, resistance):
+    """Add weight · along alongᵀ of each ball, `along` (track, ball), to its lower half."""
+    c = 0
+    for f in range(along.shape[0]):
+        for g in range(f + 1):
+            line, first, second = resistance[c], along[f], along[g]
+            for j in range(weight.shape[0]):
+                line[j] += weight[j] * first[j] * second[j]
+            c += 1
+
+
+@njit(nogil=True, error_model="numpy", **LINKED)
+def _resistances(waves, power, push, slope, across, slant):
+    """What the contacts of each ball resist, lower half of (track, track), (half, ball)."""
+    mixing, balls = waves.mixing, push.shape[1]
+    tracks = mixing.shape[1]
+    found = np.zeros((tracks * (tracks + 1) // 2, balls))
+    along, weight = np.zeros((tracks, balls)), np.zeros(balls)
+    fields = mixing.shape[0] // slope.shape[0]
+    for k in range(slope.shape[0]):
+        along[:, :] = 0.0
+        if power == POINT:  # along the force, and alike in all directions
+            weight[:] = 0.0
+            for j in range(balls):
+                pr, pt, pz = push[3 * k, j], push[3 * k + 1, j], push[3 * k + 2, j]
+                square = pr * pr + pt * pt + pz * pz
+                if square > 0.0:
+                    weight[j] = (slope[k, j] - across[k, j]) / square
+            for f in range(tracks):
+                for s in range(3 * k, 3 * k + 3):
+                    if mixing[s, f] != 0.0:
+                        add_multiple(mixing[s, f], push[s], along[f])
+            _add_squares(along, weight, found)
+        else:  # approach at the lever of a roller's stiffness
+            for f in range(tracks):
+                along[f, :] = mixing[2 * k, f]
+                add_multiple(mixing[2 * k + 1, f], slant[k], along[f])
+            _add_squares(along, slope[k], found)
+        c = 0
+        for f in range(tracks):
+            for g in range(f + 1):
+                alike = 0.0
+                for s in range(fields * k + (power != POINT), fields * (k + 1)):
+                    alike += mixing[s, f] * mixing[s, g]
+                if alike != 0.0:
+                    add_multiple(alike, across[k], found[c])
+                c += 1
+    return found
+
+
+@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER, **LINKED)
+def _products(resistance, waves):
+    """Sums over all balls of what they resist times two waves, (half, wave, wave)."""
+    top, cosines, balls = waves.top, waves.cosines, waves.balls
+    moments = np.zeros((resistance.shape[0], waves.products.shape[0]))
+    gather(resistance, waves.products, waves.product_cosines, moments)
+    even, odd = np.zeros(3 * top + 1), np.zeros(3 * top + 1)  # of harmonics -top … 2 top
+    found = np.zeros((resistance.shape[0], waves.trig.shape[0], waves.trig.shape[0]))
+    for c in range(resistance.shape[0]):
+        for n in range(-top, 2 * top + 1):
+            fold, sign = abs(n), 1.0 if n > 0 else -1.0
+            if fold > balls - fold:  # a harmonic is seen at the balls as its mirror
+                fold, sign = balls - fold, -sign
+            even[top + n] = 0.5 * moments[c, fold]
+            odd[top + n] = 0.0
+            if fold > 0:
+                odd[top + n] = 0.5 * sign * moments[c, waves.product_cosines + fold - 1]
+        for m in range(top + 1):
+            less, more = even[top - m : 2 * top - m + 1], even[top + m : 2 * top + m + 1]
+            left, right = odd[top - m : 2 * top - m + 1], odd[top + m : 2 * top + m + 1]
+            cosine, beside = found[c, m, : top + 1], found[c, m, cosines - 1 : cosines + top]
+            for n in range(1, top + 1):
+                beside[n] = right[n] + left[n]
+            for n in range(top + 1):
+                cosine[n] = less[n] + more[n]
+            if m > 0:
+                row = found[c, cosines + m - 1]
+                sine, beside = row[: top + 1], row[cosines - 1 : cosines + top]
+                for n in range(1, top + 1):
+                    beside[n] = less[n] - more[n]
+                for n in range(top + 1):
+                    sine[n] = right[n] - left[n]
+    return found
+
+
+@njit(nogil=True, error_model="numpy", **LINKED)
+def _by_waves(resistance, waves, hessian):
+    """Fill the lower half of the tangent of the contacts from products of waves."""
+    first, wave, track, value = waves.first, waves.wave, waves.track, waves.value
+    products, tracks = _products(resistance, waves), waves.mixing.shape[1]
+    felt = np.zeros((tracks, products.shape[1]))
+    line, place = felt.reshape(felt.size), waves.place
+    for a in range(hessian.shape[0]):
+        felt[:, :] = 0.0
+        for e in range(first[a], first[a + 1]):
+            for f in range(tracks):
+                high, low = max(f, track[e]), min(f, track[e])
+                add_multiple(value[e], products[high * (high + 1) // 2 + low, wave[e]], felt[f])
+        for b in range(a + 1):
+            total = 0.0
+            for e in range(first[b], first[b + 1]):
+                total += value[e] * line[place[e]]
+            hessian[a, b] = total
+
+
+@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER, **LINKED)
+def _by_balls(resistance, waves, hessian):
+    """Fill the lower half of the tangent of the contacts from all balls, eight rows at a time.
+
+    By loops, as a library of linear algebra starts threads of its own and waits for them.
+    """
+    shapes, tracks = waves.shapes, waves.mixing.shape[1]
+    forced = np.zeros(shapes.shape)
+    for j in range(waves.balls):
+        for f in range(tracks):
+            for g in range(tracks):
+                high, low = max(f, g), min(f, g)
+                resists = resistance[high * (high + 1) // 2 + low, j]
+                line, source = forced[j * tracks + f], shapes[j * tracks + g]
+                for a in range(line.shape[0]):
+                    line[a] += resists * source[a]
+    hessian[:, :] = 0.0
+    for k in range(0, shapes.shape[0], 8):
+        r0, r1, r2, r3 = forced[k], forced[k + 1], forced[k + 2], forced[k + 3]
+        r4, r5, r6, r7 = forced[k + 4], forced[k + 5], forced[k + 6], forced[k + 7]
+        for a in range(hessian.shape[0]):
+            line = hessian[a]
+            c0, c1, c2, c3 = shapes[k, a], shapes[k + 1, a], shapes[k + 2, a], shapes[k + 3, a]
+            c4, c5, c6, c7 = shapes[k + 4, a], shapes[k + 5, a], shapes[k + 6, a], shapes[k + 7, a]
+            for b in range(a + 1):
+                line[b] += (
+                    c0 * r0[b] + c1 * r1[b] + c2 * r2[b] + c3 * r3[b]
+                    + c4 * r4[b] + c5 * r5[b] + c6 * r6[b] + c7 * r7[b]
+                )  # fmt: skip
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def tangent(waves, power, push, slope, across, slant):
+    """Exact Hessian of the potential."""
+    size = waves.first.shape[0] - 1
+    hessian = np.zeros((size, size))
+    resistance = _resistances(waves, power, push, slope, across, slant)
+    if waves.shapes.shape[0] == 0:
+        _by_waves(resistance, waves, hessian)
+    else:
+        _by_balls(resistance, waves, hessian)
+    for a in range(size):
+        hessian[a, a] += 1.0 if a >= 5 else 0.0
+        for b in range(a):
+            hessian[b, a] = hessian[a, b]
+    return hessian

@@ -1,0 +1,166 @@
+"""Tilting pads in motion: their tilts are unknowns of each step, on both rungs."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from loadflow.errors import InputError
+from loadflow.journal import (
+    FilmHeat,
+    GasMixture,
+    Guembel,
+    JournalBearing,
+    Lubricant,
+    MassConserving,
+    TiltingPads,
+)
+from loadflow.journal.film_model import Film
+
+BEARING = JournalBearing(1.4, 1.3, 1e-3, shape=TiltingPads(5, 1.05, preload=0.2, angle=0.628))
+SPEED, PERIOD = 1.2, 3.0
+
+
+def film(law=None, rung="grid", cells=(40, 6)):
+    return Film(Lubricant(0.2), law or MassConserving(), 1e5, grid=cells, rung=rung)
+
+
+def turning(time, mean=1.5e6, along=4e5, aside=6e5):
+    """A load that goes round an ellipse beside the middle."""
+    phase = 2 * np.pi * time / PERIOD
+    return np.stack([mean + along * np.cos(phase), aside * np.sin(phase)], axis=-1)
+
+
+def test_a_steady_load_keeps_shaft_and_pads_where_they_rest():
+    load, time = np.array([1.5e6, 3e5]), np.linspace(0.0, 1.0, 6)
+    rest = BEARING.equilibrium(load, SPEED, film())
+    path = BEARING.orbit(time, np.tile(load, (6, 1)), SPEED, film())
+    still = np.broadcast_to(rest.eccentricity, (6, 2)) / BEARING.clearance
+    np.testing.assert_allclose(path.eccentricity / BEARING.clearance, still, atol=1e-8)
+    tilts = np.broadcast_to(rest.pad_tilt, (6, 5))
+    np.testing.assert_allclose(path.pad_tilt, tilts, atol=1e-10)
+
+
+def test_a_shaft_that_is_let_go_comes_to_rest_with_its_pads():
+    load, time = np.array([1.5e6, 0.0]), np.linspace(0.0, 12.0, 61)
+    rest = BEARING.equilibrium(load, SPEED, film())
+    path = BEARING.orbit(time, np.tile(load, (61, 1)), SPEED, film(), start=0.9 * rest.eccentricity)
+    end = path.isel(time=-1)
+    np.testing.assert_allclose(end.eccentricity, rest.eccentricity, atol=1e-5 * BEARING.clearance)
+    np.testing.assert_allclose(end.pad_tilt, rest.pad_tilt, atol=1e-8)
+
+
+def test_given_steps_are_of_second_order_while_pads_come_and_go():
+    """Halving the step takes the error of the path to a quarter, the balance of mass follows."""
+    paths = []
+    for count in (61, 121, 481):
+        time = np.linspace(0.0, 2 * PERIOD, count)
+        paths.append(BEARING.orbit(time, turning(time), SPEED, film()))
+    finest = paths[-1].eccentricity
+    coarse, halved = (
+        float(np.abs(path.eccentricity - finest.sel(time=path.time, method="nearest")).max())
+        for path in paths[:2]
+    )
+    assert halved < 0.35 * coarse
+    assert abs(paths[-1].mass_balance) < 0.3 * abs(paths[1].mass_balance) < 1e-3
+    lies = paths[-1].pad_tilt.values == 0.0
+    assert (lies[1:] != lies[:-1]).sum() >= 4  # pads lost their film, and got it back
+
+
+def test_adaptive_steps_and_the_closed_path_agree_with_given_steps():
+    time = np.linspace(0.0, PERIOD, 41)
+    closed = BEARING.orbit(time, turning(time), SPEED, film(), periodic=True)
+    assert closed.closure < 1e-6
+    first, last = closed.isel(time=0), closed.isel(time=-1)
+    np.testing.assert_allclose(first.pad_tilt, last.pad_tilt, atol=1e-8)
+    long = np.linspace(0.0, 3 * PERIOD, 121)
+    march = BEARING.orbit(long, turning(long), SPEED, film()).isel(time=slice(80, None))
+    apart = np.abs(march.eccentricity.values - closed.eccentricity.values).max()
+    assert apart < 2e-5 * BEARING.clearance
+    fine = BEARING.orbit(time, turning(time), SPEED, film(), step="adaptive", step_tolerance=1e-4)
+    given = BEARING.orbit(time, turning(time), SPEED, film())
+    apart = np.abs(fine.minimum_film - given.minimum_film).max()
+    assert 0.0 < apart < 5e-3 * BEARING.clearance
+
+
+def test_position_and_velocity_of_a_path_give_its_load_back():
+    """A film at the place and the velocity of a shaft that moves slowly carries its load."""
+    time = np.linspace(0.0, 4.0, 21)
+    load = np.stack([1.5e6 + 2e4 * time, 5e3 * time], axis=-1)
+    path = BEARING.orbit(time, load, SPEED, film(Guembel()))
+    places = path.eccentricity.values
+    velocity = np.gradient(places, time, axis=0)
+    field = BEARING.pressure(places[10], SPEED, film(Guembel()), velocity=velocity[10])
+    assert np.hypot(*(field.force - load[10])) < 1e-3 * np.hypot(*load[10])
+
+
+@pytest.mark.parametrize("law", [GasMixture(1e4), Guembel()])
+def test_a_shaft_that_stops_and_turns_back_takes_its_pads_along(law):
+    time = np.linspace(0.0, 6.0, 121)
+    load = np.tile([3e5, 0.0], (time.size, 1))
+    path = BEARING.orbit(time, load, 1.2 * (1 - time / 3), film(law))
+    aside = path.eccentricity.values @ [-np.sin(0.628), np.cos(0.628)] / 0.7
+    lift = path.pad_tilt.isel(pad=0) + aside  # of the first pad, against the shaft
+    assert float(lift[0]) > 0.0 > float(lift[-1])  # inlets and outlets have changed places
+    assert bool((path.residual < 1e-8).all())
+
+
+def test_heat_over_the_area_is_refused_by_name():
+    warm = Film(heat=FilmHeat("iso-vg-68"), cavitation=MassConserving(), edge_pressure=1e5)
+    time = np.linspace(0.0, 1.0, 5)
+    with pytest.raises(InputError, match="one temperature for pads in motion"):
+        BEARING.orbit(time, turning(time), SPEED, warm)
+
+
+def reduced(law=None):
+    return film(law, "reduced", (60, 8))
+
+
+@pytest.mark.parametrize("law", [GasMixture(1e4), MassConserving()])
+def test_the_reduced_film_follows_the_grid_while_pads_come_and_go(law):
+    time = np.linspace(0.0, 2 * PERIOD, 81)
+    path = BEARING.orbit(time, turning(time), SPEED, reduced(law))
+    grid = BEARING.orbit(time, turning(time), SPEED, film(law, cells=(60, 16)))
+    for name, share in (
+        ("minimum_film", 0.01),
+        ("maximum_pressure", 0.02),
+        ("friction_power", 0.01),
+        ("pad_tilt", 0.01),
+    ):
+        apart = float(np.abs(path[name] - grid[name]).max())
+        assert apart < share * float(np.abs(grid[name]).max()), name
+    assert ((path.pad_tilt.values == 0.0) == (grid.pad_tilt.values == 0.0)).mean() > 0.98
+
+
+def test_steps_of_the_reduced_film_on_pads_are_of_second_order():
+    paths = []
+    for count in (61, 121, 481):
+        time = np.linspace(0.0, 2 * PERIOD, count)
+        paths.append(BEARING.orbit(time, turning(time), SPEED, reduced()))
+    finest = paths[-1].eccentricity
+    coarse, halved = (
+        float(np.abs(path.eccentricity - finest.sel(time=path.time, method="nearest")).max())
+        for path in paths[:2]
+    )
+    assert halved < 0.35 * coarse
+
+
+def test_a_shaft_on_reduced_pads_comes_to_rest_where_the_grid_has_it():
+    load, time = np.array([1.5e6, 0.0]), np.linspace(0.0, 12.0, 61)
+    rest = BEARING.equilibrium(load, SPEED, film(cells=(60, 16)))
+    path = BEARING.orbit(
+        time, np.tile(load, (61, 1)), SPEED, reduced(), start=0.9 * rest.eccentricity
+    )
+    end = path.isel(time=-1)
+    np.testing.assert_allclose(end.eccentricity, rest.eccentricity, atol=5e-3 * BEARING.clearance)
+    np.testing.assert_allclose(end.pad_tilt, rest.pad_tilt, atol=1e-5)
+
+
+def test_a_moment_tilts_the_shaft_on_reduced_pads_as_on_the_grid():
+    time = np.linspace(0.0, PERIOD, 31)
+    moment = np.tile([4e4, -3e4], (time.size, 1))
+    path = BEARING.orbit(time, turning(time), SPEED, reduced(), moment=moment)
+    grid = BEARING.orbit(time, turning(time), SPEED, film(cells=(60, 16)), moment=moment)
+    for name in ("tilt", "minimum_film"):
+        apart = float(np.abs(path[name] - grid[name]).max())
+        assert apart < 0.02 * float(np.abs(grid[name]).max()), name
