@@ -119,7 +119,7 @@ def best_crown(
     speed : array_like (n,) or float
         rad/s.
     film : Film
-        Its model knows relief: the rung "grid".
+        Its model knows crowns: the rungs "grid" and "reduced".
     moment, tilt, bend : array_like (n, 2), optional
         How the shaft lies under each load, as in `JournalBearing.equilibrium`.
     aim : {"minimum_film", "maximum_pressure"}

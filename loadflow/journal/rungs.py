@@ -16,6 +16,7 @@ _FULL_WIDTH = "a shaped bore, an elastic shell or a shaft that tilts or bends"
 FEATURES = {
     "shape": "a shaped bore",
     "relief": _FULL_WIDTH,
+    "crown": "a bore that widens toward its ends",
     "moment": _FULL_WIDTH,
     "tilt": _FULL_WIDTH,
     "bend": _FULL_WIDTH,
@@ -36,8 +37,8 @@ FEATURES = {
 
 _LINE = {"moment", "tilt", "bend"}
 _SHELLS = {"shell", "local_shell"}
-_BORES = _LINE | _SHELLS | {"shape", "relief", "supply", "inlet", "grading"}
-_REDUCED = frozenset(_LINE | {"shape", "local_shell", "contact", "heat", "turbulence"})
+_BORES = _LINE | _SHELLS | {"shape", "relief", "crown", "supply", "inlet", "grading"}
+_REDUCED = frozenset(_LINE | {"shape", "crown", "local_shell", "contact", "heat", "turbulence"})
 
 
 @dataclass(frozen=True)

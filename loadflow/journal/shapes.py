@@ -287,6 +287,11 @@ class Crown:
         """Angles (rad) and axial places (m) at which the gap steps: none."""
         return (), ()
 
+    @property
+    def even_around(self) -> bool:
+        """Whether the gap grows alike at all angles."""
+        return True
+
     def symmetric(self, width: float) -> bool:
         """Whether both halves of the width are alike."""
         return True
@@ -349,6 +354,11 @@ class Recess:
         """Axial places of both ends, m; beyond the ends where it is as long as the bearing."""
         half = width if self.length is None else 0.5 * self.length
         return self.z - half, self.z + half
+
+    @property
+    def even_around(self) -> bool:
+        """Whether the gap grows alike at all angles."""
+        return False
 
     def symmetric(self, width: float) -> bool:
         """Whether both halves of the width are alike."""
@@ -422,6 +432,11 @@ class Contour:
     def steps(self, width: float) -> tuple[tuple[float, ...], tuple[float, ...]]:
         """Angles (rad) and axial places (m) at which the gap steps: none."""
         return (), ()
+
+    @property
+    def even_around(self) -> bool:
+        """Whether the gap grows alike at all angles."""
+        return False
 
     def symmetric(self, width: float) -> bool:
         """Whether both halves of the width are alike."""

@@ -24,9 +24,9 @@ def place(film, work, q):
     """Evaluate law, shell and gap at the unknowns and the position `q` (4,)."""
     apply_law(film.ring.law, film.ring.numbers, film.ring.scale, work.u, work.state)
     nx, m = work.u.shape
-    z = film.nodes.z
+    z, depth = film.places.z, film.places.depth
     points = film.nodes.z.size
-    for k in range(points):
+    for k in range(z.size):
         work.centre[0, k] = q[0] + q[3] * z[k] + 0.5 * work.bend[0] * z[k] * z[k]
         work.centre[1, k] = q[1] - q[2] * z[k] + 0.5 * work.bend[1] * z[k] * z[k]
     ex, ey, give, p = work.centre[0], work.centre[1], film.give, work.state[LOAD]
@@ -35,9 +35,10 @@ def place(film, work, q):
         c, s = film.ring.cos[i], film.ring.sin[i]
         c_face, s_face = film.ring.cos_face[i], film.ring.sin_face[i]
         for k in range(points):
-            gap[PLANES, i, k] = film.ring.base[i] - ex[k] * c - ey[k] * s
+            gap[PLANES, i, k] = film.ring.base[i] + depth[k] - ex[k] * c - ey[k] * s
         for k in range(m):
-            face[FACE_PLANES, i, k] = film.ring.base_face[i] - ex[k] * c_face - ey[k] * s_face
+            h = film.ring.base_face[i] + depth[k]
+            face[FACE_PLANES, i, k] = h - ex[k] * c_face - ey[k] * s_face
         if give > 0.0:
             right = i + 1 if i + 1 < nx else 0
             for k in range(m):
@@ -156,8 +157,9 @@ def narrowest(film, work):
     """
     least = 1e300
     if film.give == 0.0 and not film.ring.shaped:
-        for k in range(film.nodes.z.size):
-            least = min(least, 1.0 - np.hypot(work.centre[0, k], work.centre[1, k]))
+        for k in range(film.places.z.size):
+            gap = 1.0 + film.places.depth[k] - np.hypot(work.centre[0, k], work.centre[1, k])
+            least = min(least, gap)
         return least
     nx, m = work.u.shape
     for i in range(nx):
@@ -258,12 +260,13 @@ def _touch_shell(film, work, q):
         z = yielding.z[g]
         mid_x = q[0] + q[3] * z + 0.5 * work.bend[0] * z * z
         mid_y = q[1] - q[2] * z + 0.5 * work.bend[1] * z * z
-        if not ring.shaped and 1.0 - np.hypot(mid_x, mid_y) >= beyond:
+        depth = yielding.depth[g]
+        if not ring.shaped and 1.0 + depth - np.hypot(mid_x, mid_y) >= beyond:
             continue
         for i in range(nx):
             right = i + 1 if i + 1 < nx else 0
             step = ring.apart[i]
-            wide, ex, ey = ring.lobe[0, i], mid_x + ring.lobe[1, i], mid_y + ring.lobe[2, i]
+            wide, ex, ey = depth + ring.lobe[0, i], mid_x + ring.lobe[1, i], mid_y + ring.lobe[2, i]
             here, there = 0.0, 0.0
             for k in range(m):
                 here += yielding.values[g, k] * (p[i, k] - ring.p_edge)

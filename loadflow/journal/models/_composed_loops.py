@@ -87,21 +87,21 @@ def _limited(film, work, q, step):
         radial = (x * step[0] + y * step[1]) / ratio
         turn = np.arctan2(y, x)
         turn += max(-0.5, min(0.5, (x * step[1] - y * step[0]) / ratio**2))
-        length = max(0.3, min(_farthest(film, ratio), ratio + radial))
+        length = max(0.3, min(_farthest(film, ratio, 0.0), ratio + radial))
         dx, dy = length * np.cos(turn) - x, length * np.sin(turn) - y
         inside = True
-        for k in range(film.nodes.z.size):
+        for k in range(film.places.z.size):
             ex, ey = work.centre[0, k], work.centre[1, k]
-            limit = _farthest(film, np.hypot(ex, ey))
+            limit = _farthest(film, np.hypot(ex, ey), film.places.depth[k])
             inside = inside and np.hypot(ex + dx, ey + dy) <= limit * (1.0 + 1e-12)
         if inside:
             step[0], step[1] = dx, dy
             return
     share = 1.0
-    for k in range(film.nodes.z.size):
-        ex, ey, z = work.centre[0, k], work.centre[1, k], film.nodes.z[k]
+    for k in range(film.places.z.size):
+        ex, ey, z = work.centre[0, k], work.centre[1, k], film.places.z[k]
         dx, dy = step[0] + step[3] * z, step[1] - step[2] * z
-        limit = _farthest(film, np.hypot(ex, ey))
+        limit = _farthest(film, np.hypot(ex, ey), film.places.depth[k])
         square = dx * dx + dy * dy
         if np.hypot(ex + share * dx, ey + share * dy) > limit and square > 0.0:
             along = ex * dx + ey * dy
@@ -112,9 +112,9 @@ def _limited(film, work, q, step):
 
 
 @inner
-def _farthest(film, ratio):
-    """Eccentricity ratio up to which a step may lead from `ratio`."""
-    gap, rough = 1.0 - ratio, film.rough
+def _farthest(film, ratio, depth):
+    """Eccentricity ratio up to which a step may lead from `ratio` in a bore `depth` wider."""
+    gap, rough = 1.0 + depth - ratio, film.rough
     return ratio + max(min((1.0 - _KEPT) * max(gap, rough.size), gap + rough.deepest), 0.0)
 
 
@@ -300,11 +300,11 @@ def _leaves_room(film, work, q, ahead):
     if film.ring.shaped:
         way = ahead[0] - q[0], ahead[1] - q[1], ahead[2] - q[2], ahead[3] - q[3]
         return share_of_step(film, work, *way, 0.5) == 1.0
-    for k in range(film.nodes.z.size):
-        z = film.nodes.z[k]
+    for k in range(film.places.z.size):
+        z, wide = film.places.z[k], 1.0 + film.places.depth[k]
         bx, by = 0.5 * work.bend[0] * z * z, 0.5 * work.bend[1] * z * z
-        gap = 1.0 - np.hypot(q[0] + q[3] * z + bx, q[1] - q[2] * z + by)
-        next_gap = 1.0 - np.hypot(ahead[0] + ahead[3] * z + bx, ahead[1] - ahead[2] * z + by)
+        gap = wide - np.hypot(q[0] + q[3] * z + bx, q[1] - q[2] * z + by)
+        next_gap = wide - np.hypot(ahead[0] + ahead[3] * z + bx, ahead[1] - ahead[2] * z + by)
         if next_gap < gap - 0.5 * max(gap, film.rough.size):
             return False
     return True

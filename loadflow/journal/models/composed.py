@@ -1,4 +1,4 @@
-"""The rung "reduced" with effects: tilt and bend, asperities, a local shell, turbulent flow.
+"""The rung "reduced" with effects: tilt, bend, crowns, asperities, a local shell, turbulent flow.
 
 What `loadflow.journal.models.reduced` says of cells and points holds here, but that the gap changes
 across the width: a shaft that tilts or bends takes polynomials over the whole of it.
@@ -36,10 +36,11 @@ _NO_SLOPES = np.zeros((2, 0, 0))
 _MISSED = 0.6  # of the load where the shaft touches: above 0.46 the grid had a film in no draw
 
 
-def composes(film: Film, line: Line) -> bool:
-    """Whether a film has more than laminar flow in an aligned, smooth, rigid cylinder."""
+def composes(bearing: JournalGeometry, film: Film, line: Line) -> bool:
+    """Whether a film has more than laminar flow in an aligned, smooth, rigid bore as it is cut."""
     effects = film.contact, film.shell, film.turbulence
-    return any(effect is not None for effect in effects) or not line.straight
+    more = any(effect is not None for effect in effects) or bool(bearing.relief)
+    return more or not line.straight
 
 
 def equilibrium(

@@ -27,6 +27,21 @@ Array = NDArray[np.float64]
 RESULTS = 22
 
 
+class Places(NamedTuple):
+    """Places across: the points of the film, then others at which the narrowest gap is sought.
+
+    Attributes
+    ----------
+    z : array (f,)
+        From mid-plane, shaft radii.
+    depth : array (f,)
+        What a relief widens the bore there, clearances.
+    """
+
+    z: Array
+    depth: Array
+
+
 class Rough(NamedTuple):
     """Asperities: roughness and its flow factors, and the load of a line of contact.
 
@@ -61,7 +76,7 @@ class Rough(NamedTuple):
 
 
 class Yielding(NamedTuple):
-    """Asperities on a shell that gives way where these press it, too.
+    """Asperities on a shell that gives way where these press it, too, or in a bore of any gap.
 
     Attributes
     ----------
@@ -73,8 +88,9 @@ class Yielding(NamedTuple):
         Gap with it, its derivative, asperity pressure over K E*, its derivative.
     values : array (g, m)
         Pressure at places across from that at the points.
-    z, weights : array (g,)
-        These places, shaft radii, and their share of the whole width, shaft radii.
+    z, weights, depth : array (g,)
+        These places, shaft radii, their share of the whole width, shaft radii, and what a relief
+        widens the bore there, clearances.
     around : int
         Places in a cell around.
     unit : float
@@ -88,13 +104,13 @@ class Yielding(NamedTuple):
     values: Array
     z: Array
     weights: Array
+    depth: Array
     around: int
     unit: float
 
 
-RIGID = Yielding(
-    False, 0.0, 1.0, np.zeros((4, 2)), np.zeros((1, 1)), np.zeros(1), np.zeros(1), 1, 0.0
-)
+_NONE = np.zeros(1)
+RIGID = Yielding(False, 0.0, 1.0, np.zeros((4, 2)), np.zeros((1, 1)), _NONE, _NONE, _NONE, 1, 0.0)
 
 
 class Regime(NamedTuple):
@@ -129,6 +145,8 @@ class Composed(NamedTuple):
         Cells around, and what fills them.
     nodes : Nodes
         Points across.
+    places : Places
+        These, and what a relief widens the bore there.
     give : float
         Growth of the gap over pressure, clearances per Pa; 0: a rigid shell.
     rough : Rough
@@ -141,6 +159,7 @@ class Composed(NamedTuple):
 
     ring: Ring
     nodes: Nodes
+    places: Places
     give: float
     rough: Rough
     yielding: Yielding
@@ -170,8 +189,8 @@ class ComposedWork(NamedTuple):
         Band matrix, row by row; the last 2 m rows are those behind it.
     columns : array (n, 5)
         Residual and its derivatives by the position; then what the matrix makes of them.
-    centre : array (2, l)
-        Where the shaft is seen at the points across.
+    centre : array (2, f)
+        Where the shaft is seen at the places across.
     bend : array (2,)
         Curvature of the shaft, clearances per square of the shaft radius.
     load : array (4,)
@@ -229,7 +248,7 @@ class ComposedWork(NamedTuple):
     kept: Array
 
 
-def make_work(around: int, nodes: Nodes) -> ComposedWork:
+def make_work(around: int, nodes: Nodes, places: int) -> ComposedWork:
     """Allocate the work arrays."""
     points, inner = nodes.slopes.shape
     shape, n = (around, inner), around * inner
@@ -246,7 +265,7 @@ def make_work(around: int, nodes: Nodes) -> ComposedWork:
         slope=np.zeros((around, points)),
         band=np.zeros((n + 2 * inner, 4 * inner + 1)),
         columns=np.zeros((n, 5)),
-        centre=np.zeros((2, points)),
+        centre=np.zeros((2, places)),
         bend=np.zeros(2),
         load=np.zeros(4),
         touch=np.zeros((5, 4)),

@@ -29,6 +29,7 @@ from loadflow.journal.models.composed_film import (
     RIGID,
     Composed,
     ComposedWork,
+    Places,
     Regime,
     Rough,
     Yielding,
@@ -44,9 +45,12 @@ from loadflow.tribology.kernels import pressure_integral
 
 Array = NDArray[np.float64]
 
-HALF_POINTS = (4, 7)  # across the half width of an even film; three miss 2 % of a peak at contact
-POINTS = (6, 14)  # across the whole width: as many even polynomials as odd ones, and one more
+HALF_POINTS = (4, 7, 10)  # across half of an even film; three miss 2 % of a peak at contact
+POINTS = (6, 14, 20)  # across the whole width: as many even polynomials as odd ones, and one more
 LEVELS = range(2)
+_ON_A_CROWN = 3  # points that either end of a relief asks for: two leave its side flow 8 % off
+_WIDENED = 0.01  # of the largest depth
+_BETWEEN = 129  # places across at which the narrowest gap of a relief is sought
 _LINES = 32  # across, on which the asperities of a shaft that tilts are asked
 _PER_SIZE = 0.05  # distance of the eccentricities of the table of contact, over the roughness
 _AROUND = np.radians(0.75)  # largest distance of places at which asperities on a shell are asked
@@ -129,25 +133,24 @@ class ComposedFilm:
             places[nearer, :2] = (alone[:, None] * toward)[nearer]
         else:
             places[standing, :2] = 0.0
-        z, rough = self.film.nodes.z, self.film.rough.size
+        (z, depth), rough = self.film.places, self.film.rough.size
         for place, (*_, bx, by) in zip(places, lines):
             ends = np.stack(
                 [place[3] * z + 0.5 * bx * z * z, -place[2] * z + 0.5 * by * z * z], axis=-1
             )
             for _ in range(60):
-                if np.hypot(*(place[:2] + ends).T).max() <= 1.0 - max(_ROOM, 0.0) or (
-                    rough > 0.0 and np.hypot(*(place[:2] + ends).T).max() <= 1.0 + 2.0 * rough
-                ):
+                gap = 1.0 + (depth - np.hypot(*(place[:2] + ends).T)).min()
+                if gap >= (-2.0 * rough if rough > 0.0 else _ROOM):
                     break
                 place[:2] *= 0.9
         return places
 
     def _share_inside(self, place: Array, bx: float, by: float) -> float:
         """Share of a first position (4,) that leaves a gap in a shaped bore; 0 if none does."""
-        bore, z = Bore.of(self.bearing), self.film.nodes.z
+        bore, (z, depth) = Bore.of(self.bearing), self.film.places
         ends = np.stack([place[3] * z + 0.5 * bx * z * z, -place[2] * z + 0.5 * by * z * z], -1)
         for share in SHARES:
-            if bore.narrowest(share * place[:2] + ends).min() > ShapedGap.first_gap:
+            if (depth + bore.narrowest(share * place[:2] + ends)).min() > ShapedGap.first_gap:
                 return share
         return 0.0
 
@@ -173,11 +176,12 @@ class ComposedFilm:
     def _least(self, positions: Array, bends: Array) -> Array:
         """Narrowest gap (n,) of a rigid shell at `positions` (n, 4), clearances, over the width."""
         centres, bore = self.centres(positions, bends), Bore.of(self.bearing)
-        return bore.narrowest(centres.reshape(-1, 2)).reshape(len(positions), -1).min(axis=1)
+        gaps = bore.narrowest(centres.reshape(-1, 2)).reshape(len(positions), -1)
+        return np.asarray((gaps + self.film.places.depth).min(axis=1))
 
     def centres(self, positions: Array, bends: Array) -> Array:
-        """Where shafts at `positions` (n, 4) are seen to be from the points across, (n, l, 2)."""
-        z = self.film.nodes.z
+        """Where shafts at `positions` (n, 4) are seen to be from the places across, (n, f, 2)."""
+        z = self.film.places.z
         x, y, tilt_x, tilt_y = positions.T[:, :, None]
         bend_x, bend_y = bends.T[:, :, None]
         return np.stack(
@@ -263,18 +267,44 @@ def build(
     units = units_of(bearing, options, speed)
     half = float(units.mesh.z_edges[-1])
     whole = not line.straight
-    if whole:
-        nodes = whole_width(half, POINTS[level])
-    else:
-        nodes = half_width_nodes(half, HALF_POINTS[level])
+    layout, points = (whole_width, POINTS) if whole else (half_width_nodes, HALF_POINTS)
+    nodes = layout(half, points[level])
+    if not _resolves_relief(bearing, layout(half, points[0]).z):
+        nodes = layout(half, points[level + 1])
     ring = ring_of(units, 1.0 if whole else 2.0)
     if bearing.shape.segments:
         ring = lobed(ring, bearing, options.cells[0])
+    places = _places(bearing, nodes.z, half, whole)
     film = Composed(
-        ring, nodes, _give(bearing, options), _rough(bearing, options.contact, whole, units),
+        ring, nodes, places, _give(bearing, options),
+        _rough(bearing, options.contact, whole, units),
         _yielding(bearing, options, whole, nodes.slopes.shape[1]), _regime(bearing, options),
     )  # fmt: skip
-    return ComposedFilm(bearing, options, line, units, film, make_work(ring.width.size, nodes))
+    work = make_work(ring.width.size, nodes, places.z.size)
+    return ComposedFilm(bearing, options, line, units, film, work)
+
+
+def _places(bearing: JournalGeometry, points: Array, half: float, whole: bool) -> Places:
+    """Points across a width of twice `half`, and those between at which a relief is narrowest."""
+    if not bearing.relief:
+        return Places(points, np.zeros(points.size))
+    z = np.append(points, np.linspace(-half if whole else 0.0, half, _BETWEEN))
+    return Places(z, _depth(bearing, z))
+
+
+def _resolves_relief(bearing: JournalGeometry, points: Array) -> bool:
+    """Whether enough of the points across lie where a relief widens the bore."""
+    depth = np.abs(_depth(bearing, points))
+    widened = (points > 0.0) & (depth > _WIDENED * depth.max())
+    return not depth.any() or int(widened.sum()) > _ON_A_CROWN
+
+
+def _depth(bearing: JournalGeometry, z: Array) -> Array:
+    """What the relief widens the bore at `z`, shaft radii, in clearances; alike all around."""
+    depth = np.zeros(z.size)
+    for part in bearing.relief:
+        depth += part.added(np.zeros(1), z * bearing.radius, bearing.width)[0] / bearing.clearance
+    return depth
 
 
 def warn_unresolved(left: NDArray[np.bool_], first: str) -> None:
@@ -307,7 +337,7 @@ def _give(bearing: JournalGeometry, options: Film) -> float:
 def _yielding(bearing: JournalGeometry, options: Film, whole: bool, points: int) -> Yielding:
     """Asperities on a shell that gives way; `points` across carry the pressure."""
     contact, give = options.contact, _give(bearing, options)
-    if contact is None or (give == 0.0 and not bearing.shape.segments):
+    if contact is None or not (give or bearing.shape.segments or bearing.relief):
         return RIGID
     half = bearing.width / bearing.diameter
     x, w = np.polynomial.legendre.leggauss(_LINES if whole else _LINES // 2)
@@ -317,7 +347,8 @@ def _yielding(bearing: JournalGeometry, options: Film, whole: bool, points: int)
     around = 2.0 * np.pi / options.cells[0]
     return Yielding(
         True, first, step, table, at_places(points, whole, x), half * x, half * w,
-        int(np.ceil(around / _AROUND)), contact.asperities.scale * bearing.radius**2,
+        _depth(bearing, half * x), int(np.ceil(around / _AROUND)),
+        contact.asperities.scale * bearing.radius**2,
     )  # fmt: skip
 
 

@@ -137,15 +137,20 @@ def make_pad_work(shape: tuple[int, int], count: int) -> PadWork:
     )
 
 
-def narrowest_on_pads(bearing: JournalGeometry, centres: Array, tilts: Array) -> Array:
-    """Narrowest gap (n,) of shafts seen at `centres` (n, l, 2) by pads of `tilts` (n, p)."""
+def narrowest_on_pads(
+    bearing: JournalGeometry, centres: Array, depth: Array, tilts: Array
+) -> Array:
+    """Narrowest gap (n,) of shafts seen at `centres` (n, f, 2) by pads of `tilts` (n, p).
+
+    At these places the pads are `depth` (f,) farther away, clearances.
+    """
     bore = Bore.of(bearing)
     least = np.full(len(centres), np.inf)
     for number, part in enumerate(bore.segments):
         along = np.array([-np.sin(part.narrowest), np.cos(part.narrowest)])
         seen = centres + (tilts[:, number, None] * along)[:, None]
         gaps = replace(bore, segments=(part,)).narrowest(seen.reshape(-1, 2))
-        least = np.minimum(least, gaps.reshape(len(centres), -1).min(axis=1))
+        least = np.minimum(least, (gaps.reshape(len(centres), -1) + depth).min(axis=1))
     return least
 
 

@@ -229,7 +229,8 @@ class _OnPads(_March):
     def results(self) -> dict[str, Any]:
         bearing, some = self.drive.bearing, self.rows[:, : at.TILT_Y + 1]
         centres = self.model.centres(some, self.lines[:, 2:])
-        least = narrowest_on_pads(bearing, centres, self.tilts)
+        depth = self.model.film.places.depth
+        least = narrowest_on_pads(bearing, centres, depth, self.tilts)
         return super().results() | {
             "minimum_film": least * bearing.clearance,
             "pad_tilt": self.tilts * bearing.relative_clearance,

@@ -156,7 +156,8 @@ def _asked(
     wanted: dict[str, Any] = {
         _kind_of_heat(film, verb): film.heat,
         "shape": bearing.shape if bearing.shape.segments else None,
-        "relief": bearing.relief or None,
+        "crown" if all(part.even_around for part in bearing.relief) else "relief": bearing.relief
+        or None,
         "moment": line.moment,
         "tilt": line.tilt,
         "bend": line.bend,

@@ -68,7 +68,7 @@ def equilibrium(
     if Bore.of(bearing).pads:
         return grid.equilibrium(bearing, options, force, speed, line, control)
     force, speed = np.array(force), np.array(speed)  # of the layout that the kernels know
-    if composed.composes(options, line):
+    if composed.composes(bearing, options, line):
         answer, found, none = composed.equilibrium(bearing, options, force, speed, line, control)
         answer["converged"] = found
         if not control.strict:  # else the grid says why
@@ -179,7 +179,7 @@ def _path(
         place[2:] = first["tilt"][0] * unit if not line.straight else 0.0
         return place
 
-    if Bore.of(bearing).pads or composed.composes(options, line):
+    if Bore.of(bearing).pads or composed.composes(bearing, options, line):
         values = composed_path.orbit(
             bearing, options, time, force, speed, line, control, steps, first_position
         )
