@@ -295,21 +295,8 @@ def test_every_option_has_a_walk(command):
     assert known == set(VALUES[command])
 
 
-LONG = {
-    ("seeds", "page"),
-    ("reduce", "histogram"),
-    ("reduce", "periodic"),
-    ("reduce", "of bearings"),
-}
-
-
 @pytest.mark.parametrize(
-    ("command", "kind"),
-    [
-        pytest.param(command, kind, marks=[pytest.mark.slow] * ((command, kind) in LONG))
-        for command, kinds in CALLS.items()
-        for kind in kinds
-    ],
+    ("command", "kind"), [(command, kind) for command, kinds in CALLS.items() for kind in kinds]
 )
 def test_every_option_does_something_or_is_refused(command, kind, call):
     arguments = CALLS[command][kind]

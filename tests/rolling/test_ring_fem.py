@@ -245,7 +245,7 @@ COARSE = SlewingBearing(
 def test_a_ring_too_thin_to_be_meshed_behind_its_grooves_is_refused_by_its_measures():
     measures = {"inside": 0.5016, "outside": 0.5388, "bottom": -0.06, "top": 0.026}
     ring = MeshedRing(held="bottom", across=2, resolution=1.5, **measures).of(COARSE, "outer")
-    with pytest.raises(InputError, match="18.6 mm thick is too thin .* from -60 to 26 mm"):
+    with pytest.raises(InputError, match=r"18\.6 mm thick is too thin .* from -60 to 26 mm"):
         COARSE.equilibrium((0, 0, 1e5), (1e4, 0), rings=FlexibleRings(outer=ring))
 
 
@@ -259,7 +259,7 @@ def test_a_mesh_too_coarse_to_give_way_is_refused_and_a_finer_one_answers():
         rings = FlexibleRings(outer=mesh.of(COARSE, "outer"))
         return COARSE.equilibrium((0, 0, 1e5), (1e4, 0), rings=rings).maximum_force
 
-    with pytest.raises(InputError, match="outer: the ring gives way nowhere.*elements across"):
+    with pytest.raises(InputError, match=r"outer: the ring gives way nowhere.*elements across"):
         force(1)
     rigid = COARSE.equilibrium((0, 0, 1e5), (1e4, 0)).maximum_force
     assert force(4) < rigid
