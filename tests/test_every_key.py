@@ -177,7 +177,7 @@ def known_of(name, words, section):
 
 LONG = {
     "pair of cones", "worn bores, deep", "housing on a flange", "housing on feet",
-    "heat over the film", "thrust steps", "thrust against the motion",
+    "heat over the film", "thrust steps",
 }  # fmt: skip
 """Scenes of which each key costs a film in space, heat over its area, or wear of many years."""
 

@@ -232,6 +232,25 @@ def answer(arguments, capsys):
     return json.loads(capsys.readouterr().out)
 
 
+def test_rows_cut_against_the_simulated_rotation_are_told():
+    lands = {"pads": 8, "inner_radius": 0.8, "outer_radius": 1.2, "pad_angle": 0.7}
+    carries = lands | {"profile": {"kind": "taper", "taper": 1e-4}}
+    cut = lands | {"profile": {"kind": "reversed", "profile": carries["profile"]}}
+
+    def told(front, back):
+        one = {"kind": "thrust", "geometry": front, "back": back}
+        data = {"shaft": {"two_point": {}}, "thrust": {"bearings": {"N2": one}}}
+        found = unused_keys(make_scene(data | {"results": ["thrust.film"]}))
+        return {key: why for key, why in found.items() if key.startswith("thrust")}
+
+    assert told(carries, carries) == {}
+    assert [*told(carries, cut)] == ["thrust.bearings.N2.back.profile"]
+    whole = told(cut, carries)  # whatever the rows are: nothing parts the collar from the front one
+    assert [*whole] == ["thrust.bearings.N2.geometry", "thrust.bearings.N2.back"]
+    assert all("touch under all thrust downwind" in why for why in whole.values())
+    assert told(cut | {"pivot": {"share": 0.6}}, carries) == {}
+
+
 def test_the_commands_answer_for_one_load(capsys):
     found = answer(
         ["thrust", "--pads", "10", "--inner-radius", "0.75", "--outer-radius", "1.05",

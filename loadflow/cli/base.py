@@ -62,10 +62,6 @@ Workers = Annotated[int, typer.Option(min=0, help="Processes; 0: one for each co
 Scheduler = Annotated[str | None, typer.Option(help="Dask scheduler, tcp://host:port.")]
 OtherSettings = Annotated[bool, typer.Option(help="Replace parts of other settings.")]
 
-Verbose = Annotated[
-    bool, typer.Option("--verbose", "-v", help="Show what else a run.log holds, such as each case.")
-]
-
 Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace a file that is there.")]
 
 WIDEST = 4  # values of one quantity that fit a line of a table; more are for --json

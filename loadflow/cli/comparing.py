@@ -14,7 +14,6 @@ from loadflow.cli.base import (
     Overwrite,
     RunName,
     Scheduler,
-    Verbose,
     Workers,
     app,
     check_free,
@@ -23,7 +22,7 @@ from loadflow.cli.base import (
     print_json,
     print_rows,
 )
-from loadflow.cli.progress import log_shown, progress
+from loadflow.cli.progress import progress, works_long
 from loadflow.cli.reading import AS_STATED, Reading, reads_load_files
 from loadflow.cli.scenes import LoadFiles, SceneFile, read, tell_unused
 from loadflow.errors import InputError, LoadflowError
@@ -31,6 +30,7 @@ from loadflow.numerics.fields import none_such
 
 
 @app.command()
+@works_long
 @reads_load_files
 def compare(
     scene: SceneFile,
@@ -45,7 +45,6 @@ def compare(
     scheduler: Scheduler = None,
     overwrite: OtherSettings = False,
     reading: Reading = AS_STATED,
-    verbose: Verbose = False,
     as_json: AsJson = False,
 ) -> None:
     """Journal or rolling? Compare bearings for the same places under the same loads.
@@ -58,7 +57,7 @@ def compare(
 
     asked = read(scene, loads, name, **reading)
     tell_unused(asked)
-    with progress(quiet=as_json) as show, log_shown(verbose):
+    with progress(quiet=as_json) as show:
         found = carry_out(
             asked,
             out=out_folder,

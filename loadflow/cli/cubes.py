@@ -11,7 +11,6 @@ from loadflow.cli.base import (
     AsJson,
     Overwrite,
     TurbineName,
-    Verbose,
     app,
     caught_warnings,
     check_free,
@@ -20,7 +19,7 @@ from loadflow.cli.base import (
     print_json,
     print_rows,
 )
-from loadflow.cli.progress import log_shown, progress
+from loadflow.cli.progress import progress, works_long
 from loadflow.cli.reading import AS_STATED, READING, Reading, reads_load_files
 from loadflow.cli.stated import refuse
 from loadflow.errors import InputError
@@ -32,6 +31,7 @@ CUBES = (".h5", ".nc")
 
 
 @app.command()
+@works_long
 @reads_load_files
 def convert(
     files: Annotated[
@@ -142,6 +142,7 @@ def _doubts(cube: Cube) -> list[str]:
 
 
 @app.command()
+@works_long
 def loads(
     output: Annotated[Path, typer.Option("-o", "--output", help="Load cube to write, .h5.")],
     wind_speed: Annotated[
@@ -167,7 +168,6 @@ def loads(
     ] = None,
     steady: Annotated[bool, typer.Option("--steady", help="Steady extreme wind.")] = False,
     overwrite: Overwrite = False,
-    verbose: Verbose = False,
     as_json: AsJson = False,
 ) -> None:
     """Simulate the hub loads of a turbine in its design load cases, from power to standstill."""
@@ -185,7 +185,7 @@ def loads(
     }
     settings |= {} if duration is None else {"duration": duration}
     settings |= {} if rung is None else {"rung": rung}
-    with progress(quiet=as_json) as show, log_shown(verbose):
+    with progress(quiet=as_json) as show:
         cube = simulate_cube(turbine, wind_speed, seed or [1], settings, progress=show)
     save_cube(cube, output)
     lengths = {name: case.sizes["time"] * step for name, case in iter_cases(cube)}

@@ -13,7 +13,6 @@ from loadflow.cli.base import (
     OutFolder,
     RunName,
     Scheduler,
-    Verbose,
     Workers,
     app,
     check_workers,
@@ -21,7 +20,7 @@ from loadflow.cli.base import (
     print_json,
     print_rows,
 )
-from loadflow.cli.progress import log_shown, progress
+from loadflow.cli.progress import progress, works_long
 from loadflow.cli.reading import AS_STATED, Reading, reads_load_files
 from loadflow.cli.scenes import LoadFiles, SceneFile, read, tell_unused
 from loadflow.cli.stated import refuse
@@ -32,6 +31,7 @@ if TYPE_CHECKING:
 
 
 @app.command()
+@works_long
 @reads_load_files
 def design(
     scene: SceneFile,
@@ -62,7 +62,6 @@ def design(
     scheduler: Scheduler = None,
     overwrite: OtherSettings = False,
     reading: Reading = AS_STATED,
-    verbose: Verbose = False,
     as_json: AsJson = False,
 ) -> None:
     """Search the best bearing: least friction with enough margin under the loads of the scene."""
@@ -80,9 +79,9 @@ def design(
     }
     if crown or asked.design.crown is not None:
         refuse("the crown alone is searched", "key", "margin")
-        _crown(asked, means, verbose, as_json)
+        _crown(asked, means, as_json)
         return
-    with progress(quiet=as_json) as show, log_shown(verbose):
+    with progress(quiet=as_json) as show:
         found = carry_out(asked, progress=show, **means)
     designs = found.designs
     if as_json:
@@ -97,12 +96,12 @@ def design(
         out.print(f"scene  {found.scene}", soft_wrap=True)
 
 
-def _crown(asked: Scene, means: dict[str, Any], verbose: bool, as_json: bool) -> None:
+def _crown(asked: Scene, means: dict[str, Any], as_json: bool) -> None:
     """Search the crowns, and print them."""
     from loadflow.running.crowning import crown as carry_out
     from loadflow.studies.crowning import HEADS
 
-    with progress(quiet=as_json) as show, log_shown(verbose):
+    with progress(quiet=as_json) as show:
         found = carry_out(asked, progress=show, **means)
     if as_json:
         told = [one.as_dict() for one in found.crowns]

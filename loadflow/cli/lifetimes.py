@@ -19,6 +19,7 @@ from loadflow.cli.base import (
     print_json,
     print_rows,
 )
+from loadflow.cli.progress import works_long
 from loadflow.cli.stated import refuse
 from loadflow.errors import InputError
 
@@ -38,6 +39,7 @@ class TailKind(StrEnum):
 
 
 @app.command()
+@works_long
 def statistics(
     cube: CubeFile,
     variable: Annotated[
@@ -89,6 +91,7 @@ def statistics(
 
 
 @app.command()
+@works_long
 def lifetime(
     cube: CubeFile,
     output: Annotated[Path, typer.Option("-o", "--output", help="Folder to write to.")],

@@ -19,6 +19,7 @@ from loadflow.cli.base import (
     print_json,
     print_rows,
 )
+from loadflow.cli.progress import works_long
 from loadflow.cli.stated import refuse
 from loadflow.errors import InputError
 
@@ -66,6 +67,7 @@ class Rounding(StrEnum):
 
 
 @app.command()
+@works_long
 def seeds(
     cube: CubeFile,
     variable: Annotated[
@@ -123,6 +125,7 @@ def seeds(
 
 
 @app.command("reduce")
+@works_long
 def reduce_series(
     cube: CubeFile,
     output: Annotated[Path, typer.Option("-o", "--output", help="Folder to write to.")],
@@ -248,12 +251,15 @@ def _histogram(
             for name, one in made.whole.items()
         }
         told = {"suspension": made.suspension, "page": str(page), "series": parts}
+        told |= {"warnings": made.warnings}
         print_json(told | ({"whole_cube": whole} if whole else {}))
         return
     out.print(f"bearing forces: {made.suspension}", soft_wrap=True, highlight=False)
     print_rows(HEADS, [as_row(part) for part in made.parts])
     if rows := film_rows(made.parts):
         print_rows(FILM_HEADS, rows)
+    for warning in made.warnings:
+        out.print(f"warning  {warning}", soft_wrap=True, highlight=False)
     out.print(f"page     {page}", soft_wrap=True)
 
 

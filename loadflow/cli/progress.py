@@ -7,13 +7,21 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import wraps
+from inspect import Parameter, Signature, signature
+from typing import Annotated, Any, get_type_hints
 
+import typer
 from rich.markup import escape
 
 from loadflow.cli.base import err
 from loadflow.running.telling import TimeLeft
 
 Show = Callable[[str, int, int], None]
+
+Verbose = Annotated[
+    bool, typer.Option("--verbose", "-v", help="Show what else a run.log holds, such as each case.")
+]
 
 log = logging.getLogger("loadflow.run")
 
@@ -138,6 +146,27 @@ def log_shown(verbose: bool) -> Iterator[None]:
         log.removeHandler(handler)
         log.setLevel(level)
         log.propagate = propagates
+
+
+def works_long(command: Callable[..., None]) -> Callable[..., None]:
+    """Give a command the switch ``-v``, and show what is logged while it works."""
+    types = get_type_hints(command, include_extras=True)
+
+    @wraps(command)
+    def shown(*, verbose: bool, **given: Any) -> None:
+        with log_shown(verbose):
+            command(**given)
+
+    own = [
+        one.replace(annotation=types[one.name]) for one in signature(command).parameters.values()
+    ]
+    place = next(k for k, one in enumerate(own) if one.name == "as_json")
+    switch = Parameter("verbose", own[place].kind, default=False, annotation=Verbose)
+    own.insert(place, switch)
+    shown.__signature__ = Signature(own)  # type: ignore[attr-defined]
+    shown.__annotations__ = {one.name: one.annotation for one in own}
+    del shown.__dict__["__wrapped__"]  # else its signature would be the one of the command
+    return shown
 
 
 class _Console(logging.Handler):

@@ -15,7 +15,6 @@ from loadflow.cli.base import (
     OutFolder,
     RunName,
     Scheduler,
-    Verbose,
     Workers,
     app,
     check_workers,
@@ -23,7 +22,7 @@ from loadflow.cli.base import (
     out,
     print_json,
 )
-from loadflow.cli.progress import log_shown, progress
+from loadflow.cli.progress import progress, works_long
 from loadflow.cli.reading import AS_STATED, Reading, reads_load_files
 from loadflow.cli.stated import refuse
 from loadflow.errors import InputError, LoadflowError
@@ -55,6 +54,7 @@ def tell_unused(scene: Any) -> None:
 
 
 @app.command()
+@works_long
 @reads_load_files
 def run(
     scene: SceneFile,
@@ -68,12 +68,11 @@ def run(
     profile: Annotated[
         bool, typer.Option("--profile", help="Write and print where the time went.")
     ] = False,
-    verbose: Verbose = False,
     as_json: AsJson = False,
 ) -> None:
     """Carry a scene out; a run that was killed goes on where it was."""
     check_workers()
-    with progress(quiet=as_json) as show, log_shown(verbose):
+    with progress(quiet=as_json) as show:
         show(f"reading {scene}", 0, 1)
         from loadflow.running.executor import usable_cores
         from loadflow.running.runner import run as carry_out
@@ -139,6 +138,7 @@ def _print_profile(path: Path) -> None:
 
 
 @app.command()
+@works_long
 @reads_load_files
 def plan(
     scene: SceneFile,
@@ -148,7 +148,6 @@ def plan(
     measure: Annotated[
         bool, typer.Option("--pilot", help="Measure the effects on a few samples first.")
     ] = False,
-    verbose: Verbose = False,
     as_json: AsJson = False,
 ) -> None:
     """Show which stages, models and effects a scene needs, their expected time and error."""
@@ -164,7 +163,7 @@ def plan(
     folder = out_folder / wanted.name
     verdict = known_verdict(folder, wanted)
     if verdict is None and measure:
-        with progress(quiet=as_json) as show, log_shown(verbose):
+        with progress(quiet=as_json) as show:
             verdict = pilot(wanted, show)
     made = make_plan(wanted, refinements(folder, wanted), verdict)
     there = finished_parts(folder, made)

@@ -55,6 +55,9 @@ class JournalGeometry:
         psi = self.relative_clearance
         require(0 < psi < 0.1, "relative_clearance", psi, "0 … 0.1")
         object.__setattr__(self, "relief", tuple(self.relief))
+        for k, part in enumerate(self.relief):
+            for name, value, allowed in part.beyond(self.width):
+                require(False, f"relief.{k}.{name}", value, allowed)
 
     @property
     def radius(self) -> float:

@@ -20,6 +20,7 @@ from loadflow.numerics.fields import require
 
 Array = NDArray[np.float64]
 _TURN = 2 * np.pi
+_ROUNDED = 1e-9  # share by which a length may exceed what it was computed from
 
 
 class Segment(NamedTuple):
@@ -252,7 +253,7 @@ class Crown:
     height : float
         Growth of the gap at the bearing ends, m.
     length : float, optional
-        Axial length of either crown, m; default half of the width.
+        Axial length of either crown, m; at most half of the width, which is the default.
     exponent : float
         2 is a parabola, 1 a cone.
 
@@ -275,6 +276,11 @@ class Crown:
         require(bool(np.isfinite(self.height)), "height", self.height, "m, finite")
         require(self.length is None or self.length > 0, "length", self.length, "m, > 0")
         require(self.exponent >= 1, "exponent", self.exponent, "≥ 1")
+
+    def beyond(self, width: float) -> Iterator[tuple[str, float, str]]:
+        """Fields that do not fit a bearing of `width`, m: name, value and what is allowed."""
+        if self.length is not None and self.length > 0.5 * width * (1 + _ROUNDED):
+            yield "length", self.length, f"m, at most half of the width, {0.5 * width:g}"
 
     def added(self, angle: Array, z: Array, width: float) -> Array:
         """Growth of the gap at `angle` (n,) and `z` (m,) of a bearing of `width`, (n, m), m."""
@@ -337,6 +343,12 @@ class Recess:
         """Fields without effect beside the others, and why."""
         if self.arc >= _TURN:
             yield "angle", "the recess runs round"
+
+    def beyond(self, width: float) -> Iterator[tuple[str, float, str]]:
+        """Fields that do not fit a bearing of `width`, m: name, value and what is allowed."""
+        low, high = self.across(width)
+        if high <= -0.5 * width or low >= 0.5 * width:
+            yield "z", self.z, f"m, so that the recess reaches into ±{0.5 * width:g}"
 
     def added(self, angle: Array, z: Array, width: float) -> Array:
         """Growth of the gap at `angle` (n,) and `z` (m,) of a bearing of `width`, (n, m), m."""
@@ -415,6 +427,10 @@ class Contour:
         z = np.asarray([0.0] if self.z is None else self.z, dtype=float)
         table = height[:, None] if height.ndim == 1 else height
         return np.asarray(self.angle, dtype=float), z, table
+
+    def beyond(self, width: float) -> Iterator[tuple[str, float, str]]:
+        """Fields that do not fit a bearing of `width`, m: none, points may lie past the ends."""
+        yield from ()
 
     def added(self, angle: Array, z: Array, width: float) -> Array:
         """Growth of the gap at `angle` (n,) and `z` (m,) of a bearing of `width`, (n, m), m."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import glob
 import hashlib
+import logging
 import os
 import warnings
 from collections.abc import Iterable
@@ -18,6 +19,8 @@ from loadflow.readers.aliases import Channels, Frame, read_channels
 from loadflow.readers.doubts import with_doubts
 from loadflow.readers.names import CaseLabel, compile_pattern, label_from_name, read_case_list
 from loadflow.readers.registry import READERS, find_reader
+
+log = logging.getLogger("loadflow.run")
 
 Files = str | os.PathLike[str] | Iterable[str | os.PathLike[str]]
 
@@ -109,6 +112,7 @@ def read_loads(
         doubts = str(case["doubts"].item())
         if doubts and not quiet:
             warnings.warn(f"{path}: {doubts}", ValidityWarning, stacklevel=2)
+        log.info("%s: %d samples", path, case.sizes["time"])
         labelled.append(case.assign_attrs(turbine=turbine))
     return make_cube(labelled)
 
@@ -137,7 +141,8 @@ def list_names(
     Raises
     ------
     loadflow.errors.InputError
-        No file, a malformed pattern or list, or a folder without load files.
+        No file, a malformed pattern or list, a folder without load files, or a pattern or list
+        that says nothing of any file.
 
     Examples
     --------
@@ -151,13 +156,17 @@ def list_names(
     if pattern is not None:
         compile_pattern(pattern)
     listed = read_case_list(cases) if cases is not None else {}
-    found = []
+    found, unfit = [], []
     for path in (path for entry in entries for path in _meant(Path(entry))):
         try:
             label = _label(path, pattern, listed, cases)
-        except InputError:
+        except InputError as error:
             label = CaseLabel()
+            unfit.append(error)
         found.append((str(path), label))
+    if len(unfit) == len(found):
+        more = f"; nor does any other of {len(unfit)} files" if unfit[1:] else ""
+        raise InputError(f"{unfit[0]}{more}")
     return found
 
 

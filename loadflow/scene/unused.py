@@ -75,13 +75,8 @@ def unused_warnings(scene: Scene) -> list[str]:
 def _all(scene: Scene) -> Iterator[tuple[str, str]]:
     unread = {section for section in _RESULTS if not _is_read(scene, section)}
     around = scene.environment.model_dump(mode="json", exclude_none=True)
-    default = make_scene(
-        {
-            "turbine": {"name": scene.turbine.name},
-            "environment": around,
-            "results": ["loads.statistics"],
-        }
-    )
+    bare = {"turbine": {"name": scene.turbine.name}, "results": ["loads.statistics"]}
+    default = make_scene(bare | {"environment": around})
     for section in sorted(unread):
         if getattr(scene, section) != getattr(default, section):
             yield section, "no wanted result reads this section"
@@ -410,15 +405,18 @@ def _of_thrust(scene: Scene) -> Iterator[tuple[str, str]]:
         if simulated and not starts and one.limits.start_time is not None:
             where = f"thrust.bearings.{place}.limits.start_time"
             yield where, _NO_START
-        rows = (("geometry", one.geometry), ("back", one.back)) if one.kind == "thrust" else ()
-        for key, row in rows:
-            where = f"thrust.bearings.{place}.{key}.profile"
-            against = row is not None and row.pivot is None and isinstance(row.profile, Reversed)
-            if simulated and against:
-                yield where, "it is cut against the sense of rotation: the pads carry nothing"
-            if row is not None and row.first_pad:
-                where = f"thrust.bearings.{place}.{key}.first_pad"
-                yield where, "the collar stays aligned, so that all pads carry alike"
+        found = {"geometry": one.geometry, "back": one.back} if one.kind == "thrust" else {}
+        rows = {key: row for key, row in found.items() if row is not None}
+        cut = {key: r.pivot is None and isinstance(r.profile, Reversed) for key, r in rows.items()}
+        for key, row in rows.items():
+            where = f"thrust.bearings.{place}.{key}"
+            against = "is cut against the sense of rotation: the pads carry nothing"
+            if simulated and cut["geometry"]:
+                yield where, f"geometry.profile {against}, and touch under all thrust downwind"
+            elif simulated and cut[key]:
+                yield f"{where}.profile", f"it {against}"
+            if row.first_pad:
+                yield f"{where}.first_pad", "the collar stays aligned, so that all pads carry alike"
 
 
 def _of_wear(scene: Scene) -> Iterator[tuple[str, str]]:

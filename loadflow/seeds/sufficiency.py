@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from bisect import bisect_left
 from collections.abc import Iterable
 from dataclasses import dataclass
 
@@ -172,11 +174,13 @@ def seeds_needed(values: ArrayLike, uncertainty: float, confidence: float = 0.95
     scatter, two_sided, df = deviation / abs(mean), (1.0 + confidence) / 2.0, x.size - 1
 
     def needed(cov: float) -> int:
-        n = np.arange(2, MOST_SEEDS + 1)
-        enough = stdtrit(n - 1.0, two_sided) * cov <= uncertainty * np.sqrt(n)
-        if not enough.any():
+        def enough(n: int) -> bool:
+            return bool(stdtrit(n - 1.0, two_sided) * cov <= uncertainty * math.sqrt(n))
+
+        numbers = range(2, MOST_SEEDS + 1)  # once enough, more of them are, too
+        if not enough(numbers[-1]):
             raise InputError(f"uncertainty = {uncertainty} needs more than {MOST_SEEDS} seeds")
-        return int(n[np.argmax(enough)])
+        return numbers[bisect_left(numbers, True, key=enough)]
 
     return SeedsNeeded(
         seeds=needed(scatter),

@@ -20,7 +20,13 @@ from loadflow.errors import InputError
 from loadflow.seeds._samples import Floats, as_samples, check_level, sampling_step
 from loadflow.seeds.longrun import LongRun, equal_means, holm
 from loadflow.seeds.rank_tests import ONE_SEED, Pool, kruskal_wallis_of, meyer_bahlburg_of
-from loadflow.seeds.spectra import BAND, periodogram, segments
+from loadflow.seeds.spectra import (
+    BAND,
+    SpectralDifference,
+    periodogram,
+    relative_difference,
+    segments,
+)
 
 Method = Literal["as-printed", "calibrated"]
 
@@ -122,6 +128,7 @@ class AsPrinted:
     """Series and their raw periodograms."""
 
     samples: list[Floats]
+    frequency: Floats
     density: Floats
     alpha: float
     band: float
@@ -130,8 +137,7 @@ class AsPrinted:
     def of(cls, samples: list[Floats], dt: float, alpha: float, band: float) -> AsPrinted:
         """Prepare `samples`; the spectra take the length of the shortest."""
         n = min(x.size for x in samples)
-        density = periodogram(np.stack([x[:n] for x in samples]), dt)[1]
-        return cls(samples, density, alpha, band)
+        return cls(samples, *periodogram(np.stack([x[:n] for x in samples]), dt), alpha, band)
 
     def compare(self, subset: Sequence[int]) -> SeedEquality:
         """Kruskal–Wallis, Meyer-Bahlburg and the spectral band on the series of `subset`."""
@@ -150,14 +156,12 @@ class AsPrinted:
     def _spectrum(self, density: Floats) -> Stage:
         """Largest relative difference over frequency and all ordered pairs (4.15–4.17)."""
         low, high = density.min(axis=0), density.max(axis=0)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            relative = np.where(high == low, 0.0, (high - low) / low)
-        largest = float(relative.max())
-        equal = largest <= self.band
-        outside = float(np.mean(relative > self.band))
-        word = "equal" if equal else "differs"
-        text = f"spectrum {word} (at most by {largest:.3g}, {outside:.0%} outside ±{self.band:g})"
-        return Stage(largest, float("nan"), equal, text)
+        relative = relative_difference(low, high)
+        found = SpectralDifference(self.frequency, low, high, relative, self.band)
+        word = "equal" if found.equal else "differs"
+        outside = f"{found.share_outside:.0%} outside ±{self.band:g}"
+        text = f"spectrum {word} (at most by {found.maximum:.3g}, {outside})"
+        return Stage(found.maximum, float("nan"), found.equal, text)
 
 
 @dataclass(frozen=True)

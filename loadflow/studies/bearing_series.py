@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -15,6 +16,8 @@ from loadflow.errors import InputError
 from loadflow.numerics.fields import none_such
 from loadflow.shaft import TwoPoint, bearing_loads
 from loadflow.stages.frames import to_film
+
+log = logging.getLogger("loadflow.run")
 
 Floats = np.ndarray
 
@@ -89,6 +92,7 @@ def iter_bearings(
             if key in case.coords
         }
         for bearing in chosen:
+            log.info("%s, bearing %s: %d samples", name, bearing, loads.sizes["time"])
             force, moment = (
                 loads[load].sel(bearing=bearing).transpose("time", "axis").values.astype(float)
                 for load in ("force", "moment")

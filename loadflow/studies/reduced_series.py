@@ -105,6 +105,16 @@ class ReducedCube:
     suspension: str
     whole: dict[str, xr.Dataset] = field(default_factory=dict)
 
+    @property
+    def warnings(self) -> list[str]:
+        """Series whose classes keep one sample each, so that the wanted size does not count."""
+        return [
+            f"{part.case}, bearing {part.bearing}: each class keeps one sample, {part.kept} of "
+            f"{part.samples}; size and rounding count with fewer classes"
+            for part in self.parts
+            if part.series["counts_reduced"].max() == 1 and part.kept < part.samples
+        ]
+
 
 def as_row(part: Part) -> list[str]:
     """The part under `HEADS`."""

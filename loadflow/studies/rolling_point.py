@@ -13,8 +13,10 @@ from loadflow.errors import InputError
 from loadflow.rolling import (
     FlexibleRings,
     Lubrication,
+    RollerRaceways,
     RollingBearing,
     SlewingBearing,
+    edge_contact,
     verdicts,
 )
 from loadflow.rolling.rating.life import life_hours
@@ -134,7 +136,7 @@ def rolling_point(
                 largest = np.linalg.norm(r.ring_displacement(ring), axis=-1).max()
                 about = f"largest displacement of the {ring} ring's raceways"
                 rows[f"{ring}_ring_displacement"] = (largest, "m", about)
-    return quantities(rows | _elements(r) | solver, model=_model(bearing, r, rings))
+    return quantities(rows | _edges(r) | _elements(r) | solver, model=_model(bearing, r, rings))
 
 
 def _life(r: Any, speed: float | None) -> dict[str, tuple[Any, str, str]]:
@@ -180,6 +182,33 @@ def _modified(
             [found.thick, found.capped],
             "1",
             "whether κ > 4 counts as 4, whether a_ISO stops at 50",
+        ),
+    }
+
+
+def _edges(r: Any) -> dict[str, tuple[Any, str, str]]:
+    """Pressure along the hardest pressed roller, where its slices do not stand by themselves.
+
+    A roller tilts half as much as its rings: so much is its tilt in each raceway.
+    """
+    rows = r.bearing
+    if not (isinstance(rows, RollerRaceways) and rows.slices > 1 and r.maximum_force > 0):
+        return {}
+    forces = np.moveaxis(r.slice_forces, -2, -1).reshape(-1, rows.slices)
+    hardest = forces[np.argmax(forces.sum(axis=1))]
+    pressed = hardest > 0
+    approach = (hardest / rows.slice_stiffness) ** 0.9 + 2 * rows.profile_drop
+    tilt = 0.0
+    if pressed.sum() > 1:
+        tilt = -0.5 * np.polyfit(rows.slice_positions[pressed], approach[pressed], 1)[0]
+    found = edge_contact(rows, float(hardest.sum()), float(tilt))
+    what = "of the hardest pressed roller on the inner ring"
+    return {
+        "edge_pressure": (found.maximum_pressure, "Pa", f"largest pressure {what}, with its edges"),
+        "edge_factor": (
+            found.edge_factor(),
+            "1",
+            f"of it at the ends over that between them, {what}",
         ),
     }
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
@@ -26,6 +27,8 @@ from loadflow.seeds import (
 )
 from loadflow.stages.statistics import SLOPE
 from loadflow.studies.channels import channel, choose_channels
+
+log = logging.getLogger("loadflow.run")
 
 HEADS = (
     "DLC",
@@ -164,6 +167,7 @@ def seed_verdicts(
                 test = equality(series, step, alpha=alpha, method=method)
             except InputError as error:
                 raise InputError(f"{source}: {wind_speed:g} m/s, {name}: {error}") from error
+            log.info("DLC %s, %g m/s, %s: %d seeds tested", dlc, wind_speed, name, len(group))
             found.append(Verdict(dlc, wind_speed, len(group), name, test, test.pvalue, test.equal))
     return _corrected(found, alpha) if method == "calibrated" else found
 

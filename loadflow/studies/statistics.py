@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -14,6 +15,8 @@ from loadflow.plots.style import readable
 from loadflow.report import Section, Table, write_page
 from loadflow.stages.statistics import SLOPE, STATISTICS, describe
 from loadflow.studies.channels import channel, choose_channels
+
+log = logging.getLogger("loadflow.run")
 
 HEADS = (
     "case",
@@ -47,6 +50,7 @@ def statistic_records(
     records = []
     for name, case in iter_cases(cube):
         series = case.load()
+        log.info("%s: %d samples", name, series.sizes["time"])
         for component in choose_channels(series, wanted, f"{source}: {name}"):
             data = channel(series, component)
             found = describe(data.to_dataset(name="x"))["x"]

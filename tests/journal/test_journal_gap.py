@@ -410,6 +410,16 @@ def test_newton_finds_light_and_heavy_loads(shape, share):
         (lambda: Contour([0.0, 1.0], [1e-5]), InputError, "height"),
         (lambda: Contour([0.0, 1.0, 0.5], [0.0, 0.0, 0.0]), InputError, "increasing"),
         (lambda: Recess(0.0, 0.1, -1e-6), InputError, r"depth = -1e-06"),
+        (
+            lambda: JournalBearing(0.2, 0.1, 1e-3, relief=(Crown(1e-5), Crown(1e-5, 0.06))),
+            InputError,
+            r"relief.1.length = 0.06 is not allowed: m, at most half of the width, 0.05",
+        ),
+        (
+            lambda: JournalBearing(0.2, 0.1, 1e-3, relief=(Recess(0, 1, 1e-5, 0.02, z=0.07),)),
+            InputError,
+            r"relief.0.z = 0.07 is not allowed: m, so that the recess reaches into ±0.05",
+        ),
     ],
 )
 def test_what_cannot_be_is_named(call, error, message):

@@ -86,6 +86,16 @@ def test_in_the_preview_a_pattern_or_list_stands_above_the_names(tmp_path):
     assert [label.dlc for _, label in list_names(names, cases=table)] == ["6.2", None]
 
 
+def test_a_pattern_or_list_that_says_nothing_of_any_file_is_refused_in_the_preview(tmp_path):
+    names = ["x_12_1.outb", "other.outb"]
+    with pytest.raises(InputError, match=r"x_12_1.outb: the name does not fit .* of 2 files"):
+        list_names(names, pattern="y_{seed}")
+    table = tmp_path / "cases.txt"
+    table.write_text("file,dlc\nthird.outb,6.2\n")
+    with pytest.raises(InputError, match="does not name this file"):
+        list_names(names[:1], cases=table)
+
+
 def test_a_malformed_pattern_is_refused_in_the_preview_too():
     with pytest.raises(InputError, match="must name one or more"):
         list_names(["a.outb"], pattern="nothing")

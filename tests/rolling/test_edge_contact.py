@@ -8,6 +8,7 @@ import pytest
 
 from loadflow.errors import InputError, SolverError
 from loadflow.rolling import RollerBearing, edge_contact, hertz_point
+from loadflow.studies.rolling_point import rolling_point
 
 ROLLER = RollerBearing(
     rollers=12,
@@ -70,3 +71,27 @@ def test_what_cannot_be_solved_is_said():
             edge_contact(ROLLER, force)
     with pytest.raises(SolverError, match="residual"):
         edge_contact(ROLLER, 1e3, max_iterations=3)
+
+
+def test_a_point_reports_the_edges_of_its_hardest_pressed_roller():
+    bearing = RollerBearing(
+        rollers=48, roller_diameter=0.04, roller_length=0.06, pitch_diameter=0.8
+    )
+
+    def point(bearing, moment):
+        found = rolling_point(bearing, "rigid", (2e5, 0, 0), (0, moment))
+        return [float(found[name]) for name in ("maximum_pressure", "edge_pressure", "edge_factor")]
+
+    slices, edges, factor = point(bearing, 0.0)
+    assert edges == pytest.approx(slices, rel=0.03)
+    assert factor < 0.1
+    slices, edges, factor = point(dataclasses.replace(bearing, profile="straight"), 0.0)
+    assert edges > 1.3 * slices
+    assert factor > 1.3
+    whole = bearing.equilibrium((2e5, 0, 0), (0, 2e4))
+    half = 0.5 * whole.displacement[4]  # as a roller tilts in each raceway
+    alone = edge_contact(bearing, whole.roller_forces.max(), half)
+    for moment in (-2e4, 2e4):
+        _, edges, factor = point(bearing, moment)
+        assert edges == pytest.approx(alone.maximum_pressure, rel=1e-6)
+        assert factor == pytest.approx(alone.edge_factor(), rel=1e-6)

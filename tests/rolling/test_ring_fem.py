@@ -10,6 +10,7 @@ from loadflow.errors import InputError
 from loadflow.rolling import (
     FiniteElementRing,
     FlexibleRings,
+    MeshedRing,
     RingBeam,
     RingProfile,
     RingSection,
@@ -234,6 +235,34 @@ def test_reference_without_flexible_rings_is_the_rigid_bearing():
 def test_profiles_that_cannot_be_are_refused(change, word):
     with pytest.raises(InputError, match=word):
         dataclasses.replace(PROFILE, **change)
+
+
+COARSE = SlewingBearing(
+    balls=24, ball_diameter=0.04, pitch_diameter=0.5, groove_radius=0.0208, contact_angle=0.785
+)
+
+
+def test_a_ring_too_thin_to_be_meshed_behind_its_grooves_is_refused_by_its_measures():
+    measures = {"inside": 0.5016, "outside": 0.5388, "bottom": -0.06, "top": 0.026}
+    ring = MeshedRing(held="bottom", across=2, resolution=1.5, **measures).of(COARSE, "outer")
+    with pytest.raises(InputError, match=r"18\.6 mm thick is too thin .* from -60 to 26 mm"):
+        COARSE.equilibrium((0, 0, 1e5), (1e4, 0), rings=FlexibleRings(outer=ring))
+
+
+def test_a_mesh_too_coarse_to_give_way_is_refused_and_a_finer_one_answers():
+    measures = {"inside": 0.5157, "outside": 0.7632, "bottom": -0.0194, "top": 0.0913}
+
+    def force(across):
+        mesh = MeshedRing(
+            held="bottom", across=across, resolution=3.0, bed=9.6e12, grip=1.3e14, **measures
+        )
+        rings = FlexibleRings(outer=mesh.of(COARSE, "outer"))
+        return COARSE.equilibrium((0, 0, 1e5), (1e4, 0), rings=rings).maximum_force
+
+    with pytest.raises(InputError, match=r"outer: the ring gives way nowhere.*elements across"):
+        force(1)
+    rigid = COARSE.equilibrium((0, 0, 1e5), (1e4, 0)).maximum_force
+    assert force(4) < rigid
 
 
 def test_balls_unequally_spaced_are_refused():

@@ -62,6 +62,11 @@ def _joint_factor(coupling: Coupling, rings: FlexibleRings) -> Array:
         factor = np.asarray(ring.flexibility(points), float)
         if factor.shape[:3] != shape or not np.isfinite(factor).all():
             raise InputError(f"{name}: flexibility must be finite {shape}, got {factor.shape}")
+        if not factor.shape[3]:
+            raise InputError(
+                f"{name}: the ring gives way nowhere: its mesh is too coarse beside the contacts; "
+                "allowed: more elements across, or no flexible ring"
+            )
         parts.append(coupling.fields(factor))
     if not parts:
         raise InputError('inner, outer: give at least one ring, or rings="rigid"')

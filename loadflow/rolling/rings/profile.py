@@ -123,6 +123,11 @@ class RingProfile:
         ----------
         across : int
             Elements across the ring, from the raceway side to its back.
+
+        Raises
+        ------
+        InputError
+            The ring is so thin and high that lines of the grid cross behind its grooves.
         """
         land = self.land
         size = self.bearing.ball_diameter / 2  # about the size of the elements beside the grooves
@@ -139,6 +144,12 @@ class RingProfile:
         share = graded(across, 0.7 * self.patch_half / abs(self.back - land))
         radius = line[:, :1] + share * (self.back - line[:, :1])
         height = line[:, 1:] + share * (even - line[:, 1])[:, None]
+        if _folds(np.stack([radius, height], axis=-1)):
+            raise InputError(
+                f"inside, outside, bottom, top: a ring {1e3 * abs(self.back - land):.4g} mm thick "
+                f"is too thin behind its grooves to be meshed from {1e3 * self.bottom:.4g} to "
+                f"{1e3 * self.top:.4g} mm; allowed: thicker, or with the grooves nearer its middle"
+            )
         return radius, height
 
     def section(self) -> tuple[RingSection, float, float]:
@@ -169,6 +180,14 @@ class RingProfile:
             torsion=area**4 / (42.7 * (moments[0] + moments[1])),
         )
         return section, radius, height
+
+
+def _folds(grid: Array) -> bool:
+    """Whether a cell of a grid of points (n, m, 2) is not convex, or turned over."""
+    corners = np.stack([grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]])
+    ahead, behind = np.roll(corners, -1, axis=0) - corners, np.roll(corners, 1, axis=0) - corners
+    turns = ahead[..., 0] * behind[..., 1] - ahead[..., 1] * behind[..., 0]
+    return bool(turns.min() * turns.max() <= 0)
 
 
 def _centroid(x: Array, y: Array) -> tuple[float, float, float]:
