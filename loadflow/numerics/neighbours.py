@@ -6,14 +6,17 @@ import math
 
 import numpy as np
 from numba import njit
+from numpy.typing import NDArray
 
 from loadflow.numerics.linked import LINKED
+
+Array = NDArray[np.float64]
 
 _WORTH = 0.5  # way through cases in another order, over that as they come, that is worth it
 
 
 @njit(nogil=True, error_model="numpy", **LINKED)
-def _square(a, b):
+def _square(a: Array, b: Array) -> float:
     """Square of the distance."""
     total = 0.0
     for k in range(a.shape[0]):
@@ -22,7 +25,7 @@ def _square(a, b):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def near_order(points, chunk):
+def near_order(points: Array, chunk: int) -> NDArray[np.int64]:
     """Order (n,) of `points` (n, m) in which each is the nearest of those left to the one before.
 
     Each `chunk` of them stays together and begins with its first. What is a path already, as a
