@@ -34,7 +34,7 @@ def test_a_film_in_motion_reads_the_whole_series(tmp_path):
         samples = tree["N2"].to_dataset().load()
     assert samples.sizes["sample"] == one.steps
     assert samples.attrs["motion"] == "transient"
-    assert (samples["residual"] < 1e-8).all()
+    assert (samples["residual"] < 1e-6).all()
     still = scene_of(cube, reduction={"size": 1.0}, journal=FILM)
     rest = lf.run(still, out=tmp_path, report=False).tree["journal"]
     # the shaft is elsewhere than at rest, but the film is the same

@@ -142,12 +142,21 @@ class _Balance:
     share: Array | None
     refused: Array = field(init=False)
     """Temperatures from which on a load has no film, K, (n,): warmer oil is thinner."""
+    last: list[tuple[Array, NDArray[np.int64], Columns]] = field(init=False, default_factory=list)
+    """Temperatures and places that were asked for last, and their films."""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "refused", np.full(self.speed.size, np.inf))
 
     def film(self, temperature: Array, places: NDArray[np.int64]) -> Columns:
-        """Films of the loads at `places` (m,) at these temperatures (m,)."""
+        """Films of the loads at `places` (m,) at these temperatures (m,); the last are known."""
+        for warm, asked, films in self.last:
+            if np.array_equal(temperature, warm) and np.array_equal(places, asked):
+                return films
+        self.last[:] = [(temperature, places, self._film(temperature, places))]
+        return self.last[0][2]
+
+    def _film(self, temperature: Array, places: NDArray[np.int64]) -> Columns:
         reference = self.heat.lubricant(self.heat.inlet_temperature)
         thinner = self.heat.liquid.viscosity(temperature) / reference.viscosity
         speed = self.speed[places]

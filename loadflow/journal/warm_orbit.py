@@ -38,6 +38,9 @@ SAMPLES = 64
 MILDEST = 4
 """Loads of a series that go on to a more expensive model where the own one has a film for none."""
 
+BALANCED = 2e-3
+"""What is left of the heat balance of that mean, K: other samples move it by more."""
+
 LEFT_OUT = 0.1
 """Share of the samples without a film at rest above which their mean is warned of."""
 
@@ -154,7 +157,7 @@ def _of_mean(
         return model.equilibrium(grown, cold, forces, speeds, line.at(places), limits)
 
     at_rest, shares = at_temperatures(solve, bearing, film), np.full(speed.size, 1 / speed.size)
-    return warm_film(at_rest, force, speed, film, shares, strict=False)
+    return warm_film(at_rest, force, speed, film, shares, BALANCED, strict=False)
 
 
 def _in_turns(

@@ -145,7 +145,6 @@ def gumbel_parameters(x: Floats) -> tuple[Floats, Floats]:
 
 def l_moments(x: Floats) -> tuple[Floats, Floats]:
     """First and second L-moment along the last axis [Hosking and Wallis 1997]."""
-    from scipy.stats import lmoment
-
-    first, second = lmoment(x, order=[1, 2], axis=-1)
-    return first, second
+    count = x.shape[-1]
+    weights = (2.0 * np.arange(count) - count + 1.0) / (count * (count - 1.0))
+    return x.mean(axis=-1), np.sort(x, axis=-1) @ weights

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from loadflow.journal import Equilibrium, Film
+from loadflow.journal import Control, Equilibrium, Film
 from loadflow.journal.grid_bounds import unresolved_counted
 from loadflow.journal.transition import load_capacity
 from loadflow.scene.journal import Journal
@@ -16,6 +16,7 @@ from loadflow.stages.frames import from_film, to_film
 
 _CERTAIN = 1.2  # times the load that a film as thin as the roughness carries: no film is asked
 _LIGHT = 10.0  # Sommerfeld number below which the film is asked in any case
+_IN_MOTION = Control(tolerance=1e-6)  # 1e-8 moves films by 4e-5 at most, for an eighth more time
 
 
 def follow(
@@ -32,7 +33,9 @@ def follow(
         name: to_film(vectors) for name, vectors in shaft_line(options, bearing).items()
     }
     with unresolved_counted():  # `film_summary` tells of them
-        return options.geometry.orbit(time, force, speed, options.film_model, start=start, **lying)
+        return options.geometry.orbit(
+            time, force, speed, options.film_model, start=start, control=_IN_MOTION, **lying
+        )
 
 
 def shaft_line(options: Journal, bearing: xr.Dataset) -> dict[str, np.ndarray]:

@@ -146,7 +146,7 @@ def solve_flexible(
     """Find the equilibrium with flexible rings for all load cases.
 
     Minimises the convex potential of contacts, ring modes and load. Starts from the equilibrium
-    with rigid rings, or inside chunks from the case before.
+    with rigid rings, or inside chunks from a case near by.
 
     Parameters
     ----------
@@ -173,6 +173,7 @@ def solve_flexible(
         If ``control.strict`` and a case does not converge, or its contacts turn beyond 90°, where
         the raceways end.
     """
+    from loadflow.numerics.neighbours import near_order
     from loadflow.rolling.rings import _ring_newton
 
     f, m = broadcast_loads(force, moment)
@@ -184,8 +185,10 @@ def solve_flexible(
         *contacts.arguments, contacts.scale, contacts.cap, _ROUGHLY, control.max_iterations,
         contacts.unit_compliance(), 1,
     )  # fmt: skip
-    x, converged, residual, iterations, singular, rounding = _ring_newton.solve_series(
-        np.ascontiguousarray(loads * contacts.scale),  # else kernels compile for each order anew
+    lengths = np.ascontiguousarray(loads * contacts.scale)  # else kernels compile for each order
+    order = near_order(lengths, control.chunk)
+    found = _ring_newton.solve_series(
+        lengths[order],
         (rigid, contacts.scale),
         modes.waves,
         modes.basis,
@@ -196,13 +199,15 @@ def solve_flexible(
         control.max_iterations,
         control.chunk,
     )
+    back = np.argsort(order)
+    x, converged, residual, iterations, singular, rounding = (one[back] for one in found)
     if control.strict and not converged.all():
         _refuse_exit(loads, converged, residual, control.tolerance)
         raise_not_converged(loads, converged, residual, rounding, iterations, shape)
     displacement = (x[:, :5] * contacts.scale).reshape(*shape, 5)
     amplitudes = x[:, 5:].reshape(*shape, -1)
     elements = FlexibleRingForces(rings, modes, displacement, amplitudes)
-    found = RingEquilibrium(
+    equilibrium = RingEquilibrium(
         force=f,
         moment=m,
         displacement=displacement,
@@ -212,7 +217,7 @@ def solve_flexible(
         iterations=iterations.reshape(shape),
         singular=singular.reshape(shape),
     )
-    return found, elements
+    return equilibrium, elements
 
 
 def _refuse_exit(
