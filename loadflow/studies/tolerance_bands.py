@@ -285,7 +285,7 @@ def _of_pads(
     bearings: Mapping[str, AnyAxial], spectrum: xr.DataTree, beside: Mapping[str, float]
 ) -> dict[str, float]:
     """Films of pads; what they lose is added to that of the journal bearings beside them."""
-    films, pressures, rough, margins, power = [], [], [], [], 0.0
+    films, pressures, rough, used, margins, power = [], [], [], [], [], 0.0
     for place, bearing in bearings.items():
         samples = spectrum[place].to_dataset()
         force, moment = (
@@ -306,6 +306,7 @@ def _of_pads(
         film = np.nan_to_num(answer["minimum_film"].values)
         films.append(float(film.min()))
         rough.append(films[-1] / bearing.contact_film)
+        used.append(1.0 - films[-1] / bearing.clearance)
         pressures.append(float(np.nanmax(answer["maximum_pressure"].values)))
         margins += _margins_of_pads(bearing, place, some, answer)
     margin = min(margins, default=math.nan)
@@ -316,6 +317,7 @@ def _of_pads(
     return {
         "minimum_film": min(films),
         "film_to_roughness": min(rough),
+        "eccentricity_ratio": max(used),
         "film_pressure": max(pressures),
         "load_factor": margin,
         "friction": power,
