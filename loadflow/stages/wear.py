@@ -89,12 +89,14 @@ def touching_cycle(
     when = np.linspace(max(first, float(time[0])), min(last, float(time[-1])), count)
     line = {key: to_film(values) for key, values in shaft_line(options, shaft).items()}
     force = to_film(shaft["force"].transpose("time", "axis").values.astype(float))
+    lying = {key: _between(when, time, values) for key, values in line.items()}
     return Cycle(
         when,
         _between(when, time, force),
         np.interp(when, time, speed),
         in_motion=options.in_motion,
-        **{key: _between(when, time, values) for key, values in line.items()},
+        tilt=lying.get("tilt"),
+        bend=lying.get("bend"),
     )
 
 
