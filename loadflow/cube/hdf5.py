@@ -53,20 +53,21 @@ def read_variables(path: Path, names: Collection[str], group: str = "") -> xr.Da
     ('case', 'time')
     """
     with _opened(path) as file:
-        inside = file[group or "/"]
-        found = {name: _variable(inside[name]) for name in names if name in inside}
-        wanted = {dim for variable in found.values() for dim in variable.dims}
-        coords = {
-            dim: _variable(inside[dim])
-            for dim in wanted
-            if dim in inside and not _is_bare(inside[dim])
-        }
-        told = _attributes(inside)
-    return xr.Dataset({**coords, **found}, attrs=told).set_coords([*coords])
+        return _some(file[group or "/"], names)
 
 
-def groups_of(path: Path) -> list[str]:
-    """Names of the groups of a file, in order of creation where it is kept.
+def read_groups(path: Path, names: Collection[str]) -> dict[str, xr.Dataset]:
+    """Read some variables of every group of a file, or of the file itself where it has none.
+
+    Parameters
+    ----------
+    path, names
+        As of `read_variables`.
+
+    Returns
+    -------
+    dict of xarray.Dataset
+        By group, in order of creation where it is kept; by ``""`` what stands in none.
 
     Raises
     ------
@@ -74,7 +75,17 @@ def groups_of(path: Path) -> list[str]:
         No file that HDF5 can read.
     """
     with _opened(path) as file:
-        return [name for name, part in file.items() if isinstance(part, h5py.Group)]
+        inside = {name: part for name, part in file.items() if isinstance(part, h5py.Group)}
+        return {name: _some(part, names) for name, part in (inside or {"": file}).items()}
+
+
+def _some(inside: h5py.Group, names: Collection[str]) -> xr.Dataset:
+    found = {name: _variable(inside[name]) for name in names if name in inside}
+    wanted = {dim for variable in found.values() for dim in variable.dims}
+    coords = {
+        dim: _variable(inside[dim]) for dim in wanted if dim in inside and not _is_bare(inside[dim])
+    }
+    return xr.Dataset({**coords, **found}, attrs=_attributes(inside)).set_coords([*coords])
 
 
 def read_whole(path: Path) -> Cube:

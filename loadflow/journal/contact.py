@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated
 
 from annotated_types import Ge, Gt, Le
@@ -79,6 +79,30 @@ class Contact:
     def roughness(self) -> float:
         """Combined roughness σ of all heights, m."""
         return self.surface_roughness or self.asperities.roughness
+
+    def as_rough(self, share: float) -> Contact:
+        """Return surfaces `share` times as rough, their tips as round.
+
+        Then K of [Greenwood and Tripp 1970] goes as √σ.
+
+        Examples
+        --------
+        >>> from loadflow.journal import Contact
+        >>> from loadflow.tribology import AsperityContact
+        >>> rough = Contact(AsperityContact(roughness=0.4e-6, contact_modulus=115e9, factor=1e-3))
+        >>> worn = rough.as_rough(0.25).asperities
+        >>> worn.roughness, worn.factor
+        (1e-07, 0.0005)
+        """
+        tips, rough = self.asperities, self.surface_roughness
+        asperities = replace(
+            tips,
+            roughness=share * tips.roughness,
+            summit_height=share * tips.summit_height,
+            factor=share**0.5 * tips.factor,
+        )
+        heights = None if rough is None else share * rough
+        return replace(self, asperities=asperities, surface_roughness=heights)
 
     def check_clearance(self, clearance: float) -> None:
         """Refuse surfaces whose roughness is no longer small beside the radial `clearance`, m.

@@ -157,6 +157,8 @@ class CollarCurves:
         touching, why = ~turning, None
         for backwards in (False, True):
             at = np.flatnonzero(turning & ((speeds < 0) == backwards))
+            sure = self._surely_touching(loads[at], speeds[at])  # these need no table
+            touching[at[sure]], at = True, at[~sure]
             if not at.size:
                 continue
             try:
@@ -196,6 +198,22 @@ class CollarCurves:
             iterations=steps,
             interpolation_error=error,
         )
+
+    def _surely_touching(self, loads: Array, speeds: Array) -> NDArray[np.bool_]:
+        """Whether the thinnest film carries less than each load at the next speed of the ladder.
+
+        A rotor that nearly stands passes many decades of speed, each of which would be tabulated.
+        """
+        found = np.zeros(loads.size, bool)
+        if _scales(self.film):
+            return found
+        above = np.ceil(_DECADE * np.log10(np.abs(speeds))).astype(int)
+        for number, ahead in {*zip(above.tolist(), (loads >= 0).tolist())}:
+            row = self.collar.front if ahead else self.collar.back
+            sense = -1 if speeds[0] < 0 else 1
+            here = (above == number) & ((loads >= 0) == ahead)
+            found[here] = np.abs(loads[here]) > _most(row, self.film, self.thinnest, sense, number)
+        return found
 
     def _places(
         self, front: _Series, back: _Series, loads: Array
@@ -309,6 +327,15 @@ def _column(
         )
     kept = gaps[-len(found) :]
     return _Column(kept, np.array(found[::-1]))
+
+
+@lru_cache(maxsize=512)
+def _most(row: ThrustBearing, film: Film, gap: float, sense: int, number: int) -> float:
+    """Force of the thinnest film at one speed of the ladder, N; infinite where it is not known."""
+    try:
+        return float(row.pressure(gap, sense * _speed(number), film).force)
+    except SolverError:
+        return math.inf
 
 
 def _solved(row: ThrustBearing, film: Film, gap: float, speed: float) -> Array:

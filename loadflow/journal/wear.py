@@ -89,18 +89,8 @@ class Wear:
         """The surfaces where a `depth`, m, is worn off."""
         if self.running_in is None:
             return contact
-        tips = contact.asperities
-        share = float(self.running_in.roughness(depth)) / tips.roughness
-        rough = contact.surface_roughness
-        worn = replace(
-            tips,
-            roughness=share * tips.roughness,
-            summit_height=share * tips.summit_height,
-            factor=share**0.5 * tips.factor,
-        )
-        return replace(
-            contact, asperities=worn, surface_roughness=None if rough is None else share * rough
-        )
+        rough = contact.asperities.roughness
+        return contact.as_rough(float(self.running_in.roughness(depth)) / rough)
 
     def grown(self, depth: Array, work: Array, friction: float) -> Array:
         """Depth, m, after a further ∫ p ds = `work`, N/m, at each place."""

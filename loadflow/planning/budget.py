@@ -16,30 +16,32 @@ from loadflow.planning.effects import Estimates
 from loadflow.scene.scene import Scene
 from loadflow.stages.registry import giving
 from loadflow.studies.run_lifetime import known_shares
-from loadflow.studies.seed_intervals import Groups, Picks, interval
+from loadflow.studies.seed_intervals import Groups, Picks, bounds, drawn
 from loadflow.studies.tolerances import Band, band_of
 
 Floats = NDArray[np.float64]
-Statistic = Callable[[xr.Dataset, Floats, Picks], float]
+Statistic = Callable[[xr.Dataset, Floats, Picks], Floats]
+"""From a table, values (case,) and numbers of cases (…, case) to an answer (…)."""
 
 
-def _largest(table: xr.Dataset, values: Floats, some: Picks) -> float:
-    return float(np.nanmax(values[some], initial=-np.inf))
+def _largest(table: xr.Dataset, values: Floats, some: Picks) -> Floats:
+    return np.asarray(np.nanmax(values[some], axis=-1, initial=-np.inf))
 
 
-def _smallest(table: xr.Dataset, values: Floats, some: Picks) -> float:
-    return float(np.nanmin(values[some], initial=np.inf))
+def _smallest(table: xr.Dataset, values: Floats, some: Picks) -> Floats:
+    return np.asarray(np.nanmin(values[some], axis=-1, initial=np.inf))
 
 
-def _mean(table: xr.Dataset, values: Floats, some: Picks) -> float:
-    weight = np.where(np.isnan(values[some]), 0.0, _weights(table)[some])
-    return float(np.sum(weight * np.nan_to_num(values[some])) / weight.sum())
+def _mean(table: xr.Dataset, values: Floats, some: Picks) -> Floats:
+    weight = np.where(np.isnan(values), 0.0, _weights(table))[some]
+    return np.asarray((weight * np.nan_to_num(values)[some]).sum(-1) / weight.sum(-1))
 
 
-def _life(table: xr.Dataset, values: Floats, some: Picks) -> float:
-    turns = (_weights(table) * np.abs(table["mean_speed"].values))[some]
-    turns = np.where(np.isnan(values[some]), 0.0, turns)
-    return float(turns.sum() / np.nansum(turns / values[some]))
+def _life(table: xr.Dataset, values: Floats, some: Picks) -> Floats:
+    turns = _weights(table) * np.abs(table["mean_speed"].values)
+    turns = np.where(np.isnan(values), 0.0, turns)
+    damage = np.where(np.isnan(values), 0.0, turns / values)
+    return np.asarray(turns[some].sum(-1) / damage[some].sum(-1))
 
 
 def _weights(table: xr.Dataset) -> Floats:
@@ -187,6 +189,7 @@ def _of(
 ) -> Iterator[Answer]:
     table = _shared(tables, source)
     groups = Groups.of(table)
+    picks = drawn(groups) if max(groups.sizes, default=0) > 1 else None  # one seed tells nothing
     found = table[source.variable].transpose("bearing", "case")
     error = errors.get(source.result, {}).get(source.quantity)
     missing = _left_out(source, scene, known)
@@ -195,13 +198,13 @@ def _of(
         if np.isnan(values).all():
             continue
         read = partial(source.read, table, values)
-        low, high = interval(groups, read)
+        low, high = (np.nan, np.nan) if picks is None else bounds(read(picks))
         yield Answer(
             source.result,
             source.quantity,
             str(bearing),
             str(found.attrs.get("units", "1")),
-            read(np.arange(values.size)),
+            float(read(np.arange(values.size))),
             low,
             high,
             float(error) if isinstance(error, (int, float)) else None,

@@ -16,7 +16,7 @@ import xarray as xr
 
 import loadflow
 from loadflow.cube import open_cube
-from loadflow.cube.hdf5 import groups_of, read_variables, read_whole
+from loadflow.cube.hdf5 import read_groups, read_variables, read_whole
 from loadflow.errors import InputError, NewerVersionError
 from loadflow.planning.effects import EffectVerdict
 from loadflow.planning.plan import Plan
@@ -79,8 +79,7 @@ def open_part(folder: Path, stage: str, case: str) -> Any:
 
 def read_part(folder: Path, stage: str, case: str, names: Collection[str]) -> dict[str, xr.Dataset]:
     """Read some variables of what a stage found of a case, by bearing where it keeps them so."""
-    path = folder / stage / f"{case}.h5"
-    return {group: read_variables(path, names, group) for group in groups_of(path) or [""]}
+    return read_groups(folder / stage / f"{case}.h5", names)
 
 
 ForceOf = Callable[[str], xr.DataArray]

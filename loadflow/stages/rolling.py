@@ -52,6 +52,7 @@ EACH = {
     "bearing_axial_force": ("N", "largest force along the shaft"),
     "bearing_torque": ("N m", "largest friction torque of a slewing bearing, by its loads"),
     "bearing_pressure": ("Pa", "largest pressure"),
+    "bearing_pressure_time": ("s", "time of the largest pressure"),
     "bearing_force": ("N", "largest force on a rolling element"),
 }
 
@@ -194,6 +195,7 @@ def _of_bearing(
         "bearing_axial_force": float(np.abs(reduced["force"].values[:, 0]).max()),
         "bearing_torque": _torque(answer, part.idle_torque),
         "bearing_pressure": float(np.max(answer.maximum_pressure)),
+        "bearing_pressure_time": float(reduced["time"].values[np.argmax(answer.maximum_pressure)]),
         "bearing_force": float(np.max(answer.maximum_force)),
     }
 

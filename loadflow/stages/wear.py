@@ -45,9 +45,11 @@ def wear(scene: Scene, cases: list[Case], inputs: Mapping[str, dict[str, Any]]) 
             if not (case.dlc in LOAD_CASES and LOAD_CASES[case.dlc].stands_or_starts):
                 continue
             film = inputs[case.name]["journal"][name].to_dataset().load()
-            cycle = _cycle(scene, options, case, film, inputs[case.name], name)
+            loads, shaft = (inputs[case.name][key].load() for key in ("loads", "shaft"))
+            cycle = touching_cycle(scene, options, film, loads, shaft.sel(bearing=name))
             if cycle is not None:
-                cycles.append(cycle)
+                count = count_of(scene, case.dlc) * case.weight
+                cycles.append(replace(cycle, count=count, name=case.name))
                 if "temperature" in film:
                     temperatures.append(float(film["temperature"].median()))
         found[name] = _told(_worn(scene, options, cycles, temperatures), cycles)
@@ -67,16 +69,13 @@ def _worn(
     return wear_bearing(options.geometry, cycles, film, scene.wear.model)
 
 
-def _cycle(
-    scene: Scene,
-    options: Journal,
-    case: Case,
-    film: xr.Dataset,
-    parts: Mapping[str, Any],
-    name: str,
+def touching_cycle(
+    scene: Scene, options: Journal, film: xr.Dataset, loads: xr.Dataset, shaft: xr.Dataset
 ) -> Cycle | None:
-    """What of a load case is in contact while it turns, and the sample before; None: nothing."""
-    loads, shaft = parts["loads"].load(), parts["shaft"].sel(bearing=name).load()
+    """What of a load case is in contact while it turns, and the sample before; None: nothing.
+
+    From its film and its loads, and from its shaft in the one bearing that `options` describe.
+    """
     time, speed = (loads[key].values.astype(float) for key in ("time", "speed"))
     share = film["contact_share"].values
     rubs = (np.nan_to_num(share) > TOUCHING) & (np.abs(film["speed"].values) > 0)
@@ -90,14 +89,14 @@ def _cycle(
     when = np.linspace(max(first, float(time[0])), min(last, float(time[-1])), count)
     line = {key: to_film(values) for key, values in shaft_line(options, shaft).items()}
     force = to_film(shaft["force"].transpose("time", "axis").values.astype(float))
+    lying = {key: _between(when, time, values) for key, values in line.items()}
     return Cycle(
         when,
         _between(when, time, force),
         np.interp(when, time, speed),
-        count=count_of(scene, case.dlc) * case.weight,
         in_motion=options.in_motion,
-        name=case.name,
-        **{key: _between(when, time, values) for key, values in line.items()},
+        tilt=lying.get("tilt"),
+        bend=lying.get("bend"),
     )
 
 

@@ -150,9 +150,10 @@ def _numbers(
     run: Finished, verdicts: Sequence[Verdict], margin: Margin
 ) -> Iterator[tuple[str, Number]]:
     """Yield the numbers of a candidate by quantity."""
+    error = _error(run, *margin.models) / abs(margin.power) if margin.power else math.nan
     yield "load_factor", Number(
-        margin.factor, "×", margin.low, margin.high, limit=1.0,
-        holds=margin.factor >= 1, place=margin.place, case=margin.case, note=margin.governs,
+        margin.factor, "×", margin.low, margin.high, error, 1.0, margin.factor >= 1, margin.case,
+        margin.time, margin.place, margin.governs,
     )  # fmt: skip
     if "journal" in run.tables:
         yield from _of_journal(run, verdicts)
@@ -167,7 +168,7 @@ def _numbers(
     low, high = _seeds(run, tilt.by_case, lambda seen: 100 * max(seen))
     yield "tilt", Number(
         100 * tilt.share, "%", low, high, limit=100.0, holds=tilt.share <= 1, case=tilt.case,
-        place=tilt.place, note=tilt.note,
+        time=tilt.time, place=tilt.place, note=tilt.note,
     )  # fmt: skip
 
 

@@ -38,6 +38,12 @@ class Margin:
         The factor that some of the cases would give, for the seeds.
     low, high : float
         Interval by the seeds, of all limits together.
+    time : float
+        Time of an extreme in its case, s; NaN for what is no extreme.
+    models : tuple of str
+        Result and quantity whose error by models the factor has.
+    power : float
+        Of the load that this quantity follows.
     """
 
     factor: float
@@ -48,6 +54,9 @@ class Margin:
     drawn: Draw | None = field(default=None, compare=False, repr=False)
     low: float = math.nan
     high: float = math.nan
+    time: float = math.nan
+    models: tuple[str, str] = ("", "")
+    power: float = math.nan
 
 
 def largest_factor(holds: Callable[[float], bool]) -> float:

@@ -43,6 +43,7 @@ Tables = Mapping[str, xr.Dataset]
 
 _SLOW = 0.1  # share of the samples that counts as low speed
 _TOLD = 2  # changes that are told
+_LIFE = "rolling.life", "life"  # result and quantity whose error a margin of lives has
 _WARMER = 60.0  # K: how much warmer the oil is asked to be at most
 
 
@@ -131,7 +132,11 @@ def _film_margins(scene: Scene, folder: Path, place: str, table: xr.Dataset) -> 
                 factor, change = pressure_factor(value, allowed), ""
             power = power_of_load(partial(value, oil=1.0), factor, WIDEST)
             drawn = of_extreme(table[name], pick, factor, power)
-            yield Margin(factor, place, case, f"{what} in {place}", change, drawn)
+            models = "journal.film", answer.replace("_", " ")
+            yield Margin(
+                factor, place, case, f"{what} in {place}", change, drawn, time=time, models=models,
+                power=power,
+            )  # fmt: skip
 
 
 def _film_value(
@@ -169,13 +174,17 @@ def _rolling_margins(
         what = f"static rating of {place}"
         factor = static.value / limits.static_safety
         drawn = of_extreme(table["bearing_design_safety"], np.nanmin, factor, -1.0)
-        yield Margin(factor, place, static.case, what, drawn=drawn)
+        yield Margin(
+            factor, place, static.case, what, drawn=drawn, time=static.time,
+            models=("rolling.loads", "maximum force"), power=-1.0,
+        )  # fmt: skip
     bearing = scene.rolling.geometries[place]
     basic = own.get("rating life L10h")
     if basic is not None and math.isfinite(basic.value):
         factor = (basic.value / limits.life) ** (1 / bearing.life_exponent)
         drawn = of_life(damage_per_hour(table, ""), share, factor, bearing.life_exponent)
-        yield Margin(factor, place, governs=f"rating life of {place}", drawn=drawn)
+        governs, power = f"rating life of {place}", -bearing.life_exponent
+        yield Margin(factor, place, governs=governs, drawn=drawn, models=_LIFE, power=power)
     modified = own.get("modified rating life L10mh")
     if modified is None or not math.isfinite(modified.value):
         return
@@ -193,7 +202,10 @@ def _rolling_margins(
     change = f"{place}: oil {warmth[short[0]]:.0f} K warmer" if short.size and short[0] > 0 else ""
     power = -power_of_load(life, factor, WIDEST)
     drawn = of_life(damage_per_hour(table, "modified_"), share, factor, power)
-    yield Margin(factor, place, governs=f"modified life of {place}", change=change, drawn=drawn)
+    governs = f"modified life of {place}"
+    yield Margin(
+        factor, place, governs=governs, change=change, drawn=drawn, models=_LIFE, power=-power
+    )
 
 
 def damage_per_hour(table: xr.Dataset, kind: str) -> xr.DataArray:

@@ -55,7 +55,10 @@ def pad_margins(bearing: AnyAxial, folder: Path, place: str, table: xr.Dataset) 
             factor, change = pressure_factor(value, limit), ""
         power = power_of_load(partial(value, oil=1.0), factor, WIDEST)
         drawn = of_extreme(table[name], extreme, factor, power)
-        yield Margin(factor, place, case, told, change, drawn)
+        models = "thrust.film", field.replace("_", " ")
+        yield Margin(
+            factor, place, case, told, change, drawn, time=time, models=models, power=power
+        )
 
 
 def clearance_used(film: Number, bearing: AnyAxial) -> Number:

@@ -98,12 +98,21 @@ def rolling_risks(
     if np.isfinite(ratio).any():
         k, b = np.unravel_index(int(np.nanargmin(ratio)), ratio.shape)
         low, high = interval(groups, lambda some: float(np.nanmin(ratio[some])))
+        case, place = str(table["case"].values[k]), str(table["bearing"].values[b])
         yield "viscosity_ratio", Number(
             float(ratio[k, b]), "–", low, high, limit=THINNEST, holds=bool(ratio[k, b] >= THINNEST),
-            case=str(table["case"].values[k]), place=str(table["bearing"].values[b]),
+            case=case, time=_slowest(reduced_samples(folder / "reduction" / f"{case}.h5", place)),
+            place=place,
             note="κ of what turns; ISO 281 ends at 0.1, full films begin at 1",
         )  # fmt: skip
     yield "standstill", _standing(scene, folder, table, share)
+
+
+def _slowest(samples: xr.Dataset) -> float:
+    """Time of the slowest sample that turns, s: at one temperature κ is smallest there."""
+    speed = np.abs(samples["speed"].values)
+    turns = speed * samples["weight"].values > 0
+    return float(samples["time"].values[np.argmin(np.where(turns, speed, np.inf))])
 
 
 def _lightest(scene: Scene, folder: Path, cases: list[str], groups: Groups) -> Number:

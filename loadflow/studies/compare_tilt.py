@@ -40,12 +40,13 @@ def carries_thrust(scene: Scene, tables: Tables) -> str:
 class Tilt:
     """Largest tilt of the shaft in a bearing over what that allows; NaN where none is limited.
 
-    `by_case` has that of the bearing in each load case.
+    `time` is that of the largest in its case, s; `by_case` has the share in each load case.
     """
 
     share: float = math.nan
     place: str = ""
     case: str = ""
+    time: float = math.nan
     note: str = "the bearing takes the moment"
     by_case: dict[str, float] = field(default_factory=dict)
 
@@ -79,15 +80,17 @@ def shaft_tilt(scene: Scene, folder: Path, tables: Tables) -> Tilt:
             )
             tilts = bearing_loads(line, force, moment, tilt=gravity)["tilt"]
             across = tilts.sel(axis=["y", "z"]).transpose("bearing", "axis", "time").values
-            size = np.linalg.norm(across, axis=1).max(axis=1)
-            largest = dict(zip(tilts["bearing"].values.tolist(), size.tolist()))
+            size = np.linalg.norm(across, axis=1)
+            times = series["time"].values[some[size.argmax(axis=1)]].tolist()
+            seen = zip(size.max(axis=1).tolist(), times)
+            largest = dict(zip(tilts["bearing"].values.tolist(), seen))
             for place in own:
                 limit, one = places[place][0], found.get(place, Tilt(0.0, place, note=note))
                 if limit > 0:
-                    share = largest[place] / limit
-                    by_case = one.by_case | {path.stem: share}
-                    more = (share, path.stem) if share > one.share else (one.share, one.case)
-                    found[place] = Tilt(more[0], place, more[1], note, by_case)
+                    tilt, time = largest[place]
+                    if tilt / limit > one.share:
+                        one = replace(one, share=tilt / limit, case=path.stem, time=time)
+                    found[place] = replace(one, by_case=one.by_case | {path.stem: tilt / limit})
     return max(found.values(), key=lambda one: one.share, default=Tilt())
 
 

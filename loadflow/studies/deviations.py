@@ -21,6 +21,7 @@ from loadflow.scene.thrust import Thrust
 from loadflow.scene.tolerances import ALIGNMENT, Toleranced
 from loadflow.stages.comparisons import THINNING
 from loadflow.stages.rolling_at_work import as_stated, rest
+from loadflow.studies.wear_bands import Rubbing
 from loadflow.tribology import lubricant
 
 _ABOUT = {
@@ -46,11 +47,14 @@ class Built:
         Oil and surfaces of rolling bearings.
     spectrum : xarray.DataTree
         Of `loadflow.studies.load_spectrum.load_spectrum`.
+    rubbing : Rubbing, optional
+        What wears the bores most, where they wear.
     """
 
     candidate: Candidate
     friction: Friction
     spectrum: xr.DataTree
+    rubbing: Rubbing | None = None
 
 
 @dataclass(frozen=True)
@@ -218,11 +222,15 @@ def _with_roughness(built: Built, share: float) -> Built:
         names = ("shaft_roughness", "shell_roughness")
         return {name: (1.0 + share) * getattr(one, name) for name in names}
 
+    def rubbing(one: Journal) -> dict[str, Any]:
+        contact = one.contact and one.contact.as_rough(1.0 + share)
+        return surfaces(one) | {"contact": contact}
+
     def pads(bearing: Any) -> Any:
         return bearing.model_copy(update=surfaces(bearing))
 
     rougher = {"roughness": (1.0 + share) * built.friction.roughness}
-    return _changed(built, journal=surfaces, pads=pads, friction=rougher)
+    return _changed(built, journal=rubbing, pads=pads, friction=rougher)
 
 
 def _thicker(oil: Any, factor: float) -> Any:
@@ -259,7 +267,7 @@ def _misaligned(built: Built, angle: float) -> Iterator[Tolerance]:
         lying = one.journal.tilt
         stated = replace(straight, spectrum=_tilted(straight, (0.0, 0.0), lying))
         ways = [(0.0, angle), (0.0, -angle), (angle, 0.0), (-angle, 0.0)]
-        ends = tuple(replace(straight, spectrum=_tilted(straight, way, lying)) for way in ways)
+        ends = tuple(_askew(straight, way, lying) for way in ways)
         yield Tolerance("alignment", stated, ends)
     elif one.rolling is not None and len(one.rolling.geometries) > 1:
         if not any(bearing.takes_moment for bearing in one.rolling.geometries.values()):
@@ -267,6 +275,12 @@ def _misaligned(built: Built, angle: float) -> Iterator[Tolerance]:
         ways = [(0.0, angle), (0.0, -angle), (angle, 0.0), (-angle, 0.0)]
         pushed = tuple(replace(built, spectrum=_pushed(built, one.rolling, way)) for way in ways)
         yield Tolerance("alignment", built, pushed)
+
+
+def _askew(built: Built, way: tuple[float, float], lying: bool) -> Built:
+    """Films under a shaft that is turned by an angle (y, z), and what rubs then."""
+    rubs = None if built.rubbing is None else built.rubbing.askew(way)
+    return replace(built, spectrum=_tilted(built, way, lying), rubbing=rubs)
 
 
 def _tilted(built: Built, way: tuple[float, float], lying: bool) -> xr.DataTree:

@@ -78,13 +78,27 @@ def interval(
     """
     if max(groups.sizes, default=0) < 2:
         return math.nan, math.nan
+    return bounds(np.array([statistic(some) for some in drawn(groups, resamples)], float))
+
+
+def drawn(groups: Groups, resamples: int = RESAMPLES) -> Picks:
+    """Numbers of cases (resample, case) with the seeds of each group drawn anew.
+
+    Examples
+    --------
+    >>> picks = drawn(Groups((np.array([0, 2]), np.array([1]))))
+    >>> picks.shape, set(picks[:, 2].tolist())
+    ((1000, 3), {1})
+    """
     draw = np.random.default_rng(0)
-    picks = np.concatenate(
-        [draw.choice(group, (resamples, len(group))) for group in groups.members], axis=1
-    )
-    found = [statistic(some) for some in picks]
+    own = [draw.choice(group, (resamples, len(group))) for group in groups.members]
+    return np.concatenate(own, axis=1)
+
+
+def bounds(found: NDArray[np.float64]) -> tuple[float, float]:
+    """Both ends of the interval, from the answers of all resamples."""
     tail = (1 - LEVEL) / 2
-    low, high = np.nanquantile(np.array(found, float), [tail, 1 - tail])
+    low, high = np.nanquantile(found, [tail, 1 - tail])
     return float(low), float(high)
 
 

@@ -24,12 +24,13 @@ from loadflow.stages.frames import to_rolling
 from loadflow.stages.friction import least_film_parameter
 from loadflow.stages.rolling_at_work import as_stated, friction_options, rest
 from loadflow.stages.thrust import solved
-from loadflow.studies.compare import Finished
+from loadflow.studies.compare import HOURS_PER_YEAR, Finished
 from loadflow.studies.compare_margins import load_by_row, lubrication
 from loadflow.studies.compare_result import Judged, Number
 from loadflow.studies.compare_risks import LIGHT
 from loadflow.studies.design_point import fast_journal, judge_design
 from loadflow.studies.deviations import Built, Tolerance, tolerances_of
+from loadflow.studies.wear_bands import rubbing_of
 
 CLASSES = 3
 """Classes of speed, and twice as many of load, that stand for the series, beside the hardest."""
@@ -70,7 +71,8 @@ def with_bands(
     Judged
         Its `change` names tolerances that break a limit by themselves.
     """
-    built = Built(_bearings(run, scene), scene.friction, spectrum)
+    rubs = rubbing_of(scene, run.folder, one.numbers["wear"])
+    built = Built(_bearings(run, scene), scene.friction, spectrum, rubs)
     known = Known()
     around: dict[str, list[tuple[str, float, float]]] = {}
     breaking = []
@@ -82,9 +84,10 @@ def with_bands(
         if factor >= 1 > factor + moved.get("load_factor", (0.0, 0.0))[0] or tolerance.missing:
             breaking.append(tolerance.name)
     numbers = {
-        key: _banded(number, around[key]) if key in around else number
+        key: _banded(number, around[key], TOP.get(key, math.inf)) if key in around else number
         for key, number in one.numbers.items()
     }
+    numbers["row_overload"] = _as_share(numbers["row_overload"], numbers["row_share"])
     told = f"tolerance of {', '.join(breaking)} alone" if breaking else ""
     change = "; ".join(part for part in (one.change, told) if part)
     return replace(one, numbers=numbers, change=change)
@@ -96,16 +99,30 @@ def _bearings(run: Finished, scene: Scene) -> Candidate:
     return Candidate(**{room: own for room, own in there.items() if room in run.tables})
 
 
-def _banded(number: Number, around: Sequence[tuple[str, float, float]]) -> Number:
+TOP = {"row_share": 100.0, "mixed_time": HOURS_PER_YEAR}
+"""What quantities cannot exceed, in their units; none of them falls below 0."""
+
+
+def _banded(number: Number, around: Sequence[tuple[str, float, float]], top: float) -> Number:
+    """The number with ends added up, as far as it can go at all."""
     low = -math.sqrt(sum(down**2 for _, down, _ in around))
     high = math.sqrt(sum(up**2 for *_, up in around))
     most = max(around, key=lambda row: max(-row[1], row[2]))
     return replace(
         number,
-        tolerance_low=number.value + low,
-        tolerance_high=number.value + high,
+        tolerance_low=max(number.value + low, min(number.value, 0.0)),
+        tolerance_high=min(number.value + high, max(number.value, top)),
         tolerance=most[0],
     )
+
+
+def _as_share(number: Number, share: Number) -> Number:
+    """A multiple of a share with the band of that."""
+    if not math.isfinite(share.tolerance_low):
+        return number
+    factor = number.value / share.value
+    ends = {name: factor * getattr(share, name) for name in ("tolerance_low", "tolerance_high")}
+    return replace(number, **ends, tolerance=share.tolerance)
 
 
 class Known:
@@ -159,6 +176,8 @@ def cheap_numbers(built: Built) -> dict[str, float]:
         found |= _of_rolling(candidate.rolling.bearings, built.friction, spectrum)
     if candidate.thrust is not None:
         found |= _of_pads(candidate.thrust.bearings, spectrum, found)
+    if candidate.journal is not None and (rubs := built.rubbing) is not None:
+        found["wear"] = rubs.energy(candidate.journal.at(rubs.place))
     return found
 
 
@@ -259,7 +278,6 @@ def _of_rolling(
         "viscosity_ratio": min(ratios),
         "minimum_load": min(loads),
         "row_share": max(rows),
-        "row_overload": max(rows),
     }
 
 
@@ -267,7 +285,7 @@ def _of_pads(
     bearings: Mapping[str, AnyAxial], spectrum: xr.DataTree, beside: Mapping[str, float]
 ) -> dict[str, float]:
     """Films of pads; what they lose is added to that of the journal bearings beside them."""
-    films, pressures, rough, margins, power = [], [], [], [], 0.0
+    films, pressures, rough, used, margins, power = [], [], [], [], [], 0.0
     for place, bearing in bearings.items():
         samples = spectrum[place].to_dataset()
         force, moment = (
@@ -288,6 +306,7 @@ def _of_pads(
         film = np.nan_to_num(answer["minimum_film"].values)
         films.append(float(film.min()))
         rough.append(films[-1] / bearing.contact_film)
+        used.append(1.0 - films[-1] / bearing.clearance)
         pressures.append(float(np.nanmax(answer["maximum_pressure"].values)))
         margins += _margins_of_pads(bearing, place, some, answer)
     margin = min(margins, default=math.nan)
@@ -298,6 +317,7 @@ def _of_pads(
     return {
         "minimum_film": min(films),
         "film_to_roughness": min(rough),
+        "eccentricity_ratio": max(used),
         "film_pressure": max(pressures),
         "load_factor": margin,
         "friction": power,

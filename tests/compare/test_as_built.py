@@ -7,13 +7,16 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from loadflow.journal.wear import Cycle
 from loadflow.rolling.rating.modified_life import viscosity_ratio
 from loadflow.scene.as_built import AsBuilt, grade_width
 from loadflow.scene.candidate import Candidate
 from loadflow.scene.scene import make_scene
 from loadflow.studies.compare_margins import lubrication
+from loadflow.studies.compare_result import Number
 from loadflow.studies.deviations import Built, tolerances_of
-from loadflow.studies.tolerance_bands import cheap_numbers
+from loadflow.studies.tolerance_bands import _as_share, _banded, cheap_numbers
+from loadflow.studies.wear_bands import Rubbing
 
 NONE = {"clearance": 0.0, "viscosity": 0.0, "temperature": 0.0, "roughness": 0.0, "alignment": 0.0}
 MEASURES = {"diameter": 1.0, "width": 0.8, "relative_clearance": 1e-3}
@@ -155,6 +158,43 @@ def test_a_shaft_that_lies_askew_thins_the_film_and_0_leaves_it():
     assert len(films) == 4
     assert max(films) < stated
     assert stated == pytest.approx(cheap_numbers(journal())["minimum_film"], rel=0.02)
+
+
+def starting():
+    """A bearing whose start rubs: 2 s up to 0.02 rad/s, its asperities known."""
+    rough = {"roughness": 0.5e-6, "contact_modulus": 115e9, "factor": 1e-3}
+    stated = journal(contact={"asperities": rough}, motion="quasi-static", grid=[60, 8])
+    time = np.linspace(0.0, 2.0, 9)
+    start = Cycle(time, np.tile((1.2e6, 0.0), (9, 1)), 0.01 * time, in_motion=False)
+    return replace(stated, rubbing=Rubbing("N", start))
+
+
+@pytest.mark.parametrize(
+    ("given", "first_rubs_more"),
+    [({"viscosity": 0.3}, True), ({"temperature": 8.0}, False), ({"roughness": 0.3}, False)],
+)
+def test_a_start_rubs_more_in_thinner_or_warmer_oil_and_on_rougher_surfaces(given, first_rubs_more):
+    found = only(starting(), **given)
+    first, last = (cheap_numbers(end)["wear"] for end in found.ends)
+    assert (first > last) is first_rubs_more
+    assert min(first, last) < cheap_numbers(found.stated)["wear"] < max(first, last)
+
+
+def test_a_start_rubs_more_under_a_shaft_that_lies_askew():
+    found = only(starting(), alignment=2e-4)
+    stated = cheap_numbers(found.stated)["wear"]
+    assert all(cheap_numbers(end)["wear"] > stated for end in found.ends)
+
+
+def test_a_band_ends_where_a_quantity_cannot_go_on():
+    share = Number(99.0, "%")
+    wide = _banded(share, [("oil grade", -0.5, 2.0), ("clearance", -0.1, 0.1)], 100.0)
+    assert (wide.tolerance_low, wide.tolerance_high) == (pytest.approx(98.49, abs=0.01), 100.0)
+    assert wide.tolerance == "oil grade"
+    film = _banded(Number(4.0, "µm"), [("clearance", -5.0, 1.0)], math.inf)
+    assert (film.tolerance_low, film.tolerance_high) == (0.0, 5.0)
+    over = _as_share(Number(1.98, "×"), wide)
+    assert over.tolerance_high == pytest.approx(2.0)  # of two rows
 
 
 def test_oil_of_rolling_bearings_is_as_thin_as_its_grade_allows():

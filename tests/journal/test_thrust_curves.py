@@ -88,3 +88,22 @@ def test_pads_on_springs_and_a_table_thicker_than_the_play_are_refused():
         CollarCurves(DoubleThrustBearing(soft, LANDS, play=4e-4), film_of(), 2e-6)
     with pytest.raises(InputError, match="half the play"):
         CollarCurves(DoubleThrustBearing(LANDS, LANDS, play=4e-4), film_of(), 3e-4)
+
+
+def test_a_rotor_that_nearly_stands_touches_without_a_table(monkeypatch):
+    """Five decades of speed, 1 film for each of 8 in a decade in place of 65 for both rows."""
+    asked, solve = [], ThrustBearing.pressure
+    monkeypatch.setattr(
+        ThrustBearing, "pressure", lambda *given: asked.append(given) or solve(*given)
+    )
+    collar = DoubleThrustBearing(LANDS, LANDS, play=4e-4)
+    curves = CollarCurves(collar, film_of(GasMixture(0.05e6)), thinnest=2.5e-6)
+    speeds = np.geomspace(1e-8, 1e-3, 60)
+    slow = curves.equilibrium(np.full(60, 2e6), speeds)
+    assert slow.touching.all()
+    assert not slow.converged.any()
+    assert len(asked) <= 42
+    both = curves.equilibrium([2e6, 2e6], [1e-4, 1.2])
+    assert both.touching.tolist() == [True, False]
+    alone = curves.equilibrium([2e6], [1.2])
+    assert both.minimum_film[1] == alone.minimum_film[0]

@@ -1,0 +1,87 @@
+"""What the hardest start rubs off a bore with other data: for the band by tolerances of wear."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from loadflow.cube.hdf5 import read_variables
+from loadflow.errors import SolverError
+from loadflow.journal.grid_bounds import unresolved_counted
+from loadflow.journal.wear import Cycle
+from loadflow.scene.journal import Journal
+from loadflow.scene.scene import Scene
+from loadflow.stages.frames import to_film
+from loadflow.stages.wear import touching_cycle
+from loadflow.studies.compare_result import Number
+
+_FILM = ("time", "speed", "contact_share", "temperature")
+_SHAFT = ("force", "tilt", "curvature")
+
+
+@dataclass(frozen=True)
+class Rubbing:
+    """What touches in the load case that wears the bores of a candidate most.
+
+    Attributes
+    ----------
+    place : str
+        The bearing.
+    cycle : Cycle
+        The shaft in it meanwhile.
+    warmth : float
+        Film over the oil that enters, K; 0 without heat.
+    """
+
+    place: str
+    cycle: Cycle
+    warmth: float = 0.0
+
+    def energy(self, options: Journal) -> float:
+        """Friction of touching asperities in the bore as new, J; NaN without an answer.
+
+        The depth of wear goes with it by both laws: Archard's and Fleischer's.
+        """
+        held, cycle = options, self.cycle
+        if options.heat is not None:
+            held = options.at_temperature(options.heat.inlet_temperature + self.warmth)
+        film, given = replace(held.film_model, rung="grid"), (cycle.force, cycle.speed)
+        lines = {"tilt": cycle.tilt, "bend": cycle.bend}
+        lying: dict[str, Any] = {key: line for key, line in lines.items() if line is not None}
+        bore = options.geometry
+        try:
+            with unresolved_counted():  # the run has told of them
+                if cycle.in_motion:
+                    power = bore.orbit(cycle.time, *given, film, **lying)["contact_power"].values
+                else:
+                    power = np.asarray(bore.equilibrium(*given, film, **lying).contact_power)
+        except SolverError:
+            return math.nan
+        return float(cycle.seconds @ power)
+
+    def askew(self, way: tuple[float, float]) -> Rubbing:
+        """The same with the shaft turned by an angle (y, z), rad, more than it lies."""
+        more = to_film(np.array([[0.0, *way]]))
+        lies = np.zeros_like(self.cycle.force) if self.cycle.tilt is None else self.cycle.tilt
+        return replace(self, cycle=replace(self.cycle, tilt=lies + more))
+
+
+def rubbing_of(scene: Scene, folder: Path, wear: Number) -> Rubbing | None:
+    """What rubs in the load case that a wear names, of the run in a folder; None without wear."""
+    if not wear.case or not wear.value > 0:
+        return None
+    options = scene.journal.at(wear.place)
+    film = read_variables(folder / "journal" / f"{wear.case}.h5", _FILM, wear.place)
+    loads = read_variables(folder / "loads" / f"{wear.case}.h5", ("time", "speed"))
+    shaft = read_variables(folder / "shaft" / f"{wear.case}.h5", _SHAFT).sel(bearing=wear.place)
+    cycle = touching_cycle(scene, options, film, loads, shaft)
+    if cycle is None:
+        return None
+    warmth = 0.0
+    if options.heat is not None and "temperature" in film:
+        warmth = float(film["temperature"].median()) - options.heat.inlet_temperature
+    return Rubbing(wear.place, cycle, warmth)
