@@ -17,14 +17,16 @@ from numpy.typing import NDArray
 from loadflow.journal.film.film import DiscreteFilm, Linear, SingularFilm
 from loadflow.journal.film.gap import KEPT
 from loadflow.journal.film.imbalance import imbalance, rounding
-from loadflow.journal.solvers.newton import Solution, solve_film
+from loadflow.journal.solvers.newton import Solution, solve_equilibrium, solve_film
 from loadflow.numerics.convergence import COARSEST, is_small
 
 Array = NDArray[np.float64]
 
-_NEWTON, _HALVINGS = 40, 20  # steps of the whole path, and how often one is halved
+_NEWTON, _HALVINGS = 25, 20  # steps of the whole path, and how often one is halved
 _QUADRATIC = 1e-7  # a step this small leaves an error near its square
 _STEP_LIMIT = 0.5  # change of a film, over its pressure, beyond which the path's step is shortened
+_FIRST, _SMALLEST, _SWINGS = 0.25, 0.01, 30  # share of the swing of a load; of it, and tries
+_NEARER = (1.0, 0.5, 0.1)  # shares of a mean position, from which that of a mean load is sought
 _CELLS = 5_000_000  # of all times, up to which their Newton steps are kept: 160 MB
 
 
@@ -122,6 +124,44 @@ def solve_all_times(
         path = target
         if change < _QUADRATIC:
             return _checked(film, films, linears, path, rule, force, speed, tolerance, number)
+    return None
+
+
+def solve_by_swing(
+    film: DiscreteFilm, path: Array, time: Array, force: Array, speed: Array,
+    tolerance: float, max_iterations: int,
+) -> list[Solution] | None:  # fmt: skip
+    """As `solve_all_times`, from the shaft at rest under the mean load, which then begins to swing.
+
+    Of the `path` only the mean counts.
+    """
+    steps = np.diff(time)
+    mean = np.average(0.5 * (force[1:] + force[:-1]), axis=0, weights=steps)
+    turning = float(np.average(0.5 * (speed[1:] + speed[:-1]), weights=steps))
+    film.set_speed(turning)
+    for nearer in _NEARER:
+        start = film.start(), nearer * path.mean(axis=0)
+        rest = solve_equilibrium(film, mean, *start, tolerance, max_iterations)
+        if rest.converged:
+            break
+    else:
+        return None
+    path, done, step = np.tile(rest.position, (steps.size, 1)), 0.0, _FIRST
+    growth = np.zeros_like(path)  # of the path with the share of the swing
+    for _ in range(_SWINGS):
+        at = min(1.0, done + step)
+        load, omega = mean + at * (force - mean), turning + at * (speed - turning)
+        ahead = path + _share(film, path, (at - done) * growth) * (at - done) * growth
+        found = solve_all_times(film, ahead, time, load, omega, tolerance, max_iterations)
+        if found is None:
+            step *= 0.5
+            if step < _SMALLEST:
+                break
+            continue
+        if at == 1.0:
+            return found
+        reached = np.array([one.position for one in found])
+        path, growth, done, step = reached, (reached - path) / (at - done), at, 1.5 * step
     return None
 
 

@@ -10,7 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import InputError, SolverError
-from loadflow.journal.solvers.all_times import can_close_at_once, solve_all_times
+from loadflow.journal.solvers.all_times import (
+    can_close_at_once,
+    solve_all_times,
+    solve_by_swing,
+)
 from loadflow.journal.solvers.history import Past
 from loadflow.journal.solvers.newton import Solution
 from loadflow.journal.solvers.orbit_error import Extremes
@@ -23,7 +27,7 @@ Array = NDArray[np.float64]
 Method = Literal["direct", "marching"]
 
 _DEPTH = 8  # periods that the direct method looks back
-_PERIODS = 5  # of it, after which all times are solved at once
+_PERIODS = 3  # of it, after which all times are solved at once
 _STANDS = 1e-6  # share of the speed below which the effective speed is none
 
 
@@ -137,8 +141,11 @@ def _at_once(
         return None
     path = np.array([[row["x"], row["y"]] for row in rows])
     limits = marcher.tolerance, marcher.max_iterations
-    found = solve_all_times(film, path, time, force, speed, *limits)
-    if found is None:
+    for solve in (solve_all_times, solve_by_swing):
+        found = solve(film, path, time, force, speed, *limits)
+        if found is not None:
+            break
+    else:
         return None
     extremes, closed = Extremes(film), []
     film.set_speed(float(speed[0]))
