@@ -293,6 +293,11 @@ class Statics:
         return replace(solution, converged=solution.converged and sound)
 
     @property
+    def _has_path(self) -> bool:
+        """Whether equilibria can be followed along the path of the load."""
+        return not (self.film.pockets.free.size or self.film.speed == 0.0)
+
+    @property
     def _shaped(self) -> ShapedGap:
         """The gap, of which only a shaped one has pads."""
         return cast("ShapedGap", self.gap)
@@ -381,7 +386,7 @@ class Statics:
         It goes on where steps of the load have ended, or begins where they do.
         """
         film = self.film
-        if film.pockets.free.size or film.speed == 0.0:
+        if not self._has_path:
             return reached
         still = np.zeros(self.gap.size)
         for start in ((reached.u, reached.position), (film.start(), estimate)):
@@ -429,7 +434,7 @@ class Statics:
             if solution.converged:
                 return solution
             self._on_pads(pads)
-        if film.pockets.free.size or film.speed == 0.0:
+        if self.gap.pads.size or not self._has_path:
             return solve_from_held(film, force, estimate, *limits, free)
         return solve_from_held(film, force, estimate, *limits, free, _LONG)  # the path goes on
 
