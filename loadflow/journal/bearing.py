@@ -268,8 +268,9 @@ class JournalBearing(JournalGeometry):
             Error of an adaptive step, share of the narrowest gap.
         periodic : bool or {"direct", "marching"}
             Find the closed orbit; `time` is one period, whose last sample closes it. True is
-            "direct": the state that comes back after a period, solved for; "marching" goes on from
-            period to period. Only "grid" closes orbits.
+            "direct": the state that comes back after a period, solved for, or where that takes
+            long around an aligned cylinder and the law keeps no fill, all times at once;
+            "marching" goes on from period to period. Only "grid" closes orbits.
         closure : float
             Largest change of position (clearances) and film (over the scale of pressure) from one
             period to the next.

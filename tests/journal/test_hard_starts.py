@@ -28,6 +28,16 @@ def drawn(family: str, number: int) -> Any:
 
 @pytest.mark.parametrize("number", [79, 102, 106, 221, 323, 424])
 def test_tilted_rough_shafts_start_where_no_asperities_hold_them(number):
+    carries_its_load(number)
+
+
+@pytest.mark.parametrize("number", [20030, 20112])
+def test_where_steps_of_the_load_end_its_path_goes_on(number):
+    carries_its_load(number)
+
+
+def carries_its_load(number):
+    """A draw of rough surfaces is solved, and the film where it is solved carries its load."""
     point, solve = drawn("contact", number)
     answer = solve()
     assert answer.converged

@@ -12,8 +12,10 @@ from loadflow.journal import (
     Lubricant,
     MassConserving,
     Reynolds,
+    Sommerfeld,
     Supply,
 )
+from loadflow.journal.solvers import periodic
 from loadflow.tribology.film import effective_speed
 
 BEARING = JournalBearing(diameter=3.0, width=2.25, relative_clearance=0.5e-3)
@@ -45,6 +47,63 @@ def test_direct_and_marching_find_the_same_closed_orbit(film):
     assert direct.attrs["closure"] < 1e-6
     assert direct.attrs["periods"] <= marched.attrs["periods"]
     np.testing.assert_array_equal(direct.eccentricity[0], direct.eccentricity[-1])
+
+
+FULL = {"lubricant": OIL, "cavitation": Sommerfeld(), "grid": GRID}
+
+
+def test_a_whirl_that_a_full_film_does_not_damp_is_closed_at_all_times_at_once():
+    time, force = pulsating(2 * np.pi / OMEGA, 24)
+    with pytest.raises(SolverError, match=r"its ends differ by .* after 20 periods"):
+        BEARING.orbit(time, force, OMEGA, periodic="marching", max_periods=20, **FULL)
+    closed = BEARING.orbit(time, force, OMEGA, periodic=True, **FULL)
+    assert closed.attrs["periods"] == 3
+    assert float(closed.residual.max()) < 1e-10
+    np.testing.assert_array_equal(closed.eccentricity[0], closed.eccentricity[-1])
+
+
+def test_an_orbit_to_which_no_period_leads_is_reached_by_a_load_that_begins_to_swing(monkeypatch):
+    time = np.linspace(0.0, 3 * 2 * np.pi / OMEGA, 25)
+    turn = 2 * np.pi * time / time[-1]
+    force = 3e7 * np.stack([1 + 0.5 * np.sin(turn), 0.2 * np.cos(turn)], axis=-1)
+    film = FULL | {"grid": (48, 8)}
+    orbit = BEARING.orbit(time, force, OMEGA, periodic=True, **film)
+    assert (orbit.attrs["periods"], orbit.attrs["closure"]) == (3, 0.0)
+    assert float(orbit.residual.max()) < 1e-10
+    monkeypatch.setattr(periodic, "solve_by_swing", lambda *_: None)
+    with pytest.raises(SolverError, match="does not close"):
+        BEARING.orbit(time, force, OMEGA, periodic=True, max_periods=5, **film)
+
+
+@pytest.mark.parametrize("law", [Sommerfeld(), Reynolds()], ids=["full", "ruptured"])
+def test_orbits_closed_at_once_are_of_second_order_in_their_steps(law):
+    starts = []
+    for count in (24, 48, 96, 384):
+        time, force = pulsating(0.3 * 2 * np.pi / OMEGA, count)
+        orbit = BEARING.orbit(time, force, OMEGA, periodic=True, **FULL | {"cavitation": law})
+        assert (orbit.attrs["closure"], orbit.attrs["periods"]) == (0.0, 3)
+        starts.append(orbit.eccentricity.values[0] / BEARING.clearance)
+    errors = [np.hypot(*(one - starts[-1])) for one in starts[:-1]]
+    # the finest leaves 1/256, 1/64, 1/16 of them
+    ratios = np.array(errors[:-1]) / errors[1:] * [(1 - 1 / 64) / (1 - 1 / 256), 15 / 16 * 64 / 63]
+    assert np.abs(np.log2(ratios) - 2).max() < 0.2
+
+
+def test_uneven_times_close_at_once_on_the_orbit_of_even_ones():
+    period = 2 * np.pi / OMEGA
+    even, force = pulsating(period, 96)
+    share = even / period
+    time = period * (share + 0.05 * np.sin(2 * np.pi * share))
+    turn = 2 * np.pi * time / period
+    uneven = np.stack([2e6 + 5e5 * np.sin(turn), 4e5 * np.cos(turn)], axis=-1)
+    paths = [
+        BEARING.orbit(t, f, OMEGA, periodic=True, **FULL)
+        for t, f in ((even, force), (time, uneven))
+    ]
+    along = [np.interp(even, time, part) for part in paths[1].eccentricity.values.T]
+    np.testing.assert_allclose(
+        np.stack(along, axis=-1), paths[0].eccentricity, atol=2e-3 * BEARING.clearance
+    )
 
 
 def test_one_more_period_from_a_closed_orbit_stays_on_it():

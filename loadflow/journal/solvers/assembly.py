@@ -33,7 +33,7 @@ _ALONE = 4  # first steps in which a film that changes more is corrected with th
 _FINEST = 1.0 / 64  # smallest load step
 _STEPS = 40  # load steps at most
 _SHORT = 15  # Newton steps of one load step
-_SPENT = 250  # Newton steps after which an equilibrium is given up
+_SPENT = 150  # Newton steps after which an equilibrium is given up
 _NOTHING = 1e-6  # share of the scale of pressure that is none
 _PRESSED = 1e-12  # narrowest gap, in clearances, that is none
 

@@ -26,7 +26,8 @@ from loadflow.numerics.convergence import Limits
 Array = NDArray[np.float64]
 
 _HELD = np.array([], dtype=np.int64)
-_STEPS, _SPENT = 60, 1500  # films of one search, and Newton steps of them all
+_STEPS, _EACH = 60, 200  # films of a search from one start, and Newton steps of them
+_SPENT = 1500  # Newton steps from all starts
 _LARGEST = 0.7  # change of an eccentricity over the gap, or of the gap's logarithm, in a step
 _HALVINGS = 12
 _RATIOS, _TURNS, _BEST = (0.4, 0.8), 10, 8  # films all around, and those from which it begins
@@ -275,7 +276,7 @@ def _search_from(
         if residual < limits.tolerance:
             done = replace(state, converged=True, residual=residual, iterations=spent, free=free)
             return done
-        if spent > _SPENT:
+        if spent > _EACH:
             break
         slope = change @ chart.slope(x)
         if not np.isfinite(slope).all():

@@ -26,10 +26,8 @@ _LEAST_SHARE = 0.01  # of the share that it has, below which such a step is give
 _STEPS, _STEPS_EACH = 16, 25  # Newton steps of each, and of all in multiples of those
 _STRIDE = 0.25  # first share of the way from the load at the start to the one that is wanted
 _SHORTEST = 1e-3  # of the lesser of both loads, below which such a step is given up
-_STEPS_SHORT, _BUDGET = (
-    14,
-    10,
-)  # Newton steps of each, and of all in multiples of those of a solution
+_STEPS_SHORT = 14  # Newton steps of each
+_BUDGET = 10  # of all, in multiples of those of a solution
 _EASED = (0.9, 0.5, 0.1)  # of the way to the first position, at which a lighter film is sought
 _FEW = 7  # Newton steps below which the next of these steps is twice as long
 _FIRST_GAP = 0.02  # in clearances, that the first position leaves in the shell at rest
@@ -132,11 +130,12 @@ def solve_from_held(
     tolerance: float,
     max_iterations: int,
     free: slice | NDArray[np.int64] = EVERY,
+    shortest: float = _SHORTEST,
 ) -> Solution:
     """As `solve_equilibrium`, from the load that the film carries at `position` held.
 
     That load is known as soon as the film is solved there, whatever it is; from it the load goes
-    straight to `force`, in steps as long as Newton's method follows.
+    straight to `force`, in steps as long as Newton's method follows, down to the `shortest` share.
     """
     state = solve_film(film, film.start(), position, 0.0 * position, tolerance, max_iterations)
     if film.contact is not None:
@@ -147,7 +146,7 @@ def solve_from_held(
     short = max_iterations if film.law.moves_by_cells else _STEPS_SHORT
     trial = state
     lightest = math.hypot(*first[free]) / film.load_scale(force)
-    shortest = _SHORTEST * min(1.0, max(lightest, _SHORTEST))
+    shortest *= min(1.0, max(lightest, _SHORTEST))
     while stride >= shortest and spent < _BUDGET * max_iterations:
         at = min(1.0, share + stride)
         load = force + (1.0 - at) * (first - force)

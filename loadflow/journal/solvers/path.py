@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-_STEPS, _NEWTON = 200, 10  # steps of a path, and Newton steps of each
+_STEPS, _NEWTON = 100, 10  # steps of a path, and Newton steps of each
 _FIRST, _LONGEST, _SHORTEST = 0.1, 4.0, 1e-5  # steps, of the narrowest gap
 _NEAR = 1e-4  # Newton step, of the narrowest gap, at which a point of the path is found
 _FEW = 4  # Newton steps below which the next step of the path is twice as long
@@ -83,7 +83,8 @@ class _Path:
     def point(self, u: Array, position: Array, share: float, before: Array | None) -> _Point:
         """The point with its tangent, which goes on as that `before`, or to a larger share."""
         linear = self.linearise(u, position)
-        weights = np.append(np.full(self.free.size, self.narrow(position) ** -2.0), 1.0)
+        weights = np.full(self.free.size + 1, self.narrow(position) ** -2.0)
+        weights[-1] = max(1.0, abs(share)) ** -2.0  # far from the load only its order counts
         row = np.append(np.zeros(self.free.size), 1.0) if before is None else weights * before
         tangent = self.bordered(linear, row, np.zeros(self.free.size), 1.0)
         return _Point(
@@ -129,7 +130,8 @@ class _Path:
             if not math.isfinite(change):
                 return None
             if change < _NEAR:
-                near = abs(share - point.share) <= _ALONG * stride
+                grown = abs(share - point.share) * math.sqrt(point.weights[-1])
+                near = grown <= _ALONG * stride
                 return (self.point(u, position, share, point.tangent), number) if near else None
         return None
 

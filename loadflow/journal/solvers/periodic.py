@@ -10,9 +10,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import InputError, SolverError
+from loadflow.journal.solvers.all_times import (
+    can_close_at_once,
+    solve_all_times,
+    solve_by_swing,
+)
 from loadflow.journal.solvers.history import Past
 from loadflow.journal.solvers.newton import Solution
-from loadflow.journal.solvers.transient import Marcher, march
+from loadflow.journal.solvers.orbit_error import Extremes
+from loadflow.journal.solvers.transient import Marcher, march, orbit_row
 from loadflow.numerics.anderson import Anderson
 from loadflow.numerics.convergence import is_small, rounding_level
 from loadflow.tribology.film import effective_speed
@@ -21,6 +27,7 @@ Array = NDArray[np.float64]
 Method = Literal["direct", "marching"]
 
 _DEPTH = 8  # periods that the direct method looks back
+_PERIODS = 3  # of it, after which all times are solved at once
 _STANDS = 1e-6  # share of the speed below which the effective speed is none
 
 
@@ -83,7 +90,8 @@ def close_orbit(
     """Rows of the closed orbit, the history at both its ends, and its closure and periods.
 
     "marching" goes on from period to period; "direct" solves for the state at the start of the
-    period that comes back, by Anderson's acceleration of the same map.
+    period that comes back, by Anderson's acceleration of the same map, and where some periods of
+    that do not close and the film allows it, for all times at once.
 
     Raises
     ------
@@ -102,6 +110,11 @@ def close_orbit(
         if is_small(residual, closure, rounding):
             about = {"closure": residual, "periods": number} | extremes.bounds()
             return [rows[-1], *rows], (past[-1], end[-1]), about
+        if method == "direct" and number == _PERIODS:
+            whole = _at_once(marcher, rows, time, force, speed)
+            if whole is not None:
+                about = {"closure": 0.0, "periods": number} | whole[2].bounds()
+                return whole[0], whole[1], about
         if method == "direct" and len(past) == len(following):
             if residual > 2 * last:
                 accelerate.forget()
@@ -114,6 +127,36 @@ def close_orbit(
         f"{math.hypot(*past[-1].position):.6g}; effective speed "
         f"{effective_speed(float(speed.mean()), load=load_speed(time, force)):.6g} rad/s"
     )
+
+
+def _at_once(
+    marcher: Marcher, rows: list[dict[str, Any]], time: Array, force: Array, speed: Array
+) -> tuple[list[dict[str, Any]], tuple[Past, Past], Extremes] | None:
+    """Rows, the history at both ends and extremes of the orbit that is closed at all times at once.
+
+    It begins with the `rows` of a period; None where it is not found, or steps are not given.
+    """
+    film = marcher.film
+    if not (math.isinf(marcher.accuracy) and can_close_at_once(film, len(rows))):
+        return None
+    path = np.array([[row["x"], row["y"]] for row in rows])
+    limits = marcher.tolerance, marcher.max_iterations
+    for solve in (solve_all_times, solve_by_swing):
+        found = solve(film, path, time, force, speed, *limits)
+        if found is not None:
+            break
+    else:
+        return None
+    extremes, closed = Extremes(film), []
+    film.set_speed(float(speed[0]))
+    first = marcher.begin(float(time[0]), found[-1])[0]
+    last = first
+    for number, solution in enumerate(found, 1):
+        film.set_speed(float(speed[number]))
+        last = marcher.next(last, float(time[number]), solution)
+        closed.append(orbit_row(film, solution, 1))
+        extremes.see(closed[-1], solution)
+    return [closed[-1], *closed], (first, last), extremes
 
 
 def _distance(marcher: Marcher, one: Past, other: Past) -> float:

@@ -51,6 +51,7 @@ _CROWDED = 2  # meshes that are tried beside the one asked for
 _SAME = 0.02  # angle, rad, by which the place of the narrowest gap must have moved for another
 _HOPELESS = 0.8  # of the load, missing as the shaft touches: on no mesh the film carries it
 _NARROW = 0.2  # narrowest gap, in clearances, above which no mesh but that is tried
+_LONG = 0.03  # step of the load below which its path is followed instead
 _FLOATING = 0.5  # share of the way to the bore at which a shaft is sought that its supply carries
 
 
@@ -292,6 +293,11 @@ class Statics:
         return replace(solution, converged=solution.converged and sound)
 
     @property
+    def _has_path(self) -> bool:
+        """Whether equilibria can be followed along the path of the load."""
+        return not (self.film.pockets.free.size or self.film.speed == 0.0)
+
+    @property
     def _shaped(self) -> ShapedGap:
         """The gap, of which only a shaped one has pads."""
         return cast("ShapedGap", self.gap)
@@ -375,13 +381,19 @@ class Statics:
         pads: Rows,
         reached: Solution,
     ) -> Solution:
-        """Equilibrium beyond a fold of the load, or the end of the path at the shell."""
+        """Equilibrium beyond a fold of the load, or the end of the path at the shell.
+
+        It goes on where steps of the load have ended, or begins where they do.
+        """
         film = self.film
-        if film.pockets.free.size or film.speed == 0.0:
+        if not self._has_path:
             return reached
         still = np.zeros(self.gap.size)
-        held = solve_film(film, film.start(), estimate, still, *limits)
-        if not held.converged:
+        for start in ((reached.u, reached.position), (film.start(), estimate)):
+            held = solve_film(film, *start, still, *limits)
+            if held.converged:
+                break
+        else:
             return reached
         found = solve_along_path(film, force, held, *limits, free=self._free(pads))
         spent = reached.iterations + held.iterations + found.iterations
@@ -422,7 +434,9 @@ class Statics:
             if solution.converged:
                 return solution
             self._on_pads(pads)
-        return solve_from_held(film, force, estimate, *limits, free)
+        if self.gap.pads.size or not self._has_path:
+            return solve_from_held(film, force, estimate, *limits, free)
+        return solve_from_held(film, force, estimate, *limits, free, _LONG)  # the path goes on
 
 
 def _same(free: slice | Rows, other: slice | Rows) -> bool:

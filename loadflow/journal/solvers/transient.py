@@ -97,7 +97,7 @@ class Marcher:
                 share = (
                     min(growth * (at - done), 1.0) if at < 1.0 else max(growth * (at - done), share)
                 )
-                following = self._next(before_step[-1], now, solution, share * (time - start))
+                following = self.next(before_step[-1], now, solution, share * (time - start))
                 past = [*before_step[-2:], following]
                 done, steps = at, steps + 1
                 if done >= 1.0:
@@ -190,7 +190,8 @@ class Marcher:
         gap[held] = line[held - 2]
         return gap
 
-    def _next(self, last: Past, time: float, solution: Solution, ahead: float) -> Past:
+    def next(self, last: Past, time: float, solution: Solution, ahead: float = math.inf) -> Past:
+        """History at a `solution` that follows the `last` one."""
         new = self.past(time, solution.u, solution.position, last.pads)
         before = new.gain if math.isnan(last.gain) else last.gain
         gained = last.gained + 0.5 * (before + new.gain) * (time - last.time)
