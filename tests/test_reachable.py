@@ -15,8 +15,9 @@ from loadflow.errors import InputError
 from loadflow.journal import Film, JournalBearing
 from loadflow.journal.cavitation import LAWS
 from loadflow.journal.film_model import Inlet
+from loadflow.journal.relief import Relief
 from loadflow.journal.rungs import RUNGS
-from loadflow.journal.shapes import Relief, Shape
+from loadflow.journal.shapes import Shape
 from loadflow.journal.shells import Shell
 from loadflow.journal.supply import Restrictor
 from loadflow.scene import read_scene

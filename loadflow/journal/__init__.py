@@ -7,7 +7,7 @@
 `cone`           conical bearings; `conical_pair`: two of them
 `pad_bearing`    what these share; `pads`: rows of pads and their supports
 `surfaces`       cone, plane ring, straight pad, profiles
-`shapes`         shapes of the bore and their relief
+`shapes`         how the bore runs around; `relief`: what is cut into it or deforms it
 `shells`         elastic shells; `housings`: those in a housing on feet or a flange
 `contact`        asperities; `stribeck`: friction over speed
 `crowning`       best crown for a spectrum of loads

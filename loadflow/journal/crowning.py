@@ -20,8 +20,8 @@ from numpy.typing import ArrayLike, NDArray
 from loadflow.errors import SolverError
 from loadflow.journal.bearing import JournalBearing
 from loadflow.journal.film_model import Film
+from loadflow.journal.relief import Crown
 from loadflow.journal.results import Equilibrium
-from loadflow.journal.shapes import Crown
 from loadflow.numerics.fields import require
 
 Array = NDArray[np.float64]

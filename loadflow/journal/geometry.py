@@ -9,7 +9,8 @@ import numpy as np
 from annotated_types import Gt, Lt
 from numpy.typing import ArrayLike
 
-from loadflow.journal.shapes import CYLINDER, Relief, Shape
+from loadflow.journal.relief import Relief
+from loadflow.journal.shapes import CYLINDER, Shape
 from loadflow.numerics.fields import require
 
 

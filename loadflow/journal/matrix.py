@@ -20,7 +20,8 @@ from loadflow.journal.heat import FilmHeat, Heat, RingGrowth
 from loadflow.journal.line import Line
 from loadflow.journal.lubricant import Lubricant
 from loadflow.journal.models.model import Steps, Verb, why_not
-from loadflow.journal.shapes import Arc, Crown, Lobes, TiltingPads
+from loadflow.journal.relief import Crown
+from loadflow.journal.shapes import Arc, Lobes, TiltingPads
 from loadflow.journal.shells import LocalShell, ThickShell
 from loadflow.journal.supply import Groove, Supply
 from loadflow.journal.turbulence import Turbulence

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from loadflow.errors import SolverError
 from loadflow.journal.bearing import JournalBearing
 from loadflow.journal.contact import Contact
-from loadflow.journal.shapes import Contour
+from loadflow.journal.relief import Contour
 
 Array = NDArray[np.float64]
 

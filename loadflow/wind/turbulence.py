@@ -273,10 +273,11 @@ def _noise(
     """Complex Gaussian noise of variance 2 at the first `count` of the `drawn` frequencies, none at
     the first of them, zero.
     """
-    from loadflow.wind._kernels import normal_rows
-
     noise = np.empty((grid.blocks, grid.order, 2 * count), dtype=np.float32)
-    normal_rows(seed, 2 * drawn, noise.reshape(-1, 2 * count))
+    generator, row = np.random.default_rng(seed), np.empty(2 * drawn, dtype=np.float32)
+    for part in noise.reshape(-1, 2 * count):
+        generator.standard_normal(dtype=np.float32, out=row)
+        part[:] = row[: 2 * count]
     noise[..., :2] = 0
     return noise.view(np.complex64)
 

@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from loadflow.journal.film.gap_mesh import ShapedMesh
 from loadflow.journal.geometry import JournalGeometry
-from loadflow.journal.shapes import Relief, Segment
+from loadflow.journal.relief import Relief
+from loadflow.journal.shapes import Segment
 
 Array = NDArray[np.float64]
 _FINE = np.radians(0.5)  # distance of the angles at which the narrowest gap is sought

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from loadflow.journal.film.mesh import Mesh, graded_share
 from loadflow.journal.film_model import check_grid
-from loadflow.journal.shapes import Relief, Segment
+from loadflow.journal.relief import Relief
+from loadflow.journal.shapes import Segment
 
 Array = NDArray[np.float64]
 _TURN = 2 * np.pi
