@@ -1,4 +1,4 @@
-"""Shapes of the bore: how it runs around. A cylinder, fixed lobes, one partial arc, tilting pads."""
+"""Shapes of the bore: a cylinder, one partial arc, fixed lobes, tilting pads. Options only."""
 
 from __future__ import annotations
 
