@@ -20,6 +20,7 @@ from loadflow.journal import (
     LocalShell,
     Lubricant,
     MassConserving,
+    Recess,
     Reynolds,
     Sommerfeld,
     Supply,
@@ -38,7 +39,8 @@ LOAD, TIME = (8e3, 1e3), np.linspace(0.0, 0.01, 3)
 # of every feature: what asks for it, as fields of the film, of the bearing and of the verb
 ASKING = {
     "shape": ({}, {"shape": Lobes(3)}, {}),
-    "relief": ({}, {"relief": (Crown(0.02, 1e-5),)}, {}),
+    "relief": ({}, {"relief": (Recess(1.0, 0.3, depth=1e-5),)}, {}),
+    "crown": ({}, {"relief": (Crown(height=1e-5, length=0.02),)}, {}),
     "moment": ({}, {}, {"moment": (1.0, 0.0)}),
     "tilt": ({}, {}, {"tilt": (1e-5, 0.0)}),
     "bend": ({}, {}, {"bend": (1e-5, 0.0)}),

@@ -20,6 +20,7 @@ _NEARLY = 1e-3  # a step this small is followed by the last ones, whose damping 
 _LATE = 8  # Newton steps after which longer steps are asked whether rounding makes them
 _PRESSED = 1e-13  # narrowest gap, in clearances, that is none
 _HELD = 1e-5  # share of it that pads must be let go, where they would tilt the other way
+_STILL = 1e-13  # Newton step, clearances, that rounding makes: it need not lead anywhere
 _STUCK = 1e-3  # share of a Newton step that must be left by an elastic shell
 _PRESSING = 4  # steps in a row of which asperities leave less, after which their law has ended
 
@@ -215,8 +216,9 @@ def solve_equilibrium(
         step[free] = _solve(slope[free][:, free], missing[free], scale) / max(excess, 1.0)
         target, weights, share = _moved(film, u, linear, position, step, motion)
         way = math.hypot(*(target - position).tolist())
-        stuck = pads and way < _HELD * math.hypot(*step)
-        pressing = pressing + 1 if film.contact and way < _STUCK * math.hypot(*step) else 0
+        length = math.hypot(*step)
+        stuck = pads and length > _STILL and way < _HELD * length
+        pressing = pressing + 1 if film.contact and way < _STUCK * length else 0
         if share < _STUCK or stuck or pressing > _PRESSING or not math.isfinite(way):
             break
         change = max(film.correct(u, linear.columns, weights), way / max(gap, _PRESSED))
