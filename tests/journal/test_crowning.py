@@ -89,7 +89,7 @@ def test_a_tilt_that_touches_without_a_crown_finds_one():
 def test_what_has_no_answer_is_said():
     with pytest.raises(InputError, match="aim"):
         best_crown(BEARING, LOADS, 100.0, FILM, aim="friction")
-    with pytest.raises(InputError, match="relief"):
+    with pytest.raises(InputError, match="crown"):
         best_crown(BEARING, LOADS, 100.0, replace(FILM, rung="map"))
     with pytest.raises(SolverError, match="leaves load 0 a film"):
         best_crown(BEARING, LOADS[:1], 100.0, FILM, tilt=[(0.0, 0.02)], largest_height=1e-5)
