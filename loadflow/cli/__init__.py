@@ -19,7 +19,7 @@ from loadflow.cli import (  # noqa: F401  they register their commands
     thrust_points,
     viewing,
 )
-from loadflow.cli.base import app, err
+from loadflow.cli.base import app, err, warnings_in_a_line
 from loadflow.cli.signals import Stopped, leave, stoppable, tell_stopped
 from loadflow.errors import InputError, LoadflowError
 
@@ -117,7 +117,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     """
     _print_on_any_code_page()
     try:
-        with stoppable():
+        with stoppable(), warnings_in_a_line():
             app(arguments)
     except InputError as error:
         err.print(f"[red]error:[/] {_plain(error)}", soft_wrap=True)

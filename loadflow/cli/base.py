@@ -97,6 +97,17 @@ def check_free(path: Path, overwrite: bool) -> None:
 
 
 @contextmanager
+def warnings_in_a_line() -> Iterator[None]:
+    """Print what the library warns of as its words alone, without the line of code that warns."""
+    before = warnings.formatwarning
+    warnings.formatwarning = lambda message, *_, **__: f"warning: {message}\n"
+    try:
+        yield
+    finally:
+        warnings.formatwarning = before
+
+
+@contextmanager
 def caught_warnings() -> Iterator[list[str]]:
     """Collect what the library warns of within the block, to be printed like other output."""
     told: list[str] = []
