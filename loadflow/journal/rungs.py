@@ -15,7 +15,7 @@ _FULL_WIDTH = "a shaped bore, an elastic shell or a shaft that tilts or bends"
 
 FEATURES = {
     "shape": "a shaped bore",
-    "relief": _FULL_WIDTH,
+    "relief": "a pocket or a contour in the bore",
     "crown": "a bore that widens toward its ends",
     "moment": _FULL_WIDTH,
     "tilt": _FULL_WIDTH,

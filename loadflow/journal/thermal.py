@@ -131,7 +131,7 @@ class _Warmth:
         }
 
 
-@dataclass(frozen=True)
+@dataclass
 class _Balance:
     """Heat balance of loads (n, 2) at speeds (n,), each for itself or of their mean by `share`."""
 
@@ -142,19 +142,21 @@ class _Balance:
     share: Array | None
     refused: Array = field(init=False)
     """Temperatures from which on a load has no film, K, (n,): warmer oil is thinner."""
-    last: list[tuple[Array, NDArray[np.int64], Columns]] = field(init=False, default_factory=list)
+    last: tuple[Array, NDArray[np.int64], Columns] | None = field(init=False, default=None)
     """Temperatures and places that were asked for last, and their films."""
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "refused", np.full(self.speed.size, np.inf))
+        self.refused = np.full(self.speed.size, np.inf)
 
     def film(self, temperature: Array, places: NDArray[np.int64]) -> Columns:
-        """Films of the loads at `places` (m,) at these temperatures (m,); the last are known."""
-        for warm, asked, films in self.last:
+        """Films of the loads at `places` (m,) at these temperatures (m,); the last are kept."""
+        if self.last is not None:
+            warm, asked, films = self.last
             if np.array_equal(temperature, warm) and np.array_equal(places, asked):
                 return films
-        self.last[:] = [(temperature, places, self._film(temperature, places))]
-        return self.last[0][2]
+        films = self._film(temperature, places)
+        self.last = temperature, places, films
+        return films
 
     def _film(self, temperature: Array, places: NDArray[np.int64]) -> Columns:
         reference = self.heat.lubricant(self.heat.inlet_temperature)

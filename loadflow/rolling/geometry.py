@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from loadflow.errors import InputError
 from loadflow.rolling.contact_forces import ContactForces
-from loadflow.rolling.contacts import Array, Contacts
+from loadflow.rolling.contacts import Array, Contacts, mean_offset
 
 
 class RollingGeometry(ABC):
@@ -196,3 +196,24 @@ class OneClearance(RollingGeometry):
     def opened(self, gap: float) -> Self:
         """Return the bearing with `gap`, m, more along the normal of each contact."""
         return replace(self, clearance=self.clearance + 2 * gap / self.clearance_share)
+
+
+class FacingRows(OneClearance):
+    """Rows of which an arrangement says which way they face."""
+
+    if TYPE_CHECKING:  # fields of each kind
+        row_spacing: float
+        arrangement: str
+
+    def idle(self) -> Iterator[tuple[str, str]]:
+        """Fields without effect beside the others, and why."""
+        yield from super().idle()
+        if self.rows == 1:
+            yield "arrangement", "the bearing has one row"
+        elif self.contact_angle == 0:
+            yield "arrangement", "rows without a contact angle face neither way"
+
+    @property
+    def row_offset(self) -> float:
+        """Axial distance of a row from the bearing centre along its normal outward, m; mean."""
+        return mean_offset(self.rows, self.row_spacing, self.arrangement)

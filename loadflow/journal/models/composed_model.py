@@ -122,8 +122,8 @@ class ComposedFilm:
         if self.size == 2:
             places[:, 2:] = lines[:, :2]
         if self.film.ring.shaped:
-            for place, (*_, bx, by) in zip(places, lines):
-                place[:2] *= self._share_inside(place, bx, by)
+            for place, line in zip(places, lines):
+                place[:2] *= self._share_inside(place, line[2:])
             return places
         standing = speed == 0.0
         if self.film.rough.size > 0.0:
@@ -133,24 +133,20 @@ class ComposedFilm:
             places[nearer, :2] = (alone[:, None] * toward)[nearer]
         else:
             places[standing, :2] = 0.0
-        (z, depth), rough = self.film.places, self.film.rough.size
-        for place, (*_, bx, by) in zip(places, lines):
-            ends = np.stack(
-                [place[3] * z + 0.5 * bx * z * z, -place[2] * z + 0.5 * by * z * z], axis=-1
-            )
+        rough = self.film.rough.size
+        least = -2.0 * rough if rough > 0.0 else _ROOM
+        for place, line in zip(places, lines):
             for _ in range(60):
-                gap = 1.0 + (depth - np.hypot(*(place[:2] + ends).T)).min()
-                if gap >= (-2.0 * rough if rough > 0.0 else _ROOM):
+                if self._least(place[None], line[None, 2:])[0] >= least:
                     break
                 place[:2] *= 0.9
         return places
 
-    def _share_inside(self, place: Array, bx: float, by: float) -> float:
+    def _share_inside(self, place: Array, bend: Array) -> float:
         """Share of a first position (4,) that leaves a gap in a shaped bore; 0 if none does."""
-        bore, (z, depth) = Bore.of(self.bearing), self.film.places
-        ends = np.stack([place[3] * z + 0.5 * bx * z * z, -place[2] * z + 0.5 * by * z * z], -1)
         for share in SHARES:
-            if (depth + bore.narrowest(share * place[:2] + ends)).min() > ShapedGap.first_gap:
+            nearer = place * [share, share, 1.0, 1.0]
+            if self._least(nearer[None], bend[None])[0] > ShapedGap.first_gap:
                 return share
         return 0.0
 

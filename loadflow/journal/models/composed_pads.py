@@ -100,9 +100,7 @@ class PadWork(NamedTuple):
 def pads_of(ring: Ring, gap: ShapedGap, edge: float) -> Pads:
     """Pads of the bore of `gap`, whose cells are those of `ring`; `edge` as in `Pads`."""
     count = gap.pads.size
-    number: NDArray[np.int64] = (
-        np.cumsum(ring.groove) - ring.groove
-    )  # of the pad, that of a groove before it
+    number: NDArray[np.int64] = np.cumsum(ring.groove) - ring.groove  # of pads, and grooves behind
     curves = [gap.pad_curve(sense) for sense in (1.0, -1.0)]
     reach = [np.log(curve.gaps[[0, -1]]) if curve.gaps.size else _NOWHERE for curve in curves]
     gaps = [np.linspace(ends[0], ends[1], _CURVE) for ends in reach]

@@ -153,11 +153,11 @@ def _asked(
 ) -> dict[str, Any]:
     """What a model must know, of `FEATURES`, and its value."""
     own = RUNGS[film.rung].law is not None  # such a model has its own inlet, and no mesh
+    crowned = all(part.even_around for part in bearing.relief)
     wanted: dict[str, Any] = {
         _kind_of_heat(film, verb): film.heat,
         "shape": bearing.shape if bearing.shape.segments else None,
-        "crown" if all(part.even_around for part in bearing.relief) else "relief": bearing.relief
-        or None,
+        "crown" if crowned else "relief": bearing.relief or None,
         "moment": line.moment,
         "tilt": line.tilt,
         "bend": line.bend,

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from loadflow.journal.film.film import DiscreteFilm, Linear, SingularFilm
 from loadflow.journal.film.gap import KEPT
 from loadflow.journal.film.imbalance import imbalance, rounding
+from loadflow.journal.solvers.history import backward_difference
 from loadflow.journal.solvers.newton import Solution, solve_equilibrium, solve_film
 from loadflow.numerics.convergence import COARSEST, is_small
 
@@ -64,15 +65,10 @@ class _Rule:
         return np.asarray(spsolve(matrix.tocsc(), missing.ravel())).reshape(count, 2)
 
 
-def _backward(time: Array) -> _Rule:
+def _closed(time: Array) -> _Rule:
     """The rule of all times (n + 1,) but the first, which is the last one a period before."""
     steps = np.diff(time)
-    ratio = steps / np.roll(steps, 1)
-    return _Rule(
-        (1.0 + 2.0 * ratio) / (1.0 + ratio) / steps,
-        (1.0 + ratio) / steps,
-        -(ratio**2) / (1.0 + ratio) / steps,
-    )
+    return _Rule(*backward_difference(steps, np.roll(steps, 1)))
 
 
 def can_close_at_once(film: DiscreteFilm, count: int) -> bool:
@@ -102,7 +98,7 @@ def solve_all_times(
     tolerance, max_iterations
         Of the balance of each film, and Newton steps of a first one.
     """
-    rule, path = _backward(time), path.copy()
+    rule, path = _closed(time), path.copy()
     films: list[Array] = []
     for place, moving, omega in zip(path, rule.velocity(path), speed[1:].tolist()):
         film.set_speed(omega)

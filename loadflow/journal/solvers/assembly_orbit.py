@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from loadflow.errors import InputError, SolverError
 from loadflow.journal.solvers.assembly import Assembly
 from loadflow.journal.solvers.assembly_member import AssemblyState
+from loadflow.journal.solvers.history import backward_difference
 from loadflow.numerics.convergence import Limits
 
 Array = NDArray[np.float64]
@@ -108,11 +109,8 @@ def _step(
     rate, kept = 1.0 / step, [(1.0 / step, last)]
     if len(past) > 1:
         ratio = step / (last.time - past[-2].time)
-        rate = (1.0 + 2.0 * ratio) / (1.0 + ratio) / step
-        kept = [
-            ((1.0 + ratio) / step, last),
-            (-(ratio**2) / (1.0 + ratio) / step, past[-2]),
-        ]
+        rate, *weights = backward_difference(step, last.time - past[-2].time)
+        kept = [*zip(weights, (last, past[-2]))]
     ahead = last.state
     if len(past) > 1:
         ahead = _ahead(past[-2].state, last.state, ratio)

@@ -113,8 +113,9 @@ def close_orbit(
         if method == "direct" and number == _PERIODS:
             whole = _at_once(marcher, rows, time, force, speed)
             if whole is not None:
-                about = {"closure": 0.0, "periods": number} | whole[2].bounds()
-                return whole[0], whole[1], about
+                closed, ends, extremes = whole
+                about = {"closure": _distance(marcher, *ends), "periods": number}
+                return closed, ends, about | extremes.bounds()
         if method == "direct" and len(past) == len(following):
             if residual > 2 * last:
                 accelerate.forget()

@@ -14,7 +14,7 @@ from loadflow.journal.film.film import EVERY, DiscreteFilm
 from loadflow.journal.film.gap_shaped import ShapedGap
 from loadflow.journal.film.integrals import summary
 from loadflow.journal.rows import attitude_angle
-from loadflow.journal.solvers.history import Past
+from loadflow.journal.solvers.history import Past, backward_difference
 from loadflow.journal.solvers.moving_pads import other_pads, with_pads
 from loadflow.journal.solvers.newton import Motion, Solution, solve_equilibrium
 from loadflow.journal.solvers.orbit_error import Extremes
@@ -137,8 +137,8 @@ class Marcher:
         else:
             before = past[-2]
             ratio = step / (last.time - before.time)
-            rate = (1 + 2 * ratio) / (1 + ratio) / step
-            kept = [((1 + ratio) / step, last), (-(ratio**2) / (1 + ratio) / step, before)]
+            rate, *weights = backward_difference(step, last.time - before.time)
+            kept = [*zip(weights, (last, before))]
             ahead = last.position + ratio * (last.position - before.position)
             gap = self.film.gap
             if gap.narrowest(ahead) > 0.5 * gap.narrowest(last.position):

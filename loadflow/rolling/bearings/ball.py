@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import ClassVar, Literal
@@ -13,13 +12,14 @@ import numpy as np
 from loadflow.errors import InputError
 from loadflow.numerics.fields import check_choice
 from loadflow.rolling.bearings.elements import BearingOfBalls
-from loadflow.rolling.contacts import POINT, Contacts, azimuths, mean_offset, row_sides
+from loadflow.rolling.contacts import POINT, Contacts, azimuths, row_sides
+from loadflow.rolling.geometry import FacingRows
 from loadflow.rolling.raceways import BallRaceways
 from loadflow.rolling.rating import capacity
 
 
 @dataclass(frozen=True, kw_only=True)
-class BallBearing(BallRaceways, BearingOfBalls):
+class BallBearing(FacingRows, BallRaceways, BearingOfBalls):
     """Deep groove (contact angle 0) or angular contact ball bearing, one groove in each ring.
 
     The fields of `BallRaceways`, where `clearance` is the radial internal clearance s (on the
@@ -100,19 +100,6 @@ class BallBearing(BallRaceways, BearingOfBalls):
             self.gamma,
             self.osculation_ratio,
         )
-
-    def idle(self) -> Iterator[tuple[str, str]]:
-        """Fields without effect beside the others, and why."""
-        yield from super().idle()
-        if self.rows == 1:
-            yield "arrangement", "the bearing has one row"
-        elif self.contact_angle == 0:
-            yield "arrangement", "rows without a contact angle face neither way"
-
-    @property
-    def row_offset(self) -> float:
-        """Axial distance of a row from the bearing centre along its normal outward, m; mean."""
-        return mean_offset(self.rows, self.row_spacing, self.arrangement)
 
     def contacts(self, element_angle: float = 0.0) -> Contacts:
         """All contacts, one kind for each row."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Annotated, ClassVar, Literal
 
@@ -12,12 +11,13 @@ from annotated_types import Ge, Lt
 
 from loadflow.numerics.fields import check_choice
 from loadflow.rolling.bearings.elements import BearingOfRollers
-from loadflow.rolling.contacts import LINE, Contacts, azimuths, mean_offset, row_sides
+from loadflow.rolling.contacts import LINE, Contacts, azimuths, row_sides
+from loadflow.rolling.geometry import FacingRows
 from loadflow.rolling.roller_raceways import RollerRaceways
 
 
 @dataclass(frozen=True, kw_only=True)
-class RollerBearing(RollerRaceways, BearingOfRollers):
+class RollerBearing(FacingRows, RollerRaceways, BearingOfRollers):
     """Roller bearing with one or more rows; rollers are cut into slices with a profile.
 
     Rollers touch both rings along the same normal (the small angle of tapered rollers and the rib
@@ -73,19 +73,6 @@ class RollerBearing(RollerRaceways, BearingOfRollers):
         """Total axial clearance s/tan α of a pair of rows, m; infinite for cylindrical rollers."""
         tan = math.tan(self.contact_angle)
         return self.clearance / tan if tan else math.inf
-
-    def idle(self) -> Iterator[tuple[str, str]]:
-        """Fields without effect beside the others, and why."""
-        yield from super().idle()
-        if self.rows == 1:
-            yield "arrangement", "the bearing has one row"
-        elif self.contact_angle == 0:
-            yield "arrangement", "rows without a contact angle face neither way"
-
-    @property
-    def row_offset(self) -> float:
-        """Axial distance of a row from the bearing centre along its normal outward, m; mean."""
-        return mean_offset(self.rows, self.row_spacing, self.arrangement)
 
     def contacts(self, element_angle: float = 0.0) -> Contacts:
         """All contacts; kinds in the order row 0 slice 0, row 0 slice 1, …."""
