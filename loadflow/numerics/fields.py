@@ -77,7 +77,7 @@ def check_choice(instance: Any, name: str, allowed: tuple[str, ...]) -> None:
     """Raise an InputError unless field `name` is one of `allowed`."""
     value = getattr(instance, name)
     if value not in allowed:
-        raise InputError(f"{name}: must be one of {', '.join(allowed)}, got {value!r}")
+        raise InputError(f"{name}: {not_one_of(value, allowed)}")
 
 
 LARGEST_INTEGER = 2**63 - 1
@@ -113,6 +113,19 @@ def meant(name: str, known: Iterable[str]) -> str:
     """
     near = difflib.get_close_matches(name, [*known], n=1, cutoff=0.6)
     return f"; did you mean {near[0]}?" if near else ""
+
+
+def not_one_of(value: object, allowed: Iterable[str]) -> str:
+    """Say that a value is none of those allowed, and which one may be meant.
+
+    Examples
+    --------
+    >>> not_one_of("iso-vg-86", ["iso-vg-46", "iso-vg-68"])
+    "must be one of iso-vg-46, iso-vg-68, got 'iso-vg-86'; did you mean iso-vg-68?"
+    """
+    known = [*allowed]
+    near = meant(value, known) if isinstance(value, str) else ""
+    return f"must be one of {', '.join(known)}, got {value!r}{near}"
 
 
 def none_such(what: str, names: Iterable[str], known: Iterable[str]) -> str:

@@ -6,7 +6,7 @@ from typing import Annotated
 
 from pydantic import BaseModel, Field, field_validator
 
-from loadflow.numerics.fields import meant
+from loadflow.numerics.fields import not_one_of
 from loadflow.rolling.friction import Churning
 from loadflow.scene.section import Section
 
@@ -67,5 +67,5 @@ class Friction(Section, BaseModel):
 
         known = lubricant_names()
         if name not in known:
-            raise ValueError(f"must be one of {', '.join(known)}, got {name!r}{meant(name, known)}")
+            raise ValueError(not_one_of(name, known))
         return name

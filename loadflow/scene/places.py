@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from loadflow.numerics.fields import meant
+from loadflow.numerics.fields import not_one_of
 from loadflow.rolling import KINDS
 
 JOURNAL = "journal"
@@ -87,8 +87,7 @@ def sections_of(places: Any, where: Location = ("bearings",)) -> Sections:
         told = ".".join(map(str, location))
         kind = data.pop("kind", None)
         if kind not in (*PLACE_KINDS, *KINDS):
-            allowed = ", ".join(PLACE_KINDS) + meant(str(kind), PLACE_KINDS)
-            raise ValueError(f"{told}.kind = {kind!r}: must be one of {allowed}")
+            raise ValueError(f"{told}.kind: {not_one_of(kind, PLACE_KINDS)}")
         if kind == JOURNAL:
             _add_journal(found, place, location, data)
         elif kind in AXIAL:

@@ -15,7 +15,7 @@ from annotated_types import Ge, Gt, Le
 from numpy.typing import NDArray
 
 from loadflow.errors import InputError
-from loadflow.numerics.fields import check_fields, meant
+from loadflow.numerics.fields import check_fields, not_one_of
 from loadflow.tribology.traction import boundary_coefficient
 
 Value = float | NDArray[np.float64]
@@ -93,10 +93,7 @@ def friction_pair(name: str) -> FrictionPair:
     """
     table = _library()
     if name not in table:
-        raise InputError(
-            f"friction_pair: must be one of {', '.join(sorted(table))}, got {name!r}"
-            f"{meant(name, table)}"
-        )
+        raise InputError(f"friction_pair: {not_one_of(name, sorted(table))}")
     return FrictionPair(name=name, **table[name])
 
 

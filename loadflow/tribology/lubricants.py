@@ -13,7 +13,7 @@ from annotated_types import Ge, Gt, Le
 from numpy.typing import ArrayLike
 
 from loadflow.errors import InputError
-from loadflow.numerics.fields import check_choice, check_fields, meant
+from loadflow.numerics.fields import check_choice, check_fields, not_one_of
 from loadflow.tribology import lubricant_laws as laws
 from loadflow.tribology import lubricant_states as states
 from loadflow.tribology.lubricant_laws import CELSIUS, Array
@@ -307,10 +307,7 @@ def lubricant(name: str) -> Oil:
     """
     table = _library()
     if name not in table:
-        raise InputError(
-            f"lubricant: must be one of {', '.join(sorted(table))}, got {name!r}"
-            f"{meant(name, table)}"
-        )
+        raise InputError(f"lubricant: {not_one_of(name, sorted(table))}")
     fields = dict(table[name])
     viscosities = tuple(nu * 1e-6 for nu in fields.pop("viscosities_mm2_s"))
     celsius = fields.pop("temperatures_celsius", (40, 100))

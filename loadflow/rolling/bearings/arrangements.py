@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from loadflow.errors import InputError
-from loadflow.numerics.fields import meant
+from loadflow.numerics.fields import not_one_of
 from loadflow.rolling.bearings.base import RollingBearing
 from loadflow.rolling.bearings.four_point import SlewingBearing
 from loadflow.rolling.bearings.roller import RollerBearing
@@ -100,10 +100,7 @@ def main_bearings(arrangement: str) -> dict[str, RollingBearing]:
     {'N': 'RollerBearing', 'N2': 'RollerBearing'}
     """
     if arrangement not in _ARRANGEMENTS:
-        raise InputError(
-            f"arrangement: must be one of {', '.join(ARRANGEMENTS)}, got {arrangement!r}"
-            f"{meant(arrangement, ARRANGEMENTS)}"
-        )
+        raise InputError(f"arrangement: {not_one_of(arrangement, ARRANGEMENTS)}")
     return dict(_ARRANGEMENTS[arrangement])
 
 
