@@ -150,7 +150,7 @@ class SkfConstants:
     Examples
     --------
     >>> from loadflow.rolling.friction import SkfConstants
-    >>> series = SkfConstants(kind="cylindrical", r1=1.54e-6, s1=0.0016, s2=0.0015, geometry=5.1)
+    >>> series = SkfConstants(kind="cylindrical", r1=1.54e-6, s1=0.16, s2=0.0015, geometry=5.1)
     >>> series.starvation
     6e-08
     """
@@ -199,7 +199,7 @@ def skf_torque(
     Examples
     --------
     >>> from loadflow.rolling.friction import SkfConstants, skf_torque
-    >>> series = SkfConstants(kind="cylindrical", r1=1.54e-6, s1=0.0016, s2=0.0015, geometry=5.1)
+    >>> series = SkfConstants(kind="cylindrical", r1=1.54e-6, s1=0.16, s2=0.0015, geometry=5.1)
     >>> found = skf_torque(series, 1e5, 0.0, 10.0, 320e-6, bore=0.3, outside_diameter=0.5)
     >>> [round(float(torque)) for torque in found]  # rolling, sliding
     [40, 1]
