@@ -32,6 +32,9 @@ class Quantity(NamedTuple):
         return {"units": self.units, "long_name": self.meaning}
 
 
+HOURS_PER_YEAR = 8766.0
+"""Of 365.25 days."""
+
 READABLE = {
     "N": (1e-3, "kN"),
     "N m": (1e-6, "MN m"),

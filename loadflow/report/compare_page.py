@@ -7,24 +7,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from loadflow.quantities import HOURS_PER_YEAR
 from loadflow.report.page import write_filled
 from loadflow.report.sketch import sketch
-
-GROUPS = (
-    ("In short", ("load_factor", "energy", "friction")),
-    ("Capacity", ("minimum_film", "film_to_roughness", "eccentricity_ratio", "film_pressure",
-        "thrust_film", "thrust_pressure", "static_safety", "contact_pressure", "modified_life",
-        "rating_life")),
-    ("What fails before rating life does", ("row_share", "row_overload", "film_parameter",
-        "viscosity_ratio", "minimum_load", "standstill", "tilt", "mixed_time", "wear")),
-    ("Oil", ("oil_flow", "pump")),
-)  # fmt: skip
-"""Rows of the table, in groups."""
-
-AT_MOST = frozenset(
-    ("eccentricity_ratio", "film_pressure", "thrust_pressure", "contact_pressure", "tilt", "wear")
-)
-"""Rows whose limit must not be exceeded; the limits of others must be reached."""
 
 
 @dataclass(frozen=True)
@@ -60,15 +45,16 @@ def write_comparison(path: Path, data: Mapping[str, Any]) -> Path:
         The file.
     """
     candidates = data["candidates"]
-    groups = [
-        (title, [row for key in keys if (row := _row(key, data)) is not None])
-        for title, keys in GROUPS
-    ]
+    groups: dict[str, list[Any]] = {}
+    for key, about in data["quantities"].items():
+        rows = groups.setdefault(about["group"], [])
+        if (row := _row(key, data)) is not None:
+            rows.append(row)
     return write_filled(
         path,
         "compare.html",
         data=data,
-        groups=groups,
+        groups=groups.items(),
         sketch=sketch(data["shaft"]),
         verdicts={one["name"]: [_verdict(v) for v in one["verdicts"]] for one in candidates},
         extremes={one["name"]: [*_extremes(one, data)] for one in candidates},
@@ -80,7 +66,8 @@ def _row(key: str, data: Mapping[str, Any]) -> tuple[str, str, list[Cell]] | Non
     """Name, unit and cells of a quantity; None where no candidate has it, or could have it."""
     about = data["quantities"][key]
     numbers = [one["numbers"].get(key) for one in data["candidates"]]
-    cells = [_cell(number, key, one["name"]) for number, one in zip(numbers, data["candidates"])]
+    names = [f"{one['name']}.{key}" for one in data["candidates"]]
+    cells = [_cell(number, name, about["at_most"]) for number, name in zip(numbers, names)]
     if all(cell.value == "" or _makes_no_sense(number) for cell, number in zip(cells, numbers)):
         return None
     return about["name"], about["unit"], cells
@@ -91,14 +78,15 @@ def _makes_no_sense(number: Mapping[str, Any] | None) -> bool:
     return number is not None and number["value"] is None and number["note"].startswith("n/a: no ")
 
 
-def _cell(number: dict[str, Any] | None, key: str, candidate: str) -> Cell:
+def _cell(number: dict[str, Any] | None, name: str, at_most: bool) -> Cell:
+    """A number of a candidate as it stands in the table; `name` is that of its extreme."""
     if number is None or (number["value"] is None and not number["note"]):
         return Cell("")
     if number["value"] is None:
         return Cell("–", where=number["note"])
     error = "" if number["error"] is None else f"± {100 * number['error']:.2g} % by models"
     seeds = "" if number["low"] is None else _by_seeds(number)
-    sign = "≤" if key in AT_MOST else "≥"
+    sign = "≤" if at_most else "≥"
     limit = "" if number["limit"] is None else f"limit {sign} {short(number['limit'])}"
     state = {True: "good", False: "bad", None: ""}[number["holds"]]
     band = (
@@ -108,7 +96,7 @@ def _cell(number: dict[str, Any] | None, key: str, candidate: str) -> Cell:
         f"most by {number['tolerance']}"
     )
     around = ", ".join(part for part in (seeds, error) if part)
-    link = f"#{candidate}.{key}" if _is_extreme(number) else ""
+    link = f"#{name}" if _is_extreme(number) else ""
     where, note = _where(number | {"note": ""}), number["note"]
     return Cell(short(number["value"]), around, band, limit, where, note, state, link)
 
@@ -139,7 +127,7 @@ UNITS = {
     "Pa": (1e-6, "MPa"),
     "m": (1e6, "µm"),
     "N": (1e-3, "kN"),
-    "h": (1 / 8766.0, "years"),
+    "h": (1 / HOURS_PER_YEAR, "years"),
     "K": (1.0, "K"),
 }
 """Factor and unit in which a verdict in SI units is shown."""

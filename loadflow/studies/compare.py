@@ -13,6 +13,7 @@ import numpy as np
 import xarray as xr
 
 from loadflow.cube.hdf5 import read_whole
+from loadflow.quantities import HOURS_PER_YEAR
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.scene.thrust import AnyAxial
@@ -24,8 +25,8 @@ from loadflow.studies.compare_margins import (
     row_shares,
 )
 from loadflow.studies.compare_pads import clearance_used
+from loadflow.studies.compare_quantities import QUANTITIES
 from loadflow.studies.compare_result import (
-    QUANTITIES,
     Comparison,
     Judged,
     Number,
@@ -40,8 +41,6 @@ from loadflow.studies.seed_intervals import Groups, interval, joint_life
 from loadflow.verdict import Verdict, from_dataset
 
 Sense = Literal["most", "least", "sum"]
-
-HOURS_PER_YEAR = 8766.0
 
 _POWER_OF = {"journal": "journal.film", "thrust": "thrust.film"}
 """Result that knows the friction of a room."""
@@ -152,8 +151,9 @@ def _numbers(
     """Yield the numbers of a candidate by quantity."""
     error = _error(run, *margin.models) / abs(margin.power) if margin.power else math.nan
     yield "load_factor", Number(
-        margin.factor, "×", margin.low, margin.high, error, 1.0, margin.factor >= 1, margin.case,
-        margin.time, margin.place, margin.governs,
+        margin.factor, "×", margin.low, margin.high, error=error, limit=1.0,
+        holds=margin.factor >= 1, case=margin.case, time=margin.time, place=margin.place,
+        note=margin.governs,
     )  # fmt: skip
     if "journal" in run.tables:
         yield from _of_journal(run, verdicts)

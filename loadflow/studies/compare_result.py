@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from loadflow.studies.compare_quantities import QUANTITIES, named_quantities
 from loadflow.verdict import Verdict
 
 THRUST = "force along the shaft without a bearing"
@@ -144,42 +145,6 @@ class Judged:
         }
 
 
-QUANTITIES: dict[str, tuple[str, str]] = {
-    "load_factor": ("capacity margin: loads may grow by, to the first limit", "×"),
-    "minimum_film": ("smallest film", "µm"),
-    "film_to_roughness": ("smallest film over roughness R_z of both surfaces", "–"),
-    "thrust_film": ("smallest film of the thrust bearing", "µm"),
-    "thrust_pressure": ("largest film pressure of the thrust bearing", "MPa"),
-    "eccentricity_ratio": ("largest eccentricity ratio ε", "–"),
-    "film_pressure": ("largest film pressure", "MPa"),
-    "static_safety": ("static rating over the design load", "–"),
-    "contact_pressure": ("largest contact pressure", "MPa"),
-    "modified_life": ("modified life L10mh of all bearings", "years"),
-    "rating_life": ("rating life L10h of all bearings", "years"),
-    "row_share": ("load on the row that takes the thrust, at largest thrust", "%"),
-    "row_overload": ("the same over an even share", "×"),
-    "film_parameter": ("film parameter Λ at low speed", "–"),
-    "viscosity_ratio": ("smallest viscosity ratio κ while turning", "–"),
-    "minimum_load": ("smallest load over the dynamic capacity (skidding)", "%"),
-    "standstill": ("time standing, share of the lifetime (marks of standing)", "%"),
-    "tilt": ("tilt of the shaft over its limit", "%"),
-    "friction": ("mean friction loss", "kW"),
-    "energy": ("energy lost a year", "MWh"),
-    "oil_flow": ("oil that leaves the film", "l/min"),
-    "pump": ("power to supply the oil", "kW"),
-    "mixed_time": ("time in mixed friction a year", "h"),
-    "wear": ("wear of the shell by starts, stops and faults of the life", "µm"),
-}
-"""What is compared: its name and unit, in the order of the table."""
-
-
-_FILMS = ("minimum_film", "film_to_roughness", "eccentricity_ratio", "film_pressure", "mixed_time")
-_ROLLING = ("static_safety", "contact_pressure", "modified_life", "rating_life", "film_parameter",
-    "viscosity_ratio", "minimum_load", "standstill")  # fmt: skip
-_ROWS = ("row_share", "row_overload")
-_FED = ("oil_flow", "pump", "wear")
-
-
 def without(rooms: Sequence[str]) -> dict[str, Number]:
     """Every quantity as bearings of some rooms have it who do not compute it: none, and why.
 
@@ -190,24 +155,23 @@ def without(rooms: Sequence[str]) -> dict[str, Number]:
     >>> without(["thrust"])["pump"].note
     'n/a: not computed for films of pads'
     """
-    why = dict.fromkeys(QUANTITIES, "no model of it for these bearings")
-    why |= dict.fromkeys(_ROWS, "no bearing with several rows takes the thrust")
-    why |= dict.fromkeys(("thrust_film", "thrust_pressure"), "no thrust collar beside journals")
-    if "rolling" not in rooms:
-        why |= dict.fromkeys((*_ROLLING, *_ROWS), "no rolling elements")
-    if not {"journal", "thrust"} & {*rooms}:
-        why |= dict.fromkeys((*_FILMS, *_FED), "no film bearing")
-    elif "journal" not in rooms:
-        why |= dict.fromkeys(_FED, "not computed for films of pads")
-    return {
-        key: Number(math.nan, unit, note=f"n/a: {why[key]}")
-        for key, (_, unit) in QUANTITIES.items()
+    fails = "no model of it for these bearings"
+    films = "no film bearing" if not {"journal", "thrust"} & {*rooms} else fails
+    pads = "not computed for films of pads" if "thrust" in rooms else films
+    why = {
+        "all": fails,
+        "film": films,
+        "journal": fails if "journal" in rooms else pads,
+        "collar": "no thrust collar beside journals",
+        "rolling": fails if "rolling" in rooms else "no rolling elements",
+        "rows": "no bearing with several rows takes the thrust"
+        if "rolling" in rooms
+        else "no rolling elements",
     }
-
-
-def named_quantities() -> dict[str, dict[str, str]]:
-    """Name and unit of what is compared, for JSON."""
-    return {key: {"name": name, "unit": unit} for key, (name, unit) in QUANTITIES.items()}
+    return {
+        key: Number(math.nan, about.unit, note=f"n/a: {why[about.of]}")
+        for key, about in QUANTITIES.items()
+    }
 
 
 @dataclass(frozen=True)

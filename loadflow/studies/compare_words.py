@@ -12,7 +12,8 @@ import xarray as xr
 from loadflow.data import evidence
 from loadflow.scene.places import WRITTEN
 from loadflow.scene.scene import Scene
-from loadflow.studies.compare_result import QUANTITIES, Judged
+from loadflow.studies.compare_quantities import QUANTITIES
+from loadflow.studies.compare_result import Judged
 from loadflow.studies.seed_intervals import Groups
 from loadflow.verdict import Verdict
 
@@ -32,17 +33,13 @@ def conclusion(judged: Sequence[Judged]) -> str:
 
 def _risks(one: Judged) -> str:
     """Rules of thumb that a candidate breaks, which no verdict counts."""
-    found = ((key, one.numbers[key]) for key in RISKS if key in one.numbers)
+    rules = ((about.name, one.numbers.get(key)) for key, about in QUANTITIES.items() if about.rule)
     return ", ".join(
-        f"{QUANTITIES[key][0]} {number.value:.3g} {number.unit}".removesuffix(" –")
+        f"{name} {number.value:.3g} {number.unit}".removesuffix(" –")
         + f" (limit {number.limit:.3g})"
-        for key, number in found
-        if number.holds is False
+        for name, number in rules
+        if number is not None and number.holds is False
     )
-
-
-RISKS = ("viscosity_ratio", "minimum_load", "tilt", "wear")
-"""Numbers with a limit of practice that is no verdict of a run."""
 
 
 def _sentence(judged: Sequence[Judged]) -> str:

@@ -24,7 +24,7 @@ from loadflow.stages.film_of_bearing import equilibria, shaft_line, surely_touch
 from loadflow.stages.rolling_at_work import as_stated, friction_options, rest
 from loadflow.studies.compare_factor import largest_factor
 from loadflow.studies.compare_margins import lubrication
-from loadflow.studies.compare_result import QUANTITIES
+from loadflow.studies.compare_quantities import QUANTITIES
 
 COARSE = (48, 12)
 """Cells at most of a film that is solved on the grid."""
@@ -48,7 +48,7 @@ _UNITS = {
     "modified_life": "h",
 }
 NUMBERS = {
-    name: (units, QUANTITIES[name][0] if name in QUANTITIES else _CONDITION)
+    name: (units, QUANTITIES[name].name if name in QUANTITIES else _CONDITION)
     for name, units in _UNITS.items()
 }
 """Numbers of a design: units and meaning; NaN of those that its bearings do not have."""

@@ -12,12 +12,13 @@ from typing import Any
 import numpy as np
 import tomli_w
 
+from loadflow.quantities import HOURS_PER_YEAR
 from loadflow.scene.design import Design
 from loadflow.scene.scene import Scene
-from loadflow.studies.compare_result import Judged, named_quantities, plain
+from loadflow.studies.compare_quantities import named_quantities
+from loadflow.studies.compare_result import Judged, plain
 from loadflow.studies.design_point import NUMBERS, DesignPoint
 from loadflow.studies.design_space import Space
-from loadflow.studies.run_lifetime import HOURS_PER_YEAR
 
 SHOWN = {
     "MWh": (1.0, "MWh"),

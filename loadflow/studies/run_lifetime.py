@@ -8,14 +8,13 @@ import numpy as np
 import xarray as xr
 
 from loadflow.errors import InputError
+from loadflow.quantities import HOURS_PER_YEAR
 from loadflow.scene.cases import wind_class
 from loadflow.scene.scene import Scene
 from loadflow.stages.labelling import label
 from loadflow.stages.rolling import hours_together, system_hours
 from loadflow.studies.lifetime_shares import IDLING, PRODUCTION, lifetime_shares
 from loadflow.wind import iec
-
-HOURS_PER_YEAR = 8766.0
 
 Tables = Mapping[str, xr.Dataset]
 

@@ -24,8 +24,9 @@ from loadflow.stages.frames import to_rolling
 from loadflow.stages.friction import least_film_parameter
 from loadflow.stages.rolling_at_work import as_stated, friction_options, rest
 from loadflow.stages.thrust import solved
-from loadflow.studies.compare import HOURS_PER_YEAR, Finished
+from loadflow.studies.compare import Finished
 from loadflow.studies.compare_margins import load_by_row, lubrication
+from loadflow.studies.compare_quantities import QUANTITIES
 from loadflow.studies.compare_result import Judged, Number
 from loadflow.studies.compare_risks import LIGHT
 from loadflow.studies.design_point import fast_journal, judge_design
@@ -84,7 +85,7 @@ def with_bands(
         if factor >= 1 > factor + moved.get("load_factor", (0.0, 0.0))[0] or tolerance.missing:
             breaking.append(tolerance.name)
     numbers = {
-        key: _banded(number, around[key], TOP.get(key, math.inf)) if key in around else number
+        key: _banded(number, around[key], QUANTITIES[key].top) if key in around else number
         for key, number in one.numbers.items()
     }
     numbers["row_overload"] = _as_share(numbers["row_overload"], numbers["row_share"])
@@ -97,10 +98,6 @@ def _bearings(run: Finished, scene: Scene) -> Candidate:
     """What stands in the scene, of the rooms that have results."""
     there = {room: getattr(scene, room) for room in ("journal", "thrust", "rolling")}
     return Candidate(**{room: own for room, own in there.items() if room in run.tables})
-
-
-TOP = {"row_share": 100.0, "mixed_time": HOURS_PER_YEAR}
-"""What quantities cannot exceed, in their units; none of them falls below 0."""
 
 
 def _banded(number: Number, around: Sequence[tuple[str, float, float]], top: float) -> Number:

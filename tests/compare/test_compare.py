@@ -33,7 +33,8 @@ from loadflow.scene.candidate import Candidate
 from loadflow.scene.scene import make_scene
 from loadflow.studies.compare_margins import rolling_losses
 from loadflow.studies.compare_pads import clearance_used
-from loadflow.studies.compare_result import QUANTITIES, Judged, Number, plain
+from loadflow.studies.compare_quantities import QUANTITIES, named_quantities
+from loadflow.studies.compare_result import Judged, Number, plain
 from loadflow.studies.compare_risks import wear
 from loadflow.studies.compare_words import conclusion
 from loadflow.studies.seed_intervals import Groups, interval, joint_life
@@ -129,12 +130,12 @@ def test_every_cell_has_a_number_or_a_reason(found):
         assert [*one.numbers] == [*QUANTITIES]
         for key, number in one.numbers.items():
             assert math.isfinite(number.value) or number.note, (one.name, key)
-            assert number.unit == QUANTITIES[key][1], key
+            assert number.unit == QUANTITIES[key].unit, key
     film, rolling = (by_name(found)[name] for name in ("journal-cylindrical", "two-spherical"))
     assert film.numbers["rating_life"].note == "n/a: no rolling elements"
     assert rolling.numbers["film_pressure"].note == "n/a: no film bearing"
     page = found.page.read_text(encoding="utf-8")
-    assert QUANTITIES["thrust_film"][0] not in page  # no candidate has a collar
+    assert QUANTITIES["thrust_film"].name not in page  # no candidate has a collar
 
 
 def test_what_a_film_leaves_of_the_clearance_of_cones_is_their_eccentricity_ratio():
@@ -290,7 +291,7 @@ def test_the_conclusion_says_which_risks_speak_against_the_best():
 )
 def test_a_limit_says_on_which_side_of_it_a_number_must_stay(key, said):
     numbers = {key: plain(vars(Number(0.9, "–", limit=0.95, holds=True)))}
-    data = {"quantities": {key: {"name": key, "unit": "–"}}}
+    data = {"quantities": named_quantities()}
     _, _, [cell] = _row(key, data | {"candidates": [{"name": "one", "numbers": numbers}]})
     assert cell.limit == said
 

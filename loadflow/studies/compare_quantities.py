@@ -1,0 +1,102 @@
+"""What a comparison compares: the table of its quantities."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, Literal, NamedTuple
+
+from loadflow.quantities import HOURS_PER_YEAR
+
+
+class Compared(NamedTuple):
+    """A quantity of a comparison.
+
+    Attributes
+    ----------
+    name : str
+        In words.
+    unit : str
+        Of its numbers.
+    group : str
+        Of rows of the page that it stands in.
+    of : {"all", "film", "journal", "collar", "rolling", "rows"}
+        Bearings that have it: journal bearings or pads in their place, journal bearings alone, a
+        thrust collar beside them, rolling bearings, several rows of which one takes the thrust.
+    at_most : bool
+        Its limit must not be exceeded; that of others must be reached.
+    top : float
+        What it cannot exceed, in `unit`; none falls below 0.
+    rule : bool
+        Its limit is one of practice, which no verdict of a run counts.
+    """
+
+    name: str
+    unit: str
+    group: str
+    of: Literal["all", "film", "journal", "collar", "rolling", "rows"] = "all"
+    at_most: bool = False
+    top: float = math.inf
+    rule: bool = False
+
+
+_SHORT, _CAPACITY, _OIL = "In short", "Capacity", "Oil"
+_BEFORE = "What fails before rating life does"
+
+QUANTITIES: dict[str, Compared] = {
+    "load_factor": Compared(
+        "capacity margin: loads may grow by, to the first limit", "×", _SHORT
+    ),
+    "energy": Compared("energy lost a year", "MWh", _SHORT),
+    "friction": Compared("mean friction loss", "kW", _SHORT),
+    "minimum_film": Compared("smallest film", "µm", _CAPACITY, "film"),
+    "film_to_roughness": Compared(
+        "smallest film over roughness R_z of both surfaces", "–", _CAPACITY, "film"
+    ),
+    "eccentricity_ratio": Compared(
+        "largest eccentricity ratio ε", "–", _CAPACITY, "film", at_most=True
+    ),
+    "film_pressure": Compared("largest film pressure", "MPa", _CAPACITY, "film", at_most=True),
+    "thrust_film": Compared("smallest film of the thrust bearing", "µm", _CAPACITY, "collar"),
+    "thrust_pressure": Compared(
+        "largest film pressure of the thrust bearing", "MPa", _CAPACITY, "collar", at_most=True
+    ),
+    "static_safety": Compared("static rating over the design load", "–", _CAPACITY, "rolling"),
+    "contact_pressure": Compared(
+        "largest contact pressure", "MPa", _CAPACITY, "rolling", at_most=True
+    ),
+    "modified_life": Compared(
+        "modified life L10mh of all bearings", "years", _CAPACITY, "rolling"
+    ),
+    "rating_life": Compared("rating life L10h of all bearings", "years", _CAPACITY, "rolling"),
+    "row_share": Compared(
+        "load on the row that takes the thrust, at largest thrust", "%", _BEFORE, "rows", top=100.0
+    ),
+    "row_overload": Compared("the same over an even share", "×", _BEFORE, "rows"),
+    "film_parameter": Compared("film parameter Λ at low speed", "–", _BEFORE, "rolling"),
+    "viscosity_ratio": Compared(
+        "smallest viscosity ratio κ while turning", "–", _BEFORE, "rolling", rule=True
+    ),
+    "minimum_load": Compared(
+        "smallest load over the dynamic capacity (skidding)", "%", _BEFORE, "rolling", rule=True
+    ),
+    "standstill": Compared(
+        "time standing, share of the lifetime (marks of standing)", "%", _BEFORE, "rolling"
+    ),
+    "tilt": Compared("tilt of the shaft over its limit", "%", _BEFORE, at_most=True, rule=True),
+    "mixed_time": Compared(
+        "time in mixed friction a year", "h", _BEFORE, "film", top=HOURS_PER_YEAR
+    ),
+    "wear": Compared(
+        "wear of the shell by starts, stops and faults of the life",
+        "µm", _BEFORE, "journal", at_most=True, rule=True,
+    ),
+    "oil_flow": Compared("oil that leaves the film", "l/min", _OIL, "journal"),
+    "pump": Compared("power to supply the oil", "kW", _OIL, "journal"),
+}  # fmt: skip
+"""What is compared, in the order of the page: groups, and rows in each."""
+
+
+def named_quantities() -> dict[str, dict[str, Any]]:
+    """What is said of each quantity that is compared, for JSON."""
+    told = ("name", "unit", "group", "at_most")
+    return {key: {name: getattr(about, name) for name in told} for key, about in QUANTITIES.items()}
