@@ -4,6 +4,8 @@ from .catalogue import SkfConstants as SkfConstants
 from .catalogue import catalogue_torques as catalogue_torques
 from .catalogue import palmgren_idle_torque as palmgren_idle_torque
 from .catalogue import palmgren_load_torque as palmgren_load_torque
+from .catalogue import skf_constants as skf_constants
+from .catalogue import skf_series as skf_series
 from .catalogue import skf_torque as skf_torque
 from .catalogue import stribeck_torque as stribeck_torque
 from .churning import Churning as Churning

@@ -7,18 +7,22 @@ References
 ----------
 Stribeck 1901; Palmgren 1957 and 1964, as (4.31)–(4.35) of von Hollen 2013; SKF, Rolling bearings,
 chapter Friction (forms of G_rr, G_sl, μ_sl, inlet heating; the constants R, S of each series are in
-the catalogue's table and are arguments here; the drag term needs its diagrams and is left out).
+`loadflow/data/skf_friction.toml`; the drag term needs the catalogue's diagrams and is left out).
 """
 
 from __future__ import annotations
 
+import tomllib
 from dataclasses import dataclass
-from typing import Literal
+from functools import lru_cache
+from importlib import resources
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError
+from loadflow.numerics.fields import not_one_of
 
 Array = NDArray[np.float64]
 _RPM = 30 / np.pi  # rad/s in 1/min
@@ -132,7 +136,7 @@ def palmgren_load_torque(
 
 @dataclass(frozen=True, kw_only=True)
 class SkfConstants:
-    """Constants of one bearing series, from SKF's table.
+    """Constants of one bearing series; those of SKF's table give `skf_constants`.
 
     Attributes
     ----------
@@ -167,6 +171,61 @@ class SkfConstants:
     axial_factor: float = 0.0
     starvation: float = 6e-8
     geometry: float = 5.1
+
+
+def skf_constants(
+    kind: Literal["cylindrical", "tapered", "spherical"], series: str, axial_factor: float = 0.0
+) -> SkfConstants:
+    """Constants of a series from SKF's table, `loadflow/data/skf_friction.toml`.
+
+    Parameters
+    ----------
+    kind : {"cylindrical", "tapered", "spherical"}
+        Type of bearing.
+    series : str
+        One of `skf_series` of that type.
+    axial_factor : float
+        Y of a tapered bearing; each has its own.
+
+    Raises
+    ------
+    InputError
+        If there is no such type or series, or a tapered bearing has no `axial_factor`.
+
+    Examples
+    --------
+    >>> from loadflow.rolling.friction import skf_constants, skf_torque
+    >>> found = skf_torque(skf_constants("spherical", "240"), 1e6, 2e5, 1.3, 320e-6, 0.75, 1.09)
+    >>> [round(float(torque)) for torque in found]  # N m, rolling and sliding
+    [304, 244]
+    """
+    known = skf_series(kind)
+    if series not in known:
+        raise InputError(f"series: {not_one_of(series, known)}")
+    if kind == "tapered" and not axial_factor > 0:
+        raise InputError(f"axial_factor: Y of a tapered bearing, must be > 0, got {axial_factor}")
+    return SkfConstants(kind=kind, axial_factor=axial_factor, **_skf_table()[kind][series])
+
+
+def skf_series(kind: Literal["cylindrical", "tapered", "spherical"]) -> list[str]:
+    """Names of the series of a type that SKF's table has.
+
+    Examples
+    --------
+    >>> from loadflow.rolling.friction import skf_series
+    >>> skf_series("spherical")[-2:]
+    ['248', '249']
+    """
+    table = _skf_table()
+    if kind not in table:
+        raise InputError(f"kind: {not_one_of(kind, table)}")
+    return [*table[kind]]
+
+
+@lru_cache(maxsize=1)
+def _skf_table() -> dict[str, dict[str, dict[str, Any]]]:
+    path = resources.files("loadflow.data") / "skf_friction.toml"
+    return dict(tomllib.loads(path.read_text(encoding="utf-8"))["series"])
 
 
 def skf_torque(
@@ -256,7 +315,7 @@ def catalogue_torques(
     speed, viscosity, bore, outside_diameter
         As `skf_torque`.
     series : SkfConstants, optional
-        Adds SKF's model.
+        Adds SKF's model; see `skf_constants`.
 
     Returns
     -------
