@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from loadflow.errors import InputError, ValidityWarning
+from loadflow.errors import InputError
 from loadflow.journal import (
     FilmHeat,
     GasMixture,
@@ -164,19 +164,17 @@ def test_a_moment_tilts_the_shaft_on_reduced_pads_as_on_the_grid():
 
 
 @pytest.mark.filterwarnings("ignore:the cells do not resolve")
-def test_a_pad_whose_end_meets_the_shaft_is_named_with_its_time():
-    """A load that swings past a pad faster than its film follows: "grid" keeps its end clear."""
+def test_the_end_of_a_pad_stays_clear_of_the_shaft():
+    """A load that swings past a pad faster than its film follows; its end is half a cell away."""
     bearing = JournalBearing(1.4, 0.8, 8e-4, shape=TiltingPads(5, 1.05, preload=0.5, angle=0.628))
     time = np.linspace(0.0, 1.0, 41)
     swing = 0.5 - 0.5 * np.cos(np.pi * time)
     angle = 0.8 * np.pi * swing - 0.4
     along, aside = 0.1 + np.cos(angle) * (1.0 - 1.2 * swing), -np.sin(angle) - swing
     load = 4.5e6 * np.stack([along, aside], axis=-1)
-    with pytest.warns(ValidityWarning, match="end of a pad meets the shaft") as told:
-        path = bearing.orbit(time, load, SPEED, reduced(GasMixture(1e4)))
-    crossed = path.minimum_film.values <= 0.0
-    text = next(str(one.message) for one in told if "end of a pad" in str(one.message))
-    assert f"at {crossed.sum()} of 41 samples" in text
-    assert f"at t = {time[crossed.argmax()]:.6g} s" in text
-    grid = bearing.orbit(time, load, SPEED, film(GasMixture(1e4), cells=(60, 8)))
-    assert bool((grid.minimum_film > 0.0).all())
+    path = bearing.orbit(time, load, SPEED, reduced(GasMixture(1e4)))
+    assert path.attrs["cells_around"] > 60, "on 60 cells the end of the pad would meet the shaft"
+    grid = bearing.orbit(time, load, SPEED, film(GasMixture(1e4), cells=(120, 16)))
+    least, on_grid = (float(one.minimum_film.min()) for one in (path, grid))
+    assert least == pytest.approx(on_grid, rel=0.05)
+    assert least > 0.01 * bearing.clearance

@@ -163,8 +163,23 @@ def _steps(film, work, pads, pad_work, load, size, step):
 
 @inner
 def _share(film, work, pads, pad_work, step, kept):
-    """Share of a step of shaft and tilts of which every place keeps `kept` of its gap."""
+    """Share of a step of shaft and tilts of which every place keeps `kept` of its gap.
+
+    So does every face between cells, to the ends of the bearing: the ends of a pad are faces, half
+    a cell from the next place.
+    """
     share, ring = 1.0, film.ring
+    for i in range(ring.cos_face.size):
+        c, s, j = ring.cos_face[i], ring.sin_face[i], pads.face[i]
+        turns = pad_work.tilts[STEP, j]
+        dx, dy = step[0] + turns * pads.along[j, 0], step[1] + turns * pads.along[j, 1]
+        for k in range(film.places.z.size):
+            z = film.places.z[k]
+            closes = (dx + step[3] * z) * c + (dy - step[2] * z) * s
+            gap = ring.base_face[i] + film.places.depth[k]
+            left = (1.0 - kept) * (gap - work.centre[0, k] * c - work.centre[1, k] * s)
+            if closes > 0.0 and share * closes > left:
+                share = max(left / closes, 0.0)
     for i in range(ring.cos.size):
         j = pads.cell[i]
         if j < 0:
@@ -187,11 +202,7 @@ def _advance(film, work, pads, pad_work, q, step):
     A pad that tilts the other way has no film, and would stay so.
     """
     m, tilts = work.u.shape[1], pad_work.tilts
-    share = _share(film, work, pads, pad_work, step, _KEPT)
-    for a in range(4):
-        step[a] *= share
     for j in range(pad_work.on.size):
-        tilts[STEP, j] *= share
         if tilts[STEP, j] == 0.0:
             continue
         before = lift_of(pads, tilts, NEXT, j, q[0], q[1])
@@ -199,6 +210,11 @@ def _advance(film, work, pads, pad_work, q, step):
         sign = -1.0 if before < 0.0 else 1.0
         most = max(abs(before), _SMALL) / _KEPT
         tilts[STEP, j] += sign * min(max(sign * after, _KEPT * abs(before)), most) - after
+    share = _share(film, work, pads, pad_work, step, _KEPT)
+    for a in range(4):
+        step[a] *= share
+    for j in range(pad_work.on.size):
+        tilts[STEP, j] *= share
         tilts[NEXT, j] += tilts[STEP, j]
     for i in range(work.u.shape[0]):
         if film.ring.groove[i]:

@@ -6,14 +6,12 @@ so that all that the gap of the pad knows of its tilt is that shift.
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import replace
 from typing import NamedTuple, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.errors import ValidityWarning
 from loadflow.journal.film.gap_layout import Bore
 from loadflow.journal.film.gap_shaped import ShapedGap
 from loadflow.journal.film_model import Film
@@ -140,35 +138,18 @@ def make_pad_work(shape: tuple[int, int], count: int) -> PadWork:
 def narrowest_on_pads(
     bearing: JournalGeometry, centres: Array, depth: Array, tilts: Array
 ) -> Array:
-    """Narrowest gap (n, p) of shafts seen at `centres` (n, f, 2) by each pad of `tilts` (n, p).
+    """Narrowest gap (n,) of shafts seen at `centres` (n, f, 2) by pads of `tilts` (n, p).
 
     At these places the pads are `depth` (f,) farther away, clearances.
     """
     bore = Bore.of(bearing)
-    least = np.zeros(tilts.shape)
+    least = np.full(len(centres), np.inf)
     for number, part in enumerate(bore.segments):
         along = np.array([-np.sin(part.narrowest), np.cos(part.narrowest)])
         seen = centres + (tilts[:, number, None] * along)[:, None]
         gaps = replace(bore, segments=(part,)).narrowest(seen.reshape(-1, 2))
-        least[:, number] = (gaps.reshape(len(centres), -1) + depth).min(axis=1)
+        least = np.minimum(least, (gaps.reshape(len(centres), -1) + depth).min(axis=1))
     return least
-
-
-def warn_of_crossing(least: Array, time: Array, clearance: float) -> None:
-    """Warn of pads whose narrowest gap `least` (n, p), in clearances, the shaft has crossed."""
-    crossed = least <= 0.0
-    if not crossed.any():
-        return
-    sample, pad = np.argwhere(crossed)[0]
-    worst = np.unravel_index(least.argmin(), least.shape)
-    warnings.warn(
-        f'rung "reduced": the end of a pad meets the shaft at {crossed.any(axis=1).sum()} of '
-        f"{time.size} samples, first pad {pad} at t = {time[sample]:.6g} s, farthest pad "
-        f"{worst[1]} at t = {time[worst[0]]:.6g} s by {-least[worst] * clearance:.4g} m: steps "
-        'keep the gap open at cell centres alone; those of "grid" keep it at the ends, too',
-        ValidityWarning,
-        stacklevel=5,
-    )
 
 
 class FirstOnPads(NamedTuple):

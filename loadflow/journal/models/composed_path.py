@@ -35,7 +35,6 @@ from loadflow.journal.models.composed_pads import (
     make_pad_work,
     narrowest_on_pads,
     pads_of,
-    warn_of_crossing,
 )
 from loadflow.journal.models.model import Steps
 from loadflow.journal.models.ring import no_start, stopped
@@ -232,9 +231,8 @@ class _OnPads(_March):
         centres = self.model.centres(some, self.lines[:, 2:])
         depth = self.model.film.places.depth
         least = narrowest_on_pads(bearing, centres, depth, self.tilts)
-        warn_of_crossing(least, self.drive.time, bearing.clearance)
         return super().results() | {
-            "minimum_film": least.min(axis=1) * bearing.clearance,
+            "minimum_film": least * bearing.clearance,
             "pad_tilt": self.tilts * bearing.relative_clearance,
         }
 
@@ -263,7 +261,6 @@ def orbit(
     -----
     loadflow.errors.ValidityWarning
         A pressure that changes more across the width than the polynomials do; names the time.
-        A pad whose end meets the shaft; names the pad and the time.
     """
     drive = _Drive(bearing, options, time, force, speed, line, control)
     march = (_OnPads if Bore.of(bearing).pads else _March)(drive, steps)
