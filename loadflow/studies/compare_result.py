@@ -155,18 +155,16 @@ def without(rooms: Sequence[str]) -> dict[str, Number]:
     >>> without(["thrust"])["pump"].note
     'n/a: not computed for films of pads'
     """
-    fails = "no model of it for these bearings"
-    films = "no film bearing" if not {"journal", "thrust"} & {*rooms} else fails
-    pads = "not computed for films of pads" if "thrust" in rooms else films
+    fails, elements = "no model of it for these bearings", "no rolling elements"
+    films, turns = {"journal", "thrust"} & {*rooms}, "rolling" in rooms
+    pads = "not computed for films of pads" if films else "no film bearing"
     why = {
         "all": fails,
-        "film": films,
+        "film": fails if films else "no film bearing",
         "journal": fails if "journal" in rooms else pads,
         "collar": "no thrust collar beside journals",
-        "rolling": fails if "rolling" in rooms else "no rolling elements",
-        "rows": "no bearing with several rows takes the thrust"
-        if "rolling" in rooms
-        else "no rolling elements",
+        "rolling": fails if turns else elements,
+        "rows": "no bearing with several rows takes the thrust" if turns else elements,
     }
     return {
         key: Number(math.nan, about.unit, note=f"n/a: {why[about.of]}")

@@ -50,12 +50,12 @@ def test_a_shaft_that_is_let_go_comes_to_rest_with_its_pads():
     np.testing.assert_allclose(end.pad_tilt, rest.pad_tilt, atol=1e-8)
 
 
-def second_order(film):
+def second_order(options):
     """Paths of growing accuracy; halving the step takes their error to a quarter."""
     paths = []
     for count in (61, 121, 481):
         time = np.linspace(0.0, 2 * PERIOD, count)
-        paths.append(BEARING.orbit(time, turning(time), SPEED, film))
+        paths.append(BEARING.orbit(time, turning(time), SPEED, options))
     finest = paths[-1].eccentricity
     coarse, halved = (
         float(np.abs(path.eccentricity - finest.sel(time=path.time, method="nearest")).max())

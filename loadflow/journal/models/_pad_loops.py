@@ -13,7 +13,7 @@ from loadflow.journal.cavitation import DLOAD, LOAD
 from loadflow.journal.models import composed_film as at
 from loadflow.journal.models._band_kernels import factorise_any, substitute_all
 from loadflow.journal.models._compile import inner, once, outer
-from loadflow.journal.models._composed_gap_kernels import PLANES, turn
+from loadflow.journal.models._composed_gap_kernels import turn
 from loadflow.journal.models._composed_kernels import (
     balance,
     fed,
@@ -163,35 +163,35 @@ def _steps(film, work, pads, pad_work, load, size, step):
 
 @inner
 def _share(film, work, pads, pad_work, step, kept):
-    """Share of a step of shaft and tilts of which every place keeps `kept` of its gap.
+    """Share of a step of shaft and tilts that leaves every place of the pads `kept` of its gap.
 
-    So does every face between cells, to the ends of the bearing: the ends of a pad are faces, half
-    a cell from the next place.
+    Places are cell centres and faces, to the ends of the bearing: the ends of a pad are faces.
     """
-    share, ring = 1.0, film.ring
-    for i in range(ring.cos_face.size):
-        c, s, j = ring.cos_face[i], ring.sin_face[i], pads.face[i]
-        turns = pad_work.tilts[STEP, j]
-        dx, dy = step[0] + turns * pads.along[j, 0], step[1] + turns * pads.along[j, 1]
-        for k in range(film.places.z.size):
-            z = film.places.z[k]
-            closes = (dx + step[3] * z) * c + (dy - step[2] * z) * s
-            gap = ring.base_face[i] + film.places.depth[k]
-            left = (1.0 - kept) * (gap - work.centre[0, k] * c - work.centre[1, k] * s)
-            if closes > 0.0 and share * closes > left:
-                share = max(left / closes, 0.0)
+    share, ring, tilts = 1.0, film.ring, pad_work.tilts[STEP]
     for i in range(ring.cos.size):
         j = pads.cell[i]
-        if j < 0:
-            continue
-        turns = pad_work.tilts[STEP, j]
-        dx, dy = step[0] + turns * pads.along[j, 0], step[1] + turns * pads.along[j, 1]
-        for k in range(film.nodes.z.size):
-            z = film.nodes.z[k]
-            closes = (dx + step[3] * z) * ring.cos[i] + (dy - step[2] * z) * ring.sin[i]
-            left = (1.0 - kept) * work.gap[PLANES, i, k]
-            if closes > 0.0 and share * closes > left:
-                share = left / closes
+        if j >= 0:
+            at = ring.cos[i], ring.sin[i], ring.base[i]
+            share = _share_at(film, work, pads.along[j], tilts[j], step, kept, at, share)
+        j, at = pads.face[i], (ring.cos_face[i], ring.sin_face[i], ring.base_face[i])
+        share = _share_at(film, work, pads.along[j], tilts[j], step, kept, at, share)
+    return share
+
+
+@inner
+def _share_at(film, work, along, turns, step, kept, at, share):
+    """At most `share`: that of a step which leaves `kept` of the gap at one angle around.
+
+    The pad turns by `turns`; `at`: cosine and sine of the angle, and H of the centred shaft there.
+    """
+    c, s, base = at
+    dx, dy = step[0] + turns * along[0], step[1] + turns * along[1]
+    for k in range(film.places.z.size):
+        z = film.places.z[k]
+        closes = (dx + step[3] * z) * c + (dy - step[2] * z) * s
+        gap = base + film.places.depth[k] - work.centre[0, k] * c - work.centre[1, k] * s
+        if closes > 0.0 and share * closes > (1.0 - kept) * gap:
+            share = max((1.0 - kept) * gap / closes, 0.0)
     return share
 
 

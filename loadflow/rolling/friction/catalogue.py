@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError
-from loadflow.numerics.fields import not_one_of
+from loadflow.numerics.fields import check_choice, not_one_of
 
 Array = NDArray[np.float64]
 _RPM = 30 / np.pi  # rad/s in 1/min
@@ -172,6 +172,9 @@ class SkfConstants:
     starvation: float = 6e-8
     geometry: float = 5.1
 
+    def __post_init__(self) -> None:
+        check_choice(self, "kind", ("cylindrical", "tapered", "spherical"))
+
 
 def skf_constants(
     kind: Literal["cylindrical", "tapered", "spherical"], series: str, axial_factor: float = 0.0
@@ -185,12 +188,12 @@ def skf_constants(
     series : str
         One of `skf_series` of that type.
     axial_factor : float
-        Y of a tapered bearing; each has its own.
+        Y of a tapered bearing; each has its own, and others have none.
 
     Raises
     ------
     InputError
-        If there is no such type or series, or a tapered bearing has no `axial_factor`.
+        If there is no such type or series, or `axial_factor` is missing or makes no sense.
 
     Examples
     --------
@@ -202,8 +205,11 @@ def skf_constants(
     known = skf_series(kind)
     if series not in known:
         raise InputError(f"series: {not_one_of(series, known)}")
-    if kind == "tapered" and not axial_factor > 0:
-        raise InputError(f"axial_factor: Y of a tapered bearing, must be > 0, got {axial_factor}")
+    if not (axial_factor > 0 if kind == "tapered" else axial_factor == 0):
+        raise InputError(
+            "axial_factor: Y of a tapered bearing must be > 0, of others it is left out, "
+            f"got {axial_factor} for {kind}"
+        )
     return SkfConstants(kind=kind, axial_factor=axial_factor, **_skf_table()[kind][series])
 
 
@@ -274,15 +280,13 @@ def skf_torque(
         thrust = constants.axial_factor * fa
         rolling = constants.r1 * mean**2.38 * (fr + constants.r2 * thrust) ** 0.31
         sliding = constants.s1 * mean**0.82 * (fr + constants.s2 * thrust)
-    elif constants.kind == "spherical":
+    else:
         points = constants.r1 * mean**1.85 * (fr + constants.r2 * fa) ** 0.54
         lines = constants.r3 * mean**2.3 * (fr + constants.r4 * fa) ** 0.31
         rolling = np.minimum(points, lines)
         points = constants.s1 * mean**0.25 * (fr**4 + constants.s2 * fa**4) ** (1 / 3)
         lines = constants.s3 * mean**0.94 * (fr**3 + constants.s4 * fa**3) ** (1 / 3)
         sliding = np.minimum(points, lines)
-    else:
-        raise InputError(f"kind: must be cylindrical, tapered or spherical, got {constants.kind!r}")
     heated = 1 / (1 + 1.84e-9 * (n * mean) ** 1.28 * nu**0.64)
     crowd = np.sqrt(constants.geometry / (2 * (big - d)))
     refill = np.exp(-constants.starvation * nu * n * (d + big) * crowd)
@@ -329,7 +333,7 @@ def catalogue_torques(
     {'constant coefficient': 275, 'palmgren': 192}
     """
     if kind not in PALMGREN_F1:
-        raise InputError(f"kind: must be one of {', '.join(PALMGREN_F1)}, got {kind!r}")
+        raise InputError(f"kind: {not_one_of(kind, PALMGREN_F1)}")
     fr, fa = np.asarray(radial, float), np.asarray(axial, float)
     load, mean = np.hypot(fr, fa), (bore + outside_diameter) / 2
     idle = palmgren_idle_torque(speed, viscosity, mean, PALMGREN_F0[kind])
