@@ -153,7 +153,7 @@ def ten_scenes() -> dict[str, Scene]:
     production = {"wind_speeds": [12.0]} | SHORT
     small, usual, large = TURBINES
     still = {"results": ["loads.statistics", "rolling.loads"]}
-    parked = {"dlc": "6.1", "rung": "tables"} | SHORT
+    parked = {"dlc": "6.1"} | SHORT
     stop = tomllib.loads(STOP.read_text(encoding="utf-8"))["journal"]
     touching = {key: stop[key] for key in ("motion", "contact")}
     events = {"results": ["journal.film"], "film": touching}

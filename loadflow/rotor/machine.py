@@ -168,7 +168,7 @@ def machine(turbine: Turbine, options: RotorOptions) -> Machine:
         drag_in_induction=options.drag_in_induction,
         shed_wake=options.shed_wake,
         dynamic_inflow=options.dynamic_inflow,
-        dynamic_stall=options.dynamic_stall,
+        dynamic_stall=bool(options.dynamic_stall),
         table=np.zeros((0, 0, 0, 2)),
         table_angle=(0.0, 1.0),
         table_pitch=(0.0, 1.0),

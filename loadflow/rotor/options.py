@@ -51,8 +51,10 @@ class RotorOptions:
         turns about its span is met at three quarters of its chord.
     dynamic_inflow : bool
         Whether the induced velocity lags behind the load on the rotor (Øye's two time constants).
-    dynamic_stall : bool
-        Whether separation lags behind lift. Without this and `shed_wake` the polars hold at once.
+    dynamic_stall : bool, optional
+        Whether separation lags behind lift; by default only where the rotor is parked or idles.
+        Without this and `shed_wake` the polars hold at once, and blades that stand in an oblique
+        storm draw from it a swing that is not real.
     tower_dam : bool
         Whether the blades pass through the potential flow around the tower.
     individual_pitch : bool
@@ -80,7 +82,7 @@ class RotorOptions:
     drag_in_induction: bool = False
     shed_wake: bool = True
     dynamic_inflow: bool = False
-    dynamic_stall: bool = False
+    dynamic_stall: bool | None = None
     tower_dam: bool = True
     individual_pitch: bool = False
     mass_imbalance: Annotated[float, Ge(-0.2), Le(0.2)] = 0.0

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from loadflow.errors import InputError
 from loadflow.turbines import Turbine
-from loadflow.wind.cases import Event
 
 from .control.constants import Controller, controller
 from .machine import Machine, machine
@@ -41,11 +40,6 @@ def prepare(turbine: Turbine, rung: str, options: RotorOptions) -> tuple[Machine
 def finest_rung(turbine: Turbine) -> Rung:
     """Rung with all that the file of the turbine describes."""
     return "flap" if turbine.tower.bending is None else "tower"
-
-
-def default_rung(turbine: Turbine, event: Event) -> Rung:
-    """Rung where none is named: the finest, but rigid blades for a turbine that is parked."""
-    return "tables" if event.startswith("parked") else finest_rung(turbine)
 
 
 class Same:

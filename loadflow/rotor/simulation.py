@@ -92,9 +92,7 @@ def simulate(
         Rigid blades with the induction from a table; rigid blades with the induction solved at
         every section and step; blades with two flap and one edge mode, induction from the table;
         these on a tower that bends fore-aft and side-side, with a drivetrain that twists. By
-        default "tower" ("flap" where the file of the turbine does not say how its tower bends), and
-        "tables" where the turbine is parked: without dynamic stall, bending blades that stand in an
-        oblique storm shake themselves far beyond what is real.
+        default "tower" ("flap" where the file of the turbine does not say how its tower bends).
     options : RotorOptions, optional
         Effects and imbalance, individual pitch control.
     wind_options : WindOptions, optional
@@ -201,12 +199,15 @@ def simulate_condition(
     from . import slots as k
     from .inflow import case_inflow, wind_machine
     from .loop import run
-    from .rungs import Same, default_rung, prepare
+    from .rungs import Same, finest_rung, prepare
 
     plant = load_turbine(turbine)
     _check(plant, case, dt, run_in)
-    rung = rung or default_rung(plant, case.event)
-    prepared = prepare(plant, rung, options or RotorOptions())
+    rung = rung or finest_rung(plant)
+    options = options or RotorOptions()
+    if options.dynamic_stall is None:
+        options = replace(options, dynamic_stall=case.event in STANDING)
+    prepared = prepare(plant, rung, options)
     m, c = prepared
     state = _first_state(Same(prepared), case)
     run_in += _wait(Same(prepared), state, case, run_in, dt)

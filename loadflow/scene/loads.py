@@ -51,9 +51,9 @@ class Loads(Section, BaseModel):
     wind, and another grid is another realisation.
 
     ``dynamic_inflow``, ``dynamic_stall``, ``bend_twist``, ``blade_torsion`` (of turbines that tell
-    theirs) and ``individual_pitch`` are those of `loadflow.rotor.RotorOptions`. A ``rung`` that is
-    not named is "tower" ("flap" where the turbine does not say how its tower bends), and "tables"
-    for a parked turbine.
+    theirs) and ``individual_pitch`` are those of `loadflow.rotor.RotorOptions`. Load cases in which
+    the rotor stands or idles have ``dynamic_stall`` unless it is switched off by name. A ``rung``
+    that is not named is "tower" ("flap" where the turbine does not say how its tower bends).
     """
 
     source: Literal["simulate", "files"] = "simulate"
@@ -89,7 +89,7 @@ class Loads(Section, BaseModel):
     )
     rung: Literal["tables", "bem", "flap", "tower"] | None = None
     dynamic_inflow: bool = False
-    dynamic_stall: bool = False
+    dynamic_stall: bool | None = None
     bend_twist: Annotated[float, Field(ge=-1, le=1)] = 0.5
     blade_torsion: bool = True
     individual_pitch: bool = False

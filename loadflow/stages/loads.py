@@ -22,6 +22,8 @@ from loadflow.stages.labelling import label
 from loadflow.stages.stage import Measured, Rungs, Stage
 from loadflow.stages.summary import over_cases
 from loadflow.stages.swinging import ROOT
+from loadflow.turbines import Turbine, load_turbine
+from loadflow.wind.cases import STANDING
 
 NEEDED = ("speed", "hub_force", "hub_moment")
 """Without which no shaft has loads."""
@@ -45,11 +47,11 @@ def hub_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
 def _simulate(scene: Scene, case: Case) -> xr.Dataset:
     from loadflow.rotor import simulate_condition
     from loadflow.rotor.inflow import wind_machine
-    from loadflow.turbines import load_turbine
 
     loads, wind, winds, field = scene.loads, wind_of(scene, case), scene.loads.wind_options, None
+    turbine = load_turbine(scene.turbine.name)
     if case.wind:
-        plant = wind_machine(load_turbine(scene.turbine.name))
+        plant = wind_machine(turbine)
         with part_of_work("wind"):
             wind, field = given_field(Path(case.wind), wind, winds, plant, loads.duration)
     series = simulate_condition(
@@ -62,9 +64,30 @@ def _simulate(scene: Scene, case: Case) -> xr.Dataset:
         rung=loads.rung,
         options=replace(loads.rotor_options, air_density=scene.environment.air_density),
     )
+    swing = _swing_of_its_own(series, turbine)
     # a cube has the pitch of blade 1 and the wind along the mean
     series = series.drop_dims("blade").assign(wind=series["wind"].sel(axis="x", drop=True))
-    return series.assign_coords(tripped=((), series.attrs.pop("tripped"), _TRIPPED))
+    return series.assign_coords(
+        tripped=((), series.attrs.pop("tripped"), _TRIPPED),
+        doubts=((), swing, CASE_COORDS["doubts"].attrs),
+    )
+
+
+SWING = 0.01
+"""Standard deviation of the tip over the radius beyond which standing blades swing by themselves;
+turbulence moves them by a third of it at most (docs/rotor.md)."""
+
+
+def _swing_of_its_own(series: xr.Dataset, turbine: Turbine) -> str:
+    """Say that blades of a rotor that stands draw a swing from the wind; "" if they do not."""
+    swing, radius = float(series["tip_deflection"].std()), turbine.rotor.radius
+    if series.attrs["event"] not in STANDING or swing < SWING * radius:
+        return ""
+    return (
+        f"the blades of the rotor that stands swing by themselves, their tips by {swing:.2g} m "
+        f"(standard deviation; from {SWING * radius:.2g} m on): an oblique storm drives their edge "
+        "modes, and the loads tell of that more than of the storm"
+    )
 
 
 def _read(scene: Scene, case: Case) -> xr.Dataset:
@@ -164,7 +187,6 @@ _TRIPPED = CASE_COORDS["tripped"].attrs
 def finest_rung(scene: Scene) -> str:
     """Return the finest model of the rotor that the scene's turbine allows."""
     from loadflow.rotor.rungs import finest_rung as finest
-    from loadflow.turbines import load_turbine
 
     return finest(load_turbine(scene.turbine.name))
 

@@ -62,13 +62,26 @@ def test_slow_changes_follow_the_polar_and_fast_ones_the_slope_of_attached_flow(
 
 
 def test_the_switch_is_off_by_default_and_acts_on_the_force():
-    assert not RotorOptions().dynamic_stall
+    assert RotorOptions().dynamic_stall is None
     wake = np.zeros(SECTION_STATES)
     off = MODEL._replace(dynamic_stall=False)
     jump = (0.0, 0.0, 15.0, 60.0, 0.0, 0.0)  # pitch, turn, wind, induction
     section_force(MODEL, OUTER, 0.3, 0.0, 15.0, 60.0, 0.0, 0.0, 0.0, wake)
     delayed = section_force(MODEL, OUTER, *jump, STEP, wake)[0]
     assert delayed > section_force(off, OUTER, *jump, STEP, np.zeros(SECTION_STATES))[0]
+
+
+@pytest.mark.parametrize(("dlc", "wind", "on"), [("6.1", 50.0, True), ("1.1", 12.0, False)])
+def test_by_default_a_rotor_that_stands_has_it_and_one_that_runs_has_not(dlc, wind, on):
+    from loadflow.rotor import simulate
+
+    def moment(stall):
+        options = RotorOptions(dynamic_stall=stall)
+        how = {"duration": 4.0, "run_in": 4.0, "yaw_error": 0.3, "rung": "flap"}
+        return simulate(dlc=dlc, wind_speed=wind, options=options, **how)["hub_moment"].values
+
+    assert np.array_equal(moment(None), moment(on))
+    assert not np.allclose(moment(None), moment(not on), rtol=1e-6)
 
 
 @pytest.mark.slow

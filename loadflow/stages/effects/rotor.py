@@ -14,12 +14,16 @@ from loadflow.stages.effects.effect import Effect, Sizes
 from loadflow.stages.effects.situation import AIR_DENSITY, Situation
 from loadflow.stages.stage import with_settings
 from loadflow.turbines import load_turbine
+from loadflow.wind.cases import load_case
 
 LAG = 0.4
 """Change of the moments' damage by the lag of the wake, over the induction; docs/rotor.md."""
 
 SEPARATION = 0.05
 """Change of the moments' damage by dynamic stall, over the turbulence; docs/rotor.md."""
+
+SWINGING = 10.0
+"""Change of the loads of a rotor that stands by dynamic stall, in an oblique storm; docs/rotor.md."""
 
 TURN = 0.015
 """Change of the moments' damage by the turn of sections bent both ways; docs/rotor.md."""
@@ -75,18 +79,34 @@ INFLOW = _switch(
 )
 
 
+def _runs(scene: Scene) -> bool:
+    """Whether the rotor turns with the wind in some load case."""
+    return any(load_case(dlc).operating for dlc in scene.loads.dlcs)
+
+
 def _stall(at: Situation) -> Sizes:
-    """Swing of the angle of attack: turbulence, and the yaw error."""
+    """Swing of the angle of attack: turbulence, and the yaw error; of a rotor that stands, all."""
+    if not _runs(at.scene):
+        return _of_loads(SWINGING)
     yaw = max(map(abs, at.scene.loads.yaw_errors or [0.0]))
     return _of_loads(SEPARATION * (float(np.max(at.turbulence)) + yaw))
 
 
-STALL = _switch(
+STALL = Effect(
     "dynamic stall",
-    "dynamic_stall",
-    _stall,
+    model="loads",
+    keys=("loads.dynamic_stall",),
+    is_on=lambda scene: bool(scene.loads.dynamic_stall),
+    # None, not False: load cases in which the rotor stands keep it
+    switched=lambda scene, on: with_settings(scene, "loads", {"dynamic_stall": on or None}),
+    indicator=_stall,
     out="no loads.dynamic_stall: separation follows lift at once",
-    cost=1.03,
+    needs="loads.dynamic_stall = true",
+    # a rotor that stands has it, unless it is switched off by name
+    concerns=lambda scene: (
+        _simulated(scene) and (_runs(scene) or scene.loads.dynamic_stall is False)
+    ),
+    cost=lambda scene: 1.03,
 )
 
 BEND_TWIST = Effect(

@@ -1,0 +1,65 @@
+"""A rotor that stands in a storm: dynamic stall is on by itself, and a swing of its own is told."""
+
+import pytest
+
+from loadflow.planning.plan import make_plan
+from loadflow.scene import make_scene
+from loadflow.scene.cases import list_cases
+from loadflow.stages.loads import SWING, hub_loads
+
+
+def storm(yaw, **loads):
+    return make_scene(
+        {
+            "results": ["loads.statistics"],
+            "shaft": {"two_point": {}},
+            "loads": {
+                "dlc": "6.2",
+                "steady": True,
+                "yaw_errors": [yaw],
+                "wind_speeds": [50.0],
+                "duration": 40.0,
+                "step": 0.05,
+                **loads,
+            },
+        }
+    )
+
+
+def simulated(scene):
+    return hub_loads(scene, list_cases(scene)[0], {})
+
+
+def test_blades_that_an_oblique_storm_drives_are_told_and_others_are_not():
+    wild = simulated(storm(0.26, dynamic_stall=False))
+    calm = simulated(storm(0.1))
+    assert "swing by themselves" in str(wild["doubts"].item())
+    assert str(calm["doubts"].item()) == ""
+    wild, calm = (float(one["tip_deflection"].std()) / 63.0 for one in (wild, calm))
+    assert wild > SWING > calm
+
+
+def test_a_plan_does_not_choose_the_stall_of_a_rotor_that_stands():
+    plan = make_plan(storm(0.26))
+    assert "dynamic stall" not in {one.name for one in plan.effects}
+    assert plan.scene.loads.dynamic_stall is None
+    assert not any("dynamic stall" in one for one in plan.shortfalls)
+
+
+def test_a_stall_that_is_switched_off_there_is_counted():
+    plan = make_plan(storm(0.26, dynamic_stall=False))
+    assert any("dynamic stall" in one for one in plan.shortfalls)
+
+
+@pytest.mark.parametrize("dlcs", [["1.1", "6.1"], ["1.1"]])
+def test_where_some_rotor_runs_the_plan_chooses_and_standing_ones_keep_it(dlcs):
+    scene = make_scene(
+        {
+            "results": ["loads.statistics"],
+            "shaft": {"two_point": {}},
+            "loads": {"dlc": dlcs, "seeds": 1, "duration": 60.0},
+        }
+    )
+    plan = make_plan(scene)
+    assert "dynamic stall" in {one.name for one in plan.effects}
+    assert plan.scene.loads.dynamic_stall in (True, None)
