@@ -1,11 +1,13 @@
 """A rotor that stands in a storm: dynamic stall is on by itself, and a swing of its own is told."""
 
+import numpy as np
 import pytest
+import xarray as xr
 
 from loadflow.planning.plan import make_plan
 from loadflow.scene import make_scene
 from loadflow.scene.cases import list_cases
-from loadflow.stages.loads import SWING, hub_loads
+from loadflow.stages.loads import SWING, hub_loads, swing_of_its_own
 
 
 def storm(yaw, **loads):
@@ -36,7 +38,21 @@ def test_blades_that_an_oblique_storm_drives_are_told_and_others_are_not():
     assert "swing by themselves" in str(wild["doubts"].item())
     assert str(calm["doubts"].item()) == ""
     wild, calm = (float(one["tip_deflection"].std()) / 63.0 for one in (wild, calm))
-    assert wild > SWING > calm
+    assert wild > 2 * SWING
+    assert calm < 0.5 * SWING
+
+
+def test_a_short_burst_of_swing_is_told_and_a_slow_bend_of_the_same_size_is_not():
+    time = 0.05 * np.arange(12000)
+    burst = np.exp(-(((time - 300) / 5) ** 2))
+    for tip, told in (
+        (0.8 * burst * np.sin(2 * np.pi * 1.1 * time), True),
+        (0.8 * burst, False),
+        (0.2 * burst * np.sin(2 * np.pi * 1.1 * time), False),
+    ):
+        series = xr.Dataset({"tip_deflection": ("time", tip)}, {"time": time}, {"event": "parked"})
+        assert bool(swing_of_its_own(series, 63.0)) is told
+        assert not swing_of_its_own(series.assign_attrs(event="none"), 63.0)
 
 
 def test_a_plan_does_not_choose_the_stall_of_a_rotor_that_stands():

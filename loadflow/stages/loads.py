@@ -10,8 +10,9 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+from scipy.ndimage import uniform_filter1d
 
-from loadflow.cube import CASE_COORDS, Cube, case_named, iter_cases, open_cube
+from loadflow.cube import CASE_COORDS, Cube, case_named, iter_cases, open_cube, time_step
 from loadflow.errors import InputError
 from loadflow.numerics.watch import part_of_work
 from loadflow.scene.cases import CUBES, Case, wind_of
@@ -22,7 +23,7 @@ from loadflow.stages.labelling import label
 from loadflow.stages.stage import Measured, Rungs, Stage
 from loadflow.stages.summary import over_cases
 from loadflow.stages.swinging import ROOT
-from loadflow.turbines import Turbine, load_turbine
+from loadflow.turbines import load_turbine
 from loadflow.wind.cases import STANDING
 
 NEEDED = ("speed", "hub_force", "hub_moment")
@@ -64,7 +65,7 @@ def _simulate(scene: Scene, case: Case) -> xr.Dataset:
         rung=loads.rung,
         options=replace(loads.rotor_options, air_density=scene.environment.air_density),
     )
-    swing = _swing_of_its_own(series, turbine)
+    swing = swing_of_its_own(series, turbine.rotor.radius)
     # a cube has the pitch of blade 1 and the wind along the mean
     series = series.drop_dims("blade").assign(wind=series["wind"].sel(axis="x", drop=True))
     return series.assign_coords(
@@ -73,20 +74,26 @@ def _simulate(scene: Scene, case: Case) -> xr.Dataset:
     )
 
 
-SWING = 0.01
-"""Standard deviation of the tip over the radius beyond which standing blades swing by themselves;
-turbulence moves them by a third of it at most (docs/rotor.md)."""
+SWING = 0.005
+"""Effective swing of a tip over the radius, within some ten seconds, beyond which standing blades
+swing by themselves; turbulence moves them by less than it (docs/rotor.md)."""
+_SLOW, _WHILE = 2.0, 10.0  # s: longer than a period of an edge mode; a burst of its swing
 
 
-def _swing_of_its_own(series: xr.Dataset, turbine: Turbine) -> str:
+def swing_of_its_own(series: xr.Dataset, radius: float) -> str:
     """Say that blades of a rotor that stands draw a swing from the wind; "" if they do not."""
-    swing, radius = float(series["tip_deflection"].std()), turbine.rotor.radius
-    if series.attrs["event"] not in STANDING or swing < SWING * radius:
+    if series.attrs["event"] not in STANDING:
+        return ""
+    step, tip = time_step(series), series["tip_deflection"].values
+    fast = tip - uniform_filter1d(tip, max(round(_SLOW / step), 1))
+    power = uniform_filter1d(fast**2, max(round(_WHILE / step), 1))
+    swing, least = float(np.sqrt(power.max())), SWING * radius
+    if swing < least:
         return ""
     return (
-        f"the blades of the rotor that stands swing by themselves, their tips by {swing:.2g} m "
-        f"(standard deviation; from {SWING * radius:.2g} m on): an oblique storm drives their edge "
-        "modes, and the loads tell of that more than of the storm"
+        f"the blades of the rotor that stands swing by themselves, at {swing:.2g} m of a tip "
+        f"(effective value in some 10 s; from {least:.2g} m on): an oblique storm drives their "
+        "edge modes, and the loads tell of that more than of the storm"
     )
 
 
