@@ -10,7 +10,6 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from scipy.ndimage import uniform_filter1d
 
 from loadflow.cube import CASE_COORDS, Cube, case_named, iter_cases, open_cube, time_step
 from loadflow.errors import InputError
@@ -82,6 +81,8 @@ _SLOW, _WHILE = 2.0, 10.0  # s: longer than a period of an edge mode; a burst of
 
 def swing_of_its_own(series: xr.Dataset, radius: float) -> str:
     """Say that blades of a rotor that stands draw a swing from the wind; "" if they do not."""
+    from scipy.ndimage import uniform_filter1d
+
     if series.attrs["event"] not in STANDING:
         return ""
     step, tip = time_step(series), series["tip_deflection"].values

@@ -23,7 +23,7 @@ SEPARATION = 0.05
 """Change of the moments' damage by dynamic stall, over the turbulence; docs/rotor.md."""
 
 SWINGING = 10.0
-"""Change of the loads of a rotor that stands by dynamic stall, in an oblique storm; docs/rotor.md."""
+"""Change of the loads of a rotor that stands, in an oblique storm, by stall; docs/rotor.md."""
 
 TURN = 0.015
 """Change of the moments' damage by the turn of sections bent both ways; docs/rotor.md."""
