@@ -4,9 +4,9 @@ every process at once.
 numba keeps compiled kernels on the disk, but what they are compiled for is known only when they
 are called. So the questions of the pilot are asked of a load case in miniature first: one process
 simulates the first load case of the run, while another takes made-up loads through films, and the
-first that is free through contacts, or through stages that no question is about. The plan's own
-stages follow in the same way. What is compiled there, all workers then load. Marks beside numba's
-files tell the next run that this is done.
+first that is free through simpler films, whose loops are others, through contacts, or through
+stages that no question is about. The plan's own stages follow in the same way. What is compiled
+there, all workers then load. Marks beside numba's files tell the next run that this is done.
 """
 
 from __future__ import annotations
@@ -32,6 +32,7 @@ import xarray as xr
 
 import loadflow
 from loadflow.cube import make_case
+from loadflow.planning.effects import switched
 from loadflow.planning.pilot import Questions, measure
 from loadflow.planning.plan import Plan
 from loadflow.running.cases import do_case, is_ready, open_inputs
@@ -42,6 +43,7 @@ from loadflow.running.parts import digest_of, is_sound, save_part
 from loadflow.running.telling import Task, times_left
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
+from loadflow.stages.effects.registry import EFFECTS
 from loadflow.stages.probes import PROBES
 from loadflow.stages.registry import STAGES
 
@@ -53,7 +55,10 @@ SAMPLES = 160
 DURATION = 1.0
 """Length of a series that questions are asked of, after its run-in, s."""
 
-SECONDS = {"journal": 40.0, "loads": 25.0, "rolling": 20.0, "shaft": 1.0}
+SIMPLER = ", simpler"
+"""Ends the name of a job that takes a model without the effects that have kernels of their own."""
+
+SECONDS = {"journal": 36.0, "loads": 22.0, "rolling": 20.0, f"journal{SIMPLER}": 10.0, "shaft": 1.0}
 """Expected processor time of the jobs, s; `QUICK` of the others. Tells how much is left."""
 
 QUICK = 5.0
@@ -82,6 +87,9 @@ def compile_for_pilot(
     It is compiled by the loads of a case of the run, which are kept in `folder` for `adopt`. One
     more job takes the stages that no question is about, by the plan that is `expected` before the
     pilot. What the plan after the pilot calls beside these, `compile_kernels` compiles.
+
+    A model with loops for some of its effects and others without them is two jobs: what both ask
+    at last, the shorter one has compiled by then.
     """
     scene, models = questions.scene, questions.models
     rungs = [one.text_of(scene) for name in models for one in STAGES[name].models]
@@ -93,7 +101,21 @@ def compile_for_pilot(
         folders = {"loads": early, OTHER: Path(place)}
         work = partial(_for_pilot, questions=questions, plan=expected(), folders=folders)
         simulated = ("loads",) if scene.loads.source == "simulate" else ()
-        _compile(work, {*simulated, *models, OTHER}, marks, where, say)
+        simpler = (f"{name}{SIMPLER}" for name in models if without_own_kernels(questions, name))
+        _compile(work, {*simulated, *models, *simpler, OTHER}, marks, where, say)
+
+
+def without_own_kernels(questions: Questions, model: str) -> Questions | None:
+    """Questions about a model without the effects that have kernels of their own, if it has any."""
+    ours = [one for one in EFFECTS if one.model == model and one.name in questions.effects]
+    asked = tuple(one.name for one in ours if not one.own_kernels)
+    scene = questions.scene
+    for effect in ours:
+        if effect.own_kernels:
+            scene = switched(scene, effect, False) or scene
+    if not asked or scene is questions.scene:
+        return None
+    return replace(questions, scene=scene, effects=asked)
 
 
 @contextmanager
@@ -152,10 +174,15 @@ def _compile(
 ) -> None:
     """Have all jobs done, and mark that they are.
 
-    The loads begin, so that a case of the run has its loads soon; then the longest job comes first.
+    The loads begin, so that a case of the run has its loads soon; then the longest job comes first,
+    what is simpler of a model right after it.
     """
     seconds = {job: SECONDS.get(job, QUICK) for job in jobs}
-    in_order = sorted(jobs, key=lambda job: (job != "loads", -seconds[job], job))
+
+    def rank(job: str) -> tuple[bool, float, str]:
+        return job != "loads", -SECONDS.get(job.removesuffix(SIMPLER), QUICK), job
+
+    in_order = sorted(jobs, key=rank)
     left = times_left([seconds[job] for job in in_order], where.workers)
     log.info("%s: %s", WHAT, ", ".join(in_order))
     begun = time.perf_counter()
@@ -172,7 +199,9 @@ def _compile(
 
 def _for_pilot(job: str, questions: Questions, plan: Plan, folders: dict[str, Path]) -> str:
     """Do one job of `compile_for_pilot`."""
-    told = _asked_in_miniature(job, questions) if job in questions.models else ""
+    model = job.removesuffix(SIMPLER)
+    mine = without_own_kernels(questions, model) if job != model else questions
+    told = _asked_in_miniature(model, mine) if mine and model in mine.models else ""
     if told or job not in folders:
         return told
     asked = set(questions.models) - {"loads", "shaft"}  # which the others need, and are soon done
@@ -276,7 +305,12 @@ def _marks(needed: object) -> list[Path]:
     machine = (platform.machine(), platform.processor(), sys.version, version("numba"))
     told.update(repr((needed, machine)).encode())
     name = f"loadflow-{told.hexdigest()[:24]}.compiled"
+    return [folder / name for folder in kernel_folders()]
+
+
+def kernel_folders() -> list[Path]:
+    """Folders beside numba's files, in the order in which it chooses."""
     if chosen := os.environ.get("NUMBA_CACHE_DIR"):
-        return [Path(chosen) / name]
-    inside = root / "running" / "__pycache__"
-    return [inside / name] if os.access(inside, os.W_OK) else []
+        return [Path(chosen)]
+    inside = Path(__file__).parent / "__pycache__"
+    return [inside] if os.access(inside, os.W_OK) else []

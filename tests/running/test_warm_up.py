@@ -1,5 +1,7 @@
 """Kernels are compiled once, by a case in miniature that every stage can take."""
 
+from pathlib import Path
+
 import numba
 import pytest
 from small_run import small_scene
@@ -8,6 +10,7 @@ from loadflow.cube import check_case
 from loadflow.cube.hdf5 import read_whole
 from loadflow.planning.pilot import Questions
 from loadflow.planning.plan import make_plan
+from loadflow.running import warm_up
 from loadflow.running.cases import do_case
 from loadflow.running.folder import part_file
 from loadflow.running.parts import digest_of, is_sound, save_part
@@ -18,6 +21,7 @@ from loadflow.running.warm_up import (
     compile_kernels,
     made_up_loads,
     told_as_called,
+    without_own_kernels,
 )
 from loadflow.scene import make_scene
 
@@ -36,10 +40,15 @@ class TwoWorkers:
             yield self.jobs[-1]
 
 
+def marks_go_to(folder, monkeypatch):
+    """No mark is there yet; kernels stay where they are, as they take minutes to compile again."""
+    folder.mkdir(parents=True)
+    monkeypatch.setattr(warm_up, "kernel_folders", lambda: [folder])
+
+
 @pytest.fixture
 def plan(tmp_path, monkeypatch):
-    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "kernels"))
-    (tmp_path / "kernels").mkdir()
+    marks_go_to(tmp_path / "kernels", monkeypatch)
     results = ("reduction.histogram", "rolling.loads", "journal.film")
     return make_plan(small_scene(tmp_path, results, journal={"grid": [24, 8]}))
 
@@ -65,8 +74,22 @@ def test_questions_of_a_pilot_are_asked_in_miniature_each_model_by_itself(plan, 
     assert where.jobs == [("journal", ""), ("rolling", ""), ("other", "")]  # the longest first
     assert [what[1:] for what in told] == [(0, 3), (1, 3), (2, 3), (3, 3)]
     left = [task.left for task, *_ in told]
-    assert left == [40.0, 20.0, 15.0, 0.0]  # s: 40 beside 20 and 5
+    assert left == [36.0, 16.0, 11.0, 0.0]  # s: 36 beside 20 and 5
     assert len(list((tmp_path / "kernels").glob("*.compiled"))) == 1
+
+
+def test_a_model_with_loops_for_some_effects_is_two_jobs(plan):
+    """Of a film around a shaft that tilts, motion and heat are asked without the tilt, too."""
+    effects = ("motion of the film", "heat of the film", "tilt of the shaft", "elastic shaft")
+    tilted = plan.scene.journal.model_copy(update={"tilt": True})
+    scene = plan.scene.model_copy(update={"journal": tilted})
+    asked = Questions(scene, effects, 60.0, plan.cases[:1])
+    simpler = without_own_kernels(asked, "journal")
+    assert simpler.effects == ("motion of the film", "heat of the film")
+    assert not simpler.scene.journal.tilt
+    assert simpler.models == ("journal",)
+    assert without_own_kernels(asked, "shaft") is None  # the same loops
+    assert without_own_kernels(simpler, "journal") is None  # there is no simpler one
 
 
 def test_a_process_alone_compiles_when_it_calls(plan, tmp_path):
@@ -75,6 +98,14 @@ def test_a_process_alone_compiles_when_it_calls(plan, tmp_path):
     compile_kernels(plan, where, lambda *what: None, tmp_path)
     assert where.jobs == []
     assert not list((tmp_path / "kernels").iterdir())
+
+
+def test_marks_lie_beside_the_files_of_numba(monkeypatch, tmp_path):
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
+    assert warm_up.kernel_folders() == [tmp_path]
+    monkeypatch.delenv("NUMBA_CACHE_DIR")
+    for folder in warm_up.kernel_folders():
+        assert folder == Path(warm_up.__file__).with_name("__pycache__")
 
 
 def test_made_up_loads_are_those_of_a_load_case(plan):
@@ -106,12 +137,9 @@ def test_the_rotor_is_compiled_by_the_first_case_that_lacks_its_loads(
     simulated, tmp_path, monkeypatch
 ):
     """The part that the run keeps is the one that it would make itself."""
-    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "kernels"))
     first = simulated.steps[0]
     for k, case in enumerate(simulated.cases):
-        folder = tmp_path / f"kernels/{k}"
-        folder.mkdir(parents=True)
-        monkeypatch.setenv("NUMBA_CACHE_DIR", str(folder))  # no mark
+        marks_go_to(tmp_path / f"kernels/{k}", monkeypatch)
         compile_kernels(simulated, TwoWorkers(), lambda *what: None, tmp_path / "run")
         made = part_file(tmp_path / "run", "loads", case)
         assert is_sound(made)

@@ -43,6 +43,8 @@ class Effect:
         rung tells.
     rungs : tuple of str
         Rungs that know it, by the setting ``rung`` of the section; empty: all.
+    own_kernels : bool
+        Whether its model has compiled loops for it, and others for when it is out.
     """
 
     name: str
@@ -56,6 +58,7 @@ class Effect:
     concerns: Callable[[Scene], bool] = lambda scene: True
     cost: Callable[[Scene], float] = lambda scene: 1.0
     rungs: tuple[str, ...] = ()
+    own_kernels: bool = False
 
     @property
     def section(self) -> str:

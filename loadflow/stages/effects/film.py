@@ -293,6 +293,7 @@ TILT = Effect(
     needs="journal.tilt = true, with a beam as the shaft",
     cost=lambda scene: 4.0,
     rungs=("grid", "reduced"),
+    own_kernels=True,
 )
 
 
@@ -331,6 +332,7 @@ SHELL = Effect(
     needs="a table journal.shell",
     cost=lambda scene: 3.0,
     rungs=("grid", "reduced"),
+    own_kernels=True,
 )
 
 
@@ -362,6 +364,7 @@ CONTACT = Effect(
     out="the film alone carries; asperities would take load below a film parameter of 4",
     needs="a table journal.contact with the asperities of both surfaces",
     rungs=("grid", "reduced"),
+    own_kernels=True,
 )
 
 
@@ -398,6 +401,7 @@ TURBULENCE = Effect(
     needs="a table journal.turbulence, which may be empty",
     cost=lambda scene: 2.0,
     rungs=("grid", "reduced"),
+    own_kernels=True,
 )
 
 
