@@ -92,9 +92,11 @@ def coefficients(m, i, attack, rear, speed, turn, dt, states):
             states[k] = share * rear
         states[3] = slope * (rear - zero)
         states[4] = polar(m.attached, i, rear)
-    j, share = place_of(m.lift, attack)
-    steady_lift = m.lift[i, j] * (1 - share) + m.lift[i, j + 1] * share
-    steady_drag = m.drag[i, j] * (1 - share) + m.drag[i, j + 1] * share
+    steady_lift = steady_drag = 0.0
+    if held < 1.0:
+        j, share = place_of(m.lift, attack)
+        steady_lift = m.lift[i, j] * (1 - share) + m.lift[i, j + 1] * share
+        steady_drag = m.drag[i, j] * (1 - share) + m.drag[i, j + 1] * share
     if held == 0.0:
         states[2] = rear
         return steady_lift, steady_drag

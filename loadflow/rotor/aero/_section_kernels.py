@@ -6,7 +6,7 @@ instructions; what looks something up has a loop of its own. See `rotor/lanes.py
 
 import numpy as np
 
-from .._compile import inner_once, inner_section, part
+from .._compile import inner_section, part
 from .._wind_kernels import box_place, dammed, fluctuation, height_of
 from ..lanes import (
     ACROSS,
@@ -322,7 +322,7 @@ def take_over(pack, blade, section, sines, cosines, pitches, pitch_s, pitch_c, m
             pack[BENT + column * LANES + k] = motion[b, i, column]
 
 
-@inner_once
+@inner_section
 def aerodynamics(
     m, inflow, step, time, azimuth, pitch, speed, tilt, drift, motion, state, guess, wake, induced,
     dt, room, force,

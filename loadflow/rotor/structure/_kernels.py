@@ -7,7 +7,7 @@ modes over as they answer to the frame, the frame is solved, the blades follow.
 
 import numpy as np
 
-from .._compile import inner_once, inner_section, once
+from .._compile import inner_once, inner_section, section
 
 GRAVITY = 9.80665
 TORSION_LAG = 0.05
@@ -35,7 +35,7 @@ def section_place(radii, i, motion, cone_s, cone_c):
     return place(radii[i] - motion[i, 5], motion[i, 0], motion[i, 1], cone_s, cone_c)
 
 
-@once
+@section
 def turned_shapes(m, pitch, shape):
     """Mode shapes of a pitched blade, (n, k, 4): normal, tangential, and the slopes of both."""
     c, s = np.cos(pitch), np.sin(pitch)
@@ -47,7 +47,7 @@ def turned_shapes(m, pitch, shape):
             shape[i, k, 3] = m.slope[i, k, 0] * s + m.slope[i, k, 1] * c
 
 
-@once
+@section
 def deflection(m, pitch, shape, q, v, motion):
     """Motion of each section, (n, 8): deflection normal and tangential, their rates, slope of the
     normal deflection, pull towards the root, nose-down turn by bending; the last, that by torsion,
@@ -76,7 +76,7 @@ def deflection(m, pitch, shape, q, v, motion):
         motion[i, 7] = 0.0
 
 
-@once
+@section
 def torsion(m, b, dt, speed, azimuth, drift, gravity, force, motion, turned, room):
     """Move the elastic nose-down turn of the sections, `turned` (n,), on towards that of the loads.
 
@@ -126,7 +126,7 @@ def torsion(m, b, dt, speed, azimuth, drift, gravity, force, motion, turned, roo
         turned[i] += share * (wanted - turned[i])
 
 
-@inner_once
+@inner_section
 def nacelle_motion(frame, tilt, h, v, drift, gravity):
     """Speed of the apex and rate of rotation of the nacelle, `drift` (6,), and `gravity` (3,), in
     the shaft frame, which tilts with the nacelle; returns its tilt.
@@ -205,7 +205,7 @@ def solve_in_place(system, right):
             right[k, j] = total / system[k, k]
 
 
-@inner_once
+@inner_section
 def blade_equations(
     m, b, dt, speed, azimuth, shape, drift, gravity, force, motion, q, v, acc, answer, inertia,
     load, room,
@@ -310,7 +310,7 @@ def blade_equations(
             answer[k, 1 + j] = -answer[k, 1 + j]
 
 
-@inner_once
+@inner_section
 def frame_acceleration(
     f, hub_mass, dt, controlled, held, inertia, load, gravity, h, v, acc, room, found
 ):
@@ -357,7 +357,7 @@ def frame_acceleration(
         found[j, 0] = right[j, 0]
 
 
-@inner_once
+@inner_section
 def predicted(dt, q, v, acc, ahead, rate_ahead):
     """Write where motion and speed would be in a step with the acceleration of the last one."""
     for k in range(q.size):
@@ -365,7 +365,7 @@ def predicted(dt, q, v, acc, ahead, rate_ahead):
         rate_ahead[k] = v[k] + dt * acc[k]
 
 
-@inner_once
+@inner_section
 def step_on(dt, new, q, v, acc):
     """Newmark step (constant mean acceleration) to the acceleration `new`, in place."""
     for k in range(q.size):
@@ -374,7 +374,7 @@ def step_on(dt, new, q, v, acc):
         acc[k] = new[k]
 
 
-@inner_once
+@inner_section
 def blade_root(m, b, speed, azimuth, shape, drift, gravity, jerk, force, motion, acc, total, own):
     """Add what one blade applies to the hub at the apex: aerodynamics, weight and inertia.
 
