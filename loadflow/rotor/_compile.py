@@ -14,7 +14,8 @@ from numba import njit
 
 from loadflow.numerics.linked import LINKED
 
-_plain = partial(njit, nogil=True, error_model="numpy")
+_REORDER = {"contract", "reassoc", "nsz", "arcp"}  # sums in any order; infinity and NaN are kept
+_plain = partial(njit, nogil=True, error_model="numpy", fastmath=_REORDER)
 _section = partial(_plain, forceinline=True, _nrt=False)
 _once = partial(_plain, _nrt=False)
 

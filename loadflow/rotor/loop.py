@@ -16,6 +16,7 @@ from .control._kernels import control_torque
 from .control.constants import IDLE, PARK, UNEVENTFUL, Controller, Schedule
 from .inflow import Inflow
 from .machine import Machine
+from .room import room_for
 
 Array = NDArray[np.float64]
 
@@ -136,7 +137,8 @@ def run(
     kernels.march(
         m, c, schedule, inflow, dt, steps, start, fresh, controlled, state.scalars, state.pitch,
         state.modes, state.mode_speed, state.mode_acceleration, state.frame, state.frame_speed,
-        state.frame_acceleration, state.inflow_angle, state.wake, state.induced, state.torsion, out,
+        state.frame_acceleration, state.inflow_angle, state.wake, state.induced, state.torsion,
+        room_for(m), out,
     )  # fmt: skip
     bad = ~np.isfinite(out).all(axis=1) | (np.abs(out[:, k.SPEED]) > 10)
     if bad.any():

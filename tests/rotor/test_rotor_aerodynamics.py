@@ -6,11 +6,13 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from rotor_sections import section_force
 
 from loadflow.rotor import tables
-from loadflow.rotor._kernels import tabulated_induction, turbulence
+from loadflow.rotor._wind_kernels import turbulence
 from loadflow.rotor.aero._airfoil_kernels import SECTION_STATES
-from loadflow.rotor.aero._kernels import induction, section_force, solve
+from loadflow.rotor.aero._kernels import induction, small_turn, solve
+from loadflow.rotor.aero._section_kernels import tabulated_induction
 from loadflow.rotor.inflow import steady_inflow
 from loadflow.rotor.machine import machine
 from loadflow.rotor.options import RotorOptions
@@ -48,8 +50,7 @@ def test_low_induction_follows_momentum_theory():
     assert 0 < a < 1 / 3
     wake = np.zeros(SECTION_STATES)
     lossless = RIGID._replace(drag=np.zeros_like(RIGID.drag), shed_wake=False)
-    force, _, couple = section_force(lossless, i, 0.1, 0.0, normal, tangential, a, swirl, 0.0, wake)
-    assert couple == 0.0  # a blade that does not twist
+    force, _ = section_force(lossless, i, 0.1, normal, tangential, a, swirl, 0.0, wake)
     radius = RIGID.radius[i]
     f = 1.5 * (63 - radius) / (radius * np.sin(angle))
     g = 1.5 * (radius - 1.5) / (1.5 * np.sin(angle))
@@ -65,9 +66,16 @@ def test_table_gives_the_induction_within_one_percent_of_the_wind():
         i, pitch = generator.integers(3, 17), generator.uniform(-0.02, 0.4)
         normal, tangential = generator.uniform(3, 25), generator.uniform(15, 80)
         _, a, _ = solve(RIGID, i, pitch, normal, tangential, 0.0)
-        b, _ = tabulated_induction(TABLED, i, pitch, normal, tangential)
-        worst = max(worst, abs(a - b) * normal / np.hypot(normal, tangential))
+        speed, angle = np.hypot(normal, tangential), np.arctan2(normal, tangential)
+        b, _ = tabulated_induction(TABLED, i, pitch, normal, tangential, speed, angle)
+        worst = max(worst, abs(a - b) * normal / speed)
     assert worst < 0.01
+
+
+def test_small_turns_have_the_sine_and_cosine_of_all_others():
+    angles = np.linspace(-1.0, 1.0, 401)
+    found = np.array([small_turn(angle) for angle in angles])
+    assert np.abs(found - np.stack([np.sin(angles), np.cos(angles)], axis=1)).max() < 5e-15
 
 
 def test_box_is_read_linearly_in_time_radius_and_angle():

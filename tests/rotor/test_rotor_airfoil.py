@@ -7,9 +7,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from numba import njit
+from rotor_sections import section_coefficients
 
 from loadflow.errors import InputError
-from loadflow.rotor.aero._airfoil_kernels import SECTION_STATES, angle_of, coefficients, polar
+from loadflow.rotor.aero._airfoil_kernels import SECTION_STATES, angle_of, polar
 from loadflow.rotor.airfoils import potential_flow, separation
 from loadflow.rotor.machine import machine
 from loadflow.rotor.options import RotorOptions
@@ -35,7 +36,7 @@ def _series(attack, section=OUTER, model=MACHINE, turn=0.0):
     states = np.zeros(SECTION_STATES)
     return np.array(
         [
-            coefficients(model, section, a, SPEED, turn, STEP if k else 0.0, states)
+            section_coefficients(model, section, a, SPEED, turn, STEP if k else 0.0, states)
             for k, a in enumerate(attack)
         ]
     )
@@ -63,7 +64,9 @@ def test_steady_lift_is_the_polar_where_nothing_is_stated(turbine):
     for i, slope in enumerate(model.lift_slope):
         if slope > 0:
             assert slope < 9
-            lift = [coefficients(model, i, a, SPEED, 0.0, 0.0, np.zeros(5))[0] for a in angle]
+            lift = [
+                section_coefficients(model, i, a, SPEED, 0.0, 0.0, np.zeros(5))[0] for a in angle
+            ]
             assert lift == pytest.approx([polar(model.lift, i, a) for a in angle], abs=1e-9)
 
 

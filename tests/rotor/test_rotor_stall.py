@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
+from rotor_sections import section_coefficients, section_force
 
 from loadflow.rotor import RotorOptions
-from loadflow.rotor.aero._airfoil_kernels import SECTION_STATES, coefficients, polar
-from loadflow.rotor.aero._kernels import section_force
+from loadflow.rotor.aero._airfoil_kernels import SECTION_STATES, polar
 from loadflow.rotor.machine import machine
 from loadflow.turbines import load_turbine
 
@@ -24,7 +24,7 @@ def pitching(mean, amplitude, frequency, turns=4):
     static = np.array([polar(MODEL.lift, OUTER, a) for a in attack])
     lift = np.array(
         [
-            coefficients(MODEL, OUTER, a, SPEED, 0.0, STEP if k else 0.0, states)[0]
+            section_coefficients(MODEL, OUTER, a, SPEED, 0.0, STEP if k else 0.0, states)[0]
             for k, a in enumerate(attack)
         ]
     )
@@ -65,8 +65,8 @@ def test_the_switch_is_off_by_default_and_acts_on_the_force():
     assert RotorOptions().dynamic_stall is None
     wake = np.zeros(SECTION_STATES)
     off = MODEL._replace(dynamic_stall=False)
-    jump = (0.0, 0.0, 15.0, 60.0, 0.0, 0.0)  # pitch, turn, wind, induction
-    section_force(MODEL, OUTER, 0.3, 0.0, 15.0, 60.0, 0.0, 0.0, 0.0, wake)
+    jump = (0.0, 15.0, 60.0, 0.0, 0.0)  # pitch, wind, induction
+    section_force(MODEL, OUTER, 0.3, 15.0, 60.0, 0.0, 0.0, 0.0, wake)
     delayed = section_force(MODEL, OUTER, *jump, STEP, wake)[0]
     assert delayed > section_force(off, OUTER, *jump, STEP, np.zeros(SECTION_STATES))[0]
 

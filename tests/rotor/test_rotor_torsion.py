@@ -14,6 +14,7 @@ import pytest
 from loadflow.errors import InputError
 from loadflow.rotor import RotorOptions, steady_state
 from loadflow.rotor.machine import GRAVITY, machine
+from loadflow.rotor.room import room_for
 from loadflow.rotor.rungs import prepare
 from loadflow.rotor.steady import operating_point
 from loadflow.rotor.structure._kernels import torsion
@@ -92,17 +93,17 @@ def test_a_couple_at_the_tip_twists_a_uniform_blade_by_the_closed_form():
     )
     m = machine(replace(turbine, blade=twisting), RotorOptions())
     m = m._replace(mass=np.zeros_like(m.mass), cone=0.0)
-    n, turned = m.radius.size, np.zeros(m.radius.size)
+    n, turned, room = m.radius.size, np.zeros(m.radius.size), room_for(m)
     force, motion = np.zeros((n, 4)), np.zeros((n, 7))
     force[-1, 3] = 1e5  # nose up at the last section
-    torsion(m, 0, 0.0, 1.0, 0.0, np.zeros(6), np.zeros(3), force, motion, turned)
+    torsion(m, 0, 0.0, 1.0, 0.0, np.zeros(6), np.zeros(3), force, motion, turned, room)
     length = m.radius - m.hub_radius
     # the last section has half of its own couple
     assert turned[:-1] == pytest.approx(-1e5 * length[:-1] / 5e7, rel=1e-9)
     force[-1] = 0.0
     force[-1, 0] = 1e4  # downwind, on a blade bent ahead in the sense of rotation: nose up
     motion[:, 1] = 2.0 * (length / length[-1]) ** 2
-    torsion(m, 0, 0.0, 1.0, 0.0, np.zeros(6), np.zeros(3), force, motion, turned)
+    torsion(m, 0, 0.0, 1.0, 0.0, np.zeros(6), np.zeros(3), force, motion, turned, room)
     assert turned[-1] < 0  # the bent blade carries the force ahead of the axis of the inner part
     # closed form: the force times its distance ahead of the tangent of each section
     ahead = 2.0 * (1 - length / length[-1]) ** 2

@@ -17,7 +17,8 @@ follows it, and how far the flow is attached.
 
 _WAKE = ((0.3, 0.14), (0.7, 0.53))  # share and decay of the shed wake
 _PRESSURE, _BOUNDARY_LAYER = 1.7, 3.0  # lags of stall, in half chords travelled
-_SLOW = 0.1  # m/s
+SLOW = 0.1
+"""Speed below which a flow counts as of that speed, m/s."""
 _ATTACHED, _FADE = np.radians(45.0), np.radians(5.0)  # beyond, the polars hold at once
 
 
@@ -72,28 +73,30 @@ def polar(table, i, angle):
 
 
 @part
-def coefficients(m, i, attack, speed, turn, dt, states):
+def coefficients(m, i, attack, rear, speed, turn, dt, states):
     """Lift and drag coefficient of section i in a flow of angle `attack` and `speed`, m/s.
 
-    `turn`: how fast the section turns about its span, nose up, rad/s. `states` (SECTION_STATES,)
-    are moved on by `dt`; dt = 0 sets them to steady. Lift lags behind the angle of attack (shed
-    wake), separation behind lift (dynamic stall).
+    `rear`: angle of the flow at three quarters of the chord; `turn`: how fast the section turns
+    about its span, nose up, rad/s. `states` (SECTION_STATES,) are moved on by `dt`; dt = 0 sets
+    them to steady. Lift lags behind the angle of attack (shed wake), separation behind lift
+    (dynamic stall).
     """
     slope, zero = m.lift_slope[i], m.zero_lift[i]
     held = min(max((_ATTACHED - abs(attack)) / _FADE, 0.0), 1.0)
     if slope == 0.0 or not (m.shed_wake or m.dynamic_stall):
         held = 0.0
-    speed = max(speed, _SLOW)
+    speed = max(speed, SLOW)
     passing = 0.5 * m.chord[i] / speed
-    rear = angle_of(speed * np.sin(attack) + 0.5 * m.chord[i] * turn, speed * np.cos(attack))
     if dt <= 0 or held == 0.0:
         for k, (share, _) in enumerate(_WAKE):
             states[k] = share * rear
         states[3] = slope * (rear - zero)
         states[4] = polar(m.attached, i, rear)
-    j, share = place_of(m.lift, attack)
-    steady_lift = m.lift[i, j] * (1 - share) + m.lift[i, j + 1] * share
-    steady_drag = m.drag[i, j] * (1 - share) + m.drag[i, j + 1] * share
+    steady_lift = steady_drag = 0.0
+    if held < 1.0:
+        j, share = place_of(m.lift, attack)
+        steady_lift = m.lift[i, j] * (1 - share) + m.lift[i, j + 1] * share
+        steady_drag = m.drag[i, j] * (1 - share) + m.drag[i, j + 1] * share
     if held == 0.0:
         states[2] = rear
         return steady_lift, steady_drag

@@ -7,9 +7,9 @@ hub loss, Buhl's correction at high induction.
 
 import numpy as np
 
-from .._compile import kernel, part
+from .._compile import kernel, part, section
 from ..slots import S_AXIAL
-from ._airfoil_kernels import angle_of, coefficients, polar
+from ._airfoil_kernels import SLOW, angle_of, polar
 
 _SMALL = 1e-6
 _HALF_PI = 0.5 * np.pi
@@ -145,25 +145,39 @@ def inflow_lag(m, i, normal, tangential, a, swirl, state, dt, induced):
     return a, swirl
 
 
-@part
-def section_force(m, i, pitch, turn, normal, tangential, a, swirl, dt, states):
-    """Force per length (normal, tangential), N/m, for given induction factors, and the couple per
-    length, nose-up, about the axis of a blade that twists, N (0 of one that does not).
+@section
+def small_turn(angle):
+    """Sine and cosine of an angle that is small: within 1e-15 up to half a right angle."""
+    z = angle * angle
+    sine = 1 - z / 72 * (1 - z / 110 * (1 - z / 156 * (1 - z / 210)))
+    sine = angle * (1 - z / 6 * (1 - z / 20 * (1 - z / 42 * sine)))
+    cosine = 1 - z / 90 * (1 - z / 132 * (1 - z / 182 * (1 - z / 240)))
+    return sine, 1 - z / 2 * (1 - z / 12 * (1 - z / 30 * (1 - z / 56 * cosine)))
 
-    `turn`, `states`: see `coefficients`; the states are moved on by `dt`, dt = 0 sets them to
-    steady.
+
+@section
+def flow_at(chord, chord_angle, chord_s, chord_c, turn, w_normal, w_tangential):
+    """Flow at a section whose chord lies at an angle (and its sine and cosine): speed, sine and
+    cosine of the inflow angle, angle of attack, that at three quarters of the chord.
+
+    `turn`: how fast the section turns about its span, nose up, rad/s.
     """
-    w_normal = normal * (1 - a)
-    w_tangential = tangential * (1 + swirl)
-    angle = angle_of(w_normal, w_tangential)
-    speed = np.sqrt(w_normal**2 + w_tangential**2)
-    chord_angle = m.twist[i] + pitch
-    lift, drag = coefficients(m, i, angle - chord_angle, speed, turn, dt, states)
-    pressure = 0.5 * m.air_density * m.chord[i] * speed**2
-    sine, cosine = (w_normal / speed, w_tangential / speed) if speed > 0.0 else (0.0, 1.0)
-    across = pressure * (lift * cosine + drag * sine)
-    along = pressure * (lift * sine - drag * cosine)
-    if m.torsion_compliance.size == 0:
-        return across, along, 0.0
-    lever = m.centre_ahead[i] * (across * np.cos(chord_angle) + along * np.sin(chord_angle))
-    return across, along, lever + pressure * m.chord[i] * polar(m.moment, i, angle - chord_angle)
+    speed = np.sqrt(w_normal * w_normal + w_tangential * w_tangential)
+    flows = speed > 0.0
+    over = 1 / speed if flows else 0.0
+    sine, cosine = w_normal * over, w_tangential * over if flows else 1.0
+    attack = angle_of(w_normal, w_tangential) - chord_angle
+    held = max(speed, SLOW)
+    rear = angle_of(
+        held * (sine * chord_c - cosine * chord_s) + 0.5 * chord * turn,
+        held * (cosine * chord_c + sine * chord_s),
+    )
+    return speed, sine, cosine, attack, rear
+
+
+@section
+def force_of(density, chord, speed, sine, cosine, lift, drag):
+    """Force per length (normal, tangential), N/m, and what a coefficient of 1 gives."""
+    pressure = 0.5 * density * chord * (speed * speed)
+    across, along = lift * cosine + drag * sine, lift * sine - drag * cosine
+    return pressure * across, pressure * along, pressure

@@ -7,7 +7,7 @@ modes over as they answer to the frame, the frame is solved, the blades follow.
 
 import numpy as np
 
-from .._compile import inner_kernel, inner_once, inner_section, kernel, once
+from .._compile import inner_once, inner_section, section
 
 GRAVITY = 9.80665
 TORSION_LAG = 0.05
@@ -24,15 +24,18 @@ def blade_axes(sine, cosine, vector):
 
 
 @inner_section
-def place(radii, i, motion, cone_s, cone_c):
-    """Section i, at `radii` (n,), in the axes (x, r, t) of its blade."""
-    radius = radii[i] - motion[i, 5]
-    along = -radius * cone_s + motion[i, 0] * cone_c
-    out = radius * cone_c + motion[i, 0] * cone_s
-    return along, out, motion[i, 1]
+def place(radius, bent, swept, cone_s, cone_c):
+    """A section at a radius along its blade, and deflected, in the axes (x, r, t) of the blade."""
+    return -radius * cone_s + bent * cone_c, radius * cone_c + bent * cone_s, swept
 
 
-@once
+@inner_section
+def section_place(radii, i, motion, cone_s, cone_c):
+    """The same of section i, at `radii` (n,) and with `motion` (n, 8)."""
+    return place(radii[i] - motion[i, 5], motion[i, 0], motion[i, 1], cone_s, cone_c)
+
+
+@section
 def turned_shapes(m, pitch, shape):
     """Mode shapes of a pitched blade, (n, k, 4): normal, tangential, and the slopes of both."""
     c, s = np.cos(pitch), np.sin(pitch)
@@ -44,7 +47,7 @@ def turned_shapes(m, pitch, shape):
             shape[i, k, 3] = m.slope[i, k, 0] * s + m.slope[i, k, 1] * c
 
 
-@once
+@section
 def deflection(m, pitch, shape, q, v, motion):
     """Motion of each section, (n, 8): deflection normal and tangential, their rates, slope of the
     normal deflection, pull towards the root, nose-down turn by bending; the last, that by torsion,
@@ -73,24 +76,23 @@ def deflection(m, pitch, shape, q, v, motion):
         motion[i, 7] = 0.0
 
 
-@kernel
-def torsion(m, b, dt, speed, azimuth, drift, gravity, force, motion, turned):
+@section
+def torsion(m, b, dt, speed, azimuth, drift, gravity, force, motion, turned, room):
     """Move the elastic nose-down turn of the sections, `turned` (n,), on towards that of the loads.
 
     Quasi-static: the torque about the axis of the bent blade, of aerodynamic loads (`force`,
     (n, 4)), weight and inertia outside of a section, over the torsional stiffness. It follows
     within `TORSION_LAG`, as a blade does that twists at a few hertz; dt = 0 sets it at once.
+    `room` is a `Room`.
     """
     cone_s, cone_c = np.sin(m.cone), np.cos(m.cone)
     sine, cosine = np.sin(azimuth), np.cos(azimuth)
     g_x, g_r, g_t = blade_axes(sine, cosine, gravity)
     rate = blade_axes(sine, cosine, drift[3:])
-    n = m.radius.size
-    point = np.empty((n, 3))
+    n, point, torque = m.radius.size, room.point, room.torque
     for i in range(n):
-        point[i, 0], point[i, 1], point[i, 2] = place(m.radius, i, motion, cone_s, cone_c)
+        point[i, 0], point[i, 1], point[i, 2] = section_place(m.radius, i, motion, cone_s, cone_c)
     f_x = f_r = f_t = m_x = m_r = m_t = couple = 0.0
-    torque = np.empty(n)
     for i in range(n - 1, -1, -1):
         x, r, t = point[i, 0], point[i, 1], point[i, 2]
         inner, outer = max(i - 1, 0), min(i + 1, n - 1)
@@ -124,7 +126,7 @@ def torsion(m, b, dt, speed, azimuth, drift, gravity, force, motion, turned):
         turned[i] += share * (wanted - turned[i])
 
 
-@inner_once
+@inner_section
 def nacelle_motion(frame, tilt, h, v, drift, gravity):
     """Speed of the apex and rate of rotation of the nacelle, `drift` (6,), and `gravity` (3,), in
     the shaft frame, which tilts with the nacelle; returns its tilt.
@@ -203,16 +205,17 @@ def solve_in_place(system, right):
             right[k, j] = total / system[k, k]
 
 
-@inner_kernel
+@inner_section
 def blade_equations(
-    m, b, dt, speed, azimuth, shape, drift, gravity, force, motion, q, v, acc, answer, inertia, load
-):
+    m, b, dt, speed, azimuth, shape, drift, gravity, force, motion, q, v, acc, answer, inertia,
+    load, room,
+):  # fmt: skip
     """Eliminate the modes of one blade from the equations of the frame.
 
     `force` (n, 3) holds the aerodynamic force, found at the predicted motion. `answer` (k, 1 + h)
     becomes the acceleration of the modes while the frame does not accelerate, then that per unit
     acceleration of each of its coordinates. `inertia` (h, h) and `load` (h,) of the frame grow by
-    what the blade adds to them.
+    what the blade adds to them; `room` is a `Room`.
     """
     modes, count = q.size, load.size
     cone_s, cone_c = np.sin(m.cone), np.cos(m.cone)
@@ -222,9 +225,14 @@ def blade_equations(
     mass = s_x = s_r = s_t = j_xx = j_rr = j_tt = j_xr = j_xt = j_rt = 0.0
     f_x = f_r = f_t = m_x = m_r = m_t = 0.0
     # sums over the blade: what a motion of the frame does to it depends on nothing else
-    couple, swing = np.zeros((modes, 1 + count)), np.zeros((modes, 6))
+    couple, swing, reach, push = room.couple, room.swing, room.reach, room.push
+    for k in range(modes):
+        for j in range(1 + count):
+            couple[k, j] = 0.0
+        for axis in range(6):
+            swing[k, axis] = 0.0
     for i in range(m.radius.size):
-        x, r, t = place(m.radius, i, motion, cone_s, cone_c)
+        x, r, t = section_place(m.radius, i, motion, cone_s, cone_c)
         a_x, a_r, a_t = free_acceleration(speed, rate, motion, i, cone_s, cone_c, r, t)
         own = m.mass[i] * m.mass_factor[b]
         own_x = force[i, 0] + own * (g_x - a_x)
@@ -249,7 +257,6 @@ def blade_equations(
             swing[k, 3] += r * p_t - t * p_r
             swing[k, 4] += t * p_x - x * p_t
             swing[k, 5] += x * p_r - r * p_x
-    reach, push = np.empty((count, 6)), np.empty((count, 6))
     for j in range(count):
         v_x, v_r, v_t = blade_axes(sine, cosine, m.frame.reach[j, :3])
         w_x, w_r, w_t = blade_axes(sine, cosine, m.frame.reach[j, 3:])
@@ -272,7 +279,7 @@ def blade_equations(
     if modes == 0:
         return
     outward = g_r * cone_c - g_x * cone_s
-    system = np.empty((modes, modes))
+    system = room.modal
     for k in range(modes):
         for j in range(1 + count):
             answer[k, j] = couple[k, j]
@@ -303,16 +310,18 @@ def blade_equations(
             answer[k, 1 + j] = -answer[k, 1 + j]
 
 
-@inner_kernel
-def frame_acceleration(f, hub_mass, dt, controlled, held, inertia, load, gravity, h, v, acc):
-    """Acceleration of the coordinates of the frame (h, 1), with those of the blades eliminated.
+@inner_section
+def frame_acceleration(
+    f, hub_mass, dt, controlled, held, inertia, load, gravity, h, v, acc, room, found
+):
+    """Write the acceleration of the coordinates of the frame, `found` (h, 1), with those of the
+    blades eliminated; `room` is a `Room`.
 
     `load` holds the torque of the generator. The shaft brake holds the generator up to the torque
     `held`, as dry friction; a rotor that is not `controlled` keeps its speed.
     """
     count = load.size
-    system, right = np.empty((count, count)), np.empty((count, 1))
-    fixed, still = np.empty((count, count)), np.empty((count, 1))
+    system, fixed, right = room.system, room.fixed, room.right
     for j in range(count):
         right[j, 0] = load[j] + f.load[j]
         for axis in range(3):
@@ -329,25 +338,26 @@ def frame_acceleration(f, hub_mass, dt, controlled, held, inertia, load, gravity
             h_free = h[n] + dt * v[n] + 0.25 * dt * dt * acc[n]
             v_free = v[n] + 0.5 * dt * acc[n]
             right[j, 0] -= f.damping[j, n] * v_free + f.stiffness[j, n] * h_free
-        still[j, 0] = right[j, 0] if j > 0 else 0.0
+        found[j, 0] = right[j, 0] if j > 0 else 0.0
     if not controlled or (held != 0.0 and v[0] == 0.0):
         fixed[0, 0] = 1.0
-        solve_in_place(fixed, still)
-        still[0, 0] = 0.0  # exactly
+        solve_in_place(fixed, found)
+        found[0, 0] = 0.0  # exactly
         # torque that the brake would have to take to keep the generator at rest
         needed = right[0, 0]
         for j in range(1, count):
-            needed -= system[0, j] * still[j, 0]
+            needed -= system[0, j] * found[j, 0]
         if not controlled or not abs(needed) > held:
-            return still
+            return
         right[0, 0] -= np.sign(needed) * held
     else:
         right[0, 0] -= np.sign(v[0]) * held
     solve_in_place(system, right)
-    return right
+    for j in range(count):
+        found[j, 0] = right[j, 0]
 
 
-@inner_once
+@inner_section
 def predicted(dt, q, v, acc, ahead, rate_ahead):
     """Write where motion and speed would be in a step with the acceleration of the last one."""
     for k in range(q.size):
@@ -355,7 +365,7 @@ def predicted(dt, q, v, acc, ahead, rate_ahead):
         rate_ahead[k] = v[k] + dt * acc[k]
 
 
-@inner_once
+@inner_section
 def step_on(dt, new, q, v, acc):
     """Newmark step (constant mean acceleration) to the acceleration `new`, in place."""
     for k in range(q.size):
@@ -364,7 +374,7 @@ def step_on(dt, new, q, v, acc):
         acc[k] = new[k]
 
 
-@inner_once
+@inner_section
 def blade_root(m, b, speed, azimuth, shape, drift, gravity, jerk, force, motion, acc, total, own):
     """Add what one blade applies to the hub at the apex: aerodynamics, weight and inertia.
 
@@ -379,7 +389,7 @@ def blade_root(m, b, speed, azimuth, shape, drift, gravity, jerk, force, motion,
     reach = (*blade_axes(sine, cosine, jerk[:3]), *blade_axes(sine, cosine, jerk[3:]))
     f_x = f_r = f_t = m_x = m_r = m_t = 0.0
     for i in range(m.radius.size):
-        x, r, t = place(m.radius, i, motion, cone_s, cone_c)
+        x, r, t = section_place(m.radius, i, motion, cone_s, cone_c)
         bend_n = bend_t = 0.0
         for k in range(acc.size):
             bend_n += shape[i, k, 0] * acc[k]
