@@ -10,6 +10,7 @@ import math
 import numpy as np
 from numba import njit
 
+from loadflow.rolling._line_law import ninth_root
 from loadflow.rolling.contacts import (
     FREE,
     GAP,
@@ -78,13 +79,13 @@ def contact_state(
 
 @njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER)
 def _point_sums(
-    q: Array, cos: Array, sin: Array, line: Array, spatial: float
-) -> tuple[float, float, float, float]:
-    """Largest force, and sums of F, F³, F^(10/3) of one kind of point contact."""
+    q: Array, cos: Array, sin: Array, line: Array, spatial: float, forces: Array
+) -> tuple[float, float, float]:
+    """Sums of F, F³, F^(10/3) of one kind of point contact; fills `forces`."""
     big, h = line[RADIUS], line[HEIGHT]
     ux, uy, tx, ty = q[0] + h * q[4], q[1] - h * q[3], big * q[3], big * q[4]
     third = line[STIFFNESS] ** (1.0 / 3.0)
-    largest = first = cubes = powers = 0.0
+    first = cubes = powers = 0.0
     for i in range(cos.shape[0]):
         c, s = cos[i], sin[i]
         dt = spatial * (uy * c - ux * s)
@@ -92,31 +93,32 @@ def _point_sums(
         root = math.sqrt(delta)
         force = line[STIFFNESS] * delta * root
         cube = force * force * force
-        largest = max(largest, force)
+        forces[i] = force
         first += force
         cubes += cube
         powers += cube * third * root
-    return largest, first, cubes, powers
+    return first, cubes, powers
 
 
 @njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER)
-def _line_sums(q: Array, cos: Array, sin: Array, line: Array) -> tuple[float, float, float, float]:
-    """Largest force, and sums of F, F⁴, F^(9/2) of one kind of line contact."""
+def _line_sums(
+    q: Array, cos: Array, sin: Array, line: Array, forces: Array
+) -> tuple[float, float, float]:
+    """Sums of F, F⁴, F^(9/2) of one kind of line contact; fills `forces`."""
     lever = line[HEIGHT] * line[NORMAL_R] - line[RADIUS] * line[NORMAL_Z]
     fixed = line[NORMAL_Z] * q[2] - line[GAP]
     x, y = line[NORMAL_R] * q[0] + lever * q[4], line[NORMAL_R] * q[1] - lever * q[3]
-    largest = first = fourth = powers = 0.0
+    stiffness = line[STIFFNESS]
+    first = fourth = powers = 0.0
     for i in range(cos.shape[0]):
-        delta = x * cos[i] + y * sin[i] + fixed
-        if delta <= 0.0:
-            continue
-        force = line[STIFFNESS] * delta ** (10.0 / 9.0)
+        delta = max(x * cos[i] + y * sin[i] + fixed, 0.0)
+        force = stiffness * delta * ninth_root(delta)
         square = force * force
-        largest = max(largest, force)
+        forces[i] = force
         first += force
         fourth += square * square
         powers += square * square * math.sqrt(force)
-    return largest, first, fourth, powers
+    return first, fourth, powers
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -140,10 +142,10 @@ def row_forces(
                 fixed = line[NORMAL_Z] * q[2] - line[GAP]
                 x = line[NORMAL_R] * q[0] + lever * q[4]
                 y = line[NORMAL_R] * q[1] - lever * q[3]
+                stiffness = line[STIFFNESS]
                 for i in range(count):
-                    delta = x * cos[first + i] + y * sin[first + i] + fixed
-                    if delta > 0.0:
-                        total[i] += line[STIFFNESS] * delta ** (10.0 / 9.0)
+                    delta = max(x * cos[first + i] + y * sin[first + i] + fixed, 0.0)
+                    total[i] += stiffness * delta * ninth_root(delta)
     return force
 
 
@@ -163,13 +165,15 @@ def force_sums(
     """
     n, kinds = displacement.shape[0], table.shape[0]
     largest, sums = np.zeros((n, kinds)), np.zeros((n, kinds, 3))
+    forces = np.zeros(cos.shape[0])
     for j in range(n):
         for k in range(kinds):
             c, s = cos[spans[k, 0] : spans[k, 1]], sin[spans[k, 0] : spans[k, 1]]
             if law == POINT:
-                part = _point_sums(displacement[j], c, s, table[k], spatial)
+                part = _point_sums(displacement[j], c, s, table[k], spatial, forces)
             else:
-                part = _line_sums(displacement[j], c, s, table[k])
-            largest[j, k] = part[0]
-            sums[j, k, 0], sums[j, k, 1], sums[j, k, 2] = part[1], part[2], part[3]
+                part = _line_sums(displacement[j], c, s, table[k], forces)
+            sums[j, k, 0], sums[j, k, 1], sums[j, k, 2] = part
+            for i in range(c.shape[0]):  # apart from the sums: a maximum keeps off vector units
+                largest[j, k] = max(largest[j, k], forces[i])
     return largest, sums

@@ -14,6 +14,7 @@ from numba import njit
 
 from loadflow.numerics import convergence
 from loadflow.numerics.linked import LINKED
+from loadflow.rolling._line_law import ninth_root
 from loadflow.rolling.contacts import (
     FREE,
     GAP,
@@ -138,9 +139,9 @@ def _add_points(q, cos, sin, line, spatial, gradient, hessian):
     return energy, total
 
 
-@njit(forceinline=True, nogil=True, error_model="numpy", **LINKED)
+@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER, **LINKED)
 def _add_lines(q, cos, sin, line, gradient, hessian):
-    """Add all line contacts of one kind; returns energy and sum of forces.
+    """Add all line contacts of one kind (free of branches); returns energy and sum of forces.
 
     Their direction (n_r c, n_r s, n_z, -L s, L c), L the lever of the normal, is fixed, so that
     force and slope need only be summed with c and s.
@@ -148,14 +149,12 @@ def _add_lines(q, cos, sin, line, gradient, hessian):
     nr, nz = line[NORMAL_R], line[NORMAL_Z]
     lever = line[HEIGHT] * nr - line[RADIUS] * nz
     x, y = nr * q[0] + lever * q[4], nr * q[1] - lever * q[3]
-    fixed = nz * q[2] - line[GAP]
+    fixed, stiffness = nz * q[2] - line[GAP], line[STIFFNESS]
     energy = f1 = fc = fs = k1 = kc = ks = kcc = kcs = 0.0
     for i in range(cos.shape[0]):
         c, s = cos[i], sin[i]
-        delta = x * c + y * s + fixed
-        if delta <= 0.0:
-            continue
-        slope = line[STIFFNESS] * math.exp(math.log(delta) / 9.0)
+        delta = max(x * c + y * s + fixed, 0.0)
+        slope = stiffness * ninth_root(delta)
         force = slope * delta
         slope *= 10.0 / 9.0
         energy += 9.0 / 19.0 * force * delta

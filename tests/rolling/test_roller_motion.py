@@ -126,6 +126,27 @@ def test_film_steps_hold_a_tenth_of_a_percent():
     assert 0.1 < tight.maximum_slip < 1
 
 
+@pytest.mark.parametrize("film", ["moes", "hamrock"])
+@pytest.mark.parametrize("load", [1e-3, 1.0, 300.0, 3e4])
+@pytest.mark.parametrize("speed", [1e-3, 0.3, 5.0])
+def test_contacts_follow_their_slopes(film, load, speed):
+    """Central differences of 1e-5 of the speed: they leave 1e-9 and rounding."""
+    numbers = film_numbers(ROW, dataclasses.replace(WITH_DRAG, film=film))
+
+    def at(mean):
+        return _motion_kernels.both_contacts(numbers, mean, mean / ROW.radius, load, 0.3 * load)
+
+    step = 1e-5 * speed
+    here, less, more = at(speed), at(speed - step), at(speed + step)
+    for ring in ("inner", "outer"):
+        slopes = getattr(here, f"{ring}_slope")
+        for name, value in getattr(here, ring)._asdict().items():
+            change = getattr(getattr(more, ring), name) - getattr(getattr(less, ring), name)
+            assert getattr(slopes, name) == pytest.approx(
+                change / (2 * step), rel=1e-4, abs=1e-9 * value / speed
+            )
+
+
 def test_film_steps_agree_with_lsoda():
     from scipy.integrate import solve_ivp
 

@@ -117,8 +117,8 @@ def test_nijenbanning_agrees_with_hamrock_dowson_in_circular_contacts():
 
 
 def test_films_compile_as_they_stand():
-    assert numba.njit(film.moes_line)(G, 1e-11, 1e-5) == pytest.approx(
-        film.moes_line(G, 1e-11, 1e-5), rel=1e-13
+    assert numba.njit(film.moes_line_exponent)(G, 1e-11, 1e-5) == pytest.approx(
+        film.moes_line_exponent(G, 1e-11, 1e-5), rel=1e-13
     )
 
 

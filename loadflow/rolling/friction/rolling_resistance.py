@@ -142,7 +142,7 @@ def hydrodynamic_force(
     weight = (load / (modulus * length * radius)) ** 0.246
     elastic = 29.2 * radius / pressure_viscosity * length * carry * weight
     rigid = _MARTIN * length * np.sqrt(viscosity * speed * load / length)
-    return elastic * rigid / (elastic**4 + rigid**4 + 1e-200) ** 0.25
+    return elastic * rigid / np.sqrt(np.sqrt(elastic**4 + rigid**4 + 1e-200))
 
 
 def hydrodynamic_torque(

@@ -11,18 +11,21 @@ from numba import njit
 from loadflow.rolling.friction import rolling_resistance
 from loadflow.tribology import asperities, contact_film, traction
 
-_moes_line = njit(cache=True, error_model="numpy")(contact_film.moes_line)
+_moes_line = njit(cache=True, error_model="numpy")(contact_film.moes_line_exponent)
 _thermal_factor = njit(cache=True, error_model="numpy")(contact_film.thermal_factor)
 _asperity_share = njit(cache=True, error_model="numpy")(asperities.asperity_share)
 _limiting_stress = njit(cache=True, error_model="numpy")(traction.limiting_stress)
 _inlet_force = njit(cache=True, error_model="numpy")(traction.inlet_force)
-_hydrodynamic_force = njit(cache=True, error_model="numpy")(rolling_resistance.hydrodynamic_force)
 _elastic_force = njit(cache=True, error_model="numpy")(rolling_resistance.elastic_force)
+_rigid_force = njit(cache=True, error_model="numpy")(rolling_resistance.rigid_force)
+_hydrodynamic_force = njit(cache=True, error_model="numpy")(rolling_resistance.hydrodynamic_force)
 
 CREEP = 1e-6  # slip over surface speed below which the shape of traction is not resolved
 _BOUNDARY_SPEED = 1e-3  # m/s, over which the friction of asperities turns round
 _REST = 1e-3  # of the ideal spin: over it what brakes the roller turns round
 _PART = 1.0 - math.sqrt(0.5)  # of the step, of Alexander's L-stable method of order 2
+_NEAR = 0.1  # of the mean speed: as far as contacts follow it in a line
+_CLOSE = 3e-4  # of the ideal spin: gap of a stage whose contacts need not be made again
 _FLOOR = 1e-4  # shortest step over the interval of the samples
 
 
@@ -57,7 +60,7 @@ class Film(NamedTuple):
 
 
 class Contact(NamedTuple):
-    """Friction of one contact at given load and mean speed."""
+    """Friction of one contact at given load and mean speed, or its slopes over the mean speed."""
 
     limit: float  # traction of the film at its limiting stress, N
     core: float  # slip speed over which it turns round, m/s
@@ -68,12 +71,26 @@ class Contact(NamedTuple):
     area: float  # m²
 
 
+class Contacts(NamedTuple):
+    """Contacts of a roller with inner and outer ring at a mean speed, and their slopes over it."""
+
+    inner: Contact
+    outer: Contact
+    inner_slope: Contact
+    outer_slope: Contact
+    mean: float
+
+
 @njit(cache=True, nogil=True, error_model="numpy")
-def contact(film, load, radius, mean):
-    """Friction of one contact; a roller that is not pressed on has none."""
+def contact(film, load, radius, u, cooled):
+    """Friction of one contact and its slopes; a roller that is not pressed on has none.
+
+    `cooled` is the share of the film that heat of the inlet leaves at the mean speed `u`.
+    """
     if load <= 0.0:
-        return Contact(0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0)
-    u = max(mean, 1e-9)
+        return Contact(0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0), Contact(
+            0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+        )
     area = (
         2.0 * film.length * math.sqrt(8.0 * load * radius / (math.pi * film.length * film.modulus))
     )
@@ -81,55 +98,106 @@ def contact(film, load, radius, mean):
     g = film.pressure_viscosity * film.modulus
     us = film.viscosity * u / (film.modulus * radius)
     ws = load / (film.modulus * radius * film.length)
-    share = film.starvation * _thermal_factor(film.heating * u * u)
+    share, grows_share = film.starvation * cooled, 1.096 * (cooled - 1.0)  # 2 × 0.548
+    given = film.length, radius, u, film.viscosity, film.pressure_viscosity, film.modulus
     if film.regimes:
-        ratio = _moes_line(g, us, ws)
-        rolling = _hydrodynamic_force(
-            load, film.length, radius, u, film.viscosity, film.pressure_viscosity, film.modulus
-        )
+        ratio, grows = _moes_line(g, us, ws)
+        rolling = _hydrodynamic_force(load, *given)
+        # between the powers 0.648 of the elastic film and 0.5 of the rigid one
+        rigid = (rolling / _rigid_force(load, film.length, u, film.viscosity)) ** 4
+        grows_rolling = 0.648 - 0.148 * rigid
     else:
         ratio = film.factor * g**film.material * us**film.speed * ws**-film.load
-        rolling = _elastic_force(
-            load, film.length, radius, u, film.viscosity, film.pressure_viscosity, film.modulus
-        )
+        rolling = _elastic_force(load, *given)
+        grows, grows_rolling = film.speed, 0.648
     height = share * ratio * radius
+    grows += grows_share
     rough = _asperity_share(height / film.roughness)
+    grows_rough = 1.2 * math.log(max(rough, 1e-300)) * grows
     stress = _limiting_stress(
         pressure, film.critical_stress, film.critical_pressure, film.limiting_slope
     )
     thick = film.viscosity * math.exp(min(film.pressure_viscosity * pressure, 40.0))
-    gap = max(height, film.roughness)
-    inlet = 0.0
+    core, creep = stress * height / thick, CREEP * u
+    inlet, gap = 0.0, max(height, film.roughness)
     if film.regimes:
         inlet = _inlet_force(1.0, film.viscosity, film.length, radius, gap)
     hysteresis = film.hysteresis * load * area / film.length / (6.0 * math.pi * radius)
-    return Contact(
+    rubbing = rough * film.boundary * load
+    here = Contact(
         (1.0 - rough) * stress * area,
-        max(stress * height / thick, CREEP * u),
-        rough * film.boundary * load,
+        max(core, creep),
+        rubbing,
         inlet,
         share * rolling + hysteresis,
         height,
         area,
     )
+    slopes = Contact(
+        -rough * grows_rough * stress * area / u,
+        max(core * grows, creep) / u if core > creep else CREEP,
+        rubbing * grows_rough / u,
+        -0.5 * inlet * grows / u if height > film.roughness else 0.0,
+        share * rolling * (grows_rolling + grows_share) / u,
+        height * grows / u,
+        0.0,
+    )
+    return here, slopes
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _tanh(x):
+    """Hyperbolic tangent to rounding of 1: one exponential takes a quarter of its time."""
+    if abs(x) > 20.0:
+        return math.copysign(1.0, x)
+    power = math.exp(2.0 * x)
+    return (power - 1.0) / (power + 1.0)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _pull(c, slopes, slip, rubs):
+    """Traction of one contact, N, and its slopes over slip and mean speed.
+
+    `rubs` is the share of the friction of asperities at this slip.
+    """
+    a = _tanh(slip / c.core)
+    turning = c.limit * (1.0 - a * a) / c.core
+    over_slip = turning + c.rubbing * (1.0 - rubs * rubs) / _BOUNDARY_SPEED + c.inlet
+    over_mean = slopes.limit * a + slopes.rubbing * rubs + slopes.inlet * slip
+    force = c.limit * a + c.rubbing * rubs + c.inlet * slip
+    return force, over_slip, over_mean - turning * slip / c.core * slopes.core
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def pull(c, slip):
-    """Traction of one contact on the roller, N, and its slope over the slip speed."""
-    a, b = math.tanh(slip / c.core), math.tanh(slip / _BOUNDARY_SPEED)
-    force = c.limit * a + c.rubbing * b + c.inlet * slip
-    slope = c.limit * (1.0 - a * a) / c.core + c.rubbing * (1.0 - b * b) / _BOUNDARY_SPEED
-    return force, slope + c.inlet
+    """Traction of one contact on the roller, N."""
+    return (
+        c.limit * _tanh(slip / c.core) + c.rubbing * _tanh(slip / _BOUNDARY_SPEED) + c.inlet * slip
+    )
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def both_contacts(film, surface, spin, load, outward):
     """Contacts with inner and outer ring of a roller that spins with `spin`."""
-    mean = abs(surface + film.radius * spin) / 2.0
-    return (
-        contact(film, load + max(-outward, 0.0), film.radius * (1.0 - film.gamma), mean),
-        contact(film, load + max(outward, 0.0), film.radius * (1.0 + film.gamma), mean),
+    rho = film.radius
+    mean = max(abs(surface + rho * spin) / 2.0, 1e-9)
+    at = mean, _thermal_factor(film.heating * mean * mean)
+    inner, inner_slope = contact(film, load + max(-outward, 0.0), rho * (1.0 - film.gamma), *at)
+    outer, outer_slope = contact(film, load + max(outward, 0.0), rho * (1.0 + film.gamma), *at)
+    return Contacts(inner, outer, inner_slope, outer_slope, mean)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _moved(c, slopes, change):
+    """A contact after a small change of the mean speed."""
+    return Contact(
+        c.limit + slopes.limit * change,
+        c.core + slopes.core * change,
+        c.rubbing + slopes.rubbing * change,
+        c.inlet + slopes.inlet * change,
+        c.rolling + slopes.rolling * change,
+        c.film + slopes.film * change,
+        c.area,
     )
 
 
@@ -139,126 +207,141 @@ def _turn(surface, spin, radius):
 
     What brakes a roller cannot turn it back: the lower limit 0 of (5.100).
     """
-    return math.tanh(spin * radius / max(_REST * abs(surface), 1e-6))
+    return _tanh(spin * radius / max(_REST * abs(surface), 1e-6))
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def cage_push(film, inner, outer, turn, slip, tangential):
     """Force of the cage on the roller, in the sense of turning, N (`friction.energy`)."""
-    pull_i, _ = pull(inner, slip)
-    pull_o, _ = pull(outer, slip)
     lean_i, lean_o = 2.0 * (1.0 - film.gamma), 2.0 * (1.0 + film.gamma)
-    on_roller = pull_i - pull_o
+    on_roller = pull(inner, slip) - pull(outer, slip)
     on_roller += turn * ((lean_i - 1.0) * inner.rolling - (lean_o - 1.0) * outer.rolling)
     return tangential - on_roller
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _balance(film, inner, outer, surface, steady, tangential, slip):
-    """Moment on the roller at a slip speed for given contacts, and its slope; N m, N s.
+def _balance(film, contacts, surface, steady, tangential, slip):
+    """Moment on the roller at a slip speed, N m, its slope, N s, and both tractions together, N.
 
-    `steady` is the moment against the spin that no slip changes. The slope is positive: the cage
-    pushes with the difference of the tractions, of which the pocket rubs only a small share.
+    Contacts follow their mean speed in a line, up to `_NEAR` of it. `steady` is the moment against
+    the spin that no slip changes. The slope is positive: the cage pushes with the difference of the
+    tractions, of which the pocket rubs only a small share.
     """
+    inner, outer, inner_slope, outer_slope, at = contacts
     rho = film.radius
+    mean = surface - 0.5 * slip
+    follows = -0.5 if mean > 0.0 else 0.5
+    change = abs(mean) - at
+    if abs(change) > _NEAR * at:
+        change, follows = math.copysign(_NEAR * at, change), 0.0
     spin = (surface - slip) / rho
     turn = _turn(surface, spin, rho)
     fade = -(1.0 - turn * turn) / max(_REST * abs(surface), 1e-6)
-    pull_i, slope_i = pull(inner, slip)
-    pull_o, slope_o = pull(outer, slip)
-    leaning = (1.0 - 2.0 * film.gamma) * inner.rolling - (1.0 + 2.0 * film.gamma) * outer.rolling
+    rubs = _tanh(slip / _BOUNDARY_SPEED)
+    inner, outer = _moved(inner, inner_slope, change), _moved(outer, outer_slope, change)
+    pull_i, slope_i, over_i = _pull(inner, inner_slope, slip, rubs)
+    pull_o, slope_o, over_o = _pull(outer, outer_slope, slip, rubs)
+    slope_i += follows * over_i
+    slope_o += follows * over_o
+    lean_i, lean_o = 1.0 - 2.0 * film.gamma, 1.0 + 2.0 * film.gamma
+    leaning = lean_i * inner.rolling - lean_o * outer.rolling
     push = tangential - (pull_i - pull_o + turn * leaning)
     brake = rho * (film.pocket * abs(push) + inner.rolling + outer.rolling)
     moment = rho * (pull_i + pull_o) - steady - film.spin_drag * spin - brake * turn
     rubbing = rho * film.pocket * math.copysign(1.0, push)
     slope = rho * (slope_i + slope_o) + film.spin_drag / rho - brake * fade
-    return moment, slope + rubbing * (slope_i - slope_o + fade * leaning) * turn
+    slope -= rho * follows * turn * (inner_slope.rolling + outer_slope.rolling)
+    leaning_slope = follows * (lean_i * inner_slope.rolling - lean_o * outer_slope.rolling)
+    slope += rubbing * (slope_i - slope_o + fade * leaning + turn * leaning_slope) * turn
+    return moment, slope, pull_i + pull_o
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def roller_moment(film, surface, turning, swing, load, outward, tangential, spin):
     """Moment on a roller, N m: its inertia times the rate of the spin."""
-    inner, outer = both_contacts(film, surface, spin, load, outward)
+    contacts = both_contacts(film, surface, spin, load, outward)
     steady = film.orbit_drag * turning - film.inertia * swing
     slip = surface - film.radius * spin
-    return _balance(film, inner, outer, surface, steady, tangential, slip)[0]
+    return _balance(film, contacts, surface, steady, tangential, slip)[0]
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _slip_of_stage(film, inner, outer, surface, steady, tangential, known, part):
-    """Slip speed at which spin = known + part × moment, for given contacts.
+def _slip_of_stage(film, contacts, surface, steady, tangential, known, part, slip):
+    """Slip speed at which spin = known + part × moment, for given contacts, from a guess.
 
-    The excess falls everywhere at least as steeply as 1/ρ, so that one value of it bounds the root;
-    Newton's method inside the bounds, started within the core of the traction if that can hold.
+    The excess falls at least as steeply as 1/ρ, so that one value of it bounds the root; Newton's
+    method inside the bounds. Where the guess is outside of the core of the traction in which the
+    root is, the first step follows the curve of the traction in place of its tangent.
     """
     rho = film.radius
-    moment, _ = _balance(film, inner, outer, surface, steady, tangential, 0.0)
-    excess = surface / rho - known - part * moment
-    strong = inner.limit + outer.limit
-    core = min(inner.core, outer.core)
-    wanted = excess / (part * rho)
-    if abs(wanted) < strong:
-        slip = core * math.atanh(0.999999 * wanted / strong)
-    else:
-        slip = rho * (excess - part * rho * math.copysign(strong, wanted))
-    low, high = min(0.0, rho * excess), max(0.0, rho * excess)
-    scale = 1e-11 * max(abs(surface), 1e-9) / rho
+    strong = contacts.inner.limit + contacts.outer.limit
+    core = min(contacts.inner.core, contacts.outer.core)
+    low, high = -math.inf, math.inf
+    scale = 1e-10 * max(abs(surface), 1e-9) / rho
     last = math.inf
     for _ in range(120):
-        if not low <= slip <= high:
-            slip = 0.5 * (low + high)
-        moment, slope = _balance(film, inner, outer, surface, steady, tangential, slip)
+        moment, slope, pulled = _balance(film, contacts, surface, steady, tangential, slip)
         excess = (surface - slip) / rho - known - part * moment
         if abs(excess) <= scale or high - low <= 1e-15 * max(abs(surface), 1e-9):
             return slip
         if excess > 0.0:
-            low = slip
+            low, high = max(low, slip), min(high, slip + 2.0 * rho * excess)
         else:
-            high = slip
-        if abs(excess) > 0.5 * last:
+            low, high = max(low, slip + 2.0 * rho * excess), min(high, slip)
+        step = excess / (1.0 / rho + part * slope)
+        if last == math.inf and abs(step) > 0.5 * core:
+            wanted = pulled + excess / (part * rho)
+            if abs(wanted) < strong:
+                slip = core * math.atanh(0.999999 * wanted / strong)
+            else:
+                slip += rho * (excess - part * rho * (math.copysign(strong, wanted) - pulled))
+        elif abs(excess) > 0.5 * last:
             slip = 0.5 * (low + high)
         else:
-            slip += excess / (1.0 / rho + part * slope)
+            slip += step
+        if not low <= slip <= high:
+            slip = 0.5 * (low + high)
         last = abs(excess)
     return slip
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _stage(film, state, known, part, guess, tally):
-    """Spin of an implicit stage: contacts at a spin, slip in closed contacts, until both agree.
+    """Spin of an implicit stage: contacts and slopes at a spin, slip in them, until both agree.
 
     `state` is (surface, turning, swing, load, outward, tangential). The films feel the mean speed
-    alone, which slip at most halves; still thin films on long steps feel it enough for plain
-    iteration to swing, so that secants inside the bounds found so far take over.
+    alone, which slip at most halves; a spin that leaves the bounds found so far is halved back.
+    What a line leaves out is of second order: contacts whose mean speed was right to `_CLOSE` are
+    right to its square.
     """
     surface, turning, swing, load, outward, tangential = state
     steady = film.orbit_drag * turning - film.inertia * swing
     spin = guess
     scale = max(abs(surface), 1e-9) / film.radius
     low, high = -math.inf, math.inf
-    before = last = math.nan
     for _ in range(60):
-        inner, outer = both_contacts(film, surface, spin, load, outward)
-        slip = _slip_of_stage(film, inner, outer, surface, steady, tangential, known, part)
+        contacts = both_contacts(film, surface, spin, load, outward)
+        start = surface - film.radius * spin
+        slip = _slip_of_stage(film, contacts, surface, steady, tangential, known, part, start)
         found = (surface - slip) / film.radius
         gap = found - spin
         tally[0] += 1
-        if abs(gap) <= 1e-7 * scale:
-            tally[2] = max(tally[2], abs(gap) / scale)
-            return found, inner, outer
+        if abs(gap) <= _CLOSE * scale:
+            tally[2] = max(tally[2], (gap / scale) ** 2)
+            break
         if gap > 0.0:
             low = max(low, spin)
         else:
             high = min(high, spin)
-        guess = found
-        if last != gap and not math.isnan(last):
-            guess = spin - gap * (spin - before) / (gap - last)
-        if not low < guess < high:
-            guess = 0.5 * (low + high) if high - low < math.inf else found
-        before, last, spin = spin, gap, guess
-    tally[1] += 1
-    tally[2] = max(tally[2], abs(gap) / scale)
-    return found, inner, outer
+        if not low < found < high:
+            found = 0.5 * (low + high)
+        spin = found
+    else:
+        tally[1] += 1
+        tally[2] = max(tally[2], abs(gap) / scale)
+    change = abs(surface + film.radius * found) / 2.0 - contacts.mean
+    inner = _moved(contacts.inner, contacts.inner_slope, change)
+    return found, inner, _moved(contacts.outer, contacts.outer_slope, change)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -285,18 +368,20 @@ def film_spins(film, time, surface, turning, swing, load, outward, tangential, s
                 h = min(share, 1.0 - t)
                 if t + h > 1.0 - 1e-9:
                     h = 1.0 - t
-                part = _PART * h * span / film.inertia
+                step = _PART * h * span
+                part = step / film.inertia
                 a = _between(
                     surface, turning, swing, load, outward, tangential, i, j, t + _PART * h
                 )
-                one, _, _ = _stage(film, a, w, part, w + _PART * h * span * rate, tally)
-                first = (one - w) / (_PART * h * span)
+                one, _, _ = _stage(film, a, w, part, w + step * rate, tally)
+                first = (one - w) / step
                 b = _between(surface, turning, swing, load, outward, tangential, i, j, t + h)
                 known = w + (1.0 - _PART) * h * span * first
-                two, inner, outer = _stage(film, b, known, part, one, tally)
-                second = (two - known) / (_PART * h * span)
+                guess = known + step * first
+                two, inner, outer = _stage(film, b, known, part, guess, tally)
+                second = (two - known) / step
                 scale = tolerance * max(abs(b[0]), 1e-6) / film.radius
-                error = _PART * h * span * abs(second - first) / scale
+                error = step * abs(second - first) / scale
                 tally[3] += 1
                 if error > 1.0 and h > _FLOOR:
                     share = max(h * max(0.9 / math.sqrt(error), 0.1), _FLOOR)
@@ -305,7 +390,7 @@ def film_spins(film, time, surface, turning, swing, load, outward, tangential, s
                     share = min(max(h, share) * min(0.9 / math.sqrt(max(error, 0.05)), 4.0), 1.0)
                 w, rate, t = two, second, t + h
                 slip = b[0] - film.radius * w
-                power_i, power_o = pull(inner, slip)[0] * slip, pull(outer, slip)[0] * slip
+                power_i, power_o = pull(inner, slip) * slip, pull(outer, slip) * slip
                 energy[i + 1, j] += (power_i + power_o) * h * span
                 worst = max(power_i / inner.area, power_o / outer.area)
                 density[i + 1, j] = max(density[i + 1, j], worst)
@@ -340,16 +425,15 @@ def forces(film, surface, turning, swing, load, outward, tangential, spin):
         for j in range(count):
             w = spin[i, j]
             slip = surface[i] - film.radius * w
-            inner, outer = both_contacts(film, surface[i], w, load[i, j], outward[i, j])
+            contacts = both_contacts(film, surface[i], w, load[i, j], outward[i, j])
+            inner, outer = contacts.inner, contacts.outer
             steady = film.orbit_drag * turning[i] - film.inertia * swing[i]
             turn = _turn(surface[i], w, film.radius)
             push = cage_push(film, inner, outer, turn, slip, tangential[i, j])
-            out[i, j, 0], out[i, j, 1] = pull(inner, slip)[0], pull(outer, slip)[0]
+            out[i, j, 0], out[i, j, 1] = pull(inner, slip), pull(outer, slip)
             out[i, j, 2], out[i, j, 3] = turn * inner.rolling, turn * outer.rolling
             out[i, j, 4], out[i, j, 5] = inner.film, outer.film
             out[i, j, 6] = turn * film.pocket * film.radius * abs(push)
-            out[i, j, 7], _ = _balance(
-                film, inner, outer, surface[i], steady, tangential[i, j], slip
-            )
+            out[i, j, 7] = _balance(film, contacts, surface[i], steady, tangential[i, j], slip)[0]
             out[i, j, 8] = push
     return out
