@@ -193,14 +193,12 @@ class ShapedGap(FlowBetween):
 
     def narrowest(self, position: Array) -> float:
         """Narrowest gap over the clearance; ≤ 0 where the shaft would touch the bore."""
-        return float(self.gaps(position).min())
+        return self.closest(position)[0]
 
     def closest(self, position: Array) -> tuple[float, float, float]:
         """Narrowest gap (clearances), its angle (rad) and axial place (shaft radii)."""
-        gaps = self.gaps(position)
-        i, k = np.unravel_index(gaps.argmin(), gaps.shape)
-        x, y = self.layout.facing[i].tolist()
-        return float(gaps[i, k]), math.atan2(y, x), float(self.layout.spots_z[k])
+        least, angle, z = self.layout.lowest(self.gaps(position))
+        return least, math.atan2(math.sin(angle), math.cos(angle)), z
 
     def closing(self, position: Array, limit: float) -> tuple[float, ...]:
         """Angles, rad, of the narrowest gap of each segment where it is below `limit`."""
