@@ -15,6 +15,7 @@ from loadflow.journal.film.pad_curve import PadCurve, pad_curve
 
 Array = NDArray[np.float64]
 _STAYS = 1e-3  # readiness of a shaft that nothing holds to move, against that of its pad
+_EXACT = 0.95  # share of a gap from which a film may hold a pad after all
 _SMALL_LIFT = 0.03  # tilt of a pad, in clearances, from which it may grow threefold in a step
 
 
@@ -167,6 +168,15 @@ class ShapedGap(FlowBetween):
         if not self.pads.size:
             return self.pads
         return self.pads[self.pad_curve(speed).holds(1.0 - self.pivots @ position[:2])]
+
+    def may_hold(self, position: Array, speed: float) -> NDArray[np.int64]:
+        """Pads that a film may hold at `position`, for what the curve of one pad can tell.
+
+        It knows no relief, and the width of its film by a parabola alone.
+        """
+        if self.bore.relief:
+            return self.pads
+        return self.pads[self.pad_curve(speed).holds(_EXACT * (1.0 - self.pivots @ position[:2]))]
 
     def lifted(self, position: Array, speed: float) -> Array:
         """Position with pads tilted so that their gap converges in the sense of rotation."""
