@@ -11,7 +11,8 @@ one. What is counted: answered (converged and finite), reason (an error that say
 no answer: contact, starvation, standstill, unfit input), unfound (an error that only says that no
 answer was found, with its residual), raw (any other exception), slow (more than 2 s of processor
 time, whatever came of it). With `--cap` a draw ends after so many seconds of processor time and is
-counted as late (but the first of a family, which may compile).
+counted as late. The clock stands while kernels are compiled, so that a draw has the same time
+whichever came before it.
 
 Ranges, even over the decades where they span some: diameter 0.1 … 5 m, B/D 0.1 … 4, ψ 2e-4 … 3e-3,
 viscosity 1e-3 … 1 Pa s, speed ± 0.1 … 300 rad/s, So 1e-3 … 300, all five laws (mixing constant
@@ -36,9 +37,7 @@ viscosity 1e-3 … 1 Pa s, speed ± 0.1 … 300 rad/s, So 1e-3 … 300, all five
 from __future__ import annotations
 
 import json
-import signal
 import sys
-import time
 import warnings
 from collections import Counter
 from collections.abc import Callable
@@ -50,6 +49,7 @@ import numpy as np
 
 from benchmarks.common import arguments
 from benchmarks.robustness import kept
+from benchmarks.robustness.clock import Clock, Late
 from loadflow.errors import InputError, LoadflowError
 from loadflow.journal import (
     Arc,
@@ -395,25 +395,13 @@ FAMILIES: dict[str, Callable[[Point], Callable[[], Any]]] = {
 }
 
 
-class Late(BaseException):
-    """A draw has taken longer than it may."""
-
-
-def _end(number: int, frame: Any) -> None:
-    raise Late
-
-
-def outcome(work: Callable[[], Any], cap: float = 0.0) -> tuple[str, str]:
-    """What comes of a draw within `cap` seconds (0: any): its count, and the text of an error."""
-    signal.signal(signal.SIGPROF, _end)
+def outcome(work: Callable[[], Any], clock: Clock) -> tuple[str, str]:
+    """What comes of a draw under its clock: its count, and the text of an error."""
     try:
-        signal.setitimer(signal.ITIMER_PROF, cap)
-        try:
+        with clock:
             answer = work()
-        finally:
-            signal.setitimer(signal.ITIMER_PROF, 0.0)
     except Late:
-        return "late", f"ended after {cap:g} s"
+        return "late", f"ended after {clock.cap:g} s"
     except LoadflowError as error:
         text = str(error)
         told = isinstance(error, InputError) or any(word in text for word in REASONS)
@@ -424,23 +412,18 @@ def outcome(work: Callable[[], Any], cap: float = 0.0) -> tuple[str, str]:
     return ("answered", "") if finite else ("raw", "an answer that is not finite")
 
 
-def run(
-    family: str, numbers: range, show: bool, cap: float = 0.0, compiled: bool = False
-) -> dict[str, Any]:
-    """Counts of one family; the first draw is neither timed nor ended unless all is compiled."""
+def run(family: str, numbers: range, show: bool, cap: float = 0.0) -> dict[str, Any]:
+    """Counts of one family."""
     counts: Counter[str] = Counter()
     longest = total = 0.0
     for number in numbers:
         rng = np.random.default_rng([SEEDS[family], number])
         point = draw_point(rng)
-        work = FAMILIES[family](point)
-        begin = time.process_time()
-        timed = compiled or number > numbers.start
-        kind, text = outcome(work, cap if timed else 0.0)
-        spent = time.process_time() - begin
-        if timed:
-            longest, total = max(longest, spent), total + spent
-            counts["slow"] += spent > SLOW
+        work, clock = FAMILIES[family](point), Clock(cap)
+        kind, text = outcome(work, clock)
+        spent = clock.seconds
+        longest, total = max(longest, spent), total + spent
+        counts["slow"] += spent > SLOW
         counts[kind] += 1
         if show and (kind != "answered" or spent > SLOW):
             law = type(point.film["cavitation"]).__name__

@@ -74,7 +74,7 @@ def _goes_on(last: dict[str, Any], block: dict[str, Any]) -> bool:
 
 
 def keep(
-    family: str, draws: int, run: Callable[..., dict[str, Any]], path: Path = FILE
+    family: str, draws: int, run: Callable[[range], dict[str, Any]], path: Path = FILE
 ) -> dict[str, int]:
     """Go on with a family for some draws, and add what comes of them, block by block.
 
@@ -83,15 +83,16 @@ def keep(
     family : str
     draws : int
     run : callable
-        Takes the numbers of a block, and whether all is compiled; returns its counts.
+        Takes the numbers of a block; returns its counts.
     path : Path
         Of the kept counts.
     """
     of, ranges = state(), read(path).get(family, [])
-    first = start = next_number(ranges)
-    while first < start + draws:
-        numbers = range(first, min(first + BLOCK, start + draws))
-        counts = run(numbers, compiled=first > start)
+    first = next_number(ranges)
+    end = first + draws
+    while first < end:
+        numbers = range(first, min(first + BLOCK, end))
+        counts = run(numbers)
         everything = read(path)  # another process may have drawn another family
         ranges = added(everything.get(family, []), first, of, counts)
         write(everything | {family: ranges}, path)

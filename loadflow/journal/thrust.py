@@ -40,7 +40,8 @@ Array = NDArray[np.float64]
 _AXIAL = np.array([2])
 _WEDGE = 0.75  # of a pad's length, if nothing is said
 _ROUNDS = 12  # gaps tried for a first one
-_NEAR = 1.5  # ratio of load and force up to which a gap is near enough for Newton
+_NEAR, _NEARER = 1.5, 1.01  # ratio of load and force up to which a gap is near enough for Newton
+_FAINT = 1e-9  # of the load of ordinary pads, that is none
 _LOAD_NUMBER = 0.05  # W h²/(η U L² B) of an ordinary pad, for the first gap of all
 
 
@@ -161,12 +162,15 @@ class _PadThrust(PadBearing):
         head = f"F = {force:.6g} N at ω = {speed:.6g} rad/s"
         limits = limits_of(control)
         self._check_load(head, speed)
-        first = self._first_gap(head, force, speed, film, turned, limits)
         alike = moment is None and not turned.any()
-        assembly = self._assembly(film, first, speed, 0.0, alike)
         place = np.array([0.0, 0.0, 0.0, *turned])
-        start = self._held(assembly, place, 0.0, first, speed, limits)
-        state = assembly.equilibrium([start], wanted, free, limits)
+        for near in (_NEAR, _NEARER):
+            first = self._first_gap(head, force, speed, film, turned, limits, near)
+            assembly = self._assembly(film, first, speed, 0.0, alike)
+            start = self._held(assembly, place, 0.0, first, speed, limits)
+            state = assembly.equilibrium([start], wanted, free, limits)
+            if state.converged:
+                break
         return self._result(assembly, answered(head, assembly, state, limits), first, speed)
 
     # --- inside ----------------------------------------------------------------------------------
@@ -209,17 +213,18 @@ class _PadThrust(PadBearing):
         return "the film diverges in this sense of rotation and carries no load"
 
     def _first_gap(
-        self, head: str, force: float, speed: float, film: Film, tilt: Array, limits: Limits
+        self,
+        head: str,
+        force: float,
+        speed: float,
+        film: Film,
+        tilt: Array,
+        limits: Limits,
+        near: float,
     ) -> float:
-        """Gap near which an aligned runner has the wanted force, m."""
-        row = self.row
-        radius, count = row.surface.radius, len(row.centres)
-        nodes = row.surface.place(row.surface.nodes(4))
-        across = float(nodes[-1] - nodes[0])
-        length = row.angle * radius
-        narrow = min(1.0, across / length)
-        drag = film.liquid.viscosity * abs(speed) * radius * length**2 * across * count
-        gap = math.sqrt(_LOAD_NUMBER * drag * narrow**2 / force)
+        """Gap near which an aligned runner has the wanted force but for a factor `near`, m."""
+        nodes = self.row.surface.place(self.row.surface.nodes(4))
+        gap = math.sqrt(self._ordinary(film.liquid.viscosity * abs(speed)) / force)
         reach = float(np.hypot(*tilt)) * float(nodes[-1])
         gap = max(gap, 2.0 * reach)
         tried: list[tuple[float, float]] = []
@@ -227,9 +232,9 @@ class _PadThrust(PadBearing):
             assembly = self._assembly(film, gap, speed, 0.0, alike=True)
             state = self._held(assembly, np.zeros(BODY), 0.0, gap, speed, limits)
             load = _axial(assembly, state)
-            if not state.converged or load <= 0.0:
+            if not state.converged or self._idle(assembly, state, gap):
                 raise SolverError(f"{head}: {self._reason()}; {load:.4g} N at a gap of {gap:.4g} m")
-            if 1.0 / _NEAR < load / force < _NEAR:
+            if 1.0 / near < load / force < near:
                 break
             tried.append((math.log(gap), math.log(load / force)))
             slope = -2.0
@@ -238,6 +243,21 @@ class _PadThrust(PadBearing):
                 slope = min((y1 - y0) / (x1 - x0), -0.2) if x1 != x0 else -2.0
             gap *= math.exp(min(2.0, max(-2.0, -tried[-1][1] / slope)))
         return max(gap, 1.2 * reach)
+
+    def _ordinary(self, drag: float) -> float:
+        """Load of ordinary pads times the square of their gap, N m², for a `drag` η ω, Pa."""
+        row = self.row
+        radius, count = row.surface.radius, len(row.centres)
+        nodes = row.surface.place(row.surface.nodes(4))
+        across, length = float(nodes[-1] - nodes[0]), row.angle * row.surface.radius
+        narrow = min(1.0, across / length)
+        return _LOAD_NUMBER * drag * radius * length**2 * across * count * narrow**2
+
+    def _idle(self, assembly: Assembly, state: AssemblyState, gap: float) -> bool:
+        """Whether the films carry nothing but rounding, as those of flat pads."""
+        film = assembly.members[0].film
+        ordinary = self._ordinary(film.viscosity * abs(film.speed)) / gap**2
+        return _axial(assembly, state) <= _FAINT * ordinary
 
     def _assembly(
         self, film: Film, gap: float, speed: float, velocity: float, alike: bool
@@ -268,7 +288,7 @@ class _PadThrust(PadBearing):
                 raise InputError(f"the runner touches the pads: narrowest gap {narrowest:.6g} m")
             start = AssemblyState(position, moving, start.members)
             state = assembly.solve(start, np.zeros(BODY), HELD, limits)
-            if state.converged and _axial(assembly, state) > 0.0:
+            if state.converged and not self._idle(assembly, state, gap):
                 break
         return state
 

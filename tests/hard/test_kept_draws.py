@@ -12,7 +12,7 @@ from benchmarks.robustness.hard_fuzz import joined
 PAGE = Path(__file__).parents[2] / "docs" / "hard-cases.md"
 
 
-def counted(numbers, compiled):
+def counted(numbers):
     """Each third draw has no answer."""
     refused = sum(number % 3 == 0 for number in numbers)
     rest = dict.fromkeys(kept.OUTCOMES, 0)
@@ -27,17 +27,17 @@ def test_a_family_goes_on_where_it_ended(tmp_path):
     sums = kept.keep("cylinder", 35, counted, file)
     (whole,) = kept.read(file)["cylinder"]
     assert (whole["first"], whole["draws"], whole["reason"]) == (0, 75, 25)
-    assert sums == {name: counted(range(75), True)[name] for name in ("draws", *kept.OUTCOMES)}
+    assert sums == {name: counted(range(75))[name] for name in ("draws", *kept.OUTCOMES)}
     assert kept.next_number(kept.read(file)["line"]) == 10
 
 
 def test_what_ends_early_keeps_its_whole_blocks(tmp_path):
     file = tmp_path / "families.json"
 
-    def broken(numbers, compiled):
+    def broken(numbers):
         if numbers.start >= 50:
             raise KeyboardInterrupt
-        return counted(numbers, compiled)
+        return counted(numbers)
 
     with pytest.raises(KeyboardInterrupt):
         kept.keep("cylinder", 200, broken, file)
@@ -45,8 +45,8 @@ def test_what_ends_early_keeps_its_whole_blocks(tmp_path):
 
 
 def test_another_state_of_the_package_is_a_range_of_its_own():
-    ranges = kept.added([], 0, "old", counted(range(30), True))
-    ranges = kept.added(ranges, 30, "new", counted(range(30, 60), True))
+    ranges = kept.added([], 0, "old", counted(range(30)))
+    ranges = kept.added(ranges, 30, "new", counted(range(30, 60)))
     assert [part["state"] for part in ranges] == ["old", "new"]
     assert kept.totals(ranges)["draws"] == 60
     lines = list(kept.table({"cylinder": ranges}, {"cylinder": "rings"}))
@@ -55,16 +55,16 @@ def test_another_state_of_the_package_is_a_range_of_its_own():
 
 
 def test_numbers_drawn_before_or_without_an_outcome_are_refused():
-    ranges = kept.added([], 0, "a", counted(range(30), True))
+    ranges = kept.added([], 0, "a", counted(range(30)))
     with pytest.raises(ValueError, match="drawn before"):
-        kept.added(ranges, 29, "a", counted(range(29, 40), True))
+        kept.added(ranges, 29, "a", counted(range(29, 40)))
     with pytest.raises(ValueError, match="1 without an outcome"):
-        kept.added(ranges, 30, "a", counted(range(10), True) | {"draws": 11})
+        kept.added(ranges, 30, "a", counted(range(10)) | {"draws": 11})
 
 
 def test_a_draw_of_a_family_is_the_same_in_every_block():
     whole = run("cylinder", range(6), show=False)
-    parts = [run("cylinder", range(3 * k, 3 * k + 3), False, compiled=True) for k in (0, 1)]
+    parts = [run("cylinder", range(3 * k, 3 * k + 3), False) for k in (0, 1)]
     for name in kept.OUTCOMES:
         assert whole[name] == sum(part[name] for part in parts)
 

@@ -146,3 +146,23 @@ def test_a_warm_film_that_its_cells_lose_is_found_on_more(number):
     assert cells[1] == across
     assert cells[0] >= around  # grooves between lobes have cells of their own
     assert cells[0] < 2 * around
+
+
+@pytest.mark.parametrize("number", [20058, 20061])
+def test_pads_of_a_collar_tilt_where_flat_ones_carry_rounding(number):
+    """Flat pads balance, too, and what they carry is no number to go by."""
+    _, solve = drawn("thrust", number)
+    answer = solve()
+    assert answer.converged
+    assert np.hypot(*answer.pad_tilt.reshape(-1, 2)[0]) > 0.0
+    assert answer.minimum_film > 1e-9
+
+
+@pytest.mark.parametrize("number", [20228, 20347])
+@pytest.mark.filterwarnings("ignore::loadflow.errors.ValidityWarning")
+def test_temperatures_settle_where_oil_nearly_stands(number):
+    """A cell that gets oil from one side or the other, and warms or cools by which."""
+    _, solve = drawn("heat", number)
+    answer = solve()
+    assert answer.heat_residual < 1e-6
+    assert answer.heat_imbalance < 1e-8

@@ -127,6 +127,8 @@ class Layout:
         Places at which the narrowest gap is sought, and H_0 there; `spots_z` (l,) along.
     reach, lengths : array (m, n), (m, l)
         Modes there.
+    beside : array of int (n, 2)
+        The next such places of another angle on the same segment; at its ends itself.
     """
 
     def __init__(self, mesh: ShapedMesh, bore: Bore, along: bool) -> None:
@@ -185,6 +187,43 @@ class Layout:
         self.facing = np.stack([np.cos(self.angle), np.sin(self.angle)], axis=-1)
         self.reach = np.einsum("jid,id->ji", self.shifts(self.segment), self.facing)
         self.lengths = self.lengthwise(self.spots_z)
+        self.beside = _beside(self.angle, self.segment, mesh.closed)
+
+    def lowest(self, gaps: Array) -> tuple[float, float, float]:
+        """Least of `gaps` (n, l) at the sampled places, its angle, rad, and axial place.
+
+        Around it lies where a parabola through the least of the places and its two neighbours does,
+        so that it does not depend on where these happen to be.
+        """
+        i, k = np.unravel_index(gaps.argmin(), gaps.shape)
+        least, angle, z = float(gaps[i, k]), float(self.angle[i]), float(self.spots_z[k])
+        sides = self.beside[i]
+        ahead = (self.angle[sides] - angle + np.pi) % (2.0 * np.pi) - np.pi
+        before, behind = ahead.tolist()
+        if before < 0.0 < behind:
+            up, down = (gaps[sides, k] - least) / ahead
+            bend = float(down - up) / (behind - before)
+            slope = float(up) - bend * before
+            if bend > 0.0:
+                way = min(max(-0.5 * slope / bend, before), behind)
+                least, angle = least + (slope + bend * way) * way, angle + way
+        return least, angle, z
+
+
+def _beside(angle: Array, segment: NDArray[np.int64], closed: bool) -> NDArray[np.int64]:
+    """Numbers of the next places of another angle on the same segment, (n, 2)."""
+    count, number = angle.size, np.arange(angle.size)
+    sides = []
+    for way in (-1, 1):
+        side = number + way
+        for _ in range(2):  # two cells share a place
+            to = side % count
+            same = np.abs((angle[to] - angle + np.pi) % (2 * np.pi) - np.pi) < 1e-12
+            side = np.where(same, side + way, side)
+        to = side % count
+        inside = segment[to] == segment if closed else (segment[to] == segment) & (to == side)
+        sides.append(np.where(inside, to, number))
+    return np.stack(sides, axis=-1)
 
 
 @lru_cache(maxsize=16)

@@ -133,11 +133,11 @@ class RoughShapedGap(ShapedGap):
 
     def narrowest(self, position: Array) -> float:
         """Narrowest mean gap over the clearance; 0 beyond where the law of contact ends."""
-        return self.rough.mean(float(self.gaps(position).min()))
+        return self.rough.mean(self.closest(position)[0])
 
     def until_end(self, position: Array) -> float:
         """How far the mean planes still may come, clearances, where the law of contact ends."""
-        return float(self.gaps(position).min()) + self.rough.deepest
+        return self.closest(position)[0] + self.rough.deepest
 
 
 class RoughElasticGap(ElasticGap):
@@ -172,7 +172,7 @@ class RoughElasticGap(ElasticGap):
 
     def narrowest(self, position: Array) -> float:
         """Narrowest mean gap over the clearance; 0 beyond where the law of contact ends."""
-        return self.rough.mean(float(self.gaps(position).min()))
+        return self.rough.mean(self.closest(position)[0])
 
     def least(self, position: Array) -> float:
         """Narrowest gap of the mean planes, clearances, that the balance of the film takes up."""

@@ -15,6 +15,7 @@ from loadflow.journal.film.pad_curve import PadCurve, pad_curve
 
 Array = NDArray[np.float64]
 _STAYS = 1e-3  # readiness of a shaft that nothing holds to move, against that of its pad
+_EXACT = 0.95  # share of a gap from which a film may hold a pad after all
 _SMALL_LIFT = 0.03  # tilt of a pad, in clearances, from which it may grow threefold in a step
 
 
@@ -168,6 +169,15 @@ class ShapedGap(FlowBetween):
             return self.pads
         return self.pads[self.pad_curve(speed).holds(1.0 - self.pivots @ position[:2])]
 
+    def may_hold(self, position: Array, speed: float) -> NDArray[np.int64]:
+        """Pads that a film may hold at `position`, for what the curve of one pad can tell.
+
+        It knows no relief, and the width of its film by a parabola alone.
+        """
+        if self.bore.relief:
+            return self.pads
+        return self.pads[self.pad_curve(speed).holds(_EXACT * (1.0 - self.pivots @ position[:2]))]
+
     def lifted(self, position: Array, speed: float) -> Array:
         """Position with pads tilted so that their gap converges in the sense of rotation."""
         position = position.copy()
@@ -193,14 +203,12 @@ class ShapedGap(FlowBetween):
 
     def narrowest(self, position: Array) -> float:
         """Narrowest gap over the clearance; ≤ 0 where the shaft would touch the bore."""
-        return float(self.gaps(position).min())
+        return self.closest(position)[0]
 
     def closest(self, position: Array) -> tuple[float, float, float]:
         """Narrowest gap (clearances), its angle (rad) and axial place (shaft radii)."""
-        gaps = self.gaps(position)
-        i, k = np.unravel_index(gaps.argmin(), gaps.shape)
-        x, y = self.layout.facing[i].tolist()
-        return float(gaps[i, k]), math.atan2(y, x), float(self.layout.spots_z[k])
+        least, angle, z = self.layout.lowest(self.gaps(position))
+        return least, math.atan2(math.sin(angle), math.cos(angle)), z
 
     def closing(self, position: Array, limit: float) -> tuple[float, ...]:
         """Angles, rad, of the narrowest gap of each segment where it is below `limit`."""

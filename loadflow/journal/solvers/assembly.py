@@ -35,6 +35,7 @@ _STEPS = 40  # load steps at most
 _SHORT = 15  # Newton steps of one load step
 _SPENT = 150  # Newton steps after which an equilibrium is given up
 _NOTHING = 1e-6  # share of the scale of pressure that is none
+_NO_RESISTANCE = 1e-12  # share of the largest stiffness that is none
 _PRESSED = 1e-12  # narrowest gap, in clearances, that is none
 
 
@@ -327,12 +328,8 @@ def _change(film: SurfaceFilm, state: MemberState) -> float:
 
 
 def _solve(matrix: Array, rhs: Array) -> Array:
-    """Solve a small system; least squares where a motion meets no resistance."""
-    try:
-        found = np.linalg.solve(matrix, rhs)
-    except np.linalg.LinAlgError:
-        found = np.linalg.lstsq(matrix, rhs, rcond=1e-12)[0]
-    return np.asarray(found)
+    """Solve a small system; a motion that meets no resistance but that of rounding is none."""
+    return np.asarray(np.linalg.lstsq(matrix, rhs, rcond=_NO_RESISTANCE)[0])
 
 
 def raise_not_converged(head: str, state: AssemblyState, narrowest: float) -> None:

@@ -31,6 +31,7 @@ Rows = NDArray[np.int64]
 _ROUNDS = 40  # films of a shaft that is held
 _FLATTEST, _STEEPEST = 1e-4, 0.999  # share of the lift at which a pad meets the shaft
 _FLAT = 1e-3  # share of the same below which a film turns its pad the other way, flat as it is
+_STEEP = (0.97, 0.9, 0.75, 0.5, 0.25)  # shares of it at which pads are tried that lie flat
 _BALANCED = 1e-6  # moment of a pad over load scale and arm, at which its tilt is good enough
 _TOUCHING = 1e-9  # gap, in clearances, that is none
 _BUDGET = 5  # Newton steps of all films together, in multiples of those of a solution
@@ -38,6 +39,7 @@ _LEFT = 1e-4  # moment, in the same unit, above which a pad is not held
 _SHAFTS, _HALVINGS = 40, 12  # positions of the shaft, and how often a step to one is halved
 _LOOSE = 1e4  # condition of the stiffness above which a shaft may go aside
 _ASIDE = 1e-3  # stiffness that a shaft has sideways on a single pad, loads over clearance
+_BACK_ON = 0.97  # share of the gap at which a pad has come off, below which it is tried again
 _NEAR = 1e-3  # share of the load that may be missing for Newton's method to take over
 
 
@@ -91,6 +93,11 @@ def balance_pads(
     return replace(state, iterations=spent), (np.abs(moments) < _LEFT * scale) & ~flat
 
 
+def _over_pivots(gap: ShapedGap, position: Array) -> Array:
+    """Gaps over the pivots of flat pads, clearances, without relief."""
+    return np.asarray(1.0 - gap.pivots @ position[:2])
+
+
 def unload_other_pads(film: DiscreteFilm, gap: ShapedGap, pads: Rows) -> None:
     """Take the film off all pads that tilt but `pads`."""
     film.unload(gap.columns_of(np.setdiff1d(gap.pads, pads)))
@@ -105,6 +112,60 @@ def _without(film: DiscreteFilm, gap: ShapedGap, start: Solution, pads: Rows) ->
     return replace(start, u=u, position=position)
 
 
+def _balanced(
+    film: DiscreteFilm,
+    gap: ShapedGap,
+    start: Solution,
+    some: Rows,
+    tolerance: float,
+    max_iterations: int,
+) -> tuple[Solution, Rows]:
+    """Film at the position of `start` on those of `some` pads that it holds, and these."""
+    pads, spent = np.intersect1d(some, gap.may_hold(start.position, film.speed)), 0
+    while True:
+        unload_other_pads(film, gap, pads)
+        start = _without(film, gap, start, pads)
+        state, held = balance_pads(film, gap, start, pads, tolerance, max_iterations)
+        spent += state.iterations
+        if state.converged and not held.all():
+            start, steps = _steeper(film, gap, state, pads[~held], tolerance, max_iterations)
+            state, held = balance_pads(film, gap, start, pads, tolerance, max_iterations)
+            spent += steps + state.iterations
+        if held.all() or not state.converged:
+            return replace(state, iterations=spent), pads
+        pads = pads[held]
+
+
+def _steeper(
+    film: DiscreteFilm,
+    gap: ShapedGap,
+    state: Solution,
+    pads: Rows,
+    tolerance: float,
+    max_iterations: int,
+) -> tuple[Solution, int]:
+    """`state` with `pads` as steep as their film tilts them farther, and the Newton steps for it.
+
+    Of two tilts without moment the larger is stable: a pad turned flat by a small tilt may be held
+    by a large one, all the more where its surface is not an arc.
+    """
+    sign, spent, best = math.copysign(1.0, film.speed), 0, state
+    most = np.array([gap.widest_lift(row, state.position, sign) for row in pads])
+    found = np.zeros(pads.size, dtype=bool)
+    for share in _STEEP:
+        position = best.position.copy()
+        for row, lift in zip(pads[~found].tolist(), (share * most)[~found].tolist()):
+            position[row] += sign * lift - gap.lift(row, position)
+        trial = solve_film(film, film.start(), position, 0.0 * position, tolerance, max_iterations)
+        spent += trial.iterations
+        if trial.converged:
+            found |= sign * trial.linear.load[pads] < 0.0
+            best = trial
+        if found.all():
+            break
+    return best, spent
+
+
 def film_on_pads(
     film: DiscreteFilm,
     gap: ShapedGap,
@@ -116,9 +177,16 @@ def film_on_pads(
 ) -> Solution:
     """Film at a given position of the shaft, `pads` without moment; they follow its `velocity`."""
     limits, nothing = (tolerance, max_iterations), np.zeros(gap.size)
-    first = solve_film(film, film.start(), position, nothing, *limits)
-    if pads.size:
-        first = solve_equilibrium(film, nothing, first.u, position, *limits, free=pads)
+    first, may_hold = replace(no_film(film), position=position), gap.may_hold(position, film.speed)
+    if np.array_equal(pads, may_hold):
+        first = solve_film(film, film.start(), position, nothing, *limits)
+        if pads.size:
+            first = solve_equilibrium(film, nothing, first.u, position, *limits, free=pads)
+    if not first.converged:
+        first, pads = _balanced(film, gap, replace(first, position=position), may_hold, *limits)
+        if first.converged and pads.size:
+            where = (first.u, first.position)
+            first = solve_equilibrium(film, nothing, *where, *limits, free=pads)
     first = replace(first, free=pads)
     if not velocity.any() or not first.converged:
         return first
@@ -153,20 +221,21 @@ def solve_with_pads(
     tolerance, max_iterations
         Of each film.
     """
+    reach = np.full(gap.pads.size, np.inf)  # gap over its pivot below which a pad is tried
 
-    def balanced(start: Solution, some: Rows) -> tuple[Solution, Rows]:
-        pads, spent = np.intersect1d(some, gap.converging(start.position, film.speed)), 0
-        while True:
-            unload_other_pads(film, gap, pads)
-            start = _without(film, gap, start, pads)
-            state, held = balance_pads(film, gap, start, pads, tolerance, max_iterations)
-            spent += state.iterations
-            if held.all() or not state.converged:
-                return replace(state, iterations=spent), pads
-            pads = pads[held]
+    def balanced(start: Solution) -> tuple[Solution, Rows]:
+        some = gap.pads[_over_pivots(gap, start.position) < reach]
+        return _balanced(film, gap, start, some, tolerance, max_iterations)
 
-    state, pads = balanced(replace(no_film(film), position=position), gap.pads)
-    on = np.union1d(pads, np.setdiff1d(gap.pads, gap.converging(position, film.speed)))
+    def drop(pads: Rows, position: Array) -> None:
+        """Leave those off that have come off, at the limit they would go on and off."""
+        gaps = _over_pivots(gap, position)
+        tried = gap.may_hold(position, film.speed)
+        off = np.isin(gap.pads, np.setdiff1d(tried, pads)) & (gaps < reach)
+        reach[off] = _BACK_ON * gaps[off]
+
+    state, pads = balanced(replace(no_film(film), position=position))
+    drop(pads, state.position)
     spent, scale = state.iterations, film.load_scale(force)
     missing = force[shaft] - state.linear.load[shaft]
     for _ in range(_SHAFTS):
@@ -185,7 +254,7 @@ def solve_with_pads(
         step[shaft] = np.linalg.lstsq(stiffness + _ASIDE * scale * np.eye(shaft.size), missing)[0]
         step = gap.advance(state.position, step) - state.position
         for _ in range(_HALVINGS):
-            trial, some = balanced(replace(state, position=state.position + step), on)
+            trial, some = balanced(replace(state, position=state.position + step))
             spent += trial.iterations
             left = force[shaft] - trial.linear.load[shaft]
             allowed = 1.0 if steady else 2.0
@@ -195,8 +264,7 @@ def solve_with_pads(
         else:
             break
         state, pads, missing = trial, some, left
-        # a pad that has come off stays off: at the limit it would go on and off
-        on = np.union1d(pads, np.setdiff1d(on, gap.converging(state.position, film.speed)))
+        drop(pads, state.position)
     free = np.append(shaft, pads)
     found = math.hypot(*missing) / scale if state.converged else math.inf
     return replace(state, converged=False, iterations=spent, residual=found, free=free)

@@ -35,10 +35,12 @@ FilmOf = Callable[["Solution | None"], Solution]
 HeatOf = Callable[[Array], Warmth]
 """Temperatures in balance with the film last solved, from a first guess (nx, nz)."""
 
-TOLERANCE, TRIES = 1e-7, 100
+TOLERANCE, TRIES = 1e-7, 120
 """Largest change of a temperature that is left, K, and the fields of temperature tried."""
 _DEPTH = 6  # earlier fields that count
-_ACCELERATED, _SHORT = 20, 0.3  # fields after which only this share of each change is made
+_ACCELERATED, _SHORT = 8, 0.3  # fields after which no more than this share of a change is made
+_CUT, _GROWN, _SHORTEST = 0.5, 1.1, 0.01  # of that share: less after a turn, more else, the least
+_REGAINED = 1.3  # growth of the share of every change where all are small
 _NEAR = 0.5  # change, K, below which the method is trusted again
 _WORSE = 1.5  # of the smallest change so far, that from which the next field goes back
 _TOO_HOT = 10  # fields in a row above the largest temperature, after which none is tried
@@ -249,6 +251,7 @@ def coupled(
     good, warmth, residual = cold, None, np.inf
     method, halved, spent = Anderson(_DEPTH), 0, 0
     best, share, nearest, too_hot = np.inf, 1.0, (now, now), 0
+    way, ways = 0.0 * now, np.ones(now.size)  # last change of each temperature, share that is made
     for iteration in range(1, TRIES + 1):
         equation.thicken(now)
         try:
@@ -287,7 +290,9 @@ def coupled(
             return WarmFilm(solution, warmth, residual, iteration, fine, "" if fine else hot)
         if iteration >= _ACCELERATED and residual > _NEAR:
             method.forget()
-            now = now + _SHORT * (found - now)
+            ways = _shorter(ways, found - now, way)
+            way = found - now
+            now = now + ways * way
             continue
         if (
             iteration < _ACCELERATED and residual > _WORSE * best
@@ -297,7 +302,8 @@ def coupled(
             now = nearest[0] + share * (nearest[1] - nearest[0])
             continue
         share = share if iteration < _ACCELERATED else _SHORT
-        now = method.next(now, now + share * (found - now))
+        now = method.next(now, now + np.minimum(share, ways) * (found - now))
+        ways = np.minimum(_REGAINED * ways, 1.0)
         low, high = found.min() - 5.0, found.max() + 5.0
         now = np.clip(now, low, min(high, HOTTEST + 100.0))
     why = seized
@@ -306,6 +312,16 @@ def coupled(
     if too_hot:
         why = f"the film gets hotter than {HOTTEST} K"
     return WarmFilm(solution, warmth, residual, iteration, False, why, bool(seized))
+
+
+def _shorter(shares: Array, change: Array, before: Array) -> Array:
+    """Shares of the `change` to make of each temperature: less where it turned back.
+
+    Where the oil nearly stands, a cell is as warm as one or the other of its neighbours, and which
+    of them a small change of the flow decides.
+    """
+    turned = change * before < 0.0
+    return np.clip(np.where(turned, _CUT * shares, _GROWN * shares), _SHORTEST, _SHORT)
 
 
 def _flagged(found: WarmFilm) -> Solution:

@@ -1,0 +1,60 @@
+"""No result depends on units, on the hand of its frame, on company, or on the way to it."""
+
+import time
+
+import pytest
+from numba import njit
+
+from benchmarks.robustness import invariances
+from benchmarks.robustness.clock import Clock, Late
+from benchmarks.robustness.invariances import asked, broken
+
+DRAWS = [
+    ("cylinder", 30001),
+    ("cylinder", 30007),
+    ("shaped", 30001),  # pads whose tilt at a given position Newton's method does not find
+    ("shaped", 30017),
+    ("supply", 30002),
+    ("line", 30003),  # the narrowest gap between the places where it is sampled
+    ("line", 30006),
+    ("shell", 30001),
+    ("shell", 30005),
+    ("contact", 30001),
+    ("touching", 30002),
+    ("thrust", 30004),
+    ("cone", 30003),
+    ("pair", 30002),  # films without rupture: nothing holds the shaft along the axis
+    ("pair", 30012),
+    ("heat", 30003),
+    ("orbit", 30002),
+]
+
+
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize(("family", "number"), DRAWS)
+def test_a_drawn_bearing_is_the_same_whichever_way_it_is_asked(family, number):
+    assert list(broken(asked(family, number))) == []
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_what_depends_on_its_units_is_told(monkeypatch):
+    """What the test above rests on can fail: a pressure that stays while the others change."""
+    monkeypatch.setitem(invariances.DIMENSIONS, "viscosity", (0, 0, 1))
+    told = list(broken(asked("cylinder", 30001)))
+    assert told
+    assert all("in units (1.0, 1000.0, 1.0)" in text for text in told)
+
+
+def test_the_clock_ends_work_that_is_late_and_says_how_long_it_took():
+    clock = Clock(cap=0.05)
+    with clock, pytest.raises(Late):
+        time.sleep(sum(0.0 for _ in iter(int, 1)))  # goes on for ever
+    assert 0.05 <= clock.seconds < 5.0
+
+
+def test_the_clock_stands_while_kernels_are_compiled():
+    kernel = njit(lambda x: x * 2.0 + 1.0)
+    begun = time.process_time()
+    with Clock() as clock:
+        assert kernel(3.0) == 7.0
+    assert clock.seconds < 0.5 * (time.process_time() - begun)
