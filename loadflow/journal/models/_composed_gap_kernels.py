@@ -13,6 +13,7 @@ from loadflow.journal.film._kernels import apply_law
 from loadflow.journal.film._rough_kernels import conductance, dragged, mean_film
 from loadflow.journal.film._turbulence_kernels import ACROSS, ALONG, factor
 from loadflow.journal.models._compile import inner, once
+from loadflow.numerics.lanes import LANES, put, take
 
 PLANES, MEAN, OPEN, CUBE = range(4)  # of `work.gap`
 FLOW, DRAG, FLOW_SLOPE, DRAG_SLOPE, FACE_PLANES = range(5)  # of `work.face`
@@ -23,41 +24,40 @@ _FAR = 8.5  # film parameter above which the mean gap is that of the mean planes
 def place(film, work, q):
     """Evaluate law, shell and gap at the unknowns and the position `q` (4,)."""
     apply_law(film.ring.law, film.ring.numbers, film.ring.scale, work.u, work.state)
-    nx, m = work.u.shape
-    z, depth = film.places.z, film.places.depth
-    points = film.nodes.z.size
+    nx, wide = work.u.shape
+    z = film.places.z
     for k in range(z.size):
         work.centre[0, k] = q[0] + q[3] * z[k] + 0.5 * work.bend[0] * z[k] * z[k]
         work.centre[1, k] = q[1] - q[2] * z[k] + 0.5 * work.bend[1] * z[k] * z[k]
-    ex, ey, give, p = work.centre[0], work.centre[1], film.give, work.state[LOAD]
-    gap, face = work.gap, work.face
-    for i in range(nx):
-        c, s = film.ring.cos[i], film.ring.sin[i]
-        c_face, s_face = film.ring.cos_face[i], film.ring.sin_face[i]
-        for k in range(points):
-            gap[PLANES, i, k] = film.ring.base[i] + depth[k] - ex[k] * c - ey[k] * s
-        for k in range(m):
-            h = film.ring.base_face[i] + depth[k]
-            face[FACE_PLANES, i, k] = h - ex[k] * c_face - ey[k] * s_face
-        if give > 0.0:
-            right = i + 1 if i + 1 < nx else 0
-            for k in range(m):
-                gap[PLANES, i, k] += give * (p[i, k] - film.ring.p_edge)
-                face[FACE_PLANES, i, k] += give * (0.5 * (p[i, k] + p[right, k]) - film.ring.p_edge)
+    give, gap, face, ring = film.give, work.gap, work.face, film.ring
+    planes, faces, p = gap[PLANES], face[FACE_PLANES], work.state[LOAD]
+    for at in range(0, wide, LANES):
+        z_at, depth = take(film.lanes.z, at), take(film.lanes.depth, at)
+        ex = (z_at * (0.5 * work.bend[0]) + q[3]) * z_at + q[0]
+        ey = (z_at * (0.5 * work.bend[1]) - q[2]) * z_at + q[1]
+        for i in range(nx):
+            here = i * wide + at
+            h = depth + ring.base[i] - ex * ring.cos[i] - ey * ring.sin[i]
+            after = depth + ring.base_face[i] - ex * ring.cos_face[i] - ey * ring.sin_face[i]
+            if give > 0.0:
+                right = (i + 1 if i + 1 < nx else 0) * wide + at
+                given = take(film.lanes.inner, at) * give
+                h = h + (take(p, here) - ring.p_edge) * given
+                after = after + (0.5 * (take(p, here) + take(p, right)) - ring.p_edge) * given
+            put(planes, here, h)
+            put(faces, here, after)
     if film.rough.size > 0.0:
         _rough_gap(film, work)
     else:
-        for i in range(nx):
-            for k in range(points):
-                h = gap[PLANES, i, k]
-                gap[MEAN, i, k] = h
-                gap[CUBE, i, k] = h * h * h
-                work.gap_slope[i, k] = 3.0 * h * h
-            for k in range(m):
-                h = face[FACE_PLANES, i, k]
-                face[FLOW, i, k] = h * h * h
-                face[FLOW_SLOPE, i, k] = 3.0 * h * h
-                face[DRAG, i, k] = h
+        for here in range(0, nx * wide, LANES):
+            h, after = take(planes, here), take(faces, here)
+            square, square_after = h * h, after * after
+            put(gap[MEAN], here, h)
+            put(gap[CUBE], here, square * h)
+            put(work.gap_slope, here, 3.0 * square)
+            put(face[FLOW], here, square_after * after)
+            put(face[FLOW_SLOPE], here, 3.0 * square_after)
+            put(face[DRAG], here, after)
     if film.regime.on:
         _turbulent_gap(film, work)
 
@@ -72,11 +72,11 @@ def turn(film, work, speed, lightness):
 @once
 def _turbulent_gap(film, work):
     """Conductances of turbulent flow, from those of laminar flow."""
-    nx, m = work.u.shape
+    nx, m = film.ring.cos.size, film.nodes.slopes.shape[1]
     gap, face = work.gap, work.face
     numbers = (work.numbers[0], work.numbers[1], film.regime.begin, film.regime.end)
     for i in range(nx):
-        for k in range(gap.shape[2]):
+        for k in range(film.nodes.z.size):
             more, rise = factor(gap[PLANES, i, k], numbers, ACROSS)
             gap[CUBE, i, k] /= more
             work.gap_slope[i, k] = (work.gap_slope[i, k] - gap[CUBE, i, k] * rise) / more
@@ -114,14 +114,14 @@ def _of_table(yielding, row, h):
 @once
 def _rough_gap(film, work):
     """Mean gap and conductances between rough surfaces."""
-    nx, m = work.u.shape
+    nx, m = film.ring.cos.size, film.nodes.slopes.shape[1]
     rough, yielding = film.rough, film.yielding
     gap, face, s = work.gap, work.face, rough.size
     far = smooth_beyond(rough)
     if yielding.on:
         far = max(far, yielding.first + yielding.step * (yielding.table.shape[1] - 1))
     for i in range(nx):
-        for k in range(gap.shape[2]):
+        for k in range(film.nodes.z.size):
             h = gap[PLANES, i, k]
             if h > far:
                 gap[MEAN, i, k], gap[OPEN, i, k] = h, 1.0
@@ -161,10 +161,10 @@ def narrowest(film, work):
             gap = 1.0 + film.places.depth[k] - np.hypot(work.centre[0, k], work.centre[1, k])
             least = min(least, gap)
         return least
-    nx, m = work.u.shape
+    nx, m = film.ring.cos.size, film.nodes.slopes.shape[1]
     for i in range(nx):
         if not film.ring.groove[i]:
-            for k in range(work.gap.shape[2]):
+            for k in range(film.nodes.z.size):
                 least = min(least, work.gap[PLANES, i, k])
         for k in range(m):
             least = min(least, work.face[FACE_PLANES, i, k])
@@ -249,7 +249,7 @@ def _touch_shell(film, work, q):
     Between two cell centres the pressure of the film, and so the gap by it, runs straight. Fills
     `work.pressed`, too.
     """
-    nx, m = work.u.shape
+    nx, m = film.ring.cos.size, film.nodes.slopes.shape[1]
     yielding, ring = film.yielding, film.ring
     p, pressed, load, stiffness = work.state[LOAD], work.pressed, work.touch[0], work.touch[1:]
     pressed[:] = 0.0

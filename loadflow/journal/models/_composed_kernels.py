@@ -12,7 +12,7 @@ import numpy as np
 from loadflow.journal.cavitation import DFILL, DLOAD, DP, DSLACK, FILL, LOAD, SLACK, P
 from loadflow.journal.film._rough_kernels import sheared
 from loadflow.journal.film._turbulence_kernels import SHEAR, factor
-from loadflow.journal.models import composed_film as at
+from loadflow.journal.models import composed_film as film_
 from loadflow.journal.models._compile import inner, once
 from loadflow.journal.models._composed_gap_kernels import (
     CUBE,
@@ -28,7 +28,7 @@ from loadflow.journal.models._composed_gap_kernels import (
     smooth_beyond,
     touch,
 )
-from loadflow.journal.models._reduced_kernels import hold_grooves_in
+from loadflow.numerics.lanes import LANES, larger, magnitude, put, spread, take
 
 
 @inner
@@ -37,121 +37,119 @@ def balance(film, work, wedge, rate):
 
     Also fills `work.load`, and `work.slope` for `matrix` and `slopes`.
     """
-    nx, m = work.u.shape
-    points = film.nodes.z.size
-    z, weights, slopes = film.nodes.z, film.nodes.weights, film.nodes.slopes
-    p, fill, columns, gap, face = (
-        work.state[P], work.state[FILL], work.columns, work.gap, work.face,
-    )  # fmt: skip
-    fx, fy, mx, my = 0.0, 0.0, 0.0, 0.0
+    nx, wide = work.u.shape
+    lanes, ring, weights = film.lanes, film.ring, film.nodes.weights
+    m, points, columns = film.nodes.slopes.shape[1], film.nodes.z.size, work.columns
+    p, fill, carried, slack = work.state[P], work.state[FILL], work.state[LOAD], work.state[SLACK]
+    mean, cube, flows, drags = work.gap[MEAN], work.gap[CUBE], work.face[FLOW], work.face[DRAG]
+    flow, row, sum_x, sum_y = work.row[0], work.row[1], work.row[2], work.row[3]
+    up, up_right = max(wedge, 0.0), min(wedge, 0.0)  # from upstream
     for i in range(nx):
-        base = film.ring.order[i] * m
-        step = film.ring.width[i]
-        squeeze = film.ring.slope * step
-        load, turn = 0.0, 0.0
-        for k in range(m):
-            held = squeeze * weights[k]
-            columns[base + k, 0] = (
-                held * (rate * fill[i, k] * gap[MEAN, i, k] - work.liquid[0, i, k])
-                + work.state[SLACK, i, k]
-            )
-            load += weights[k] * work.state[LOAD, i, k]
-            turn += weights[k] * work.state[LOAD, i, k] * z[k]
-        for k in range(points):
-            slope = 0.0
+        here, step = i * wide, ring.width[i]
+        pressure = p[i]
+        for at in range(0, wide, LANES):
+            slope = spread(0.0)
             for j in range(m):
-                slope += slopes[k, j] * (p[i, j] - film.ring.p_edge)
-            work.slope[i, k] = slope
-            flow = step * weights[k] * slope * gap[CUBE, i, k]
-            for j in range(m):
-                columns[base + j, 0] += slopes[k, j] * flow
-        fx += load * film.ring.load_x[i]
-        fy += load * film.ring.load_y[i]
-        mx -= turn * film.ring.load_y[i]
-        my += turn * film.ring.load_x[i]
-    for i in range(nx):  # face between cell i and the next one
-        right = i + 1 if i + 1 < nx else 0
-        base = film.ring.order[i] * m
-        base_r = film.ring.order[right] * m
-        upwind = i if wedge > 0 else right
-        for k in range(m):
-            rise = (p[right, k] - p[i, k]) / film.ring.apart[i]
-            drag = wedge * fill[upwind, k]
-            flow = weights[k] * (drag * face[DRAG, i, k] - face[FLOW, i, k] * rise)
-            columns[base + k, 0] += flow
-            columns[base_r + k, 0] -= flow
-    if film.ring.shaped:
-        _hold_grooves(film, columns, 0, 1)
+                slope = slope + take(lanes.slopes, j * wide + at) * (pressure[j] - ring.p_edge)
+            put(work.slope, here + at, slope)
+            put(flow, at, slope * take(cube, here + at) * step)
+        for at in range(0, wide, LANES):
+            held = take(fill, here + at) * take(mean, here + at) * rate
+            held = (held - take(work.liquid, here + at)) * (ring.slope * step)
+            left = held * take(lanes.weights, at) + take(slack, here + at) * take(lanes.inner, at)
+            for k in range(points):
+                left = left + take(lanes.shares, k * wide + at) * (weights[k] * flow[k])
+            put(columns, here + at, left)
     largest = 0.0
-    for row in range(columns.shape[0]):
-        largest = max(largest, abs(columns[row, 0]))
-    unit = film.ring.area
-    work.load[0], work.load[1] = unit * fx, unit * fy
-    work.load[2], work.load[3] = unit * mx, unit * my
+    for at in range(0, wide, LANES):
+        fx, fy, most, own = spread(0.0), spread(0.0), spread(0.0), take(lanes.weights, at)
+        before = spread(0.0)
+        for i in range(-1, nx):  # the face behind cell i, and before the next one
+            here = (i if i >= 0 else nx - 1) * wide + at
+            right = (i + 1 if i + 1 < nx else 0) * wide + at
+            rise = (take(p, right) - take(p, here)) * (1.0 / ring.apart[i])
+            drag = take(fill, here) * up + take(fill, right) * up_right
+            after = (drag * take(drags, here) - take(flows, here) * rise) * own
+            if i >= 0:
+                left = take(columns, here) + after - before
+                put(columns, here, left)
+                most = larger(most, magnitude(left))
+                fx = fx + take(carried, here) * ring.load_x[i]
+                fy = fy + take(carried, here) * ring.load_y[i]
+            before = after
+        put(row, at, most)
+        put(sum_x, at, fx * own)
+        put(sum_y, at, fy * own)
+    for k in range(m):
+        largest = max(largest, row[k])
+    if ring.shaped:
+        largest = _hold_grooves(film, columns, 0, 1)
+    unit, z = ring.area, film.nodes.z
+    work.load[:] = 0.0
+    for k in range(m):
+        work.load[0] += unit * sum_x[k]
+        work.load[1] += unit * sum_y[k]
+        work.load[2] -= unit * sum_y[k] * z[k]
+        work.load[3] += unit * sum_x[k] * z[k]
     return largest
 
 
 @inner
 def slopes_of_balance(film, work, wedge, rate, size):
     """Derivatives of the residual by `size` coordinates into the further columns, after it."""
-    nx, m = work.u.shape
-    points = film.nodes.z.size
-    z, weights, slopes = film.nodes.z, film.nodes.weights, film.nodes.slopes
-    p, fill, columns, gap, face = (
-        work.state[P], work.state[FILL], work.columns, work.gap, work.face,
-    )  # fmt: skip
+    nx, wide = work.u.shape
+    lanes, ring, weights = film.lanes, film.ring, film.nodes.weights
+    points, columns, block = film.nodes.z.size, work.columns, nx * wide
+    p, fill, opens = work.state[P], work.state[FILL], work.gap[OPEN]
+    flows, drags = work.face[FLOW_SLOPE], work.face[DRAG_SLOPE]
+    by_gap, by_turn = work.row[0], work.row[1]
+    up, up_right = max(wedge, 0.0), min(wedge, 0.0)
     for i in range(nx):
-        base = film.ring.order[i] * m
-        c, s = film.ring.cos[i], film.ring.sin[i]
-        step = film.ring.width[i]
-        squeeze = film.ring.slope * step
-        for k in range(m):
-            falls = -squeeze * weights[k] * rate * fill[i, k] * gap[OPEN, i, k]
-            columns[base + k, 1] = falls
-            columns[base + k, 3] = falls * z[k]
-        for k in range(points):
-            by_gap = -step * weights[k] * work.slope[i, k] * work.gap_slope[i, k]
-            for j in range(m):
-                columns[base + j, 1] += slopes[k, j] * by_gap
+        here, step, c, s = i * wide, ring.width[i], ring.cos[i], ring.sin[i]
+        for at in range(0, wide, LANES):
+            wider = take(work.slope, here + at) * take(work.gap_slope, here + at) * -step
+            put(by_gap, at, wider)
+            put(by_turn, at, wider * take(lanes.z, at))
+        for at in range(0, wide, LANES):
+            grows = take(fill, here + at) * take(opens, here + at) * (-ring.slope * step * rate)
+            grows = grows * take(lanes.weights, at)
+            turns = grows * take(lanes.z, at)
+            for k in range(points):
+                share = take(lanes.shares, k * wide + at)
+                grows = grows + share * (weights[k] * by_gap[k])
+                if size > 2:
+                    turns = turns + share * (weights[k] * by_turn[k])
+            put(columns, block + here + at, grows * c)
+            put(columns, 2 * block + here + at, grows * s)
             if size > 2:
-                for j in range(m):
-                    columns[base + j, 3] += slopes[k, j] * by_gap * z[k]
-        for k in range(m):
-            by_gap, by_turn = columns[base + k, 1], columns[base + k, 3]
-            columns[base + k, 1] = c * by_gap
-            columns[base + k, 2] = s * by_gap
-            if size > 2:
-                columns[base + k, 3] = -s * by_turn
-                columns[base + k, 4] = c * by_turn
-    for i in range(nx):  # face between cell i and the next one
-        right = i + 1 if i + 1 < nx else 0
-        base = film.ring.order[i] * m
-        base_r = film.ring.order[right] * m
-        upwind = i if wedge > 0 else right
-        c, s = film.ring.cos_face[i], film.ring.sin_face[i]
-        for k in range(m):
-            rise = (p[right, k] - p[i, k]) / film.ring.apart[i]
-            drag = wedge * fill[upwind, k]
-            by_gap = drag * face[DRAG_SLOPE, i, k] - face[FLOW_SLOPE, i, k] * rise
-            by_gap *= -weights[k]
-            columns[base + k, 1] += by_gap * c
-            columns[base_r + k, 1] -= by_gap * c
-            columns[base + k, 2] += by_gap * s
-            columns[base_r + k, 2] -= by_gap * s
-            if size > 2:
-                by_gap *= z[k]
-                columns[base + k, 3] -= by_gap * s
-                columns[base_r + k, 3] += by_gap * s
-                columns[base + k, 4] += by_gap * c
-                columns[base_r + k, 4] -= by_gap * c
-    if film.ring.shaped:
+                put(columns, 3 * block + here + at, turns * -s)
+                put(columns, 4 * block + here + at, turns * c)
+    for at in range(0, wide, LANES):
+        z_at, own = take(lanes.z, at), take(lanes.weights, at)
+        before, c_before, s_before = spread(0.0), 0.0, 0.0
+        for i in range(-1, nx):  # the face behind cell i, and before the next one
+            here = (i if i >= 0 else nx - 1) * wide + at
+            right = (i + 1 if i + 1 < nx else 0) * wide + at
+            c, s = ring.cos_face[i], ring.sin_face[i]
+            rise = (take(p, right) - take(p, here)) * (1.0 / ring.apart[i])
+            drag = take(fill, here) * up + take(fill, right) * up_right
+            after = (take(flows, here) * rise - drag * take(drags, here)) * own
+            if i >= 0:
+                x, y = after * c - before * c_before, after * s - before * s_before
+                put(columns, block + here, take(columns, block + here) + x)
+                put(columns, 2 * block + here, take(columns, 2 * block + here) + y)
+                if size > 2:
+                    put(columns, 3 * block + here, take(columns, 3 * block + here) - y * z_at)
+                    put(columns, 4 * block + here, take(columns, 4 * block + here) + x * z_at)
+            before, c_before, s_before = after, c, s
+    if ring.shaped:
         _hold_grooves(film, columns, 1, 5)
 
 
 @once
 def magnitudes(film, work, wedge, rate):
     """Magnitude of the largest terms of `balance`, after it: in a cell, and in the load, N."""
-    nx, m = work.u.shape
+    nx, m = film.ring.cos.size, film.nodes.slopes.shape[1]
     p, fill, face, gap = work.state[P], work.state[FILL], work.face, work.gap
     weights, slopes = film.nodes.weights, film.nodes.slopes
     largest, peak = 0.0, 0.0
@@ -186,116 +184,99 @@ def magnitudes(film, work, wedge, rate):
 
 @inner
 def matrix(film, work, wedge, rate):
-    """Band matrix of the derivatives of the residual by the unknowns."""
-    nx, m = work.u.shape
-    points = film.nodes.z.size
-    weights, slopes = film.nodes.weights, film.nodes.slopes
-    band, gap, face = work.band, work.gap, work.face
-    pairs, block = film.nodes.pairs, work.block
-    mid = 2 * m
-    dp, df, p = work.state[DP], work.state[DFILL], work.state[P]
-    fill, grows = work.state[FILL], work.state[DLOAD]
-    give = film.give
-    band[:] = 0.0
-    for i in range(nx):
-        base = film.ring.order[i] * m
-        step = film.ring.width[i]
-        squeeze = film.ring.slope * step * rate
-        for j in range(points):  # one long loop for all pairs of points
-            flow = step * gap[CUBE, i, j]
-            for pair in range(m * m):
-                block[pair] = flow * pairs[j, pair] + (block[pair] if j > 0 else 0.0)
-        for k in range(m):
-            for n in range(m):
-                band[base + k, mid + n - k] = block[k * m + n] * dp[i, n]
-        for k in range(m):
-            held = squeeze * weights[k]
-            band[base + k, mid] += held * gap[MEAN, i, k] * df[i, k] + work.state[DSLACK, i, k]
+    """Derivatives of the residual by the unknowns, after `balance`."""
+    nx, wide = work.u.shape
+    lanes, ring, nodes, give = film.lanes, film.ring, film.nodes, film.give
+    m, points, system, scaled = film.nodes.slopes.shape[1], film.nodes.z.size, work.matrix, work.row
+    mean, cube, opens = work.gap[MEAN], work.gap[CUBE], work.gap[OPEN]
+    dp, df, slacks = work.state[DP], work.state[DFILL], work.state[DSLACK]
+    p, fill, grows = work.state[P], work.state[FILL], work.state[DLOAD]
+    flows, drags = work.face[FLOW], work.face[DRAG]
+    flow_slopes, drag_slopes = work.face[FLOW_SLOPE], work.face[DRAG_SLOPE]
+    up, up_right = max(wedge, 0.0), min(wedge, 0.0)
+    for i in range(nx):  # across
+        conducts, by = cube[i], dp[i]
+        for c in range(m):
+            for at in range(0, wide, LANES):
+                column = spread(0.0)
+                for j in range(points):
+                    column = column + take(lanes.pairs, (j * m + c) * wide + at) * conducts[j]
+                column = column * by[c]
+                if give > 0.0:
+                    wider = nodes.weights[c] * work.gap_slope[i, c] * work.slope[i, c]
+                    wider *= give * grows[i, c]
+                    column = column + take(lanes.shares, c * wide + at) * wider
+                put(system.block, (i * m + c) * wide + at, column * ring.width[i])
+    for at in range(0, wide, LANES):
+        own, before, given = take(lanes.weights, at), spread(0.0), 0.5 * give
+        for i in range(-1, nx):  # the face behind cell i, and before the next one
+            cell, next_cell = i if i >= 0 else nx - 1, i + 1 if i + 1 < nx else 0
+            here, right, inverse = cell * wide + at, next_cell * wide + at, 1.0 / ring.apart[i]
+            drag, flow = own * take(drags, here), own * take(flows, here) * inverse
+            to_left = flow * take(dp, here) + drag * take(df, here) * up
+            to_right = drag * take(df, right) * up_right - flow * take(dp, right)
             if give > 0.0:
-                band[base + k, mid] += held * fill[i, k] * gap[OPEN, i, k] * give * grows[i, k]
-                wider = step * weights[k] * work.gap_slope[i, k] * work.slope[i, k]
-                wider *= give * grows[i, k]
-                for n in range(m):
-                    band[base + n, mid + k - n] += slopes[k, n] * wider
-    for i in range(nx):
-        right = i + 1 if i + 1 < nx else 0
-        base = film.ring.order[i] * m
-        base_r = film.ring.order[right] * m
-        shift = base_r - base
-        upwind = i if wedge > 0 else right
-        step = film.ring.apart[i]
-        for k in range(m):
-            w = weights[k]
-            h = w * wedge * face[DRAG, i, k]
-            g = w * face[FLOW, i, k] / step
-            by_l = g * dp[i, k]
-            by_r = -g * dp[right, k]
-            if wedge > 0:
-                by_l += h * df[i, k]
-            else:
-                by_r += h * df[right, k]
-            if give > 0.0:
-                rise = (p[right, k] - p[i, k]) / step
-                drag = wedge * fill[upwind, k] * face[DRAG_SLOPE, i, k]
-                wider = 0.5 * give * w * (drag - face[FLOW_SLOPE, i, k] * rise)
-                by_l += wider * grows[i, k]
-                by_r += wider * grows[right, k]
-            band[base + k, mid] += by_l
-            band[base + k, mid + shift] += by_r
-            band[base_r + k, mid] -= by_r
-            band[base_r + k, mid - shift] -= by_l
-    if film.ring.shaped:
-        hold_grooves_in(film.ring, band)
+                rise = (take(p, right) - take(p, here)) * inverse
+                dragged = take(fill, here) * up + take(fill, right) * up_right
+                wider = dragged * take(drag_slopes, here) - take(flow_slopes, here) * rise
+                wider = wider * own * given
+                to_left = to_left + wider * take(grows, here)
+                to_right = to_right + wider * take(grows, right)
+            put(system.left, right, to_left * -1.0)
+            put(system.right, here, to_right)
+            if i >= 0:
+                squeeze = own * (ring.slope * ring.width[i] * rate)
+                held = take(mean, here) * take(df, here)
+                if give > 0.0:
+                    held = held + take(fill, here) * take(opens, here) * take(grows, here) * give
+                held = held * squeeze + take(slacks, here) * take(lanes.inner, at)
+                put(scaled, at, held + to_left - before)
+                for k in range(at, min(m, at + LANES)):
+                    system.block[i, k, k] += scaled[0, k]
+            before = to_right
+    if ring.shaped:
+        for i in range(nx):
+            if ring.groove[i]:
+                system.left[i], system.right[i], system.block[i] = 0.0, 0.0, 0.0
+                for k in range(m):
+                    system.block[i, k, k] = 1.0
 
 
 @once
 def _hold_grooves(film, columns, first, last):
-    """Leave the pressure of grooves as it is, in the columns from `first` to `last`."""
-    m = columns.shape[0] // film.ring.groove.size
-    for i in range(film.ring.groove.size):
-        if film.ring.groove[i]:
-            base = film.ring.order[i] * m
-            for row in range(base, base + m):
-                for column in range(first, last):
-                    columns[row, column] = 0.0
+    """Leave the pressure of grooves as it is in the columns `first` … `last`; the largest."""
+    largest = 0.0
+    for column in range(first, last):
+        for i in range(film.ring.groove.size):
+            for k in range(columns.shape[2]):
+                if film.ring.groove[i]:
+                    columns[column, i, k] = 0.0
+                largest = max(largest, abs(columns[column, i, k]))
+    return largest
 
 
 @inner
 def carry(film, work, size):
     """Load that each of the first 1 + `size` columns carries into `work.carried`."""
-    nx, m = work.u.shape
+    nx, wide = work.u.shape
     z, weights, columns, carried = film.nodes.z, film.nodes.weights, work.columns, work.carried
-    slope = work.state[DLOAD]
+    slope, ring, unit, sums = work.state[DLOAD], film.ring, film.ring.area, work.row
     carried[:] = 0.0
-    unit = film.ring.area
-    if size == 2:  # forces alone
-        fx0, fx1, fx2, fy0, fy1, fy2 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-        for i in range(nx):
-            base = film.ring.order[i] * m
-            a, b, d = 0.0, 0.0, 0.0
-            for k in range(m):
-                part, row = weights[k] * slope[i, k], base + k
-                a += part * columns[row, 0]
-                b += part * columns[row, 1]
-                d += part * columns[row, 2]
-            c, s = unit * film.ring.load_x[i], unit * film.ring.load_y[i]
-            fx0, fx1, fx2 = fx0 + a * c, fx1 + b * c, fx2 + d * c
-            fy0, fy1, fy2 = fy0 + a * s, fy1 + b * s, fy2 + d * s
-        carried[0, 0], carried[1, 0], carried[2, 0] = fx0, fx1, fx2
-        carried[0, 1], carried[1, 1], carried[2, 1] = fy0, fy1, fy2
-    for i in range(nx if size > 2 else 0):
-        base = film.ring.order[i] * m
-        c, s = unit * film.ring.load_x[i], unit * film.ring.load_y[i]
-        for column in range(1 + size):
-            load, turn = 0.0, 0.0
-            for k in range(m):
-                part = weights[k] * slope[i, k] * columns[base + k, column]
-                load += part
-                turn += part * z[k]
-            carried[column, 0] += load * c
-            carried[column, 1] += load * s
-            carried[column, 2] -= turn * s
-            carried[column, 3] += turn * c
+    for column in range(1 + size):
+        for at in range(0, wide, LANES):
+            fx, fy = spread(0.0), spread(0.0)
+            for i in range(nx):
+                part = take(slope, i * wide + at) * take(columns, (column * nx + i) * wide + at)
+                fx, fy = fx + part * ring.load_x[i], fy + part * ring.load_y[i]
+            put(sums, at, fx)
+            put(sums, wide + at, fy)
+        for k in range(film.nodes.slopes.shape[1]):
+            x, y = unit * weights[k] * sums[0, k], unit * weights[k] * sums[1, k]
+            carried[column, 0] += x
+            carried[column, 1] += y
+            if size > 2:
+                carried[column, 2] -= y * z[k]
+                carried[column, 3] += x * z[k]
     if film.yielding.on:
         _carry_touch(film, work, size)
 
@@ -303,109 +284,129 @@ def carry(film, work, size):
 @once
 def _carry_touch(film, work, size):
     """Add what asperities carry more by way of the shell, which the film presses open."""
-    nx, m = work.u.shape
+    nx, m = film.ring.cos.size, film.nodes.slopes.shape[1]
     for i in range(nx):
-        base = film.ring.order[i] * m
         for k in range(m):
             slope = work.state[DLOAD, i, k]
             for column in range(1 + size):
-                change = slope * work.columns[base + k, column]
+                change = slope * work.columns[column, i, k]
                 for a in range(size):
                     work.carried[column, a] += work.pressed[a, i, k] * change
 
 
 @inner
 def summarise(film, work, q, wedge, row):
-    """Integrals over the film into `row`, after `place` at `q`; units of `_reduced_kernels`."""
-    nx, m = work.u.shape
-    points = film.nodes.z.size
-    weights, slopes, fine = film.nodes.weights, film.nodes.slopes, film.nodes.fine
-    p, gap, rough = work.state[LOAD], work.gap, film.rough
-    far = -1.0 if rough.size == 0.0 else smooth_beyond(rough)
-    numbers = (work.numbers[0], work.numbers[1], film.regime.begin, film.regime.end)
-    peak, dissipation, shear, outflow = -np.inf, 0.0, 0.0, 0.0
-    liquid, volume, highest, grown = 0.0, 0.0, 0, 0.0
-    fx, fy, mx, my = 0.0, 0.0, 0.0, 0.0
-    for i in range(nx):
-        right = i + 1 if i + 1 < nx else 0
-        load, turn = 0.0, 0.0
-        step = film.ring.width[i]
-        for k in range(points):
-            slope = 0.0
-            for j in range(m):
-                slope += slopes[k, j] * (p[i, j] - film.ring.p_edge)
-            flow = step * gap[CUBE, i, k] * slope
-            dissipation += weights[k] * flow * slope
-            inside = film.ring.edge_fill
-            if k < m:
-                inside = work.state[FILL, i, k]
-                rise = p[right, k] - p[i, k]
-                conducts = work.face[FLOW, i, k] / film.ring.apart[i]
-                dissipation += conducts * weights[k] * rise * rise
-                if p[i, k] > peak:
-                    peak, highest = p[i, k], i
-                load += weights[k] * p[i, k]
-                turn += weights[k] * p[i, k] * film.nodes.z[k]
-            elif not film.ring.groove[i]:
-                outflow += max(-film.nodes.ends[k - m] * flow, 0.0)
-            if film.ring.groove[i]:
+    """Integrals over the film into `row`, after `balance` at `q`; units of `_reduced_kernels`."""
+    nx, wide = work.u.shape
+    lanes, ring, nodes, m = film.lanes, film.ring, film.nodes, film.nodes.slopes.shape[1]
+    p, fill, gap, flows = work.state[P], work.state[FILL], work.gap, work.face[FLOW]
+    mean, cube, planes, rows = gap[MEAN], gap[CUBE], gap[PLANES], work.row
+    plain = film.rough.size == 0.0 and not film.yielding.on and not film.regime.on
+    for at in range(0, wide, LANES):
+        lost, sheared_at, leaves = spread(0.0), spread(0.0), spread(0.0)
+        liquid_at, volume_at = spread(0.0), spread(0.0)
+        weights, own = take(lanes.whole, at), take(lanes.weights, at)
+        outward = take(lanes.outward, at)
+        ends = outward * outward * ring.edge_fill
+        for i in range(nx):
+            here, right = i * wide + at, (i + 1 if i + 1 < nx else 0) * wide + at
+            step, slope = ring.width[i], take(work.slope, here)
+            flow, rise = take(cube, here) * slope * step, take(p, right) - take(p, here)
+            lost = lost + weights * flow * slope
+            lost = lost + own * take(flows, here) * rise * rise * (1.0 / ring.apart[i])
+            if ring.groove[i]:
                 continue
-            held = weights[k] * step * gap[MEAN, i, k]
-            liquid += held * inside
-            volume += held
-            h = gap[PLANES, i, k]
-            if film.yielding.on:
-                h = opened(film.yielding, h)[0]
-                if k < m:
-                    lifted = h - gap[PLANES, i, k]
-                    grown = max(grown, film.give * (p[i, k] - film.ring.p_edge) + lifted)
-            inverse = sheared(h, rough.size, rough.along) if h <= far else 1.0 / h
-            if film.regime.on:
-                inverse *= factor(h, numbers, SHEAR)[0]
-            shear += weights[k] * step * inverse
-        fx += load * film.ring.load_x[i]
-        fy += load * film.ring.load_y[i]
-        mx -= turn * film.ring.load_y[i]
-        my += turn * film.ring.load_x[i]
+            leaves = leaves + larger(spread(0.0), outward * flow * -1.0)
+            held = weights * take(mean, here) * step
+            liquid_at = liquid_at + held * (take(fill, here) * take(lanes.inner, at) + ends)
+            volume_at = volume_at + held
+            if plain:
+                sheared_at = sheared_at + weights / take(planes, here) * step
+        put(rows, at, lost)
+        put(rows, wide + at, sheared_at)
+        put(rows, 2 * wide + at, leaves)
+        put(rows, 3 * wide + at, liquid_at)
+        put(rows, 4 * wide + at, volume_at)
+    dissipation, shear, outflow, liquid, volume = 0.0, 0.0, 0.0, 0.0, 0.0
+    for k in range(nodes.z.size):
+        dissipation, shear = dissipation + rows[0, k], shear + rows[1, k]
+        outflow, liquid = outflow + rows[2, k], liquid + rows[3, k]
+        volume += rows[4, k]
+    grown = 0.0
+    if not plain:
+        shear, grown = _uneven(film, work)
+    peak, highest = -np.inf, 0
+    for i in range(nx):
+        for k in range(m):
+            if p[i, k] > peak:
+                peak, highest = p[i, k], i
+    between = spread(peak)
     for i in range(highest - 1, highest + 2):  # between the points
-        for k in range(fine.shape[0]):
-            value = film.ring.p_edge
+        for at in range(0, lanes.fine.shape[1], LANES):
+            value = spread(ring.p_edge)
             for j in range(m):
-                value += fine[k, j] * (p[i % nx, j] - film.ring.p_edge)
-            peak = max(peak, value)
+                share = take(lanes.fine, j * lanes.fine.shape[1] + at)
+                value = value + share * (p[i % nx, j] - ring.p_edge)
+            between = larger(between, value)
+    put(rows, 0, between)
+    for k in range(LANES):
+        peak = max(peak, rows[0, k])
     left = 0.0
-    for n in range(film.nodes.highest.shape[0]):
+    for n in range(nodes.highest.shape[0]):
         value = 0.0
         for j in range(m):
-            value += film.nodes.highest[n, j] * (p[highest, j] - film.ring.p_edge)
+            value += nodes.highest[n, j] * (p[highest, j] - ring.p_edge)
         left = max(left, abs(value))
     for k in range(4):
         row[k] = q[k]
-    row[at.PEAK] = peak
-    row[at.DISSIPATION] = dissipation
-    row[at.SHEAR] = shear
-    row[at.OUTFLOW] = outflow
-    row[at.FILLED] = liquid / volume
-    row[at.LEAST] = narrowest(film, work)
-    row[at.GROWTH] = max(grown, film.give * (peak - film.ring.p_edge))
-    row[at.NORMAL] = touch(film, work, q)
-    unit = film.ring.area
-    row[at.MOMENT_X] = unit * mx + work.touch[0, 2]
-    row[at.MOMENT_Y] = unit * my + work.touch[0, 3]
-    row[at.CONTACT_X] = work.touch[0, 0]
-    row[at.CONTACT_Y] = work.touch[0, 1]
-    mean = np.hypot(unit * fx + work.touch[0, 0], unit * fy + work.touch[0, 1])
-    mean /= (
-        2.0 * film.ring.area * film.nodes.width
-    )  # beside asperities a film may carry next to nothing
-    row[at.HIGHEST] = left / max(peak - film.ring.p_edge, mean, 1e-3 * film.ring.scale)
-    row[at.FED] = fed(film, work, wedge) if film.ring.shaped else 0.0
+    row[film_.PEAK] = peak
+    row[film_.DISSIPATION] = dissipation
+    row[film_.SHEAR] = shear
+    row[film_.OUTFLOW] = outflow
+    row[film_.FILLED] = liquid / volume
+    row[film_.LEAST] = narrowest(film, work)
+    row[film_.GROWTH] = max(grown, film.give * (peak - ring.p_edge))
+    row[film_.NORMAL] = touch(film, work, q)
+    row[film_.MOMENT_X] = work.load[2] + work.touch[0, 2]
+    row[film_.MOMENT_Y] = work.load[3] + work.touch[0, 3]
+    row[film_.CONTACT_X] = work.touch[0, 0]
+    row[film_.CONTACT_Y] = work.touch[0, 1]
+    mean_pressure = np.hypot(work.load[0] + work.touch[0, 0], work.load[1] + work.touch[0, 1])
+    mean_pressure /= 2.0 * ring.area * nodes.width
+    # beside asperities a film may carry next to nothing
+    row[film_.HIGHEST] = left / max(peak - ring.p_edge, mean_pressure, 1e-3 * ring.scale)
+    row[film_.FED] = fed(film, work, wedge) if ring.shaped else 0.0
+
+
+@once
+def _uneven(film, work):
+    """Shear between rough surfaces or of turbulent flow, and the largest growth of the gap."""
+    points, m, rough = film.nodes.z.size, film.nodes.slopes.shape[1], film.rough
+    far = -1.0 if rough.size == 0.0 else smooth_beyond(rough)
+    numbers = (work.numbers[0], work.numbers[1], film.regime.begin, film.regime.end)
+    shear, grown = 0.0, 0.0
+    for i in range(film.ring.cos.size):
+        if film.ring.groove[i]:
+            continue
+        for k in range(points):
+            h = work.gap[PLANES, i, k]
+            if film.yielding.on:
+                h = opened(film.yielding, h)[0]
+                if k < m:
+                    lifted = h - work.gap[PLANES, i, k]
+                    pressed = work.state[P, i, k] - film.ring.p_edge
+                    grown = max(grown, film.give * pressed + lifted)
+            inverse = sheared(h, rough.size, rough.along) if h <= far else 1.0 / h
+            if film.regime.on:
+                inverse *= factor(h, numbers, SHEAR)[0]
+            shear += film.nodes.weights[k] * film.ring.width[i] * inverse
+    return shear, grown
 
 
 @once
 def fed(film, work, wedge):
     """Flow from the grooves into the film, less what flows back, after `place`."""
-    nx, m = work.u.shape
+    nx, m = film.ring.cos.size, film.nodes.slopes.shape[1]
     weights, p, fill, face = film.nodes.weights, work.state[P], work.state[FILL], work.face
     total = 0.0
     for i in range(nx):

@@ -10,7 +10,6 @@ import numpy as np
 
 from loadflow.journal.cavitation import DLOAD, FILL, LOAD
 from loadflow.journal.models import composed_film as at
-from loadflow.journal.models._band_kernels import factorise_any, substitute_all, substitute_one
 from loadflow.journal.models._compile import inner, once, outer
 from loadflow.journal.models._composed_gap_kernels import (
     MEAN,
@@ -40,11 +39,13 @@ from loadflow.journal.models._reduced_loops import (
     shift,
     two_steps,
 )
+from loadflow.journal.models._ring_kernels import factorise, substitute
 from loadflow.journal.models.slow_heat import THIN, lighter, slow_heat
+from loadflow.numerics.lanes import LANES, larger, magnitude, put, spread, take
 
 _KEPT = 0.3  # share of the narrowest gap that a step of the shaft leaves
 _ROOM = 1.0 / 2**20  # share of a step below which an elastic shell has no room for it
-_FALLS = 0.1  # ratio of residuals below which the next step takes the factors of the last one
+_MORE = 3  # Newton steps on factors that are there which cost less than one on new factors
 _ALIKE = 0.1  # difference of two rates of which one goes with the factors of the other
 
 
@@ -121,7 +122,6 @@ def _farthest(film, ratio, depth):
 @once
 def _shaft_step(film, work, load, size, step):
     """Newton step (4,) of a shaft that is to carry `load` (4,), shortened where it is too long."""
-    nx, m = work.u.shape
     carry(film, work, size)
     step[:] = 0.0
     for a in range(size):
@@ -130,12 +130,17 @@ def _shaft_step(film, work, load, size, step):
             work.system[a, b] = work.carried[1 + b, a] - work.touch[1 + a, b]
     if not solve_system(work.system, size):
         return
-    change, peak = 0.0, film.ring.scale
-    for i in range(nx):
-        base = film.ring.order[i] * m
-        for k in range(m):
-            change = max(change, abs(work.columns[base + k, 0]))
-            peak = max(peak, work.state[LOAD, i, k])
+    change, peak, loads = 0.0, film.ring.scale, work.state[LOAD]
+    wide = work.u.shape[1]
+    for first in range(0, wide, LANES):
+        most, highest, unknown = spread(0.0), spread(peak), take(film.lanes.inner, first)
+        for here in range(first, work.u.size, wide):
+            most = larger(most, magnitude(take(work.columns, here)))
+            highest = larger(highest, take(loads, here) * unknown)
+        put(work.row, 0, most)
+        put(work.row, wide, highest)
+        for k in range(LANES):
+            change, peak = max(change, work.row[0, k]), max(peak, work.row[1, k])
     excess = max(1.0, change / (peak * STEP_LIMIT))
     for a in range(size):
         step[a] = work.system[a, size] / excess
@@ -144,14 +149,12 @@ def _shaft_step(film, work, load, size, step):
 @inner
 def _correct(film, work, step, size, share):
     """Unknowns after a share of a Newton step from `work.trial`."""
-    nx, m = work.u.shape
-    for i in range(nx):
-        base = film.ring.order[i] * m
-        for k in range(m):
-            change = work.columns[base + k, 0]
-            for a in range(size):
-                change += step[a] * work.columns[base + k, 1 + a]
-            work.u[i, k] = work.trial[i, k] - share * change
+    block = work.u.size
+    for here in range(0, block, LANES):
+        change = take(work.columns, here)
+        for a in range(size):
+            change = change + take(work.columns, (1 + a) * block + here) * step[a]
+        put(work.u, here, take(work.trial, here) - change * share)
 
 
 @once
@@ -191,7 +194,8 @@ def _newton(film, work, q, load, size, speed, lightness, rate, tolerance, max_it
     rounding level, which is looked at where the tolerance is not met soon.
 
     Factors that are there take the first step: those of the last time bring a film in motion as
-    far as new ones would from there, and new ones of the film after it nearly all of the way.
+    far as new ones would from there. They go on as long as a few steps at the pace of the last one
+    reach the tolerance.
     """
     wedge = 0.5 * film.ring.slope * speed
     flux = (abs(wedge) + film.ring.scale) * film.nodes.widest
@@ -223,15 +227,15 @@ def _newton(film, work, q, load, size, speed, lightness, rate, tolerance, max_it
         if done or answered:
             return residual, spent, answered, rounding
         spent += 1
-        if work.kept[0] > 0.0 and residual < _FALLS * last and spent != 2:
-            substitute_one(work.band, work.columns)
+        if work.kept[0] > 0.0 and residual * (residual / last) ** _MORE < tolerance:
+            substitute(work.matrix, work.columns, 1)
         else:
             slopes_of_balance(film, work, wedge, rate, size)
             matrix(film, work, wedge, rate)
             work.kept[0] = 0.0
-            if not factorise_any(work.band, work.columns.shape[0]):
+            if not factorise(work.matrix):
                 return residual, spent, False, rounding
-            substitute_all(work.band, work.columns, 1 + size)
+            substitute(work.matrix, work.columns, 1 + size)
             work.kept[0], work.kept[1] = 1.0, rate
         last = residual
         if size > 0:
@@ -246,19 +250,18 @@ def _finish(film, work, q, speed, size, stiffness, damping):
     `stiffness` and `damping` (size, size) are by position (per clearance) and by velocity
     (clearances per second).
     """
-    nx, m = work.u.shape
+    nx, m = film.ring.cos.size, film.nodes.slopes.shape[1]
     wedge = 0.5 * film.ring.slope * speed
     balance(film, work, wedge, 0.0)
     slopes_of_balance(film, work, wedge, 0.0, size)
     matrix(film, work, wedge, 0.0)
-    factorise_any(work.band, work.columns.shape[0])
-    substitute_all(work.band, work.columns, 1 + size)
+    factorise(work.matrix)
+    substitute(work.matrix, work.columns, 1 + size)
     carry(film, work, size)
     for a in range(size):
         for b in range(size):
             stiffness[a, b] = work.touch[1 + a, b] - work.carried[1 + b, a]
     for i in range(nx):
-        base = film.ring.order[i] * m
         squeeze = 0.0 if film.ring.groove[i] else film.ring.slope * film.ring.width[i]
         for k in range(m):
             held = -squeeze * film.nodes.weights[k] * work.state[FILL, i, k]
@@ -270,14 +273,11 @@ def _finish(film, work, q, speed, size, stiffness, damping):
                 film.nodes.z[k] * film.ring.cos[i],
             )
             # an elastic shell follows: its gap changes by what the pressure of the place makes
-            row_of = base + k
             grown = film.give * work.state[DLOAD, i, k]
-            work.columns[row_of, 0] = 0.0
+            work.columns[0, i, k] = 0.0
             for a in range(size):
-                work.columns[row_of, 1 + a] = held * (
-                    modes[a] + grown * work.columns[row_of, 1 + a]
-                )
-    substitute_all(work.band, work.columns, 1 + size)
+                work.columns[1 + a, i, k] = held * (modes[a] + grown * work.columns[1 + a, i, k])
+    substitute(work.matrix, work.columns, 1 + size)
     carry(film, work, size)
     for a in range(size):
         for b in range(size):

@@ -11,7 +11,6 @@ import numpy as np
 
 from loadflow.journal.cavitation import DLOAD, LOAD
 from loadflow.journal.models import composed_film as at
-from loadflow.journal.models._band_kernels import factorise_any, substitute_all
 from loadflow.journal.models._compile import inner, once, outer
 from loadflow.journal.models._composed_gap_kernels import turn
 from loadflow.journal.models._composed_kernels import (
@@ -45,6 +44,7 @@ from loadflow.journal.models._reduced_loops import (
     rounding_level,
     two_steps,
 )
+from loadflow.journal.models._ring_kernels import factorise, substitute
 from loadflow.journal.models.slow_heat import THIN, lighter, slow_heat
 from loadflow.journal.solvers.moving_pads import FLAT, NEAR
 
@@ -55,7 +55,7 @@ _SMALL = 0.03  # tilt of a pad, in clearances, from which it may grow threefold 
 @once
 def _carry(film, work, pads, pad_work, size):
     """Load of each pad beside that of the edge pressure, and what the columns carry on it."""
-    nx, m = work.u.shape
+    nx, m = film.ring.cos.size, film.nodes.slopes.shape[1]
     z, weights, columns, unit = film.nodes.z, film.nodes.weights, work.columns, film.ring.area
     pad_work.load[:] = 0.0
     pad_work.carried[:] = 0.0
@@ -63,7 +63,6 @@ def _carry(film, work, pads, pad_work, size):
         j = pads.cell[i]
         if film.ring.groove[i]:
             continue
-        base = film.ring.order[i] * m
         c, s = unit * film.ring.load_x[i], unit * film.ring.load_y[i]
         load, turned = 0.0, 0.0
         for k in range(m):
@@ -77,7 +76,7 @@ def _carry(film, work, pads, pad_work, size):
         for column in range(1 + size):
             load, turned = 0.0, 0.0
             for k in range(m):
-                part = weights[k] * work.state[DLOAD, i, k] * columns[base + k, column]
+                part = weights[k] * work.state[DLOAD, i, k] * columns[column, i, k]
                 load += part
                 turned += part * z[k]
             pad_work.carried[j, column, 0] += load * c
@@ -89,7 +88,7 @@ def _carry(film, work, pads, pad_work, size):
 @once
 def _moments(film, work, pads):
     """Sum of the squared moments of the pads about their pivots, N², over the shaft radius."""
-    m, unit, total, moment, last = work.u.shape[1], film.ring.area, 0.0, 0.0, -1
+    m, unit, total, moment, last = film.nodes.slopes.shape[1], film.ring.area, 0.0, 0.0, -1
     for i in range(work.u.shape[0]):
         j = pads.cell[i]
         if j != last:
@@ -142,9 +141,8 @@ def _steps(film, work, pads, pad_work, load, size, step):
         return
     change, peak = 0.0, film.ring.scale
     for i in range(work.u.shape[0]):
-        base = film.ring.order[i] * work.u.shape[1]
-        for k in range(work.u.shape[1]):
-            change = max(change, abs(work.columns[base + k, 0]))
+        for k in range(film.nodes.slopes.shape[1]):
+            change = max(change, abs(work.columns[0, i, k]))
             peak = max(peak, work.state[LOAD, i, k])
     excess = max(1.0, change / (peak * STEP_LIMIT))
     for a in range(size):
@@ -201,7 +199,7 @@ def _advance(film, work, pads, pad_work, q, step):
 
     A pad that tilts the other way has no film, and would stay so.
     """
-    m, tilts = work.u.shape[1], pad_work.tilts
+    m, tilts = film.nodes.slopes.shape[1], pad_work.tilts
     for j in range(pad_work.on.size):
         if tilts[STEP, j] == 0.0:
             continue
@@ -219,14 +217,13 @@ def _advance(film, work, pads, pad_work, q, step):
     for i in range(work.u.shape[0]):
         if film.ring.groove[i]:
             continue
-        j, base = pads.cell[i], film.ring.order[i] * m
+        j = pads.cell[i]
         turns = tilts[STEP, j]
         dx, dy = step[0] + turns * pads.along[j, 0], step[1] + turns * pads.along[j, 1]
         for k in range(m):
-            row = base + k
-            change = work.columns[row, 0] + dx * work.columns[row, 1] + dy * work.columns[row, 2]
+            change = work.columns[0, i, k] + dx * work.columns[1, i, k] + dy * work.columns[2, i, k]
             if step[2] != 0.0 or step[3] != 0.0:
-                change += step[2] * work.columns[row, 3] + step[3] * work.columns[row, 4]
+                change += step[2] * work.columns[3, i, k] + step[3] * work.columns[4, i, k]
             work.u[i, k] -= change
     for a in range(4):
         q[a] += step[a]
@@ -264,9 +261,9 @@ def _newton(
         spent += 1
         slopes_of_balance(film, work, wedge, rate, columns)
         matrix(film, work, wedge, rate)
-        if not factorise_any(work.band, work.columns.shape[0]):
+        if not factorise(work.matrix):
             return residual, spent, False, rounding
-        substitute_all(work.band, work.columns, 1 + columns)
+        substitute(work.matrix, work.columns, 1 + columns)
         _carry(film, work, pads, pad_work, columns)
         _steps(film, work, pads, pad_work, load, size, step)
         _advance(film, work, pads, pad_work, q, step)

@@ -14,8 +14,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from loadflow.journal.models._ring_kernels import RingSystem, ring_system
 from loadflow.journal.models.ring import Ring
 from loadflow.journal.models.width_modes import Nodes
+from loadflow.numerics.lanes import lanes_for
 
 Array = NDArray[np.float64]
 
@@ -40,6 +42,58 @@ class Places(NamedTuple):
 
     z: Array
     depth: Array
+
+
+class Lanes(NamedTuple):
+    """Points across as rows of `loadflow.numerics.lanes`, 0 behind them.
+
+    Attributes
+    ----------
+    z, depth : array (L,)
+        Of the points of the film, and what a relief widens the bore there.
+    weights, inner : array (L,)
+        Of the points at which the pressure is unknown; 1 there.
+    slopes : array (m, L)
+        Slopes of the pressure at all points, by its value at one.
+    shares : array (l, L)
+        The same of one point by the values at all.
+    pairs : array (l, m, L)
+        Products of two of these slopes at each point, times its weight.
+    whole, outward : array (L,)
+        Weights of all points; sense of the outward direction at the bearing ends, 0 elsewhere.
+    fine : array (m, F)
+        Values at places close by each other, by that at one point.
+    """
+
+    z: Array
+    depth: Array
+    weights: Array
+    inner: Array
+    slopes: Array
+    shares: Array
+    pairs: Array
+    whole: Array
+    outward: Array
+    fine: Array
+
+
+def lanes_of(nodes: Nodes, depth: Array) -> Lanes:
+    """Lanes of points across, of which a relief widens the bore by `depth`."""
+    points, inner = nodes.slopes.shape
+
+    def rows(values: Array, count: int = points) -> Array:
+        given = np.zeros((*values.shape[:-1], lanes_for(count)))
+        given[..., : values.shape[-1]] = values
+        return given
+
+    pairs = nodes.weights[:, None, None] * nodes.slopes[:, :, None] * nodes.slopes[:, None, :]
+    outward = np.concatenate([np.zeros(inner), nodes.ends])
+    return Lanes(
+        z=rows(nodes.z), depth=rows(depth[:points]), weights=rows(nodes.weights[:inner]),
+        inner=rows(np.ones(inner)), slopes=rows(nodes.slopes.T), shares=rows(nodes.slopes),
+        pairs=rows(pairs), whole=rows(nodes.weights), outward=rows(outward),
+        fine=rows(nodes.fine.T, len(nodes.fine)),
+    )  # fmt: skip
 
 
 class Rough(NamedTuple):
@@ -147,6 +201,8 @@ class Composed(NamedTuple):
         Points across.
     places : Places
         These, and what a relief widens the bore there.
+    lanes : Lanes
+        The points as rows of lanes.
     give : float
         Growth of the gap over pressure, clearances per Pa; 0: a rigid shell.
     rough : Rough
@@ -160,6 +216,7 @@ class Composed(NamedTuple):
     ring: Ring
     nodes: Nodes
     places: Places
+    lanes: Lanes
     give: float
     rough: Rough
     yielding: Yielding
@@ -167,28 +224,32 @@ class Composed(NamedTuple):
 
 
 class ComposedWork(NamedTuple):
-    """Work arrays of one film of (nx, m) unknowns and l points across, n = nx m.
+    """Work arrays of one film of nx cells around, each with m unknowns in L lanes.
+
+    Behind the unknowns are those of edge pressure, which stay.
 
     Attributes
     ----------
-    u, before, last, trial : array (nx, m)
+    u, before, last, trial : array (nx, L)
         Unknowns: current, at the last two times, and before a step.
-    liquid : array (3, nx, m)
+    liquid : array (3, nx, L)
         F H of the cells: storage of earlier times, then the last two times.
-    state : array (8, nx, m)
+    state : array (8, nx, L)
         As in `_kernels.apply_law`.
-    gap : array (4, nx, l)
+    gap : array (4, nx, L)
         Of the points: mean planes, mean gap, its share that opens, and conductance.
-    gap_slope : array (nx, l)
+    gap_slope : array (nx, L)
         Derivative of the conductance by the gap of the mean planes.
-    face : array (5, nx, m)
+    face : array (5, nx, L)
         Of the faces: conductance, dragged gap, their derivatives, and gap of the mean planes.
-    slope : array (nx, l)
+    slope : array (nx, L)
         ∂p across.
-    band : array (n + 2 m, 4 m + 1)
-        Band matrix, row by row; the last 2 m rows are those behind it.
-    columns : array (n, 5)
+    matrix : RingSystem
+        Derivatives of the residual, then their factors.
+    columns : array (5, nx, L)
         Residual and its derivatives by the position; then what the matrix makes of them.
+    row : array (5, L)
+        Rows of numbers that are taken one by one.
     centre : array (2, f)
         Where the shaft is seen at the places across.
     bend : array (2,)
@@ -209,14 +270,12 @@ class ComposedWork(NamedTuple):
         Newton step of the shaft.
     modes : array (3, 4)
         Sums of `_composed_gap_kernels.touch`.
-    block : array (m m,)
-        Axial part of the matrix of a column of cells.
     places : array (3, 4)
         Position at the time before the last, the next one, and its load.
     past : array (5,)
         Bend of the shaft at the time before the last, at the last; the step between them, s.
     kept : array (2,)
-        Whether `band` holds factors, and `columns` what they make of the derivatives by the
+        Whether `matrix` holds factors, and `columns` what they make of the derivatives by the
         position; the rate of these, 1/s.
     """
 
@@ -230,8 +289,9 @@ class ComposedWork(NamedTuple):
     gap_slope: Array
     face: Array
     slope: Array
-    band: Array
+    matrix: RingSystem
     columns: Array
+    row: Array
     centre: Array
     bend: Array
     load: Array
@@ -242,7 +302,6 @@ class ComposedWork(NamedTuple):
     numbers: Array
     step: Array
     modes: Array
-    block: Array
     places: Array
     past: Array
     kept: Array
@@ -251,7 +310,7 @@ class ComposedWork(NamedTuple):
 def make_work(around: int, nodes: Nodes, places: int) -> ComposedWork:
     """Allocate the work arrays."""
     points, inner = nodes.slopes.shape
-    shape, n = (around, inner), around * inner
+    shape = around, lanes_for(points)
     return ComposedWork(
         u=np.zeros(shape),
         before=np.zeros(shape),
@@ -259,23 +318,23 @@ def make_work(around: int, nodes: Nodes, places: int) -> ComposedWork:
         trial=np.zeros(shape),
         liquid=np.zeros((3, *shape)),
         state=np.zeros((8, *shape)),
-        gap=np.ones((4, around, points)),
-        gap_slope=np.zeros((around, points)),
+        gap=np.ones((4, *shape)),
+        gap_slope=np.zeros(shape),
         face=np.ones((5, *shape)),
-        slope=np.zeros((around, points)),
-        band=np.zeros((n + 2 * inner, 4 * inner + 1)),
-        columns=np.zeros((n, 5)),
+        slope=np.zeros(shape),
+        matrix=ring_system(around, inner, shape[1]),
+        columns=np.zeros((5, *shape)),
+        row=np.zeros((5, shape[1])),
         centre=np.zeros((2, places)),
         bend=np.zeros(2),
         load=np.zeros(4),
         touch=np.zeros((5, 4)),
         carried=np.zeros((5, 4)),
         system=np.zeros((4, 5)),
-        pressed=np.zeros((4, *shape)),
+        pressed=np.zeros((4, around, inner)),
         numbers=np.zeros(2),
         step=np.zeros(4),
         modes=np.zeros((3, 4)),
-        block=np.zeros(inner * inner),
         places=np.zeros((3, 4)),
         past=np.zeros(5),
         kept=np.zeros(2),

@@ -33,6 +33,7 @@ from loadflow.journal.models.composed_film import (
     Regime,
     Rough,
     Yielding,
+    lanes_of,
     make_work,
 )
 from loadflow.journal.models.ring import estimates, lobed, ring_of, units_of
@@ -272,7 +273,7 @@ def build(
         ring = lobed(ring, bearing, options.cells[0])
     places = _places(bearing, nodes.z, half, whole)
     film = Composed(
-        ring, nodes, places, _give(bearing, options),
+        ring, nodes, places, lanes_of(nodes, places.depth), _give(bearing, options),
         _rough(bearing, options.contact, whole, units),
         _yielding(bearing, options, whole, nodes.slopes.shape[1]), _regime(bearing, options),
     )  # fmt: skip

@@ -162,12 +162,15 @@ class _March:
         return _State(level, last, before, place, earlier, work.past.copy())
 
     def _moved(self, unknowns: Array, level: int, other: int) -> Array:
-        """Unknowns (nx, m) at the points of another level."""
+        """Unknowns (nx, L) at the points of another level."""
         if level == other:
             return unknowns
-        there, edge = self.drive.film(other), self.model.cold()[0, 0]
-        across = between_points(unknowns.shape[1], there.work.u.shape[1], there.whole)
-        return np.asarray(edge + (unknowns - edge) @ across.T)
+        here, there = self.drive.film(level), self.drive.film(other)
+        few, many = (model.film.nodes.slopes.shape[1] for model in (here, there))
+        moved = there.cold()
+        across = between_points(few, many, there.whole)
+        moved[:, :many] += (unknowns[:, :few] - moved[0, 0]) @ across.T
+        return moved
 
     def results(self) -> dict[str, Any]:
         """Variables of the path so far."""

@@ -93,8 +93,6 @@ class Nodes(NamedTuple):
         ∫ f dz = weights · f.
     slopes : array (l, m)
         ∂q at all points from its values.
-    pairs : array (l, m m)
-        Products of two of these slopes at each point, times its weight.
     ends : array (e,)
         Sense of the outward direction at each end: −1 or 1.
     fine : array (f, m)
@@ -108,7 +106,6 @@ class Nodes(NamedTuple):
     z: Array
     weights: Array
     slopes: Array
-    pairs: Array
     ends: Array
     fine: Array
     highest: Array
@@ -130,7 +127,7 @@ def whole_width(half_width: float, points: int) -> Nodes:
     return Nodes(
         z=half_width * zeta[order],
         weights=half_width * weights[order],
-        **_slopes(slopes[np.ix_(order, inner)] / half_width, half_width * weights[order]),
+        slopes=np.ascontiguousarray(slopes[np.ix_(order, inner)] / half_width),
         ends=np.array([-1.0, 1.0]),
         fine=np.ascontiguousarray(fine[:, inner]),
         highest=_shares(zeta[inner], np.arange(1, points + 1))[-2:],
@@ -152,22 +149,13 @@ def half_width_nodes(half_width: float, points: int) -> Nodes:
     return Nodes(
         z=half_width * zeta[order],
         weights=half_width * weights[order],
-        **_slopes(even[order] / half_width, half_width * weights[order]),
+        slopes=np.ascontiguousarray(even[order] / half_width),
         ends=np.array([1.0]),
         fine=np.ascontiguousarray(fine[:, inner] + fine[:, mirror]),
         highest=_shares(zeta[inner], 2 * np.arange(points) + 1)[-1:],
         width=half_width * float(weights[order].sum()),
         widest=half_width * float(weights[order].max()),
     )
-
-
-def _slopes(slopes: Array, weights: Array) -> dict[str, Array]:
-    """`Nodes.slopes` and their products at points with `weights` (l,)."""
-    pairs = weights[:, None, None] * slopes[:, :, None] * slopes[:, None, :]
-    return {
-        "slopes": np.ascontiguousarray(slopes),
-        "pairs": pairs.reshape(len(slopes), -1),
-    }
 
 
 def at_places(points: int, whole: bool, places: Array) -> Array:

@@ -1,0 +1,38 @@
+"""Rows of numbers that compiled code works on side by side."""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from loadflow.numerics.lanes import LANES, larger, magnitude, put, spread, take, with_lane
+
+
+@njit
+def _worked_out(a, b, made):
+    one, other = take(a, LANES), take(b, 0)
+    put(made, 0, one + other * 2.0)
+    put(made, LANES, 1.0 - one / other)
+    put(made, 2 * LANES, with_lane(spread(3.0), 5, -1.0))
+    put(made, 3 * LANES, larger(one, magnitude(other)))
+
+
+def test_rows_are_worked_on_as_arrays_are():
+    a, b = np.random.default_rng(1).normal(size=(2, 2, LANES))
+    made = np.zeros((4, LANES))
+    _worked_out(a, b, made)
+    expected = [a[1] + 2.0 * b[0], 1.0 - a[1] / b[0], np.full(LANES, 3.0)]
+    expected[2][5] = -1.0
+    np.testing.assert_allclose(made[:3], expected, rtol=1e-14)
+    np.testing.assert_array_equal(made[3], np.maximum(a[1], np.abs(b[0])))
+
+
+@njit
+def _larger_of(a, made):
+    put(made, 0, larger(spread(1.0), take(a, 0)))
+
+
+def test_what_is_no_number_is_not_the_larger_one():
+    made = np.zeros(LANES)
+    _larger_of(np.full(LANES, np.nan), made)
+    np.testing.assert_array_equal(made, 1.0)
