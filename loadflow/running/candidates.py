@@ -62,7 +62,9 @@ def candidates_for(scene: Scene) -> tuple[dict[str, Candidate], list[str]]:
         "candidates": {name: {} for name in sized},
         "shaft": {"two_point": {}, "moment": {}},
     }
-    found |= make_scene(shell).candidates
+    named = make_scene(shell).candidates
+    built = [_bearings(one) for one in named.values()]
+    found = {name: one for name, one in found.items() if _bearings(one) not in built} | named
     places = set(scene.shaft.bearings)
     usable = {name: one for name, one in found.items() if set(one.places) <= places}
     if not usable:
@@ -71,6 +73,11 @@ def candidates_for(scene: Scene) -> tuple[dict[str, Candidate], list[str]]:
             f"{', '.join(places) or 'no place'} the package has none; write [candidates.NAME.PLACE]"
         )
     return usable, [name for name in found if name not in usable]
+
+
+def _bearings(one: Candidate) -> tuple[Any, ...]:
+    """What a candidate is, without what it is called."""
+    return one.journal, one.rolling, one.thrust, one.tolerances
 
 
 def _of_places(scene: Scene, places: list[str]) -> Tolerances:

@@ -57,10 +57,15 @@ def json_schema() -> dict[str, Any]:
         "default": SCENE.version,
         "description": "Version of the form of scenes.",
     }
+    sized = {"type": "string", "description": "A name of `loadflow list bearings`."}
     known["bearings"] = {
-        "type": "object",
-        "additionalProperties": place,
-        "description": "By place on the shaft (N, N2, M): the bearing that stands there.",
+        "anyOf": [
+            {"type": "object", "additionalProperties": place},
+            sized,
+            {"type": "array", "items": sized, "minItems": 1},
+        ],
+        "description": "By place on the shaft (N, N2, M): the bearing that stands there; or the "
+        "names of bearings that are sized for the turbine.",
     }
     about = parts["Candidate"]["properties"]
     candidate = {

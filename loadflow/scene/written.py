@@ -73,7 +73,7 @@ def in_sections(data: dict[str, Any], results: Sequence[str]) -> dict[str, Any]:
     if (shaft := own_shaft(turbine, read.get("shaft"))) is not None:
         read["shaft"] = shaft
     if "bearings" in read:
-        sections = sections_of(read.pop("bearings")).data
+        sections = sections_of(_placed(read.pop("bearings"), turbine)).data
         if twice := sorted(set(sections) & set(read)):
             raise ValueError(f"bearings: beside [{twice[0]}]; write all as [bearings.PLACE]")
         if "results" not in read:
@@ -95,14 +95,33 @@ def _candidate(name: str, stated: Any, turbine: str) -> Any:
         return stated  # in sections already
     places, about = _bare(stated), {key: stated[key] for key in _NO_PLACES if key in stated}
     if not places:
-        known = candidates_of(turbine)
-        if name not in known:
-            raise ValueError(
-                f"candidates.{name}: says nothing, and is none of those sized for {turbine}: "
-                f"{', '.join(known) or 'there are none'}{meant(name, known)}"
-            )
-        places, about = _bare(known[name]), {k: known[name][k] for k in ABOUT} | about
+        sized = _sized(name, turbine, f"candidates.{name}: says nothing, and")
+        places, about = _bare(sized), {k: sized[k] for k in ABOUT} | about
     return about | sections_of(places, ("candidates", name)).data
+
+
+def _placed(stated: Any, turbine: str) -> Any:
+    """What stands at the places of a scene; by name it is what is sized for its turbine."""
+    names = [stated] if isinstance(stated, str) else stated
+    if not (isinstance(names, list) and all(isinstance(name, str) for name in names)):
+        return stated
+    found: dict[str, list[Any]] = {}
+    for name in names:
+        for place, parts in _bare(_sized(name, turbine, f"bearings = {name!r}:")).items():
+            found.setdefault(place, []).extend(parts if isinstance(parts, list) else [parts])
+    return {place: parts if len(parts) > 1 else parts[0] for place, parts in found.items()}
+
+
+def _sized(name: str, turbine: str, told: str) -> dict[str, Any]:
+    """A candidate of the package; `told` begins the message where there is none of that name."""
+    known = candidates_of(turbine)
+    if name not in known:
+        raise ValueError(
+            f"{told} is none of those sized for {turbine}: "
+            f"{', '.join(known) or 'there are none'}{meant(name, known)}"
+        )
+    found: dict[str, Any] = known[name]
+    return found
 
 
 def _is_place(value: Any) -> bool:
@@ -147,7 +166,7 @@ def origins(data: dict[str, Any]) -> dict[Location, Location]:
     found: dict[Location, Location] = {}
     try:
         if "bearings" in data:
-            found |= sections_of(data["bearings"]).origins
+            found |= sections_of(_placed(data["bearings"], _turbine_of(data))).origins
         for name, stated in data.get("candidates", {}).items():
             where = ("candidates", name)
             own = sections_of(_bare(stated), where).origins if _bare(stated) else {}

@@ -182,9 +182,11 @@ def _rolling_margins(
     basic = own.get("rating life L10h")
     if basic is not None and math.isfinite(basic.value):
         factor = (basic.value / limits.life) ** (1 / bearing.life_exponent)
-        drawn = of_life(damage_per_hour(table, ""), share, factor, bearing.life_exponent)
-        governs, power = f"rating life of {place}", -bearing.life_exponent
-        yield Margin(factor, place, governs=governs, drawn=drawn, models=_LIFE, power=power)
+        damage = damage_per_hour(table, "")
+        drawn = of_life(damage, share, factor, bearing.life_exponent)
+        case, most = _most_damage(damage, share)
+        governs, power = f"rating life of {place}{most}", -bearing.life_exponent
+        yield Margin(factor, place, case, governs, drawn=drawn, models=_LIFE, power=power)
     modified = own.get("modified rating life L10mh")
     if modified is None or not math.isfinite(modified.value):
         return
@@ -201,11 +203,21 @@ def _rolling_margins(
     short = np.flatnonzero(np.array(lives) < allowed)
     change = f"{place}: oil {warmth[short[0]]:.0f} K warmer" if short.size and short[0] > 0 else ""
     power = -power_of_load(life, factor, WIDEST)
-    drawn = of_life(damage_per_hour(table, "modified_"), share, factor, power)
-    governs = f"modified life of {place}"
+    damage = damage_per_hour(table, "modified_")
+    case, most = _most_damage(damage, share)
     yield Margin(
-        factor, place, governs=governs, change=change, drawn=drawn, models=_LIFE, power=-power
-    )
+        factor, place, case, f"modified life of {place}{most}", change,
+        of_life(damage, share, factor, power), models=_LIFE, power=-power,
+    )  # fmt: skip
+
+
+def _most_damage(damage: xr.DataArray, share: np.ndarray) -> tuple[str, str]:
+    """The load case that takes most of a life, and how much of it, in words."""
+    parts = np.nan_to_num(damage.values * share)
+    if not parts.sum() > 0:
+        return "", ""
+    most = int(np.argmax(parts))
+    return str(damage["case"].values[most]), f" ({parts[most] / parts.sum():.0%} of its damage here)"
 
 
 def damage_per_hour(table: xr.Dataset, kind: str) -> xr.DataArray:

@@ -208,6 +208,33 @@ def test_an_empty_candidate_is_the_sized_one_of_the_turbine():
         make_scene({"candidates": {"magic": {}}} | TWO)
 
 
+def test_bearings_by_name_are_those_sized_for_the_turbine():
+    named = make_scene({"name": "s", "bearings": ["journal-thrust", "tapered-pair"]})
+    stated = candidates_of("nrel-5mw")
+    written = {place: part for name in ("journal-thrust", "tapered-pair")
+               for place, part in stated[name].items() if place in ("N", "N2", "M")}  # fmt: skip
+    assert named == make_scene({"name": "s", "bearings": written})
+    assert make_scene(tomllib.loads(named.to_toml())) == named
+    assert make_scene({"name": "s", "bearings": "two-spherical"}).rolling.bearing == "N"
+    both = make_scene({"name": "s", "bearings": ["journal-thrust", "two-spherical"]})
+    assert both.journal.bearings == ["N", "N2"] == [*both.rolling.geometries]
+    with pytest.raises(InputError, match="did you mean journal-thrust"):
+        make_scene({"bearings": "journal-trust"})
+    with pytest.raises(InputError, match="sized for windpact-1.5mw"):
+        make_scene({"bearings": "conical-pair", "turbine": {"name": "windpact-1.5mw"}})
+    with pytest.raises(InputError, match="second journal bearing"):
+        make_scene({"bearings": ["journal-thrust", "journal-lemon"]})
+
+
+@pytest.mark.parametrize("turbine", machine_names())
+def test_every_turbine_has_journal_bearings_with_a_collar(turbine):
+    scene = make_scene({"turbine": {"name": turbine}, "bearings": "journal-thrust"})
+    assert scene.journal.bearings == ["N", "N2"]
+    assert [*scene.thrust.bearings] == ["N2"]
+    shaft = max(scene.journal.at(place).geometry.diameter for place in ("N", "N2")) / 2
+    assert scene.thrust.bearings["N2"].geometry.inner_radius > shaft
+
+
 @pytest.mark.parametrize("turbine", machine_names())
 def test_sized_candidates_are_valid_and_have_sources(turbine):
     names = candidates_of(turbine)
