@@ -234,3 +234,19 @@ def is_validator(node: ast.FunctionDef | ast.ClassDef) -> bool:
     """Whether a decorator registers it, as those of pydantic, typer and numba do."""
     registers = ("validator", "command", "callback", "overload", "register")
     return any(word in ast.unparse(d) for d in node.decorator_list for word in registers)
+
+
+CHOICE_IN_OWN_WORDS = re.compile(r"must be (?:one of|'[\w-]+' or|'[\w-]+', ')")
+
+
+def test_a_wrong_choice_is_told_by_one_sentence():
+    worded = {
+        path.relative_to(ROOT).as_posix()
+        for path in modules().values()
+        if CHOICE_IN_OWN_WORDS.search(path.read_text(encoding="utf-8"))
+    }
+    # that sentence; pydantic's, which is said before the value is known; numbers, or an object
+    assert worded == {
+        "numerics/fields.py", "scene/section.py",
+        "rolling/rating/modified_life.py", "rolling/bearings/base.py",
+    }  # fmt: skip

@@ -75,9 +75,14 @@ def _words(bound: Any) -> str:
 
 def check_choice(instance: Any, name: str, allowed: tuple[str, ...]) -> None:
     """Raise an InputError unless field `name` is one of `allowed`."""
-    value = getattr(instance, name)
-    if value not in allowed:
-        raise InputError(f"{name}: {not_one_of(value, allowed)}")
+    check_one_of(name, getattr(instance, name), allowed)
+
+
+def check_one_of(name: str, value: object, allowed: Iterable[str]) -> None:
+    """Raise an InputError unless the argument called `name` is one of `allowed`."""
+    known = [*allowed]
+    if value not in known:
+        raise InputError(f"{name}: {not_one_of(value, known)}")
 
 
 LARGEST_INTEGER = 2**63 - 1

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from loadflow.errors import InputError
+from loadflow.numerics.fields import check_one_of
 from loadflow.readers.aliases import (
     COMPONENTS,
     GAUGE,
@@ -68,8 +69,7 @@ def choose(
         Unknown component or frame, a gauge distance that is not a length, or channels that are
         missing, all of them.
     """
-    if frame not in FRAMES:
-        raise InputError(f"frame = {frame!r}: must be one of {', '.join(FRAMES)}")
+    check_one_of("frame", frame, FRAMES)
     if gauge_distance is not None and not abs(gauge_distance) < 100:
         raise InputError(f"gauge_distance = {gauge_distance!r} m: must be between -100 and 100")
     own = read_channels(channels)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from loadflow.errors import InputError
+from loadflow.numerics.fields import check_one_of
 from loadflow.numerics.watch import part_of_work
 from loadflow.turbines import Turbine, load_turbine
 from loadflow.wind import Condition, Field, WindOptions, condition, inflow
@@ -254,8 +255,7 @@ def _given(**arguments: Any) -> dict[str, Any]:
 def _check(turbine: Turbine, case: Condition, dt: float, run_in: float) -> None:
     from .control.constants import EVENTS
 
-    if case.event not in EVENTS:
-        raise InputError(f"event = {case.event!r} is unknown; known: {', '.join(EVENTS)}")
+    check_one_of("event", case.event, EVENTS)
     low, high = wind_range(case.event, turbine.cut_in, turbine.cut_out)
     if not low <= case.wind_speed <= high:
         raise InputError(

@@ -14,6 +14,7 @@ from pydantic import (
 )
 
 from loadflow.errors import InputError
+from loadflow.numerics.fields import not_one_of
 from loadflow.rolling import (
     ARRANGEMENTS,
     KINDS,
@@ -309,7 +310,7 @@ class Rolling(FurtherBearing):
             if {"bearing", "geometry", "further"} & set(data):
                 raise ValueError("arrangement: gives bearing and geometry; leave them out")
             if not isinstance(data["arrangement"], str):
-                raise ValueError(f"arrangement: must be one of {', '.join(ARRANGEMENTS)}")
+                raise ValueError(f"arrangement: {not_one_of(data['arrangement'], ARRANGEMENTS)}")
             chosen = main_bearings(data["arrangement"])
             rest = {name: value for name, value in data.items() if name != "arrangement"}
             first, *others = ({"bearing": b, "geometry": g} for b, g in chosen.items())

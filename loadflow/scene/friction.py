@@ -57,7 +57,7 @@ class Friction(Section, BaseModel):
         from loadflow.rolling.rating.modified_life import CLEANLINESS
 
         if name not in CLEANLINESS:
-            raise ValueError(f"must be one of {'; '.join(CLEANLINESS)}")
+            raise ValueError(not_one_of(name, CLEANLINESS))
         return name
 
     @field_validator("lubricant")

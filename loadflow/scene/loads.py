@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import BaseModel, Field, ValidationInfo, field_validator, model_validator
 
+from loadflow.numerics.fields import not_one_of
 from loadflow.readers.aliases import Frame, read_channels
 from loadflow.rotor.options import STEPS, RotorOptions
 from loadflow.scene.section import Section
@@ -218,7 +219,7 @@ def check_simulation(loads: Loads, turbine: str) -> None:
     """
     for dlc in loads.dlcs:
         if dlc not in LOAD_CASES:
-            raise ValueError(f"loads.dlc = {dlc!r}: must be one of {', '.join(LOAD_CASES)}")
+            raise ValueError(f"loads.dlc: {not_one_of(dlc, LOAD_CASES)}")
         if loads.steady and not load_case(dlc).extreme:
             extreme = ", ".join(row.dlc for row in LOAD_CASES.values() if row.extreme)
             raise ValueError(

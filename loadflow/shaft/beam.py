@@ -10,6 +10,7 @@ from annotated_types import Ge, Gt, Lt, MinLen
 
 from loadflow.errors import InputError
 from loadflow.former_names import renamed
+from loadflow.numerics.fields import check_one_of
 
 
 @dataclass(frozen=True)
@@ -96,10 +97,7 @@ class BearingSupport:
             number = name not in ("takes_moment", "stiffness")
             if number and value is not None and not 0 < value < math.inf:
                 raise InputError(f"{name} = {value}: must be greater than 0 and finite")
-        if self.stiffness not in ("given", "journal", "rolling"):
-            raise InputError(
-                f"stiffness = {self.stiffness!r}: must be 'given', 'journal' or 'rolling'"
-            )
+        check_one_of("stiffness", self.stiffness, ("given", "journal", "rolling"))
         if self.stiffness != "given" and (self.radial or self.tilt):
             raise InputError(
                 f"stiffness = {self.stiffness!r} with radial = {self.radial} N/m, tilt = "

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from loadflow.errors import InputError
 from loadflow.journal import Film, Guembel, JournalBearing, Lubricant
+from loadflow.numerics.fields import check_one_of
 from loadflow.rolling import FrictionOptions
 from loadflow.rolling import friction as parts
 from loadflow.rolling.friction import RollerGaps
@@ -186,8 +187,7 @@ class CrankRig:
         SolverError
             A motion or an orbit that is not found.
         """
-        if stage not in ("coulomb", "film"):
-            raise InputError(f"stage: must be 'coulomb' or 'film', got {stage!r}")
+        check_one_of("stage", stage, ("coulomb", "film"))
         if not (math.isfinite(rpm) and rpm > 0):
             raise InputError(f"rpm = {rpm}: must be > 0")
         found = self._mains(rpm, stage) + self._seal(rpm)

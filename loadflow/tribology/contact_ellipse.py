@@ -21,7 +21,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from loadflow.errors import InputError
+from loadflow.numerics.fields import check_one_of
 
 Array = NDArray[np.float64]
 
@@ -181,6 +181,5 @@ def ellipse(ratio: Array, rung: str = "exact") -> tuple[Array, Array, Array]:
     >>> [round(float(x), 6) for x in ellipse(np.array(5.0))]
     [2.890181, 2.493744, 1.12052]
     """
-    if rung not in RUNGS:
-        raise InputError(f"rung: must be one of {', '.join(RUNGS)}, got {rung!r}")
+    check_one_of("rung", rung, RUNGS)
     return RUNGS[rung](ratio)

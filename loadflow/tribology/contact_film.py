@@ -25,7 +25,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.errors import InputError
+from loadflow.numerics.fields import check_one_of
 
 Value = float | NDArray[np.float64]
 
@@ -88,8 +88,7 @@ def film_ratio(law: str, material: Value, speed: Value, load: Value) -> Value:
     """
     if law == "moes":
         return moes_line(material, speed, load)
-    if law not in POWER_LAWS:
-        raise InputError(f"law: must be one of {', '.join(POWER_LAWS)} or moes, got {law!r}")
+    check_one_of("law", law, (*POWER_LAWS, "moes"))
     return POWER_LAWS[law](material, speed, np.maximum(load, _LEAST_LOAD))
 
 

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError
+from loadflow.numerics.fields import check_one_of
 from loadflow.tribology.contact_ellipse import ellipse
 
 STEEL_MODULUS = 210e9
@@ -350,12 +351,8 @@ def line_factor(
     >>> round(float(line_factor(0.01)) / 1e9, 3)
     1.295
     """
-    if law == "iso":
-        factor = 35_948.0 * 2 ** (10 / 9)
-    elif law == "palmgren":
-        factor = 3.84e-5 ** (-10 / 9)
-    else:
-        raise InputError(f"law: must be 'iso' or 'palmgren', got {law!r}")
+    check_one_of("law", law, ("iso", "palmgren"))
+    factor = 35_948.0 * 2 ** (10 / 9) if law == "iso" else 3.84e-5 ** (-10 / 9)
     steel = effective_modulus()
     stiffer = 1.0 if e_star is None else np.asarray(e_star, float) / steel
     return factor * stiffer * (np.asarray(length, float) * 1e3) ** (8 / 9) * 1e3 ** (10 / 9)

@@ -17,7 +17,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from loadflow.errors import InputError
+from loadflow.numerics.fields import check_one_of
 from loadflow.tribology import lubricant_states as states
 
 Array = NDArray[np.float64]
@@ -211,8 +211,7 @@ def gold_pressure_viscosity(
     >>> round(float(gold_pressure_viscosity(70e-6)) * 1e9, 2)
     17.88
     """
-    if base not in GOLD:
-        raise InputError(f"base: must be one of {', '.join(GOLD)}, got {base!r}")
+    check_one_of("base", base, GOLD)
     return np.asarray(states.gold_state(np.asarray(viscosity, float), 0.0, *GOLD[base])[0])
 
 
@@ -237,8 +236,7 @@ def conductivity(
     >>> round(float(conductivity(363.15, 805.0)), 4)
     0.1386
     """
-    if variant not in ("physics", "printed"):
-        raise InputError(f"variant: must be 'physics' or 'printed', got {variant!r}")
+    check_one_of("variant", variant, ("physics", "printed"))
     t = np.asarray(temperature, float) - (CELSIUS if variant == "physics" else 0.0)
     return np.asarray((0.1173 - 6.33e-5 * t) / (np.asarray(ambient_density, float) / 1e3))
 

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import InputError, ValidityWarning
+from loadflow.numerics.fields import check_one_of
 from loadflow.wind.box import Box
 from loadflow.wind.box_file import content
 
@@ -79,8 +80,7 @@ def read_hawc2_box(
     >>> box.u.shape, float(box.time[1])
     ((8, 4, 4), 0.5)
     """
-    if first_line not in ("right", "left"):
-        raise InputError(f"first_line = {first_line!r}: must be 'right' or 'left'")
+    check_one_of("first_line", first_line, ("right", "left"))
     if min(shape) < 2 or min(spacing) <= 0 or wind_speed <= 0 or hub_height <= 0:
         raise InputError(
             f"shape = {shape}, spacing = {spacing} m, wind_speed = {wind_speed} m/s, hub_height = "

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from loadflow.errors import InputError
+from loadflow.numerics.fields import check_one_of
 from loadflow.wind.box import Box, spacing_of
 from loadflow.wind.iec import length_scale as iec_length_scale
 from loadflow.wind.seeding import Seed, as_sequence
@@ -86,8 +87,7 @@ def mann_box(
     check_turbulence(wind_speed, sigma, scale)
     if not 0 <= gamma <= 5:
         raise InputError(f"gamma = {gamma} must be within 0 … 5")
-    if scaling not in ("none", "hub"):
-        raise InputError(f"scaling = {scaling!r} must be one of 'none', 'hub'")
+    check_one_of("scaling", scaling, ("none", "hub"))
     time = sample_times(duration, dt)
     cells = (time.size, lines_y.size, lines_z.size)
     steps = (wind_speed * dt, spacing_of("y", lines_y), spacing_of("z", lines_z))

@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError
+from loadflow.numerics.fields import check_one_of
 from loadflow.wind.box import Box
 from loadflow.wind.coherence import (
     CoherenceFactors,
@@ -200,7 +201,7 @@ def _length_scale(hub_height: float | None, length_scale: float | None) -> float
 
 
 def _choose(method: Method, factors: CoherenceFactors | None, grid: Grid, scale: float) -> Factors:
-    _check_choice("method", method, ("fast", "exact"))
+    check_one_of("method", method, ("fast", "exact"))
     if method == "exact":
         return ExactFactors(grid, scale)
     if factors is None:
@@ -227,9 +228,9 @@ def _components(
     import scipy.fft
 
     check_turbulence(wind_speed, sigma, factors.length_scale)
-    _check_choice("components", components, ("u", "uv", "uvw"))
-    _check_choice("scaling", scaling, ("none", "hub", "each"))
-    _check_choice("lateral", lateral, ("coherent", "independent"))
+    check_one_of("components", components, ("u", "uv", "uvw"))
+    check_one_of("scaling", scaling, ("none", "hub", "each"))
+    check_one_of("lateral", lateral, ("coherent", "independent"))
     time = sample_times(duration, dt)
     if not (isinstance(oversampled, Integral) and oversampled >= 1):
         raise InputError(f"oversampled = {oversampled} must be a whole number >= 1")
@@ -253,11 +254,6 @@ def _components(
         series = scipy.fft.irfft(spectra, period, norm="forward", overwrite_x=True)
         parts.append(_scaled(series[..., : len(time)], COMPONENT_SIGMA[k] * sigma, scaling, hub))
     return parts, time
-
-
-def _check_choice(name: str, value: str, known: tuple[str, ...]) -> None:
-    if value not in known:
-        raise InputError(f"{name} = {value!r} must be one of {', '.join(map(repr, known))}")
 
 
 def sample_times(duration: float, dt: float) -> Floats:

@@ -61,7 +61,9 @@ def test_the_fixed_frame_is_asked_for_and_the_azimuth_must_be_there(tmp_path):
     del data["Azimuth"]
     with pytest.raises(InputError, match=r"'Azimuth' or .* for 'azimuth' is missing"):
         read_openfast(put(path, data), frame="rotating")
-    with pytest.raises(InputError, match="frame = 'turning': must be one of fixed, rotating, auto"):
+    with pytest.raises(
+        InputError, match="frame: must be one of fixed, rotating, auto, got 'turning'"
+    ):
         read_openfast(path, frame="turning")
 
 

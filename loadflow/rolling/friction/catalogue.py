@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError
-from loadflow.numerics.fields import check_choice, not_one_of
+from loadflow.numerics.fields import check_choice, check_one_of
 
 Array = NDArray[np.float64]
 _RPM = 30 / np.pi  # rad/s in 1/min
@@ -203,8 +203,7 @@ def skf_constants(
     [304, 244]
     """
     known = skf_series(kind)
-    if series not in known:
-        raise InputError(f"series: {not_one_of(series, known)}")
+    check_one_of("series", series, known)
     if not (axial_factor > 0 if kind == "tapered" else axial_factor == 0):
         raise InputError(
             "axial_factor: Y of a tapered bearing must be > 0, of others it is left out, "
@@ -223,8 +222,7 @@ def skf_series(kind: Literal["cylindrical", "tapered", "spherical"]) -> list[str
     ['248', '249']
     """
     table = _skf_table()
-    if kind not in table:
-        raise InputError(f"kind: {not_one_of(kind, table)}")
+    check_one_of("kind", kind, table)
     return [*table[kind]]
 
 
@@ -332,8 +330,7 @@ def catalogue_torques(
     >>> {name: round(float(torque)) for name, torque in spread.items()}
     {'constant coefficient': 275, 'palmgren': 192}
     """
-    if kind not in PALMGREN_F1:
-        raise InputError(f"kind: {not_one_of(kind, PALMGREN_F1)}")
+    check_one_of("kind", kind, PALMGREN_F1)
     fr, fa = np.asarray(radial, float), np.asarray(axial, float)
     load, mean = np.hypot(fr, fa), (bore + outside_diameter) / 2
     idle = palmgren_idle_torque(speed, viscosity, mean, PALMGREN_F0[kind])

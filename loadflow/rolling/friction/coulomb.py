@@ -13,7 +13,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.errors import InputError
+from loadflow.numerics.fields import check_one_of
 
 Value = float | NDArray[np.float64]
 Driving = Literal["inner", "outer"]
@@ -50,8 +50,8 @@ def cage_force(
     >>> round(cage_force(-3.18, -0.59, 0.0, adhesion=0.12, sliding=0.04), 2)  # N
     0.21
     """
-    _check(driving, ("inner", "outer"), "driving")
-    _check(rib, ("outer", "inner"), "rib")
+    check_one_of("driving", driving, ("inner", "outer"))
+    check_one_of("rib", rib, ("outer", "inner"))
     side = 1.0 if rib == "outer" else -1.0
     if driving == "inner":
         grip, drag = adhesion * radial, -side * rib_force
@@ -96,9 +96,9 @@ def driving_moment(
     >>> round(float(moment), 3)  # N m
     0.926
     """
-    _check(variant, ("physics", "printed"), "variant")
-    _check(driving, ("inner", "outer"), "driving")
-    _check(rib, ("outer", "inner"), "rib")
+    check_one_of("variant", variant, ("physics", "printed"))
+    check_one_of("driving", driving, ("inner", "outer"))
+    check_one_of("rib", rib, ("outer", "inner"))
     sign = -1.0 if driving == "inner" else 1.0
     side = (1.0 if rib == "outer" else -1.0) * -sign
     bind = 1 - adhesion * sliding
@@ -162,7 +162,7 @@ def sliding_loss(
     >>> round(float(sliding_loss(0.0, 3.0, 0.5, 50.0, 5.5e-3, sliding=0.04)), 4)  # W
     0.0332
     """
-    _check(variant, ("physics", "printed"), "variant")
+    check_one_of("variant", variant, ("physics", "printed"))
     force = cage - 2 * adhesion_force if variant == "printed" else cage
     return sliding * radius * np.abs(2 * load + radial + sliding * force) * slip
 
@@ -180,11 +180,6 @@ def pocket_loss(
     >>> round(float(pocket_loss(2.0, 250.0, 5.5e-3, 0.04)), 4)  # W
     0.11
     """
-    _check(variant, ("physics", "printed"), "variant")
+    check_one_of("variant", variant, ("physics", "printed"))
     power = sliding**2 if variant == "printed" else sliding
     return power * radius * np.abs(cage) * np.abs(spin)
-
-
-def _check(value: str, allowed: tuple[str, ...], name: str) -> None:
-    if value not in allowed:
-        raise InputError(f"{name}: must be one of {', '.join(allowed)}, got {value!r}")

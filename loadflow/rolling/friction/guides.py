@@ -10,7 +10,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.errors import InputError
+from loadflow.numerics.fields import check_one_of
 
 Value = float | NDArray[np.float64]
 
@@ -98,8 +98,7 @@ def cage_rub_torque(
     """
     if variant == "printed":
         return sliding * force / (crank_radius * speed * speed) * crank_radius**2 * cage_speed
-    if variant != "physics":
-        raise InputError(f"variant: must be 'physics' or 'printed', got {variant!r}")
+    check_one_of("variant", variant, ("physics", "printed"))
     return sliding * force * cage_radius
 
 

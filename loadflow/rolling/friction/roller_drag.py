@@ -23,7 +23,7 @@ from typing import Annotated, Literal, NamedTuple
 from annotated_types import Ge, Gt, Lt
 
 from loadflow.errors import InputError
-from loadflow.numerics.fields import check_fields
+from loadflow.numerics.fields import check_fields, check_one_of
 
 Variant = Literal["geometric", "thesis", "printed"]
 VARIANTS = ("geometric", "thesis", "printed")
@@ -221,10 +221,8 @@ def drag_constants(
     >>> round(thick.spin / thin.spin, 6)  # laminar: as the viscosity
     2.0
     """
-    if variant not in VARIANTS:
-        raise InputError(f"variant: must be one of {', '.join(VARIANTS)}, got {variant!r}")
-    if rib not in ("outer", "inner"):
-        raise InputError(f"rib: must be 'outer' or 'inner', got {rib!r}")
+    check_one_of("variant", variant, VARIANTS)
+    check_one_of("rib", rib, ("outer", "inner"))
     r = gaps.radius
     ends = (viscosity / gaps.end_gaps[0] + viscosity / gaps.end_gaps[1]) * strip_moment(
         r, gaps.cage_half_height
@@ -276,8 +274,7 @@ def coulomb_drag_constants(
     True
     """
     plain = drag_constants(gaps, viscosity, rib_ratio, rib, variant)
-    if driving not in ("inner", "outer"):
-        raise InputError(f"driving: must be 'inner' or 'outer', got {driving!r}")
+    check_one_of("driving", driving, ("inner", "outer"))
     side = 1.0 if rib == "outer" else -1.0
     lever = sliding / (0.75 * (1 - adhesion * sliding))
     change = -side * lever * (1 - adhesion) if driving == "inner" else side * lever * (1 + adhesion)

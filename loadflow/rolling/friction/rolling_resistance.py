@@ -18,7 +18,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.errors import InputError
+from loadflow.numerics.fields import check_one_of
 
 Value = float | NDArray[np.float64]
 
@@ -177,8 +177,7 @@ def hydrodynamic_torque(
     roller = (outer - inner) / (2 * cos)
     # R_eff cos α with R/cos α, the raceways' radii of curvature
     shift = inner * roller * cos / (inner + roller * cos)
-    if variant not in ("physics", "printed"):
-        raise InputError(f"variant: must be 'physics' or 'printed', got {variant!r}")
+    check_one_of("variant", variant, ("physics", "printed"))
     lever = inner + shift if variant == "physics" else inner - shift
     return inner_force * lever + outer_force * (
         outer - outer * roller * cos / (outer - roller * cos)

@@ -15,8 +15,9 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.errors import InputError, SolverError
+from loadflow.errors import SolverError
 from loadflow.numerics.convergence import Convergence
+from loadflow.numerics.fields import check_one_of
 from loadflow.rolling.friction import coulomb
 from loadflow.rolling.friction.options import FrictionOptions
 from loadflow.rolling.friction.roller_drag import DragConstants
@@ -117,8 +118,7 @@ def coulomb_motion(
     InputError
         If a choice is unknown.
     """
-    if pocket not in ("source", "braking"):
-        raise InputError(f"pocket: must be 'source' or 'braking', got {pocket!r}")
+    check_one_of("pocket", pocket, ("source", "braking"))
     from loadflow.rolling.motion import _coulomb_kernels as kernels
 
     row, ideal = history.row, history.ideal_spin

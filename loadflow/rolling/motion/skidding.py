@@ -13,7 +13,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from loadflow.errors import InputError
+from loadflow.numerics.fields import check_one_of
 from loadflow.rolling.friction.bearing import BearingFriction
 from loadflow.rolling.friction.options import FrictionOptions
 from loadflow.rolling.friction.roller_drag import DragConstants
@@ -133,8 +133,7 @@ def roller_slip(
     >>> found.slip.shape, bool(found.slip[:, 0].max() < 0.01)
     ((201, 2, 48), True)
     """
-    if model not in ("film", "coulomb"):
-        raise InputError(f"model: must be 'film' or 'coulomb', got {model!r}")
+    check_one_of("model", model, ("film", "coulomb"))
     motions = []
     for history in bearing_histories(result, time, speed, down=down, gravity=gravity):
         if model == "film":

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError
+from loadflow.numerics.fields import check_one_of
 
 Array = NDArray[np.float64]
 
@@ -173,8 +174,7 @@ def oscillation_speed(
 def _travel(amplitude: ArrayLike, definition: Amplitude) -> Array:
     """Path of one oscillation, rad."""
     factors = {"travel": 1.0, "half": 4.0}
-    if definition not in factors:
-        raise InputError(f"definition: must be 'travel' or 'half', got {definition!r}")
+    check_one_of("definition", definition, factors)
     return np.asarray(amplitude, float) * factors[definition]
 
 
@@ -226,8 +226,7 @@ def oscillation_load(
     InputError
         If `rule` or `definition` is unknown, or weights make no sense.
     """
-    if rule not in ("as-printed", "rumbarger"):
-        raise InputError(f"rule: must be 'as-printed' or 'rumbarger', got {rule!r}")
+    check_one_of("rule", rule, ("as-printed", "rumbarger"))
     o = _travel(amplitude, definition)
     x = np.ones_like(o)
     if critical is not None:
@@ -284,8 +283,7 @@ def oscillating_capacity(
         If an amplitude is not positive, or `kind` or `definition` is unknown.
     """
     laws = {"ball": (1 / POINT_EXPONENT, 0.3, 0.033), "roller": (1 / LINE_EXPONENT, 2 / 9, 0.028)}
-    if kind not in laws:
-        raise InputError(f"kind: must be 'ball' or 'roller', got {kind!r}")
+    check_one_of("kind", kind, laws)
     angle = _travel(amplitude, definition) / 2
     if not np.all(angle > 0):
         raise InputError("amplitude: must be > 0 rad")

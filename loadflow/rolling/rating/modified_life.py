@@ -11,7 +11,7 @@ from annotated_types import Gt
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError
-from loadflow.numerics.fields import check_choice, check_fields
+from loadflow.numerics.fields import check_choice, check_fields, check_one_of
 from loadflow.rolling.rating import safety
 from loadflow.tribology.lubricants import Oil
 
@@ -127,10 +127,7 @@ def contamination_factor(cleanliness: str, kappa: ArrayLike, pitch_diameter: flo
     InputError
         If `cleanliness` is unknown.
     """
-    if cleanliness not in _CLEANLINESS:
-        raise InputError(
-            f"cleanliness: must be one of {', '.join(CLEANLINESS)}, got {cleanliness!r}"
-        )
+    check_one_of("cleanliness", cleanliness, CLEANLINESS)
     a, b = _CLEANLINESS[cleanliness]
     d = pitch_diameter * 1e3
     if cleanliness == "grease, slight to typical contamination" and d >= 500:
@@ -183,8 +180,7 @@ def life_factor(
     >>> [round(float(life_factor(k, 0.3, "radial-ball")), 2) for k in (0.5, 1.0, 4.0)]
     [1.23, 15.57, 50.0]
     """
-    if kind not in _SHAPE:
-        raise InputError(f"kind: must be one of {', '.join(_SHAPE)}, got {kind!r}")
+    check_one_of("kind", kind, _SHAPE)
     thinnest, thickest = KAPPA_RANGE
     k = np.minimum(np.asarray(kappa, float), thickest)
     if not np.all(k >= thinnest):

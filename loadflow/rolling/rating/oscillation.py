@@ -10,8 +10,7 @@ import numpy as np
 from annotated_types import Ge, Gt, Le
 from numpy.typing import ArrayLike, NDArray
 
-from loadflow.errors import InputError
-from loadflow.numerics.fields import check_fields
+from loadflow.numerics.fields import check_fields, check_one_of
 from loadflow.reduction import rainflow
 from loadflow.rolling.rating.life import oscillating_capacity, rating_life, spectrum_load
 
@@ -46,9 +45,7 @@ class _Swinging:
 
     def __post_init__(self) -> None:
         check_fields(self)
-        if self.mounting not in MOUNTING_FACTORS:
-            known = ", ".join(MOUNTING_FACTORS)
-            raise InputError(f"mounting: must be one of {known}, got {self.mounting!r}")
+        check_one_of("mounting", self.mounting, MOUNTING_FACTORS)
 
 
 @dataclass(frozen=True)

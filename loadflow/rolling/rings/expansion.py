@@ -15,7 +15,7 @@ from annotated_types import Gt
 from numpy.typing import ArrayLike
 
 from loadflow.errors import InputError
-from loadflow.numerics.fields import check_fields
+from loadflow.numerics.fields import check_fields, check_one_of
 from loadflow.numerics.shown import Shown
 from loadflow.quantities import Quantity
 from loadflow.rolling.contacts import Array
@@ -223,10 +223,8 @@ def axial_expansion(
 def _softness(bearing: BallRaceways, sections: RingSections, flexible: str, rings: str) -> float:
     """Expansion of both rings on the radius for the sum of radial ball forces, m/N."""
     parts = {"none": (), "outer": ("outer",), "inner": ("inner",), "both": ("outer", "inner")}
-    if flexible not in parts:
-        raise InputError(f"flexible: must be one of {', '.join(parts)}, got {flexible!r}")
-    if rings not in ("thin", "thick"):
-        raise InputError(f"rings: must be 'thin' or 'thick', got {rings!r}")
+    check_one_of("flexible", flexible, parts)
+    check_one_of("rings", rings, ("thin", "thick"))
     total = 0.0
     for ring in parts[flexible]:
         outside, inside = getattr(sections, f"{ring}_outside"), getattr(sections, f"{ring}_inside")

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError
+from loadflow.numerics.fields import check_one_of
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -139,8 +140,7 @@ def richter_roller(
     secant = np.asarray(force, float) / np.asarray(deflection, float)
     if variant == "physics":
         return in_series(inner, outer, secant)
-    if variant != "printed":
-        raise InputError(f"variant: must be 'physics' or 'printed', got {variant!r}")
+    check_one_of("variant", variant, ("physics", "printed"))
     first, second = np.asarray(inner, complex), np.asarray(outer, complex)
     stiffness = in_series(first.real, second.real).real + secant
     damping = in_series(first.imag / frequency, second.imag / frequency).real
@@ -185,8 +185,7 @@ def dietl_roller(
     """
     if variant == "physics":
         return in_series(inner, outer)
-    if variant != "printed":
-        raise InputError(f"variant: must be 'physics' or 'printed', got {variant!r}")
+    check_one_of("variant", variant, ("physics", "printed"))
     return (np.asarray(inner, complex) + np.asarray(outer, complex)) / 4
 
 
