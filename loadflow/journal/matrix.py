@@ -84,6 +84,7 @@ PARTS: dict[str, Part] = _LAWS | {
     ),
     "contact": Part("contact", {"contact": _ROUGH}),
     "turbulence": Part("flow", {"turbulence": Turbulence(begin=0.0, end=0.0)}),
+    "viscosity under pressure": Part("heat", {"lubricant": Lubricant(0.03, 870.0, 2e-8)}),
 }
 """Every part by its name."""
 

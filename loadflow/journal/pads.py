@@ -299,6 +299,8 @@ def check_film(film: Film) -> Film:
     for name in ("supply", "shell", "heat", "contact", "turbulence"):
         value = getattr(film, name)
         require(value is None, name, value, "None for pads and cones")
+    rising = film.liquid.pressure_coefficient
+    require(rising == 0.0, "pressure_coefficient", rising, "0 for pads and cones")
     require(film.rung == "grid", "rung", film.rung, '"grid" for pads and cones')
     require(film.inlet != "widest gap", "inlet", film.inlet, "None for pads and cones")
     require(film.grading != "graded", "grading", film.grading, "uniform for pads and cones")

@@ -15,8 +15,9 @@ from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.validity import critical_reynolds_number, reynolds_number
 
 if TYPE_CHECKING:
-    from loadflow.journal.film.film import DiscreteFilm, Linear
+    from loadflow.journal.film.film import DiscreteFilm
     from loadflow.journal.film.gap import BoreGap
+    from loadflow.journal.film.linearised import Linear
     from loadflow.journal.lubricant import Lubricant
     from loadflow.journal.solvers.newton import Solution
 

@@ -30,6 +30,7 @@ FEATURES = {
     "film_heat": "an energy equation over the area of the film",
     "contact": "contact of asperities",
     "turbulence": "turbulent flow",
+    "pressure_coefficient": "viscosity that rises with pressure",
     "step": "adaptive steps",
     "periodic": "a closed orbit",
 }
@@ -38,6 +39,7 @@ FEATURES = {
 _LINE = {"moment", "tilt", "bend"}
 _SHELLS = {"shell", "local_shell"}
 _BORES = _LINE | _SHELLS | {"shape", "relief", "crown", "supply", "inlet", "grading"}
+_FLOW = {"contact", "turbulence", "pressure_coefficient"}
 _REDUCED = frozenset(_LINE | {"shape", "crown", "local_shell", "contact", "heat", "turbulence"})
 
 
@@ -127,9 +129,9 @@ RUNGS: dict[str, Rung] = {
         Rung(
             "grid",
             f"{_MODELS}.grid",
-            frozenset(_BORES | {"contact", "turbulence", "heat", "film_heat"}),
-            _WARMING | _BORES | {"film_heat", "contact", "turbulence", "step", "periodic"},
-            frozenset(_BORES | {"contact", "turbulence", "film_heat"}),
+            frozenset(_BORES | _FLOW | {"heat", "film_heat"}),
+            _WARMING | _BORES | _FLOW | {"film_heat", "step", "periodic"},
+            frozenset(_BORES | _FLOW | {"film_heat"}),
         ),
     )
 }

@@ -15,6 +15,7 @@ from pydantic import (
     BeforeValidator,
     Field,
     WrapSerializer,
+    field_validator,
     model_validator,
 )
 
@@ -93,6 +94,13 @@ class AxialBearing(Section, BaseModel):
         for name in UNKNOWN_TO_PADS & {*data} if isinstance(data, dict) else ():
             raise ValueError(f"{name}: films of pads and cones do not know it; leave it out")
         return data
+
+    @field_validator("lubricant")
+    @classmethod
+    def _even(cls, value: Lubricant) -> Lubricant:
+        if value.pressure_coefficient > 0:
+            raise ValueError("pressure_coefficient: films of pads and cones do not know it")
+        return value
 
     @property
     def contact_film(self) -> float:

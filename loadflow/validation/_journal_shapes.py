@@ -159,32 +159,70 @@ def pad_checks() -> Iterator[Check]:
         yield Check(f"B, {label}", source, damping, got, 0.05)
 
 
-# mid-plane of the rigid film at 10,000 1/min beside an elastic, piezoviscous one: angle °, p bar
-COMSOL = ((320.0, 18.0), (300.0, 67.0), (287.6, 79.0), (280.0, 78.0), (260.0, 60.0),
-          (240.0, 40.0), (220.0, 24.0), (200.0, 10.0), (188.0, 2.0))  # fmt: skip
+# mid-plane of a piezoviscous film, by speed, 1/min: angle °, p bar; its peak, bar
+COMSOL = {
+    100: ((282.0, 0.0), (280.0, 200.0), (271.0, 200.0), (260.0, 48.0), (240.0, 9.0), (220.0, 4.0),
+          (200.0, 2.0)),
+    316: ((289.0, 0.0), (280.0, 214.0), (271.0, 150.0), (260.0, 60.0), (240.0, 16.0), (220.0, 6.0),
+          (200.0, 4.0)),
+    10000: ((330.0, 0.0), (320.0, 18.0), (300.0, 67.0), (287.6, 79.0), (280.0, 78.0), (260.0, 60.0),
+            (240.0, 40.0), (220.0, 24.0), (200.0, 10.0), (188.0, 2.0)),
+}  # fmt: skip
+_TURNED = 5.0  # °, by which the curves may lie apart
+_ENDS = (
+    "the film ends within 2° of 280° there, within 10° here; its narrow place is √(2 (1 − ε)), 16 "
+    "and 23°, wide"
+)
+_COMSOL_MISSED = {
+    (100, 282.0): _ENDS,
+    (316, 289.0): _ENDS,
+    (
+        316,
+        280.0,
+    ): "the peak is 183 bar, 170 bar with one viscosity, while both agree at 271, 260 and "
+    "240°; cause not found",
+}
 
 
 @evidence("another code")
 def comsol_checks() -> Iterator[Check]:
-    """EHL example of COMSOL 6.4 at 10,000 1/min, fed at 2 bar by two 10 mm grooves."""
-    from loadflow.journal import Groove, JournalBearing, Lubricant, Supply
+    """EHL example of COMSOL 6.4, rigid, α = 25 GPa⁻¹, fed at 2 bar by two 10 mm grooves.
+
+    A pressure counts as met where the curve has it within 5°, to 7 % of the largest one printed.
+    """
+    from loadflow.journal import Film, Groove, JournalBearing, Lubricant, Supply
 
     bearing = JournalBearing(0.2, 0.067, 2e-3)
     supply = Supply(tuple(Groove(angle, arc=0.1, pressure=2e5) for angle in (0.0, np.pi)))
-    film = (10000 * np.pi / 30, Lubricant(0.075))
-    state = bearing.equilibrium((0.0, -40e3), *film, supply=supply)
+    even = Film(Lubricant(0.075), supply=supply)
+    film = Film(Lubricant(0.075, pressure_coefficient=25e-9), supply=supply)
+    state = bearing.equilibrium((0.0, -40e3), 10000 * np.pi / 30, even)
     got = float(state.eccentricity_ratio)
-    yield Check("ε, 10,000 1/min", "another rigid film", 0.498, got, 0.002, "absolute")
-    field = bearing.pressure(state.eccentricity, *film, supply=supply)
-    angle = np.degrees(field.angle) % 360
-    order = np.argsort(angle)
-    middle = field.pressure[:, field.z.size // 2]
-    got = float(angle[middle.argmax()])
-    yield Check("peak, 10,000 1/min", "COMSOL", 287.6, got, 5.0, "absolute", "°")
-    for turn, pressure in COMSOL:
-        got = float(np.interp(turn, angle[order], middle[order])) / 1e5
-        name = f"p at {turn}°, 10,000 1/min"
-        yield Check(name, "COMSOL", pressure, got, 0.07 * 79.0, "absolute", "bar")
+    yield Check(
+        "ε, 10,000 1/min, one viscosity", "another rigid film", 0.498, got, 0.002, "absolute"
+    )
+    for rpm, points in COMSOL.items():
+        speed = rpm * np.pi / 30
+        place = bearing.equilibrium((0.0, -40e3), speed, film).eccentricity
+        field = bearing.pressure(place, speed, film)
+        angle = np.degrees(field.angle) % 360
+        order = np.argsort(angle)
+        middle = field.pressure[:, field.z.size // 2] / 1e5
+        if rpm == 10000:
+            got = float(angle[middle.argmax()])
+            yield Check("peak, 10,000 1/min", "COMSOL", 287.6, got, 5.0, "absolute", "°")
+            got = float(middle.max())
+            yield Check("largest p, 10,000 1/min", "COMSOL", 79.0, got, 0.02, unit="bar")
+        highest = max(pressure for _, pressure in points)
+        for turn, pressure in points:
+            near = np.linspace(turn - _TURNED, turn + _TURNED, 41)
+            found = np.interp(near, angle[order], middle[order])
+            low, high = float(found.min()), float(found.max())
+            missed = _COMSOL_MISSED.get((rpm, turn), "")
+            yield Check(
+                f"p at {turn}°, {rpm:,} 1/min", "COMSOL", pressure, min(max(pressure, low), high),
+                0.07 * highest, "absolute", "bar", missed=missed,
+            )  # fmt: skip
 
 
 def pocket_slider(cells: int) -> FilmField:

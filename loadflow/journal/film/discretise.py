@@ -69,7 +69,7 @@ def cylindrical_film(
     film = DiscreteFilm(gap, *_oil(mesh, options, ratio, relative_clearance, radius, around))
     if contact is not None:
         film.contact = CylinderLoad(contact, radius, width, clearance)
-    _choose_regime(film, options)
+    _choose_flow(film, options)
     return gap, film
 
 
@@ -126,12 +126,14 @@ def shaped_film(
                 film.contact = ShellContact(contact, between, *rest, compliance)
             else:
                 film.contact = YieldingNodeLoad(contact, between, *rest)
-    _choose_regime(film, options)
+    _choose_flow(film, options)
     return gap, film
 
 
-def _choose_regime(film: DiscreteFilm, options: Film) -> None:
-    """Let the flow be turbulent, where that is asked for and its Reynolds number large enough."""
+def _choose_flow(film: DiscreteFilm, options: Film) -> None:
+    """Let pressure thicken the liquid, and the flow be turbulent, where that is asked for."""
+    if options.liquid.pressure_coefficient > 0.0:
+        film.thicken(options.liquid)
     if options.turbulence is not None:
         lengths = film.radius, film.relative_clearance
         film.regime = options.turbulence.regime(*lengths, options.liquid)

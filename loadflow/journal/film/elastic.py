@@ -111,7 +111,7 @@ class ElasticFilm(DiscreteFilm):
         """Share of a Newton step that leaves at least a third of the narrowest gap."""
         start, target = way
         least = self.gap.least_after(start)
-        share = 1.0
+        share = super().step_share(u, columns, weights, way)
         while share > _SMALLEST:
             trial = u.copy()
             kernel.correct(trial, columns, share * weights, self.mesh.order)
@@ -149,11 +149,11 @@ class ElasticFilm(DiscreteFilm):
     def _assemble(self, mass: Array, rate: float) -> None:
         super()._assemble(mass, rate)
         mesh = self.mesh
-        ends = (self.p_edge, self.p_line, self.line_fill)
         gap = self.gap
         shell_kernel.gap_stencil(
             self.state, gap.coef, gap.blend, gap.own_share, *gap.nodes, gap.surfaces, mesh.dz,
-            mesh.gz, mesh.closed, self.wedge, ends, self.slope * rate, self.fixed, self.stencil,
+            mesh.gz, mesh.closed, self.wedge, self.edges, self.slope * rate, self.fixed,
+            self.stencil,
         )  # fmt: skip
         growth = self._per_clearance * self.compliance.local * self.state[DLOAD]
         shell_kernel.add_stencil(self.stencil, growth, mesh.order, self.fixed, self.ab)
@@ -204,10 +204,6 @@ class ElasticFilm(DiscreteFilm):
         more = self._columns(volume)
         self._solve(factors, more)
         by_velocity += more
-
-    def _fields(self, columns: Array) -> Array:
-        """Columns in the order of the solver, (l, n), as fields of cells (l, nx, nz)."""
-        return columns.reshape(-1, *self.mesh.shape)[:, self.mesh.order]
 
     def _columns(self, fields: Array) -> Array:
         """Fields of cells (l, nx, nz) as columns in the order of the solver, (l, n)."""

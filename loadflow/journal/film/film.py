@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg.lapack import dgbtrf
 
-from loadflow.errors import SolverError
 from loadflow.journal.cavitation import DFILL, DLOAD, DP, FILL, LOAD, SLACK, CavitationLaw, P
 from loadflow.journal.film import _kernels as kernel
 from loadflow.journal.film._kernels import HM
 from loadflow.journal.film.asperity_load import AsperityLoad
 from loadflow.journal.film.gap import Gap, turning_frame
 from loadflow.journal.film.groove_pressure import Pockets
+from loadflow.journal.film.linearised import Linear, SingularFilm
+from loadflow.journal.film.thickening import Thickening
+from loadflow.journal.lubricant import Lubricant
 from loadflow.journal.turbulence import Regime
 
 Array = NDArray[np.float64]
@@ -25,29 +27,6 @@ _CELLS = 0.6  # of the width of the narrowest gap, the widest cell around that r
 
 EVERY = slice(None)  # all degrees of freedom
 _TURN = np.array([[0.0, -1.0], [1.0, 0.0]])  # a quarter turn with the rotation
-
-
-class SingularFilm(SolverError):
-    """A Newton matrix that cannot be solved, as states far from any film have."""
-
-
-class Linear(NamedTuple):
-    """The film linearised at one state.
-
-    Attributes
-    ----------
-    load : array (m,)
-        ∫ p N_j dA for each degree of freedom, after the Newton step of the pressure alone, N.
-    stiffness, damping : array (m, m)
-        Derivatives of `load` by position (per clearance) and velocity (clearances per second).
-    columns : array (l, n)
-        Newton step of the unknowns, and their derivatives by what `DiscreteFilm.weights` lists.
-    """
-
-    load: Array
-    stiffness: Array
-    damping: Array
-    columns: Array
 
 
 class DiscreteFilm:
@@ -92,6 +71,8 @@ class DiscreteFilm:
         self.p_line = self.p_edge if end_pressure is None else float(end_pressure)
         self.ends_supply = end_pressure is not None and not gap.mesh.closed
         self.line_fill = float(law.fill_at(self.p_line))
+        self.edges = self.p_edge, self.p_line, self.line_fill  # what drives at ends and line
+        self.thickening: Thickening | None = None  # of a viscosity that rises with pressure
         self.radius = radius
         self.relative_clearance = relative_clearance
         self.viscosity = viscosity
@@ -115,6 +96,21 @@ class DiscreteFilm:
         self.ambient: Array | float = 0.0  # of `_load`: what acts outside the film, N
         self.contact: AsperityLoad | None = None  # of rough surfaces, which may touch
         self.sheared_by_fill = False  # whether friction counts the share of liquid, not the gap
+
+    def thicken(self, liquid: Lubricant) -> None:
+        """Let the viscosity rise with pressure, as that of `liquid` does."""
+        self.thickening = Thickening(liquid)
+        self.edges = self.driving(self.p_edge), self.driving(self.p_line), self.line_fill
+
+    def driving(self, pressure: Any) -> Any:
+        """What drives the flow at a pressure, Pa: it, or less where that thickens the liquid."""
+        return pressure if self.thickening is None else self.thickening.liquid.driving(pressure)
+
+    @property
+    def pressures(self) -> tuple[Array, Array]:
+        """Pressure of the cells, of law and film, and its derivative by the unknowns."""
+        thick = self.thickening
+        return (self.state[P], self.state[DP]) if thick is None else (thick.pressure, thick.slope)
 
     def set_speed(self, speed: float) -> None:
         """Set the speed of the shaft, rad/s."""
@@ -162,6 +158,8 @@ class DiscreteFilm:
         kernel.apply_law(self._address, self._numbers, self.scale, u, self.state)
         if self.law.moves_by_cells and self.pockets.free.size:
             self._keep_full(u)
+        if self.thickening is not None:
+            self.thickening.apply(self.state)
 
     def _keep_full(self, u: Array) -> None:
         """Keep the free grooves full: the complementarity has no row for their pressure."""
@@ -201,9 +199,7 @@ class DiscreteFilm:
         """
         mesh = self.mesh
         field = np.zeros(mesh.shape) if out is None else out
-        state, edges = self.state, (self.p_edge, self.p_line, self.line_fill)
-        if change is not None:
-            state, edges = change, (0.0, 0.0, 0.0)
+        state, edges = (self.state, self.edges) if change is None else (change, (0.0, 0.0, 0.0))
         kernel.balance(
             state, coef[None], mesh.cells, mesh.closed, self.wedge, edges,
             mass[None], self.fixed, field[None],
@@ -249,8 +245,8 @@ class DiscreteFilm:
         growth, moves = self.storage(gap.coefs, modes, local, rate), len(gap.coefs)
         fields = np.zeros((moves + (gap.size if damped else 0), *mesh.shape))
         kernel.balance(
-            self.state, gap.coefs, mesh.cells, mesh.closed, self.wedge,
-            (self.p_edge, self.p_line, self.line_fill), growth, self.fixed, fields,
+            self.state, gap.coefs, mesh.cells, mesh.closed, self.wedge, self.edges, growth,
+            self.fixed, fields,
         )  # fmt: skip
         if rate != 0.0:
             fields[0] -= old
@@ -331,8 +327,7 @@ class DiscreteFilm:
             change[LOAD] = self.state[DLOAD] * field
             outflow = self.balance(self.gap.coef, mass, change)
             row[:] = pockets.flows(outflow)[pockets.free]
-        pressure = pockets.of_free(self.state[P])
-        slope = pockets.of_free(self.state[DP])
+        pressure, slope = (pockets.of_free(field) for field in self.pressures)
         return pockets.eliminate(columns, direct, through, pressure, slope, self.scale)
 
     def _carried(self, columns: Array) -> Array:
@@ -407,7 +402,12 @@ class DiscreteFilm:
         self, u: Array, columns: Array, weights: Array, way: tuple[Array, Array]
     ) -> float:
         """Share of a Newton step that leaves a film between shaft and shell; `way`: from, to."""
-        return 1.0
+        thick, change = self.thickening, weights[0] * columns[0]
+        return 1.0 if thick is None else thick.share(u, self._fields(change[None])[0])
+
+    def _fields(self, columns: Array) -> Array:
+        """Columns in the order of the solver, (l, n), as fields of cells (l, nx, nz)."""
+        return columns.reshape(-1, *self.mesh.shape)[:, self.mesh.order]
 
     def load_scale(self, force: Array) -> float:
         """Scale of what is missing of the load, N."""

@@ -35,7 +35,7 @@ def imbalance(
     outflow = film.balance(film.gap.coef, mass) - old
     worst = float(np.abs(film.residual(outflow)).max()) / _flux(film)
     if film.pockets.free.size:
-        worst = max(worst, film.pockets.missing(film.state[P], outflow, film.scale))
+        worst = max(worst, film.pockets.missing(film.pressures[0], outflow, film.scale))
     if force is not None:
         scale = film.load_scale(force)
         missing = force - film.load_of(frame, position)
@@ -81,9 +81,9 @@ def _largest_terms(film: DiscreteFilm, mass: Array) -> float:
     """Largest sum of the magnitudes of the terms of a balance in a cell; grooves have none."""
     mesh, coef, cells = film.mesh, film.gap.coef, film.mesh.z.size
     pressure = np.abs(film.state[P])
-    lines = pressure[[-1, 0]] if mesh.closed else np.full((2, cells), abs(film.p_line))
+    lines = pressure[[-1, 0]] if mesh.closed else np.full((2, cells), abs(film.edges[1]))
     beside = np.concatenate([lines[:1], pressure, lines[1:]])
-    edges = np.full((len(pressure), 1), abs(film.p_edge))
+    edges = np.full((len(pressure), 1), abs(film.edges[0]))
     above = np.concatenate([edges, pressure, edges], axis=1)
     through = coef[G, :, :cells] * (beside[:-1] + beside[1:])
     across = coef[H3, :-1] * mesh.gz * (above[:, :-1] + above[:, 1:])

@@ -51,17 +51,15 @@ def integrals(film: DiscreteFilm) -> Integrals:
     """Integrals over the film at the state last placed."""
     mesh, coef, cells = film.mesh, film.gap.coef, film.mesh.z.size
     pressure, dz = film.state[LOAD], mesh.dz
-    line = np.full((1, cells), film.p_line)
-    ends = (pressure[-1:],) if mesh.closed else (line,)
-    steps = np.diff(np.concatenate([*ends, pressure, *(() if mesh.closed else ends)]), axis=0)
-    dissipation = float(np.sum(coef[kernel.G, : len(steps), :cells] * steps * steps * dz))
-    drops = np.empty((len(pressure), cells + 1))
-    np.subtract(pressure[:, :-1], pressure[:, 1:], out=drops[:, 1:-1])
-    for end in (0, -1):
-        drops[:, end] = np.where(film.grooved[:, end], 0.0, pressure[:, end] - film.p_edge)
-    flow = coef[kernel.H3, :-1] * mesh.gz * drops
+    around, drops = _steps(film, pressure, film.p_edge, film.p_line)
     gap = coef[kernel.HM, :-1, :cells] * dz
     sheared = coef[kernel.HINV, :-1, :cells] * dz
+    along, driving = around, drops
+    if film.thickening is not None:
+        along, driving = _steps(film, film.driving(pressure), *film.edges[:2])
+        sheared = sheared * film.thickening.liquid.thickening(pressure)
+    dissipation = float(np.sum(coef[kernel.G, : len(around), :cells] * along * around * dz))
+    flow = coef[kernel.H3, :-1] * mesh.gz * driving
     if film.sheared_by_fill:
         sheared = sheared * film.state[FILL]
     return Integrals(
@@ -71,6 +69,17 @@ def integrals(film: DiscreteFilm) -> Integrals:
         outflow=float(np.maximum(flow[:, [0, -1]], 0.0).sum()),
         fill=float(np.vdot(film.state[FILL], gap) / gap.sum()),
     )
+
+
+def _steps(film: DiscreteFilm, field: Array, edge: float, line: float) -> tuple[Array, Array]:
+    """Steps of a `field` (nx, nz) over the faces around, and its drops over those across."""
+    ends = (field[-1:],) if film.mesh.closed else (np.full((1, field.shape[1]), line),)
+    around = np.diff(np.concatenate([*ends, field, *(() if film.mesh.closed else ends)]), axis=0)
+    drops = np.empty((len(field), field.shape[1] + 1))
+    np.subtract(field[:, :-1], field[:, 1:], out=drops[:, 1:-1])
+    for end in (0, -1):
+        drops[:, end] = np.where(film.grooved[:, end], 0.0, field[:, end] - edge)
+    return around, drops
 
 
 def _rubbing(film: DiscreteFilm, asperities: AsperityLoad, position: Array) -> dict[str, Any]:
@@ -114,7 +123,7 @@ def _supplied(film: DiscreteFilm, u: Array) -> dict[str, Any]:
     outflow = film.balance(film.gap.coef, mass)
     flows = pockets.flows(outflow)
     shaped = float(outflow[film.fixed & ~pockets.fixed].sum()) + _from_ends(film)
-    pressure = film.state[P].ravel()[pockets.samples]
+    pressure = film.pressures[0].ravel()[pockets.samples]
     lack = film.unknown_of(np.array(film.p_edge)) - pockets.of_free(u)
     return {
         "supply_flow": float(flows.sum()) + pockets.flow_unit * shaped,
@@ -134,6 +143,6 @@ def _from_ends(film: DiscreteFilm) -> float:
         pressure, fill = (film.state[row, cell] for row in (P, FILL))
         upstream = film.line_fill if sign * film.wedge > 0 else fill
         g, e = film.gap.coef[[kernel.G, kernel.E], cell, : film.mesh.z.size]
-        flow = g * (film.p_line - pressure) + sign * film.wedge * e * upstream
+        flow = g * (film.edges[1] - pressure) + sign * film.wedge * e * upstream
         total += float(film.mesh.dz @ flow)
     return total

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.journal.film.discretise import build_film
-from loadflow.journal.film.film import Linear
 from loadflow.journal.film.integrals import summary
+from loadflow.journal.film.linearised import Linear
 from loadflow.journal.film_model import Film
 from loadflow.journal.models import _mobility_kernels as kernel
 

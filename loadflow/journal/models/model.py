@@ -165,6 +165,7 @@ def _asked(
         "local_shell" if film.shell is not None and film.shell.local else "shell": film.shell,
         "contact": film.contact,
         "turbulence": film.turbulence,
+        "pressure_coefficient": film.liquid.pressure_coefficient or None,
         "step": None if steps.step == "given" else steps.step,
         "periodic": steps.periodic or None,
     }
@@ -206,6 +207,9 @@ def _pairs(
     yield "shell", film.shell, over_area, "None with heat over the area"
     yield "contact", film.contact, pads, "None for pads that tilt"
     yield "contact", film.contact, over_area, "None with heat over the area"
+    thick = film.liquid.pressure_coefficient > 0.0
+    words = "None where the viscosity rises with pressure"
+    yield "turbulence", film.turbulence, thick, words
     stored = _kind_of_heat(film, verb) == "slow_heat"
     yield "turbulence", film.turbulence, over_area, "None with heat over the area"
     allowed = 'None with heat that is stored, but on rung = "reduced"'

@@ -14,9 +14,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.journal.film.film import DiscreteFilm, Linear, SingularFilm
+from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.gap import KEPT
 from loadflow.journal.film.imbalance import imbalance, rounding
+from loadflow.journal.film.linearised import Linear, SingularFilm
 from loadflow.journal.solvers.history import backward_difference
 from loadflow.journal.solvers.newton import Solution, solve_equilibrium, solve_film
 from loadflow.numerics.convergence import COARSEST, is_small

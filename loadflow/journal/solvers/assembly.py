@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from loadflow.errors import SolverError
 from loadflow.journal.film import _kernels as kernel
-from loadflow.journal.film.film import SingularFilm
+from loadflow.journal.film.linearised import SingularFilm
 from loadflow.journal.film.surface_film import SurfaceFilm
 from loadflow.journal.solvers.assembly_balance import imbalance
 from loadflow.journal.solvers.assembly_member import BODY, AssemblyState, Member, MemberState

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.journal.film.film import Linear
+from loadflow.journal.film.linearised import Linear
 from loadflow.journal.film.surface_film import SurfaceFilm
 
 Array = NDArray[np.float64]

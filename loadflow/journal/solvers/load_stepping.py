@@ -138,7 +138,7 @@ def solve_from_held(
     straight to `force`, in steps as long as Newton's method follows, down to the `shortest` share.
     """
     state = solve_film(film, film.start(), position, 0.0 * position, tolerance, max_iterations)
-    if film.contact is not None:
+    if film.contact is not None or film.thickening is not None:
         state = _eased(film, force, state, tolerance, max_iterations, free)
     if not state.converged:
         return state
@@ -179,9 +179,10 @@ def _eased(
     max_iterations: int,
     free: slice | NDArray[np.int64],
 ) -> Solution:
-    """Film of rough surfaces no nearer to the shell than where it carries no more than `force`.
+    """Film no nearer to the shell than where it carries no more than `force`.
 
-    Pressed together farther they have pressures from which no step leads back.
+    Rough surfaces pressed together farther have pressures from which no step leads back; a liquid
+    that pressure thickens has no film at all where one of even viscosity would need more than 1/α.
     """
     wanted, spent = math.hypot(*force[free]), state.iterations
     if state.converged and math.hypot(*state.linear.load[free]) <= wanted:

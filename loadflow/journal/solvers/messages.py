@@ -24,6 +24,7 @@ STARVED = (
     "GasMixture follow a groove that is not full"
 )
 AT_REST = "without rotation and squeeze the film carries no load"
+_THICK = 100.0  # viscosity under pressure over that without, from which it is told
 _NEAREST = 0.01  # gap, in clearances, at which the lift of a supply is stated
 
 
@@ -97,6 +98,10 @@ def _unsolved(
     if film.contact is not None:
         overlap = -gap.closest(position)[0] / gap.roughness
         return f"{found}, mean planes {overlap:.3g} σ beyond touching"
+    if film.thickening is not None:
+        thick = float(film.thickening.liquid.thickening(film.pressures[0].max()))
+        if thick > _THICK:
+            return f"{found}: the liquid is {thick:.2g} times as thick there, {place}"
     return f"{found}, {place}"
 
 

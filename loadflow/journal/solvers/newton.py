@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.journal.film.film import EVERY, DiscreteFilm, Linear, SingularFilm
+from loadflow.journal.film.film import EVERY, DiscreteFilm
 from loadflow.journal.film.imbalance import imbalance, rounding
+from loadflow.journal.film.linearised import Linear, SingularFilm
 from loadflow.numerics.convergence import COARSEST, answered, rounding_level
 
 Array = NDArray[np.float64]
@@ -149,7 +151,6 @@ class _Check:
         return self.solution(u, position, linear, False, iterations)
 
 
-@np.errstate(over="ignore", invalid="ignore")  # of an iteration that diverges
 def solve_film(
     film: DiscreteFilm,
     u: Array,
@@ -159,6 +160,42 @@ def solve_film(
     max_iterations: int,
 ) -> Solution:
     """Pressure of the film at a given position and velocity."""
+
+    def solve(u: Array, position: Array) -> Solution:
+        return _solve_film(film, u, position, velocity, tolerance, max_iterations)
+
+    return _thinned(film, solve, u, position)
+
+
+def _thinned(
+    film: DiscreteFilm, solve: Callable[[Array, Array], Solution], u: Array, position: Array
+) -> Solution:
+    """What `solve` finds from `u` and `position`, or from its answer for one viscosity.
+
+    On the way to a rupture pressures may pass that thicken a liquid without end.
+    """
+    found, thick = solve(u, position), film.thickening
+    if found.converged or thick is None:
+        return found
+    film.thickening = None
+    thin = solve(u, position)
+    film.thickening = thick
+    if not thin.converged:
+        return found
+    again = solve(thin.u, thin.position)
+    return replace(again, iterations=found.iterations + thin.iterations + again.iterations)
+
+
+@np.errstate(over="ignore", invalid="ignore")  # of an iteration that diverges
+def _solve_film(
+    film: DiscreteFilm,
+    u: Array,
+    position: Array,
+    velocity: Array,
+    tolerance: float,
+    max_iterations: int,
+) -> Solution:
+    """Pressure of the film at a given position and velocity, from `u` on."""
     u = u.copy()
     weights, motion = np.ones(1), Motion(offset=-velocity)
     check = _Check(film, tolerance, motion)
@@ -178,7 +215,6 @@ def solve_film(
     return check.unanswered(u, position, linear, iteration)
 
 
-@np.errstate(over="ignore", invalid="ignore")  # of an iteration that diverges
 def solve_equilibrium(
     film: DiscreteFilm,
     force: Array,
@@ -195,6 +231,25 @@ def solve_equilibrium(
     position; the exact stiffness that follows gives the step of the shaft. With `motion` the
     same is one implicit step in time. Only the degrees of freedom `free` move; the others are held.
     """
+
+    def solve(u: Array, position: Array) -> Solution:
+        return _solve_equilibrium(film, force, u, position, tolerance, max_iterations, motion, free)
+
+    return _thinned(film, solve, u, position)
+
+
+@np.errstate(over="ignore", invalid="ignore")  # of an iteration that diverges
+def _solve_equilibrium(
+    film: DiscreteFilm,
+    force: Array,
+    u: Array,
+    position: Array,
+    tolerance: float,
+    max_iterations: int,
+    motion: Motion,
+    free: slice | NDArray[np.int64],
+) -> Solution:
+    """As `solve_equilibrium`, from `u` and `position` on."""
     u = u.copy()
     scale, gap = film.gap.dof_scale[free], film.gap.narrowest(position)
     pads = film.gap.pads.size > 0

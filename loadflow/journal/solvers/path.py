@@ -16,7 +16,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.journal.film.film import EVERY, DiscreteFilm, Linear, SingularFilm
+from loadflow.journal.film.film import EVERY, DiscreteFilm
+from loadflow.journal.film.linearised import Linear, SingularFilm
 from loadflow.journal.solvers.load_stepping import meets
 from loadflow.journal.solvers.newton import Solution, solve_equilibrium
 
