@@ -212,6 +212,9 @@ def call(words, tmp_path, capsys, monkeypatch):
 
     for place in ("runner.run", "comparison.compare", "designing.design", "crowning.crown"):
         monkeypatch.setattr(f"loadflow.running.{place}", taken)
+    # to draw takes most of the time, and what a picture shows stands in the tables beside it
+    for draw in ("to_svg", "to_png"):
+        monkeypatch.setattr(f"loadflow.report.page.{draw}", lambda figure: "drawn")
     number = 0
 
     def run(command, arguments):
