@@ -14,6 +14,7 @@ from loadflow.rotor.aero._airfoil_kernels import SECTION_STATES
 from loadflow.rotor.aero._kernels import induction, small_turn, solve
 from loadflow.rotor.aero._section_kernels import tabulated_induction
 from loadflow.rotor.inflow import steady_inflow
+from loadflow.rotor.lanes import LANES, WEIGHT, packs
 from loadflow.rotor.machine import machine
 from loadflow.rotor.options import RotorOptions
 from loadflow.rotor.tables import with_table
@@ -22,6 +23,7 @@ from loadflow.wind.field import Field
 
 RIGID = machine(load_turbine("nrel-5mw"), RotorOptions(modes=()))
 TABLED = with_table(RIGID)
+PACKED = ("radius", "chord", "twist", "width")
 
 
 @settings(deadline=None, max_examples=300)
@@ -41,6 +43,17 @@ def test_momentum_and_blade_forces_balance_from_any_start(i, normal, tangential,
         below = induction(RIGID, i, angle - 1e-5, pitch, normal, tangential)[0]
         above = induction(RIGID, i, angle + 1e-5, pitch, normal, tangential)[0]
         assert below * above <= 0
+
+
+@pytest.mark.parametrize("sections", [1, 5, 16, 17])
+def test_packs_hold_each_section_of_each_blade_once(sections):
+    machine = RIGID._replace(**{n: getattr(RIGID, n)[:1].repeat(sections) for n in PACKED})
+    pack, blade, section = packs(machine)
+    counts = pack[:, WEIGHT : WEIGHT + LANES].ravel() > 0
+    assert pack[:, WEIGHT : WEIGHT + LANES].sum() == pytest.approx(1.0)
+    held = list(zip(blade[counts], section[counts], strict=True))
+    assert held == [(b, i) for b in range(3) for i in range(sections)]
+    assert blade.size == LANES * pack.shape[0] < 3 * sections + LANES
 
 
 def test_low_induction_follows_momentum_theory():

@@ -6,63 +6,10 @@ instructions; what looks something up has a loop of its own. See `rotor/lanes.py
 
 import numpy as np
 
+from .. import lanes as row
 from .._compile import inner_section, part
 from .._wind_kernels import box_place, dammed, fluctuation, height_of
-from ..lanes import (
-    ACROSS,
-    ALONG,
-    ALONG_PLANE,
-    ANGLE,
-    AROUND,
-    ATTACK,
-    AZIMUTH_C,
-    AZIMUTH_S,
-    BEND_C,
-    BEND_S,
-    BENT,
-    BENT_RATE,
-    CHORD,
-    COSINE,
-    DRAG,
-    FORCE,
-    GROUND_X,
-    GROUND_Z,
-    GUST_U,
-    GUST_V,
-    GUST_W,
-    INDUCTION,
-    LANES,
-    LIFT,
-    MOMENT,
-    OUT,
-    PITCH,
-    PITCH_C,
-    PITCH_S,
-    PROFILE,
-    PULL,
-    RADIUS,
-    REAR,
-    RING,
-    SINE,
-    SIZE,
-    SLOPE,
-    SPEED,
-    SPIN,
-    SPOKE,
-    SWEPT,
-    SWEPT_RATE,
-    SWIRL,
-    TURNED,
-    TWIST,
-    TWIST_C,
-    TWIST_S,
-    TWISTED,
-    WEIGHT,
-    WHEN,
-    WIDTH,
-    Y,
-    Z,
-)
+from ..lanes import LANES
 from ..slots import S_AXIAL, S_Y, S_Z
 from ..structure._kernels import carried, place
 from ._airfoil_kernels import angle_of, coefficients, polar
@@ -132,17 +79,17 @@ def momentum_share(tip_radius, speed, state):
 def locate(pack, cone_s, cone_c, tilt_s, tilt_c, turn_c, turn_s, time, mean, box_step, spokes):
     """Where the sections are, also in the box of turbulence."""
     for k in range(LANES):
-        radius = pack[RADIUS + k] - pack[PULL + k]
-        along, out, turn = place(radius, pack[BENT + k], pack[SWEPT + k], cone_s, cone_c)
-        sine, cosine = pack[AZIMUTH_S + k], pack[AZIMUTH_C + k]
+        radius = pack[row.RADIUS + k] - pack[row.PULL + k]
+        along, out, turn = place(radius, pack[row.BENT + k], pack[row.SWEPT + k], cone_s, cone_c)
+        sine, cosine = pack[row.AZIMUTH_S + k], pack[row.AZIMUTH_C + k]
         y, z = -sine * out - cosine * turn, cosine * out - sine * turn
         ground_x, ground_z = along * tilt_c + z * tilt_s, z * tilt_c - along * tilt_s
-        pack[ALONG + k], pack[OUT + k], pack[AROUND + k] = along, out, turn
-        pack[Y + k], pack[Z + k] = y, z
-        pack[GROUND_X + k], pack[GROUND_Z + k] = ground_x, ground_z
+        pack[row.ALONG + k], pack[row.OUT + k], pack[row.AROUND + k] = along, out, turn
+        pack[row.Y + k], pack[row.Z + k] = y, z
+        pack[row.GROUND_X + k], pack[row.GROUND_Z + k] = ground_x, ground_z
         downwind, across = turn_c * ground_x + turn_s * y, turn_c * y - turn_s * ground_x
         when = time - downwind / mean
-        pack[WHEN + k], pack[RING + k], pack[SPOKE + k] = box_place(
+        pack[row.WHEN + k], pack[row.RING + k], pack[row.SPOKE + k] = box_place(
             box_step, spokes, when, across, ground_z
         )
 
@@ -152,11 +99,11 @@ def look_up_wind(pack, m, inflow):
     """Wind of the profile, and the fluctuation out of the box."""
     gusty = inflow.u.shape[0] > 0
     for k in range(LANES):
-        height = height_of(m.hub_height, pack[GROUND_Z + k])
-        pack[PROFILE + k] = inflow.mean * (height / m.hub_height) ** inflow.shear
+        height = height_of(m.hub_height, pack[row.GROUND_Z + k])
+        pack[row.PROFILE + k] = inflow.mean * (height / m.hub_height) ** inflow.shear
         if gusty:
-            pack[GUST_U + k], pack[GUST_V + k], pack[GUST_W + k] = fluctuation(
-                inflow, pack[WHEN + k], pack[RING + k], pack[SPOKE + k]
+            pack[row.GUST_U + k], pack[row.GUST_V + k], pack[row.GUST_W + k] = fluctuation(
+                inflow, pack[row.WHEN + k], pack[row.RING + k], pack[row.SPOKE + k]
             )
 
 
@@ -168,35 +115,35 @@ def meet_wind(pack, m, tilt_s, tilt_c, turn_c, turn_s, rise, vertical, horizonta
     """
     mean_x = mean_y = mean_z = 0.0
     for k in range(LANES):
-        ground_x, y, ground_z = pack[GROUND_X + k], pack[Y + k], pack[GROUND_Z + k]
+        ground_x, y, ground_z = pack[row.GROUND_X + k], pack[row.Y + k], pack[row.GROUND_Z + k]
         across = turn_c * y - turn_s * ground_x
-        blows = pack[PROFILE + k] + rise + vertical * ground_z + horizontal * across
-        blows += pack[GUST_U + k]
-        v = pack[GUST_V + k]
+        blows = pack[row.PROFILE + k] + rise + vertical * ground_z + horizontal * across
+        blows += pack[row.GUST_U + k]
+        v = pack[row.GUST_V + k]
         wind_x, wind_y = turn_c * blows - turn_s * v, turn_s * blows + turn_c * v
         height = height_of(m.hub_height, ground_z)
         wind_x, wind_y = dammed(m, wind_x, wind_y, ground_x, y, height)
-        wind_z = pack[GUST_W + k]
+        wind_z = pack[row.GUST_W + k]
         # relative to the moving nacelle
-        moved = carried(drift, pack[ALONG + k], y, pack[Z + k])
+        moved = carried(drift, pack[row.ALONG + k], y, pack[row.Z + k])
         shaft_x = wind_x * tilt_c - wind_z * tilt_s - moved[0]
         shaft_z = wind_x * tilt_s + wind_z * tilt_c - moved[2]
         wind_y -= moved[1]
-        sine, cosine = pack[AZIMUTH_S + k], pack[AZIMUTH_C + k]
+        sine, cosine = pack[row.AZIMUTH_S + k], pack[row.AZIMUTH_C + k]
         # a section bent out of the radius has a speed along it
-        radial = -sine * wind_y + cosine * shaft_z + speed * pack[AROUND + k]
+        radial = -sine * wind_y + cosine * shaft_z + speed * pack[row.AROUND + k]
         # cone, and slope of the bent blade
-        bend_s, bend_c = small_turn(m.cone - pack[SLOPE + k])
-        normal = shaft_x * bend_c + radial * bend_s - pack[BENT_RATE + k]
-        tangential = speed * pack[OUT + k] + pack[SWEPT_RATE + k]
+        bend_s, bend_c = small_turn(m.cone - pack[row.SLOPE + k])
+        normal = shaft_x * bend_c + radial * bend_s - pack[row.BENT_RATE + k]
+        tangential = speed * pack[row.OUT + k] + pack[row.SWEPT_RATE + k]
         tangential += cosine * wind_y + sine * shaft_z
-        pack[BEND_S + k], pack[BEND_C + k] = bend_s, bend_c
-        pack[ACROSS + k], pack[ALONG_PLANE + k] = normal, tangential
-        pack[SIZE + k] = np.sqrt(normal * normal + tangential * tangential)
-        pack[ANGLE + k] = angle_of(normal, tangential)
-        mean_x += pack[WEIGHT + k] * shaft_x
-        mean_y += pack[WEIGHT + k] * wind_y
-        mean_z += pack[WEIGHT + k] * shaft_z
+        pack[row.BEND_S + k], pack[row.BEND_C + k] = bend_s, bend_c
+        pack[row.ACROSS + k], pack[row.ALONG_PLANE + k] = normal, tangential
+        pack[row.SIZE + k] = np.sqrt(normal * normal + tangential * tangential)
+        pack[row.ANGLE + k] = angle_of(normal, tangential)
+        mean_x += pack[row.WEIGHT + k] * shaft_x
+        mean_y += pack[row.WEIGHT + k] * wind_y
+        mean_z += pack[row.WEIGHT + k] * shaft_z
     return mean_x, mean_y, mean_z
 
 
@@ -205,56 +152,56 @@ def induce(pack, m, blade, section, momentum, state, guess, induced, dt):
     """Induction factors of momentum theory, lagging where they do."""
     for k in range(LANES):
         b, i = blade[k], section[k]
-        normal, tangential = pack[ACROSS + k], pack[ALONG_PLANE + k]
+        normal, tangential = pack[row.ACROSS + k], pack[row.ALONG_PLANE + k]
         # torsion turns the section in the flow; bending both ways only turns the axes in which its
         # airfoil is looked up, which does not enter the momentum balance
-        twisted = pack[PITCH + k] + pack[TWISTED + k]
+        twisted = pack[row.PITCH + k] + pack[row.TWISTED + k]
         if momentum == 0.0:
             a = swirl = 0.0
         elif m.table.shape[0] > 0:
             a, swirl = tabulated_induction(
-                m, i, twisted, normal, tangential, pack[SIZE + k], pack[ANGLE + k]
+                m, i, twisted, normal, tangential, pack[row.SIZE + k], pack[row.ANGLE + k]
             )
         else:
             angle, a, swirl = solve(m, i, twisted, normal, tangential, guess[b, i])
             guess[b, i] = angle
         if momentum < 1.0:
             a, swirl = a * momentum, swirl * momentum
-        if m.dynamic_inflow and pack[WEIGHT + k] > 0.0:
+        if m.dynamic_inflow and pack[row.WEIGHT + k] > 0.0:
             a, swirl = inflow_lag(m, i, normal, tangential, a, swirl, state, dt, induced[b, i])
-        pack[INDUCTION + k], pack[SWIRL + k] = a, swirl
+        pack[row.INDUCTION + k], pack[row.SWIRL + k] = a, swirl
 
 
 @part
 def meet_section(pack, skew_factor, skew, skew_y, skew_z, speed):
     """Flow at the sections, induction included, in axes of their chords."""
     for k in range(LANES):
-        a = pack[INDUCTION + k]
+        a = pack[row.INDUCTION + k]
         if skew != 0.0:
-            a = skewed(skew_factor, a, pack[Y + k], pack[Z + k], skew, skew_y, skew_z)
-        pitch_s, pitch_c = pack[PITCH_S + k], pack[PITCH_C + k]
-        twist_s, twist_c = pack[TWIST_S + k], pack[TWIST_C + k]
-        elastic = pack[TWISTED + k] + pack[TURNED + k]
+            a = skewed(skew_factor, a, pack[row.Y + k], pack[row.Z + k], skew, skew_y, skew_z)
+        pitch_s, pitch_c = pack[row.PITCH_S + k], pack[row.PITCH_C + k]
+        twist_s, twist_c = pack[row.TWIST_S + k], pack[row.TWIST_C + k]
+        elastic = pack[row.TWISTED + k] + pack[row.TURNED + k]
         turn_s, turn_c = small_turn(elastic)
         sine = twist_s * pitch_c + twist_c * pitch_s
         cosine = twist_c * pitch_c - twist_s * pitch_s
         # rotation of the rotor turns an inclined section about its span
-        spin = -speed * pack[BEND_S + k]
-        pack[SPIN + k] = spin
+        spin = -speed * pack[row.BEND_S + k]
+        pack[row.SPIN + k] = spin
         (
-            pack[SPEED + k],
-            pack[SINE + k],
-            pack[COSINE + k],
-            pack[ATTACK + k],
-            pack[REAR + k],
+            pack[row.SPEED + k],
+            pack[row.SINE + k],
+            pack[row.COSINE + k],
+            pack[row.ATTACK + k],
+            pack[row.REAR + k],
         ) = flow_at(
-            pack[CHORD + k],
-            pack[TWIST + k] + pack[PITCH + k] + elastic,
+            pack[row.CHORD + k],
+            pack[row.TWIST + k] + pack[row.PITCH + k] + elastic,
             sine * turn_c + cosine * turn_s,
             cosine * turn_c - sine * turn_s,
             spin,
-            pack[ACROSS + k] * (1 - a),
-            pack[ALONG_PLANE + k] * (1 + pack[SWIRL + k]),
+            pack[row.ACROSS + k] * (1 - a),
+            pack[row.ALONG_PLANE + k] * (1 + pack[row.SWIRL + k]),
         )
 
 
@@ -263,14 +210,21 @@ def look_up_airfoils(pack, m, blade, section, dt, wake):
     """Lift, drag, and moment of blades that twist, out of the polars; `wake` moves on by `dt`."""
     twists = m.torsion_compliance.size > 0
     for k in range(LANES):
-        if pack[WEIGHT + k] == 0.0:
+        if pack[row.WEIGHT + k] == 0.0:
             continue
         b, i = blade[k], section[k]
-        pack[LIFT + k], pack[DRAG + k] = coefficients(
-            m, i, pack[ATTACK + k], pack[REAR + k], pack[SPEED + k], pack[SPIN + k], dt, wake[b, i]
+        pack[row.LIFT + k], pack[row.DRAG + k] = coefficients(
+            m,
+            i,
+            pack[row.ATTACK + k],
+            pack[row.REAR + k],
+            pack[row.SPEED + k],
+            pack[row.SPIN + k],
+            dt,
+            wake[b, i],
         )
         if twists:
-            pack[MOMENT + k] = polar(m.moment, i, pack[ATTACK + k])
+            pack[row.MOMENT + k] = polar(m.moment, i, pack[row.ATTACK + k])
 
 
 @part
@@ -278,14 +232,19 @@ def load(pack, density):
     """Force on each section in the axes of its blade, N: downwind, outward, in rotation."""
     for k in range(LANES):
         across, along, pressure = force_of(
-            density, pack[CHORD + k], pack[SPEED + k], pack[SINE + k], pack[COSINE + k],
-            pack[LIFT + k], pack[DRAG + k],
-        )  # fmt: skip
-        width = pack[WIDTH + k]
-        pack[FORCE + k] = across * pack[BEND_C + k] * width
-        pack[FORCE + LANES + k] = across * pack[BEND_S + k] * width
-        pack[FORCE + 2 * LANES + k] = along * width
-        pack[FORCE + 3 * LANES + k] = pressure * width
+            density,
+            pack[row.CHORD + k],
+            pack[row.SPEED + k],
+            pack[row.SINE + k],
+            pack[row.COSINE + k],
+            pack[row.LIFT + k],
+            pack[row.DRAG + k],
+        )
+        width = pack[row.WIDTH + k]
+        pack[row.FORCE + k] = across * pack[row.BEND_C + k] * width
+        pack[row.FORCE + LANES + k] = across * pack[row.BEND_S + k] * width
+        pack[row.FORCE + 2 * LANES + k] = along * width
+        pack[row.FORCE + 3 * LANES + k] = pressure * width
 
 
 @part
@@ -293,22 +252,24 @@ def hand_over(pack, m, blade, section, force):
     """Write the forces to their sections, and the couple of blades that twist, nose-up."""
     twists = m.torsion_compliance.size > 0
     for k in range(LANES):
-        if pack[WEIGHT + k] == 0.0:
+        if pack[row.WEIGHT + k] == 0.0:
             continue
         b, i = blade[k], section[k]
         for axis in range(3):
-            force[b, i, axis] = pack[FORCE + axis * LANES + k]
+            force[b, i, axis] = pack[row.FORCE + axis * LANES + k]
         force[b, i, 3] = 0.0
         if twists:
-            # as the chord lies in the flow, the elastic turn by bending both ways aside
-            chord = pack[TWIST + k] + pack[PITCH + k] + pack[TWISTED + k] + pack[TURNED + k]
-            sine, cosine = pack[SINE + k], pack[COSINE + k]
-            lift, drag = pack[LIFT + k], pack[DRAG + k]
+            chord = pack[row.TWIST + k] + pack[row.PITCH + k]
+            chord += pack[row.TWISTED + k] + pack[row.TURNED + k]
+            sine, cosine = pack[row.SINE + k], pack[row.COSINE + k]
+            lift, drag = pack[row.LIFT + k], pack[row.DRAG + k]
             lever = m.centre_ahead[i] * (
                 (lift * cosine + drag * sine) * np.cos(chord)
                 + (lift * sine - drag * cosine) * np.sin(chord)
             )
-            force[b, i, 3] = pack[FORCE + 3 * LANES + k] * (lever + m.chord[i] * pack[MOMENT + k])
+            force[b, i, 3] = pack[row.FORCE + 3 * LANES + k] * (
+                lever + m.chord[i] * pack[row.MOMENT + k]
+            )
 
 
 @part
@@ -316,10 +277,11 @@ def take_over(pack, blade, section, sines, cosines, pitches, pitch_s, pitch_c, m
     """Read what the blades do, and the motion of each section."""
     for k in range(LANES):
         b, i = blade[k], section[k]
-        pack[AZIMUTH_S + k], pack[AZIMUTH_C + k] = sines[b], cosines[b]
-        pack[PITCH + k], pack[PITCH_S + k], pack[PITCH_C + k] = pitches[b], pitch_s[b], pitch_c[b]
+        pack[row.AZIMUTH_S + k], pack[row.AZIMUTH_C + k] = sines[b], cosines[b]
+        pack[row.PITCH_S + k], pack[row.PITCH_C + k] = pitch_s[b], pitch_c[b]
+        pack[row.PITCH + k] = pitches[b]
         for column in range(8):
-            pack[BENT + column * LANES + k] = motion[b, i, column]
+            pack[row.BENT + column * LANES + k] = motion[b, i, column]
 
 
 @inner_section
