@@ -292,7 +292,7 @@ def _seats(
 def _unbalanced(
     balls: _Balls, reach: Array, push: Array, b: Array
 ) -> tuple[Array, Array, Array, Array, Array]:
-    """Unbalanced force on each ball at `b`, both slopes, outer contact forces, and the potential."""
+    """Unbalanced force on each ball at `b`, both slopes, outer contact forces, and potential."""
     pull, h_inner, inner = _spring(balls.inner, balls.inner_gap, reach - b)
     back, h_outer, outer = _spring(balls.outer, balls.outer_gap, b)
     stored = inner ** (5 / 3) / balls.inner ** (2 / 3) + outer ** (5 / 3) / balls.outer ** (2 / 3)

@@ -45,8 +45,8 @@ def capacity_factor(gamma: float, contact_angle: float) -> float:
     angles = np.array(list(_COLUMNS))
     if not angles[0] - 1e-6 <= contact_angle <= angles[-1] + 1e-6:
         raise InputError(
-            f"contact_angle: f_cm is tabulated for 45° … 75°, got {np.degrees(contact_angle):.4g}°; "
-            "a dynamic_capacity can be stated"
+            "contact_angle: f_cm is tabulated for 45° … 75°, got "
+            f"{np.degrees(contact_angle):.4g}°; a dynamic_capacity can be stated"
         )
     upper = int(np.clip(np.searchsorted(angles, contact_angle), 1, 2))
     pair = [_COLUMNS[angles[upper - 1]], _COLUMNS[angles[upper]]]

@@ -22,93 +22,11 @@ from loadflow.rolling.rings._ring_kernels import (
     mix,
     shift_of,
 )
-from loadflow.rolling.rings._ring_tangent import tangent
-
-# Sums may be reordered (so that they use vector units); nothing else of fast mathematics.
-_REORDER = {"reassoc", "contract", "nsz"}
-
+from loadflow.rolling.rings._ring_tangent import backward, condense, forward
 
 # Steps with a kept tangent that cost about as much as a new one; steps of lines have many slices.
 _PATIENCE_POINTS, _PATIENCE_LINES = 9.0, 4.0
 _PAIRS = 8  # steps remembered
-
-
-@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER, **LINKED)
-def _factorise(matrix, columns):
-    """Replace the first `columns` of the lower half of a matrix by those of its Cholesky factor.
-
-    Four columns at a time, whose sums go along the rows together; what stands in the other columns
-    of the first rows may be anything.
-    """
-    rows = matrix.shape[0]
-    for b in range(0, columns, 4):
-        if b + 4 <= columns:
-            one, two, three, four = matrix[b], matrix[b + 1], matrix[b + 2], matrix[b + 3]
-            for a in range(b, rows):
-                line = matrix[a]
-                t = u = v = w = 0.0
-                for k in range(b):
-                    value = line[k]
-                    t += value * one[k]
-                    u += value * two[k]
-                    v += value * three[k]
-                    w += value * four[k]
-                line[b] -= t
-                line[b + 1] -= u
-                line[b + 2] -= v
-                line[b + 3] -= w
-        else:
-            for a in range(b, rows):
-                for c in range(b, columns):
-                    total = 0.0
-                    for k in range(b):
-                        total += matrix[a, k] * matrix[c, k]
-                    matrix[a, c] -= total
-        for c in range(b, min(b + 4, columns)):
-            pivot = math.sqrt(matrix[c, c])
-            for a in range(c, rows):
-                matrix[a, c] /= pivot
-            for d in range(c + 1, min(b + 4, columns)):
-                for a in range(d, rows):
-                    matrix[a, d] -= matrix[a, c] * matrix[d, c]
-
-
-@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER, **LINKED)
-def _forward(factor, rhs):
-    """Replace `rhs` by the solution with a Cholesky factor, whose columns may have more rows."""
-    for a in range(rhs.shape[0]):
-        value = rhs[a]
-        for k in range(a):
-            value -= factor[a, k] * rhs[k]
-        rhs[a] = value / factor[a, a]
-
-
-@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER, **LINKED)
-def _backward(factor, rhs):
-    """Replace `rhs` by the solution with a Cholesky factor transposed."""
-    for a in range(rhs.shape[0] - 1, -1, -1):
-        rhs[a] /= factor[a, a]
-        for k in range(a):
-            rhs[k] -= factor[a, k] * rhs[a]
-
-
-@njit(nogil=True, error_model="numpy", **LINKED)
-def _condense(waves, power, push, slope, across, slant, factor, condensed):
-    """Tangent with the modes eliminated.
-
-    Fills the Cholesky `factor` (mode + 5, mode) of the modes, below it the rows of the rigid
-    unknowns, and the 5 × 5 tangent that is left.
-    """
-    hessian = tangent(waves, power, push, slope, across, slant)
-    modes = factor.shape[1]
-    for a in range(modes + 5):
-        source = hessian[a + 5 if a < modes else a - modes]
-        for b in range(modes):
-            factor[a, b] = source[5 + b]
-    _factorise(factor, modes)
-    for a in range(5):
-        for b in range(5):
-            condensed[a, b] = hessian[a, b] - dot(factor[modes + a], factor[modes + b])
 
 
 @njit(nogil=True, error_model="numpy", **LINKED)
@@ -171,7 +89,7 @@ def _direction(rest, factor, condensed, cap, small, step):
     count = modes.shape[0]
     for b in range(count):
         modes[b] = rest[5 + b]
-    _forward(factor, modes)
+    forward(factor, modes)
     for a in range(5):
         rhs[a] = rest[a] - dot(factor[count + a], modes)
         largest = max(largest, condensed[a, a])
@@ -188,7 +106,7 @@ def _direction(rest, factor, condensed, cap, small, step):
     for a in range(5):
         for b in range(count):
             modes[b] -= factor[count + a, b] * step[a]
-    _backward(factor, modes)
+    backward(factor, modes)
     return largest, pivot
 
 
@@ -298,7 +216,7 @@ def _newton(
             known, fresh, halvings = False, True, 0
             continue
         if exact:
-            _condense(waves, law.power, push, slope, across, slant, factor, condensed)
+            condense(waves, law.power, push, slope, across, slant, factor, condensed)
             known, held = True, 0
         _secant(rest, factor, condensed, cap, small, moves, changes, held, step)
         iterations += 1
@@ -312,7 +230,7 @@ def _newton(
     rounding = 0.0
     if residual > tolerance:
         forces(x, shift, waves, law, full, push, slope, across, slant, pull)
-        _condense(waves, law.power, push, slope, across, slant, factor, condensed)
+        condense(waves, law.power, push, slope, across, slant, factor, condensed)
         stiffest, _ = _direction(rest, factor, condensed, cap, small, step)
         rounding = rounding_level(moved * stiffest) / max(external, 1e-4 * total, 1e-300)
     answered = is_small(residual, tolerance, rounding) and not beyond
@@ -449,5 +367,5 @@ def stiffness_series(states, waves, law):
     stiffness, factor = np.zeros((n, 5, 5)), np.zeros((modes + 5, modes))
     for i in range(n):
         _, push, slope, across, slant, _ = evaluate(states[i], waves, law)
-        _condense(waves, law.power, push, slope, across, slant, factor, stiffness[i])
+        condense(waves, law.power, push, slope, across, slant, factor, stiffness[i])
     return stiffness
