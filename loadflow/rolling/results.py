@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Generic, Literal, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from loadflow.errors import InputError
 from loadflow.numerics.shown import Shown
 from loadflow.quantities import ROLLING, Quantity
 from loadflow.rolling.contact_forces import ContactForces
@@ -84,7 +85,9 @@ class ContactResult(Shown, RingEquilibrium, Generic[Bearing]):
     def contact_directions(self) -> Array:
         """Motion v of the inner ring that each contact resists, (..., kind, element, 5).
 
-        The load of all contacts is ΣF v; a stiffness k along each adds Σk v vᵀ.
+        The load of all contacts is ΣF v; a stiffness k along each adds Σk v vᵀ. In the radial plane
+        of each contact: what tilts the line of contact of a ball along the ring, by the shift of
+        the rings over the distance of the groove centres, is left out.
         """
         table, angle = self.contacts.table, self.elements.angles
         radius, height = table[:, RADIUS, None], table[:, HEIGHT, None]
@@ -230,7 +233,9 @@ class ContactResult(Shown, RingEquilibrium, Generic[Bearing]):
         -------
         xarray.Dataset
             Over ``case`` (the load cases in C order; none for a single load), ``axis``,
-            ``tilt_axis``, ``dof``, ``along``, the groups of the bearing and ``element``.
+            ``tilt_axis``, ``dof``, ``along``, the groups of the bearing and ``element``. What a
+            bearing has none of, as a life where no standard rates its geometry, is left out; the
+            attribute ``no_…`` says why.
 
         Examples
         --------
@@ -249,9 +254,14 @@ class ContactResult(Shown, RingEquilibrium, Generic[Bearing]):
             inner = values.shape[len(self.cases) :]
             return (*lead, *dims), values.reshape((*(-1,) * len(lead), *inner))
 
+        told = {name: self._told(name) for name in _EACH_CASE}
         found = {
-            name: (*rows(np.asarray(getattr(self, name))), ROLLING[name].attributes)
-            for name in _EACH_CASE
+            name: (*rows(values), ROLLING[name].attributes)
+            for name, values in told.items()
+            if not isinstance(values, str)
+        }
+        left_out = {
+            f"no_{name}": values for name, values in told.items() if isinstance(values, str)
         }
         around = (*self.bearing.group_dims, "element")
         for name, dims in (*_COMPONENTS.items(), ("element_forces", around)):
@@ -260,8 +270,15 @@ class ContactResult(Shown, RingEquilibrium, Generic[Bearing]):
         return xr.Dataset(
             found,
             {"axis": list("xyz"), "tilt_axis": list("xy"), "dof": dof, "along": dof},
-            {"bearing": type(self.bearing).__name__},
+            {"bearing": type(self.bearing).__name__} | left_out,
         )
+
+    def _told(self, name: str) -> Array | str:
+        """A quantity of all cases, or why a bearing like this has none."""
+        try:
+            return np.asarray(getattr(self, name))
+        except InputError as reason:
+            return str(reason)
 
     @property
     def element_azimuth(self) -> Array:
@@ -326,8 +343,11 @@ class ContactResult(Shown, RingEquilibrium, Generic[Bearing]):
         what = f"{type(self.bearing).__name__}, {int(np.prod(self.cases))} load case(s)"
         lines = [f"<{type(self).__name__} of {what}>"]
         for name in ("maximum_force", "maximum_pressure", "static_safety", "rating_life"):
-            values = np.asarray(getattr(self, name))
             _, units, meaning = ROLLING[name]
+            values = self._told(name)
+            if isinstance(values, str):
+                lines.append(f"  {meaning:36s} none: {values}")
+                continue
             low, high = float(values.min()), float(values.max())
             span = f"{low:.4g}" if low == high else f"{low:.4g} … {high:.4g}"
             lines.append(f"  {meaning:36s} {span} {'' if units == '1' else units}".rstrip())

@@ -293,3 +293,18 @@ def test_bad_geometry_is_refused_by_name(field, value, words):
 def test_bad_loads_are_refused_by_name(force, moment, words):
     with pytest.raises(InputError, match=words):
         BLADE.equilibrium(force=force, moment=moment)
+
+
+def test_a_result_shows_what_it_has_where_no_table_rates_the_bearing():
+    """Small balls on a large circle, as in yaw bearings: forces and stiffness, but no life."""
+    wide = dataclasses.replace(BLADE, pitch_diameter=4.5)
+    result = wide.equilibrium((1e5, 0, 1e6))
+    with pytest.raises(InputError, match="a dynamic_capacity can be stated"):
+        _ = result.rating_life
+    assert "none: gamma" in repr(result)
+    data = result.to_dataset()
+    assert "rating_life" not in data
+    assert "gamma" in data.attrs["no_rating_life"]
+    assert float(data["static_safety"]) > 0
+    stated = dataclasses.replace(wide, dynamic_capacity=2e6).equilibrium((1e5, 0, 1e6))
+    assert float(stated.to_dataset()["rating_life"]) > 0

@@ -89,3 +89,36 @@ def test_series_of_random_loads_comes_to_rest():
 def test_speeds_must_be_finite():
     with pytest.raises(InputError, match="speed"):
         BEARING.equilibrium(THRUST, speed=math.nan)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_slow_balls_come_to_rest(seed):
+    """Unloaded balls of an angular contact swing out by the little that their inertia is.
+
+    Drawn as main bearings are, with n D_pw of 1,000 to 10,000 mm/min; inertia then is rounding
+    beside the load: its share of C₀-like forces is below 1e-3.
+    """
+    rng = np.random.default_rng(seed)
+    diameter = 10 ** rng.uniform(-2, -1)
+    pitch = diameter * rng.uniform(8, 20)
+    bearing = BallBearing(
+        balls=int(2.5 * pitch / diameter), ball_diameter=diameter, pitch_diameter=pitch,
+        groove_radius=0.52 * diameter, contact_angle=rng.uniform(0.2, 0.8),
+    )  # fmt: skip
+    capacity = float(bearing.rated_capacity)
+    force = rng.normal(size=3) * 0.1 * capacity
+    speed = 10 ** rng.uniform(3, 4) / (1e3 * pitch) * 2 * np.pi / 60
+    turning = bearing.equilibrium(force, speed=speed)
+    still = bearing.equilibrium(force)
+    assert turning.converged
+    near = np.abs(turning.contact_forces - still.contact_forces).max()
+    assert near < 1e-2 * float(still.maximum_force)
+
+
+def test_a_bearing_without_load_comes_to_rest_within_its_clearance():
+    """No ball touches the inner ring: the rings meet no resistance, beside a case that does."""
+    loose = dataclasses.replace(BEARING, contact_angle=0.0, clearance=1e-4)
+    found = loose.equilibrium([(0, 0, 0), (2500.0, 40.0, -3000.0)], [(0, 0), (80, 100)], speed=10.0)
+    assert found.converged.all()
+    assert found.residual.max() < 1e-8
+    assert found.maximum_force[0] < 1e-6 < found.maximum_force[1]

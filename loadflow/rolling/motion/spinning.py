@@ -24,7 +24,8 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 STEEL_DENSITY = 7850.0
-_INNER_STEPS, _ROUNDS = 60, 50
+# A lightly pressed ball swings along its groove in steps that its small approach to it bounds.
+_INNER_STEPS, _ROUNDS, _HALVINGS = 500, 50, 30
 _WANTED, _ALLOWED = 1e-8, 1e-4  # change of the loads of inertia over the largest load
 
 
@@ -174,9 +175,13 @@ def spin_equilibrium(
                 break
             total += 1
             scaled = hessian * scale[:, None] * scale
-            scaled += 1e-10 * np.trace(scaled, axis1=1, axis2=2)[:, None, None] * np.eye(5)
+            trace = np.trace(scaled, axis1=1, axis2=2)
+            # where no ball touches the inner ring, it goes along the load
+            shift = np.where(trace > 0, 1e-10 * trace, reference / contacts.cap)
+            scaled += shift[:, None, None] * np.eye(5)
             step = np.linalg.solve(scaled, (rest_load * scale)[..., None])[..., 0]
-            step *= np.minimum(1, 0.3 * contacts.cap / np.abs(step).max(axis=1, keepdims=True))
+            longest = np.abs(step).max(axis=1, keepdims=True)
+            step *= np.minimum(1, 0.3 * contacts.cap / np.maximum(longest, 1e-300))
             q += step * scale
         away = reach - seat
         angles = (
@@ -244,29 +249,55 @@ def _seats(
 ) -> tuple[Array, Array, Array, Array]:
     """Ball centres at rest, force on the inner ring and its slope, outer contact forces.
 
-    Everything counts from the outer groove centre; `reach` is the inner one. Newton's method from
-    `seat` with a cap on the step, until `quiet` (N) or nothing more moves.
+    Everything counts from the outer groove centre; `reach` is the inner one. A ball that does not
+    touch the inner ring lies where its dead load points; of the others Newton's method from `seat`
+    with a cap on the step, until `quiet` (N) or nothing more moves.
     """
     limit = 0.2 * (balls.inner_gap + balls.outer_gap)
     floor = 1e-9 * balls.outer * balls.outer_gap**0.5
-    b = seat.copy()
+    dead = np.hypot(push[..., 0], push[..., 1])
+    lies = (balls.outer_gap + (dead / balls.outer) ** (2 / 3)) / np.maximum(dead, 1e-300)
+    alone = push * lies[..., None]
+    apart = reach - alone
+    open_ = (dead > 0) & (np.hypot(apart[..., 0], apart[..., 1]) <= balls.inner_gap)
+    b = np.where(open_[..., None], alone, seat)
+    at = _unbalanced(balls, reach, push, b)
     for _ in range(_INNER_STEPS):
-        pull, h_inner, _ = _spring(balls.inner, balls.inner_gap, reach - b)
-        back, h_outer, outer = _spring(balls.outer, balls.outer_gap, b)
-        wrong = pull - back + push
+        wrong, h_inner, h_outer, outer, energy = at
         hessian = h_inner + h_outer + floor * np.eye(2)
         step = np.linalg.solve(hessian, wrong[..., None])[..., 0]
         size = np.hypot(step[..., 0], step[..., 1])
         settled = size <= 1e-14 * balls.outer_gap
-        if (settled | (np.abs(wrong).max(axis=-1) <= quiet[:, None, None])).all():
+        left = np.abs(wrong).max(axis=-1)
+        if (settled | (left <= quiet[:, None, None])).all():
             break
-        b = b + step * np.minimum(1.0, 0.1 * limit / np.maximum(size, 1e-300))[..., None]
+        share = np.minimum(1.0, 0.1 * limit / np.maximum(size, 1e-300))
+        fall = 1e-4 * (wrong * step).sum(axis=-1)
+        for _ in range(_HALVINGS):
+            at = _unbalanced(balls, reach, push, b + share[..., None] * step)
+            held = (at[4] <= energy - share * fall) | (np.abs(at[0]).max(axis=-1) <= left)
+            if held.all():
+                break
+            share = np.where(held, share, 0.5 * share)
+        b = b + share[..., None] * step
     else:
         raise SolverError(
-            f"spinning balls: a ball does not come to rest, {np.abs(wrong).max():.3g} N unbalanced"
+            f"spinning balls: a ball does not come to rest, {left.max():.3g} N unbalanced"
         )
+    pull = wrong - push + _spring(balls.outer, balls.outer_gap, b)[0]
     tangent = h_inner - h_inner @ np.linalg.solve(hessian, h_inner)
     return b, pull, tangent, outer
+
+
+def _unbalanced(
+    balls: _Balls, reach: Array, push: Array, b: Array
+) -> tuple[Array, Array, Array, Array, Array]:
+    """Unbalanced force on each ball at `b`, both slopes, outer contact forces, and potential."""
+    pull, h_inner, inner = _spring(balls.inner, balls.inner_gap, reach - b)
+    back, h_outer, outer = _spring(balls.outer, balls.outer_gap, b)
+    stored = inner ** (5 / 3) / balls.inner ** (2 / 3) + outer ** (5 / 3) / balls.outer ** (2 / 3)
+    energy = 0.4 * stored - (push * b).sum(axis=-1)
+    return pull - back + push, h_inner, h_outer, outer, energy
 
 
 def _spring(stiffness: float, gap: float, vector: Array) -> tuple[Array, Array, Array]:

@@ -45,13 +45,17 @@ def capacity_factor(gamma: float, contact_angle: float) -> float:
     angles = np.array(list(_COLUMNS))
     if not angles[0] - 1e-6 <= contact_angle <= angles[-1] + 1e-6:
         raise InputError(
-            f"contact_angle: f_cm is tabulated for 45° … 75°, got {np.degrees(contact_angle):.4g}°"
+            "contact_angle: f_cm is tabulated for 45° … 75°, got "
+            f"{np.degrees(contact_angle):.4g}°; a dynamic_capacity can be stated"
         )
     upper = int(np.clip(np.searchsorted(angles, contact_angle), 1, 2))
     pair = [_COLUMNS[angles[upper - 1]], _COLUMNS[angles[upper]]]
     last = _GAMMA[(len(pair[1]) if contact_angle > angles[upper - 1] + 1e-6 else len(pair[0])) - 1]
     if not _GAMMA[0] <= gamma <= last:
-        raise InputError(f"gamma: f_cm is tabulated for {_GAMMA[0]} … {last:.2f}, got {gamma:.5g}")
+        raise InputError(
+            f"gamma: f_cm is tabulated for {_GAMMA[0]} … {last:.2f}, got {gamma:.5g}; "
+            "a dynamic_capacity can be stated"
+        )
     values = [np.interp(gamma, _GAMMA[: len(c)], c) for c in pair]
     return float(np.interp(contact_angle, angles[upper - 1 : upper + 1], values))
 

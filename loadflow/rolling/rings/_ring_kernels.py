@@ -236,6 +236,17 @@ def evaluate(x, waves, law):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
+def fields_of(states, waves):
+    """What all contacts feel in each state, (n, field · kind, ball)."""
+    found = np.zeros((states.shape[0], waves.mixing.shape[0], waves.balls))
+    shift = np.zeros((waves.mixing.shape[1], waves.balls))
+    for i in range(states.shape[0]):
+        shift_of(states[i], waves, shift)
+        mix(waves.mixing, shift, found[i])
+    return found
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
 def contact_state(states, waves, law):
     """Force and signed angle (from the radial plane) of each point contact, (n, kind, ball)."""
     table = law.table

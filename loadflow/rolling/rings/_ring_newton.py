@@ -22,62 +22,11 @@ from loadflow.rolling.rings._ring_kernels import (
     mix,
     shift_of,
 )
-from loadflow.rolling.rings._ring_tangent import tangent
-
-# Sums may be reordered (so that they use vector units); nothing else of fast mathematics.
-_REORDER = {"reassoc", "contract", "nsz"}
-
+from loadflow.rolling.rings._ring_tangent import backward, condense, forward
 
 # Steps with a kept tangent that cost about as much as a new one; steps of lines have many slices.
-_PATIENCE_POINTS, _PATIENCE_LINES = 16.0, 4.0
+_PATIENCE_POINTS, _PATIENCE_LINES = 9.0, 4.0
 _PAIRS = 8  # steps remembered
-
-
-@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER, **LINKED)
-def _factorise(matrix):
-    """Replace the lower half of a positive definite matrix by its Cholesky factor."""
-    for a in range(matrix.shape[0]):
-        for b in range(a + 1):
-            value = matrix[a, b]
-            for k in range(b):
-                value -= matrix[a, k] * matrix[b, k]
-            matrix[a, b] = math.sqrt(value) if a == b else value / matrix[b, b]
-
-
-@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER, **LINKED)
-def _solve(factor, rhs):
-    """Replace `rhs` by the solution with a matrix given by its Cholesky factor."""
-    for a in range(rhs.shape[0]):
-        value = rhs[a]
-        for k in range(a):
-            value -= factor[a, k] * rhs[k]
-        rhs[a] = value / factor[a, a]
-    for a in range(rhs.shape[0] - 1, -1, -1):
-        rhs[a] /= factor[a, a]
-        for k in range(a):
-            rhs[k] -= factor[a, k] * rhs[a]
-
-
-@njit(nogil=True, error_model="numpy", **LINKED)
-def _condense(waves, power, push, slope, across, slant, factor, solved, condensed):
-    """Tangent with the modes eliminated.
-
-    Fills the Cholesky `factor` of the modes, the modes `solved` (5, mode) that follow each rigid
-    unknown, and the 5 × 5 tangent that is left.
-    """
-    hessian = tangent(waves, power, push, slope, across, slant)
-    modes = factor.shape[0]
-    for a in range(modes):
-        for b in range(modes):
-            factor[a, b] = hessian[5 + a, 5 + b]
-    _factorise(factor)
-    for a in range(5):
-        for b in range(modes):
-            solved[a, b] = hessian[a, 5 + b]
-        _solve(factor, solved[a])
-    for a in range(5):
-        for b in range(5):
-            condensed[a, b] = hessian[a, b] - dot(hessian[a, 5:], solved[b])
 
 
 @njit(nogil=True, error_model="numpy", **LINKED)
@@ -130,15 +79,19 @@ def _free_lines(basis, slope, across, slant):
 
 
 @njit(nogil=True, error_model="numpy", **LINKED)
-def _direction(rest, factor, solved, condensed, cap, small, step):
+def _direction(rest, factor, condensed, cap, small, step):
     """Fill `step` by Newton's, with a Levenberg shift where the rigid part is singular.
 
     Returns the largest diagonal term and the smallest pivot of the rigid part.
     """
     rhs, modes = np.empty(5), step[5:]
     largest = norm = 0.0
+    count = modes.shape[0]
+    for b in range(count):
+        modes[b] = rest[5 + b]
+    forward(factor, modes)
     for a in range(5):
-        rhs[a] = rest[a] - dot(solved[a], rest[5:])
+        rhs[a] = rest[a] - dot(factor[count + a], modes)
         largest = max(largest, condensed[a, a])
         norm += rhs[a] * rhs[a]
     regular, shift = 0.0, 0.0
@@ -150,17 +103,15 @@ def _direction(rest, factor, solved, condensed, cap, small, step):
     if largest == 0.0:  # nothing touches: go along the load
         for a in range(5):
             step[a] = rhs[a] * cap / math.sqrt(max(norm, 1e-300))
-    for b in range(modes.shape[0]):
-        modes[b] = rest[5 + b]
-    _solve(factor, modes)
     for a in range(5):
-        for b in range(modes.shape[0]):
-            modes[b] -= solved[a, b] * step[a]
+        for b in range(count):
+            modes[b] -= factor[count + a, b] * step[a]
+    backward(factor, modes)
     return largest, pivot
 
 
 @njit(nogil=True, error_model="numpy", **LINKED)
-def _secant(rest, factor, solved, condensed, cap, small, moves, changes, held, step):
+def _secant(rest, factor, condensed, cap, small, moves, changes, held, step):
     """Fill `step` by the kept tangent, put right by the last `held` steps (limited-memory BFGS).
 
     `moves` and the `changes` of force along them (pair, unknown), the oldest first.
@@ -170,7 +121,7 @@ def _secant(rest, factor, solved, condensed, cap, small, moves, changes, held, s
         part[p] = dot(moves[p], right) / dot(moves[p], changes[p])
         for a in range(right.shape[0]):
             right[a] -= part[p] * changes[p, a]
-    _direction(right, factor, solved, condensed, cap, small, step)
+    _direction(right, factor, condensed, cap, small, step)
     for p in range(held):
         more = part[p] - dot(changes[p], step) / dot(moves[p], changes[p])
         for a in range(right.shape[0]):
@@ -190,7 +141,7 @@ def _remember(moves, changes, held):
 
 @njit(nogil=True, error_model="numpy", **LINKED)
 def _newton(
-    x, load, waves, basis, law, reach, cap, tolerance, limit, factor, solved, condensed,
+    x, load, waves, basis, law, reach, cap, tolerance, limit, factor, condensed,
     moves, changes, held, known,
 ):  # fmt: skip
     """Minimise energy - load·x from `x`.
@@ -265,9 +216,9 @@ def _newton(
             known, fresh, halvings = False, True, 0
             continue
         if exact:
-            _condense(waves, law.power, push, slope, across, slant, factor, solved, condensed)
+            condense(waves, law.power, push, slope, across, slant, factor, condensed)
             known, held = True, 0
-        _secant(rest, factor, solved, condensed, cap, small, moves, changes, held, step)
+        _secant(rest, factor, condensed, cap, small, moves, changes, held, step)
         iterations += 1
         shift_of(step, waves, far)
         longest = _longest(far, waves.mixing, 0.0 if exact else cap, full)
@@ -279,8 +230,8 @@ def _newton(
     rounding = 0.0
     if residual > tolerance:
         forces(x, shift, waves, law, full, push, slope, across, slant, pull)
-        _condense(waves, law.power, push, slope, across, slant, factor, solved, condensed)
-        stiffest, _ = _direction(rest, factor, solved, condensed, cap, small, step)
+        condense(waves, law.power, push, slope, across, slant, factor, condensed)
+        stiffest, _ = _direction(rest, factor, condensed, cap, small, step)
         rounding = rounding_level(moved * stiffest) / max(external, 1e-4 * total, 1e-300)
     answered = is_small(residual, tolerance, rounding) and not beyond
     if basis.shape[0] == 3:
@@ -372,7 +323,7 @@ def solve_series(loads, rigid, waves, basis, law, reach, cap, tolerance, limit, 
     rounding = np.zeros(n)
     x, load, condensed = np.zeros(size), np.zeros(5), np.zeros((5, 5))
     whole, lying = np.zeros(size), np.zeros(5)
-    factor, solved = np.zeros((size - 5, size - 5)), np.zeros((5, size - 5))
+    factor = np.zeros((size, size - 5))
     moves, changes = np.zeros((_PAIRS, size)), np.zeros((_PAIRS, size))
     held = np.int64(0)  # a literal 0 would have the whole iteration compiled a second time
     past = 0  # cases before this one, one after the other, that are solved
@@ -397,7 +348,7 @@ def solve_series(loads, rigid, waves, basis, law, reach, cap, tolerance, limit, 
                 for a in range(size):
                     x[a] = lying[a] / scale[a] if a < 5 else 0.0
             ok, res, more, free, rounding[i], held = _newton(
-                x, whole, waves, basis, law, reach, cap, tolerance, limit, factor, solved,
+                x, whole, waves, basis, law, reach, cap, tolerance, limit, factor,
                 condensed, moves, changes, held, attempt == 0,
             )  # fmt: skip
             count += more
@@ -413,8 +364,8 @@ def solve_series(loads, rigid, waves, basis, law, reach, cap, tolerance, limit, 
 def stiffness_series(states, waves, law):
     """Tangent (n, 5, 5) of the rigid unknowns, modes eliminated, in each state."""
     n, modes = states.shape[0], states.shape[1] - 5
-    stiffness, factor, solved = np.zeros((n, 5, 5)), np.zeros((modes, modes)), np.zeros((5, modes))
+    stiffness, factor = np.zeros((n, 5, 5)), np.zeros((modes + 5, modes))
     for i in range(n):
         _, push, slope, across, slant, _ = evaluate(states[i], waves, law)
-        _condense(waves, law.power, push, slope, across, slant, factor, solved, stiffness[i])
+        condense(waves, law.power, push, slope, across, slant, factor, stiffness[i])
     return stiffness

@@ -1,4 +1,4 @@
-"""Compiled tangent of the equilibrium with flexible rings.
+"""Compiled tangent of the equilibrium with flexible rings, and its Cholesky factor.
 
 Words and arrays are those of `loadflow.rolling.rings._ring_kernels`. Contacts that ride on one ball
 resist the shift of its tracks together; how much varies around the ring. Where unknowns are few
@@ -8,12 +8,14 @@ difference of both harmonics, and serve all pairs of unknowns.
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numba import njit
 
 from loadflow.numerics.linked import LINKED
 from loadflow.rolling.contacts import POINT
-from loadflow.rolling.rings._ring_kernels import add_multiple, gather
+from loadflow.rolling.rings._ring_kernels import add_multiple, dot, gather
 
 # Sums may be reordered (so that they use vector units); nothing else of fast mathematics.
 _REORDER = {"reassoc", "contract", "nsz"}
@@ -107,22 +109,40 @@ def _products(resistance, waves):
 
 @njit(nogil=True, error_model="numpy", **LINKED)
 def _by_waves(resistance, waves, hessian):
-    """Fill the lower half of the tangent of the contacts from products of waves."""
+    """Fill the lower half of the tangent of the contacts from products of waves, four rows at once.
+
+    What the waves of all tracks feel of the four unknowns lies side by side, so that one look at
+    a wave serves all of them.
+    """
     first, wave, track, value = waves.first, waves.wave, waves.track, waves.value
     products, tracks = _products(resistance, waves), waves.mixing.shape[1]
-    felt = np.zeros((tracks, products.shape[1]))
-    line, place = felt.reshape(felt.size), waves.place
-    for a in range(hessian.shape[0]):
-        felt[:, :] = 0.0
-        for e in range(first[a], first[a + 1]):
-            for f in range(tracks):
-                high, low = max(f, track[e]), min(f, track[e])
-                add_multiple(value[e], products[high * (high + 1) // 2 + low, wave[e]], felt[f])
-        for b in range(a + 1):
-            total = 0.0
+    size, count = hessian.shape[0], products.shape[1]
+    felt, one = np.zeros((tracks * count, 4)), np.zeros((tracks, count))
+    line, place = one.reshape(one.size), waves.place
+    for a in range(0, size, 4):
+        for row in range(4):
+            one[:, :] = 0.0
+            for e in range(first[min(a + row, size)], first[min(a + row + 1, size)]):
+                for f in range(tracks):
+                    high, low = max(f, track[e]), min(f, track[e])
+                    add_multiple(value[e], products[high * (high + 1) // 2 + low, wave[e]], one[f])
+            for p in range(line.shape[0]):
+                felt[p, row] = line[p]
+        for b in range(min(a + 4, size)):
+            t = u = v = w = 0.0
             for e in range(first[b], first[b + 1]):
-                total += value[e] * line[place[e]]
-            hessian[a, b] = total
+                amount, at = value[e], felt[place[e]]
+                t += amount * at[0]
+                u += amount * at[1]
+                v += amount * at[2]
+                w += amount * at[3]
+            hessian[a, b] = t
+            if a + 1 < size:
+                hessian[a + 1, b] = u
+            if a + 2 < size:
+                hessian[a + 2, b] = v
+            if a + 3 < size:
+                hessian[a + 3, b] = w
 
 
 @njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER, **LINKED)
@@ -171,3 +191,81 @@ def tangent(waves, power, push, slope, across, slant):
         for b in range(a):
             hessian[b, a] = hessian[a, b]
     return hessian
+
+
+@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER, **LINKED)
+def factorise(matrix, columns):
+    """Replace the first `columns` of the lower half of a matrix by those of its Cholesky factor.
+
+    Four columns at a time, whose sums go along the rows together; what stands in the other columns
+    of the first rows may be anything.
+    """
+    rows = matrix.shape[0]
+    for b in range(0, columns, 4):
+        if b + 4 <= columns:
+            one, two, three, four = matrix[b], matrix[b + 1], matrix[b + 2], matrix[b + 3]
+            for a in range(b, rows):
+                line = matrix[a]
+                t = u = v = w = 0.0
+                for k in range(b):
+                    value = line[k]
+                    t += value * one[k]
+                    u += value * two[k]
+                    v += value * three[k]
+                    w += value * four[k]
+                line[b] -= t
+                line[b + 1] -= u
+                line[b + 2] -= v
+                line[b + 3] -= w
+        else:
+            for a in range(b, rows):
+                for c in range(b, columns):
+                    total = 0.0
+                    for k in range(b):
+                        total += matrix[a, k] * matrix[c, k]
+                    matrix[a, c] -= total
+        for c in range(b, min(b + 4, columns)):
+            pivot = math.sqrt(matrix[c, c])
+            for a in range(c, rows):
+                matrix[a, c] /= pivot
+            for d in range(c + 1, min(b + 4, columns)):
+                for a in range(d, rows):
+                    matrix[a, d] -= matrix[a, c] * matrix[d, c]
+
+
+@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER, **LINKED)
+def forward(factor, rhs):
+    """Replace `rhs` by the solution with a Cholesky factor, whose columns may have more rows."""
+    for a in range(rhs.shape[0]):
+        value = rhs[a]
+        for k in range(a):
+            value -= factor[a, k] * rhs[k]
+        rhs[a] = value / factor[a, a]
+
+
+@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER, **LINKED)
+def backward(factor, rhs):
+    """Replace `rhs` by the solution with a Cholesky factor transposed."""
+    for a in range(rhs.shape[0] - 1, -1, -1):
+        rhs[a] /= factor[a, a]
+        for k in range(a):
+            rhs[k] -= factor[a, k] * rhs[a]
+
+
+@njit(nogil=True, error_model="numpy", **LINKED)
+def condense(waves, power, push, slope, across, slant, factor, condensed):
+    """Tangent with the modes eliminated.
+
+    Fills the Cholesky `factor` (mode + 5, mode) of the modes, below it the rows of the rigid
+    unknowns, and the 5 × 5 tangent that is left.
+    """
+    hessian = tangent(waves, power, push, slope, across, slant)
+    modes = factor.shape[1]
+    for a in range(modes + 5):
+        source = hessian[a + 5 if a < modes else a - modes]
+        for b in range(modes):
+            factor[a, b] = source[5 + b]
+    factorise(factor, modes)
+    for a in range(5):
+        for b in range(5):
+            condensed[a, b] = hessian[a, b] - dot(factor[modes + a], factor[modes + b])

@@ -229,9 +229,10 @@ class LineCoupling:
 
     def _shift(self, unknowns: Array, modes: RingModes) -> Array:
         """Fields of all rollers, (n, row, 2, roller)."""
-        fields = np.tensordot(unknowns, modes.basis, axes=(1, 2))  # n, field, contact
-        split = fields.reshape(len(unknowns), 2, self.bearing.tracks, self.elements)
-        return np.ascontiguousarray(split.transpose(0, 2, 1, 3))
+        from loadflow.rolling.rings import _ring_kernels
+
+        fields = _ring_kernels.fields_of(unknowns, modes.waves)
+        return np.asarray(fields.reshape(len(unknowns), self.bearing.tracks, 2, self.elements))
 
     def state(self, unknowns: Array, modes: RingModes) -> tuple[Array, Array]:
         """Forces of the slices, and their nominal angles."""
