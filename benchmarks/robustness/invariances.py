@@ -254,13 +254,14 @@ def _in_company(case: Asked, alone: Any) -> Iterator[str]:
 def _other_way(case: Asked, found: Any) -> Iterator[str]:
     """The load of the film at the position found, on the cells that it was found on."""
     place = {"eccentricity": found.eccentricity, "speed": case.given["speed"], **case.held}
-    film = case.film
-    if not found.resolved or film.shell is not None:
-        return  # on other cells, or in a shell that has two films at one position
+    if case.film.shell is not None:
+        return  # which may have two films at one position
     field, why = solved(replace(case, verb="pressure", given=place))
     if field is None:
         yield f"at its position: {why}"
         return
+    if not (found.resolved and field.resolved):
+        return  # loads that the cells do not resolve are solved on others
     off = np.hypot(*(field.force - case.given["force"])) / np.hypot(*case.given["force"])
     if not off < TOLERANCE:
         yield f"at its position: {off:.1e} of the load off"

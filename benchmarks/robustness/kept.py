@@ -41,9 +41,12 @@ def write(kept: dict[str, Ranges], path: Path = FILE) -> None:
 
 
 def state() -> str:
-    """The commit that is drawn with."""
-    command = ["git", "-C", str(ROOT), "describe", "--always", "--dirty", "--exclude=*"]
-    return subprocess.run(command, check=True, capture_output=True, text=True).stdout.strip()
+    """The commit that is drawn with; "-dirty" if anything but the counts has changed since."""
+    git = ["git", "-C", str(ROOT)]
+    name = [*git, "describe", "--always", "--exclude=*"]
+    changed = [*git, "diff", "--quiet", "HEAD", "--", ".", f":!{FILE.relative_to(ROOT)}"]
+    commit = subprocess.run(name, check=True, capture_output=True, text=True).stdout.strip()
+    return commit + ("-dirty" if subprocess.run(changed, check=False).returncode else "")
 
 
 def next_number(ranges: Ranges) -> int:

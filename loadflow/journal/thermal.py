@@ -36,6 +36,9 @@ the temperatures (m,), K, by which their bearing has grown."""
 TOLERANCE, TRIES = 1e-6, 40
 """What is left of a heat balance, K, and the temperatures that are tried."""
 
+_WITHIN = 4
+"""Temperatures that are tried before the largest one is."""
+
 _AHEAD = 10.0
 """Where a film warms so much that its balance lies this many times farther than the temperature at
 which it carries the load no more, none is looked for between them.
@@ -184,7 +187,7 @@ class _Balance:
         warm, residual = np.full(count, heat.inlet_temperature), np.full(count, np.inf)
         before: tuple[Array, Array] | None = None
         reach, excess_low = np.full(count, -np.inf), np.zeros(count)  # of the balance, at `low`
-        fails = np.full(count, np.inf)
+        fails, tested = np.full(count, np.inf), np.zeros(count, dtype=bool)  # at the hottest
         active, tries = np.arange(count), 0
         while active.size and tries < max_iterations:
             here = warm[active]
@@ -207,11 +210,11 @@ class _Balance:
             before[1][active] = excess
             step = here - excess / slope
             inside = (step > low[active]) & (step < high[active])
-            warm[active] = np.where(
-                residual[active] <= tolerance,
-                here,
-                np.where(inside, step, 0.5 * (low[active] + high[active])),
-            )
+            at_end = (tries >= _WITHIN) & (high[active] == HOTTEST) & ~tested[active]
+            aside = np.where(at_end, HOTTEST, 0.5 * (low[active] + high[active]))
+            tested[active] |= at_end & ~inside
+            balanced = residual[active] <= tolerance
+            warm[active] = np.where(balanced, here, np.where(inside, step, aside))
             width = high[active] - low[active]
             hopeless = np.isfinite(fails[active]) & (reach[active] > _AHEAD * width)
             active = active[(residual[active] > tolerance) & (width > 1e-12 * HOTTEST) & ~hopeless]

@@ -40,7 +40,7 @@ Array = NDArray[np.float64]
 _AXIAL = np.array([2])
 _WEDGE = 0.75  # of a pad's length, if nothing is said
 _ROUNDS = 12  # gaps tried for a first one
-_NEAR, _NEARER = 1.5, 1.01  # ratio of load and force up to which a gap is near enough for Newton
+_NEAR = 1.5  # ratio of load and force up to which a gap is near enough for Newton
 _FAINT = 1e-9  # of the load of ordinary pads, that is none
 _LOAD_NUMBER = 0.05  # W h²/(η U L² B) of an ordinary pad, for the first gap of all
 
@@ -162,15 +162,12 @@ class _PadThrust(PadBearing):
         head = f"F = {force:.6g} N at ω = {speed:.6g} rad/s"
         limits = limits_of(control)
         self._check_load(head, speed)
+        first = self._first_gap(head, force, speed, film, turned, limits)
         alike = moment is None and not turned.any()
+        assembly = self._assembly(film, first, speed, 0.0, alike)
         place = np.array([0.0, 0.0, 0.0, *turned])
-        for near in (_NEAR, _NEARER):
-            first = self._first_gap(head, force, speed, film, turned, limits, near)
-            assembly = self._assembly(film, first, speed, 0.0, alike)
-            start = self._held(assembly, place, 0.0, first, speed, limits)
-            state = assembly.equilibrium([start], wanted, free, limits)
-            if state.converged:
-                break
+        start = self._held(assembly, place, 0.0, first, speed, limits)
+        state = assembly.equilibrium([start], wanted, free, limits)
         return self._result(assembly, answered(head, assembly, state, limits), first, speed)
 
     # --- inside ----------------------------------------------------------------------------------
@@ -213,16 +210,9 @@ class _PadThrust(PadBearing):
         return "the film diverges in this sense of rotation and carries no load"
 
     def _first_gap(
-        self,
-        head: str,
-        force: float,
-        speed: float,
-        film: Film,
-        tilt: Array,
-        limits: Limits,
-        near: float,
+        self, head: str, force: float, speed: float, film: Film, tilt: Array, limits: Limits
     ) -> float:
-        """Gap near which an aligned runner has the wanted force but for a factor `near`, m."""
+        """Gap near which an aligned runner has the wanted force, m."""
         nodes = self.row.surface.place(self.row.surface.nodes(4))
         gap = math.sqrt(self._ordinary(film.liquid.viscosity * abs(speed)) / force)
         reach = float(np.hypot(*tilt)) * float(nodes[-1])
@@ -234,7 +224,7 @@ class _PadThrust(PadBearing):
             load = _axial(assembly, state)
             if not state.converged or self._idle(assembly, state, gap):
                 raise SolverError(f"{head}: {self._reason()}; {load:.4g} N at a gap of {gap:.4g} m")
-            if 1.0 / near < load / force < near:
+            if 1.0 / _NEAR < load / force < _NEAR:
                 break
             tried.append((math.log(gap), math.log(load / force)))
             slope = -2.0

@@ -49,7 +49,7 @@ def test_the_clock_ends_work_that_is_late_and_says_how_long_it_took():
     clock = Clock(cap=0.05)
     with clock, pytest.raises(Late):
         time.sleep(sum(0.0 for _ in iter(int, 1)))  # goes on for ever
-    assert 0.05 <= clock.seconds < 5.0
+    assert 0.9 * clock.cap < clock.seconds < 5.0
 
 
 def test_the_clock_stands_while_kernels_are_compiled():

@@ -166,3 +166,18 @@ def test_temperatures_settle_where_oil_nearly_stands(number):
     answer = solve()
     assert answer.heat_residual < 1e-6
     assert answer.heat_imbalance < 1e-8
+
+
+@pytest.mark.parametrize("number", [20164, 20282])
+def test_a_film_too_hot_for_any_balance_says_so_after_few_temperatures(monkeypatch, number):
+    _, solve = drawn("heat", number)
+    asked, rows = [], grid.equilibrium_rows
+
+    def counted(*arguments: Any) -> Any:
+        asked.append(arguments)
+        return rows(*arguments)
+
+    monkeypatch.setattr(grid, "equilibrium_rows", counted)
+    with pytest.raises(SolverError, match=r"no heat balance below 423\.15 K"):
+        solve()
+    assert len(asked) <= 8

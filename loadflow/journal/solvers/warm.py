@@ -35,7 +35,7 @@ FilmOf = Callable[["Solution | None"], Solution]
 HeatOf = Callable[[Array], Warmth]
 """Temperatures in balance with the film last solved, from a first guess (nx, nz)."""
 
-TOLERANCE, TRIES = 1e-7, 120
+TOLERANCE, TRIES = 1e-7, 150
 """Largest change of a temperature that is left, K, and the fields of temperature tried."""
 _DEPTH = 6  # earlier fields that count
 _ACCELERATED, _SHORT = 8, 0.3  # fields after which no more than this share of a change is made
