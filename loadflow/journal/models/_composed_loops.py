@@ -45,7 +45,7 @@ from loadflow.numerics.lanes import LANES, larger, magnitude, put, spread, take
 
 _KEPT = 0.3  # share of the narrowest gap that a step of the shaft leaves
 _ROOM = 1.0 / 2**20  # share of a step below which an elastic shell has no room for it
-_MORE = 3  # Newton steps on factors that are there which cost less than one on new factors
+_MORE = 2  # Newton steps on factors that are there which cost less than one on new factors
 _ALIKE = 0.1  # difference of two rates of which one goes with the factors of the other
 
 
