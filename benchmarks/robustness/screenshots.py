@@ -92,7 +92,7 @@ def orbit_of(run: Path) -> Image.Image:
 def dashboard(run: Path):
     """Serve the dashboard of a run; yield its address."""
     process = subprocess.Popen(
-        [str(Path(sys.executable).with_name("loadflow")), "view", str(run), "--no-browser"],
+        [sys.executable, "-u", "-m", "loadflow", "view", str(run), "--no-browser"],
         stdout=subprocess.PIPE,
         text=True,
     )

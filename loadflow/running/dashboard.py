@@ -6,6 +6,7 @@ network. It reads the parts of the run as they are and writes nothing.
 
 from __future__ import annotations
 
+import socket
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -209,10 +210,12 @@ def serve(
         pn.state.onload(opened)
         return page()
 
+    port = port or _free_port()
+    own = [f"{host}:{port}" for host in (LOCAL, "localhost")]  # no page of another site talks to it
     try:
         server = pn.serve(
             {"/": watched}, port=port, address=LOCAL, show=show, start=False, title=TITLE,
-            threaded=False, verbose=False, websocket_origin=[f"{LOCAL}:{port}"] if port else "*",
+            threaded=False, verbose=False, websocket_origin=own,
         )  # fmt: skip
     except OSError as error:
         raise InputError(f"port = {port}: {error.strerror or error}") from error
@@ -223,6 +226,12 @@ def serve(
         server.io_loop.start()
     finally:
         server.stop()
+
+
+def _free_port() -> int:
+    with socket.socket() as free:
+        free.bind((LOCAL, 0))
+        return int(free.getsockname()[1])
 
 
 def _panel() -> Any:

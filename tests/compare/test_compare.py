@@ -17,6 +17,7 @@ import xarray as xr
 from synthetic import cube_file
 
 from loadflow.cli import main
+from loadflow.cube import open_cube
 from loadflow.errors import InputError
 from loadflow.planning.effects import EffectVerdict
 from loadflow.planning.plan import make_plan
@@ -30,14 +31,15 @@ from loadflow.running.comparison import (
     shared_loads,
 )
 from loadflow.scene.candidate import Candidate
-from loadflow.scene.scene import make_scene
-from loadflow.studies.compare_margins import rolling_losses
+from loadflow.scene.scene import make_scene, read_scene
+from loadflow.studies.compare_margins import damage_per_hour, margin_of, rolling_losses
 from loadflow.studies.compare_pads import clearance_used
 from loadflow.studies.compare_quantities import QUANTITIES, named_quantities
 from loadflow.studies.compare_result import Judged, Number, plain
 from loadflow.studies.compare_risks import wear
 from loadflow.studies.compare_words import conclusion
 from loadflow.studies.seed_intervals import Groups, interval, joint_life
+from loadflow.verdict import Verdict
 
 BROWSER = next(
     filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None
@@ -106,6 +108,18 @@ def test_the_load_factor_of_a_film_is_where_its_limit_is(found):
     assert factor.holds == one.holds
     assert factor.place in ("N", "N2")
     assert one.governs.endswith(factor.place)
+
+
+def test_a_margin_of_a_life_names_the_load_case_that_takes_most_of_it(found):
+    folder = found.path / by_name(found)["double-row-tapered"].folder
+    result, scene = open_cube(folder / "result.h5"), read_scene(folder / "scene.toml")
+    tables = {group: result[group].to_dataset() for group in ("rolling", "lifetime")}
+    lived = Verdict("rolling M", "rating life L10h", 1e6, 175320.0, "at least")
+    margin = margin_of(scene, folder, tables, [lived])
+    damage = damage_per_hour(tables["rolling"].sel(bearing="M"), "")
+    share = tables["lifetime"]["share"].reindex(case=damage["case"])
+    assert margin.case == str((damage * share).idxmax("case").values)
+    assert margin.governs.startswith("rating life of M (")
 
 
 def test_rolling_bearings_have_skidding_films_and_standstill_journal_bearings_a_reason(found):
@@ -337,6 +351,13 @@ def test_the_bearings_that_the_scene_states_are_candidates_too(cube):
     scene = scene_of(cube, candidates={}, bearings={"N": own, "N2": {"like": "N"}})
     assert "own-journal" in candidates_for(scene)[0]
     assert "own-rolling" not in candidates_for(scene)[0]
+
+
+def test_bearings_of_the_scene_that_are_the_sized_ones_are_compared_once(cube):
+    scene = scene_of(cube, candidates={}, bearings=["journal-thrust", "tapered-pair"])
+    known, without = candidates_for(scene)
+    assert {"journal-thrust", "tapered-pair", "two-spherical"} <= set(known)
+    assert not {"own-journal", "own-rolling"} & {*known, *without}
 
 
 def test_cylindrical_bores_are_followed_in_motion_and_others_at_rest(cube):

@@ -220,7 +220,7 @@ def test_bearings_by_name_are_those_sized_for_the_turbine():
     assert both.journal.bearings == ["N", "N2"] == [*both.rolling.geometries]
     with pytest.raises(InputError, match="did you mean journal-thrust"):
         make_scene({"bearings": "journal-trust"})
-    with pytest.raises(InputError, match="sized for windpact-1.5mw"):
+    with pytest.raises(InputError, match=r"sized for windpact-1\.5mw"):
         make_scene({"bearings": "conical-pair", "turbine": {"name": "windpact-1.5mw"}})
     with pytest.raises(InputError, match="second journal bearing"):
         make_scene({"bearings": ["journal-thrust", "journal-lemon"]})
