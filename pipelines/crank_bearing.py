@@ -1,8 +1,9 @@
 """The friction source's bearing: rollers on the crank pin of an engine, driven without gas force.
 
 Loads of the pin, spin of every roller with Coulomb friction and with films, gap of the cage in the
-rod. Masses are not given by the source; these are of a 1.8 l engine. Run with
-``python pipelines/crank_bearing.py``.
+rod; then the friction torque of the whole rig over speed in its three configurations: rollers on
+the pin, a journal bearing there, and a straight shaft. Masses and the journal bearing are not given
+by the source; the masses are of a 1.8 l engine. Run with ``python pipelines/crank_bearing.py``.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ import math
 
 import numpy as np
 
+from loadflow.journal import JournalBearing
 from loadflow.rolling import FrictionOptions, friction
 from loadflow.rolling.motion.cage import CageRim, cage_orbit
 from loadflow.rolling.motion.crank import CrankDrive
@@ -18,6 +20,7 @@ from loadflow.rolling.motion.history import RollerHistory, RollerRow, crank_hist
 from loadflow.rolling.motion.kinematics import common_period
 from loadflow.rolling.motion.radial_load import behw_law, radial_distribution
 from loadflow.rolling.motion.rollers import coulomb_motion, film_motion
+from loadflow.studies.crank_rig import CrankRig
 from loadflow.tribology import lubricant
 
 DRIVE = CrankDrive(
@@ -90,5 +93,27 @@ def main(speeds: tuple[float, ...] = (2000, 3000, 4000)) -> list[tuple[float, ..
     return rows
 
 
+CONFIGURATIONS = {
+    "rollers": CrankRig(drive=DRIVE),
+    "journal": CrankRig(
+        drive=DRIVE,
+        pin_film=JournalBearing(diameter=48e-3, width=18e-3, relative_clearance=1e-3),
+    ),
+    "straight shaft": CrankRig(drive=None),
+}
+
+
+def torques(speeds: tuple[float, ...] = (500, 1000, 2000, 3000)) -> list[tuple[float, ...]]:
+    """Print and return the torque of each configuration (N m) at each speed (1/min)."""
+    rows = []
+    print("1/min   " + "   ".join(f"{name}, N m" for name in CONFIGURATIONS))
+    for rpm in speeds:
+        found = [rig.friction_torque(rpm).torque for rig in CONFIGURATIONS.values()]
+        rows.append((rpm, *found))
+        print(f"{rpm:5.0f} {found[0]:14.3f} {found[1]:14.3f} {found[2]:21.3f}")
+    return rows
+
+
 if __name__ == "__main__":
     main()
+    torques()

@@ -60,6 +60,24 @@ def test_distances_in_the_file_of_the_turbine_are_its_own(larger):
     assert not any("hub_to_first" in said or "span =" in said for said in scene.taken)
 
 
+def test_the_distance_of_two_bearings_is_not_that_to_the_arms_of_the_gearbox(larger):
+    text = larger.read_text()
+    line = "[drivetrain]\nhub_to_bearing = 2.5\nbearing_span = 4.0"
+    larger.write_text(text.replace("[drivetrain]", line))
+    scene = make_scene({"turbine": {"file": str(larger)}, "shaft": {"three_point": {}}})
+    assert scene.shaft.three_point.hub_to_first == 2.5
+    assert scene.shaft.three_point.span == pytest.approx(4.8 * 89 / 63)
+    assert any("span = 6.781" in said for said in scene.taken)
+
+
+def test_the_turbine_of_two_main_bearings_has_them_where_its_source_has_them():
+    """NREL/SR-500-32495: hub 3.30, bearings 2.31 and 0.66 m upwind of the yaw axis."""
+    scene = make_scene({"turbine": {"name": "windpact-1.5mw"}})
+    assert scene.shaft.two_point.positions == pytest.approx((3.30 - 2.31, 3.30 - 0.66))
+    assert scene.shaft.moment.positions == pytest.approx((3.30 - 2.31,))
+    assert not any("hub_to" in said or "span" in said for said in scene.taken)
+
+
 def test_a_scene_names_its_turbine_by_file_relative_to_itself(tmp_path, larger):
     path = tmp_path / "scene.toml"
     path.write_text('[turbine]\nfile = "own.toml"\n')

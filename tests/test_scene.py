@@ -1,5 +1,6 @@
 """A scene is valid or is refused with file, key, value and what is allowed."""
 
+import numpy as np
 import pytest
 
 from loadflow.errors import InputError
@@ -83,3 +84,26 @@ def test_files_are_meant_relative_to_the_scene(tmp_path):
 def test_a_scene_cannot_be_changed():
     with pytest.raises(ValueError, match="frozen"):
         make_scene({}).name = "other"
+
+
+def test_a_bearing_without_a_rating_is_refused_before_its_loads_are_simulated():
+    """45° are 0.785 rad; 40° are outside the table of f_cm, so that only loads can be had."""
+
+    def scene(angle, result, **more):
+        geometry = {
+            "balls": 129, "rows": 2, "ball_diameter": 0.04, "pitch_diameter": 1.9,
+            "groove_radius": 0.0205, "contact_angle": angle,
+        }  # fmt: skip
+        bearing = {"kind": "slewing", "geometry": geometry | more}
+        return make_scene(
+            {"results": [result], "shaft": {"moment": {}}, "bearings": {"M": bearing}}
+        )
+
+    with pytest.raises(InputError, match=r"bearing M: no life: .*got 40.11°; state dynamic_cap"):
+        scene(0.7, "rolling.life")
+    scene(0.7, "rolling.loads")
+    assert scene(0.7, "rolling.life", dynamic_capacity=1e6).rolling.geometry.rated_capacity == 1e6
+    rounded, whole = (
+        scene(angle, "rolling.life").rolling.geometry.rated_capacity for angle in (0.785, np.pi / 4)
+    )
+    assert rounded == pytest.approx(whole, rel=1e-3)

@@ -62,11 +62,14 @@ def candidates_for(scene: Scene) -> tuple[dict[str, Candidate], list[str]]:
         "candidates": {name: {} for name in sized},
         "shaft": {"two_point": {}, "moment": {}},
     }
-    named = make_scene(shell).candidates
-    built = [_bearings(one) for one in named.values()]
-    found = {name: one for name, one in found.items() if _bearings(one) not in built} | named
+    sizes = make_scene(shell).candidates
+    built = [_bearings(one) for one in sizes.values()]
+    found = {name: one for name, one in found.items() if _bearings(one) not in built}
     places = set(scene.shaft.bearings)
     usable = {name: one for name, one in found.items() if set(one.places) <= places}
+    whole = [set(concept.main_bearings) for concept in scene.shaft.concepts]
+    usable |= {name: one for name, one in sizes.items() if set(one.places) in whole}
+    found |= sizes
     if not usable:
         raise InputError(
             f"no candidates: the scene states none, and for {scene.turbine.name} with bearings at "

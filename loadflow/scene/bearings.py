@@ -366,3 +366,18 @@ def check_swinging(rolling: Rolling, films: Iterable[str]) -> None:
                 f'rolling bearing {place}: oscillation.kind = "pitch" is that of the pitch '
                 "bearing P; give amplitude and frequency"
             )
+
+
+def check_capacities(rolling: Rolling) -> None:
+    """Raise unless the dynamic capacity of every bearing, and so its life, can be rated.
+
+    Raises
+    ------
+    ValueError
+        Naming the bearing and what is outside the tables of its rating.
+    """
+    for place, part in rolling.bearings.items():
+        try:
+            _ = part.geometry.rated_capacity
+        except InputError as error:
+            raise ValueError(f"rolling bearing {place}: no life: {error}") from error

@@ -12,11 +12,18 @@ from typing import Any
 
 from loadflow.errors import InputError
 from loadflow.scene.candidates import machine
-from loadflow.shaft.options import DirectDrive, Integrated, MomentBearing, ThreePoint, TwoPoint
+from loadflow.shaft.options import (
+    Concept,
+    DirectDrive,
+    Integrated,
+    MomentBearing,
+    ThreePoint,
+    TwoPoint,
+)
 from loadflow.turbines import Turbine, load_turbine
 from loadflow.turbines.files import scaled_name
 
-KINDS: Mapping[str, tuple[type, str]] = {
+KINDS: Mapping[str, tuple[type[Concept], str]] = {
     "two_point": (TwoPoint, "nrel-5mw"),
     "three_point": (ThreePoint, "nrel-5mw"),
     "integrated": (Integrated, "nrel-5mw"),
@@ -122,7 +129,10 @@ def _known(
 
 
 def _of_file(turbine: Turbine, kind: str) -> dict[str, float]:
-    own = {field.name for field in fields(KINDS[kind][0])}
+    suspension = KINDS[kind][0]
+    own = {field.name for field in fields(suspension)}
+    if len(suspension.main_bearings) == 1:
+        own.discard("span")  # to the arms of the gearbox, not to a second bearing
     told = {k: getattr(turbine.drivetrain, v) for k, v in _TOLD_BY_THE_FILE.items() if k in own}
     return {key: value for key, value in told.items() if value is not None}
 

@@ -21,7 +21,7 @@ from loadflow.journal.line import Line
 from loadflow.journal.models.model import Steps, why_not
 from loadflow.numerics.fields import LARGEST, LARGEST_INTEGER
 from loadflow.scene.as_built import AsBuilt
-from loadflow.scene.bearings import Rolling, check_swinging
+from loadflow.scene.bearings import Rolling, check_capacities, check_swinging
 from loadflow.scene.candidate import Candidate as Candidate
 from loadflow.scene.candidates import ABOUT, TOLERANCES, machine
 from loadflow.scene.design import Design
@@ -192,6 +192,12 @@ class Scene(Section, BaseModel):
     def _can_wear(self) -> Self:
         if "journal.wear" in self.results:
             check_wear(self.wear, self.journal, self.shaft)
+        return self
+
+    @model_validator(mode="after")
+    def _capacities_are_known(self) -> Self:
+        if "rolling.life" in self.results:
+            check_capacities(self.rolling)
         return self
 
     @model_validator(mode="after")

@@ -1,9 +1,9 @@
 """Suspension concepts of Table 2-4 of [Jonuschies 2015]; data only.
 
 Distances are measured along the shaft, downwind from the hub centre (the rotor apex). Every concept
-tells its `bearings`, their `positions` (m), the number of the `locating` one, the `masses` on the
-shaft as pairs of position (m) and mass (kg), its `integration`, and its `beam`: None for a rigid
-shaft.
+tells its `bearings`, their `positions` (m), which of them are `main_bearings`, the number of the
+`locating` one, the `masses` on the shaft as pairs of position (m) and mass (kg), its `integration`,
+and its `beam`: None for a rigid shaft.
 """
 
 from __future__ import annotations
@@ -29,6 +29,7 @@ class _OnTwoSupports:
     span: float
 
     bearings: ClassVar[tuple[str, ...]] = ("N", "N2")
+    main_bearings: ClassVar[tuple[str, ...]] = bearings
     locating: ClassVar[int] = 1
     integration: ClassVar[Integration] = "fully integrated"
 
@@ -142,6 +143,7 @@ class ThreePoint(_OnTwoSupports):
     beam: Beam | None = None
 
     bearings: ClassVar[tuple[str, ...]] = ("N", "G")
+    main_bearings: ClassVar[tuple[str, ...]] = ("N",)
     locating: ClassVar[int] = 0
     integration: ClassVar[Integration] = "partly integrated"
 
@@ -256,6 +258,7 @@ class MomentBearing:
     beam: Beam | None = None
 
     bearings: ClassVar[tuple[str, ...]] = ("M",)
+    main_bearings: ClassVar[tuple[str, ...]] = bearings
     locating: ClassVar[int] = 0
     integration: ClassVar[Integration] = "fully integrated"
     torque_support: ClassVar[None] = None

@@ -345,6 +345,17 @@ def test_without_candidates_the_sized_ones_that_the_shaft_has_places_for_are_tak
     assert "four-point" in without
 
 
+def test_a_sized_candidate_fills_a_suspension(cube):
+    """One bearing at N is whole on three points, and half an answer on two."""
+    states = {"candidates": {}, "results": ["loads.statistics"]}
+    three = scene_of(cube, shaft={"three_point": {}}, **states)
+    known, without = candidates_for(three)
+    assert list(known) == ["spherical"]
+    assert known["spherical"].places == ("N",)
+    assert "two-spherical" in without
+    assert "spherical" in candidates_for(scene_of(cube, shaft={"two_point": {}}, **states))[1]
+
+
 def test_the_bearings_that_the_scene_states_are_candidates_too(cube):
     own = {"kind": "journal", "geometry": {"diameter": 1.0, "width": 0.9,
                                            "relative_clearance": 1e-3}}  # fmt: skip

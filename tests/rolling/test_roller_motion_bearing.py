@@ -113,6 +113,16 @@ def test_the_script_of_the_crank_bearing_runs(capsys):
     assert "1650" in capsys.readouterr().out
 
 
+def test_the_script_compares_the_rigs_three_configurations(capsys):
+    """Rollers on the pin win at low speed, the journal bearing at high, as measured in 2013."""
+    script = runpy.run_path(str(PIPELINES / "crank_bearing.py"))
+    slow, fast = script["torques"]((500, 3000))
+    assert "journal, N m" in capsys.readouterr().out
+    (_, rollers, journal, _), (_, *other) = slow, fast
+    assert 0 < rollers < journal
+    assert 0 < other[2] < other[1] < other[0]
+
+
 def test_the_script_of_the_main_bearing_runs(capsys):
     script = runpy.run_path(str(PIPELINES / "main_bearing_slip.py"))
     found = script["main"](duration=20.0)

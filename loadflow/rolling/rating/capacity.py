@@ -24,6 +24,8 @@ _F_CM = {
     60: "39.2 48.1 54.2 58.9 62.6 65.8 68.4 70.7 72.6 74.2 76.6 78.3 79.2 79.6 79.5",
     75: "37.3 45.9 51.7 56.1 59.7 62.7 65.2 67.3 69.2 70.7",
 }
+_ROUNDED = 1e-3
+"""Rad by which an angle may miss the ends of the table: 45° are 0.785."""
 _COLUMNS = {np.radians(a): np.array(text.split(), float) for a, text in _F_CM.items()}
 
 
@@ -43,19 +45,17 @@ def capacity_factor(gamma: float, contact_angle: float) -> float:
         If γ or the angle is outside the table.
     """
     angles = np.array(list(_COLUMNS))
-    if not angles[0] - 1e-6 <= contact_angle <= angles[-1] + 1e-6:
-        raise InputError(
-            "contact_angle: f_cm is tabulated for 45° … 75°, got "
-            f"{np.degrees(contact_angle):.4g}°; a dynamic_capacity can be stated"
-        )
+    if not angles[0] - _ROUNDED <= contact_angle <= angles[-1] + _ROUNDED:
+        told = "contact_angle: f_cm is tabulated for 45° … 75°, got "
+        told += f"{np.degrees(contact_angle):.4g}°"
+        raise InputError(f"{told}; state dynamic_capacity instead")
     upper = int(np.clip(np.searchsorted(angles, contact_angle), 1, 2))
     pair = [_COLUMNS[angles[upper - 1]], _COLUMNS[angles[upper]]]
-    last = _GAMMA[(len(pair[1]) if contact_angle > angles[upper - 1] + 1e-6 else len(pair[0])) - 1]
+    column = pair[1] if contact_angle > angles[upper - 1] + _ROUNDED else pair[0]
+    last = _GAMMA[len(column) - 1]
     if not _GAMMA[0] <= gamma <= last:
-        raise InputError(
-            f"gamma: f_cm is tabulated for {_GAMMA[0]} … {last:.2f}, got {gamma:.5g}; "
-            "a dynamic_capacity can be stated"
-        )
+        told = f"gamma: f_cm is tabulated for {_GAMMA[0]} … {last:.2f}, got {gamma:.5g}"
+        raise InputError(f"{told}; state dynamic_capacity instead")
     values = [np.interp(gamma, _GAMMA[: len(c)], c) for c in pair]
     return float(np.interp(contact_angle, angles[upper - 1 : upper + 1], values))
 
