@@ -74,13 +74,17 @@ def crank() -> None:
 
 
 def rig() -> None:
-    """Moments of [Sander et al. 2015] with bearings that are tilted by a share of the clearance."""
+    """Moments of [Sander et al. 2015] with what rigid, aligned bearings of even viscosity lack."""
     for load, measured in stribeck.MEASURED.items():
         speeds, values = np.array([*measured], float), np.array([*measured.values()])
         print(f"{load:g} N, 1/min {speeds.astype(int).tolist()}, measured {values.tolist()} N m")
         for share in (0.0, 0.05, 0.1, 0.15):
             found = stribeck.moments(load, speeds, share)
             print(f"tilted by {share:g} of the clearance at the ends: {_told(found, '.3f')} N m")
+        slow = np.array([1000, 800, 650, 500, 450, 400, 350, 300, 275, 250, 225, 200, 175, 150.0])
+        found = stribeck.elastic_moments(load, slow)
+        print(f"summits, elastic rings, oil that thickens, {slow.astype(int).tolist()}:")
+        print(f"    {_told(found, '.3f')} N m")
 
 
 def momentum(folder: Path | None) -> None:

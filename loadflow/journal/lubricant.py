@@ -11,7 +11,7 @@ import numpy as np
 from annotated_types import Ge, Gt, Le
 from numpy.typing import ArrayLike, NDArray
 
-from loadflow.numerics.fields import check_choice, check_fields, require
+from loadflow.numerics.fields import require
 from loadflow.tribology.lubricant_states import ROELANDS_LOG
 from loadflow.tribology.lubricants import PRESSURE_LAWS
 
@@ -51,8 +51,9 @@ class Lubricant:
     def __post_init__(self) -> None:
         require(self.viscosity > 0, "viscosity", self.viscosity, "Pa s, > 0")
         require(self.density > 0, "density", self.density, "kg/m³, > 0")
-        check_fields(self)
-        check_choice(self, "pressure_law", tuple(PRESSURE_LAWS))
+        rise, law = self.pressure_coefficient, self.pressure_law
+        require(0 <= rise <= 1e-6, "pressure_coefficient", rise, "1/Pa, 0 … 1e-6")
+        require(law in PRESSURE_LAWS, "pressure_law", law, '"barus" or "roelands"')
         thin = self.pressure_law == "roelands" and math.log(self.viscosity) <= ROELANDS_LOG
         allowed = f'Pa s, > {math.exp(ROELANDS_LOG):.2g} with pressure_law = "roelands"'
         require(not thin, "viscosity", self.viscosity, allowed)
@@ -69,7 +70,7 @@ class Lubricant:
         --------
         >>> from loadflow.journal import Lubricant
         >>> Lubricant(0.05, 870.0, 20e-9, "roelands").thickening(50e6).round(3).tolist()
-        2.5
+        2.593
         """
         above = np.maximum(np.asarray(pressure, dtype=float), 0.0)
         law = PRESSURE_LAWS[self.pressure_law]

@@ -98,7 +98,7 @@ def _unsolved(
     if film.contact is not None:
         overlap = -gap.closest(position)[0] / gap.roughness
         return f"{found}, mean planes {overlap:.3g} σ beyond touching"
-    if film.thickening is not None:
+    if film.thickening is not None and math.isfinite(solution.residual):
         thick = float(film.thickening.liquid.thickening(film.pressures[0].max()))
         if thick > _THICK:
             return f"{found}: the liquid is {thick:.2g} times as thick there, {place}"
