@@ -60,4 +60,4 @@ def room_for(m: Machine) -> Room:
         modes, k, k, k, h, h, h, frame, h, frame, frame, (h, 1), (h, 1), (n, 3), n, 6, 3, 6, 6, 6,
         b, (4, b),
     )  # fmt: skip
-    return Room(*(np.zeros(size) for size in sizes), *packs(m))
+    return Room._make((*(np.zeros(size) for size in sizes), *packs(m)))
