@@ -205,6 +205,10 @@ class ElasticFilm(DiscreteFilm):
         self._solve(factors, more)
         by_velocity += more
 
+    def _fields(self, columns: Array) -> Array:
+        """Columns in the order of the solver, (l, n), as fields of cells (l, nx, nz)."""
+        return columns.reshape(-1, *self.mesh.shape)[:, self.mesh.order]
+
     def _columns(self, fields: Array) -> Array:
         """Fields of cells (l, nx, nz) as columns in the order of the solver, (l, n)."""
         ordered = np.empty_like(fields)

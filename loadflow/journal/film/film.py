@@ -71,7 +71,7 @@ class DiscreteFilm:
         self.p_line = self.p_edge if end_pressure is None else float(end_pressure)
         self.ends_supply = end_pressure is not None and not gap.mesh.closed
         self.line_fill = float(law.fill_at(self.p_line))
-        self.edges = self.p_edge, self.p_line, self.line_fill  # what drives at ends and line
+        self.edges = self.p_edge, self.p_line, self.line_fill  # what drives there
         self.thickening: Thickening | None = None  # of a viscosity that rises with pressure
         self.radius = radius
         self.relative_clearance = relative_clearance
@@ -109,8 +109,8 @@ class DiscreteFilm:
     @property
     def pressures(self) -> tuple[Array, Array]:
         """Pressure of the cells, of law and film, and its derivative by the unknowns."""
-        thick = self.thickening
-        return (self.state[P], self.state[DP]) if thick is None else (thick.pressure, thick.slope)
+        own = self.thickening
+        return (self.state[P], self.state[DP]) if own is None else (own.pressure, own.slope)
 
     def set_speed(self, speed: float) -> None:
         """Set the speed of the shaft, rad/s."""
@@ -402,12 +402,9 @@ class DiscreteFilm:
         self, u: Array, columns: Array, weights: Array, way: tuple[Array, Array]
     ) -> float:
         """Share of a Newton step that leaves a film between shaft and shell; `way`: from, to."""
-        thick, change = self.thickening, weights[0] * columns[0]
-        return 1.0 if thick is None else thick.share(u, self._fields(change[None])[0])
-
-    def _fields(self, columns: Array) -> Array:
-        """Columns in the order of the solver, (l, n), as fields of cells (l, nx, nz)."""
-        return columns.reshape(-1, *self.mesh.shape)[:, self.mesh.order]
+        if self.thickening is None:
+            return 1.0
+        return self.thickening.share(u, weights[0] * columns[0].reshape(u.shape)[self.mesh.order])
 
     def load_scale(self, force: Array) -> float:
         """Scale of what is missing of the load, N."""
