@@ -217,9 +217,8 @@ def _most_damage(damage: xr.DataArray, share: np.ndarray) -> tuple[str, str]:
     if not parts.sum() > 0:
         return "", ""
     most = int(np.argmax(parts))
-    return str(
-        damage["case"].values[most]
-    ), f" ({parts[most] / parts.sum():.0%} of its damage here)"
+    told = f" ({100 * parts[most] / parts.sum():.0f} % of its damage in one load case)"
+    return str(damage["case"].values[most]), told
 
 
 def damage_per_hour(table: xr.Dataset, kind: str) -> xr.DataArray:
