@@ -70,9 +70,7 @@ def checks() -> Iterator[Check]:
         for speed, expected, got in zip(speeds, values, moments(load, speeds)):
             name = f"M, {load / 1e3:g} kN, {speed:g} 1/min"
             missed = _LEFT_OUT if speed < _MIXED[load] else ""
-            yield Check(
-                name, SANDER, float(expected), float(got), 0.15, unit="N m", missed=missed
-            )
+            yield Check(name, SANDER, float(expected), float(got), 0.15, unit="N m", missed=missed)
         fine = np.geomspace(speeds.min(), 1000.0, 40)
         least = float(fine[moments(load, fine).argmin()])
         name = f"speed of least moment, {load / 1e3:g} kN"
