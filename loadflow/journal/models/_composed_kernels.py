@@ -299,7 +299,7 @@ def summarise(film, work, q, wedge, row):
     """Integrals over the film into `row`, after `balance` at `q`; units of `_reduced_kernels`."""
     nx, wide = work.u.shape
     lanes, ring, nodes, m = film.lanes, film.ring, film.nodes, film.nodes.slopes.shape[1]
-    p, fill, gap, flows = work.state[P], work.state[FILL], work.gap, work.face[FLOW]
+    p, fill, gap, flows = work.state[LOAD], work.state[FILL], work.gap, work.face[FLOW]
     mean, cube, planes, rows = gap[MEAN], gap[CUBE], gap[PLANES], work.row
     plain = film.rough.size == 0.0 and not film.yielding.on and not film.regime.on
     for at in range(0, wide, LANES):
@@ -310,7 +310,9 @@ def summarise(film, work, q, wedge, row):
         ends = outward * outward * ring.edge_fill
         for i in range(nx):
             here, right = i * wide + at, (i + 1 if i + 1 < nx else 0) * wide + at
-            step, slope = ring.width[i], take(work.slope, here)
+            step, pressure, slope = ring.width[i], p[i], spread(0.0)
+            for j in range(m):
+                slope = slope + take(lanes.slopes, j * wide + at) * (pressure[j] - ring.p_edge)
             flow, rise = take(cube, here) * slope * step, take(p, right) - take(p, here)
             lost = lost + weights * flow * slope
             lost = lost + own * take(flows, here) * rise * rise * (1.0 / ring.apart[i])
@@ -394,7 +396,7 @@ def _uneven(film, work):
                 h = opened(film.yielding, h)[0]
                 if k < m:
                     lifted = h - work.gap[PLANES, i, k]
-                    pressed = work.state[P, i, k] - film.ring.p_edge
+                    pressed = work.state[LOAD, i, k] - film.ring.p_edge
                     grown = max(grown, film.give * pressed + lifted)
             inverse = sheared(h, rough.size, rough.along) if h <= far else 1.0 / h
             if film.regime.on:
