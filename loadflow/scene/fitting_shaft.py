@@ -57,7 +57,7 @@ def fitted(shaft: Mapping[str, Any], journal: Journal) -> Iterator[str]:
         if beam and beam["sections"] == [_section(diameter)]:
             yield (
                 f"shaft.{kind}.beam: {diameter:.4g} m with a bore of {BORE * diameter:.4g} m, as "
-                "wide as the journal bearings; state its sections"
+                "wide as the journal bearings: what is taken where no sections are stated"
             )
 
 
