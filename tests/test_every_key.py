@@ -107,7 +107,7 @@ CONFLICT = (
     "and only it, takes", "; only", "keep one", "for a circle", "not given with", "for slewing",
     "and only to it", "left out where", "where a profile is given", "where shell_modulus is",
     "of a scene have one", "None with capacity", "takes no moment has none",
-    "has changed since", "must have one row", "for a whole ring",
+    "has changed since", "must have one row", "for a whole ring", "do not know it", "None with a ",
     "is not allowed: \"grid\" for",
     "is not allowed: \"map\" or \"grid\" for",
 )  # fmt: skip

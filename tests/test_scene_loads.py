@@ -16,7 +16,7 @@ from loadflow.turbines import load_turbine
 @pytest.mark.parametrize(
     ("loads", "words"),
     [
-        ({"dlc": "9.1"}, ["loads.dlc = '9.1'", "1.1, 1.2", "7.1"]),
+        ({"dlc": "9.1"}, ["loads.dlc: must be one of", "1.1, 1.2", "7.1", "got '9.1'"]),
         ({"wind_speeds": [30]}, ["loads.wind_speeds = 30", "from 3 to 25 m/s"]),
         ({"dlc": ["6.4", "1.1"], "wind_speeds": [2]}, ["load case 1.1", "from 3 to 25 m/s"]),
         ({"dlc": "6.4", "wind_speeds": [110]}, ["load case 6.4", "stands from 0.1 to 100 m/s"]),

@@ -489,7 +489,9 @@ OTHERS = {
     "wear.running_in.initial_roughness": [1.0000001e-6],
     "thrust.rung": ["curve"],
     "thrust.bearings.N2.geometry.profile": [{"kind": "step", "height": 1e-4}],
+    "….outer_groove_radius": [0.031],
     "….pivot": [{"share": 0.6}],
+    "….pressure_coefficient": [2e-8],
     "thrust.bearings.N2.geometry.first_pad": [0.1],
     "thrust.bearings.N2.back": [
         {"pads": 8, "inner_radius": 0.8, "outer_radius": 1.3, "pad_angle": 0.7, "taper": 1e-4}

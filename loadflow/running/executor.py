@@ -253,7 +253,8 @@ def _client(scheduler: str) -> Iterator[Any]:
     except ImportError as error:
         raise InputError("--scheduler needs the extra dask: pip install loadflow[dask]") from error
     try:
-        client = Client(scheduler, timeout="10s")
+        # not the default: after the run, arrays that others read in pieces are none of its business
+        client = Client(scheduler, timeout="10s", set_as_default=False)
     except (OSError, ValueError, TypeError) as error:
         raise InputError(
             f"scheduler = {scheduler!r}: no Dask scheduler answers there; it must be the address "

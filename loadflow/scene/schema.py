@@ -22,7 +22,8 @@ def json_schema() -> dict[str, Any]:
     Examples
     --------
     >>> schema = json_schema()
-    >>> schema["properties"]["bearings"]["additionalProperties"]["$ref"]
+    >>> places, *names = schema["properties"]["bearings"]["anyOf"]
+    >>> places["additionalProperties"]["$ref"]
     '#/$defs/Place'
     """
     schema = Scene.model_json_schema()

@@ -227,12 +227,14 @@ def _of_wind(loads: Loads, rows: list[LoadCase]) -> Iterator[tuple[str, str]]:
 
 def _of_rotor(loads: Loads, rows: list[LoadCase]) -> Iterator[tuple[str, str]]:
     standing = [row.events[0] in STANDING for row in rows]
-    if loads.rung in ("tables", "bem") or (loads.rung is None and all(standing)):
+    if loads.rung in ("tables", "bem"):
         yield "bend_twist", "the blades of this rung do not bend"
         yield "blade_torsion", "the blades of this rung do not bend"
     if all(standing):
         for key in ("individual_pitch", "dynamic_inflow"):
             yield key, "the rotor stands or idles in every load case"
+        if loads.dynamic_stall:
+            yield "dynamic_stall", "a rotor that stands or idles has it in any case"
 
 
 def _of_shaft(scene: Scene) -> Iterator[tuple[str, str]]:

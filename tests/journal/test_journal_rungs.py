@@ -54,6 +54,7 @@ ASKING = {
     "film_heat": ({"lubricant": None, "heat": FilmHeat()}, {"shape": Lobes(2)}, {}),
     "contact": ({"contact": ROUGH}, {}, {}),
     "turbulence": ({"turbulence": Turbulence()}, {}, {}),
+    "pressure_coefficient": ({"lubricant": Lubricant(0.03, pressure_coefficient=2e-8)}, {}, {}),
     "step": ({}, {}, {"step": "adaptive"}),
     "periodic": ({}, {}, {"periodic": True}),
 }

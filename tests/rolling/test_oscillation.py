@@ -281,7 +281,7 @@ def test_what_a_pitch_bearing_lacks_is_named():
                 "shaft": {"pitch": {}},
                 "bearings": {"P": {"kind": "four-point", "geometry": {
                     "balls": 50, "ball_diameter": 0.04, "pitch_diameter": 1.9,
-                    "groove_radius": 0.0205, "contact_angle": 0.7}}},
+                    "groove_radius": 0.0205, "contact_angle": 0.8}}},
             }
         )  # fmt: skip
     with pytest.raises(InputError, match="amplitude and frequency"):

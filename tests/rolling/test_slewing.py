@@ -299,7 +299,7 @@ def test_a_result_shows_what_it_has_where_no_table_rates_the_bearing():
     """Small balls on a large circle, as in yaw bearings: forces and stiffness, but no life."""
     wide = dataclasses.replace(BLADE, pitch_diameter=4.5)
     result = wide.equilibrium((1e5, 0, 1e6))
-    with pytest.raises(InputError, match="a dynamic_capacity can be stated"):
+    with pytest.raises(InputError, match="state dynamic_capacity instead"):
         _ = result.rating_life
     assert "none: gamma" in repr(result)
     data = result.to_dataset()

@@ -208,7 +208,7 @@ def _pairs(
     yield "contact", film.contact, pads, "None for pads that tilt"
     yield "contact", film.contact, over_area, "None with heat over the area"
     thick = film.liquid.pressure_coefficient > 0.0
-    words = "None where the viscosity rises with pressure"
+    words = "None with a pressure_coefficient, by which the viscosity rises"
     yield "turbulence", film.turbulence, thick, words
     stored = _kind_of_heat(film, verb) == "slow_heat"
     yield "turbulence", film.turbulence, over_area, "None with heat over the area"
