@@ -231,7 +231,7 @@ class _Cluster:
 
         futures = {self._client.submit(work, item, pure=False): item for item in items}
         try:
-            for future in completed(futures):
+            for future in completed(futures, loop=self._client.loop):
                 try:
                     yield futures[future], future.result()
                 except KilledWorker:
