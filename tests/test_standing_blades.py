@@ -5,9 +5,10 @@ import pytest
 import xarray as xr
 
 from loadflow.planning.plan import make_plan
+from loadflow.rotor.standing import LEAST_SWING
 from loadflow.scene import make_scene
 from loadflow.scene.cases import list_cases
-from loadflow.stages.loads import SWING, hub_loads, swing_of_its_own
+from loadflow.stages.loads import hub_loads, swing_doubt
 
 
 def storm(yaw, **loads):
@@ -38,8 +39,8 @@ def test_blades_that_an_oblique_storm_drives_are_told_and_others_are_not():
     assert "swing by themselves" in str(wild["doubts"].item())
     assert str(calm["doubts"].item()) == ""
     wild, calm = (float(one["tip_deflection"].std()) / 63.0 for one in (wild, calm))
-    assert wild > 2 * SWING
-    assert calm < 0.5 * SWING
+    assert wild > 2 * LEAST_SWING
+    assert calm < 0.5 * LEAST_SWING
 
 
 def test_a_short_burst_of_swing_is_told_and_a_slow_bend_of_the_same_size_is_not():
@@ -51,8 +52,8 @@ def test_a_short_burst_of_swing_is_told_and_a_slow_bend_of_the_same_size_is_not(
         (0.2 * burst * np.sin(2 * np.pi * 1.1 * time), False),
     ):
         series = xr.Dataset({"tip_deflection": ("time", tip)}, {"time": time}, {"event": "parked"})
-        assert bool(swing_of_its_own(series, 63.0)) is told
-        assert not swing_of_its_own(series.assign_attrs(event="none"), 63.0)
+        assert bool(swing_doubt(series, 63.0)) is told
+        assert not swing_doubt(series.assign_attrs(event="none"), 63.0)
 
 
 def test_a_plan_does_not_choose_the_stall_of_a_rotor_that_stands():

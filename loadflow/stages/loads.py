@@ -64,7 +64,7 @@ def _simulate(scene: Scene, case: Case) -> xr.Dataset:
         rung=loads.rung,
         options=replace(loads.rotor_options, air_density=scene.environment.air_density),
     )
-    swing = swing_of_its_own(series, turbine.rotor.radius)
+    swing = swing_doubt(series, turbine.rotor.radius)
     # a cube has the pitch of blade 1 and the wind along the mean
     series = series.drop_dims("blade").assign(wind=series["wind"].sel(axis="x", drop=True))
     return series.assign_coords(
@@ -73,22 +73,16 @@ def _simulate(scene: Scene, case: Case) -> xr.Dataset:
     )
 
 
-SWING = 0.005
-"""Effective swing of a tip over the radius, within some ten seconds, beyond which standing blades
-swing by themselves; turbulence moves them by less than it (docs/rotor.md)."""
-_SLOW, _WHILE = 2.0, 10.0  # s: longer than a period of an edge mode; a burst of its swing
+def swing_doubt(series: xr.Dataset, radius: float) -> str:
+    """Say that blades of a rotor that stands draw a swing from the wind; "" if they do not.
 
-
-def swing_of_its_own(series: xr.Dataset, radius: float) -> str:
-    """Say that blades of a rotor that stands draw a swing from the wind; "" if they do not."""
-    from scipy.ndimage import uniform_filter1d
+    The tip is that of blade 1.
+    """
+    from loadflow.rotor.standing import LEAST_SWING, swing_of
 
     if series.attrs["event"] not in STANDING:
         return ""
-    step, tip = time_step(series), series["tip_deflection"].values
-    fast = tip - uniform_filter1d(tip, max(round(_SLOW / step), 1))
-    power = uniform_filter1d(fast**2, max(round(_WHILE / step), 1))
-    swing, least = float(np.sqrt(power.max())), SWING * radius
+    swing, least = swing_of(series["tip_deflection"], time_step(series)), LEAST_SWING * radius
     if swing < least:
         return ""
     return (

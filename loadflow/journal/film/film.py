@@ -71,7 +71,6 @@ class DiscreteFilm:
         self.p_line = self.p_edge if end_pressure is None else float(end_pressure)
         self.ends_supply = end_pressure is not None and not gap.mesh.closed
         self.line_fill = float(law.fill_at(self.p_line))
-        self.edges = self.p_edge, self.p_line, self.line_fill  # what drives there
         self.thickening: Thickening | None = None  # of a viscosity that rises with pressure
         self.radius = radius
         self.relative_clearance = relative_clearance
@@ -99,12 +98,17 @@ class DiscreteFilm:
 
     def thicken(self, liquid: Lubricant) -> None:
         """Let the viscosity rise with pressure, as that of `liquid` does."""
-        self.thickening = Thickening(liquid)
-        self.edges = self.driving(self.p_edge), self.driving(self.p_line), self.line_fill
+        self.thickening = Thickening(liquid, self.edges)
 
     def driving(self, pressure: Any) -> Any:
         """What drives the flow at a pressure, Pa: it, or less where that thickens the liquid."""
         return pressure if self.thickening is None else self.thickening.liquid.driving(pressure)
+
+    @property
+    def edges(self) -> tuple[float, float, float]:
+        """What drives the flow at the bearing ends and the line, Pa, and the fill there."""
+        own = self.thickening
+        return (self.p_edge, self.p_line, self.line_fill) if own is None else own.edges
 
     @property
     def pressures(self) -> tuple[Array, Array]:

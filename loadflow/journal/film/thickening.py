@@ -24,15 +24,21 @@ class Thickening:
     ----------
     liquid : Lubricant
         With its viscosity without pressure.
+    edges : tuple of float
+        Pressures at the bearing ends and the line, Pa, and the fill there.
 
     Attributes
     ----------
+    edges : tuple of float
+        The same, what drives the flow in place of the pressures.
     pressure, slope : array (nx, nz)
         Pressure and its derivative by the unknowns, as the law gave them last.
     """
 
-    def __init__(self, liquid: Lubricant) -> None:
+    def __init__(self, liquid: Lubricant, edges: tuple[float, float, float]) -> None:
         self.liquid = liquid
+        end, line = (float(liquid.driving(np.array(pressure))) for pressure in edges[:2])
+        self.edges = end, line, edges[2]
         self.pressure = self.slope = np.zeros(0)
 
     def apply(self, state: Array) -> None:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from functools import wraps
+from typing import Any, ParamSpec, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -151,6 +153,41 @@ class _Check:
         return self.solution(u, position, linear, False, iterations)
 
 
+P = ParamSpec("P")
+
+
+def _or_from_one_viscosity(start: int) -> Callable[[Callable[P, Solution]], Callable[P, Solution]]:
+    """Let a solver that finds no film of a liquid that thickens begin at that of one viscosity.
+
+    On the way to a rupture pressures may pass that thicken a liquid without end. Unknowns and
+    position to begin with are the solver's arguments `start` and the next one.
+    """
+
+    def either(solve: Callable[P, Solution]) -> Callable[P, Solution]:
+        @wraps(solve)
+        def solved(*args: P.args, **kwargs: P.kwargs) -> Solution:
+            film, found = cast(DiscreteFilm, args[0]), solve(*args, **kwargs)
+            if found.converged or film.thickening is None:
+                return found
+            thick, film.thickening = film.thickening, None
+            try:
+                thin = solve(*args, **kwargs)
+            finally:
+                film.thickening = thick
+            if not thin.converged:
+                return found
+            begun: Any = (*args[:start], thin.u, thin.position, *args[start + 2 :])
+            again = solve(*begun, **kwargs)
+            spent = found.iterations + thin.iterations + again.iterations
+            return replace(again, iterations=spent)
+
+        return solved
+
+    return either
+
+
+@_or_from_one_viscosity(start=1)
+@np.errstate(over="ignore", invalid="ignore")  # of an iteration that diverges
 def solve_film(
     film: DiscreteFilm,
     u: Array,
@@ -160,42 +197,6 @@ def solve_film(
     max_iterations: int,
 ) -> Solution:
     """Pressure of the film at a given position and velocity."""
-
-    def solve(u: Array, position: Array) -> Solution:
-        return _solve_film(film, u, position, velocity, tolerance, max_iterations)
-
-    return _thinned(film, solve, u, position)
-
-
-def _thinned(
-    film: DiscreteFilm, solve: Callable[[Array, Array], Solution], u: Array, position: Array
-) -> Solution:
-    """What `solve` finds from `u` and `position`, or from its answer for one viscosity.
-
-    On the way to a rupture pressures may pass that thicken a liquid without end.
-    """
-    found, thick = solve(u, position), film.thickening
-    if found.converged or thick is None:
-        return found
-    film.thickening = None
-    thin = solve(u, position)
-    film.thickening = thick
-    if not thin.converged:
-        return found
-    again = solve(thin.u, thin.position)
-    return replace(again, iterations=found.iterations + thin.iterations + again.iterations)
-
-
-@np.errstate(over="ignore", invalid="ignore")  # of an iteration that diverges
-def _solve_film(
-    film: DiscreteFilm,
-    u: Array,
-    position: Array,
-    velocity: Array,
-    tolerance: float,
-    max_iterations: int,
-) -> Solution:
-    """Pressure of the film at a given position and velocity, from `u` on."""
     u = u.copy()
     weights, motion = np.ones(1), Motion(offset=-velocity)
     check = _Check(film, tolerance, motion)
@@ -215,6 +216,8 @@ def _solve_film(
     return check.unanswered(u, position, linear, iteration)
 
 
+@_or_from_one_viscosity(start=2)
+@np.errstate(over="ignore", invalid="ignore")  # of an iteration that diverges
 def solve_equilibrium(
     film: DiscreteFilm,
     force: Array,
@@ -231,25 +234,6 @@ def solve_equilibrium(
     position; the exact stiffness that follows gives the step of the shaft. With `motion` the
     same is one implicit step in time. Only the degrees of freedom `free` move; the others are held.
     """
-
-    def solve(u: Array, position: Array) -> Solution:
-        return _solve_equilibrium(film, force, u, position, tolerance, max_iterations, motion, free)
-
-    return _thinned(film, solve, u, position)
-
-
-@np.errstate(over="ignore", invalid="ignore")  # of an iteration that diverges
-def _solve_equilibrium(
-    film: DiscreteFilm,
-    force: Array,
-    u: Array,
-    position: Array,
-    tolerance: float,
-    max_iterations: int,
-    motion: Motion,
-    free: slice | NDArray[np.int64],
-) -> Solution:
-    """As `solve_equilibrium`, from `u` and `position` on."""
     u = u.copy()
     scale, gap = film.gap.dof_scale[free], film.gap.narrowest(position)
     pads = film.gap.pads.size > 0

@@ -48,14 +48,18 @@ def _switch(
     out: str,
     cost: float,
     concerns: Callable[[Scene], bool] = _simulated,
+    off: bool | None = False,
 ) -> Effect:
-    """An effect that one key of the loads turns on; `cost` is the time over that without it."""
+    """An effect that one key of the loads turns on; `cost` is the time over that without it.
+
+    `off` is what the key says where the plan leaves the effect out.
+    """
     return Effect(
         name,
         model="loads",
         keys=(f"loads.{key}",),
-        is_on=lambda scene: getattr(scene.loads, key),
-        switched=lambda scene, on: with_settings(scene, "loads", {key: on}),
+        is_on=lambda scene: bool(getattr(scene.loads, key)),
+        switched=lambda scene, on: with_settings(scene, "loads", {key: on or off}),
         indicator=indicator,
         out=out,
         needs=f"loads.{key} = true",
@@ -92,21 +96,17 @@ def _stall(at: Situation) -> Sizes:
     return _of_loads(SEPARATION * (float(np.max(at.turbulence)) + yaw))
 
 
-STALL = Effect(
+STALL = _switch(
     "dynamic stall",
-    model="loads",
-    keys=("loads.dynamic_stall",),
-    is_on=lambda scene: bool(scene.loads.dynamic_stall),
-    # None, not False: load cases in which the rotor stands keep it
-    switched=lambda scene, on: with_settings(scene, "loads", {"dynamic_stall": on or None}),
-    indicator=_stall,
+    "dynamic_stall",
+    _stall,
     out="no loads.dynamic_stall: separation follows lift at once",
-    needs="loads.dynamic_stall = true",
+    cost=1.03,
     # a rotor that stands has it, unless it is switched off by name
     concerns=lambda scene: (
         _simulated(scene) and (_runs(scene) or scene.loads.dynamic_stall is False)
     ),
-    cost=lambda scene: 1.03,
+    off=None,  # not False, by which load cases in which the rotor stands would lose it
 )
 
 BEND_TWIST = Effect(
